@@ -1,0 +1,103 @@
+#include "cli/command_line.h"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "core/error.h"
+#include "run/version.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr const char* description =
+    "Kerf: parallel tetrahedral meshes by decomposition of the closed surface.\n"
+    "mpirun -n P kerf mesh ... runs the same command on P ranks.";
+
+constexpr const char* exit_codes =
+    "Exit codes: 0 done and verified, 1 internal error, 2 usage, 3 input rejected, 4 a part could not be meshed,\n"
+    "5 out of memory, 7 reading or writing failed, 8 verification failed, 130 cancelled.";
+
+void add_field(CLI::App& app, const OptionField& field) {
+    const std::string names =
+        field.short_name.empty() ? "--" + field.name : "-" + field.short_name + ",--" + field.name;
+    std::visit(
+        [&](const auto& value) {
+            if constexpr (std::is_same_v<std::decay_t<decltype(value)>, OptionField::Choice>) {
+                const auto set = value.set;
+                const auto all = value.names;
+                app.add_option_function<std::string>(
+                       names,
+                       [set, all](const std::string& text) {
+                           set(static_cast<int>(std::find(all.begin(), all.end(), text) - all.begin()));
+                       },
+                       field.help)
+                    ->check(CLI::IsMember(all))
+                    ->default_str(all[static_cast<std::size_t>(value.get())])
+                    ->type_name("");
+            } else {
+                app.add_option(names, *value, field.help)->capture_default_str();
+            }
+        },
+        field.value);
+}
+
+CLI::App* add_run_command(CLI::App& app, const char* name, const char* text, CommandLine& line) {
+    CLI::App* command = app.add_subcommand(name, text);
+    command->add_option("input", line.options.input, "Closed surface: STL, OBJ, PLY or OFF.")
+        ->required()
+        ->type_name("INPUT")
+        ->configurable(false);
+    command->add_option("-o,--output", line.options.output, "Folder of the result; an older run there is replaced.")
+        ->required()
+        ->type_name("DIR");
+    for (const OptionField& field : option_fields(line.options)) add_field(*command, field);
+    command->add_flag("-q,--quiet", line.quiet, "Print nothing but errors.");
+    command->add_flag("--print-config", line.print_config, "Print the options as a config file and end.")
+        ->configurable(false);
+    command->set_config("--config", "", "Read options from a TOML file; the command line wins.");
+    return command;
+}
+
+}  // namespace
+
+CommandLine parse_command_line(int argc, const char* const* argv) {
+    CommandLine line;
+    CLI::App app(description, "kerf");
+    app.footer(exit_codes);
+    app.set_version_flag("--version", std::string("kerf ") + version);
+    app.require_subcommand(1);
+    app.get_formatter()->column_width(28);
+    CLI::App* mesh = add_run_command(app, "mesh", "Decompose, mesh every part, verify, write, report.", line);
+    CLI::App* decompose = add_run_command(app, "decompose", "The same, up to the closed surface of every part.", line);
+    CLI::App* check = app.add_subcommand("check", "Diagnose a surface without meshing it.");
+    check->add_option("input", line.options.input, "Surface file.")->required()->type_name("INPUT");
+    check->add_flag("--json", line.json, "Print every defect as JSON.");
+
+    // The table binds every option to one place, so the values of `mesh` and `decompose` share it.
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        std::ostringstream out, err;
+        line.finished = true;
+        line.exit_code = app.exit(e, out, err) == 0 ? 0 : static_cast<int>(ErrorCode::usage);
+        line.output = line.exit_code == 0 ? out.str() : err.str();
+        return line;
+    }
+    if (mesh->parsed() || decompose->parsed()) {
+        line.command = mesh->parsed() ? Command::mesh : Command::decompose;
+        line.options.volume = mesh->parsed();
+        const CLI::Option* parts = (mesh->parsed() ? mesh : decompose)->get_option("--parts");
+        if (parts->count() > 0 && line.options.decompose.parts < 1) {
+            line.finished = true;
+            line.exit_code = static_cast<int>(ErrorCode::usage);
+            line.output = fmt::format("--parts is {}, but a mesh has 1 or more parts.\n", line.options.decompose.parts);
+        }
+        if (line.print_config) line.config = (mesh->parsed() ? mesh : decompose)->config_to_str(true, true);
+    } else if (check->parsed()) {
+        line.command = Command::check;
+    }
+    return line;
+}
+
+}  // namespace kerf

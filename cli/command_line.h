@@ -1,0 +1,28 @@
+// The command line: what the user asked for.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "run/options.h"
+
+namespace kerf {
+
+enum class Command { none, mesh, decompose, check };
+
+struct CommandLine {
+    Command command = Command::none;
+    RunOptions options;
+    bool quiet = false;
+    bool json = false;          ///< check: machine-readable output
+    bool print_config = false;  ///< print the effective options and end
+    std::string config;         ///< them, in the form of a config file
+    bool finished = false;      ///< help or version was asked for, or the usage was wrong: end with exit_code
+    int exit_code = 0;
+    std::string output;  ///< to print to standard output (exit_code 0) or standard error
+};
+
+/// Parses without side effects and within milliseconds.
+CommandLine parse_command_line(int argc, const char* const* argv);
+
+}  // namespace kerf

@@ -1,0 +1,35 @@
+// Points, index triples and keys: the vocabulary that every folder of the kernel shares.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <Eigen/Core>
+
+namespace kerf {
+
+using Vec2 = Eigen::Vector2d;
+using Vec3 = Eigen::Vector3d;
+
+/// Three vertex indices, counter-clockwise seen from outside of the body.
+using Triangle = std::array<std::int32_t, 3>;
+
+/// Four vertex indices a, b, c, d with det[b-a, c-a, d-a] > 0.
+using Tetrahedron = std::array<std::int32_t, 4>;
+
+/// Number of a node in the binary tree of the decomposition: the root is 1, the children of i are 2i and 2i+1.
+using NodeId = std::int32_t;
+
+/// Name of a vertex or facet that is the same in every part that holds it.
+///
+/// The upper half is the node whose cut made it (0: the input surface), the lower half its index there. Parts match by
+/// key, never by coordinate.
+using Key = std::int64_t;
+
+constexpr Key make_key(NodeId node, std::int32_t index) {
+    return (static_cast<Key>(node) << 32) | static_cast<Key>(static_cast<std::uint32_t>(index));
+}
+constexpr NodeId key_node(Key key) { return static_cast<NodeId>(key >> 32); }
+constexpr std::int32_t key_index(Key key) { return static_cast<std::int32_t>(key & 0xffffffff); }
+
+}  // namespace kerf

@@ -1,0 +1,288 @@
+// Interface and surface are compared in the plane: triangles whose boxes overlap there and whose heights overlap are
+// handed to the exact test. Points of the interface are numbered after the vertices of the surface, contour points
+// share the number of their surface vertex, so that shared corners are recognised by number.
+#include "cut/acceptance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+#include "cut/planar_grid.h"
+#include "surface/intersections.h"
+#include "surface/mass_properties.h"
+#include "surface/ray_parity.h"
+
+namespace kerf {
+
+namespace {
+
+double degrees(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi; }
+
+// Closest point by the regions of the triangle (Ericson 2005, section 5.1.5).
+double point_triangle_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const auto to_segment = [&](const Vec3& s, const Vec3& e) {
+        const Vec3 d = e - s;
+        const double t = std::clamp((p - s).dot(d) / d.squaredNorm(), 0.0, 1.0);
+        return (p - s - t * d).norm();
+    };
+    const Vec3 n = (b - a).cross(c - a);
+    const bool inside =
+        n.dot((b - a).cross(p - a)) >= 0 && n.dot((c - b).cross(p - b)) >= 0 && n.dot((a - c).cross(p - c)) >= 0;
+    if (inside) return std::abs(n.dot(p - a)) / n.norm();
+    return std::min({to_segment(a, b), to_segment(b, c), to_segment(c, a)});
+}
+
+class InterfaceJudge {
+ public:
+    InterfaceJudge(const Surface& surface, const Band& band, const Interface& interface);
+
+    std::vector<std::int32_t> chords() const;
+    std::vector<std::int32_t> intersections();
+    // Quality, with the vertices below the thresholds of the options.
+    InterfaceQuality measure(const CutOptions& options, std::vector<std::int32_t>& soft);
+
+ private:
+    struct SlabFacet {
+        std::int32_t facet;
+        PlanarBox box;
+        double low, high;  // heights
+    };
+    std::int32_t id(std::int32_t point) const {
+        return point < contour_count_ ? interface_.contour[point] : surface_.vertex_count() + point;
+    }
+    Triangle ids(const Triangle& t) const { return {id(t[0]), id(t[1]), id(t[2])}; }
+    std::array<Vec3, 3> corners(const Triangle& t) const {
+        return {interface_.points[t[0]], interface_.points[t[1]], interface_.points[t[2]]};
+    }
+    std::array<Vec3, 3> facet_corners(const Triangle& t) const {
+        return {surface_.point(t[0]), surface_.point(t[1]), surface_.point(t[2])};
+    }
+    void add_contour_corners(const Triangle& t, std::vector<std::int32_t>& vertices) const {
+        for (std::int32_t point : t)
+            if (point < contour_count_) vertices.push_back(interface_.contour[point]);
+    }
+    void find_slab_facets();
+    void measure_angles(double threshold, InterfaceQuality& quality, std::vector<std::int32_t>& soft) const;
+    void measure_dihedrals(double threshold, InterfaceQuality& quality, std::vector<std::int32_t>& soft) const;
+    void measure_gaps(double threshold, InterfaceQuality& quality, std::vector<std::int32_t>& soft);
+    std::int32_t find_half_edge(std::int32_t from, std::int32_t to) const;
+
+    const Surface& surface_;
+    const Band& band_;
+    const Interface& interface_;
+    std::int32_t contour_count_;
+    std::vector<PlanarBox> boxes_;    // of the interface triangles
+    std::vector<double> low_, high_;  // heights of the interface triangles
+    std::vector<SlabFacet> slab_;     // facets that share heights with the interface
+    PlanarGrid grid_;                 // of the interface triangles
+};
+
+std::vector<PlanarBox> triangle_boxes(const Interface& interface) {
+    std::vector<PlanarBox> boxes(interface.triangles.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        for (std::int32_t point : interface.triangles[i]) boxes[i].extend(interface.planar[point]);
+    return boxes;
+}
+
+InterfaceJudge::InterfaceJudge(const Surface& surface, const Band& band, const Interface& interface)
+    : surface_(surface),
+      band_(band),
+      interface_(interface),
+      contour_count_(static_cast<std::int32_t>(interface.contour.size())),
+      boxes_(triangle_boxes(interface)),
+      grid_(boxes_) {
+    for (const Triangle& t : interface.triangles) {
+        const auto [low, high] =
+            std::minmax({band.plane.distance(interface.points[t[0]]), band.plane.distance(interface.points[t[1]]),
+                         band.plane.distance(interface.points[t[2]])});
+        low_.push_back(low);
+        high_.push_back(high);
+    }
+    find_slab_facets();
+}
+
+void InterfaceJudge::find_slab_facets() {
+    const double low = *std::min_element(low_.begin(), low_.end());
+    const double high = *std::max_element(high_.begin(), high_.end());
+    for (std::int32_t f = 0; f < surface_.facet_count(); ++f) {
+        const Triangle t = surface_.vertices(f);
+        const auto [f_low, f_high] = std::minmax({band_.distance[t[0]], band_.distance[t[1]], band_.distance[t[2]]});
+        if (f_low > high || f_high < low) continue;
+        SlabFacet facet{f, {}, f_low, f_high};
+        for (std::int32_t v : t) facet.box.extend(band_.plane.project(surface_.point(v)));
+        slab_.push_back(facet);
+    }
+}
+
+std::int32_t InterfaceJudge::find_half_edge(std::int32_t from, std::int32_t to) const {
+    const std::int32_t first = surface_.outgoing(from);
+    std::int32_t h = first;
+    do {
+        if (surface_.to_vertex(h) == to) return h;
+        h = surface_.rotate(h);
+    } while (h != first);
+    return -1;
+}
+
+// Contour edges appear once as directed edges of interface triangles, all others twice. An edge between contour points
+// that the surface has too would get four facets.
+std::vector<std::int32_t> InterfaceJudge::chords() const {
+    std::vector<std::array<std::int32_t, 2>> between;
+    for (const Triangle& t : interface_.triangles)
+        for (int i = 0; i < 3; ++i) {
+            const std::int32_t a = t[i], b = t[(i + 1) % 3];
+            if (a < contour_count_ && b < contour_count_) between.push_back({std::min(a, b), std::max(a, b)});
+        }
+    std::sort(between.begin(), between.end());
+    std::vector<std::int32_t> vertices;
+    for (std::size_t i = 1; i < between.size(); ++i) {
+        if (between[i] != between[i - 1]) continue;
+        const std::int32_t a = interface_.contour[between[i][0]], b = interface_.contour[between[i][1]];
+        if (find_half_edge(a, b) >= 0) vertices.insert(vertices.end(), {a, b});
+    }
+    return vertices;
+}
+
+std::vector<std::int32_t> InterfaceJudge::intersections() {
+    std::vector<std::int32_t> vertices;
+    for (const SlabFacet& f : slab_) {
+        const Triangle t = surface_.vertices(f.facet);
+        grid_.for_each_overlap(f.box, [&](std::int32_t i) {
+            if (low_[i] > f.high || high_[i] < f.low) return;
+            const Triangle& s = interface_.triangles[i];
+            if (!triangles_intersect(corners(s), ids(s), facet_corners(t), t)) return;
+            vertices.insert(vertices.end(), t.begin(), t.end());
+            add_contour_corners(s, vertices);
+        });
+    }
+    for (std::size_t i = 0; i < boxes_.size(); ++i)
+        grid_.for_each_overlap(boxes_[i], [&](std::int32_t j) {
+            if (static_cast<std::size_t>(j) <= i) return;
+            const Triangle &s = interface_.triangles[i], &t = interface_.triangles[j];
+            if (!triangles_intersect(corners(s), ids(s), corners(t), ids(t))) return;
+            add_contour_corners(s, vertices);
+            add_contour_corners(t, vertices);
+        });
+    return vertices;
+}
+
+void InterfaceJudge::measure_angles(double threshold, InterfaceQuality& quality,
+                                    std::vector<std::int32_t>& soft) const {
+    for (const Triangle& t : interface_.triangles) {
+        const auto p = corners(t);
+        for (int i = 0; i < 3; ++i) {
+            const Vec3 a = (p[(i + 1) % 3] - p[i]).normalized(), b = (p[(i + 2) % 3] - p[i]).normalized();
+            const double angle = degrees(a.dot(b));
+            quality.angle_deg = std::min(quality.angle_deg, angle);
+            if (angle < threshold) add_contour_corners(t, soft);
+        }
+    }
+}
+
+// Unit vector in the triangle, perpendicular to its edge a-b, towards the apex.
+Vec3 towards_apex(const Vec3& a, const Vec3& b, const Vec3& apex) {
+    const Vec3 edge = (b - a).normalized();
+    const Vec3 r = apex - a;
+    return (r - r.dot(edge) * edge).normalized();
+}
+
+void InterfaceJudge::measure_dihedrals(double threshold, InterfaceQuality& quality,
+                                       std::vector<std::int32_t>& soft) const {
+    for (const Triangle& t : interface_.triangles)
+        for (int i = 0; i < 3; ++i) {
+            if (t[i] >= contour_count_ || t[(i + 1) % 3] >= contour_count_) continue;
+            const std::int32_t from = interface_.contour[t[i]], to = interface_.contour[t[(i + 1) % 3]];
+            const std::int32_t h = find_half_edge(from, to);
+            if (h < 0) continue;  // an interior edge between contour points
+            const Vec3 &a = surface_.point(from), &b = surface_.point(to);
+            const Vec3 inward = towards_apex(a, b, interface_.points[t[(i + 2) % 3]]);
+            for (std::int32_t side : {h, Surface::opposite(h)}) {
+                const Vec3 along = towards_apex(a, b, surface_.point(surface_.to_vertex(surface_.next(side))));
+                const double angle = degrees(inward.dot(along));
+                quality.dihedral_deg = std::min(quality.dihedral_deg, angle);
+                if (angle < threshold) soft.insert(soft.end(), {from, to});
+            }
+        }
+}
+
+// Distances off the contour: surface vertices to interface triangles and interior interface points to facets.
+void InterfaceJudge::measure_gaps(double threshold, InterfaceQuality& quality, std::vector<std::int32_t>& soft) {
+    std::vector<char> seen(surface_.vertex_count(), 0);
+    for (std::int32_t v : interface_.contour) seen[v] = 1;
+    std::vector<double> size(boxes_.size());
+    for (std::size_t i = 0; i < size.size(); ++i) {
+        const auto p = corners(interface_.triangles[i]);
+        size[i] = ((p[1] - p[0]).norm() + (p[2] - p[1]).norm() + (p[0] - p[2]).norm()) / 3;
+    }
+    for (const SlabFacet& f : slab_) {
+        const Triangle t = surface_.vertices(f.facet);
+        const auto facet = facet_corners(t);
+        const double margin = threshold * (f.box.high - f.box.low).norm();
+        grid_.for_each_overlap(f.box.grown(margin), [&](std::int32_t i) {
+            const double reach = threshold * size[i];
+            if (low_[i] > f.high + reach || high_[i] < f.low - reach) return;
+            const Triangle& s = interface_.triangles[i];
+            const auto p = corners(s);
+            const auto note = [&](double distance) {
+                quality.gap_rel = std::min(quality.gap_rel, distance / size[i]);
+                if (distance >= reach) return;
+                soft.insert(soft.end(), t.begin(), t.end());
+                add_contour_corners(s, soft);
+            };
+            for (int k = 0; k < 3; ++k)
+                if (!seen[t[k]]) note(point_triangle_distance(facet[k], p[0], p[1], p[2]));
+            for (int k = 0; k < 3; ++k)
+                if (s[k] >= contour_count_) note(point_triangle_distance(p[k], facet[0], facet[1], facet[2]));
+        });
+    }
+}
+
+InterfaceQuality InterfaceJudge::measure(const CutOptions& options, std::vector<std::int32_t>& soft) {
+    InterfaceQuality quality;
+    measure_angles(options.good_angle_deg, quality, soft);
+    measure_dihedrals(options.good_dihedral_deg, quality, soft);
+    measure_gaps(options.good_gap_rel, quality, soft);
+    return quality;
+}
+
+}  // namespace
+
+Verdict judge_interface(const Surface& surface, const Band& band, const Interface& interface,
+                        const CutOptions& options) {
+    Verdict verdict;
+    InterfaceJudge judge(surface, band, interface);
+    verdict.failed = judge.chords();
+    if (!verdict.failed.empty()) {
+        verdict.refusal = Refusal::chord;
+        return verdict;
+    }
+    verdict.failed = judge.intersections();
+    if (!verdict.failed.empty()) {
+        verdict.refusal = Refusal::intersection;
+        return verdict;
+    }
+    verdict.quality = judge.measure(options, verdict.failed);
+    if (!verdict.failed.empty()) verdict.refusal = Refusal::soft;
+    return verdict;
+}
+
+std::int32_t find_misplaced_shell(const Surface& half) {
+    const Shells components = find_shells(half);
+    if (components.count == 1) return -1;
+    const SurfaceArrays arrays = half.arrays();
+    const std::vector<Shell> shells =
+        collect_shells(arrays.vertices, arrays.facets, components.of_facet, components.count);
+    for (std::size_t i = 0; i < shells.size(); ++i) {
+        const std::int32_t vertex = shells[i].facets[0][0];
+        int depth = 0;
+        for (std::size_t j = 0; j < shells.size(); ++j)
+            if (i != j) depth += encloses(arrays.vertices, shells[j], arrays.vertices[vertex]).value_or(false);
+        const bool is_void = enclosed_volume(arrays.vertices, shells[i].facets) < 0;
+        if (is_void != (depth % 2 == 1)) return vertex;
+    }
+    return -1;
+}
+
+}  // namespace kerf

@@ -1,0 +1,29 @@
+// The proof that a cut is valid, and the measures that make it a good one.
+#pragma once
+
+#include <vector>
+
+#include "cut/interface.h"
+#include "cut/options.h"
+
+namespace kerf {
+
+/// What was found about an interface.
+struct Verdict {
+    Refusal refusal = Refusal::none;
+    std::vector<std::int32_t> failed;  ///< vertices of the surface at the failure
+    InterfaceQuality quality;          ///< set if the refusal is none or soft
+};
+
+/// Checks an interface against the surface that it cuts: no edge off the contour in common, no intersection of any
+/// interface triangle with the surface or another interface triangle (exact), then the smallest dihedral angle at the
+/// contour, interface angle and gap against the thresholds of `options` (else the refusal is soft).
+/// Cost follows the number of triangles near the interface.
+Verdict judge_interface(const Surface& surface, const Band& band, const Interface& interface,
+                        const CutOptions& options);
+
+/// Every shell of a half must enclose positive volume if it lies outside of all others, negative inside of the
+/// material. Returns a vertex (of the half) of the first shell for which this fails, or -1. O(#shells x #F).
+std::int32_t find_misplaced_shell(const Surface& half);
+
+}  // namespace kerf

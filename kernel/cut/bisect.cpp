@@ -1,0 +1,304 @@
+// Moving the plane helps little when a contour has several trouble spots, because each new plane has its own. So the
+// spots are repaired one by one on the same plane first: the facets around a failed vertex become expensive, and the
+// next minimum cut goes around them.
+#include "cut/bisect.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <memory>
+
+#include <Eigen/Geometry>
+
+#include "core/error.h"
+#include "cut/acceptance.h"
+#include "cut/contour.h"
+#include "cut/interface.h"
+#include "cut/labels.h"
+#include "cut/plane.h"
+#include "cut/split.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr std::int32_t planes_before_soft = 3;  // tried before a soft cut is good enough
+constexpr std::int32_t soft_rounds = 6;         // of local repair of a valid cut
+constexpr double interface_growth = 1.1;        // longest interface edge over that of the largest wanted tetrahedron
+constexpr double regular_tet_edges_cubed = 8.485281374238570;  // 6 sqrt(2): cubed edge over volume
+
+// All that one try produced.
+struct Attempt {
+    CutTry record;
+    std::vector<Side> side;
+    std::vector<std::vector<std::int32_t>> loops;
+    Interface interface;
+    ContourStages stages;
+    double section_area = 0;
+    std::array<Surface, 2> halves;
+    std::vector<std::int32_t> failed;  // vertices
+
+    bool valid() const { return record.refusal == Refusal::none || record.refusal == Refusal::soft; }
+};
+
+double penalty_factor(Refusal refusal) {
+    switch (refusal) {
+        case Refusal::crossing_projection:
+        case Refusal::nesting:
+        case Refusal::pinched_contour:
+            return 4;
+        case Refusal::soft:
+            return 2;
+        default:
+            return 3;
+    }
+}
+
+// The smallest measure over its threshold: 1 and more is good.
+double softness(const InterfaceQuality& quality, const CutOptions& options) {
+    return std::min({quality.dihedral_deg / options.good_dihedral_deg, quality.angle_deg / options.good_angle_deg,
+                     quality.gap_rel / options.good_gap_rel});
+}
+
+// One plane and its rounds of local repair.
+class PlaneTrial {
+ public:
+    PlaneTrial(const Surface& surface, const PlaneCandidate& candidate, NodeId node, const CutOptions& options,
+               bool record)
+        : surface_(surface),
+          candidate_(candidate),
+          node_(node),
+          options_(options),
+          record_(record),
+          band_(make_band(surface, candidate.plane)),
+          penalty_(band_.facets.size(), 1),
+          hits_(surface.vertex_count(), 0) {}
+
+    Attempt attempt(std::int32_t repair);
+    // Makes the places where the attempt failed expensive. False if there is nothing to repair.
+    bool learn(const Attempt& attempt);
+
+ private:
+    void refuse(Attempt& attempt, Refusal refusal, std::vector<std::int32_t> vertices) const;
+    bool find_contour(Attempt& attempt) const;
+    bool span_interface(Attempt& attempt) const;
+    bool build_halves(Attempt& attempt) const;
+    double max_interface_edge() const {
+        if (options_.max_volume <= 0) return 0;
+        return interface_growth * std::cbrt(regular_tet_edges_cubed * options_.max_volume);
+    }
+
+    const Surface& surface_;
+    const PlaneCandidate& candidate_;
+    NodeId node_;
+    const CutOptions& options_;
+    bool record_;
+    Band band_;
+    std::vector<double> penalty_;     // per band facet
+    std::vector<std::int32_t> hits_;  // per vertex
+};
+
+void PlaneTrial::refuse(Attempt& attempt, Refusal refusal, std::vector<std::int32_t> vertices) const {
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    attempt.record.refusal = refusal;
+    attempt.failed = std::move(vertices);
+    for (std::int32_t v : attempt.failed) attempt.record.places.push_back(surface_.point(v));
+}
+
+bool PlaneTrial::find_contour(Attempt& attempt) const {
+    attempt.side = majority_labels(surface_, band_);
+    if (record_) {
+        attempt.stages.crossed_edges = crossed_edges(surface_, band_);
+        attempt.stages.hanging_edges_removed = contour_edges(surface_, band_, attempt.side);
+    }
+    if (options_.contour == ContourMethod::min_cut && !minimum_cut_labels(surface_, band_, penalty_, attempt.side)) {
+        refuse(attempt, Refusal::flow_limit, {});
+        return false;
+    }
+    clean_labels(surface_, band_, attempt.side, record_ ? &attempt.stages : nullptr);
+    const std::vector<SurfaceEdge> edges = contour_edges(surface_, band_, attempt.side);
+    if (record_) attempt.stages.smoothed = edges;
+    ContourLoops contour = trace_loops(surface_, edges);
+    if (edges.empty()) refuse(attempt, Refusal::empty_side, {});
+    if (!contour.pinched.empty()) refuse(attempt, Refusal::pinched_contour, contour.pinched);
+    attempt.loops = std::move(contour.loops);
+    return attempt.record.refusal == Refusal::none;
+}
+
+bool PlaneTrial::span_interface(Attempt& attempt) const {
+    InterfaceAttempt spanned =
+        build_interface(surface_, band_, attempt.side, attempt.loops, hits_, max_interface_edge());
+    if (spanned.refusal != Refusal::none) {
+        refuse(attempt, spanned.refusal, std::move(spanned.failed));
+        return false;
+    }
+    attempt.interface = std::move(spanned.interface);
+    Verdict verdict = judge_interface(surface_, band_, attempt.interface, options_);
+    attempt.record.quality = verdict.quality;
+    if (verdict.refusal != Refusal::none) refuse(attempt, verdict.refusal, std::move(verdict.failed));
+    return attempt.valid();
+}
+
+bool PlaneTrial::build_halves(Attempt& attempt) const {
+    std::array<SurfaceArrays, 2> arrays = split(surface_, attempt.side, attempt.interface, node_);
+    for (std::size_t i = 0; i < arrays.size(); ++i) {
+        const auto defects = find_manifold_defects(arrays[i].vertices.size(), arrays[i].facets);
+        if (!defects.empty()) {
+            attempt.record.places.push_back(arrays[i].vertices[defects[0].vertices[0]]);
+            attempt.record.refusal = Refusal::not_manifold;
+            return false;
+        }
+        attempt.halves[i] = Surface(std::move(arrays[i]));
+        const std::int32_t misplaced = find_misplaced_shell(attempt.halves[i]);
+        if (misplaced >= 0) {
+            attempt.record.places.push_back(attempt.halves[i].point(misplaced));
+            attempt.record.refusal = Refusal::misplaced_shell;
+            return false;
+        }
+    }
+    return true;
+}
+
+Attempt PlaneTrial::attempt(std::int32_t repair) {
+    Attempt attempt;
+    attempt.record.plane = candidate_.plane;
+    attempt.record.axis = candidate_.axis;
+    attempt.record.step = candidate_.step;
+    attempt.record.repair = repair;
+    attempt.section_area = band_.section_area;
+    if (find_contour(attempt) && span_interface(attempt)) build_halves(attempt);
+    return attempt;
+}
+
+bool PlaneTrial::learn(const Attempt& attempt) {
+    if (attempt.failed.empty()) return false;
+    std::vector<char> bad(surface_.vertex_count(), 0);
+    for (std::int32_t v : attempt.failed) bad[v] = 1;
+    if (attempt.record.refusal == Refusal::intersection || attempt.record.refusal == Refusal::soft)
+        for (std::int32_t v : attempt.failed) ++hits_[v];
+    const double factor = penalty_factor(attempt.record.refusal);
+    bool changed = false;
+    for (std::size_t i = 0; i < band_.facets.size(); ++i) {
+        const Triangle t = surface_.vertices(band_.facets[i]);
+        if (!bad[t[0]] && !bad[t[1]] && !bad[t[2]]) continue;
+        penalty_[i] *= factor;
+        changed = true;
+    }
+    return changed;
+}
+
+Rung rung_of(const CutTry& record) {
+    if (record.refusal == Refusal::soft) return Rung::soft;
+    if (record.axis > 0) return Rung::other_axis;
+    if (record.step != 0) return Rung::plane_step;
+    return record.repair > 0 ? Rung::local_repair : Rung::first_try;
+}
+
+// Walks the ladder and keeps the best soft cut on the way.
+class Ladder {
+ public:
+    Ladder(const Surface& surface, const MassProperties& mass, NodeId node, double fraction, const CutOptions& options,
+           bool record)
+        : surface_(surface), mass_(mass), node_(node), fraction_(fraction), options_(options), record_(record) {}
+
+    // The accepted attempt, or none. All tries are appended to `tries`.
+    std::unique_ptr<Attempt> climb(std::vector<CutTry>& tries);
+
+ private:
+    // True if the plane gave a good cut, which then is best_.
+    bool try_plane(const PlaneCandidate& candidate, std::vector<CutTry>& tries);
+
+    const Surface& surface_;
+    const MassProperties& mass_;
+    NodeId node_;
+    double fraction_;
+    const CutOptions& options_;
+    bool record_;
+    std::unique_ptr<Attempt> best_;
+    double best_softness_ = 0;
+};
+
+bool Ladder::try_plane(const PlaneCandidate& candidate, std::vector<CutTry>& tries) {
+    PlaneTrial trial(surface_, candidate, node_, options_, record_);
+    const std::int32_t rounds = options_.contour == ContourMethod::min_cut ? options_.repairs : 0;
+    for (std::int32_t repair = 0, soft = 0; repair <= rounds && soft < soft_rounds; ++repair) {
+        auto attempt = std::make_unique<Attempt>(trial.attempt(repair));
+        tries.push_back(attempt->record);
+        if (attempt->record.refusal == Refusal::none) {
+            best_ = std::move(attempt);
+            return true;
+        }
+        const bool more = trial.learn(*attempt);
+        if (attempt->valid()) {
+            ++soft;
+            const double value = softness(attempt->record.quality, options_);
+            if (!best_ || value > best_softness_) {
+                best_softness_ = value;
+                best_ = std::move(attempt);
+            }
+        }
+        if (!more) return false;
+    }
+    return false;
+}
+
+std::unique_ptr<Attempt> Ladder::climb(std::vector<CutTry>& tries) {
+    const std::vector<Vec3> directions = cut_directions(surface_, mass_, options_);
+    std::vector<std::vector<PlaneCandidate>> candidates(directions.size());
+    std::int32_t planes = 0;
+    for (const bool inside : {true, false})
+        for (std::size_t axis = 0; axis < directions.size(); ++axis) {
+            if (candidates[axis].empty())
+                candidates[axis] = plane_candidates(surface_, mass_, directions[axis], static_cast<std::int32_t>(axis),
+                                                    fraction_, options_);
+            for (const PlaneCandidate& candidate : candidates[axis]) {
+                if (candidate.inside_load_window != inside) continue;
+                if (best_ && planes >= planes_before_soft) return std::move(best_);
+                ++planes;
+                if (try_plane(candidate, tries)) return std::move(best_);
+            }
+        }
+    return std::move(best_);
+}
+
+void describe_contour(const Surface& surface, Cut& cut) {
+    for (const auto& loop : cut.loops)
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Vec3 &a = surface.point(loop[i]), &b = surface.point(loop[(i + 1) % loop.size()]);
+            ++cut.contour_edges;
+            cut.contour_length += (b - a).norm();
+            cut.max_deviation = std::max(cut.max_deviation, std::abs(cut.plane.distance(a)));
+        }
+}
+
+}  // namespace
+
+Bisection bisect(const Surface& surface, const MassProperties& mass, NodeId node, double fraction,
+                 const CutOptions& options, bool record) {
+    const auto start = std::chrono::steady_clock::now();
+    Bisection result;
+    Cut& cut = result.cut;
+    cut.node = node;
+    cut.method = options.contour;
+    const std::unique_ptr<Attempt> accepted = Ladder(surface, mass, node, fraction, options, record).climb(cut.tries);
+    if (accepted) {
+        cut.rung = rung_of(accepted->record);
+        cut.plane = accepted->record.plane;
+        cut.quality = accepted->record.quality;
+        cut.section_area = accepted->section_area;
+        cut.interface = std::move(accepted->interface);
+        cut.interface_area = interface_area(cut.interface);
+        cut.loops = std::move(accepted->loops);
+        describe_contour(surface, cut);
+        if (record) {
+            cut.side = std::move(accepted->side);
+            cut.stages = std::move(accepted->stages);
+        }
+        result.halves = std::move(accepted->halves);
+    }
+    cut.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return result;
+}
+
+}  // namespace kerf

@@ -1,0 +1,26 @@
+// One bisection of a closed surface, with all remedies.
+#pragma once
+
+#include <array>
+
+#include "cut/options.h"
+#include "surface/mass_properties.h"
+
+namespace kerf {
+
+/// What was done, and the halves if a cut was made.
+struct Bisection {
+    Cut cut;
+    std::array<Surface, 2> halves;  ///< below, above; empty if !cut.made()
+};
+
+/// Cuts the surface so that `fraction` of the load lies below the plane.
+///
+/// The ladder: minimum cut; local repair (the weights at the failed places are raised and the same plane is solved
+/// again); steps of the plane within the load window; the other axes; the best soft cut; none. Every accepted cut is
+/// proven: no intersection, both halves closed 2-manifolds, every shell in its half. Depends on the surface, node,
+/// fraction and options alone. `record` fills Cut::side and Cut::stages and changes nothing else.
+Bisection bisect(const Surface& surface, const MassProperties& mass, NodeId node, double fraction,
+                 const CutOptions& options, bool record);
+
+}  // namespace kerf

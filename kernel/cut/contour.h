@@ -1,0 +1,27 @@
+// From labels to closed contours that an interface can be spanned in.
+#pragma once
+
+#include <vector>
+
+#include "cut/band.h"
+
+namespace kerf {
+
+/// Relabels facets of the band until the boundary between the labels has no ears (facets with two contour edges), no
+/// small islands, no vertex with more than two contour edges and no chord (a surface edge off the contour that joins
+/// two contour vertices) with a small pocket. Facets outside of the band keep their label; whole shells are no islands.
+/// What cannot be mended within a bounded number of passes stays, and is found by later checks.
+/// `stages`, if given, receives closed_loops and multiple_paths_removed. O(band) per pass.
+void clean_labels(const Surface& surface, const Band& band, std::vector<Side>& side, ContourStages* stages);
+
+/// Edges between the labels, oriented with the half below on their left, ascending by facet.
+std::vector<SurfaceEdge> contour_edges(const Surface& surface, const Band& band, const std::vector<Side>& side);
+
+/// Closed loops of contour edges, or the vertices where more than two meet.
+struct ContourLoops {
+    std::vector<std::vector<std::int32_t>> loops;  ///< each starts at the edge that comes first in `contour_edges`
+    std::vector<std::int32_t> pinched;             ///< if not empty, `loops` is meaningless
+};
+ContourLoops trace_loops(const Surface& surface, const std::vector<SurfaceEdge>& edges);
+
+}  // namespace kerf

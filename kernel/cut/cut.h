@@ -1,0 +1,155 @@
+// Everything that one bisection of a closed surface did, as plain data. The viewer draws it, the report counts it,
+// tests check it. Method: E. Ivanov, a-priori domain decomposition; contour by minimum cut and local repair are ours.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "surface/surface.h"
+
+namespace kerf {
+
+/// Cutting plane with its own coordinates. u, v, normal are orthonormal and right-handed.
+struct Plane {
+    Vec3 origin = Vec3::Zero();  ///< a point on the plane
+    Vec3 normal = Vec3::UnitX();
+    Vec3 u = Vec3::UnitY();
+    Vec3 v = Vec3::UnitZ();
+
+    Plane() = default;
+    Plane(const Vec3& point, const Vec3& unit_normal);
+    /// Signed distance: negative below, positive above.
+    double distance(const Vec3& p) const { return normal.dot(p - origin); }
+    Vec2 project(const Vec3& p) const { return {u.dot(p - origin), v.dot(p - origin)}; }
+    Vec3 lift(const Vec2& q, double height) const { return origin + q.x() * u + q.y() * v + height * normal; }
+    Plane shifted(double distance) const;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(origin, normal, u, v);
+    }
+};
+
+/// The half that a facet goes to. `below` becomes child 2i, `above` child 2i + 1.
+enum class Side : std::uint8_t { below = 0, above = 1 };
+constexpr Side other(Side side) { return side == Side::below ? Side::above : Side::below; }
+
+/// How a contour is found on the surface.
+enum class ContourMethod {
+    min_cut,  ///< minimum cut of the facet graph in a band around the plane
+    edges,    ///< majority of the facet's vertices (Ivanov)
+};
+
+/// The remedy by which a cut was accepted, in the order in which they are tried.
+enum class Rung {
+    first_try,     ///< first plane, first contour
+    local_repair,  ///< first plane; the weights at the failed places were raised
+    plane_step,    ///< the plane was moved along the first axis
+    other_axis,    ///< another principal axis
+    soft,          ///< valid, but below a quality threshold; the best of all tries
+    whole,         ///< no cut: the part stays whole
+};
+const char* name(Rung rung);
+
+/// Why a try was refused.
+enum class Refusal {
+    none,                 ///< accepted
+    empty_side,           ///< all facets fell on one side
+    flow_limit,           ///< the minimum cut was not found within its bound of steps
+    pinched_contour,      ///< a vertex with more than two contour edges remained
+    crossing_projection,  ///< contour edges cross or touch in the plane
+    nesting,              ///< the section is not on the left of every contour edge
+    chord,                ///< an interface edge coincides with a surface edge off the contour
+    intersection,         ///< interface and surface meet off the contour
+    not_manifold,         ///< a half is not a closed 2-manifold
+    misplaced_shell,      ///< a shell without contour lies in the wrong half
+    soft,                 ///< valid, but an angle or gap is below its threshold
+};
+const char* name(Refusal refusal);
+
+/// Smallest measures of an interface; the thresholds of a good cut are in CutOptions.
+struct InterfaceQuality {
+    double dihedral_deg = 180;  ///< smallest angle between interface and surface along the contour
+    double angle_deg = 180;     ///< smallest angle of an interface triangle
+    double gap_rel = 1;  ///< smallest distance between interface and surface off the contour, per local edge length
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(dihedral_deg, angle_deg, gap_rel);
+    }
+};
+
+/// One attempt: a plane, a round of local repair, and what came of it.
+struct CutTry {
+    Plane plane;
+    std::int32_t axis = 0;    ///< principal axis, 0 the longest direction
+    std::int32_t step = 0;    ///< step along the axis, 0 at the load's bisection
+    std::int32_t repair = 0;  ///< round of local repair
+    Refusal refusal = Refusal::none;
+    std::vector<Vec3> places;  ///< where it failed
+    InterfaceQuality quality;  ///< meaningful if refusal is none or soft
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(plane, axis, step, repair, refusal, places, quality);
+    }
+};
+
+/// An edge of the parent surface by its vertices; a contour edge has the half below on its left.
+using SurfaceEdge = std::array<std::int32_t, 2>;
+
+/// The contour at each stage of its making. Recorded for the accepted try, and only on request.
+struct ContourStages {
+    std::vector<SurfaceEdge> crossed_edges;           ///< edges with ends on both sides of the plane
+    std::vector<SurfaceEdge> hanging_edges_removed;   ///< boundary of the majority labels: closed, nothing hangs
+    std::vector<SurfaceEdge> closed_loops;            ///< ears and islands removed
+    std::vector<SurfaceEdge> multiple_paths_removed;  ///< vertices with more than two contour edges opened
+    std::vector<SurfaceEdge> smoothed;                ///< the contour that was used
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(crossed_edges, hanging_edges_removed, closed_loops, multiple_paths_removed, smoothed);
+    }
+};
+
+/// Triangulation of the section inside of the contour, in the plane and lifted to meet the surface.
+struct Interface {
+    std::vector<std::int32_t> contour;  ///< #C; vertex of the parent surface of each contour vertex
+    std::vector<Vec2> planar;           ///< #P; contour vertices first; plane coordinates
+    std::vector<Vec3> points;           ///< #P; contour vertices at their place on the surface
+    std::vector<Triangle> triangles;    ///< indices into `planar`; counter-clockwise seen from above
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(contour, planar, points, triangles);
+    }
+};
+
+/// One bisection.
+struct Cut {
+    NodeId node = 1;
+    Rung rung = Rung::whole;
+    ContourMethod method = ContourMethod::min_cut;
+    Plane plane;
+    std::vector<CutTry> tries;                     ///< all, the accepted one included
+    std::vector<std::vector<std::int32_t>> loops;  ///< closed contours as parent vertices; below is on the left
+    std::vector<Side> side;                        ///< per facet of the parent; empty without a listener
+    ContourStages stages;                          ///< empty without a listener
+    Interface interface;
+    InterfaceQuality quality;
+    std::int64_t contour_edges = 0;
+    double contour_length = 0;
+    double max_deviation = 0;   ///< largest distance of a contour vertex from the plane
+    double section_area = 0;    ///< of the surface with the plane
+    double interface_area = 0;  ///< of the lifted interface
+    double seconds = 0;         ///< wall clock; goes into the report only
+
+    bool made() const { return rung != Rung::whole; }
+    template <class Archive>
+    void archive(Archive& a) {
+        a(node, rung, method, plane, tries, loops, side, stages, interface, quality, contour_edges, contour_length,
+          max_deviation, section_area, interface_area, seconds);
+    }
+};
+
+}  // namespace kerf

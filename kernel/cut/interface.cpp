@@ -1,0 +1,110 @@
+// Obstacles are the vertices of the surface near the plane that do not touch the contour: tips and pockets that poke
+// through the section without changing a label.
+#include "cut/interface.h"
+
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "cut/lift.h"
+#include "cut/triangulation.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr double obstacle_height = 2.5;  // vertices further from the plane are no obstacles, in local edges
+constexpr double wanted_height = 1.2;    // nearer ones become vertices of the interface below or above them
+constexpr double clearance = 0.6;        // of the interface from an obstacle, in local edges
+constexpr double clearance_per_hit = 0.1;
+constexpr double hit_clearance = 0.35;  // of vertices beside the contour, once they were hit
+
+struct VertexRing {
+    double mean_edge = 0;
+    bool touches_contour = false;
+};
+
+VertexRing ring_of(const Surface& surface, std::int32_t vertex, const std::vector<char>& on_contour) {
+    VertexRing ring;
+    int count = 0;
+    const std::int32_t first = surface.outgoing(vertex);
+    std::int32_t h = first;
+    do {
+        const std::int32_t neighbour = surface.to_vertex(h);
+        ring.mean_edge += (surface.point(neighbour) - surface.point(vertex)).norm();
+        ring.touches_contour |= on_contour[neighbour] != 0;
+        ++count;
+        h = surface.rotate(h);
+    } while (h != first);
+    ring.mean_edge /= count;
+    return ring;
+}
+
+std::vector<Obstacle> find_obstacles(const Surface& surface, const Band& band, const std::vector<Side>& side,
+                                     const std::vector<char>& on_contour, const std::vector<std::int32_t>& hits) {
+    std::vector<Obstacle> obstacles;
+    std::vector<char> seen = on_contour;
+    for (std::size_t i = 0; i < band.facets.size(); ++i)
+        for (std::int32_t v : surface.vertices(band.facets[i])) {
+            if (seen[v]) continue;
+            seen[v] = 1;
+            const VertexRing ring = ring_of(surface, v, on_contour);
+            if (std::abs(band.distance[v]) >= obstacle_height * ring.mean_edge) continue;
+            if (ring.touches_contour && !hits[v]) continue;  // its facets leave the contour at an angle that is checked
+            const double wanted = (ring.touches_contour ? hit_clearance : clearance) + clearance_per_hit * hits[v];
+            obstacles.push_back(
+                {band.plane.project(surface.point(v)), band.distance[v], ring.mean_edge, side[band.facets[i]], wanted});
+        }
+    return obstacles;
+}
+
+}  // namespace
+
+InterfaceAttempt build_interface(const Surface& surface, const Band& band, const std::vector<Side>& side,
+                                 const std::vector<std::vector<std::int32_t>>& loops,
+                                 const std::vector<std::int32_t>& hits, double max_edge) {
+    InterfaceAttempt attempt;
+    PlanarRegion region;
+    region.max_edge = max_edge;
+    std::vector<double> contour_height;
+    std::vector<char> on_contour(surface.vertex_count(), 0);
+    std::vector<std::int32_t>& contour = attempt.interface.contour;
+    for (const auto& loop : loops) {
+        const auto first = static_cast<std::int32_t>(contour.size()), n = static_cast<std::int32_t>(loop.size());
+        for (std::int32_t i = 0; i < n; ++i) {
+            contour.push_back(loop[i]);
+            on_contour[loop[i]] = 1;
+            contour_height.push_back(band.distance[loop[i]]);
+            region.contour.push_back(band.plane.project(surface.point(loop[i])));
+            region.edges.push_back({first + (i + 1) % n, first + i});  // the section lies on the other hand of the loop
+        }
+    }
+    const std::vector<Obstacle> obstacles = find_obstacles(surface, band, side, on_contour, hits);
+    for (const Obstacle& o : obstacles)
+        if (std::abs(o.height) < wanted_height * o.size) region.wanted.push_back(o.position);
+
+    PlanarTriangulation planar = triangulate(region);
+    attempt.refusal = planar.refusal;
+    for (std::int32_t i : planar.failed) attempt.failed.push_back(contour[i]);
+    if (attempt.refusal != Refusal::none) return attempt;
+
+    const std::vector<double> height = lift_heights(planar, contour_height, obstacles);
+    for (std::size_t i = 0; i < planar.points.size(); ++i)
+        attempt.interface.points.push_back(i < contour.size() ? surface.point(contour[i])
+                                                              : band.plane.lift(planar.points[i], height[i]));
+    attempt.interface.planar = std::move(planar.points);
+    attempt.interface.triangles = std::move(planar.triangles);
+    return attempt;
+}
+
+double interface_area(const Interface& interface) {
+    double area = 0;
+    for (const Triangle& t : interface.triangles)
+        area += (interface.points[t[1]] - interface.points[t[0]])
+                    .cross(interface.points[t[2]] - interface.points[t[0]])
+                    .norm() /
+                2;
+    return area;
+}
+
+}  // namespace kerf

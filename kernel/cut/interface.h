@@ -1,0 +1,26 @@
+// The interface inside of a contour: projected, triangulated, lifted.
+#pragma once
+
+#include <vector>
+
+#include "cut/band.h"
+
+namespace kerf {
+
+/// An interface, or why there is none and at which vertices of the surface.
+struct InterfaceAttempt {
+    Refusal refusal = Refusal::none;
+    std::vector<std::int32_t> failed;
+    Interface interface;
+};
+
+/// Spans the contour's loops. `max_edge` bounds its triangles (0: none). `hits` (#V) counts how often an interface has
+/// run into a surface vertex before: its clearance grows with it.
+InterfaceAttempt build_interface(const Surface& surface, const Band& band, const std::vector<Side>& side,
+                                 const std::vector<std::vector<std::int32_t>>& loops,
+                                 const std::vector<std::int32_t>& hits, double max_edge);
+
+/// Area of the lifted triangles.
+double interface_area(const Interface& interface);
+
+}  // namespace kerf

@@ -1,0 +1,77 @@
+// Nodes of the graph are the facets of the band; the source is the half below, the sink the half above. A facet outside
+// of the band is part of its terminal, so an edge to it becomes a terminal edge.
+#include "cut/labels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "cut/max_flow.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr std::int64_t steps_per_facet = 2000;  // of the flow; well-shaped surfaces need fewer than 100
+
+struct FacetTerms {
+    double area = 0;
+    double slope = 0;     // |n_z|^4
+    double distance = 0;  // of the centroid
+};
+
+FacetTerms facet_terms(const Surface& surface, const Band& band, std::int32_t facet) {
+    const Triangle t = surface.vertices(facet);
+    const Vec3 cross = (surface.point(t[1]) - surface.point(t[0])).cross(surface.point(t[2]) - surface.point(t[0]));
+    const double norm = cross.norm();
+    const double n_z = norm > 0 ? cross.dot(band.plane.normal) / norm : 1;
+    return {norm / 2, n_z * n_z * n_z * n_z, band.facet_distance(surface, facet)};
+}
+
+}  // namespace
+
+std::vector<Side> majority_labels(const Surface& surface, const Band& band) {
+    std::vector<Side> side(surface.facet_count());
+    for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
+        int above = 0;
+        for (std::int32_t v : surface.vertices(f)) above += band.distance[v] >= 0;
+        side[f] = above >= 2 ? Side::above : Side::below;
+    }
+    return side;
+}
+
+bool minimum_cut_labels(const Surface& surface, const Band& band, const std::vector<double>& penalty,
+                        std::vector<Side>& side) {
+    const auto count = static_cast<std::int32_t>(band.facets.size());
+    const double h = band.edge_length;
+    std::vector<FacetTerms> terms(count);
+    for (std::int32_t i = 0; i < count; ++i) terms[i] = facet_terms(surface, band, band.facets[i]);
+
+    MaxFlow flow(count);
+    for (std::int32_t i = 0; i < count; ++i) {
+        const double wrong_side = terms[i].area * std::abs(terms[i].distance) / (h * h);
+        flow.add_terminal(i, terms[i].distance < 0 ? wrong_side : 0, terms[i].distance < 0 ? 0 : wrong_side);
+        for (std::int32_t half_edge : band.half_edges[i]) {
+            const std::int32_t neighbour = surface.facet_of(Surface::opposite(half_edge));
+            const std::int32_t j = band.index_of[neighbour];
+            if (j >= 0 && j < i) continue;  // the edge was added with its other facet
+            const std::int32_t a = surface.from_vertex(half_edge), b = surface.to_vertex(half_edge);
+            const double deviation = std::max(std::abs(band.distance[a]), std::abs(band.distance[b])) / h;
+            const double slope = j >= 0 ? std::max(terms[i].slope, terms[j].slope) : terms[i].slope;
+            const double raised = j >= 0 ? std::max(penalty[i], penalty[j]) : penalty[i];
+            const double weight =
+                (surface.point(b) - surface.point(a)).norm() * (1 + deviation * deviation) * (1 + 3 * slope) * raised;
+            if (j >= 0)
+                flow.add_edge(i, j, weight);
+            else
+                flow.add_terminal(i, side[neighbour] == Side::below ? weight : 0,
+                                  side[neighbour] == Side::below ? 0 : weight);
+        }
+    }
+    if (!flow.solve(steps_per_facet * count)) return false;
+    for (std::int32_t i = 0; i < count; ++i) side[band.facets[i]] = flow.on_sink_side(i) ? Side::above : Side::below;
+    return true;
+}
+
+}  // namespace kerf

@@ -1,0 +1,21 @@
+// Which half a facet goes to. The contour is the boundary between the labels: closed loops of surface edges.
+#pragma once
+
+#include <vector>
+
+#include "cut/band.h"
+
+namespace kerf {
+
+/// A facet goes to the side on which most of its vertices lie (Ivanov's contour of crossed edges). O(#F).
+std::vector<Side> majority_labels(const Surface& surface, const Band& band);
+
+/// Relabels the facets of the band by a minimum cut: a short contour near the plane that avoids facets parallel to it.
+///
+/// An edge costs its length, times 1 + (distance / h)^2, times 1 + 3 |n_z|^4, times the larger `penalty` of its facets
+/// (#band facets, >= 1); a facet on the wrong side costs area times distance / h^2. Facets outside of the band keep
+/// their label. Returns false, with `side` unchanged, if the flow took too many steps.
+bool minimum_cut_labels(const Surface& surface, const Band& band, const std::vector<double>& penalty,
+                        std::vector<Side>& side);
+
+}  // namespace kerf

@@ -1,0 +1,144 @@
+// Notation: z heights, L the cotangent Laplacian of the planar triangulation, split into interior and contour points:
+// L_ii z_i = -L_ic z_c. Where obstacles bound z, the same system is relaxed by projected Gauss-Seidel sweeps.
+#include "cut/lift.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/SparseCholesky>
+
+#include "cut/planar_grid.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr double fall_off = 0.3;       // of an obstacle's bound with the distance
+constexpr double reach = 3;            // of an obstacle, in its sizes
+constexpr double least_weight = 1e-3;  // keeps the maximum principle where triangles are obtuse
+constexpr int sweeps = 100;
+
+// Weighted graph of the triangulation: neighbours of point i are [first[i], first[i + 1]).
+struct WeightedGraph {
+    std::vector<std::int32_t> first, neighbour;
+    std::vector<double> weight;
+};
+
+double cotangent(const Vec2& apex, const Vec2& a, const Vec2& b) {
+    const Vec2 p = a - apex, q = b - apex;
+    return p.dot(q) / (p.x() * q.y() - p.y() * q.x());
+}
+
+WeightedGraph cotangent_graph(const PlanarTriangulation& t) {
+    struct Entry {
+        std::int32_t from, to;
+        double weight;
+    };
+    std::vector<Entry> entries;
+    entries.reserve(6 * t.triangles.size());
+    for (const Triangle& c : t.triangles)
+        for (int i = 0; i < 3; ++i) {
+            const std::int32_t a = c[(i + 1) % 3], b = c[(i + 2) % 3];
+            const double w = cotangent(t.points[c[i]], t.points[a], t.points[b]) / 2;
+            entries.push_back({a, b, w});
+            entries.push_back({b, a, w});
+        }
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+        return a.from != b.from ? a.from < b.from : a.to != b.to ? a.to < b.to : a.weight < b.weight;
+    });
+    WeightedGraph graph;
+    graph.first.assign(t.points.size() + 1, 0);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const bool repeated = i > 0 && entries[i].from == entries[i - 1].from && entries[i].to == entries[i - 1].to;
+        if (repeated) {
+            graph.weight.back() += entries[i].weight;
+            continue;
+        }
+        graph.neighbour.push_back(entries[i].to);
+        graph.weight.push_back(entries[i].weight);
+        ++graph.first[entries[i].from + 1];
+    }
+    for (std::size_t i = 1; i < graph.first.size(); ++i) graph.first[i] += graph.first[i - 1];
+    for (double& w : graph.weight) w = std::max(w, least_weight);
+    return graph;
+}
+
+void solve_harmonic(const WeightedGraph& graph, std::size_t contour_count, std::vector<double>& height) {
+    const auto interior = static_cast<Eigen::Index>(height.size() - contour_count);
+    if (interior == 0) return;
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(interior);
+    for (Eigen::Index i = 0; i < interior; ++i) {
+        const std::size_t v = contour_count + static_cast<std::size_t>(i);
+        double sum = 0;
+        for (std::int32_t k = graph.first[v]; k < graph.first[v + 1]; ++k) {
+            const auto n = static_cast<std::size_t>(graph.neighbour[k]);
+            sum += graph.weight[k];
+            if (n < contour_count)
+                right[i] += graph.weight[k] * height[n];
+            else
+                entries.emplace_back(i, static_cast<Eigen::Index>(n - contour_count), -graph.weight[k]);
+        }
+        entries.emplace_back(i, i, sum);
+    }
+    Eigen::SparseMatrix<double> laplacian(interior, interior);
+    laplacian.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(laplacian);
+    const Eigen::VectorXd solution = solver.solve(right);
+    for (Eigen::Index i = 0; i < interior; ++i) height[contour_count + static_cast<std::size_t>(i)] = solution[i];
+}
+
+struct Bounds {
+    double low = -INFINITY, high = INFINITY;
+    double clamp(double z) const { return low > high ? (low + high) / 2 : std::clamp(z, low, high); }
+};
+
+// Bounds of the interior points; contour points lie on the surface and stay.
+std::vector<Bounds> obstacle_bounds(const PlanarTriangulation& t, std::size_t contour_count,
+                                    const std::vector<Obstacle>& obstacles) {
+    std::vector<Bounds> bounds(t.points.size());
+    std::vector<PlanarBox> boxes;
+    for (std::size_t v = contour_count; v < t.points.size(); ++v) boxes.push_back({t.points[v], t.points[v]});
+    PlanarGrid grid(std::move(boxes));
+    for (const Obstacle& o : obstacles)
+        grid.for_each_overlap(PlanarBox{o.position, o.position}.grown(reach * o.size), [&](std::int32_t i) {
+            const std::size_t v = contour_count + static_cast<std::size_t>(i);
+            const double lead = o.clearance * o.size - fall_off * (t.points[v] - o.position).norm();
+            if (o.side == Side::below)
+                bounds[v].low = std::max(bounds[v].low, o.height + lead);
+            else
+                bounds[v].high = std::min(bounds[v].high, o.height - lead);
+        });
+    return bounds;
+}
+
+void relax_within_bounds(const WeightedGraph& graph, std::size_t contour_count, const std::vector<Bounds>& bounds,
+                         std::vector<double>& height) {
+    for (int sweep = 0; sweep < sweeps; ++sweep)
+        for (std::size_t v = contour_count; v < height.size(); ++v) {
+            double sum = 0, weights = 0;
+            for (std::int32_t k = graph.first[v]; k < graph.first[v + 1]; ++k) {
+                sum += graph.weight[k] * height[graph.neighbour[k]];
+                weights += graph.weight[k];
+            }
+            height[v] = bounds[v].clamp(sum / weights);
+        }
+}
+
+}  // namespace
+
+std::vector<double> lift_heights(const PlanarTriangulation& triangulation, const std::vector<double>& contour_height,
+                                 const std::vector<Obstacle>& obstacles) {
+    const std::size_t contour_count = contour_height.size();
+    std::vector<double> height = contour_height;
+    height.resize(triangulation.points.size(), 0);
+    const WeightedGraph graph = cotangent_graph(triangulation);
+    solve_harmonic(graph, contour_count, height);
+    const std::vector<Bounds> bounds = obstacle_bounds(triangulation, contour_count, obstacles);
+    bool violated = false;
+    for (std::size_t v = contour_count; v < height.size(); ++v) violated |= bounds[v].clamp(height[v]) != height[v];
+    if (violated) relax_within_bounds(graph, contour_count, bounds, height);
+    return height;
+}
+
+}  // namespace kerf

@@ -1,0 +1,25 @@
+// Heights of an interface over its plane.
+#pragma once
+
+#include <vector>
+
+#include "cut/triangulation.h"
+
+namespace kerf {
+
+/// A surface vertex that the interface must pass on one side.
+struct Obstacle {
+    Vec2 position = Vec2::Zero();
+    double height = 0;
+    double size = 0;          ///< local edge length of the surface
+    Side side = Side::below;  ///< the half it belongs to: the interface passes above a vertex of the half below
+    double clearance = 0;     ///< wanted distance of the interface, in units of `size`
+};
+
+/// Harmonic heights (cotangent weights, so that constants and planes are kept) with the contour's heights as boundary
+/// values, then bounded by the obstacles: the bound falls off with the distance at rate 0.3.
+/// `contour_height` #C; returns one height per point. O(n^1.5) for the factorisation.
+std::vector<double> lift_heights(const PlanarTriangulation& triangulation, const std::vector<double>& contour_height,
+                                 const std::vector<Obstacle>& obstacles);
+
+}  // namespace kerf

@@ -1,0 +1,52 @@
+// How much work lies below a plane.
+#pragma once
+
+#include <vector>
+
+#include "cut/cut.h"
+
+namespace kerf {
+
+/// What the two halves of a cut should have alike.
+enum class Balance { nodes, faces, volume, work };
+
+/// Work of meshing a body: F + 0.606 V / a, F facets, V volume, a the volume bound of a tetrahedron; F alone without a
+/// bound. Fitted on 1,160 TetGen runs (rms 16 %).
+struct LoadModel {
+    Balance balance = Balance::work;
+    double max_volume = 0;  ///< a; 0: none
+
+    double load(double vertices, double facets, double volume) const;
+    double load(const Surface& surface, double volume) const {
+        return load(surface.vertex_count(), surface.facet_count(), volume);
+    }
+};
+
+/// Load below the planes of one direction. Facets count by their centroid, volume is exact.
+class LoadProfile {
+ public:
+    /// Heights are measured along `plane.normal` from `plane.origin`.
+    LoadProfile(const Surface& surface, const Plane& plane, const LoadModel& model);
+
+    /// Fraction of the whole load below the given height. O(#V + #F).
+    double fraction_below(double height) const;
+    /// Height below which the given fraction of the load lies. Expected O(#V + #F).
+    double bisect(double fraction) const;
+    double lowest() const { return lowest_; }
+    double highest() const { return highest_; }
+
+ private:
+    struct Item {
+        double low, mid, high;  // heights of the facet's vertices, ascending
+        double area_z;          // area times the normal's height component
+        double centroid;
+    };
+    double load_below(const std::vector<Item>& items, const std::vector<double>& nodes, double height) const;
+
+    LoadModel model_;
+    std::vector<Item> facets_;
+    std::vector<double> nodes_;
+    double lowest_ = 0, highest_ = 0, total_ = 0;
+};
+
+}  // namespace kerf

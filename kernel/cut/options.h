@@ -1,0 +1,30 @@
+// What a user may choose about cuts.
+#pragma once
+
+#include "cut/cut.h"
+#include "cut/load.h"
+
+namespace kerf {
+
+/// Where the plane lies.
+enum class Criterion {
+    inertia,      ///< across the principal axis of the smallest moment, bisecting the load
+    volume,       ///< across a coordinate axis, bisecting the volume
+    equidistant,  ///< across a coordinate axis, bisecting the extent
+};
+
+struct CutOptions {
+    Criterion criterion = Criterion::inertia;
+    std::int32_t axis = -1;  ///< coordinate axis 0, 1, 2 of the plane's normal; -1: chosen by the criterion
+    ContourMethod contour = ContourMethod::min_cut;
+    LoadModel load;                 ///< what the halves have alike
+    double max_volume = 0;          ///< bound of a tetrahedron, caps the size of interface triangles; 0: none
+    double load_window = 0.1;       ///< planes whose load is further off are tried last
+    std::int32_t plane_steps = 6;   ///< on either side, per axis
+    std::int32_t repairs = 9;       ///< rounds of local repair per plane
+    double good_dihedral_deg = 25;  ///< thresholds of InterfaceQuality below which a cut is soft
+    double good_angle_deg = 20;
+    double good_gap_rel = 0.2;
+};
+
+}  // namespace kerf

@@ -1,0 +1,75 @@
+#include "cut/split.h"
+
+#include <algorithm>
+
+namespace kerf {
+
+namespace {
+
+// Numbers in the half of the parent's vertices, given in the order in which they are met.
+class HalfBuilder {
+ public:
+    explicit HalfBuilder(const Surface& surface) : surface_(surface), number_(surface.vertex_count(), -1) {}
+
+    void reserve(std::size_t facets) {
+        half_.facets.reserve(facets);
+        half_.facet_key.reserve(facets);
+        half_.patch.reserve(facets);
+        half_.vertices.reserve(facets / 2 + 2);
+        half_.vertex_key.reserve(facets / 2 + 2);
+    }
+    std::int32_t vertex(std::int32_t parent_vertex) {
+        std::int32_t& number = number_[parent_vertex];
+        if (number < 0) number = add_point(surface_.point(parent_vertex), surface_.vertex_key(parent_vertex));
+        return number;
+    }
+    std::int32_t add_point(const Vec3& point, Key key) {
+        half_.vertices.push_back(point);
+        half_.vertex_key.push_back(key);
+        return static_cast<std::int32_t>(half_.vertices.size()) - 1;
+    }
+    void add_facet(const Triangle& facet, Key key, std::int32_t patch) {
+        half_.facets.push_back(facet);
+        half_.facet_key.push_back(key);
+        half_.patch.push_back(patch);
+    }
+    SurfaceArrays take() { return std::move(half_); }
+
+ private:
+    const Surface& surface_;
+    std::vector<std::int32_t> number_;
+    SurfaceArrays half_;
+};
+
+SurfaceArrays build_half(const Surface& surface, const std::vector<Side>& sides, Side side, const Interface& interface,
+                         NodeId node) {
+    HalfBuilder half(surface);
+    half.reserve(static_cast<std::size_t>(std::count(sides.begin(), sides.end(), side)) + interface.triangles.size());
+    for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
+        if (sides[f] != side) continue;
+        const Triangle t = surface.vertices(f);
+        half.add_facet({half.vertex(t[0]), half.vertex(t[1]), half.vertex(t[2])}, surface.facet_key(f),
+                       surface.patch(f));
+    }
+    std::vector<std::int32_t> number;
+    for (std::int32_t v : interface.contour) number.push_back(half.vertex(v));
+    for (std::size_t i = number.size(), interior = 0; i < interface.points.size(); ++i, ++interior)
+        number.push_back(half.add_point(interface.points[i], make_key(node, static_cast<std::int32_t>(interior))));
+    for (std::size_t i = 0; i < interface.triangles.size(); ++i) {
+        Triangle t = {number[interface.triangles[i][0]], number[interface.triangles[i][1]],
+                      number[interface.triangles[i][2]]};
+        if (side == Side::above) std::swap(t[1], t[2]);
+        half.add_facet(t, make_key(node, static_cast<std::int32_t>(i)), -1);
+    }
+    return half.take();
+}
+
+}  // namespace
+
+std::array<SurfaceArrays, 2> split(const Surface& surface, const std::vector<Side>& side, const Interface& interface,
+                                   NodeId node) {
+    return {build_half(surface, side, Side::below, interface, node),
+            build_half(surface, side, Side::above, interface, node)};
+}
+
+}  // namespace kerf

@@ -1,0 +1,16 @@
+// One closed surface and an interface to two closed surfaces.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "cut/cut.h"
+
+namespace kerf {
+
+/// The halves below and above. Facets keep their order, key and patch; the interface follows, its facet i with the key
+/// (node, i) in both halves and opposite orientations, its interior point i with the key (node, i). O(#V + #F).
+std::array<SurfaceArrays, 2> split(const Surface& surface, const std::vector<Side>& side, const Interface& interface,
+                                   NodeId node);
+
+}  // namespace kerf

@@ -1,0 +1,299 @@
+// Delaunay refinement (Ruppert 1995, Chew 1993) without encroachment splits. A contour edge that no interior point
+// encroaches stays an edge of the triangulation by its constraint.
+#include "cut/triangulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <tuple>
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+namespace kerf {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_2;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, Kernel>;
+using FaceBase =
+    CGAL::Triangulation_face_base_with_info_2<bool, Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+using Cdt =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+                                               CGAL::No_constraint_intersection_tag>;
+
+constexpr double growth = 0.3;             // of the size per distance from the contour
+constexpr double too_large = 1.2;          // circumradius x sqrt(3) over size
+constexpr double too_flat = 1.0;           // circumradius over shortest edge; 1: smallest angle 30 degrees
+constexpr double edge_clearance = 0.4;     // least distance of a point from a contour edge, in lengths of that edge
+constexpr double vertex_clearance = 0.35;  // least distance of a point from a vertex, in sizes
+constexpr int smoothing_sweeps = 8;
+
+Point to_point(const Vec2& p) { return {p.x(), p.y()}; }
+Vec2 to_vec(const Point& p) { return {p.x(), p.y()}; }
+double cross_2d(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+// True if two contour edges meet anywhere but in a shared end.
+bool edges_cross(const PlanarRegion& region, const std::array<std::int32_t, 2>& e,
+                 const std::array<std::int32_t, 2>& f) {
+    const auto point = [&](std::int32_t i) { return to_point(region.contour[i]); };
+    for (int i = 0; i < 2; ++i)
+        if (e[i] == f[1 - i]) {  // consecutive: they meet elsewhere only if folded onto each other
+            const Point shared = point(e[i]), p = point(e[1 - i]), q = point(f[i]);
+            return p == q || (CGAL::collinear(p, shared, q) && !CGAL::collinear_are_ordered_along_line(p, shared, q));
+        }
+    return CGAL::do_intersect(Kernel::Segment_2(point(e[0]), point(e[1])), Kernel::Segment_2(point(f[0]), point(f[1])));
+}
+
+// Contour vertices of all edges that cross, by a sweep over the lower ends of the x-intervals.
+std::vector<std::int32_t> find_crossings(const PlanarRegion& region) {
+    struct Interval {
+        double low, high;
+        std::int32_t edge;
+    };
+    std::vector<Interval> intervals;
+    for (std::size_t i = 0; i < region.edges.size(); ++i) {
+        const auto [low, high] =
+            std::minmax(region.contour[region.edges[i][0]].x(), region.contour[region.edges[i][1]].x());
+        intervals.push_back({low, high, static_cast<std::int32_t>(i)});
+    }
+    std::sort(intervals.begin(), intervals.end(),
+              [](const Interval& a, const Interval& b) { return std::tie(a.low, a.edge) < std::tie(b.low, b.edge); });
+    const auto y_range = [&](const std::array<std::int32_t, 2>& e) {
+        return std::minmax({region.contour[e[0]].y(), region.contour[e[1]].y()});
+    };
+    std::vector<std::int32_t> failed;
+    for (std::size_t i = 0; i < intervals.size(); ++i)
+        for (std::size_t j = i + 1; j < intervals.size() && intervals[j].low <= intervals[i].high; ++j) {
+            const auto &e = region.edges[intervals[i].edge], &f = region.edges[intervals[j].edge];
+            const auto [e_low, e_high] = y_range(e);
+            const auto [f_low, f_high] = y_range(f);
+            if (e_low > f_high || f_low > e_high || !edges_cross(region, e, f)) continue;
+            failed.insert(failed.end(), {e[0], e[1], f[0], f[1]});
+        }
+    std::sort(failed.begin(), failed.end());
+    failed.erase(std::unique(failed.begin(), failed.end()), failed.end());
+    return failed;
+}
+
+class Triangulator {
+ public:
+    explicit Triangulator(const PlanarRegion& region) : region_(region) {}
+
+    // Inserts the contour and marks the inside; contour vertices with the inside on the wrong hand are returned.
+    std::vector<std::int32_t> insert_contour();
+    void insert_wanted();
+    void refine();
+    PlanarTriangulation extract() const;
+
+ private:
+    struct Candidate {
+        double radius;
+        Triangle corners;
+        bool operator<(const Candidate& o) const { return std::tie(radius, corners) < std::tie(o.radius, o.corners); }
+    };
+
+    void mark_inside();
+    std::vector<std::int32_t> misoriented_edges() const;
+    bool insert_interior(const Vec2& p, double size, Cdt::Face_handle hint);
+    void consider(Cdt::Face_handle face);
+    double mean_size(Cdt::Face_handle face) const;
+
+    const PlanarRegion& region_;
+    Cdt cdt_;
+    std::vector<Cdt::Vertex_handle> vertices_;
+    std::vector<double> size_;  // wanted edge length at each vertex
+    std::priority_queue<Candidate> queue_;
+};
+
+std::vector<std::int32_t> Triangulator::insert_contour() {
+    Cdt::Face_handle hint;
+    for (const Vec2& p : region_.contour) {
+        const Cdt::Vertex_handle v = cdt_.insert(to_point(p), hint);
+        v->info() = static_cast<std::int32_t>(vertices_.size());
+        vertices_.push_back(v);
+        hint = v->face();
+    }
+    size_.assign(vertices_.size(), 0);
+    for (const auto& [a, b] : region_.edges) {
+        const double length = (region_.contour[b] - region_.contour[a]).norm();
+        size_[a] += length / 2;
+        size_[b] += length / 2;
+        cdt_.insert_constraint(vertices_[a], vertices_[b]);
+    }
+    if (region_.max_edge > 0)
+        for (double& size : size_) size = std::min(size, region_.max_edge);
+    mark_inside();
+    return misoriented_edges();
+}
+
+// Even-odd rule: crossing a constraint changes inside to outside.
+void Triangulator::mark_inside() {
+    enum { unknown = -1 };
+    CGAL::Unique_hash_map<Cdt::Face_handle, int> depth(unknown);
+    std::vector<Cdt::Face_handle> stack = {cdt_.infinite_face()};
+    depth[stack[0]] = 0;
+    while (!stack.empty()) {
+        const Cdt::Face_handle face = stack.back();
+        stack.pop_back();
+        face->info() = depth[face] % 2 == 1;
+        for (int i = 0; i < 3; ++i) {
+            const Cdt::Face_handle next = face->neighbor(i);
+            if (depth[next] != unknown) continue;
+            depth[next] = depth[face] + (face->is_constrained(i) ? 1 : 0);
+            stack.push_back(next);
+        }
+    }
+}
+
+std::vector<std::int32_t> Triangulator::misoriented_edges() const {
+    std::vector<std::int32_t> failed;
+    for (const auto& [a, b] : region_.edges) {
+        Cdt::Face_handle face;
+        int i = 0;
+        bool good = cdt_.is_edge(vertices_[a], vertices_[b], face, i);
+        if (good) {
+            if (face->vertex(Cdt::ccw(i)) != vertices_[a]) std::tie(face, i) = cdt_.mirror_edge({face, i});
+            good = face->info() && !face->neighbor(i)->info();
+        }
+        if (!good) failed.insert(failed.end(), {a, b});
+    }
+    return failed;
+}
+
+double Triangulator::mean_size(Cdt::Face_handle face) const {
+    return (size_[face->vertex(0)->info()] + size_[face->vertex(1)->info()] + size_[face->vertex(2)->info()]) / 3;
+}
+
+// Inserts p unless it lies outside, encroaches a contour edge or crowds a vertex.
+bool Triangulator::insert_interior(const Vec2& p, double size, Cdt::Face_handle hint) {
+    const Point point = to_point(p);
+    Cdt::Locate_type type;
+    int index = 0;
+    const Cdt::Face_handle start = cdt_.locate(point, type, index, hint);
+    if ((type != Cdt::FACE && type != Cdt::EDGE) || cdt_.is_infinite(start) || !start->info()) return false;
+    if (type == Cdt::EDGE && start->is_constrained(index)) return false;
+    std::vector<Cdt::Face_handle> conflicts;
+    cdt_.get_conflicts(point, std::back_inserter(conflicts), start);
+    for (const Cdt::Face_handle face : conflicts)
+        for (int i = 0; i < 3; ++i) {
+            const Vec2 a = to_vec(face->vertex(Cdt::ccw(i))->point()), b = to_vec(face->vertex(Cdt::cw(i))->point());
+            if ((a - p).norm() < vertex_clearance * size) return false;
+            if (!face->is_constrained(i)) continue;
+            const double length = (b - a).norm();
+            if ((a - p).dot(b - p) < 0 && std::abs(cross_2d(b - a, p - a)) < edge_clearance * length * length)
+                return false;
+        }
+    const Cdt::Vertex_handle v = cdt_.insert(point, type, start, index);
+    v->info() = static_cast<std::int32_t>(vertices_.size());
+    vertices_.push_back(v);
+    size_.push_back(size);
+    Cdt::Face_circulator face = cdt_.incident_faces(v), end = face;
+    do face->info() = true;
+    while (++face != end);
+    return true;
+}
+
+void Triangulator::consider(Cdt::Face_handle face) {
+    if (cdt_.is_infinite(face) || !face->info()) return;
+    const Vec2 a = to_vec(face->vertex(0)->point()), b = to_vec(face->vertex(1)->point()),
+               c = to_vec(face->vertex(2)->point());
+    const double la = (b - c).norm(), lb = (c - a).norm(), lc = (a - b).norm();
+    const double radius = la * lb * lc / (2 * cross_2d(b - a, c - a));
+    if (radius * std::sqrt(3.0) <= too_large * mean_size(face) && radius <= too_flat * std::min({la, lb, lc})) return;
+    queue_.push({radius, {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()}});
+}
+
+void Triangulator::insert_wanted() {
+    for (const Vec2& p : region_.wanted) {
+        const Cdt::Face_handle face = cdt_.locate(to_point(p));
+        if (cdt_.is_infinite(face) || !face->info()) continue;
+        insert_interior(p, mean_size(face), face);
+    }
+}
+
+void Triangulator::refine() {
+    for (const Cdt::Face_handle face : cdt_.finite_face_handles()) consider(face);
+    while (!queue_.empty()) {
+        const Triangle t = queue_.top().corners;
+        queue_.pop();
+        Cdt::Face_handle face;
+        if (!cdt_.is_face(vertices_[t[0]], vertices_[t[1]], vertices_[t[2]], face)) continue;
+        const Vec2 centre = to_vec(cdt_.circumcenter(face));
+        double size = INFINITY;
+        for (std::int32_t v : t)
+            size = std::min(size, size_[v] + growth * (to_vec(vertices_[v]->point()) - centre).norm());
+        if (region_.max_edge > 0) size = std::min(size, region_.max_edge);
+        if (!insert_interior(centre, size, face)) continue;
+        Cdt::Face_circulator around = cdt_.incident_faces(vertices_.back()), end = around;
+        do consider(around);
+        while (++around != end);
+    }
+}
+
+PlanarTriangulation Triangulator::extract() const {
+    PlanarTriangulation result;
+    for (const Cdt::Vertex_handle v : vertices_) result.points.push_back(to_vec(v->point()));
+    for (const Cdt::Face_handle face : cdt_.finite_face_handles())
+        if (face->info())
+            result.triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+    return result;
+}
+
+// Twice the area over the squared longest edge: falls with the smallest angle, and needs no root or arc cosine.
+double shape(const Vec2& a, const Vec2& b, const Vec2& c) {
+    return cross_2d(b - a, c - a) / std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+}
+
+// Moves interior points to the mean of their neighbours wherever the worst triangle around them does not suffer.
+void smooth(PlanarTriangulation& t, std::size_t contour_count) {
+    std::vector<std::vector<std::int32_t>> around(t.points.size());
+    for (std::size_t i = 0; i < t.triangles.size(); ++i)
+        for (std::int32_t v : t.triangles[i]) around[v].push_back(static_cast<std::int32_t>(i));
+    const auto worst_around = [&](std::size_t v) {
+        double worst = INFINITY;
+        for (std::int32_t i : around[v]) {
+            const Triangle& c = t.triangles[i];
+            worst = std::min(worst, shape(t.points[c[0]], t.points[c[1]], t.points[c[2]]));
+        }
+        return worst;
+    };
+    for (int sweep = 0; sweep < smoothing_sweeps; ++sweep)
+        for (std::size_t v = contour_count; v < t.points.size(); ++v) {
+            Vec2 sum = Vec2::Zero();
+            for (std::int32_t i : around[v])
+                for (std::int32_t c : t.triangles[i]) sum += t.points[c];
+            const double n = static_cast<double>(around[v].size());
+            const Vec2 old = t.points[v];
+            const double before = worst_around(v);
+            t.points[v] = (sum - n * old) / (2 * n);
+            if (worst_around(v) <= before) t.points[v] = old;
+        }
+}
+
+}  // namespace
+
+PlanarTriangulation triangulate(const PlanarRegion& region) {
+    PlanarTriangulation result;
+    result.failed = find_crossings(region);
+    if (!result.failed.empty()) {
+        result.refusal = Refusal::crossing_projection;
+        return result;
+    }
+    Triangulator triangulator(region);
+    result.failed = triangulator.insert_contour();
+    if (!result.failed.empty()) {
+        result.refusal = Refusal::nesting;
+        return result;
+    }
+    triangulator.insert_wanted();
+    triangulator.refine();
+    result = triangulator.extract();
+    smooth(result, region.contour.size());
+    return result;
+}
+
+}  // namespace kerf

@@ -1,0 +1,33 @@
+// Triangulation of the section in the plane.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "cut/cut.h"
+
+namespace kerf {
+
+/// The region to triangulate and how fine.
+struct PlanarRegion {
+    std::vector<Vec2> contour;                       ///< #C
+    std::vector<std::array<std::int32_t, 2>> edges;  ///< closed loops over `contour`; the inside is on the left
+    std::vector<Vec2> wanted;                        ///< interior points that should become vertices where they fit
+    double max_edge = 0;                             ///< upper bound of the edge length; 0: none
+};
+
+/// A conforming triangulation of the region, or why there is none.
+struct PlanarTriangulation {
+    Refusal refusal = Refusal::none;   ///< crossing_projection or nesting
+    std::vector<std::int32_t> failed;  ///< contour vertices at the failure
+    std::vector<Vec2> points;          ///< contour first, then interior points
+    std::vector<Triangle> triangles;   ///< counter-clockwise
+};
+
+/// Constrained Delaunay triangulation with interior points only: contour edges are shared with the surface and never
+/// split. Sizes start from the contour edges and grow at rate 0.3 with the distance; triangles that are too large or
+/// too flat get their circumcentre unless it lies outside, too close to a contour edge or to a vertex. Guarded
+/// smoothing ends it. Exact predicates, deterministic. O(n log n).
+PlanarTriangulation triangulate(const PlanarRegion& region);
+
+}  // namespace kerf

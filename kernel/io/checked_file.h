@@ -1,0 +1,56 @@
+// A file of which every step is checked.
+#pragma once
+
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace kerf {
+
+/// Throws Error(io) with the file, the step and the system's reason, a full disk included.
+class CheckedFile {
+ public:
+    CheckedFile(const std::string& path, const char* mode) : path_(path), file_(std::fopen(path.c_str(), mode)) {
+        check(file_ != nullptr, "open");
+    }
+
+    void write(const void* data, std::size_t size) { check(std::fwrite(data, 1, size, file_.get()) == size, "write"); }
+    void write(std::string_view text) { write(text.data(), text.size()); }
+
+    /// Reads up to `size` bytes, less at the end of the file.
+    std::string read(std::size_t size) {
+        std::string data(size, '\0');
+        data.resize(std::fread(data.data(), 1, size, file_.get()));
+        check(!std::ferror(file_.get()), "read");
+        return data;
+    }
+    void seek(std::int64_t position) { check(::fseeko(file_.get(), position, SEEK_SET) == 0, "read"); }
+
+    /// Buffered bytes may meet a full disk only here.
+    void close() { check(std::fclose(file_.release()) == 0, "write"); }
+
+ private:
+    void check(bool ok, const char* action) const {
+        if (ok) return;
+        const std::string reason = std::generic_category().message(errno);
+        throw Error(ErrorCode::io, fmt::format("Cannot {} {}: {}. Check the free space and the permissions of its "
+                                               "folder, or choose another one.",
+                                               action, path_, reason));
+    }
+
+    struct Close {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+    std::string path_;
+    std::unique_ptr<std::FILE, Close> file_;
+};
+
+}  // namespace kerf

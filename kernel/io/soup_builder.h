@@ -1,0 +1,80 @@
+// Collects what a surface file says: vertices, polygons, named patches.
+#pragma once
+
+#include <limits>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/error.h"
+#include "surface/soup.h"
+
+namespace kerf {
+
+class SoupBuilder {
+ public:
+    /// `path` only serves messages.
+    explicit SoupBuilder(const std::string& path) : path_(path) {}
+
+    std::int64_t vertex_count() const { return static_cast<std::int64_t>(soup_.vertices.size()); }
+
+    void add_vertex(const Vec3& p) {
+        if (soup_.vertices.size() == std::numeric_limits<std::int32_t>::max())
+            throw Error(ErrorCode::input, path_ + ": the file has more than 2^31 - 1 vertices. Split the surface.");
+        soup_.vertices.push_back(p);
+    }
+    /// Facets to come belong to the patch of this name; a patch without facets is not kept.
+    void set_patch(std::string_view name) {
+        patch_name_ = name;
+        patch_ = -1;
+    }
+    /// Fan of triangles around the first corner, in the current patch. Calls `fail(message)`, which must throw, if the
+    /// polygon has less than three corners or one that is no vertex so far.
+    template <class Fail>
+    void add_polygon(std::span<const std::int64_t> corners, const Fail& fail) {
+        if (corners.size() < 3) fail("a facet has less than three vertices. Remove it or export the surface again.");
+        for (std::int64_t v : corners)
+            if (v < 0 || v >= vertex_count())
+                fail("a facet names vertex number " + std::to_string(v) + " (counted from 0), but there are " +
+                     std::to_string(vertex_count()) + " vertices. Correct it or export the surface again.");
+        const auto corner = [&](std::size_t i) { return static_cast<std::int32_t>(corners[i]); };
+        for (std::size_t i = 2; i < corners.size(); ++i) add_facet({corner(0), corner(i - 1), corner(i)});
+    }
+    /// A triangle of three new vertices.
+    void add_separate_facet(const Vec3& a, const Vec3& b, const Vec3& c) {
+        for (const Vec3* p : {&a, &b, &c}) add_vertex(*p);
+        const auto end = static_cast<std::int32_t>(soup_.vertices.size());
+        add_facet({end - 3, end - 2, end - 1});
+    }
+    /// The soup; throws Error(input) if there is no facet in it.
+    Soup finish() {
+        if (soup_.facets.empty())
+            throw Error(ErrorCode::input, path_ + ": the file holds no facets. Export the surface again.");
+        return std::move(soup_);
+    }
+
+ private:
+    void add_facet(const Triangle& facet) {
+        if (soup_.facets.size() == std::numeric_limits<std::int32_t>::max())
+            throw Error(ErrorCode::input, path_ + ": the file has more than 2^31 - 1 facets. Split the surface.");
+        if (patch_ < 0) patch_ = find_or_add_patch();
+        soup_.facets.push_back(facet);
+        soup_.patch.push_back(patch_);
+    }
+    std::int32_t find_or_add_patch() {
+        const auto next = static_cast<std::int32_t>(soup_.patch_names.size());
+        const auto [found, is_new] = patch_of_name_.try_emplace(patch_name_, next);
+        if (is_new) soup_.patch_names.push_back(patch_name_);
+        return found->second;
+    }
+
+    const std::string& path_;
+    Soup soup_;
+    std::string patch_name_ = "surface";
+    std::int32_t patch_ = -1;  // of the current name, -1 as long as no facet has used it
+    std::map<std::string, std::int32_t> patch_of_name_;
+};
+
+}  // namespace kerf

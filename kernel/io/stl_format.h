@@ -1,0 +1,39 @@
+// How binary and ASCII STL are told apart.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+
+namespace kerf {
+
+inline constexpr std::size_t stl_header_size = 84;  // 80 bytes of text, then the number of facets
+inline constexpr std::size_t stl_facet_size = 50;   // normal, three corners (float), attribute (uint16)
+
+/// The number of facets that a binary STL claims; 0 if the file ends before it.
+inline std::uint32_t claimed_stl_facets(std::string_view bytes) {
+    std::uint32_t count = 0;
+    if (bytes.size() >= stl_header_size)
+        std::memcpy(&count, bytes.data() + stl_header_size - sizeof count, sizeof count);
+    return count;
+}
+
+/// True if the size is that of a binary STL; many exporters begin theirs with the word "solid".
+inline bool is_binary_stl(std::string_view bytes) {
+    return bytes.size() >= stl_header_size &&
+           bytes.size() == stl_header_size + stl_facet_size * claimed_stl_facets(bytes);
+}
+
+inline bool holds_nul(std::string_view bytes) { return bytes.find('\0') != std::string_view::npos; }
+
+/// True for a text that begins with "solid" in any case.
+inline bool is_ascii_stl(std::string_view bytes) {
+    const std::size_t begin = bytes.find_first_not_of(" \t\r\n");
+    if (begin == std::string_view::npos) return false;
+    const std::string_view word = bytes.substr(begin, 5);
+    for (std::size_t i = 0; i < 5; ++i)
+        if (i >= word.size() || (word[i] | 0x20) != "solid"[i]) return false;
+    return !holds_nul(bytes);
+}
+
+}  // namespace kerf

@@ -1,0 +1,112 @@
+// STL knows no shared vertices: every facet brings its three corners, which are welded where they are exactly equal.
+//
+// Binary: 80 bytes of header, a count, 50 bytes per facet, little-endian floats. The normals are ignored: they say
+// nothing that the order of the corners does not say, and are wrong in many files.
+// ASCII: solid NAME { facet normal x y z outer loop vertex x y z (three times) endloop endfacet } endsolid NAME,
+// keywords in any case. A name runs to the end of its line and may hold keywords.
+#include <array>
+#include <cstring>
+#include <string>
+
+#include "core/error.h"
+#include "io/soup_builder.h"
+#include "io/stl_format.h"
+#include "io/surface_reader.h"
+#include "io/text_scanner.h"
+
+namespace kerf {
+
+namespace {
+
+Vec3 read_corner(const char* bytes) {
+    std::array<float, 3> p;
+    std::memcpy(p.data(), bytes, sizeof p);
+    return Vec3(p[0], p[1], p[2]);
+}
+
+void read_binary(std::string_view bytes, SoupBuilder& builder) {
+    for (std::size_t at = stl_header_size; at < bytes.size(); at += stl_facet_size) {
+        const char* corners = bytes.data() + at + 12;
+        builder.add_separate_facet(read_corner(corners), read_corner(corners + 12), read_corner(corners + 24));
+    }
+}
+
+[[noreturn]] void refuse_size(std::string_view bytes, const std::string& path) {
+    const std::string size = std::to_string(bytes.size()) + " bytes";
+    if (bytes.size() < stl_header_size)
+        throw Error(ErrorCode::input, path + ": the binary STL is truncated: it ends within its header, after " + size +
+                                          ". Export or copy it again.");
+    const std::uint64_t claimed = claimed_stl_facets(bytes);
+    const std::uint64_t whole = (bytes.size() - stl_header_size) / stl_facet_size;
+    const std::string claim = "its header claims " + std::to_string(claimed) + " facets, ";
+    if (whole < claimed)
+        throw Error(ErrorCode::input, path + ": the binary STL is truncated: " + claim + "but it ends in facet " +
+                                          std::to_string(whole) + " (counted from 0), after " + size +
+                                          ". Export or copy it again.");
+    throw Error(ErrorCode::input, path + ": the binary STL is longer than " + claim + "which end at byte " +
+                                      std::to_string(stl_header_size + stl_facet_size * claimed) + " of " + size +
+                                      ". Export it again.");
+}
+
+bool is_keyword(std::string_view word, std::string_view keyword) {
+    if (word.size() != keyword.size()) return false;
+    for (std::size_t i = 0; i < word.size(); ++i)
+        if ((word[i] | 0x20) != keyword[i]) return false;
+    return true;
+}
+
+void expect(TextScanner& scanner, std::string_view keyword) {
+    const std::string_view word = scanner.next_word();
+    if (!is_keyword(word, keyword))
+        scanner.fail("\"" + std::string(keyword) + "\" is expected, not \"" + std::string(word.substr(0, 40)) +
+                     "\". Correct the line or export the surface again.");
+}
+
+Vec3 read_vertex(TextScanner& scanner) {
+    expect(scanner, "vertex");
+    const double x = scanner.next_real(), y = scanner.next_real(), z = scanner.next_real();
+    return {x, y, z};
+}
+
+void read_facet(TextScanner& scanner, SoupBuilder& builder) {
+    // Exporters write what they like as the normal of a sliver ("nan", "-1.#IND"): it is passed over as words.
+    while (!is_keyword(scanner.next_word(), "outer")) continue;
+    expect(scanner, "loop");
+    const Vec3 a = read_vertex(scanner), b = read_vertex(scanner), c = read_vertex(scanner);
+    builder.add_separate_facet(a, b, c);
+    expect(scanner, "endloop");
+    expect(scanner, "endfacet");
+}
+
+void read_ascii(std::string_view text, const std::string& path, SoupBuilder& builder) {
+    TextScanner scanner(text, path);
+    for (int solid = 1; !scanner.at_end(); ++solid) {
+        expect(scanner, "solid");
+        const std::string_view name = scanner.rest_of_line();
+        builder.set_patch(name.empty() ? "solid_" + std::to_string(solid) : std::string(name));
+        for (std::string_view word = scanner.next_word(); !is_keyword(word, "endsolid"); word = scanner.next_word()) {
+            if (!is_keyword(word, "facet"))
+                scanner.fail("\"facet\" or \"endsolid\" is expected, not \"" + std::string(word.substr(0, 40)) +
+                             "\". Correct the line or export the surface again.");
+            read_facet(scanner, builder);
+        }
+        scanner.skip_line();
+    }
+}
+
+}  // namespace
+
+Soup read_stl(std::string_view bytes, const std::string& path) {
+    SoupBuilder builder(path);
+    if (is_binary_stl(bytes))
+        read_binary(bytes, builder);
+    else if (is_ascii_stl(bytes))
+        read_ascii(bytes, path, builder);
+    else
+        refuse_size(bytes, path);
+    Soup soup = builder.finish();
+    weld_exactly(soup);
+    return soup;
+}
+
+}  // namespace kerf

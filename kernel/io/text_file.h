@@ -1,0 +1,12 @@
+// Whole small files of text.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace kerf {
+
+/// Writes the file, replacing what was there. Throws Error(io) naming the file and the reason, a full disk included.
+void write_text_file(const std::string& path, std::string_view text);
+
+}  // namespace kerf

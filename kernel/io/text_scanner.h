@@ -1,0 +1,106 @@
+// Words and numbers of a text, for the readers of text formats.
+#pragma once
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "core/error.h"
+
+namespace kerf {
+
+/// Walks over a text word by word. Words are separated by blanks, tabs and line ends (LF or CR LF); a comment runs from
+/// the comment character to the end of its line. Numbers do not depend on the locale. Errors name file and line.
+class TextScanner {
+ public:
+    /// `comment` 0: the format has no comments.
+    TextScanner(std::string_view text, const std::string& path, char comment = '\0')
+        : text_(text), path_(path), comment_(comment) {}
+
+    bool at_end() {
+        skip(true);
+        return position_ == text_.size();
+    }
+    /// True if no word is left in the current line.
+    bool at_line_end() {
+        skip(false);
+        return position_ == text_.size() || text_[position_] == '\n';
+    }
+    /// The next word, over line ends; throws Error(input) at the end of the text.
+    std::string_view next_word() {
+        if (at_end()) fail("the file ends too early. It is truncated: export or copy it again.");
+        return scan_word();
+    }
+    double next_real() { return to_real(next_word()); }
+    std::int64_t next_integer() { return to_integer(next_word()); }
+    double to_real(std::string_view word) const { return to_number<double>(word, "number"); }
+    std::int64_t to_integer(std::string_view word) const { return to_number<std::int64_t>(word, "whole number"); }
+
+    /// The rest of the current line without surrounding blanks; the scanner stands at the next line.
+    std::string_view rest_of_line() {
+        const std::size_t begin = position_;
+        skip_line();
+        std::string_view rest = text_.substr(begin, position_ - begin);
+        while (!rest.empty() && is_space(rest.back())) rest.remove_suffix(1);
+        while (!rest.empty() && is_space(rest.front())) rest.remove_prefix(1);
+        return rest;
+    }
+    void skip_line() {
+        const std::size_t end = text_.find('\n', position_);
+        position_ = end == std::string_view::npos ? text_.size() : end + 1;
+    }
+    std::size_t position() const { return position_; }
+
+    /// Throws Error(input) naming file and line of the last word before `what`.
+    [[noreturn]] void fail(const std::string& what) const {
+        const std::size_t end = std::min(word_, text_.size());
+        const auto line = 1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+        throw Error(ErrorCode::input, path_ + ", line " + std::to_string(line) + ": " + what);
+    }
+
+ private:
+    static bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+    void skip(bool over_line_ends) {
+        for (; position_ < text_.size(); ++position_) {
+            const char c = text_[position_];
+            if (comment_ && c == comment_)
+                position_ = std::min(text_.find('\n', position_), text_.size()) - 1;
+            else if (!is_space(c) || (c == '\n' && !over_line_ends))
+                return;
+        }
+    }
+    std::string_view scan_word() {
+        word_ = position_;
+        while (position_ < text_.size() && !is_space(text_[position_]) && !(comment_ && text_[position_] == comment_))
+            ++position_;
+        return text_.substr(word_, position_ - word_);
+    }
+    template <class Number>
+    Number to_number(std::string_view word, const char* kind) const {
+        std::string_view digits = word;
+        if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
+        Number value{};
+        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+        if (error != std::errc() || end != digits.data() + digits.size()) refuse(word, kind, error);
+        return value;
+    }
+
+    [[noreturn]] void refuse(std::string_view word, const char* kind, std::errc error) const {
+        const std::string quoted = "\"" + std::string(word.substr(0, 40)) + "\"";
+        fail((error == std::errc::result_out_of_range ? "the number " + quoted + " is too large or too close to zero"
+                                                      : "a " + std::string(kind) + " is expected, not " + quoted) +
+             ". Correct the line or export the surface again.");
+    }
+
+    std::string_view text_;
+    const std::string& path_;
+    char comment_;
+    std::size_t position_ = 0;
+    std::size_t word_ = 0;  // start of the last word
+};
+
+}  // namespace kerf

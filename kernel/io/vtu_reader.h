@@ -1,0 +1,28 @@
+// Part files back into memory, so that a finished run can be checked from its files alone.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/tet_mesh.h"
+
+namespace kerf {
+
+/// The content of a part file but for the quality arrays, which follow from the mesh.
+struct PartFile {
+    TetMesh mesh;                         ///< without `neighbours`
+    std::vector<Triangle> facets;         ///< #F; boundary triangles, over the boundary vertices of the mesh
+    std::vector<std::int32_t> patch;      ///< #F
+    std::vector<std::int32_t> neighbour;  ///< #F
+    std::int32_t part = 0;
+    std::vector<std::int64_t> global_id;  ///< #V; GlobalVertexId
+    std::vector<std::string> patch_names;
+};
+
+/// Reads a file of write_part() or, as a mesh without tetrahedra, of write_part_surface().
+///
+/// Checks that sizes, offsets, cell types and vertex numbers fit together and that the file is complete; whether the
+/// mesh obeys its laws is verify_mesh()'s question. Throws Error(io) naming the file and what is wrong with it.
+PartFile read_part(const std::string& path);
+
+}  // namespace kerf

@@ -1,0 +1,375 @@
+// A VTU file is an XML header, then the arrays as raw bytes, each behind its size as a UInt64; the header names the
+// offset of each array. So a grid is described here as a table of arrays, each with a function that streams its values:
+// the header follows from the sizes alone, and only the quality measures are ever stored as a whole.
+//
+// The cells are the tetrahedra, then the boundary triangles. A grid without tetrahedra is a part's surface.
+#include "io/vtu_writer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <system_error>
+
+#include "core/error.h"
+#include "io/checked_file.h"
+#include "mesh/quality.h"
+
+namespace kerf {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "The writer stores values as they lie in memory.");
+
+template <class T>
+constexpr const char* vtk_type = nullptr;
+template <>
+constexpr const char* vtk_type<std::uint8_t> = "UInt8";
+template <>
+constexpr const char* vtk_type<std::int32_t> = "Int32";
+template <>
+constexpr const char* vtk_type<std::int64_t> = "Int64";
+template <>
+constexpr const char* vtk_type<float> = "Float32";
+template <>
+constexpr const char* vtk_type<double> = "Float64";
+
+struct Array {
+    std::string name;
+    std::string type;
+    int components;
+    std::size_t tuples;
+    std::uint64_t bytes;
+    std::function<void(CheckedFile&)> write_values;
+};
+
+// The element of VTK's XML and the arrays in it.
+struct Section {
+    std::string element;
+    std::vector<Array> arrays;
+};
+
+struct Grid {
+    std::size_t point_count, cell_count, boundary_vertex_count;
+    Section field_data{"FieldData", {}};
+    std::array<Section, 4> piece{{{"PointData", {}}, {"CellData", {}}, {"Points", {}}, {"Cells", {}}}};
+
+    Section& point_data() { return piece[0]; }
+    Section& cell_data() { return piece[1]; }
+    Section& points() { return piece[2]; }
+    Section& cells() { return piece[3]; }
+};
+
+// An array of `count` values value(0), value(1), ..., which are computed while they are written.
+template <class T, class Value>
+Array computed_array(std::string name, std::size_t count, Value value) {
+    return {std::move(name), vtk_type<T>, 1, count, count * sizeof(T), [count, value](CheckedFile& file) {
+                constexpr std::size_t chunk_size = (std::size_t{1} << 20) / sizeof(T);
+                std::vector<T> chunk(std::min(count, chunk_size));
+                for (std::size_t begin = 0; begin < count; begin += chunk_size) {
+                    const std::size_t size = std::min(chunk_size, count - begin);
+                    for (std::size_t i = 0; i < size; ++i) chunk[i] = static_cast<T>(value(begin + i));
+                    file.write(chunk.data(), size * sizeof(T));
+                }
+            }};
+}
+
+// An array with one value per cell: of_tet(t) for the tetrahedra, then of_facet(f).
+template <class T, class OfTet, class OfFacet>
+Array cell_array(std::string name, std::size_t tet_count, std::size_t facet_count, OfTet of_tet, OfFacet of_facet) {
+    return computed_array<T>(std::move(name), tet_count + facet_count,
+                             [=](std::size_t i) { return i < tet_count ? of_tet(i) : of_facet(i - tet_count); });
+}
+
+// VTK's form of strings: each one ends with a zero byte.
+Array string_array(std::string name, const std::vector<std::string>& strings) {
+    std::uint64_t bytes = 0;
+    for (const std::string& s : strings) bytes += s.size() + 1;
+    return {std::move(name), "String", 1, strings.size(), bytes, [&strings](CheckedFile& file) {
+                for (const std::string& s : strings) file.write(s.c_str(), s.size() + 1);
+            }};
+}
+
+Array point_array(const std::vector<Vec3>& vertices) {
+    static_assert(sizeof(Vec3) == 3 * sizeof(double));
+    const std::size_t bytes = vertices.size() * sizeof(Vec3);
+    const auto write_values = [&vertices, bytes](CheckedFile& file) { file.write(vertices.data(), bytes); };
+    return {"Points", vtk_type<double>, 3, vertices.size(), bytes, write_values};
+}
+
+Array connectivity_array(const std::vector<Tetrahedron>& tets, const std::vector<Triangle>& facets) {
+    const std::size_t count = 4 * tets.size() + 3 * facets.size();
+    return {"connectivity", vtk_type<std::int32_t>, 1, count, count * sizeof(std::int32_t), [&](CheckedFile& file) {
+                file.write(tets.data(), tets.size() * sizeof(Tetrahedron));
+                file.write(facets.data(), facets.size() * sizeof(Triangle));
+            }};
+}
+
+void require_sizes(bool sizes_agree) {
+    if (!sizes_agree) throw Error(ErrorCode::internal, "The arrays of a part do not have the sizes of its mesh.");
+}
+
+// What files of parts and of their surfaces have in common. The arguments must outlive the grid.
+Grid make_grid(const std::vector<Vec3>& vertices, const std::vector<Tetrahedron>& tets, const SurfaceArrays& surface,
+               const PartArrays& arrays) {
+    const std::size_t V = vertices.size(), T = tets.size(), F = surface.facets.size(), B = surface.vertices.size();
+    require_sizes(B <= V && arrays.boundary_id.size() == B && arrays.neighbour.size() == F &&
+                  surface.patch.size() == F);
+    constexpr std::uint8_t vtk_triangle = 5, vtk_tetra = 10;
+    const auto none = [](std::size_t) { return -1; };
+    const auto part = [part = arrays.part](std::size_t) { return part; };
+
+    Grid grid{.point_count = V, .cell_count = T + F, .boundary_vertex_count = B};
+    grid.field_data.arrays = {string_array("PatchNames", arrays.patch_names)};
+    grid.point_data().arrays = {computed_array<std::int64_t>("GlobalVertexId", V, [B, &arrays](std::size_t v) {
+        return v < B ? arrays.boundary_id[v] : static_cast<std::int64_t>(v - B);
+    })};
+    grid.cell_data().arrays = {
+        cell_array<std::int32_t>("Part", T, F, part, part),
+        cell_array<std::int32_t>("Patch", T, F, none, [&](std::size_t f) { return surface.patch[f]; }),
+        cell_array<std::int32_t>("Neighbour", T, F, none, [&](std::size_t f) { return arrays.neighbour[f]; })};
+    grid.points().arrays = {point_array(vertices)};
+    grid.cells().arrays = {
+        connectivity_array(tets, surface.facets),
+        cell_array<std::int64_t>(
+            "offsets", T, F, [](std::size_t t) { return 4 * (t + 1); },
+            [T](std::size_t f) { return 4 * T + 3 * (f + 1); }),
+        cell_array<std::uint8_t>(
+            "types", T, F, [](std::size_t) { return vtk_tetra; }, [](std::size_t) { return vtk_triangle; })};
+    return grid;
+}
+
+struct QualityArray {
+    const char* name;
+    double TetQuality::*measure;
+};
+constexpr std::array<QualityArray, 5> quality_arrays = {{{"MinDihedralAngle", &TetQuality::min_dihedral_deg},
+                                                         {"MaxDihedralAngle", &TetQuality::max_dihedral_deg},
+                                                         {"RadiusEdgeRatio", &TetQuality::radius_edge},
+                                                         {"AspectRatio", &TetQuality::aspect},
+                                                         {"Shape", &TetQuality::shape}}};
+
+void add_quality(Grid& grid, std::span<const TetQuality> quality, std::span<const std::int32_t> tet_at_facet) {
+    for (const auto& [name, measure] : quality_arrays) {
+        const auto of_tet = [quality, measure = measure](std::size_t t) {
+            return static_cast<float>(quality[t].*measure);
+        };
+        const auto of_facet = [=](std::size_t f) {
+            return tet_at_facet[f] < 0 ? std::numeric_limits<float>::quiet_NaN() : of_tet(tet_at_facet[f]);
+        };
+        grid.cell_data().arrays.push_back(
+            cell_array<float>(name, quality.size(), tet_at_facet.size(), of_tet, of_facet));
+    }
+}
+
+constexpr const char* file_begin =
+    "<?xml version=\"1.0\"?>\n"
+    "<VTKFile type=\"{}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
+
+// The raw bytes follow this line without a gap; offsets count from here.
+constexpr std::string_view data_begin = "<AppendedData encoding=\"raw\">\n_";
+constexpr std::string_view file_end = "\n</AppendedData>\n</VTKFile>\n";
+
+// Names, types and sizes of the arrays of a section; `offset` advances over their bytes.
+std::string array_elements(const Section& section, std::uint64_t& offset) {
+    std::string xml;
+    for (const Array& array : section.arrays) {
+        xml += fmt::format(
+            "<{} type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" NumberOfTuples=\"{}\" format=\"appended\" "
+            "offset=\"{}\"/>\n",
+            array.type == "String" ? "Array" : "DataArray", array.type, array.name, array.components, array.tuples,
+            offset);
+        offset += sizeof(std::uint64_t) + array.bytes;
+    }
+    return xml;
+}
+
+std::string xml_header(const Grid& grid) {
+    std::uint64_t offset = 0;
+    std::string xml = fmt::format(file_begin, "UnstructuredGrid");
+    xml += fmt::format(
+        "<UnstructuredGrid>\n<FieldData>\n{}<DataArray type=\"Int32\" Name=\"BoundaryVertexCount\" "
+        "NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n</FieldData>\n",
+        array_elements(grid.field_data, offset), grid.boundary_vertex_count);
+    xml += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", grid.point_count, grid.cell_count);
+    for (const Section& section : grid.piece)
+        xml += fmt::format("<{0}>\n{1}</{0}>\n", section.element, array_elements(section, offset));
+    return xml + "</Piece>\n</UnstructuredGrid>\n";
+}
+
+void write_values(CheckedFile& file, const Section& section) {
+    for (const Array& array : section.arrays) {
+        file.write(&array.bytes, sizeof array.bytes);
+        array.write_values(file);
+    }
+}
+
+void write_grid(const std::string& path, const Grid& grid) {
+    CheckedFile file(path, "wb");
+    file.write(xml_header(grid));
+    file.write(data_begin);
+    write_values(file, grid.field_data);
+    for (const Section& section : grid.piece) write_values(file, section);
+    file.write(file_end);
+    file.close();
+}
+
+// The names and types of a section's arrays, as each piece of a PVTU has them.
+std::string parallel_section(const Section& section) {
+    std::string xml = fmt::format("<P{}>\n", section.element);
+    for (const Array& array : section.arrays)
+        xml += fmt::format("<PDataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"/>\n", array.type, array.name,
+                           array.components);
+    return xml + fmt::format("</P{}>\n", section.element);
+}
+
+std::string xml_escaped(std::string_view text) {
+    std::string escaped;
+    for (const char c : text) {
+        if (c == '&')
+            escaped += "&amp;";
+        else if (c == '<')
+            escaped += "&lt;";
+        else if (c == '"')
+            escaped += "&quot;";
+        else
+            escaped += c;
+    }
+    return escaped;
+}
+
+// Reads our own XML: elements on one line, attributes in double quotes.
+class HeaderParser {
+ public:
+    HeaderParser(std::string_view xml, const std::string& path) : xml_(xml), path_(path) {}
+
+    // `data_position`: of the first array in the file.
+    VtuHeader parse(std::int64_t data_position) const {
+        VtuHeader header;
+        const std::string_view piece = element_at(find("<Piece "));
+        header.point_count = number(piece, "NumberOfPoints");
+        header.cell_count = number(piece, "NumberOfCells");
+        header.boundary_vertex_count = to_number(text_between(find("\"BoundaryVertexCount\""), ">", "<"));
+        if (header.boundary_vertex_count > header.point_count)
+            fail_damaged_vtu(path_, "it has fewer vertices than its boundary");
+        constexpr std::string_view marker = "format=\"appended\"";
+        for (std::size_t at = xml_.find(marker); at != xml_.npos; at = xml_.find(marker, at + 1)) {
+            const std::string_view element = element_at(xml_.rfind('<', at));
+            header.arrays.push_back({std::string(attribute(element, "Name")), std::string(attribute(element, "type")),
+                                     number(element, "NumberOfComponents"), number(element, "NumberOfTuples"),
+                                     data_position + number(element, "offset")});
+        }
+        return header;
+    }
+
+ private:
+    std::size_t find(std::string_view text) const {
+        const std::size_t at = xml_.find(text);
+        if (at == xml_.npos) fail_damaged_vtu(path_, fmt::format("its XML header has no {}", text));
+        return at;
+    }
+    std::string_view element_at(std::size_t begin) const { return xml_.substr(begin, xml_.find('>', begin) - begin); }
+    std::string_view text_between(std::size_t from, std::string_view open, std::string_view close) const {
+        const std::size_t begin = xml_.find(open, from) + open.size();
+        return xml_.substr(begin, xml_.find(close, begin) - begin);
+    }
+    std::string_view attribute(std::string_view element, std::string_view name) const {
+        const std::string opening = fmt::format(" {}=\"", name);
+        const std::size_t begin = element.find(opening);
+        if (begin == element.npos) fail_damaged_vtu(path_, fmt::format("an XML element lacks {}", name));
+        const std::string_view rest = element.substr(begin + opening.size());
+        return rest.substr(0, rest.find('"'));
+    }
+    std::int64_t number(std::string_view element, std::string_view name) const {
+        return to_number(attribute(element, name));
+    }
+    std::int64_t to_number(std::string_view text) const {
+        constexpr std::int64_t most = std::int64_t{1} << 56;  // so that no sum or product of counts overflows
+        std::int64_t value = -1;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error != std::errc() || end != text.data() + text.size() || value < 0 || value > most)
+            fail_damaged_vtu(path_, fmt::format("'{}' in its XML header is no count", text));
+        return value;
+    }
+
+    std::string_view xml_;
+    const std::string& path_;
+};
+
+}  // namespace
+
+void write_part(const std::string& path, const TetMesh& mesh, const SurfaceArrays& surface,
+                std::span<const TetQuality> quality, std::span<const std::int32_t> tet_at_facet,
+                const PartArrays& arrays) {
+    require_sizes(quality.size() == mesh.tets.size() && tet_at_facet.size() == surface.facets.size() &&
+                  static_cast<std::size_t>(mesh.boundary_vertex_count) == surface.vertices.size());
+    Grid grid = make_grid(mesh.vertices, mesh.tets, surface, arrays);
+    add_quality(grid, quality, tet_at_facet);
+    write_grid(path, grid);
+}
+
+void write_part_surface(const std::string& path, const SurfaceArrays& surface, const PartArrays& arrays) {
+    const std::vector<Tetrahedron> no_tets;
+    write_grid(path, make_grid(surface.vertices, no_tets, surface, arrays));
+}
+
+void write_pvtu(const std::string& path, const std::vector<std::string>& pieces) {
+    // Only the names and types of the arrays are asked for, so that they are those of the pieces.
+    const TetMesh no_mesh;
+    const SurfaceArrays no_surface;
+    const PartArrays no_arrays;
+    Grid grid = make_grid(no_mesh.vertices, no_mesh.tets, no_surface, no_arrays);
+    add_quality(grid, {}, {});
+
+    std::string xml = fmt::format(file_begin, "PUnstructuredGrid") + "<PUnstructuredGrid GhostLevel=\"0\">\n";
+    for (const Section* section : {&grid.point_data(), &grid.cell_data(), &grid.points()})
+        xml += parallel_section(*section);
+    for (const std::string& piece : pieces) xml += fmt::format("<Piece Source=\"{}\"/>\n", xml_escaped(piece));
+    xml += "</PUnstructuredGrid>\n</VTKFile>\n";
+
+    CheckedFile file(path, "wb");
+    file.write(xml);
+    file.close();
+}
+
+void fail_damaged_vtu(const std::string& path, const std::string& what) {
+    throw Error(ErrorCode::io, fmt::format("{} is damaged or was not written by Kerf: {}. Run the mesher again to "
+                                           "replace it.",
+                                           path, what));
+}
+
+const VtuHeader::Array* VtuHeader::find(std::string_view name) const {
+    const auto it = std::find_if(arrays.begin(), arrays.end(), [&](const Array& array) { return array.name == name; });
+    return it == arrays.end() ? nullptr : &*it;
+}
+
+VtuHeader parse_vtu_header(std::string_view begin_of_file, const std::string& path) {
+    const std::size_t end = begin_of_file.find(data_begin);
+    if (!begin_of_file.starts_with(fmt::format(file_begin, "UnstructuredGrid")) || end == begin_of_file.npos)
+        fail_damaged_vtu(path, "it does not begin with a complete XML header");
+    return HeaderParser(begin_of_file.substr(0, end), path).parse(static_cast<std::int64_t>(end + data_begin.size()));
+}
+
+void number_interior_vertices(const std::string& path, std::int64_t first) {
+    CheckedFile file(path, "r+b");
+    const VtuHeader header = parse_vtu_header(file.read(vtu_header_limit), path);
+    const VtuHeader::Array* id = header.find("GlobalVertexId");
+    if (!id || id->type != vtk_type<std::int64_t> || id->tuples != header.point_count)
+        fail_damaged_vtu(path, "it has no GlobalVertexId for every vertex");
+
+    const std::int64_t interior_count = header.point_count - header.boundary_vertex_count;
+    const Array ids = computed_array<std::int64_t>(
+        id->name, interior_count, [first](std::size_t i) { return first + static_cast<std::int64_t>(i); });
+    file.seek(id->position + static_cast<std::int64_t>(sizeof(std::uint64_t)) +
+              header.boundary_vertex_count * static_cast<std::int64_t>(sizeof(std::int64_t)));
+    ids.write_values(file);
+    file.close();
+}
+
+}  // namespace kerf

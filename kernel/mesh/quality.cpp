@@ -1,0 +1,184 @@
+// Notation: corners a, b, c, d; u, v, w = b-a, c-a, d-a; D = det[u, v, w] = 6 V. N_i is the outward normal of the face
+// opposite to corner i, as long as twice the area of the face. Every formula works on differences of corners, so that a
+// tetrahedron far from the origin keeps its accuracy.
+//
+// Two faces i, j that meet in an edge of length l enclose the dihedral angle t with
+//     cot t = -(N_i . N_j) / (D l),
+// because |N_i x N_j| = D l. The cotangent falls monotonically from +inf to -inf over (0, 180) degrees, so the extreme
+// angles are those of the extreme cotangents, and unlike the cosine it stays accurate for the flat angles of slivers.
+#include "mesh/quality.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include <Eigen/Geometry>
+
+#include "core/error.h"
+
+namespace kerf {
+
+namespace {
+
+// Smallest and largest of the values named, without a branch.
+struct Range {
+    double min = std::numeric_limits<double>::infinity();
+    double max = -std::numeric_limits<double>::infinity();
+    void include(double value) {
+        min = std::min(min, value);
+        max = std::max(max, value);
+    }
+};
+
+double degrees_from_cotangent(double cotangent) { return std::atan2(1.0, cotangent) * (180 / std::numbers::pi); }
+
+double circumradius(const Vec3& u, const Vec3& v, const Vec3& w, double det) {
+    const Vec3 centre_times_2d =
+        u.squaredNorm() * v.cross(w) + v.squaredNorm() * w.cross(u) + w.squaredNorm() * u.cross(v);
+    return centre_times_2d.norm() / (2 * det);
+}
+
+}  // namespace
+
+TetQuality tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    const Vec3 u = b - a, v = c - a, w = d - a;
+    // Edge k of this list is the one that faces first[k] and second[k] of `normals` share.
+    const std::array<double, 6> lengths = {u.norm(),       v.norm(),       w.norm(),
+                                           (d - c).norm(), (d - b).norm(), (c - b).norm()};
+    const std::array<Vec3, 4> normals = {(c - b).cross(d - b), w.cross(v), u.cross(w), v.cross(u)};
+    constexpr std::array<int, 6> first = {2, 1, 1, 0, 0, 0}, second = {3, 3, 2, 1, 2, 3};
+
+    const double signed_det = -u.dot(normals[1]);
+    const double det = std::abs(signed_det);
+    Range edge, cotangent_times_det;
+    double sum_of_cubes = 0, sum_of_normals = 0;
+    for (int k = 0; k < 6; ++k) {
+        edge.include(lengths[k]);
+        cotangent_times_det.include(-normals[first[k]].dot(normals[second[k]]) / lengths[k]);
+        sum_of_cubes += lengths[k] * lengths[k] * lengths[k];
+    }
+    for (const Vec3& normal : normals) sum_of_normals += normal.norm();
+
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    // Two equal corners leave a rounding error in D.
+    if (det == 0 || edge.min == 0) return {0, 180, infinity, infinity, 0, 0, edge.min, edge.max};
+    const double inradius = det / sum_of_normals;
+    return {.min_dihedral_deg = degrees_from_cotangent(cotangent_times_det.max / det),
+            .max_dihedral_deg = degrees_from_cotangent(cotangent_times_det.min / det),
+            .radius_edge = circumradius(u, v, w, det) / edge.min,
+            .aspect = edge.max / (2 * std::sqrt(6.0) * inradius),
+            .shape = 6 * std::numbers::sqrt2 * signed_det / sum_of_cubes,
+            .volume = signed_det / 6,
+            .min_edge = edge.min,
+            .max_edge = edge.max};
+}
+
+std::vector<TetQuality> tet_qualities(const TetMesh& mesh) {
+    std::vector<TetQuality> qualities;
+    qualities.reserve(mesh.tets.size());
+    const std::vector<Vec3>& p = mesh.vertices;
+    for (const auto& [a, b, c, d] : mesh.tets) qualities.push_back(tet_quality(p[a], p[b], p[c], p[d]));
+    return qualities;
+}
+
+Distribution::Distribution(Scale scale, double low, double high)
+    : scale_(scale), low_(low), high_(high), bins_per_unit_(1), bins_(bin_count, 0) {
+    bins_per_unit_ = bin_count / position(high);
+}
+
+// Position of a value on the axis of the bins: bin k covers [k, k + 1).
+double Distribution::position(double value) const {
+    return bins_per_unit_ * (scale_ == Scale::linear ? value - low_ : std::log2(value / low_));
+}
+
+// Inverse of position().
+double Distribution::value_at(double position) const {
+    const double units = position / bins_per_unit_;
+    return scale_ == Scale::linear ? low_ + units : low_ * std::exp2(units);
+}
+
+void Distribution::add(double value) {
+    min_ = std::min(min_, value);
+    max_ = std::max(max_, value);
+    ++count_;
+    if (!(value > low_))
+        ++bins_.front();
+    else if (value >= high_)
+        ++bins_.back();
+    else
+        ++bins_[std::clamp(static_cast<int>(position(value)), 0, bin_count - 1)];
+}
+
+void Distribution::add(const Distribution& other) {
+    if (scale_ != other.scale_ || low_ != other.low_ || high_ != other.high_ || bins_.size() != other.bins_.size())
+        throw Error(ErrorCode::internal, "Distributions over different ranges cannot be added.");
+    min_ = std::min(min_, other.min_);
+    max_ = std::max(max_, other.max_);
+    count_ += other.count_;
+    for (int k = 0; k < bin_count; ++k) bins_[k] += other.bins_[k];
+}
+
+double Distribution::percentile(double fraction) const {
+    if (fraction <= 0) return min();
+    if (!count_ || fraction >= 1) return max();
+    const double rank = fraction * static_cast<double>(count_);
+    std::int64_t below = 0;
+    for (int k = 0; k < bin_count; ++k) {
+        if (!bins_[k]) continue;
+        const std::int64_t upto = below + bins_[k];
+        if (static_cast<double>(upto) >= rank) {
+            const double part_of_bin = (rank - static_cast<double>(below)) / static_cast<double>(bins_[k]);
+            return std::clamp(value_at(k + part_of_bin), min_, max_);
+        }
+        below = upto;
+    }
+    return max();
+}
+
+Distribution::Histogram Distribution::histogram(int bins) const {
+    if (bins < 1 || bin_count % bins)
+        throw Error(ErrorCode::internal, "A histogram of " + std::to_string(bins) + " bins does not divide " +
+                                             std::to_string(bin_count) + " fine bins.");
+    const int group = bin_count / bins;
+    Histogram histogram;
+    for (int i = 0; i <= bins; ++i) histogram.edges.push_back(value_at(i * group));
+    for (auto bin = bins_.begin(); bin != bins_.end(); bin += group)
+        histogram.counts.push_back(std::accumulate(bin, bin + group, std::int64_t{0}));
+    return histogram;
+}
+
+QualityDistributions::QualityDistributions(double length_scale) {
+    using enum Distribution::Scale;
+    const double volume_scale = length_scale * length_scale * length_scale;
+    measures = {Distribution(linear, 0, 180),
+                Distribution(linear, 0, 180),
+                Distribution(logarithmic, 0.5, 1e4),
+                Distribution(logarithmic, 1, 1e4),
+                Distribution(linear, 0, 1),
+                Distribution(logarithmic, 1e-27 * volume_scale, volume_scale),
+                Distribution(logarithmic, 1e-9 * length_scale, length_scale),
+                Distribution(logarithmic, 1e-9 * length_scale, length_scale)};
+}
+
+void QualityDistributions::add(const TetQuality& quality) {
+    const std::array<double, quality_measures.size()> values = {
+        quality.min_dihedral_deg, quality.max_dihedral_deg, quality.radius_edge, quality.aspect, quality.shape,
+        quality.volume,           quality.min_edge,         quality.max_edge};
+    for (std::size_t i = 0; i < values.size(); ++i) measures[i].add(values[i]);
+}
+
+void QualityDistributions::add(const QualityDistributions& other) {
+    if (measures.size() != other.measures.size())
+        throw Error(ErrorCode::internal, "Quality distributions without a length scale cannot be added.");
+    for (std::size_t i = 0; i < measures.size(); ++i) measures[i].add(other.measures[i]);
+}
+
+void PartQuality::add(const PartQuality& other) {
+    all.add(other.all);
+    interface.add(other.interface);
+    interior.add(other.interior);
+}
+
+}  // namespace kerf

@@ -1,0 +1,110 @@
+// Shape measures of tetrahedra and their distributions, which can be added over parts.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "mesh/tet_mesh.h"
+
+namespace kerf {
+
+/// Measures of one tetrahedron.
+struct TetQuality {
+    double min_dihedral_deg;  ///< smallest of the six dihedral angles
+    double max_dihedral_deg;  ///< largest of the six dihedral angles
+    double radius_edge;       ///< circumradius over shortest edge; 0.612 for the regular tetrahedron
+    double aspect;            ///< longest edge over 2 sqrt(6) inradii; 1 for the regular tetrahedron
+    double shape;             ///< 6 sqrt(2) V / mean of the six cubed edges; 1 for the regular tetrahedron, else below
+    double volume;            ///< signed, positive for the orientation of TetMesh
+    double min_edge;
+    double max_edge;
+};
+
+/// Angles, radius_edge and aspect are those of the unoriented tetrahedron; volume and shape carry the sign. A flat
+/// tetrahedron has angles 0 and 180, infinite radius_edge and aspect, shape 0. About 100 ns.
+TetQuality tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
+/// The measures of every tetrahedron.
+std::vector<TetQuality> tet_qualities(const TetMesh& mesh);
+
+/// Distribution of one measure over many cells. Counts lie in fixed fine bins, so that the sum over parts is exact and
+/// independent of order. Percentiles are interpolated in the bins; minimum and maximum are exact.
+class Distribution {
+ public:
+    enum class Scale { linear, logarithmic };
+    Distribution() = default;
+    /// 1440 bins cover [low, high]; values beyond are counted in the first or last bin. 0 < low for a logarithmic
+    /// scale.
+    Distribution(Scale scale, double low, double high);
+
+    void add(double value);
+    void add(const Distribution& other);  ///< requires the same scale and range, else throws Error(internal)
+
+    std::int64_t count() const { return count_; }
+    double min() const { return count_ ? min_ : 0; }
+    double max() const { return count_ ? max_ : 0; }
+    /// Value below which the given fraction in [0, 1] of the cells lies: min() at 0, max() at 1, between them exact to
+    /// the width of a bin. 0 for an empty distribution.
+    double percentile(double fraction) const;
+
+    struct Histogram {
+        std::vector<double> edges;         ///< n + 1
+        std::vector<std::int64_t> counts;  ///< n
+    };
+    /// The counts gathered into `bins` equal (linear) or equal-ratio (logarithmic) intervals; `bins` must divide 1440,
+    /// else throws Error(internal).
+    Histogram histogram(int bins) const;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(scale_, low_, high_, bins_per_unit_, count_, min_, max_, bins_);
+    }
+
+ private:
+    static constexpr int bin_count = 1440;
+    double position(double value) const;
+    double value_at(double position) const;
+
+    Scale scale_ = Scale::linear;
+    double low_ = 0, high_ = 1;
+    double bins_per_unit_ = bin_count;  // the unit is that of the measure, or a factor of two on a logarithmic scale
+    std::int64_t count_ = 0;
+    double min_ = std::numeric_limits<double>::infinity(), max_ = -min_;
+    std::vector<std::int64_t> bins_;
+};
+
+/// Distributions of all measures of TetQuality, in the order of quality_measures.
+inline constexpr std::array<const char*, 8> quality_measures = {
+    "min_dihedral_deg", "max_dihedral_deg", "radius_edge", "aspect", "shape", "volume", "min_edge", "max_edge"};
+struct QualityDistributions {
+    std::vector<Distribution> measures;
+
+    QualityDistributions() = default;
+    /// `length_scale`: bounding-box diagonal of the whole input, to which the bins of volume and edges are relative.
+    explicit QualityDistributions(double length_scale);
+    void add(const TetQuality& quality);
+    void add(const QualityDistributions& other);
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(measures);
+    }
+};
+
+/// The three distributions of the report: all cells, cells with a vertex on an interface, the others.
+struct PartQuality {
+    QualityDistributions all, interface, interior;
+
+    PartQuality() = default;
+    explicit PartQuality(double length_scale) : all(length_scale), interface(length_scale), interior(length_scale) {}
+    void add(const PartQuality& other);
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(all, interface, interior);
+    }
+};
+
+}  // namespace kerf

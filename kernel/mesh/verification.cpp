@@ -1,0 +1,171 @@
+// The laws are local, so each is one pass over an array.
+//
+// Interior faces: tetrahedron t and the one across its face i, n = neighbours[t][i], must name each other over a face
+// with the same corners in opposite rotation. Two positive tetrahedra then lie on opposite sides of it. Boundary faces
+// (neighbour -1) must be the facets of the surface. Both are written with their smallest vertex first, which keeps the
+// rotation, and sorted by three counting sorts, last corner first; equal ones then meet in a merge.
+#include "mesh/verification.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include "surface/mass_properties.h"
+
+namespace kerf {
+
+namespace {
+
+// A boundary face or a facet, with the number of its tetrahedron or its own.
+struct OwnedFace {
+    Triangle corners;
+    std::int32_t owner;
+};
+
+Triangle corners_of_face(const Tetrahedron& tet, int face) {
+    const auto& [i, j, k] = tet_faces[face];
+    return {tet[i], tet[j], tet[k]};
+}
+
+Triangle smallest_first(Triangle t) {
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    return t;
+}
+
+// True if both have the same corners in opposite rotation.
+bool opposite(const Triangle& s, const Triangle& t) {
+    const auto& [a, b, c] = t;
+    return s == Triangle{a, c, b} || s == Triangle{b, a, c} || s == Triangle{c, b, a};
+}
+
+std::vector<OwnedFace> sorted_by_corner(const std::vector<OwnedFace>& faces, int corner, std::size_t vertex_count) {
+    std::vector<std::size_t> place(vertex_count + 1, 0);
+    for (const OwnedFace& face : faces) ++place[face.corners[corner] + 1];
+    for (std::size_t v = 0; v < vertex_count; ++v) place[v + 1] += place[v];
+    std::vector<OwnedFace> sorted(faces.size());
+    for (const OwnedFace& face : faces) sorted[place[face.corners[corner]]++] = face;
+    return sorted;
+}
+
+std::vector<OwnedFace> sorted_faces(std::vector<OwnedFace> faces, std::size_t vertex_count) {
+    for (int corner : {2, 1, 0}) faces = sorted_by_corner(faces, corner, vertex_count);
+    return faces;
+}
+
+std::vector<OwnedFace> sorted_boundary_faces(const TetMesh& mesh, std::size_t vertex_count) {
+    std::vector<OwnedFace> faces;
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+        for (int i = 0; i < 4; ++i)
+            if (mesh.neighbours[t][i] == -1)
+                faces.push_back({smallest_first(corners_of_face(mesh.tets[t], i)), static_cast<std::int32_t>(t)});
+    return sorted_faces(std::move(faces), vertex_count);
+}
+
+std::vector<OwnedFace> sorted_facets(const SurfaceArrays& surface, std::size_t vertex_count) {
+    std::vector<OwnedFace> faces;
+    faces.reserve(surface.facets.size());
+    for (std::size_t f = 0; f < surface.facets.size(); ++f)
+        faces.push_back({smallest_first(surface.facets[f]), static_cast<std::int32_t>(f)});
+    return sorted_faces(std::move(faces), vertex_count);
+}
+
+struct BoundaryMatch {
+    std::vector<std::int32_t> tet_at_facet;  // -1: no boundary face is this facet
+    std::int64_t matched = 0;
+    std::int64_t boundary_faces = 0;
+};
+
+BoundaryMatch match_boundary(const TetMesh& mesh, const SurfaceArrays& surface) {
+    const std::size_t vertex_count = std::max(mesh.vertices.size(), surface.vertices.size());
+    const std::vector<OwnedFace> faces = sorted_boundary_faces(mesh, vertex_count);
+    BoundaryMatch match;
+    match.tet_at_facet.assign(surface.facets.size(), -1);
+    match.boundary_faces = static_cast<std::int64_t>(faces.size());
+    auto face = faces.begin();
+    for (const OwnedFace& facet : sorted_facets(surface, vertex_count)) {
+        while (face != faces.end() && face->corners < facet.corners) ++face;
+        if (face == faces.end() || face->corners != facet.corners) continue;
+        match.tet_at_facet[facet.owner] = face->owner;
+        ++match.matched;
+        ++face;
+    }
+    return match;
+}
+
+// True if tetrahedron n names t over the same face as t names n.
+bool names_back(const TetMesh& mesh, std::int32_t n, std::int32_t t, const Triangle& face) {
+    for (int j = 0; j < 4; ++j)
+        if (mesh.neighbours[n][j] == t && opposite(corners_of_face(mesh.tets[n], j), face)) return true;
+    return false;
+}
+
+// Each pair of sides is looked at from the smaller tetrahedron only, because the other may lie far away in memory.
+std::int64_t count_mismatched_neighbours(const TetMesh& mesh) {
+    const auto tet_count = static_cast<std::int32_t>(mesh.tets.size());
+    std::int64_t inner_sides = 0, pairs = 0;
+    for (std::int32_t t = 0; t < tet_count; ++t)
+        for (int i = 0; i < 4; ++i) {
+            const std::int32_t n = mesh.neighbours[t][i];
+            inner_sides += n != -1;
+            pairs += t < n && n < tet_count && names_back(mesh, n, t, corners_of_face(mesh.tets[t], i));
+        }
+    return inner_sides - 2 * pairs;
+}
+
+bool positive(const TetMesh& mesh, const Tetrahedron& tet) {
+    using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+    const auto corner = [&](int i) {
+        const Vec3& p = mesh.vertices[tet[i]];
+        return Kernel::Point_3(p.x(), p.y(), p.z());
+    };
+    return CGAL::orientation(corner(0), corner(1), corner(2), corner(3)) == CGAL::POSITIVE;
+}
+
+std::int64_t count_moved_vertices(const TetMesh& mesh, const SurfaceArrays& surface) {
+    const auto counted = static_cast<std::size_t>(std::max(mesh.boundary_vertex_count, 0));
+    const std::size_t common = std::min({counted, mesh.vertices.size(), surface.vertices.size()});
+    auto moved = static_cast<std::int64_t>(std::max(counted, surface.vertices.size()) - common);
+    for (std::size_t v = 0; v < common; ++v) moved += mesh.vertices[v] != surface.vertices[v];
+    return moved;
+}
+
+// Neumaier's compensated sum: millions of small volumes would lose digits in a plain one.
+double total_volume(const TetMesh& mesh) {
+    double sum = 0, compensation = 0;
+    for (const auto& [a, b, c, d] : mesh.tets) {
+        const Vec3& p = mesh.vertices[a];
+        const double term = (mesh.vertices[b] - p).cross(mesh.vertices[c] - p).dot(mesh.vertices[d] - p);
+        const double next = sum + term;
+        compensation += std::abs(sum) >= std::abs(term) ? (sum - next) + term : (term - next) + sum;
+        sum = next;
+    }
+    return (sum + compensation) / 6;
+}
+
+}  // namespace
+
+bool MeshLaws::hold() const {
+    return inverted_tets == 0 && missing_facets == 0 && extra_boundary_faces == 0 && mismatched_neighbours == 0 &&
+           moved_vertices == 0 && std::abs(volume - surface_volume) <= 1e-10 * std::abs(surface_volume);
+}
+
+MeshLaws verify_mesh(const TetMesh& mesh, const SurfaceArrays& surface) {
+    const BoundaryMatch match = match_boundary(mesh, surface);
+    MeshLaws laws;
+    laws.inverted_tets =
+        std::count_if(mesh.tets.begin(), mesh.tets.end(), [&](const Tetrahedron& tet) { return !positive(mesh, tet); });
+    laws.missing_facets = static_cast<std::int64_t>(surface.facets.size()) - match.matched;
+    laws.extra_boundary_faces = match.boundary_faces - match.matched;
+    laws.mismatched_neighbours = count_mismatched_neighbours(mesh);
+    laws.moved_vertices = count_moved_vertices(mesh, surface);
+    laws.volume = total_volume(mesh);
+    laws.surface_volume = enclosed_volume(surface.vertices, surface.facets);
+    return laws;
+}
+
+std::vector<std::int32_t> tets_at_facets(const TetMesh& mesh, const SurfaceArrays& surface) {
+    return match_boundary(mesh, surface).tet_at_facet;
+}
+
+}  // namespace kerf

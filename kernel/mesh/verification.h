@@ -1,0 +1,36 @@
+// The laws that the mesh of one subdomain must obey.
+#pragma once
+
+#include "mesh/tet_mesh.h"
+#include "surface/surface.h"
+
+namespace kerf {
+
+/// Counts of broken laws; all zero for a correct mesh. Together with positive orientation and the volume they prove
+/// that the tetrahedra fill the subdomain exactly once: they map the inside onto itself with degree one.
+struct MeshLaws {
+    std::int64_t inverted_tets = 0;          ///< exact orientation not positive
+    std::int64_t missing_facets = 0;         ///< facets of the surface that are no boundary face
+    std::int64_t extra_boundary_faces = 0;   ///< boundary faces that are no facet of the surface
+    std::int64_t mismatched_neighbours = 0;  ///< sides of faces not named back over the same corners, turned round
+    std::int64_t moved_vertices = 0;         ///< boundary vertices whose coordinates are not those of the surface
+    double volume = 0;                       ///< sum over the tetrahedra
+    double surface_volume = 0;               ///< enclosed by the surface
+
+    /// True if every count is zero and the volumes agree to 1e-10 relative.
+    bool hold() const;
+    template <class Archive>
+    void archive(Archive& a) {
+        a(inverted_tets, missing_facets, extra_boundary_faces, mismatched_neighbours, moved_vertices, volume,
+          surface_volume);
+    }
+};
+
+/// Compares facet by facet and face by face. Requires vertex indices in range; neighbours may be anything. Exact but
+/// for the volumes. O(#T + #F).
+MeshLaws verify_mesh(const TetMesh& mesh, const SurfaceArrays& surface);
+
+/// For each facet of the surface the tetrahedron behind it, -1 if there is none. O(#T + #F).
+std::vector<std::int32_t> tets_at_facets(const TetMesh& mesh, const SurfaceArrays& surface);
+
+}  // namespace kerf

@@ -1,0 +1,84 @@
+// The ranks of one run, without MPI: the kernel sees messages only.
+#pragma once
+
+#include <exception>
+#include <new>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "core/bytes.h"
+#include "core/error.h"
+
+namespace kerf {
+
+/// Ranks that run the same stages in the same order. Every function is collective.
+class Communicator {
+ public:
+    virtual ~Communicator() = default;
+    virtual int rank() const = 0;
+    virtual int size() const = 0;
+    /// The contributions of all ranks in the order of ranks, on every rank.
+    virtual std::vector<Bytes> all_gather(const Bytes& contribution) = 0;
+};
+
+/// One rank alone.
+class SingleRank : public Communicator {
+ public:
+    int rank() const override { return 0; }
+    int size() const override { return 1; }
+    std::vector<Bytes> all_gather(const Bytes& contribution) override { return {contribution}; }
+};
+
+/// Gathers one value of every rank, in the order of ranks.
+template <class T>
+std::vector<T> all_gather(Communicator& ranks, const T& value) {
+    std::vector<T> values;
+    for (const Bytes& bytes : ranks.all_gather(to_bytes(value))) values.push_back(from_bytes<T>(bytes));
+    return values;
+}
+
+/// How a stage ended on one rank.
+struct StageStatus {
+    int code = 0;  ///< value of ErrorCode, 0: good
+    std::string message;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(code, message);
+    }
+};
+
+/// Throws the error of the first rank that has one, on every rank.
+void throw_first_error(Communicator& ranks, const StageStatus& own);
+
+/// Runs a stage on every rank and returns its value; if it fails on any rank, the error of the first such rank is
+/// thrown on all of them, so that none waits in a later collective. The stage itself must not be collective.
+template <class Stage>
+auto in_agreement(Communicator& ranks, Stage stage) -> std::invoke_result_t<Stage> {
+    StageStatus status;
+    using Value = std::invoke_result_t<Stage>;
+    const auto guarded = [&](auto&& body) {
+        try {
+            body();
+        } catch (const Error& e) {
+            status = {static_cast<int>(e.code()), e.what()};
+        } catch (const std::bad_alloc&) {
+            status = {static_cast<int>(ErrorCode::memory),
+                      "Out of memory. Use more parts, fewer workers or more hosts."};
+        } catch (const std::exception& e) {
+            status = {static_cast<int>(ErrorCode::internal), e.what()};
+        }
+    };
+    if constexpr (std::is_void_v<Value>) {
+        guarded([&] { stage(); });
+        throw_first_error(ranks, status);
+    } else {
+        std::vector<Value> value;  // empty or one element
+        guarded([&] { value.push_back(stage()); });
+        throw_first_error(ranks, status);
+        return std::move(value.front());
+    }
+}
+
+}  // namespace kerf

@@ -1,0 +1,56 @@
+#include "run/failed_part.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "io/text_file.h"
+
+namespace kerf {
+
+namespace {
+
+std::vector<Vec3> hole_points_if_any(const SurfaceArrays& surface) {
+    try {
+        return hole_points(surface);
+    } catch (const Error&) {
+        return {};  // a void without a hole point may be the very reason of the failure
+    }
+}
+
+std::string smesh_text(const SurfaceArrays& surface, const std::vector<Vec3>& holes) {
+    std::string text = fmt::format("{} 3 0 0\n", surface.vertices.size());
+    const auto add_point = [&](std::size_t i, const Vec3& p) {
+        text += fmt::format("{} {:.17g} {:.17g} {:.17g}\n", i, p.x(), p.y(), p.z());
+    };
+    for (std::size_t v = 0; v < surface.vertices.size(); ++v) add_point(v, surface.vertices[v]);
+    text += fmt::format("{} 0\n", surface.facets.size());
+    for (const Triangle& t : surface.facets) text += fmt::format("3 {} {} {}\n", t[0], t[1], t[2]);
+    text += fmt::format("{}\n", holes.size());
+    for (std::size_t i = 0; i < holes.size(); ++i) add_point(i + 1, holes[i]);
+    return text;
+}
+
+std::string tetgen_switches(const MesherOptions& mesher) {
+    if (!mesher.tetgen_switches.empty()) return "pY" + mesher.tetgen_switches;
+    std::string switches = "pY";
+    if (mesher.radius_edge > 0) switches += fmt::format("q{:g}", mesher.radius_edge);
+    if (mesher.max_volume > 0) switches += fmt::format("a{:f}", mesher.max_volume);
+    return switches;
+}
+
+}  // namespace
+
+void write_failed_part(const std::string& folder, int leaf, const SurfaceArrays& surface, const MesherOptions& mesher,
+                       const std::string& reason) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw Error(ErrorCode::io, fmt::format("Cannot create {}: {}.", folder, error.message()));
+    const std::string name = fmt::format("part_{:04}", leaf);
+    write_text_file(folder + "/" + name + ".smesh", smesh_text(surface, hole_points_if_any(surface)));
+    write_text_file(folder + "/" + name + ".txt",
+                    fmt::format("{}\nTo repeat: tetgen -{} {}.smesh\n", reason, tetgen_switches(mesher), name));
+}
+
+}  // namespace kerf

@@ -1,0 +1,16 @@
+// A part that could not be meshed, kept so that the failure can be repeated.
+#pragma once
+
+#include <string>
+
+#include "surface/surface.h"
+#include "volume/mesher.h"
+
+namespace kerf {
+
+/// Writes FOLDER/part_0011.smesh (TetGen surface format, 17 digits, hole points included) and part_0011.txt with the
+/// reason and the command line that repeats the call. Creates the folder. Throws Error(io).
+void write_failed_part(const std::string& folder, int leaf, const SurfaceArrays& surface, const MesherOptions& mesher,
+                       const std::string& reason);
+
+}  // namespace kerf

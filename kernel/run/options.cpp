@@ -1,0 +1,70 @@
+#include "run/options.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr double regular_tet_edges_cubed = 8.485281374238570;  // 6 sqrt(2): cubed edge over volume
+
+template <class Enum>
+OptionField::Choice choice(Enum& value, std::vector<std::string> names, int first = 0) {
+    return {std::move(names), [&value, first] { return static_cast<int>(value) - first; },
+            [&value, first](int i) { value = static_cast<Enum>(i + first); }};
+}
+
+void require(bool good, const std::string& option, const std::string& range, double value) {
+    if (!good) throw Error(ErrorCode::usage, fmt::format("--{} is {}, but it must be {}.", option, value, range));
+}
+
+}  // namespace
+
+void RunOptions::resolve(int ranks, int cores_of_rank) {
+    require(workers >= 0, "workers", "0 (share of the cores) or more", workers);
+    if (workers == 0) workers = std::max(1, cores_of_rank);
+    require(decompose.parts >= 0, "parts", "1 or more", decompose.parts);
+    if (decompose.parts == 0) decompose.parts = ranks * workers;
+    require(size >= 0 && std::isfinite(size), "size", "positive", size);
+    require(mesher.max_volume >= 0 && std::isfinite(mesher.max_volume), "max-volume", "positive", mesher.max_volume);
+    require(mesher.radius_edge == 0 || (mesher.radius_edge > 1 && std::isfinite(mesher.radius_edge)), "radius-edge",
+            "0 (none) or above 1", mesher.radius_edge);
+    require(timeout_seconds >= 0, "timeout", "0 (none) or more seconds", timeout_seconds);
+    require(memory_mb >= 0, "memory", "0 (unlimited) or more MB", static_cast<double>(memory_mb));
+    require(attempts >= 1, "attempts", "1 or more", attempts);
+    if (mesher.max_volume == 0 && size > 0) mesher.max_volume = size * size * size / regular_tet_edges_cubed;
+    decompose.cut.max_volume = decompose.cut.load.max_volume = mesher.max_volume;
+}
+
+std::vector<OptionField> option_fields(RunOptions& o) {
+    CutOptions& cut = o.decompose.cut;
+    return {
+        {"parts", "n", "Number of parts K >= 1. Default: ranks x workers.", &o.decompose.parts},
+        {"size", "", "Wanted edge length inside, in units of the input. Default: as the surface.", &o.size},
+        {"max-volume", "", "Largest volume of a tetrahedron, instead of --size.", &o.mesher.max_volume},
+        {"radius-edge", "", "Bound of circumradius over shortest edge; 0: no refinement. Default 1.4.",
+         &o.mesher.radius_edge},
+        {"cut", "", "Where planes lie: across the principal axis, or a coordinate axis. Default inertia.",
+         choice(cut.criterion, {"inertia", "volume", "equidistant"})},
+        {"axis", "", "Coordinate axis across which to cut. Default: chosen by --cut.",
+         choice(cut.axis, {"auto", "x", "y", "z"}, -1)},
+        {"balance", "", "What the halves of a cut have alike. Default work.",
+         choice(cut.load.balance, {"nodes", "faces", "volume", "work"})},
+        {"contour", "", "How contours are found: minimum cut, or crossed edges. Default min-cut.",
+         choice(cut.contour, {"min-cut", "edges"})},
+        {"mesher", "", "What fills the parts. Default tetgen.", choice(o.mesher.kind, {"tetgen"})},
+        {"workers", "", "Mesher processes of each rank. Default: its share of the cores.", &o.workers},
+        {"timeout", "", "Seconds for one attempt at one part; 0: none. Default 600.", &o.timeout_seconds},
+        {"memory", "", "Memory of one worker in MB; 0: unlimited. Default 0.", &o.memory_mb},
+        {"attempts", "", "Attempts at a part, each with its vertices in another order. Default 3.", &o.attempts},
+        {"tetgen", "", "Expert: TetGen switches instead of q and a (p, Y are always on).", &o.mesher.tetgen_switches},
+        {"report", "", "Write the report to this file too.", &o.report_file},
+    };
+}
+
+}  // namespace kerf

@@ -1,0 +1,49 @@
+// All that a user can choose about a run, and the one table of it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "decompose/decomposition.h"
+#include "volume/mesher.h"
+
+namespace kerf {
+
+struct RunOptions {
+    std::string input;
+    std::string output;
+    std::string worker_program;  ///< path of kerf-worker
+    DecomposeOptions decompose;  ///< parts 0: ranks times workers
+    MesherOptions mesher;
+    double size = 0;               ///< wanted edge length; sets mesher.max_volume unless that is given; 0: none
+    std::int32_t workers = 0;      ///< processes on this rank's host; 0: its share of the cores
+    double timeout_seconds = 600;  ///< of one attempt at one part; 0: none
+    std::int64_t memory_mb = 0;    ///< address space of one worker; 0: unlimited
+    std::int32_t attempts = 3;     ///< at one part, each with its vertices in another order
+    std::string report_file;       ///< a copy of the report; empty: only DIR/report.json
+    bool volume = true;            ///< false: stop at the closed surfaces of the parts
+
+    /// Fills what follows from other choices and checks ranges. Throws Error(usage) naming option, value and range.
+    void resolve(int ranks, int cores_of_rank);
+};
+
+/// One option: its name on the command line and in the config file, and where its value lives.
+struct OptionField {
+    /// An enumeration by its names.
+    struct Choice {
+        std::vector<std::string> names;
+        std::function<int()> get;
+        std::function<void(int)> set;
+    };
+    std::string name;        ///< without dashes
+    std::string short_name;  ///< a letter, or empty
+    std::string help;        ///< one sentence with unit and default
+    std::variant<std::int32_t*, std::int64_t*, double*, std::string*, Choice> value;
+};
+
+/// The table: command line, config file, report and viewer show the same options in this order.
+std::vector<OptionField> option_fields(RunOptions& options);
+
+}  // namespace kerf

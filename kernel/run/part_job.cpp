@@ -1,0 +1,94 @@
+#include "run/part_job.h"
+
+#include <chrono>
+
+#include "core/error.h"
+#include "run/mesh_hash.h"
+
+namespace kerf {
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Runs a stage and adds its wall clock to `seconds`.
+template <class Stage>
+auto timed(double& seconds, Stage stage) {
+    struct Stopwatch {
+        double& seconds;
+        std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+        ~Stopwatch() { seconds += seconds_since(start); }
+    } stopwatch{seconds};
+    return stage();
+}
+
+std::vector<char> interface_vertices(const SurfaceArrays& surface, std::size_t vertex_count) {
+    std::vector<char> on_interface(vertex_count, 0);
+    for (std::size_t f = 0; f < surface.facets.size(); ++f)
+        if (key_node(surface.facet_key[f]) != 0)
+            for (std::int32_t v : surface.facets[f]) on_interface[v] = 1;
+    return on_interface;
+}
+
+PartQuality measure_quality(const TetMesh& mesh, const SurfaceArrays& surface, const std::vector<TetQuality>& qualities,
+                            double length_scale) {
+    PartQuality quality(length_scale);
+    const std::vector<char> on_interface = interface_vertices(surface, mesh.vertices.size());
+    for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
+        const Tetrahedron& t = mesh.tets[i];
+        const bool touches = on_interface[t[0]] || on_interface[t[1]] || on_interface[t[2]] || on_interface[t[3]];
+        (touches ? quality.interface : quality.interior).add(qualities[i]);
+    }
+    quality.all.add(quality.interface);
+    quality.all.add(quality.interior);
+    return quality;
+}
+
+std::string broken_laws(const MeshLaws& laws) {
+    std::string text = "The mesher returned a mesh that breaks the laws:";
+    const auto add = [&](std::int64_t count, const char* what) {
+        if (count) text += " " + std::to_string(count) + " " + what + ";";
+    };
+    add(laws.inverted_tets, "inverted tetrahedra");
+    add(laws.missing_facets, "facets of the surface missing");
+    add(laws.extra_boundary_faces, "boundary faces that are no facets");
+    add(laws.mismatched_neighbours, "faces with mismatched neighbours");
+    add(laws.moved_vertices, "moved surface vertices");
+    return text + " volume " + std::to_string(laws.volume) + " of " + std::to_string(laws.surface_volume) + ".";
+}
+
+void fill_result(const PartJob& job, PartResult& result) {
+    const TetMesh mesh =
+        timed(result.mesh_seconds, [&] { return mesh_volume(job.surface, job.mesher, job.vertex_order_seed); });
+    result.vertices = static_cast<std::int64_t>(mesh.vertices.size());
+    result.interior_vertices = mesh.interior_vertex_count();
+    result.tets = static_cast<std::int64_t>(mesh.tets.size());
+    timed(result.verify_seconds, [&] { result.laws = verify_mesh(mesh, job.surface); });
+    if (!result.laws.hold()) throw Error(ErrorCode::subdomain, broken_laws(result.laws));
+    timed(result.verify_seconds, [&] { result.hash = hash_part(mesh, job.surface); });
+    timed(result.write_seconds, [&] {
+        const std::vector<TetQuality> quality = tet_qualities(mesh);
+        result.quality = measure_quality(mesh, job.surface, quality, job.length_scale);
+        write_part(job.part_file, mesh, job.surface, quality, tets_at_facets(mesh, job.surface), job.arrays);
+    });
+}
+
+}  // namespace
+
+PartResult run_part_job(const PartJob& job) {
+    PartResult result;
+    try {
+        fill_result(job, result);
+    } catch (const Error& e) {
+        result.code = static_cast<int>(e.code());
+        result.message = e.what();
+    } catch (const std::bad_alloc&) {
+        result.code = static_cast<int>(ErrorCode::memory);
+        result.message = "Out of memory in the worker. Use more parts, fewer workers or a larger --memory.";
+    }
+    return result;
+}
+
+}  // namespace kerf

@@ -1,0 +1,348 @@
+// Every rank reads the input and descends its own branches of the tree. The ranks talk three times: to bring both sides
+// of the interfaces together, to number the vertices, and to report. Meshes never travel: a part goes from its worker
+// to its file.
+#include "run/pipeline.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+
+#include "io/run_folder.h"
+#include "io/text_file.h"
+#include "run/failed_part.h"
+#include "run/interface_match.h"
+#include "run/mesh_hash.h"
+#include "run/numbering.h"
+
+namespace kerf {
+
+namespace {
+
+class Stopwatch {
+ public:
+    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// Wall clock of a stage, the longest over the ranks.
+double longest(Communicator& ranks, double seconds) {
+    double most = 0;
+    for (double s : all_gather(ranks, seconds)) most = std::max(most, s);
+    return most;
+}
+
+void check_part_count(const Input& input, std::int32_t parts) {
+    const std::int64_t most = std::max<std::int64_t>(1, input.facets / min_facets_per_part);
+    if (parts > most)
+        throw Error(ErrorCode::usage,
+                    fmt::format("{} has {} facets, too few for {} parts. Use -n {} or fewer, or a finer "
+                                "surface.",
+                                input.path, input.facets, parts, most));
+}
+
+LeafRange range_of_rank(std::int32_t parts, const Communicator& ranks) {
+    const auto begin = [&](int rank) {
+        return static_cast<std::int32_t>(static_cast<std::int64_t>(parts) * rank / ranks.size());
+    };
+    return {begin(ranks.rank()), begin(ranks.rank() + 1)};
+}
+
+RunFolder open_run_folder(const std::string& path, Communicator& ranks) {
+    std::optional<RunFolder> folder;
+    const std::string temporary = in_agreement(ranks, [&] {
+        if (ranks.rank() != 0) return std::string();
+        folder.emplace(RunFolder::create(path));
+        return folder->temporary_path();
+    });
+    const std::string shared = all_gather(ranks, temporary).front();
+    if (!folder) folder.emplace(RunFolder::join(shared));
+    return std::move(*folder);
+}
+
+// All nodes of the tree, ascending by number; ranks that share a branch have found the same.
+std::vector<TreeNode> gather_nodes(Communicator& ranks, const std::vector<TreeNode>& own) {
+    std::map<NodeId, TreeNode> by_id;
+    for (const auto& nodes : all_gather(ranks, own))
+        for (const TreeNode& node : nodes) by_id.emplace(node.id, node);
+    std::vector<TreeNode> all;
+    for (const auto& [id, node] : by_id) all.push_back(node);
+    return all;
+}
+
+// What is known of a part before it is meshed.
+PartReport describe_part(const Leaf& leaf, const std::vector<NodeId>& neighbours, int rank) {
+    PartReport part;
+    part.id = leaf.id;
+    part.rank = rank;
+    part.surface_volume = leaf.volume;
+    part.surface_vertices = static_cast<std::int64_t>(leaf.surface.vertices.size());
+    part.surface_facets = static_cast<std::int64_t>(leaf.surface.facets.size());
+    for (std::size_t f = 0; f < neighbours.size(); ++f) {
+        if (neighbours[f] < 0) continue;
+        const Triangle& t = leaf.surface.facets[f];
+        const std::vector<Vec3>& p = leaf.surface.vertices;
+        part.interface_area += (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / 2;
+        part.neighbours.push_back(neighbours[f]);
+    }
+    std::sort(part.neighbours.begin(), part.neighbours.end());
+    part.neighbours.erase(std::unique(part.neighbours.begin(), part.neighbours.end()), part.neighbours.end());
+    return part;
+}
+
+// Input facets that are a facet of no leaf or of several.
+std::int64_t count_missing_input_facets(Communicator& ranks, std::int64_t facets, const std::vector<Leaf>& leaves) {
+    std::vector<std::uint8_t> owners(static_cast<std::size_t>(facets), 0);
+    for (const Leaf& leaf : leaves)
+        for (const Key key : leaf.surface.facet_key)
+            if (key_node(key) == 0 && owners[key_index(key)] < 255) ++owners[key_index(key)];
+    std::vector<std::int32_t> total(owners.size(), 0);
+    for (const auto& of_rank : all_gather(ranks, owners))
+        for (std::size_t f = 0; f < total.size(); ++f) total[f] += of_rank[f];
+    return std::count_if(total.begin(), total.end(), [](std::int32_t n) { return n != 1; });
+}
+
+// One rank's share of the run.
+class Run {
+ public:
+    Run(RunOptions options, Communicator& ranks, Input& input, RunListener* listener)
+        : ranks_(ranks), input_(input), listener_(listener), folder_(open_run_folder(options.output, ranks)) {
+        report_.options = std::move(options);
+        report_.ranks = ranks.size();
+        report_.input = &input;
+    }
+
+    void decompose_surface();
+    void join_interfaces();
+    void mesh_parts();
+    void number_interiors();
+    void gather_results();
+    RunReport finish(const Stopwatch& whole, double read_seconds);
+
+ private:
+    bool is_root() const { return ranks_.rank() == 0; }
+    void progress(const char* stage, std::size_t done, std::size_t total) {
+        if (listener_) listener_->on_progress(stage, done, total);
+    }
+    PartJob make_job(std::size_t leaf) const;
+    void keep_reproducer(const Leaf& leaf, const PartReport& part) const;
+    void verify();
+    void measure_balance();
+
+    Communicator& ranks_;
+    Input& input_;
+    RunListener* listener_;
+    RunFolder folder_;
+    RunReport report_;
+    Decomposition own_;
+    std::vector<PartReport> own_parts_;
+    std::vector<PartArrays> own_arrays_;
+    std::int64_t surface_vertices_ = 0;
+};
+
+void Run::decompose_surface() {
+    const Stopwatch stopwatch;
+    const DecomposeOptions& options = report_.options.decompose;
+    own_ = in_agreement(ranks_, [&] {
+        progress("decompose", 0, 1);
+        CutListener* cuts = listener_ && listener_->wants_cuts() ? listener_ : nullptr;
+        return decompose(std::move(input_.surface), options, range_of_rank(options.parts, ranks_), cuts);
+    });
+    progress("decompose", 1, 1);
+    report_.seconds.decompose = longest(ranks_, stopwatch.seconds());
+}
+
+void Run::join_interfaces() {
+    report_.nodes = gather_nodes(ranks_, own_.nodes);
+    const InterfaceTable table(ranks_, own_.leaves);
+    report_.verification.unmatched_interface_faces = table.unmatched();
+    report_.verification.input_faces_missing = count_missing_input_facets(ranks_, input_.facets, own_.leaves);
+    const VertexNumbering numbering(input_.vertices, report_.nodes);
+    surface_vertices_ = numbering.surface_vertices();
+    for (const Leaf& leaf : own_.leaves) {
+        PartArrays arrays;
+        arrays.part = leaf.id;
+        arrays.boundary_id = numbering.global_ids(leaf.surface.vertex_key);
+        arrays.neighbour = table.neighbours(leaf);
+        arrays.patch_names = input_.patch_names;
+        own_parts_.push_back(describe_part(leaf, arrays.neighbour, ranks_.rank()));
+        own_arrays_.push_back(std::move(arrays));
+    }
+    in_agreement(ranks_, [&] {
+        for (std::size_t i = 0; i < own_.leaves.size(); ++i)
+            write_part_surface(folder_.part_surface_file(own_.leaves[i].id), own_.leaves[i].surface, own_arrays_[i]);
+    });
+}
+
+PartJob Run::make_job(std::size_t leaf) const {
+    PartJob job;
+    job.surface = own_.leaves[leaf].surface;
+    job.arrays = own_arrays_[leaf];
+    job.mesher = report_.options.mesher;
+    job.part_file = folder_.part_file(own_.leaves[leaf].id);
+    job.length_scale = input_.diagonal;
+    return job;
+}
+
+void Run::keep_reproducer(const Leaf& leaf, const PartReport& part) const {
+    write_failed_part(folder_.file("failed"), leaf.id, leaf.surface, report_.options.mesher, part.result.message);
+}
+
+void Run::mesh_parts() {
+    const Stopwatch stopwatch;
+    const RunOptions& options = report_.options;
+    in_agreement(ranks_, [&] {
+        std::vector<std::size_t> order(own_.leaves.size());  // longest first
+        for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+        const auto load = [&](std::size_t i) {
+            const SurfaceArrays& surface = own_.leaves[i].surface;
+            return options.decompose.cut.load.load(static_cast<double>(surface.vertices.size()),
+                                                   static_cast<double>(surface.facets.size()), own_.leaves[i].volume);
+        };
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return load(a) > load(b); });
+        std::vector<PartJob> jobs;
+        for (const std::size_t i : order) jobs.push_back(make_job(i));
+        std::size_t done = 0;
+        progress("volume", 0, jobs.size());
+        const QueueOptions queue = {options.worker_program, options.workers, options.timeout_seconds, options.memory_mb,
+                                    options.attempts};
+        run_part_jobs(std::move(jobs), queue, [&](std::size_t index, const PartOutcome& outcome) {
+            PartReport& part = own_parts_[order[index]];
+            part.worker = outcome.worker;
+            part.attempts = outcome.attempts;
+            part.seconds = outcome.seconds;
+            part.failures = outcome.failures;
+            part.result = outcome.result;
+            if (part.result.code) keep_reproducer(own_.leaves[order[index]], part);
+            progress("volume", ++done, order.size());
+        });
+    });
+    report_.seconds.mesh = longest(ranks_, stopwatch.seconds());
+}
+
+void Run::gather_results() {
+    for (const auto& parts : all_gather(ranks_, own_parts_))
+        report_.parts.insert(report_.parts.end(), parts.begin(), parts.end());
+}
+
+void Run::number_interiors() {
+    std::int64_t first = surface_vertices_;
+    std::map<NodeId, std::int64_t> first_of;
+    for (const PartReport& part : report_.parts) {
+        first_of[part.id] = first;
+        first += part.result.interior_vertices;
+    }
+    report_.vertices = first;
+    in_agreement(ranks_, [&] {
+        for (const PartReport& part : own_parts_)
+            if (part.result.code == 0) number_interior_vertices(folder_.part_file(part.id), first_of[part.id]);
+    });
+}
+
+void Run::verify() {
+    RunVerification& v = report_.verification;
+    double volume = 0;
+    bool parts_hold = true;
+    for (const PartReport& part : report_.parts) {
+        const MeshLaws& laws = part.result.laws;
+        volume += report_.options.volume ? laws.volume : part.surface_volume;
+        v.inverted_tets += laws.inverted_tets;
+        v.input_faces_missing += laws.missing_facets;
+        v.extra_boundary_faces += laws.extra_boundary_faces;
+        if (!report_.options.volume) continue;
+        v.tets_zero_parts += part.result.tets == 0;
+        parts_hold &= part.result.code == 0 && laws.hold();
+    }
+    v.volume_rel_error = std::abs(volume - input_.volume) / input_.volume;
+    v.passed = parts_hold && v.volume_rel_error <= 1e-10 && v.input_faces_missing == 0 && v.extra_boundary_faces == 0 &&
+               v.unmatched_interface_faces == 0 && v.inverted_tets == 0 && v.tets_zero_parts == 0;
+}
+
+void Run::measure_balance() {
+    std::map<std::pair<int, int>, double> busy;
+    for (int rank = 0; rank < ranks_.size(); ++rank)
+        for (int worker = 0; worker < report_.options.workers; ++worker) busy[{rank, worker}] = 0;
+    double sum = 0, most = 0;
+    for (const PartReport& part : report_.parts) {
+        most = std::max(most, busy[{part.rank, part.worker}] += part.seconds);
+        sum += part.seconds;
+    }
+    if (sum > 0) report_.imbalance = most * static_cast<double>(busy.size()) / sum;
+}
+
+std::int64_t own_peak_rss_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+}
+
+RunReport Run::finish(const Stopwatch& whole, double read_seconds) {
+    report_.quality = PartQuality(input_.diagonal);
+    std::vector<PartHash> hashes;
+    bool failed = false;
+    std::int64_t largest_worker = 0;
+    for (const PartReport& part : report_.parts) {
+        failed |= part.result.code != 0;
+        report_.tets += part.result.tets;
+        if (part.result.tets) report_.quality.add(part.result.quality);
+        report_.seconds.verify = std::max(report_.seconds.verify, part.result.verify_seconds);
+        largest_worker = std::max(largest_worker, part.result.peak_rss_bytes);
+        hashes.push_back({part.id, part.result.hash});
+    }
+    verify();
+    measure_balance();
+    for (const std::int64_t bytes : all_gather(ranks_, own_peak_rss_bytes()))
+        report_.peak_rss_bytes += bytes + report_.options.workers * largest_worker;
+    if (report_.options.volume) report_.mesh_hash = hash_of_parts(hashes);
+    if (failed)
+        report_.exit_code = static_cast<int>(ErrorCode::subdomain);
+    else if (!report_.verification.passed)
+        report_.exit_code = static_cast<int>(ErrorCode::verification);
+    report_.seconds.read = read_seconds;
+    report_.seconds.wall = longest(ranks_, whole.seconds());
+    in_agreement(ranks_, [&] {
+        if (!is_root()) return;
+        if (report_.options.volume) {
+            std::vector<std::string> pieces;
+            for (const PartReport& part : report_.parts)
+                if (part.result.code == 0) pieces.push_back("parts/" + part_file_name(part.id));
+            write_pvtu(folder_.file("mesh.pvtu"), pieces);
+        }
+        const std::string json = to_json(report_);
+        write_text_file(folder_.file("report.json"), json);
+        folder_.commit();
+        if (!report_.options.report_file.empty()) write_text_file(report_.options.report_file, json);
+    });
+    return std::move(report_);
+}
+
+}  // namespace
+
+RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input& input, RunListener* listener) {
+    const Stopwatch whole;
+    in_agreement(ranks, [&] {
+        options.resolve(ranks.size(), cores_of_rank);
+        if (listener) listener->on_progress("read", 0, 1);
+        input = read_input(options.input);
+        check_part_count(input, options.decompose.parts);
+    });
+    const double read_seconds = longest(ranks, whole.seconds());
+    const bool volume = options.volume;
+    Run run(std::move(options), ranks, input, listener);
+    run.decompose_surface();
+    run.join_interfaces();
+    if (volume) run.mesh_parts();
+    run.gather_results();
+    if (volume) run.number_interiors();
+    return run.finish(whole, read_seconds);
+}
+
+}  // namespace kerf

@@ -1,0 +1,246 @@
+#include "run/report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "run/version.h"
+
+namespace kerf {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int histogram_bins = 36;
+
+Json to_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+Json rows(const Eigen::Matrix3d& m) {
+    Json json = Json::array();
+    for (int i = 0; i < 3; ++i) json.push_back(to_json(Vec3(m.row(i).transpose())));
+    return json;
+}
+
+Json columns(const Eigen::Matrix3d& m) { return rows(m.transpose()); }
+
+Json to_json(const Distribution& d) {
+    const Distribution::Histogram histogram = d.histogram(histogram_bins);
+    return {{"min", d.min()},
+            {"p0_1", d.percentile(0.001)},
+            {"p1", d.percentile(0.01)},
+            {"p5", d.percentile(0.05)},
+            {"median", d.percentile(0.5)},
+            {"p95", d.percentile(0.95)},
+            {"max", d.max()},
+            {"histogram", {{"edges", histogram.edges}, {"counts", histogram.counts}}}};
+}
+
+Json to_json(const QualityDistributions& quality) {
+    Json json = Json::object();
+    for (std::size_t i = 0; i < quality.measures.size(); ++i) json[quality_measures[i]] = to_json(quality.measures[i]);
+    return json;
+}
+
+Json input_json(const Input& input) {
+    return {{"path", input.path},
+            {"vertices", input.vertices},
+            {"faces", input.facets},
+            {"components", input.components},
+            {"genus", input.genus},
+            {"volume", input.volume},
+            {"area", input.area},
+            {"repairs",
+             {{"vertices_welded", input.welded_vertices},
+              {"vertices_unused", input.unused_vertices},
+              {"facets_flipped", input.orientation.facets_flipped},
+              {"shells_flipped", input.orientation.shells_flipped}}}};
+}
+
+Json options_json(RunOptions options) {
+    Json json = Json::object();
+    for (const OptionField& field : option_fields(options))
+        json[field.name] = std::visit(
+            [](const auto& value) -> Json {
+                if constexpr (std::is_same_v<std::decay_t<decltype(value)>, OptionField::Choice>)
+                    return value.names[value.get()];
+                else
+                    return *value;
+            },
+            field.value);
+    return json;
+}
+
+Json cut_json(const TreeNode& node) {
+    return {{"plane", {{"point", to_json(node.plane.origin)}, {"normal", to_json(node.plane.normal)}}},
+            {"method", node.method == ContourMethod::min_cut ? "min-cut" : "edges"},
+            {"rung", name(node.rung)},
+            {"tries", node.tries},
+            {"loops", node.loops},
+            {"contour_edges", node.contour_edges},
+            {"contour_length", node.contour_length},
+            {"max_deviation", node.max_deviation},
+            {"section_area", node.section_area},
+            {"interface_area", node.interface_area},
+            {"interface_faces", node.interface_faces},
+            {"min_interface_angle_deg", node.quality.angle_deg},
+            {"min_dihedral_deg", node.quality.dihedral_deg},
+            {"min_gap_rel", node.quality.gap_rel},
+            {"seconds", node.seconds}};
+}
+
+Json node_json(const TreeNode& node) {
+    Json json = {{"id", node.id},
+                 {"parent", node.id / 2},
+                 {"children", node.cut_made ? Json{2 * node.id, 2 * node.id + 1} : Json::array()},
+                 {"level", static_cast<int>(std::log2(node.id))},
+                 {"leaves", node.leaves},
+                 {"vertices", node.vertices},
+                 {"faces", node.facets},
+                 {"volume", node.mass.volume},
+                 {"centroid", to_json(node.mass.centroid)},
+                 {"inertia", rows(node.mass.inertia)},
+                 {"eigenvalues", to_json(node.mass.eigenvalues)},
+                 {"axes", columns(node.mass.axes)}};
+    if (node.cut_tried) json["cut"] = cut_json(node);
+    return json;
+}
+
+Json part_json(const PartReport& part) {
+    Json json = {{"id", part.id},
+                 {"rank", part.rank},
+                 {"worker", part.worker},
+                 {"vertices", part.result.vertices},
+                 {"tets", part.result.tets},
+                 {"volume", part.result.laws.volume},
+                 {"surface_faces", part.surface_facets},
+                 {"interface_area", part.interface_area},
+                 {"neighbours", part.neighbours},
+                 {"mesher", "tetgen"},
+                 {"attempts", part.attempts},
+                 {"seconds", part.seconds},
+                 {"peak_rss_bytes", part.result.peak_rss_bytes}};
+    if (!part.failures.empty()) json["failures"] = part.failures;
+    if (part.result.code) json["error"] = part.result.message;
+    return json;
+}
+
+Json totals_json(const RunReport& report) {
+    double interface_area = 0;
+    for (const TreeNode& node : report.nodes) interface_area += node.interface_area;
+    double volume = 0;
+    for (const PartReport& part : report.parts) volume += part.result.laws.volume;
+    return {{"vertices", report.vertices},
+            {"tets", report.tets},
+            {"volume", volume},
+            {"interface_area", interface_area},
+            {"read_seconds", report.seconds.read},
+            {"decompose_seconds", report.seconds.decompose},
+            {"mesh_seconds", report.seconds.mesh},
+            {"write_seconds", report.seconds.write},
+            {"verify_seconds", report.seconds.verify},
+            {"wall_seconds", report.seconds.wall},
+            {"imbalance", report.imbalance},
+            {"peak_rss_bytes", report.peak_rss_bytes}};
+}
+
+template <class T>
+Json array_of(const std::vector<T>& items, Json (*convert)(const T&)) {
+    Json json = Json::array();
+    for (const T& item : items) json.push_back(convert(item));
+    return json;
+}
+
+// 1234567 as 1,234,567.
+std::string grouped(std::int64_t n) {
+    std::string digits = std::to_string(n);
+    for (auto i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3)
+        digits.insert(static_cast<std::size_t>(i), ",");
+    return digits;
+}
+
+std::string rungs_text(const std::vector<TreeNode>& nodes) {
+    std::vector<int> counts(6, 0);
+    int cuts = 0;
+    for (const TreeNode& node : nodes)
+        if (node.cut_tried) {
+            ++counts[static_cast<int>(node.rung)];
+            ++cuts;
+        }
+    std::string text = fmt::format("{} cut{}", cuts, cuts == 1 ? "" : "s");
+    for (std::size_t i = 0; i < counts.size(); ++i)
+        if (counts[i]) text += fmt::format(", {} {}", counts[i], name(static_cast<Rung>(i)));
+    return text;
+}
+
+}  // namespace
+
+std::string to_json(const RunReport& report) {
+    const RunVerification& v = report.verification;
+    Json json = {{"schema", 1},
+                 {"kerf", version},
+                 {"input", input_json(*report.input)},
+                 {"options", options_json(report.options)},
+                 {"tree", array_of(report.nodes, node_json)},
+                 {"parts", array_of(report.parts, part_json)},
+                 {"totals", totals_json(report)},
+                 {"quality",
+                  {{"all", to_json(report.quality.all)},
+                   {"interface", to_json(report.quality.interface)},
+                   {"interior", to_json(report.quality.interior)}}},
+                 {"verification",
+                  {{"passed", v.passed},
+                   {"volume_rel_error", v.volume_rel_error},
+                   {"input_faces_missing", v.input_faces_missing},
+                   {"extra_boundary_faces", v.extra_boundary_faces},
+                   {"unmatched_interface_faces", v.unmatched_interface_faces},
+                   {"inverted_tets", v.inverted_tets},
+                   {"tets_zero_parts", v.tets_zero_parts}}},
+                 {"mesh_hash", report.mesh_hash},
+                 {"exit_code", report.exit_code}};
+    return json.dump(2) + "\n";
+}
+
+std::string to_text(const RunReport& report) {
+    const Input& input = *report.input;
+    const StageSeconds& s = report.seconds;
+    double section = 0, interface = 0, angle = 180;
+    for (const TreeNode& node : report.nodes) {
+        section += node.section_area;
+        interface += node.interface_area;
+        if (node.cut_made) angle = std::min(angle, node.quality.angle_deg);
+    }
+    std::string text;
+    const auto line = [&](const char* label, const std::string& value) {
+        text += fmt::format("{:<11} {}\n", label, value);
+    };
+    line("input", fmt::format("{}: {} facets, {} shell{}, genus {}, volume {:.6g}", input.path, grouped(input.facets),
+                              input.components, input.components == 1 ? "" : "s", input.genus, input.volume));
+    line("parts", fmt::format("{} of {} wanted; {}", report.parts.size(), report.options.decompose.parts,
+                              rungs_text(report.nodes)));
+    if (section > 0)
+        line("interfaces", fmt::format("area {:.6g}, {:.3f} of the plane sections; smallest angle {:.1f} deg",
+                                       interface, interface / section, angle));
+    if (report.options.volume) {
+        line("mesh", fmt::format("{} tetrahedra, {} vertices", grouped(report.tets), grouped(report.vertices)));
+        const Distribution& dihedral = report.quality.all.measures[0];
+        const Distribution& ratio = report.quality.all.measures[2];
+        line("quality", fmt::format("dihedral min {:.1f}, 1 % {:.1f}, median {:.1f} deg; radius-edge max {:.2f}",
+                                    dihedral.min(), dihedral.percentile(0.01), dihedral.percentile(0.5), ratio.max()));
+    }
+    line("time", fmt::format("{:.2f} s: read {:.2f}, decompose {:.2f}, mesh {:.2f} (verify {:.2f}, write {:.2f} of it)",
+                             s.wall, s.read, s.decompose, s.mesh, s.verify, s.write));
+    line("processes",
+         fmt::format("{} rank{} x {} worker{}, imbalance {:.2f}, peak memory {} MB", report.ranks,
+                     report.ranks == 1 ? "" : "s", report.options.workers, report.options.workers == 1 ? "" : "s",
+                     report.imbalance, report.peak_rss_bytes >> 20));
+    line("verified", fmt::format("{}; volume error {:.1e}", report.verification.passed ? "yes, every law holds" : "NO",
+                                 report.verification.volume_rel_error));
+    if (!report.mesh_hash.empty()) line("mesh hash", report.mesh_hash);
+    return text;
+}
+
+}  // namespace kerf

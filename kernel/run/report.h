@@ -1,0 +1,72 @@
+// What a run did, as plain data and as report.json (schema 1).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "run/input.h"
+#include "run/options.h"
+#include "run/part_queue.h"
+
+namespace kerf {
+
+/// One leaf of the finished run.
+struct PartReport {
+    NodeId id = 1;
+    std::int32_t rank = 0;
+    std::int32_t worker = 0;
+    double surface_volume = 0;
+    std::int64_t surface_vertices = 0, surface_facets = 0;
+    double interface_area = 0;
+    std::vector<NodeId> neighbours;  ///< ascending
+    std::int32_t attempts = 0;
+    double seconds = 0;  ///< wall clock of all attempts
+    std::vector<std::string> failures;
+    PartResult result;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(id, rank, worker, surface_volume, surface_vertices, surface_facets, interface_area, neighbours, attempts,
+          seconds, failures, result);
+    }
+};
+
+/// The laws of the whole, each a count that must be zero.
+struct RunVerification {
+    bool passed = false;
+    double volume_rel_error = 0;                 ///< sum of the parts against the enclosed volume
+    std::int64_t input_faces_missing = 0;        ///< facets of the input that are no boundary face of exactly one part
+    std::int64_t extra_boundary_faces = 0;       ///< boundary faces of parts that are neither input nor interface
+    std::int64_t unmatched_interface_faces = 0;  ///< not once on each side, with the same keys in opposite order
+    std::int64_t inverted_tets = 0;
+    std::int64_t tets_zero_parts = 0;  ///< parts without a tetrahedron
+};
+
+struct StageSeconds {
+    double read = 0, decompose = 0, mesh = 0, write = 0, verify = 0, wall = 0;  ///< longest over the ranks
+};
+
+struct RunReport {
+    const Input* input = nullptr;
+    RunOptions options;
+    int ranks = 1;
+    std::vector<TreeNode> nodes;    ///< ascending by number
+    std::vector<PartReport> parts;  ///< in the order of the tree
+    RunVerification verification;
+    StageSeconds seconds;
+    std::int64_t vertices = 0;  ///< distinct, of the whole mesh
+    std::int64_t tets = 0;
+    double imbalance = 1;             ///< max over mean of the part seconds summed per worker
+    std::int64_t peak_rss_bytes = 0;  ///< of the ranks, and of the largest worker for each worker
+    PartQuality quality;
+    std::string mesh_hash;
+    int exit_code = 0;
+};
+
+/// report.json as text, two spaces of indentation. Numbers that are not finite become null.
+std::string to_json(const RunReport& report);
+
+/// About ten lines for people.
+std::string to_text(const RunReport& report);
+
+}  // namespace kerf

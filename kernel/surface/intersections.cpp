@@ -1,0 +1,214 @@
+// Two triangles meet if and only if an edge of one meets the other. An edge st meets a triangle abc across its plane if
+// s and t are not strictly on one side of it and the line st passes abc on the same side of all three edges. In one
+// plane the question is put to the three projections along the coordinate axes: they drop a coordinate, so they are
+// exact; at least one of them maps the plane one to one, hence sets of one plane meet if and only if all three
+// projections do.
+//
+// What the triangles share by number leaves less to test:
+//   a vertex a: apart from a they meet if and only if the edge opposite to a of one meets the other triangle;
+//   an edge ab: if and only if they are coplanar with the third vertices c and d on the same side of ab.
+//
+// Most pairs of neighbours are plainly apart. A separating plane with a margin beyond rounding proves that in a few
+// multiplications and spares the exact predicates, which are slow where all points lie in one plane.
+#include "surface/intersections.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <CGAL/Box_intersection_d/Box_with_handle_d.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/box_intersection_d.h>
+#include <Eigen/Geometry>
+
+namespace kerf {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Corners = std::array<Vec3, 3>;
+
+// Generous bound of the relative rounding error of the short sums of products of differences below. It holds as long as
+// the products do not underflow: for differences that are zero or above 1e-70.
+constexpr double rounding = 1e-14;
+
+Kernel::Point_3 point(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+
+// Orientation of the projections along an axis.
+int projected_sign(int axis, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    return CGAL::orientation(Kernel::Point_2(a[u], a[v]), Kernel::Point_2(b[u], b[v]), Kernel::Point_2(c[u], c[v]));
+}
+
+bool projected_boxes_meet(int axis, const Vec3& s, const Vec3& t, const Vec3& a, const Vec3& b) {
+    for (int i : {(axis + 1) % 3, (axis + 2) % 3})
+        if (std::max(s[i], t[i]) < std::min(a[i], b[i]) || std::max(a[i], b[i]) < std::min(s[i], t[i])) return false;
+    return true;
+}
+
+// Right for points and collinear segments too: there all signs are zero and the boxes decide.
+bool projected_segments_meet(int axis, const Vec3& s, const Vec3& t, const Vec3& a, const Vec3& b) {
+    return projected_boxes_meet(axis, s, t, a, b) &&
+           projected_sign(axis, s, t, a) * projected_sign(axis, s, t, b) <= 0 &&
+           projected_sign(axis, a, b, s) * projected_sign(axis, a, b, t) <= 0;
+}
+
+bool projected_contains(int axis, const Corners& q, const Vec3& p) {
+    const int turn = projected_sign(axis, q[0], q[1], q[2]);
+    if (turn == 0) return false;  // a segment: its edges decide
+    for (int i = 0; i < 3; ++i)
+        if (projected_sign(axis, q[i], q[(i + 1) % 3], p) == -turn) return false;
+    return true;
+}
+
+bool coplanar_segment_meets(const Vec3& s, const Vec3& t, const Corners& q) {
+    for (int axis = 0; axis < 3; ++axis) {
+        bool meets = projected_contains(axis, q, s);
+        for (int i = 0; i < 3 && !meets; ++i) meets = projected_segments_meet(axis, s, t, q[i], q[(i + 1) % 3]);
+        if (!meets) return false;
+    }
+    return true;
+}
+
+// `side_s`, `side_t`: signs of the ends with respect to the plane of q.
+bool segment_meets(const Vec3& s, const Vec3& t, int side_s, int side_t, const Corners& q) {
+    if (side_s * side_t > 0) return false;
+    std::array<int, 3> pass;
+    for (int i = 0; i < 3; ++i) pass[i] = orientation_sign(s, t, q[i], q[(i + 1) % 3]);
+    const auto [low, high] = std::minmax_element(pass.begin(), pass.end());
+    if (*low < 0 && *high > 0) return false;
+    // Where q is only a segment, all sides are zero; lines that are skew have passed its edges on both sides already.
+    return side_s != 0 || side_t != 0 || coplanar_segment_meets(s, t, q);
+}
+
+std::array<int, 3> sides(const Corners& of, const Corners& plane) {
+    std::array<int, 3> sign;
+    for (int i = 0; i < 3; ++i) sign[i] = orientation_sign(plane[0], plane[1], plane[2], of[i]);
+    return sign;
+}
+
+bool on_one_side(const std::array<int, 3>& side) { return side[0] == side[1] && side[1] == side[2] && side[0] != 0; }
+
+// True if the plane through `origin` with normal `w` has the points of `p` above and those of `q` below it for sure.
+template <std::size_t N>
+bool plainly_apart(const Vec3& origin, const Vec3& w, const std::array<Vec3, N>& p, const std::array<Vec3, N>& q) {
+    const double margin = rounding * w.cwiseAbs().sum();
+    const auto above = [&](const Vec3& x, double sign) {
+        const Vec3 d = x - origin;
+        return sign * w.dot(d) > margin * d.cwiseAbs().maxCoeff();
+    };
+    return std::all_of(p.begin(), p.end(), [&](const Vec3& x) { return above(x, 1); }) &&
+           std::all_of(q.begin(), q.end(), [&](const Vec3& x) { return above(x, -1); });
+}
+
+bool meet_without_sharing(const Corners& p, const Corners& q) {
+    const Vec3 centre_p = (p[0] + p[1] + p[2]) / 3, centre_q = (q[0] + q[1] + q[2]) / 3;
+    if (plainly_apart<3>((centre_p + centre_q) / 2, centre_p - centre_q, p, q)) return false;
+    const std::array<int, 3> side_q = sides(q, p);
+    if (on_one_side(side_q)) return false;
+    const std::array<int, 3> side_p = sides(p, q);
+    if (on_one_side(side_p)) return false;
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3;
+        if (segment_meets(q[i], q[j], side_q[i], side_q[j], p)) return true;
+        if (segment_meets(p[i], p[j], side_p[i], side_p[j], q)) return true;
+    }
+    return false;
+}
+
+// p[0] and q[0] are the shared vertex.
+bool meet_beyond_vertex(const Corners& p, const Corners& q) {
+    const Vec3& a = p[0];
+    const Vec3 along_p = (p[1] - a).normalized() + (p[2] - a).normalized();
+    const Vec3 along_q = (q[1] - a).normalized() + (q[2] - a).normalized();
+    if (plainly_apart<2>(a, along_p - along_q, {p[1], p[2]}, {q[1], q[2]})) return false;
+    const std::array<int, 3> side_q = sides(q, p), side_p = sides(p, q);
+    return segment_meets(q[1], q[2], side_q[1], side_q[2], p) || segment_meets(p[1], p[2], side_p[1], side_p[2], q);
+}
+
+// a, b: the shared edge; c, d: the third vertices.
+bool meet_beyond_edge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    const Vec3 e = b - a, f = c - a, g = d - a;
+    const double scale = e.squaredNorm() * f.norm() * g.norm();
+    if (e.cross(f).dot(e.cross(g)) < -rounding * scale) return false;  // unfolded by more than a right angle
+    if (orientation_sign(a, b, c, d) != 0) return false;
+    for (int axis = 0; axis < 3; ++axis)
+        if (projected_sign(axis, a, b, c) * projected_sign(axis, a, b, d) > 0) return true;
+    return false;
+}
+
+// Corners of p and q that are the same vertex.
+struct Sharing {
+    std::array<std::pair<int, int>, 3> corners;
+    int count = 0;
+};
+
+Sharing find_sharing(const Triangle& p, const Triangle& q) {
+    Sharing sharing;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            if (p[i] == q[j]) {
+                sharing.corners[sharing.count++] = {i, j};
+                break;
+            }
+    return sharing;
+}
+
+Corners rotated(const Corners& p, int first) { return {p[first], p[(first + 1) % 3], p[(first + 2) % 3]}; }
+
+}  // namespace
+
+int orientation_sign(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    return CGAL::orientation(point(a), point(b), point(c), point(d));
+}
+
+bool collinear(const Vec3& a, const Vec3& b, const Vec3& c) { return CGAL::collinear(point(a), point(b), point(c)); }
+
+bool triangles_intersect(const std::array<Vec3, 3>& p, const Triangle& p_id, const std::array<Vec3, 3>& q,
+                         const Triangle& q_id) {
+    const Sharing sharing = find_sharing(p_id, q_id);
+    const auto [i, j] = sharing.corners[0];
+    const auto [k, l] = sharing.corners[1];
+    switch (sharing.count) {
+        case 0:
+            return meet_without_sharing(p, q);
+        case 1:
+            return meet_beyond_vertex(rotated(p, i), rotated(q, j));
+        case 2:
+            return meet_beyond_edge(p[i], p[k], p[3 - i - k], q[3 - j - l]);
+        default:
+            return true;
+    }
+}
+
+std::vector<std::pair<std::int32_t, std::int32_t>> find_self_intersections(const std::vector<Vec3>& vertices,
+                                                                           const std::vector<Triangle>& facets,
+                                                                           std::size_t limit) {
+    using Pair = std::pair<std::int32_t, std::int32_t>;
+    using Box = CGAL::Box_intersection_d::Box_with_handle_d<double, 3, const Triangle*>;
+    const auto corners = [&](const Triangle& t) { return Corners{vertices[t[0]], vertices[t[1]], vertices[t[2]]}; };
+
+    std::vector<Box> boxes;
+    boxes.reserve(facets.size());
+    for (const Triangle& t : facets) {
+        const Corners p = corners(t);
+        const Vec3 low = p[0].cwiseMin(p[1]).cwiseMin(p[2]), high = p[0].cwiseMax(p[1]).cwiseMax(p[2]);
+        boxes.emplace_back(CGAL::Bbox_3(low.x(), low.y(), low.z(), high.x(), high.y(), high.z()), &t);
+    }
+
+    std::vector<Pair> pairs;
+    const auto keep_first = [&] {
+        std::sort(pairs.begin(), pairs.end());
+        if (pairs.size() > limit) pairs.resize(limit);
+    };
+    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+        const Triangle &s = *a.handle(), &t = *b.handle();
+        if (!triangles_intersect(corners(s), s, corners(t), t)) return;
+        pairs.push_back(
+            std::minmax(static_cast<std::int32_t>(&s - facets.data()), static_cast<std::int32_t>(&t - facets.data())));
+        if (pairs.size() > 2 * limit + 1000) keep_first();  // the boxes come in no particular order
+    });
+    keep_first();
+    return pairs;
+}
+
+}  // namespace kerf

@@ -1,0 +1,33 @@
+// Exact predicates, and the exact intersection of triangles that may share vertices.
+#pragma once
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "core/types.h"
+
+namespace kerf {
+
+/// Sign of det[b-a, c-a, d-a]: 1, 0 or -1. Exact.
+int orientation_sign(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
+/// True if the three points lie on one line. Exact.
+bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// True if the two triangles meet anywhere but in the vertices and edges that they share by number.
+///
+/// `p`, `q`: corner coordinates; `p_id`, `q_id`: vertex numbers of the corners, by which sharing is recognised.
+/// Triangles with the same three vertices intersect; two that share an edge intersect if they overlap when folded flat
+/// upon each other. Exact predicates, no tolerance.
+bool triangles_intersect(const std::array<Vec3, 3>& p, const Triangle& p_id, const std::array<Vec3, 3>& q,
+                         const Triangle& q_id);
+
+/// All intersecting pairs (smaller number first, ascending) of a triangle soup; the first `limit` of them if there are
+/// more. Expected O(#F log #F). Requires finite coordinates and facets with three distinct, non-collinear vertices; a
+/// facet with collinear corners counts as the segment that it is, but may be reported with its neighbours.
+std::vector<std::pair<std::int32_t, std::int32_t>> find_self_intersections(const std::vector<Vec3>& vertices,
+                                                                           const std::vector<Triangle>& facets,
+                                                                           std::size_t limit = 1000);
+
+}  // namespace kerf

@@ -1,0 +1,114 @@
+// Vertices carry unit mass, as in Ivanov's decomposition: the inertia then follows the mesh density, and with it the
+// work. Notation: p vertices, c centroid, I inertia = sum |p - c|^2 E - (p - c)(p - c)^T.
+#include "surface/mass_properties.h"
+
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+namespace kerf {
+
+namespace {
+
+constexpr double tie = 1e-3;  // relative difference of moments, and angle in rad, that count as equal
+
+void make_largest_component_positive(Eigen::Ref<Vec3> axis) {
+    Eigen::Index largest = 0;
+    axis.cwiseAbs().maxCoeff(&largest);
+    if (axis[largest] < 0) axis = -axis;
+}
+
+// Replaces the basis of an eigenspace (columns first .. first + dimension - 1) by the projections of the coordinate
+// axes that lie closest to it, made orthogonal in the order x, y, z.
+void align_eigenspace(Eigen::Matrix3d& axes, int first, int dimension) {
+    const Eigen::MatrixXd space = axes.middleCols(first, dimension);
+    int found = 0;
+    for (int pass = 0; pass < 2 && found < dimension; ++pass)
+        for (int i = 0; i < 3 && found < dimension; ++i) {
+            const Vec3 unit = Vec3::Unit(i);
+            Vec3 projected = space * (space.transpose() * unit);
+            for (int j = 0; j < found; ++j) projected -= projected.dot(axes.col(first + j)) * axes.col(first + j);
+            const double least = pass == 0 ? 1 - tie : tie;  // first those in the space, then whatever spans the rest
+            if (projected.norm() < least) continue;
+            axes.col(first + found++) = projected.normalized();
+        }
+}
+
+void break_ties(const Vec3& moments, Eigen::Matrix3d& axes) {
+    const double scale = moments[2] > 0 ? moments[2] : 1;
+    for (int first = 0; first < 3;) {
+        int end = first + 1;
+        while (end < 3 && moments[end] - moments[first] <= tie * scale) ++end;
+        if (end - first > 1) align_eigenspace(axes, first, end - first);
+        first = end;
+    }
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j)
+            if (axes.col(i).cross(Vec3::Unit(j)).norm() < tie) axes.col(i) = Vec3::Unit(j);
+        make_largest_component_positive(axes.col(i));
+    }
+}
+
+// Six times the signed volume of the tetrahedron from the origin to each facet, summed.
+class VolumeSum {
+ public:
+    void add(const Vec3& a, const Vec3& b, const Vec3& c) { sum_ += static_cast<long double>(a.dot(b.cross(c))); }
+    double volume() const { return static_cast<double>(sum_ / 6); }
+
+ private:
+    long double sum_ = 0;
+};
+
+}  // namespace
+
+double enclosed_volume(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
+    if (vertices.empty()) return 0;
+    const Vec3 base = vertices[0];
+    VolumeSum sum;
+    for (const Triangle& t : facets) sum.add(vertices[t[0]] - base, vertices[t[1]] - base, vertices[t[2]] - base);
+    return sum.volume();
+}
+
+double enclosed_volume(const Surface& surface) {
+    if (surface.vertex_count() == 0) return 0;
+    const Vec3 base = surface.point(0);
+    VolumeSum sum;
+    for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
+        const Triangle t = surface.vertices(f);
+        sum.add(surface.point(t[0]) - base, surface.point(t[1]) - base, surface.point(t[2]) - base);
+    }
+    return sum.volume();
+}
+
+MassProperties mass_properties(const Surface& surface) {
+    MassProperties m;
+    if (surface.vertex_count() == 0) return m;
+    const Vec3 base = surface.point(0);
+    const double n = surface.vertex_count();
+    Vec3 sum = Vec3::Zero();
+    for (std::int32_t v = 0; v < surface.vertex_count(); ++v) sum += surface.point(v) - base;
+    m.centroid = base + sum / n;
+
+    Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
+    for (std::int32_t v = 0; v < surface.vertex_count(); ++v) {
+        const Vec3 r = surface.point(v) - m.centroid;
+        moment += r * r.transpose();
+    }
+    m.inertia = moment.trace() * Eigen::Matrix3d::Identity() - moment;
+
+    m.volume = enclosed_volume(surface);
+    for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
+        const Triangle t = surface.vertices(f);
+        const Vec3& a = surface.point(t[0]);
+        m.area += (surface.point(t[1]) - a).cross(surface.point(t[2]) - a).norm() / 2;
+    }
+
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(m.inertia);
+    m.eigenvalues = solver.eigenvalues();
+    m.axes = solver.eigenvectors();
+    break_ties(m.eigenvalues, m.axes);
+    return m;
+}
+
+}  // namespace kerf

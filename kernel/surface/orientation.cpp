@@ -1,0 +1,192 @@
+// Edges by sorting: every facet contributes its three edges as (smaller end, larger end, corner); equal ends lie side
+// by side, and those that occur twice join two facets. A search over these joints turns facets until neighbours agree.
+//
+// Nesting by parity: shells do not meet, so one vertex of a shell tells whether the whole shell lies within another
+// one.
+#include "surface/orientation.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "core/error.h"
+#include "surface/mass_properties.h"
+#include "surface/ray_parity.h"
+
+namespace kerf {
+
+namespace {
+
+// Edge `corner % 3` of facet `corner / 3`, from that vertex to the next.
+struct FacetEdge {
+    std::int32_t low, high, corner;
+    bool same_ends(const FacetEdge& other) const { return low == other.low && high == other.high; }
+};
+
+// For every corner the corner of the facet on the other side, -1 where an edge does not have exactly two facets.
+std::vector<std::int32_t> find_partners(const std::vector<Triangle>& facets) {
+    std::vector<FacetEdge> edges;
+    edges.reserve(3 * facets.size());
+    for (std::size_t f = 0; f < facets.size(); ++f)
+        for (int i = 0; i < 3; ++i) {
+            const auto [low, high] = std::minmax(facets[f][i], facets[f][(i + 1) % 3]);
+            edges.push_back({low, high, static_cast<std::int32_t>(3 * f + i)});
+        }
+    std::sort(edges.begin(), edges.end(), [](const FacetEdge& a, const FacetEdge& b) {
+        return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
+    });
+    std::vector<std::int32_t> partner(edges.size(), -1);
+    for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
+        while (j < edges.size() && edges[j].same_ends(edges[i])) ++j;
+        if (j - i != 2) continue;
+        partner[edges[i].corner] = edges[i + 1].corner;
+        partner[edges[i + 1].corner] = edges[i].corner;
+    }
+    return partner;
+}
+
+void turn(Triangle& facet) { std::swap(facet[1], facet[2]); }
+
+// Breadth-first search over one shell at a time, relative to the orientation of its first facet.
+class Propagation {
+ public:
+    explicit Propagation(const std::vector<Triangle>& facets)
+        : facets_(facets), partner_(find_partners(facets)), turned_(facets.size(), 0) {
+        result_.facets = facets;
+        result_.shell.assign(facets.size(), -1);
+    }
+
+    ConsistentFacets run() {
+        for (std::size_t f = 0; f < facets_.size(); ++f)
+            if (result_.shell[f] < 0) {
+                search(static_cast<std::int32_t>(f));
+                turn_minority();
+                ++result_.shell_count;
+            }
+        return std::move(result_);
+    }
+
+ private:
+    void search(std::int32_t seed) {
+        members_.assign(1, seed);
+        result_.shell[seed] = result_.shell_count;
+        for (std::size_t i = 0; i < members_.size(); ++i)
+            for (std::int32_t corner = 3 * members_[i]; corner < 3 * members_[i] + 3; ++corner)
+                if (partner_[corner] >= 0) cross(corner);
+    }
+    void cross(std::int32_t corner) {
+        const std::int32_t facet = corner / 3, other = partner_[corner] / 3;
+        const bool disagree = start_vertex(corner) == start_vertex(partner_[corner]);
+        const char turned = turned_[facet] ^ static_cast<char>(disagree);
+        if (result_.shell[other] < 0) {
+            result_.shell[other] = result_.shell_count;
+            turned_[other] = turned;
+            members_.push_back(other);
+        } else if (turned_[other] != turned && (result_.contradiction < 0 || other < result_.contradiction)) {
+            result_.contradiction = other;
+        }
+    }
+    void turn_minority() {
+        const auto count = std::count_if(members_.begin(), members_.end(), [&](std::int32_t f) { return turned_[f]; });
+        const auto size = static_cast<std::ptrdiff_t>(members_.size());
+        const char minority = 2 * count <= size;
+        for (std::int32_t f : members_)
+            if (turned_[f] == minority) turn(result_.facets[f]);
+        result_.turned += std::min(count, size - count);
+    }
+    std::int32_t start_vertex(std::int32_t corner) const { return facets_[corner / 3][corner % 3]; }
+
+    const std::vector<Triangle>& facets_;
+    std::vector<std::int32_t> partner_;
+    std::vector<char> turned_;  // relative to the first facet of the shell
+    std::vector<std::int32_t> members_;
+    ConsistentFacets result_;
+};
+
+// A vertex of the inner shell decides unless it lies on the outer one; then another one does.
+std::optional<bool> is_inner(const std::vector<Vec3>& vertices, const Shell& inner, const Shell& outer) {
+    if (!outer.box.contains(inner.box)) return false;
+    constexpr std::size_t attempts = 8;
+    for (std::size_t f = 0; f < std::min(attempts, inner.facets.size()); ++f)
+        for (std::int32_t v : inner.facets[f])
+            if (const auto inside = encloses(vertices, outer, vertices[v])) return inside;
+    return std::nullopt;
+}
+
+[[noreturn]] void refuse_contact(const ConsistentFacets& consistent, std::size_t inner, std::size_t outer) {
+    const auto first_facet = [&](std::size_t shell) {
+        const auto found =
+            std::find(consistent.shell.begin(), consistent.shell.end(), static_cast<std::int32_t>(shell));
+        return std::to_string(found - consistent.shell.begin());
+    };
+    throw Error(ErrorCode::input, "The shell of facet " + first_facet(inner) + " touches that of facet " +
+                                      first_facet(outer) + ", so that inside and outside cannot be told apart. " +
+                                      "Unite the bodies or move them apart.");
+}
+
+// Number of shells around each shell.
+std::vector<int> nesting_depths(const std::vector<Vec3>& vertices, const std::vector<Shell>& shells,
+                                const ConsistentFacets& consistent) {
+    std::vector<int> depth(shells.size(), 0);
+    for (std::size_t i = 0; i < shells.size(); ++i)
+        for (std::size_t j = 0; j < shells.size(); ++j) {
+            if (i == j) continue;
+            const std::optional<bool> inner = is_inner(vertices, shells[i], shells[j]);
+            if (!inner) refuse_contact(consistent, i, j);
+            depth[i] += *inner;
+        }
+    return depth;
+}
+
+// The shell gets its own vertices because cancellation grows with the distance from the first vertex.
+bool is_outward(const std::vector<Vec3>& vertices, const Shell& shell) {
+    std::vector<Vec3> corners;
+    std::vector<Triangle> facets;
+    corners.reserve(3 * shell.facets.size());
+    facets.reserve(shell.facets.size());
+    for (const Triangle& t : shell.facets) {
+        const auto first = static_cast<std::int32_t>(corners.size());
+        facets.push_back({first, first + 1, first + 2});
+        for (std::int32_t v : t) corners.push_back(vertices[v]);
+    }
+    return enclosed_volume(corners, facets) > 0;
+}
+
+[[noreturn]] void refuse_one_sided(const Soup& soup, std::int32_t facet) {
+    const Vec3& p = soup.vertices[soup.facets[facet][0]];
+    throw Error(ErrorCode::input, "The surface is one-sided like a Moebius strip: going around it, facet " +
+                                      std::to_string(facet) + " at (" + std::to_string(p.x()) + ", " +
+                                      std::to_string(p.y()) + ", " + std::to_string(p.z()) +
+                                      ") comes back turned. It bounds no body: model it again.");
+}
+
+}  // namespace
+
+ConsistentFacets make_consistent(const std::vector<Triangle>& facets) { return Propagation(facets).run(); }
+
+OrientationReport orient(Soup& soup) {
+    ConsistentFacets consistent = make_consistent(soup.facets);
+    if (consistent.contradiction >= 0) refuse_one_sided(soup, consistent.contradiction);
+    const std::vector<Shell> shells =
+        collect_shells(soup.vertices, consistent.facets, consistent.shell, consistent.shell_count);
+    const std::vector<int> depth = nesting_depths(soup.vertices, shells, consistent);
+
+    OrientationReport report;
+    report.facets_flipped = consistent.turned;
+    report.shells = consistent.shell_count;
+    std::vector<char> flip(shells.size(), 0);
+    for (std::size_t i = 0; i < shells.size(); ++i) {
+        const bool is_void = depth[i] % 2;
+        flip[i] = is_outward(soup.vertices, shells[i]) == is_void;
+        report.void_shells += is_void;
+        report.shells_flipped += flip[i];
+    }
+    soup.facets = std::move(consistent.facets);
+    for (std::size_t f = 0; f < soup.facets.size(); ++f)
+        if (flip[consistent.shell[f]]) turn(soup.facets[f]);
+    return report;
+}
+
+}  // namespace kerf

@@ -1,0 +1,81 @@
+// The segment leaves the bounding box of the shell nearly parallel to a coordinate axis, so that its own box is thin
+// and most facets are dismissed by comparing boxes.
+#include "surface/ray_parity.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "surface/intersections.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr int attempts = 24;
+
+enum class Crossing { none, proper, touching };
+
+// How the segment st, t outside of the convex hull of the shell, crosses the triangle abc.
+Crossing crossing(const Vec3& s, const Vec3& t, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const int side_s = orientation_sign(a, b, c, s), side_t = orientation_sign(a, b, c, t);
+    if (side_s * side_t > 0) return Crossing::none;
+    std::array<int, 3> pass = {orientation_sign(s, t, a, b), orientation_sign(s, t, b, c),
+                               orientation_sign(s, t, c, a)};
+    std::sort(pass.begin(), pass.end());
+    if (pass[0] < 0 && pass[2] > 0) return Crossing::none;
+    return side_s * side_t == 0 || pass[0] == 0 || pass[2] == 0 || pass[1] == 0 ? Crossing::touching : Crossing::proper;
+}
+
+// A point beyond the box, each attempt through another side and with another slant.
+Vec3 point_beyond(const Eigen::AlignedBox3d& box, const Vec3& point, int attempt) {
+    const int axis = attempt % 3;
+    const bool upper = attempt / 3 % 2 == 0;
+    const double size = box.diagonal().norm();
+    const double slant = 0.0071 * size * (1 + attempt / 6);
+    Vec3 target = point;
+    target[axis] = upper ? box.max()[axis] + 0.1 * size : box.min()[axis] - 0.1 * size;
+    target[(axis + 1) % 3] += slant;
+    target[(axis + 2) % 3] += 0.618034 * slant;
+    return target;
+}
+
+std::optional<bool> crosses_odd_times(const std::vector<Vec3>& vertices, const Shell& shell, const Vec3& s,
+                                      const Vec3& t) {
+    const Vec3 low = s.cwiseMin(t), high = s.cwiseMax(t);
+    bool odd = false;
+    for (const auto& [i, j, k] : shell.facets) {
+        const Vec3 &a = vertices[i], &b = vertices[j], &c = vertices[k];
+        bool apart = false;
+        for (int x = 0; x < 3; ++x)
+            apart |= std::max({a[x], b[x], c[x]}) < low[x] || std::min({a[x], b[x], c[x]}) > high[x];
+        if (apart) continue;
+        const Crossing kind = crossing(s, t, a, b, c);
+        if (kind == Crossing::touching) return std::nullopt;
+        odd ^= kind == Crossing::proper;
+    }
+    return odd;
+}
+
+}  // namespace
+
+std::vector<Shell> collect_shells(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+                                  const std::vector<std::int32_t>& shell_of_facet, std::int32_t count) {
+    std::vector<Shell> shells(count);
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+        Shell& shell = shells[shell_of_facet[f]];
+        shell.facets.push_back(facets[f]);
+        for (std::int32_t v : facets[f]) shell.box.extend(vertices[v]);
+    }
+    return shells;
+}
+
+std::optional<bool> encloses(const std::vector<Vec3>& vertices, const Shell& shell, const Vec3& point) {
+    if (!shell.box.contains(point)) return false;
+    for (int attempt = 0; attempt < attempts; ++attempt)
+        if (const auto odd = crosses_odd_times(vertices, shell, point, point_beyond(shell.box, point, attempt)))
+            return odd;
+    return std::nullopt;
+}
+
+}  // namespace kerf

@@ -1,0 +1,28 @@
+// Inside or outside of a closed shell, by exact counting.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "core/types.h"
+
+namespace kerf {
+
+/// A closed set of facets over shared vertices, with its bounding box.
+struct Shell {
+    std::vector<Triangle> facets;
+    Eigen::AlignedBox3d box;
+};
+
+/// Facets grouped by their shell number in [0, count), in ascending order of facets.
+std::vector<Shell> collect_shells(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+                                  const std::vector<std::int32_t>& shell_of_facet, std::int32_t count);
+
+/// Whether the point lies inside of the shell: a segment from it to the outside crosses the shell an odd number of
+/// times. Crossings are decided by exact predicates; a segment that touches an edge or a vertex says nothing and is
+/// replaced by the next of a fixed sequence. Nothing is returned if none decides, as for a point on the shell. O(#F).
+std::optional<bool> encloses(const std::vector<Vec3>& vertices, const Shell& shell, const Vec3& point);
+
+}  // namespace kerf

@@ -1,0 +1,253 @@
+// Half-edges from facets by counting sort: the three half-edges of every facet are bucketed by their smaller end
+// vertex, and within a bucket (six entries on average) those with the same larger end are partners. No hashing, so the
+// order of edges, and with it everything that follows, depends on the input alone.
+#include "surface/surface.h"
+
+#include <algorithm>
+#include <span>
+
+#include "core/error.h"
+
+namespace kerf {
+
+namespace {
+
+// A half-edge of facet `corner / 3` from its vertex `corner % 3` to the next one.
+struct Corner {
+    std::int32_t far_end;  // larger end vertex of the edge
+    std::int32_t corner;
+};
+
+// Half-edges bucketed by the smaller end vertex: those of vertex v are [first[v], first[v + 1]), sorted by larger end,
+// then by corner.
+struct CornerBuckets {
+    std::vector<std::int32_t> first;
+    std::vector<Corner> corners;
+};
+
+CornerBuckets bucket_corners(std::size_t vertex_count, const std::vector<Triangle>& facets) {
+    CornerBuckets buckets;
+    buckets.first.assign(vertex_count + 1, 0);
+    for (const Triangle& t : facets)
+        for (int i = 0; i < 3; ++i) ++buckets.first[std::min(t[i], t[(i + 1) % 3]) + 1];
+    for (std::size_t v = 0; v < vertex_count; ++v) buckets.first[v + 1] += buckets.first[v];
+
+    buckets.corners.resize(3 * facets.size());
+    std::vector<std::int32_t> end(buckets.first.begin(), buckets.first.end() - 1);
+    for (std::size_t f = 0; f < facets.size(); ++f)
+        for (int i = 0; i < 3; ++i) {
+            const auto [low, high] = std::minmax(facets[f][i], facets[f][(i + 1) % 3]);
+            buckets.corners[end[low]++] = {high, static_cast<std::int32_t>(3 * f + i)};
+        }
+    for (std::size_t v = 0; v < vertex_count; ++v) {
+        // Corners arrive in ascending order, so a stable sort by the far end suffices.
+        const auto begin = buckets.corners.begin() + buckets.first[v];
+        const auto stop = buckets.corners.begin() + buckets.first[v + 1];
+        for (auto it = begin; it != stop; ++it)
+            std::rotate(std::upper_bound(begin, it, *it, [](auto& a, auto& b) { return a.far_end < b.far_end; }), it,
+                        it + 1);
+    }
+    return buckets;
+}
+
+// Calls visit(low vertex, corners of one edge) for every edge in ascending order.
+template <class Visit>
+void for_each_edge(const CornerBuckets& buckets, Visit visit) {
+    for (std::size_t v = 0; v + 1 < buckets.first.size(); ++v)
+        for (std::int32_t i = buckets.first[v]; i < buckets.first[v + 1];) {
+            std::int32_t j = i + 1;
+            while (j < buckets.first[v + 1] && buckets.corners[j].far_end == buckets.corners[i].far_end) ++j;
+            visit(static_cast<std::int32_t>(v), std::span(buckets.corners).subspan(i, j - i));
+            i = j;
+        }
+}
+
+std::int32_t start_vertex(const std::vector<Triangle>& facets, std::int32_t corner) {
+    return facets[corner / 3][corner % 3];
+}
+
+std::int32_t next_corner(std::int32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+
+ManifoldDefect edge_defect(ManifoldDefect::Kind kind, std::int32_t low, std::span<const Corner> corners) {
+    ManifoldDefect defect{kind, {low, corners[0].far_end}, {}};
+    for (const Corner& c : corners) defect.facets.push_back(c.corner / 3);
+    return defect;
+}
+
+// Facets around a vertex that are joined over proper edges form one fan at a manifold vertex.
+void find_vertex_defects(std::size_t vertex_count, const std::vector<Triangle>& facets,
+                         const std::vector<std::int32_t>& partner, std::vector<ManifoldDefect>& defects) {
+    std::vector<std::int32_t> degree(vertex_count, 0), fan_size(vertex_count, 0);
+    for (const Triangle& t : facets)
+        for (std::int32_t v : t) ++degree[v];
+    const auto corner_count = static_cast<std::int32_t>(3 * facets.size());
+    std::vector<char> irregular(vertex_count, 0);
+    for (std::int32_t c = 0; c < corner_count; ++c) {
+        const std::int32_t v = start_vertex(facets, c);
+        if (partner[c] < 0) irregular[v] = irregular[start_vertex(facets, next_corner(c))] = 1;
+    }
+    for (std::int32_t c = 0; c < corner_count; ++c) {
+        const std::int32_t v = start_vertex(facets, c);
+        if (fan_size[v] || irregular[v]) continue;
+        std::int32_t turn = c;
+        do {
+            ++fan_size[v];
+            turn = next_corner(partner[turn]);
+        } while (turn != c);
+    }
+    std::vector<std::int32_t> slot(vertex_count, -1);
+    const std::size_t first_new = defects.size();
+    for (std::size_t v = 0; v < vertex_count; ++v)
+        if (!irregular[v] && fan_size[v] != degree[v]) {
+            slot[v] = static_cast<std::int32_t>(defects.size());
+            defects.push_back({ManifoldDefect::Kind::non_manifold_vertex, {static_cast<std::int32_t>(v)}, {}});
+        }
+    if (defects.size() == first_new) return;
+    for (std::size_t f = 0; f < facets.size(); ++f)
+        for (std::int32_t v : facets[f])
+            if (slot[v] >= 0) defects[slot[v]].facets.push_back(static_cast<std::int32_t>(f));
+}
+
+struct Pairing {
+    std::vector<std::int32_t> partner;  // opposite corner per corner, -1 at a defect
+    std::vector<ManifoldDefect> defects;
+};
+
+Pairing pair_corners(std::size_t vertex_count, const std::vector<Triangle>& facets) {
+    Pairing pairing;
+    pairing.partner.assign(3 * facets.size(), -1);
+    for_each_edge(bucket_corners(vertex_count, facets), [&](std::int32_t low, std::span<const Corner> corners) {
+        using Kind = ManifoldDefect::Kind;
+        if (corners.size() != 2) {
+            const Kind kind = corners.size() == 1 ? Kind::open_edge : Kind::non_manifold_edge;
+            pairing.defects.push_back(edge_defect(kind, low, corners));
+        } else if (start_vertex(facets, corners[0].corner) == start_vertex(facets, corners[1].corner)) {
+            pairing.defects.push_back(edge_defect(Kind::edge_orientation, low, corners));
+        } else {
+            pairing.partner[corners[0].corner] = corners[1].corner;
+            pairing.partner[corners[1].corner] = corners[0].corner;
+        }
+    });
+    find_vertex_defects(vertex_count, facets, pairing.partner, pairing.defects);
+    return pairing;
+}
+
+const char* name(ManifoldDefect::Kind kind) {
+    switch (kind) {
+        case ManifoldDefect::Kind::open_edge:
+            return "an open edge";
+        case ManifoldDefect::Kind::edge_orientation:
+            return "an edge with facets of opposite orientation";
+        case ManifoldDefect::Kind::non_manifold_edge:
+            return "a non-manifold edge";
+        case ManifoldDefect::Kind::non_manifold_vertex:
+            return "a non-manifold vertex";
+    }
+    return "";
+}
+
+// OpenMesh's own add_face searches for existing edges; with the partners known the connectivity is written directly.
+HalfEdgeMesh build_half_edges(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+                              const std::vector<std::int32_t>& partner) {
+    using Mesh = HalfEdgeMesh;
+    Mesh mesh;
+    mesh.reserve(vertices.size(), partner.size() / 2, facets.size());
+    for (const Vec3& p : vertices) mesh.new_vertex(p);
+    std::vector<std::int32_t> half_edge(partner.size());
+    for (std::size_t c = 0; c < partner.size(); ++c) {
+        const auto corner = static_cast<std::int32_t>(c);
+        if (partner[c] < corner)
+            half_edge[c] = Surface::opposite(half_edge[partner[c]]);
+        else
+            half_edge[c] = mesh.new_edge(Mesh::VertexHandle(start_vertex(facets, corner)),
+                                         Mesh::VertexHandle(start_vertex(facets, next_corner(corner))))
+                               .idx();
+    }
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+        const Mesh::FaceHandle facet = mesh.new_face();
+        for (int i = 0; i < 3; ++i) {
+            const Mesh::HalfedgeHandle h(half_edge[3 * f + i]);
+            mesh.set_face_handle(h, facet);
+            mesh.set_next_halfedge_handle(h, Mesh::HalfedgeHandle(half_edge[3 * f + (i + 1) % 3]));
+            mesh.set_halfedge_handle(Mesh::VertexHandle(facets[f][i]), h);
+        }
+        mesh.set_halfedge_handle(facet, Mesh::HalfedgeHandle(half_edge[3 * f]));
+    }
+    return mesh;
+}
+
+}  // namespace
+
+std::vector<ManifoldDefect> find_manifold_defects(std::size_t vertex_count, const std::vector<Triangle>& facets) {
+    std::vector<ManifoldDefect> defects = pair_corners(vertex_count, facets).defects;
+    std::stable_sort(defects.begin(), defects.end(),
+                     [](const auto& a, const auto& b) { return a.vertices < b.vertices; });
+    return defects;
+}
+
+Surface::Surface(SurfaceArrays arrays) {
+    const Pairing pairing = pair_corners(arrays.vertices.size(), arrays.facets);
+    if (!pairing.defects.empty()) {
+        const ManifoldDefect& defect = pairing.defects.front();
+        const Vec3& p = arrays.vertices[defect.vertices.front()];
+        throw Error(ErrorCode::internal, std::string("The surface has ") + name(defect.kind) + " at vertex " +
+                                             std::to_string(defect.vertices.front()) + " (" + std::to_string(p.x()) +
+                                             ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) + ").");
+    }
+    mesh_ = build_half_edges(arrays.vertices, arrays.facets, pairing.partner);
+    vertex_key_ = std::move(arrays.vertex_key);
+    facet_key_ = std::move(arrays.facet_key);
+    patch_ = std::move(arrays.patch);
+}
+
+std::array<std::int32_t, 3> Surface::half_edges(std::int32_t facet) const {
+    const std::int32_t h = mesh_.halfedge_handle(HalfEdgeMesh::FaceHandle(facet)).idx();
+    const std::int32_t n = next(h);
+    return {h, n, next(n)};
+}
+
+Triangle Surface::vertices(std::int32_t facet) const {
+    const auto h = half_edges(facet);
+    return {to_vertex(h[2]), to_vertex(h[0]), to_vertex(h[1])};
+}
+
+std::array<std::int32_t, 3> Surface::neighbours(std::int32_t facet) const {
+    const auto h = half_edges(facet);
+    return {facet_of(opposite(h[0])), facet_of(opposite(h[1])), facet_of(opposite(h[2]))};
+}
+
+SurfaceArrays Surface::arrays() const {
+    SurfaceArrays arrays;
+    arrays.vertices.reserve(vertex_count());
+    for (std::int32_t v = 0; v < vertex_count(); ++v) arrays.vertices.push_back(point(v));
+    arrays.facets.reserve(facet_count());
+    for (std::int32_t f = 0; f < facet_count(); ++f) arrays.facets.push_back(vertices(f));
+    arrays.vertex_key = vertex_key_;
+    arrays.facet_key = facet_key_;
+    arrays.patch = patch_;
+    return arrays;
+}
+
+Shells find_shells(const Surface& surface) {
+    Shells shells;
+    shells.of_facet.assign(surface.facet_count(), -1);
+    std::vector<std::int32_t> stack;
+    for (std::int32_t seed = 0; seed < surface.facet_count(); ++seed) {
+        if (shells.of_facet[seed] >= 0) continue;
+        shells.of_facet[seed] = shells.count;
+        stack.push_back(seed);
+        while (!stack.empty()) {
+            const std::int32_t facet = stack.back();
+            stack.pop_back();
+            for (std::int32_t other : surface.neighbours(facet))
+                if (shells.of_facet[other] < 0) {
+                    shells.of_facet[other] = shells.count;
+                    stack.push_back(other);
+                }
+        }
+        ++shells.count;
+    }
+    return shells;
+}
+
+}  // namespace kerf

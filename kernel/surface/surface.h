@@ -1,0 +1,105 @@
+// The closed surface of a body or subdomain: a half-edge mesh with keys.
+#pragma once
+
+#include <vector>
+
+#include <OpenMesh/Core/Geometry/EigenVectorT.hh>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+
+#include "core/types.h"
+
+namespace kerf {
+
+/// A closed surface as flat arrays: the form in which it is built, sent to a worker and written to a file.
+struct SurfaceArrays {
+    std::vector<Vec3> vertices;       ///< #V
+    std::vector<Triangle> facets;     ///< #F; normals point out of the body
+    std::vector<Key> vertex_key;      ///< #V
+    std::vector<Key> facet_key;       ///< #F; node 0: a facet of the input, else of the interface of that node
+    std::vector<std::int32_t> patch;  ///< #F; patch of the input, -1 on interfaces
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(vertices, facets, vertex_key, facet_key, patch);
+    }
+};
+
+struct SurfaceTraits : OpenMesh::DefaultTraits {
+    using Point = Vec3;
+    using Normal = Vec3;
+    VertexAttributes(OpenMesh::Attributes::None);
+    FaceAttributes(OpenMesh::Attributes::None);
+    EdgeAttributes(OpenMesh::Attributes::None);
+    HalfedgeAttributes(OpenMesh::Attributes::None);
+};
+using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<SurfaceTraits>;
+
+/// A place where a set of triangles is not a closed, oriented 2-manifold.
+struct ManifoldDefect {
+    enum class Kind { open_edge, edge_orientation, non_manifold_edge, non_manifold_vertex };
+    Kind kind;
+    std::vector<std::int32_t> vertices;  ///< the two ends of the edge, or the vertex
+    std::vector<std::int32_t> facets;    ///< facets at the place, ascending
+};
+
+/// Every place where `facets` over `vertex_count` vertices fail to be a closed, oriented 2-manifold, ordered by vertex.
+/// Requires indices in range and no facet with a repeated vertex. Vertices without facets are allowed. O(#V + #F).
+std::vector<ManifoldDefect> find_manifold_defects(std::size_t vertex_count, const std::vector<Triangle>& facets);
+
+/// Closed, oriented 2-manifold. Facet and vertex numbers are those of the arrays it was built from.
+class Surface {
+ public:
+    Surface() = default;
+
+    /// Builds the half-edges in O(#V + #F). Throws Error(internal) naming the first manifold defect: diagnose before.
+    explicit Surface(SurfaceArrays arrays);
+
+    const HalfEdgeMesh& mesh() const { return mesh_; }
+    std::int32_t vertex_count() const { return static_cast<std::int32_t>(vertex_key_.size()); }
+    std::int32_t facet_count() const { return static_cast<std::int32_t>(facet_key_.size()); }
+
+    const Vec3& point(std::int32_t vertex) const { return mesh_.point(HalfEdgeMesh::VertexHandle(vertex)); }
+    Key vertex_key(std::int32_t vertex) const { return vertex_key_[vertex]; }
+    Key facet_key(std::int32_t facet) const { return facet_key_[facet]; }
+    std::int32_t patch(std::int32_t facet) const { return patch_[facet]; }
+
+    /// Half-edges of a facet in the order of its vertices: half-edge i runs from vertex i to vertex i+1.
+    std::array<std::int32_t, 3> half_edges(std::int32_t facet) const;
+    Triangle vertices(std::int32_t facet) const;
+    /// The facet across half-edge i, for each i.
+    std::array<std::int32_t, 3> neighbours(std::int32_t facet) const;
+    std::int32_t from_vertex(std::int32_t half_edge) const { return to_vertex(half_edge ^ 1); }
+    std::int32_t to_vertex(std::int32_t half_edge) const {
+        return mesh_.to_vertex_handle(HalfEdgeMesh::HalfedgeHandle(half_edge)).idx();
+    }
+    std::int32_t facet_of(std::int32_t half_edge) const {
+        return mesh_.face_handle(HalfEdgeMesh::HalfedgeHandle(half_edge)).idx();
+    }
+    std::int32_t next(std::int32_t half_edge) const {
+        return mesh_.next_halfedge_handle(HalfEdgeMesh::HalfedgeHandle(half_edge)).idx();
+    }
+    static std::int32_t opposite(std::int32_t half_edge) { return half_edge ^ 1; }
+    /// Some half-edge that starts at the vertex, -1 for a vertex without facets.
+    std::int32_t outgoing(std::int32_t vertex) const {
+        return mesh_.halfedge_handle(HalfEdgeMesh::VertexHandle(vertex)).idx();
+    }
+    /// Turns to the next half-edge around its start vertex (clockwise seen from outside).
+    std::int32_t rotate(std::int32_t half_edge) const { return next(opposite(half_edge)); }
+
+    SurfaceArrays arrays() const;
+
+ private:
+    HalfEdgeMesh mesh_;
+    std::vector<Key> vertex_key_;
+    std::vector<Key> facet_key_;
+    std::vector<std::int32_t> patch_;
+};
+
+/// Connected components of facets (shells): component per facet, numbered by smallest facet, and their number. O(#F).
+struct Shells {
+    std::vector<std::int32_t> of_facet;
+    std::int32_t count = 0;
+};
+Shells find_shells(const Surface& surface);
+
+}  // namespace kerf

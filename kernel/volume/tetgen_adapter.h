@@ -1,0 +1,16 @@
+// TetGen 1.5 behind the interface of mesher.h.
+#pragma once
+
+#include "volume/mesher.h"
+
+namespace kerf {
+
+/// mesh_volume() by TetGen, with one point of `holes` in every void. Requires checked options.
+///
+/// TetGen may print warnings to the standard output, so a caller that sends data there must keep it apart. It aborts
+/// the process on flat or non-finite input. The orientation of tetrahedra is TetGen's in normalised coordinates; far
+/// from the origin the rounding of interior vertices could turn a sliver, which verify_mesh() tells.
+TetMesh mesh_with_tetgen(const SurfaceArrays& surface, const std::vector<Vec3>& holes, const MesherOptions& options,
+                         std::uint32_t vertex_order_seed);
+
+}  // namespace kerf

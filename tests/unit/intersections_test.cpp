@@ -1,0 +1,234 @@
+#include "surface/intersections.h"
+
+#include <algorithm>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include "shapes.h"
+
+namespace kerf {
+namespace {
+
+using Lattice = Eigen::Matrix<std::int64_t, 3, 1>;
+using LatticeTriangle = std::array<Lattice, 3>;
+using Corners = std::array<Vec3, 3>;
+
+// Oracle: two convex sets with integer corners are disjoint if and only if one of finitely many axes separates them.
+class SeparatingAxis {
+ public:
+    static bool meet(const LatticeTriangle& p, const LatticeTriangle& q) {
+        const std::array<Lattice, 3> e = edges(p), f = edges(q);
+        std::vector<Lattice> axes = {e[0].cross(e[1]), f[0].cross(f[1])};
+        for (const Lattice& n : {axes[0], axes[1]})
+            for (int i = 0; i < 3; ++i) axes.insert(axes.end(), {n.cross(e[i]), n.cross(f[i])});
+        for (int i = 0; i < 3; ++i) {
+            axes.insert(axes.end(), {e[i], f[i]});
+            for (int j = 0; j < 3; ++j) axes.push_back(e[i].cross(f[j]));
+        }
+        return std::none_of(axes.begin(), axes.end(), [&](const Lattice& axis) { return separates(axis, p, q); });
+    }
+
+ private:
+    static std::array<Lattice, 3> edges(const LatticeTriangle& t) { return {t[1] - t[0], t[2] - t[1], t[0] - t[2]}; }
+    static bool separates(const Lattice& axis, const LatticeTriangle& p, const LatticeTriangle& q) {
+        const auto [p_low, p_high] = std::minmax({axis.dot(p[0]), axis.dot(p[1]), axis.dot(p[2])});
+        const auto [q_low, q_high] = std::minmax({axis.dot(q[0]), axis.dot(q[1]), axis.dot(q[2])});
+        return p_high < q_low || q_high < p_low;
+    }
+};
+
+class RandomTriangles {
+ public:
+    RandomTriangles(unsigned seed, int range) : random_(seed), coordinate_(0, range) {}
+    Lattice point() { return {coordinate_(random_), coordinate_(random_), coordinate_(random_)}; }
+    // Corners not on one line.
+    LatticeTriangle triangle() {
+        for (;;) {
+            const LatticeTriangle t = {point(), point(), point()};
+            if (!is_flat(t)) return t;
+        }
+    }
+    static bool is_flat(const LatticeTriangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]).isZero(); }
+
+ private:
+    std::mt19937 random_;
+    std::uniform_int_distribution<std::int64_t> coordinate_;
+};
+
+Corners to_corners(const LatticeTriangle& t) { return {t[0].cast<double>(), t[1].cast<double>(), t[2].cast<double>()}; }
+
+constexpr Triangle first_ids = {0, 1, 2};
+
+TEST(TrianglesIntersect, AgreesWithSeparatingAxesWhereNothingIsShared) {
+    int meeting = 0, apart = 0;
+    for (int range : {1, 2, 4, 20}) {  // small lattices are full of coplanar, collinear and touching cases
+        SCOPED_TRACE("seed 7, range " + std::to_string(range));
+        RandomTriangles random(7, range);
+        for (int i = 0; i < 5000; ++i) {
+            const LatticeTriangle p = random.triangle(), q = random.triangle();
+            const bool expected = SeparatingAxis::meet(p, q);
+            ASSERT_EQ(triangles_intersect(to_corners(p), first_ids, to_corners(q), {3, 4, 5}), expected) << i;
+            ++(expected ? meeting : apart);
+        }
+    }
+    EXPECT_GT(meeting, 3000);
+    EXPECT_GT(apart, 3000);
+}
+
+TEST(TrianglesIntersect, AgreesInOnePlane) {
+    int meeting = 0, apart = 0;
+    RandomTriangles random(11, 6);
+    for (int i = 0; i < 10000; ++i) {
+        LatticeTriangle p = random.triangle(), q = random.triangle();
+        for (LatticeTriangle* t : {&p, &q})
+            for (Lattice& x : *t) x[2] = 2 * x[0] - 3 * x[1];
+        if (RandomTriangles::is_flat(p) || RandomTriangles::is_flat(q)) continue;
+        const bool expected = SeparatingAxis::meet(p, q);
+        ASSERT_EQ(triangles_intersect(to_corners(p), first_ids, to_corners(q), {3, 4, 5}), expected)
+            << "seed 11, " << i;
+        ++(expected ? meeting : apart);
+    }
+    EXPECT_GT(meeting, 1000);
+    EXPECT_GT(apart, 1000);
+}
+
+TEST(TrianglesIntersect, TakesCollinearCornersForASegment) {
+    int meeting = 0, apart = 0;
+    for (int range : {1, 2, 4}) {
+        SCOPED_TRACE("seed 29, range " + std::to_string(range));
+        RandomTriangles random(29, range);
+        for (int i = 0; i < 5000; ++i) {
+            const Lattice a = random.point(), d = random.point() - a;
+            const LatticeTriangle p = i % 2 ? random.triangle() : LatticeTriangle{random.point(), a + d, a - d};
+            const LatticeTriangle q = {a, a + 2 * d, a + (i % 5) * d};
+            const bool expected = SeparatingAxis::meet(p, q);
+            ASSERT_EQ(triangles_intersect(to_corners(p), first_ids, to_corners(q), {3, 4, 5}), expected) << i;
+            ASSERT_EQ(triangles_intersect(to_corners(q), first_ids, to_corners(p), {3, 4, 5}), expected) << i;
+            ++(expected ? meeting : apart);
+        }
+    }
+    EXPECT_GT(meeting, 1000);
+    EXPECT_GT(apart, 1000);
+}
+
+TEST(TrianglesIntersect, LooksBeyondASharedVertex) {
+    int meeting = 0, apart = 0;
+    for (int range : {1, 2, 4, 20}) {
+        SCOPED_TRACE("seed 13, range " + std::to_string(range));
+        RandomTriangles random(13, range);
+        for (int i = 0; i < 5000; ++i) {
+            const LatticeTriangle p = random.triangle();
+            LatticeTriangle q = random.triangle();
+            q[1] = p[2];
+            if (RandomTriangles::is_flat(q)) continue;
+            const bool expected =
+                SeparatingAxis::meet(p, {q[0], q[2], q[2]}) || SeparatingAxis::meet({p[0], p[1], p[1]}, q);
+            ASSERT_EQ(triangles_intersect(to_corners(p), first_ids, to_corners(q), {3, 2, 4}), expected) << i;
+            ++(expected ? meeting : apart);
+        }
+    }
+    EXPECT_GT(meeting, 3000);
+    EXPECT_GT(apart, 3000);
+}
+
+TEST(TrianglesIntersect, LooksBeyondASharedEdge) {
+    int meeting = 0, apart = 0;
+    for (int range : {1, 2, 4}) {
+        SCOPED_TRACE("seed 17, range " + std::to_string(range));
+        RandomTriangles random(17, range);
+        for (int i = 0; i < 5000; ++i) {
+            const LatticeTriangle p = random.triangle();
+            const LatticeTriangle q = {p[1], random.point(), p[0]};
+            if (RandomTriangles::is_flat(q)) continue;
+            const Lattice n = (p[1] - p[0]).cross(p[2] - p[0]), m = (p[1] - p[0]).cross(q[1] - p[0]);
+            const bool expected = n.cross(m).isZero() && n.dot(m) > 0;
+            ASSERT_EQ(triangles_intersect(to_corners(p), first_ids, to_corners(q), {1, 3, 0}), expected) << i;
+            ++(expected ? meeting : apart);
+        }
+    }
+    EXPECT_GT(meeting, 500);
+    EXPECT_GT(apart, 3000);
+}
+
+TEST(TrianglesIntersect, DoesNotDependOnTheOrderOfTrianglesAndCorners) {
+    RandomTriangles random(19, 3);
+    std::mt19937 turn(19);
+    for (int i = 0; i < 5000; ++i) {
+        Corners p = to_corners(random.triangle()), q = to_corners(random.triangle());
+        Triangle p_id = first_ids, q_id = {3, 4, 5};
+        for (std::uint32_t shared = turn() % 3, k = 0; k < shared; ++k) q[k] = p[k], q_id[k] = p_id[k];
+        const bool expected = triangles_intersect(p, p_id, q, q_id);
+        ASSERT_EQ(triangles_intersect(q, q_id, p, p_id), expected) << "seed 19, " << i;
+        const std::uint32_t shift = turn() % 3;
+        std::rotate(p.begin(), p.begin() + shift, p.end());
+        std::rotate(p_id.begin(), p_id.begin() + shift, p_id.end());
+        std::swap(q[0], q[1]), std::swap(q_id[0], q_id[1]);
+        ASSERT_EQ(triangles_intersect(p, p_id, q, q_id), expected) << "seed 19, " << i;
+    }
+}
+
+TEST(TrianglesIntersect, IsExactWhereRoundingWouldErr) {
+    const Corners p = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+    const double tiny = 1e-300;
+    const auto standing_at = [](double z) {
+        return Corners{Vec3(0.25, 0.25, z), Vec3(0.3, 0.2, 1), Vec3(0.2, 0.3, 1)};
+    };
+    EXPECT_FALSE(triangles_intersect(p, first_ids, standing_at(tiny), {3, 4, 5}));
+    EXPECT_TRUE(triangles_intersect(p, first_ids, standing_at(0), {3, 4, 5}));
+    EXPECT_TRUE(triangles_intersect(p, first_ids, standing_at(-tiny), {3, 4, 5}));
+    EXPECT_TRUE(triangles_intersect(p, first_ids, p, {2, 0, 1})) << "the same three vertices";
+}
+
+TEST(FindSelfIntersections, AgreesWithAllPairs) {
+    for (unsigned seed = 1; seed <= 10; ++seed) {
+        SCOPED_TRACE(seed);
+        RandomTriangles random(seed, 12);
+        std::vector<Vec3> vertices;
+        for (int i = 0; i < 60; ++i) vertices.push_back(random.point().cast<double>());
+        std::mt19937 choice(seed);
+        std::vector<Triangle> facets;
+        while (facets.size() < 80) {
+            const auto pick = [&] { return static_cast<std::int32_t>(choice() % vertices.size()); };
+            const Triangle t = {pick(), pick(), pick()};
+            if (!collinear(vertices[t[0]], vertices[t[1]], vertices[t[2]])) facets.push_back(t);
+        }
+        const auto corners = [&](const Triangle& t) { return Corners{vertices[t[0]], vertices[t[1]], vertices[t[2]]}; };
+        std::vector<std::pair<std::int32_t, std::int32_t>> expected;
+        for (std::int32_t f = 0; f < 80; ++f)
+            for (std::int32_t g = f + 1; g < 80; ++g)
+                if (triangles_intersect(corners(facets[f]), facets[f], corners(facets[g]), facets[g]))
+                    expected.emplace_back(f, g);
+        ASSERT_GT(expected.size(), 10u);
+        EXPECT_EQ(find_self_intersections(vertices, facets, 100000), expected);
+        expected.resize(7);
+        EXPECT_EQ(find_self_intersections(vertices, facets, 7), expected) << "the first pairs, not just any";
+    }
+}
+
+TEST(FindSelfIntersections, FindsNoneOnEmbeddedSurfaces) {
+    for (const Soup& soup : {test::tetrahedron(), test::box(Vec3(0, 0, 0), Vec3(1, 2, 3), 5), test::icosphere(3),
+                             test::torus(3, 1, 30, 20), test::nested_boxes(4, 3)}) {
+        SCOPED_TRACE(soup.patch_names.front());
+        EXPECT_TRUE(find_self_intersections(soup.vertices, soup.facets).empty());
+    }
+}
+
+TEST(ExactPredicates, FollowTheSignOfTheDeterminant) {
+    RandomTriangles random(23, 2);
+    for (int i = 0; i < 2000; ++i) {
+        const Lattice a = random.point(), b = random.point(), c = random.point(), d = random.point();
+        const std::int64_t det = (b - a).dot((c - a).cross(d - a));
+        const int sign = (det > 0) - (det < 0);
+        ASSERT_EQ(orientation_sign(a.cast<double>(), b.cast<double>(), c.cast<double>(), d.cast<double>()), sign)
+            << "seed 23, " << i;
+        ASSERT_EQ(collinear(a.cast<double>(), b.cast<double>(), c.cast<double>()), RandomTriangles::is_flat({a, b, c}))
+            << "seed 23, " << i;
+    }
+}
+
+}  // namespace
+}  // namespace kerf

@@ -1,0 +1,221 @@
+#include "volume/mesher.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "mesh/verification.h"
+#include "shapes.h"
+
+namespace kerf {
+namespace {
+
+struct NamedSurface {
+    std::string name;
+    SurfaceArrays surface;
+};
+
+std::vector<NamedSurface> surfaces() {
+    return {{"tetrahedron", test::to_arrays(test::tetrahedron())},
+            {"box", test::to_arrays(test::box())},
+            {"plate", test::to_arrays(test::box(Vec3(-5, -5, 0), Vec3(5, 5, 0.3), std::array{8, 8, 1}))},
+            {"sphere", test::to_arrays(test::icosphere(3))},
+            {"uv sphere", test::to_arrays(test::uv_sphere(12, 20))},
+            {"torus", test::to_arrays(test::torus(2, 0.6, 32, 14))},
+            {"two boxes", test::to_arrays(test::join(test::box(), test::translated(test::box(), Vec3(2, 3, 4))))},
+            {"box with a void", test::to_arrays(test::nested_boxes(2, 2))},
+            {"box in a void", test::to_arrays(test::nested_boxes(3, 2))},
+            {"two voids inside each other", test::to_arrays(test::nested_boxes(4, 2))}};
+}
+
+SurfaceArrays transformed(SurfaceArrays surface, double scale, const Vec3& offset) {
+    for (Vec3& p : surface.vertices) p = scale * p + offset;
+    return surface;
+}
+
+void expect_laws(const TetMesh& mesh, const SurfaceArrays& surface) {
+    const MeshLaws laws = verify_mesh(mesh, surface);
+    EXPECT_GT(mesh.tets.size(), 0u);
+    EXPECT_EQ(laws.inverted_tets, 0);
+    EXPECT_EQ(laws.missing_facets, 0);
+    EXPECT_EQ(laws.extra_boundary_faces, 0);
+    EXPECT_EQ(laws.mismatched_neighbours, 0);
+    EXPECT_EQ(laws.moved_vertices, 0);
+    EXPECT_NEAR(laws.volume / laws.surface_volume, 1, 1e-10);
+    EXPECT_TRUE(laws.hold());
+}
+
+double volume(const TetMesh& mesh, const Tetrahedron& t) {
+    const Vec3& a = mesh.vertices[t[0]];
+    return (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).dot(mesh.vertices[t[3]] - a) / 6;
+}
+
+ErrorCode code_of(const SurfaceArrays& surface, const MesherOptions& options) {
+    try {
+        mesh_volume(surface, options);
+    } catch (const Error& error) {
+        return error.code();
+    }
+    ADD_FAILURE() << "no error";
+    return ErrorCode::internal;
+}
+
+TEST(Mesher, ObeysTheLaws) {
+    for (const auto& [name, surface] : surfaces())
+        for (const double radius_edge : {0.0, 1.2, 1.4, 2.0})
+            for (const double max_volume : {0.0, 0.02}) {
+                SCOPED_TRACE(testing::Message() << name << ", Q " << radius_edge << ", V " << max_volume);
+                MesherOptions options;
+                options.radius_edge = radius_edge;
+                options.max_volume = max_volume;
+                const TetMesh mesh = mesh_volume(surface, options);
+                expect_laws(mesh, surface);
+            }
+}
+
+TEST(Mesher, ObeysTheLawsInAnyPlaceAndScale) {
+    for (const auto& [name, surface] : surfaces())
+        for (const double scale : {1e-6, 1.0, 1e3, 1e12})
+            for (const double offset : {0.0, 1e5}) {
+                SCOPED_TRACE(testing::Message() << name << ", scale " << scale << ", offset " << offset << " scales");
+                const SurfaceArrays moved = transformed(surface, scale, scale * Vec3(offset, -offset, 0.3 * offset));
+                expect_laws(mesh_volume(moved, {}), moved);
+            }
+}
+
+TEST(Mesher, TopologyIsInvariantToPowersOfTwo) {
+    for (const auto& [name, surface] : surfaces()) {
+        SCOPED_TRACE(name);
+        MesherOptions options;
+        options.max_volume = 0.02;
+        const TetMesh mesh = mesh_volume(surface, options);
+        for (const int exponent : {-40, -1, 20}) {
+            SCOPED_TRACE(exponent);
+            const double scale = std::ldexp(1.0, exponent);
+            options.max_volume = 0.02 * scale * scale * scale;
+            const TetMesh scaled = mesh_volume(transformed(surface, scale, Vec3::Zero()), options);
+            EXPECT_EQ(scaled.tets, mesh.tets);
+            EXPECT_EQ(scaled.neighbours, mesh.neighbours);
+            ASSERT_EQ(scaled.vertices.size(), mesh.vertices.size());
+            for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+                ASSERT_EQ(scaled.vertices[v], Vec3(scale * mesh.vertices[v]));
+        }
+    }
+}
+
+TEST(Mesher, ObeysTheLawsInAnyVertexOrder) {
+    for (const auto& [name, surface] : surfaces())
+        for (const std::uint32_t seed : {1u, 2u, 3u, 4000000000u}) {
+            SCOPED_TRACE(testing::Message() << name << ", seed " << seed);
+            MesherOptions options;
+            options.max_volume = 0.05;
+            expect_laws(mesh_volume(surface, options, seed), surface);
+        }
+}
+
+TEST(Mesher, IsDeterministic) {
+    const SurfaceArrays surface = test::to_arrays(test::icosphere(3));
+    std::vector<std::vector<Tetrahedron>> meshes;
+    for (const std::uint32_t seed : {0u, 1u, 2u}) {
+        SCOPED_TRACE(seed);
+        const TetMesh first = mesh_volume(surface, {}, seed), second = mesh_volume(surface, {}, seed);
+        EXPECT_EQ(first.tets, second.tets);
+        EXPECT_EQ(first.vertices, second.vertices);
+        meshes.push_back(first.tets);
+    }
+    EXPECT_NE(meshes[0], meshes[1]);
+    EXPECT_NE(meshes[1], meshes[2]);
+}
+
+TEST(Mesher, WithoutBoundsAddsNoVertices) {
+    MesherOptions options;
+    options.radius_edge = 0;
+    const SurfaceArrays surface = test::to_arrays(test::icosphere(3));
+    EXPECT_EQ(mesh_volume(surface, options).interior_vertex_count(), 0);
+    options.max_volume = 0.001;
+    EXPECT_GT(mesh_volume(surface, options).interior_vertex_count(), 0);
+}
+
+TEST(Mesher, KeepsVerticesWithoutFacetsAndTheirNumbers) {
+    SurfaceArrays surface = test::to_arrays(test::box(Vec3::Zero(), Vec3::Ones(), 2));
+    surface.vertices.insert(surface.vertices.begin(), Vec3(0.4, 0.3, 0.2));
+    for (Triangle& t : surface.facets)
+        for (std::int32_t& v : t) ++v;
+    surface.vertex_key.push_back(make_key(0, static_cast<std::int32_t>(surface.vertex_key.size())));
+    for (const std::uint32_t seed : {0u, 1u}) {
+        SCOPED_TRACE(seed);
+        expect_laws(mesh_volume(surface, {}, seed), surface);
+    }
+}
+
+TEST(Mesher, KeepsTheVolumeBoundWhereTheSurfaceIsFine) {
+    for (const double scale : {1e-6, 1.0})
+        for (const double relative : {0.0008, 0.0004}) {
+            SCOPED_TRACE(testing::Message() << "scale " << scale << ", bound " << relative);
+            MesherOptions options;
+            options.max_volume = relative * scale * scale * scale;
+            const TetMesh mesh =
+                mesh_volume(transformed(test::to_arrays(test::icosphere(4)), scale, Vec3::Zero()), options);
+            std::vector<double> volumes;
+            for (const Tetrahedron& t : mesh.tets) volumes.push_back(volume(mesh, t) / options.max_volume);
+            std::sort(volumes.begin(), volumes.end());
+            EXPECT_LE(volumes[volumes.size() - 1 - volumes.size() / 1000], 1);  // all but one in a thousand
+            EXPECT_LT(volumes.back(), 1.5);
+            EXPECT_GT(volumes.back(), 0.9);
+        }
+}
+
+TEST(Mesher, TakesExpertSwitches) {
+    // The volume in the switches is in units of the input, whatever unit the mesher works in.
+    const SurfaceArrays surface = transformed(test::to_arrays(test::icosphere(4)), 100, Vec3::Zero());
+    MesherOptions by_option, by_switch;
+    by_option.radius_edge = 1.3;
+    by_option.max_volume = 400;
+    by_switch.tetgen_switches = "q1.3a400";
+    const TetMesh mesh = mesh_volume(surface, by_switch);
+    expect_laws(mesh, surface);
+    EXPECT_EQ(mesh.tets, mesh_volume(surface, by_option).tets);
+}
+
+TEST(Mesher, RefusesOptionsOutOfRange) {
+    const SurfaceArrays surface = test::to_arrays(test::box());
+    MesherOptions options;
+    for (const double radius_edge : {-1.0, 0.5, 1.0, std::nan("")}) {
+        SCOPED_TRACE(radius_edge);
+        options.radius_edge = radius_edge;
+        EXPECT_EQ(code_of(surface, options), ErrorCode::usage);
+    }
+    options = {};
+    for (const double max_volume : {-1.0, std::nan("")}) {
+        SCOPED_TRACE(max_volume);
+        options.max_volume = max_volume;
+        EXPECT_EQ(code_of(surface, options), ErrorCode::usage);
+    }
+    options = {};
+    for (const std::string& switches : {std::string("r"), std::string("o2"), std::string(2000, 'q')}) {
+        SCOPED_TRACE(switches);
+        options.tetgen_switches = switches;
+        EXPECT_EQ(code_of(surface, options), ErrorCode::usage);
+    }
+}
+
+TEST(Mesher, ReportsIntersectingFacets) {
+    const Soup soup = test::join(test::icosphere(2), test::translated(test::icosphere(2), Vec3(0.9, 0.1, 0)));
+    EXPECT_EQ(code_of(test::to_arrays(soup), {}), ErrorCode::subdomain);
+}
+
+TEST(Mesher, CoincidentVerticesBreakTheLaws) {
+    // Two boxes that touch in one point, which each has under its own number; TetGen takes them for one vertex.
+    const SurfaceArrays surface = test::to_arrays(test::join(test::box(), test::translated(test::box(), Vec3::Ones())));
+    const MeshLaws laws = verify_mesh(mesh_volume(surface, {}), surface);
+    EXPECT_GT(laws.missing_facets, 0);
+    EXPECT_GT(laws.extra_boundary_faces, 0);
+    EXPECT_EQ(laws.mismatched_neighbours, 0);
+    EXPECT_FALSE(laws.hold());
+}
+
+}  // namespace
+}  // namespace kerf

@@ -1,0 +1,206 @@
+#include "io/run_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <vector>
+
+#include <unistd.h>
+
+#include "core/error.h"
+
+namespace kerf {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RunFolderTest : public testing::Test {
+ protected:
+    RunFolderTest()
+        : base_(fs::canonical(testing::TempDir()) /
+                (std::string("kerf_run_") + testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
+                 std::to_string(::getpid()))) {
+        fs::create_directories(base_);
+    }
+    ~RunFolderTest() override { fs::remove_all(base_); }
+
+    std::string path(const std::string& name) const { return (base_ / name).string(); }
+    std::size_t entries() const {
+        return static_cast<std::size_t>(std::distance(fs::directory_iterator(base_), fs::directory_iterator()));
+    }
+
+ private:
+    fs::path base_;
+};
+
+void put(const std::string& file, const std::string& text) { std::ofstream(file) << text; }
+
+std::string get(const std::string& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// A finished run that can be told from others by its mark.
+void fill(const RunFolder& folder, const std::string& mark) {
+    put(folder.file("report.json"), mark);
+    put(folder.part_file(8), mark);
+    put(folder.file("only_" + mark), mark);
+}
+
+void run(const std::string& path, const std::string& mark) {
+    RunFolder folder = RunFolder::create(path);
+    fill(folder, mark);
+    folder.commit();
+}
+
+void expect_run(const std::string& path, const std::string& mark) {
+    EXPECT_EQ(get(path + "/report.json"), mark);
+    EXPECT_EQ(get(path + "/parts/part_0008.vtu"), mark);
+    EXPECT_EQ(std::distance(fs::directory_iterator(path), fs::directory_iterator()), 3)
+        << "files of two runs are mixed";
+}
+
+template <class Action>
+std::string io_error(Action action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::io) << error.what();
+        return error.what();
+    }
+    return "";
+}
+
+TEST_F(RunFolderTest, AppearsUnderItsNameOnlyWhenCommitted) {
+    std::optional<RunFolder> folder = RunFolder::create(path("run"));
+    EXPECT_TRUE(fs::is_directory(folder->file("parts")));
+    EXPECT_EQ(fs::path(folder->temporary_path()).parent_path(), fs::path(path("run")).parent_path());
+    fill(*folder, "a");
+    EXPECT_FALSE(fs::exists(path("run")));
+    folder->commit();
+    folder.reset();
+    expect_run(path("run"), "a");
+    EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(RunFolderTest, LeavesNothingWithoutCommit) {
+    { fill(RunFolder::create(path("run")), "a"); }
+    EXPECT_EQ(entries(), 0u);
+    run(path("run"), "old");
+    { fill(RunFolder::create(path("run")), "new"); }
+    EXPECT_EQ(entries(), 1u);
+    expect_run(path("run"), "old");
+}
+
+TEST_F(RunFolderTest, ReplacesAnOlderRunAsAWhole) {
+    run(path("run"), "old");
+    run(path("run"), "new");
+    expect_run(path("run"), "new");
+    EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(RunFolderTest, UsesAnEmptyFolderAndCreatesTheFoldersAbove) {
+    fs::create_directory(path("empty"));
+    run(path("empty"), "a");
+    expect_run(path("empty"), "a");
+    run(path("x/y/run/"), "b");
+    expect_run(path("x/y/run"), "b");
+}
+
+TEST_F(RunFolderTest, KeepsFoldersAndFilesOfOthers) {
+    fs::create_directory(path("thesis"));
+    put(path("thesis/chapter"), "years of work");
+    put(path("file"), "text");
+    for (const std::string name : {"thesis", "file"}) {
+        const std::string message = io_error([&] { RunFolder::create(path(name)); });
+        EXPECT_NE(message.find(path(name)), message.npos) << message;
+    }
+    EXPECT_EQ(get(path("thesis/chapter")), "years of work");
+    EXPECT_EQ(get(path("file")), "text");
+    EXPECT_EQ(entries(), 2u);
+}
+
+TEST_F(RunFolderTest, KeepsWhatOthersPutThereDuringTheRun) {
+    {
+        RunFolder folder = RunFolder::create(path("run"));
+        fill(folder, "a");
+        fs::create_directory(path("run"));
+        put(path("run/chapter"), "years of work");
+        EXPECT_NE(io_error([&] { folder.commit(); }), "");
+    }
+    {
+        RunFolder folder = RunFolder::create(path("other"));
+        fill(folder, "a");
+        put(path("other"), "text");
+        EXPECT_NE(io_error([&] { folder.commit(); }), "");
+    }
+    EXPECT_EQ(get(path("run/chapter")), "years of work");
+    EXPECT_EQ(get(path("other")), "text");
+    EXPECT_EQ(entries(), 2u);
+}
+
+TEST_F(RunFolderTest, LastCommitOfSeveralRunsWins) {
+    run(path("run"), "old");
+    std::vector<RunFolder> folders;
+    for (const std::string mark : {"a", "b", "c"}) {
+        folders.push_back(RunFolder::create(path("run")));
+        fill(folders.back(), mark);
+    }
+    EXPECT_NE(folders[0].temporary_path(), folders[1].temporary_path());
+    for (const std::size_t i : {1, 2, 0}) folders[i].commit();
+    folders.clear();
+    expect_run(path("run"), "a");
+    EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(RunFolderTest, FollowsALinkToAnOlderRun) {
+    run(path("run"), "old");
+    fs::create_directory_symlink(path("run"), path("link"));
+    run(path("link"), "new");
+    EXPECT_TRUE(fs::is_symlink(path("link")));
+    expect_run(path("run"), "new");
+}
+
+TEST_F(RunFolderTest, OtherRanksWriteIntoTheSameFolder) {
+    RunFolder root = RunFolder::create(path("run"));
+    fill(root, "a");
+    {
+        RunFolder other = RunFolder::join(root.temporary_path());
+        EXPECT_EQ(other.part_file(9), root.part_file(9));
+        put(other.part_file(9), "from another rank");
+        EXPECT_THROW(other.commit(), Error);
+    }
+    root.commit();
+    EXPECT_EQ(get(path("run/parts/part_0009.vtu")), "from another rank");
+    const std::string message = io_error([&] { RunFolder::join(path("nowhere")); });
+    EXPECT_NE(message.find(path("nowhere")), message.npos) << message;
+}
+
+TEST_F(RunFolderTest, SaysWhyAFolderCannotBeCreated) {
+    put(path("file"), "text");
+    const std::string message = io_error([&] { RunFolder::create(path("file/run")); });
+    EXPECT_NE(message.find("Not a directory"), message.npos) << message;
+    EXPECT_NE(message.find(path("file")), message.npos) << message;
+    EXPECT_NE(io_error([] { RunFolder::create(""); }), "");
+    EXPECT_NE(io_error([] { RunFolder::create("/"); }), "");
+}
+
+TEST_F(RunFolderTest, SaysThatPermissionsForbidIt) {
+    if (::geteuid() == 0) GTEST_SKIP() << "permissions do not bind the super-user";
+    fs::create_directory(path("locked"));
+    fs::permissions(path("locked"), fs::perms::owner_read | fs::perms::owner_exec);
+    EXPECT_NE(io_error([&] { RunFolder::create(path("locked/run")); }).find("Permission denied"), std::string::npos);
+    fs::permissions(path("locked"), fs::perms::owner_all);
+}
+
+TEST_F(RunFolderTest, NamesPartsByFourDigitsAtLeast) {
+    EXPECT_EQ(part_file_name(8), "part_0008.vtu");
+    EXPECT_EQ(part_file_name(12345), "part_12345.vtu");
+    EXPECT_EQ(part_surface_file_name(8), "part_0008.surface.vtu");
+}
+
+}  // namespace
+}  // namespace kerf

@@ -1,0 +1,180 @@
+// Closed surfaces by formula: the inputs of the unit tests. Normals point out of the material unless a name says else.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "surface/soup.h"
+#include "surface/surface.h"
+
+namespace kerf::test {
+
+/// The corner of the unit cube: 4 facets, volume 1/6.
+inline Soup tetrahedron() {
+    return {{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)},
+            {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}},
+            {0, 0, 0, 0},
+            {"tetrahedron"}};
+}
+
+/// Axis-parallel box whose edges are divided into `n` parts per axis: 4 (nx ny + ny nz + nz nx) facets, a patch per
+/// side.
+inline Soup box(const Vec3& low = Vec3::Zero(), const Vec3& high = Vec3::Ones(), std::array<int, 3> n = {1, 1, 1}) {
+    Soup soup;
+    const auto add_side = [&](int axis, bool upper) {
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        const auto corner = [&](int i, int j) {
+            Vec3 p;
+            p[axis] = upper ? high[axis] : low[axis];
+            p[u] = i == n[u] ? high[u] : low[u] + (high[u] - low[u]) * i / n[u];
+            p[v] = j == n[v] ? high[v] : low[v] + (high[v] - low[v]) * j / n[v];
+            soup.vertices.push_back(p);
+        };
+        for (int i = 0; i < n[u]; ++i)
+            for (int j = 0; j < n[v]; ++j) {
+                const auto first = static_cast<std::int32_t>(soup.vertices.size());
+                corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1);
+                Triangle t{first, first + 1, first + 2}, s{first, first + 2, first + 3};
+                if (!upper) std::swap(t[1], t[2]), std::swap(s[1], s[2]);
+                soup.facets.insert(soup.facets.end(), {t, s});
+            }
+        soup.patch.resize(soup.facets.size(), static_cast<std::int32_t>(soup.patch_names.size()));
+        soup.patch_names.push_back(std::string(upper ? "high_" : "low_") + "xyz"[axis]);
+    };
+    for (int axis = 0; axis < 3; ++axis) add_side(axis, false), add_side(axis, true);
+    weld_exactly(soup);
+    return soup;
+}
+
+/// Box with the same division along all axes: 12 n^2 facets.
+inline Soup box(const Vec3& low, const Vec3& high, int n) { return box(low, high, {n, n, n}); }
+
+/// Icosahedron whose facets are quartered `subdivisions` times, vertices on the sphere: 20 * 4^subdivisions facets.
+inline Soup icosphere(int subdivisions, double radius = 1, const Vec3& centre = Vec3::Zero()) {
+    const double g = std::numbers::phi;
+    Soup soup;
+    for (double s : {-1.0, 1.0})
+        for (double t : {-g, g})
+            soup.vertices.insert(soup.vertices.end(), {Vec3(0, s, t), Vec3(s, t, 0), Vec3(t, 0, s)});
+    const auto edge_sq = [&](int a, int b) { return (soup.vertices[a] - soup.vertices[b]).squaredNorm(); };
+    for (int a = 0; a < 12; ++a)  // the facets are the vertex triples at mutual distance 2
+        for (int b = a + 1; b < 12; ++b)
+            for (int c = b + 1; c < 12; ++c) {
+                if (std::max({edge_sq(a, b), edge_sq(b, c), edge_sq(c, a)}) > 4.1) continue;
+                const bool outward = soup.vertices[a].dot(soup.vertices[b].cross(soup.vertices[c])) > 0;
+                soup.facets.push_back(outward ? Triangle{a, b, c} : Triangle{a, c, b});
+            }
+    for (int level = 0; level < subdivisions; ++level) {
+        std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> middles;
+        const auto middle = [&](std::int32_t a, std::int32_t b) {
+            const auto size = static_cast<std::int32_t>(soup.vertices.size());
+            const auto [it, is_new] = middles.try_emplace(std::minmax(a, b), size);
+            if (is_new) soup.vertices.push_back((soup.vertices[a].normalized() + soup.vertices[b].normalized()));
+            return it->second;
+        };
+        std::vector<Triangle> quarters;
+        for (const auto& [a, b, c] : soup.facets) {
+            const std::int32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+            quarters.insert(quarters.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+        }
+        soup.facets = std::move(quarters);
+    }
+    for (Vec3& p : soup.vertices) p = centre + radius * p.normalized();
+    soup.patch.assign(soup.facets.size(), 0);
+    soup.patch_names = {"sphere"};
+    return soup;
+}
+
+/// Sphere of `rings` bands between the poles (two of them fans) and `segments` meridians: 2 segments (rings - 1)
+/// facets.
+inline Soup uv_sphere(int rings, int segments, double radius = 1, const Vec3& centre = Vec3::Zero()) {
+    Soup soup;
+    soup.vertices = {centre - radius * Vec3::UnitZ(), centre + radius * Vec3::UnitZ()};
+    for (int i = 1; i < rings; ++i)
+        for (int j = 0; j < segments; ++j) {
+            const double polar = std::numbers::pi * i / rings, angle = 2 * std::numbers::pi * j / segments;
+            soup.vertices.push_back(centre + radius * Vec3(std::sin(polar) * std::cos(angle),
+                                                           std::sin(polar) * std::sin(angle), -std::cos(polar)));
+        }
+    const auto at = [&](int i, int j) { return 2 + (i - 1) * segments + j % segments; };
+    for (int j = 0; j < segments; ++j) {
+        soup.facets.push_back({0, at(1, j + 1), at(1, j)});
+        for (int i = 1; i + 1 < rings; ++i)
+            soup.facets.insert(soup.facets.end(), {{at(i, j), at(i, j + 1), at(i + 1, j + 1)},
+                                                   {at(i, j), at(i + 1, j + 1), at(i + 1, j)}});
+        soup.facets.push_back({1, at(rings - 1, j), at(rings - 1, j + 1)});
+    }
+    soup.patch.assign(soup.facets.size(), 0);
+    soup.patch_names = {"sphere"};
+    return soup;
+}
+
+/// Torus about the z axis: 2 n_major n_minor facets, genus 1.
+inline Soup torus(double major_radius, double minor_radius, int n_major, int n_minor) {
+    Soup soup;
+    for (int i = 0; i < n_major; ++i)
+        for (int j = 0; j < n_minor; ++j) {
+            const double u = 2 * std::numbers::pi * i / n_major, v = 2 * std::numbers::pi * j / n_minor;
+            const double r = major_radius + minor_radius * std::cos(v);
+            soup.vertices.emplace_back(r * std::cos(u), r * std::sin(u), minor_radius * std::sin(v));
+        }
+    const auto at = [&](int i, int j) { return i % n_major * n_minor + j % n_minor; };
+    for (int i = 0; i < n_major; ++i)
+        for (int j = 0; j < n_minor; ++j)
+            soup.facets.insert(soup.facets.end(), {{at(i, j), at(i + 1, j), at(i + 1, j + 1)},
+                                                   {at(i, j), at(i + 1, j + 1), at(i, j + 1)}});
+    soup.patch.assign(soup.facets.size(), 0);
+    soup.patch_names = {"torus"};
+    return soup;
+}
+
+/// The same surface with every facet turned.
+inline Soup inside_out(Soup soup) {
+    for (Triangle& t : soup.facets) std::swap(t[1], t[2]);
+    return soup;
+}
+
+inline Soup translated(Soup soup, const Vec3& offset) {
+    for (Vec3& p : soup.vertices) p += offset;
+    return soup;
+}
+
+/// The soups side by side: vertices, facets and patches of `b` behind those of `a`.
+inline Soup join(Soup a, const Soup& b) {
+    const auto vertex = static_cast<std::int32_t>(a.vertices.size());
+    const auto patch = static_cast<std::int32_t>(a.patch_names.size());
+    a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
+    for (const Triangle& t : b.facets) a.facets.push_back({t[0] + vertex, t[1] + vertex, t[2] + vertex});
+    for (std::int32_t p : b.patch) a.patch.push_back(p + patch);
+    a.patch_names.insert(a.patch_names.end(), b.patch_names.begin(), b.patch_names.end());
+    return a;
+}
+
+/// Concentric cubes of edge 1, 3, 5, ... around the origin, smallest first; the largest bounds material, the next a
+/// void in it, and so on.
+inline Soup nested_boxes(int count, int n = 1) {
+    Soup soup;
+    for (int i = 0; i < count; ++i) {
+        const Vec3 half = Vec3::Constant(0.5 + i);
+        const Soup cube = box(-half, half, n);
+        soup = join(std::move(soup), (count - 1 - i) % 2 ? inside_out(cube) : cube);
+    }
+    return soup;
+}
+
+/// The soup as arrays of an input surface: keys of node 0.
+inline SurfaceArrays to_arrays(const Soup& soup) {
+    SurfaceArrays arrays{soup.vertices, soup.facets, {}, {}, soup.patch};
+    for (std::size_t v = 0; v < soup.vertices.size(); ++v)
+        arrays.vertex_key.push_back(make_key(0, static_cast<std::int32_t>(v)));
+    for (std::size_t f = 0; f < soup.facets.size(); ++f)
+        arrays.facet_key.push_back(make_key(0, static_cast<std::int32_t>(f)));
+    return arrays;
+}
+
+}  // namespace kerf::test

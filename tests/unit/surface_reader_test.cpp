@@ -1,0 +1,361 @@
+#include "io/surface_reader.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "shapes.h"
+
+namespace kerf {
+namespace {
+
+using test::box;
+using test::icosphere;
+using test::tetrahedron;
+using test::torus;
+
+// A file in the folder for temporary files that disappears with its object.
+class TemporaryFile {
+ public:
+    explicit TemporaryFile(const std::string& bytes)
+        : path_(std::filesystem::temp_directory_path() / ("kerf_surface_reader_test_" + std::to_string(getpid()))) {
+        std::ofstream(path_, std::ios::binary) << bytes;
+    }
+    ~TemporaryFile() { std::filesystem::remove(path_); }
+    TemporaryFile(const TemporaryFile&) = delete;
+    std::string path() const { return path_.string(); }
+
+ private:
+    std::filesystem::path path_;
+};
+
+Soup read_bytes(const std::string& bytes) { return read_surface(TemporaryFile(bytes).path()); }
+
+std::string message_of(const std::string& bytes, ErrorCode code = ErrorCode::input) {
+    try {
+        read_bytes(bytes);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), code) << error.what();
+        EXPECT_NE(std::string(error.what()).find("kerf_surface_reader_test"), std::string::npos) << error.what();
+        return error.what();
+    }
+    ADD_FAILURE() << "accepted:\n" << bytes;
+    return "";
+}
+
+template <class T>
+void append(std::string& bytes, T value, bool swap = false) {
+    char raw[sizeof value];
+    std::memcpy(raw, &value, sizeof value);
+    if (swap) std::reverse(raw, raw + sizeof value);
+    bytes.append(raw, sizeof value);
+}
+
+std::ostringstream precise_stream() {
+    std::ostringstream out;
+    out.precision(17);
+    return out;
+}
+
+std::string to_binary_stl(const Soup& soup, std::string header = "made by a test") {
+    header.resize(80, ' ');
+    append(header, static_cast<std::uint32_t>(soup.facets.size()));
+    for (const Triangle& t : soup.facets) {
+        for (int i = 0; i < 3; ++i) append(header, 0.0f);
+        for (std::int32_t v : t)
+            for (int i = 0; i < 3; ++i) append(header, static_cast<float>(soup.vertices[v][i]));
+        append(header, std::uint16_t{0});
+    }
+    return header;
+}
+
+// One solid per patch, in the order of the patches.
+std::string to_ascii_stl(const Soup& soup) {
+    auto out = precise_stream();
+    for (std::size_t patch = 0; patch < soup.patch_names.size(); ++patch) {
+        out << "solid " << soup.patch_names[patch] << "\n";
+        for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+            if (soup.patch[f] != static_cast<std::int32_t>(patch)) continue;
+            out << "facet normal 0 0 0\nouter loop\n";
+            for (std::int32_t v : soup.facets[f]) out << "vertex " << soup.vertices[v].transpose() << "\n";
+            out << "endloop\nendfacet\n";
+        }
+        out << "endsolid " << soup.patch_names[patch] << "\n";
+    }
+    return out.str();
+}
+
+std::string to_obj(const Soup& soup) {
+    auto out = precise_stream();
+    for (const Vec3& p : soup.vertices) out << "v " << p.transpose() << "\n";
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        if (f == 0 || soup.patch[f] != soup.patch[f - 1]) out << "g " << soup.patch_names[soup.patch[f]] << "\n";
+        const Triangle& t = soup.facets[f];
+        out << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
+    }
+    return out.str();
+}
+
+std::string to_off(const Soup& soup) {
+    auto out = precise_stream();
+    out << "OFF\n" << soup.vertices.size() << " " << soup.facets.size() << " 0\n";
+    for (const Vec3& p : soup.vertices) out << p.transpose() << "\n";
+    for (const Triangle& t : soup.facets) out << "3 " << t[0] << " " << t[1] << " " << t[2] << "\n";
+    return out.str();
+}
+
+std::string ply_header(const Soup& soup, const std::string& format) {
+    return "ply\nformat " + format + " 1.0\ncomment made by a test\nelement vertex " +
+           std::to_string(soup.vertices.size()) +
+           "\nproperty double x\nproperty double y\nproperty double z\nproperty uchar red\nelement face " +
+           std::to_string(soup.facets.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+}
+
+std::string to_ascii_ply(const Soup& soup) {
+    auto out = precise_stream();
+    out << ply_header(soup, "ascii");
+    for (const Vec3& p : soup.vertices) out << p.transpose() << " 255\n";
+    for (const Triangle& t : soup.facets) out << "3 " << t[0] << " " << t[1] << " " << t[2] << "\n";
+    return out.str();
+}
+
+std::string to_binary_ply(const Soup& soup, bool big_endian) {
+    std::string bytes = ply_header(soup, big_endian ? "binary_big_endian" : "binary_little_endian");
+    for (const Vec3& p : soup.vertices) {
+        for (int i = 0; i < 3; ++i) append(bytes, p[i], big_endian);
+        append(bytes, std::uint8_t{255});
+    }
+    for (const Triangle& t : soup.facets) {
+        append(bytes, std::uint8_t{3});
+        for (std::int32_t v : t) append(bytes, v, big_endian);
+    }
+    return bytes;
+}
+
+std::vector<Soup> shapes() {
+    return {tetrahedron(), box(Vec3(-1, 2, 1.0 / 3), Vec3(5, 7, 11), 3), icosphere(2, 1e-5, Vec3(100, 0, 0)),
+            torus(3, 1, 7, 5)};
+}
+
+void expect_same(const Soup& a, const Soup& b) {
+    EXPECT_EQ(a.vertices, b.vertices);
+    EXPECT_EQ(a.facets, b.facets);
+}
+
+// The corners of all facets as they are in a binary STL.
+std::vector<Vec3> float_corners(const Soup& soup) {
+    std::vector<Vec3> corners;
+    for (const Triangle& t : soup.facets)
+        for (std::int32_t v : t) corners.push_back(soup.vertices[v].cast<float>().cast<double>());
+    return corners;
+}
+
+TEST(SurfaceReader, GivesBackWhatTheIndexedFormatsHold) {
+    for (const Soup& soup : shapes()) {
+        SCOPED_TRACE(soup.patch_names.front());
+        for (const std::string& bytes :
+             {to_obj(soup), to_off(soup), to_ascii_ply(soup), to_binary_ply(soup, false), to_binary_ply(soup, true)}) {
+            SCOPED_TRACE(bytes.substr(0, 40));
+            expect_same(read_bytes(bytes), soup);
+        }
+        const Soup from_obj = read_bytes(to_obj(soup));
+        EXPECT_EQ(from_obj.patch, soup.patch);
+        EXPECT_EQ(from_obj.patch_names, soup.patch_names);
+    }
+}
+
+TEST(SurfaceReader, WeldsTheCornersOfStl) {
+    for (const Soup& soup : shapes()) {
+        SCOPED_TRACE(soup.patch_names.front());
+        const Soup ascii = read_bytes(to_ascii_stl(soup));
+        EXPECT_EQ(ascii.vertices.size(), soup.vertices.size());
+        ASSERT_EQ(ascii.facets.size(), soup.facets.size());
+        for (std::size_t f = 0; f < soup.facets.size(); ++f)
+            for (int i = 0; i < 3; ++i) ASSERT_EQ(ascii.vertices[ascii.facets[f][i]], soup.vertices[soup.facets[f][i]]);
+        EXPECT_EQ(ascii.patch, soup.patch);
+        EXPECT_EQ(ascii.patch_names, soup.patch_names);
+        EXPECT_EQ(float_corners(read_bytes(to_binary_stl(soup))), float_corners(soup));
+    }
+}
+
+TEST(SurfaceReader, TellsBinaryStlByItsSizeWhateverItsHeaderSays) {
+    for (const char* header : {"", "solid", "solid facet normal 0 0 0", "OFF", "ply", "v 1 2 3", "#"}) {
+        SCOPED_TRACE(header);
+        EXPECT_EQ(read_bytes(to_binary_stl(box(), header)).facets.size(), 12u);
+    }
+}
+
+TEST(SurfaceReader, RefusesEveryTruncation) {
+    const Soup soup = tetrahedron();
+    for (const std::string& bytes : {to_binary_stl(soup), to_binary_stl(soup, "solid"), to_ascii_stl(soup),
+                                     to_off(soup), to_ascii_ply(soup), to_binary_ply(soup, true)}) {
+        // The text formats may lose their last characters without a loss of numbers or keywords.
+        const std::size_t end = bytes.find("endsolid") == std::string::npos ? bytes.size() - 2 : bytes.find("endsolid");
+        for (std::size_t size = 0; size < end; ++size) {
+            SCOPED_TRACE(bytes.substr(0, 20) + " at " + std::to_string(size));
+            message_of(bytes.substr(0, size));
+        }
+    }
+}
+
+TEST(SurfaceReader, ReportsATruncatedBinaryStlThatBeginsWithSolidAsSuch) {
+    std::string bytes = to_binary_stl(icosphere(1), "solid part");
+    bytes.resize(bytes.size() - 75);
+    const std::string message = message_of(bytes);
+    EXPECT_NE(message.find("binary STL is truncated"), std::string::npos) << message;
+    EXPECT_NE(message.find("claims 80 facets"), std::string::npos) << message;
+    EXPECT_NE(message.find("facet 78 "), std::string::npos) << message;
+}
+
+TEST(SurfaceReader, KeepsIndicesInRangeOnDamagedFiles) {
+    const Soup soup = box();
+    for (const std::string& bytes : {to_binary_stl(soup), to_ascii_stl(soup), to_obj(soup), to_off(soup),
+                                     to_ascii_ply(soup), to_binary_ply(soup, false)})
+        for (unsigned seed = 1; seed <= 300; ++seed) {
+            SCOPED_TRACE(bytes.substr(0, 20) + " seed " + std::to_string(seed));
+            std::mt19937 random(seed);
+            std::string damaged = bytes;
+            for (int i = 0; i < 3; ++i) damaged[random() % damaged.size()] = static_cast<char>(random());
+            try {
+                const Soup read = read_bytes(damaged);
+                ASSERT_EQ(read.patch.size(), read.facets.size());
+                for (const Triangle& t : read.facets)
+                    for (std::int32_t v : t) ASSERT_LT(static_cast<std::size_t>(v), read.vertices.size());
+                for (std::int32_t p : read.patch) ASSERT_LT(static_cast<std::size_t>(p), read.patch_names.size());
+            } catch (const Error& error) {
+                ASSERT_EQ(error.code(), ErrorCode::input) << error.what();
+            }
+        }
+}
+
+TEST(SurfaceReader, DoesNotBelieveClaimedCounts) {
+    message_of("OFF\n2000000000 2000000000 0\n0 0 0\n");
+    message_of(
+        "ply\nformat ascii 1.0\nelement vertex 9000000000000000000\nproperty float x\nproperty float y\n"
+        "property float z\nend_header\n0 0 0\n");
+    message_of("ply\nformat ascii 1.0\nelement nothing 9000000000000000000\nend_header\n");
+    std::string list =
+        "ply\nformat binary_little_endian 1.0\nelement face 1\nproperty list uint int vertex_index\nend_header\n";
+    append(list, std::numeric_limits<std::uint32_t>::max());
+    message_of(list);
+}
+
+TEST(SurfaceReader, NamesThePlaceAndTheCause) {
+    struct Case {
+        std::string bytes, expected;
+    };
+    const std::string facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n";
+    const std::vector<Case> cases = {
+        {"", "empty"},
+        {"PK\x03\x04 something else", "not recognised"},
+        {"solid a\nendsolid a\n", "no facets"},
+        {"solid a\n" + facet, "truncated"},
+        {"solid a\n" + facet + "facet normal 0 0 1\nouter loop\nvertex 0 0 blah\n", "line 5: a number is expected"},
+        {"solid a\n" + facet + "facette\n", "line 3: \"facet\" or \"endsolid\" is expected"},
+        {"solid a\nfacet normal 0 0 1 outer loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nvertex 1 1 0\n",
+         "line 6: \"endloop\" is expected"},
+        {to_binary_stl(tetrahedron()) + "x", "longer than its header claims 4 facets"},
+        {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "line 4: a facet names vertex number 3 (counted from 0)"},
+        {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n", "line 4"},
+        {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", "line 4: a face names vertex 0"},
+        {"v 0 0 0\nv 1 0 0\nf 1 2\n", "line 3: a facet has less than three vertices"},
+        {"v 0 0\nv 1 0 0\n", "line 1: a vertex has less than three coordinates"},
+        {"v 0 0 1,5\n", "line 1: a number is expected, not \"1,5\""},
+        {"v 0 0 1e999\n", "line 1: the number \"1e999\" is too large"},
+        {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 5\n", "line 6: a facet names vertex number 5"},
+        {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2\n", "line 7: the file goes on after the 1 facets"},
+        {"OFF\n-3 1 0\n", "line 2: a number of elements is negative"},
+        {"OFF BINARY\n", "binary OFF is not supported"},
+        {"4OFF\n", "three dimensions"},
+        {"ply\nformat ascii 2.0\nelement vertex 1\nproperty quad x\n", "line 4: the type \"quad\" is unknown"},
+        {"ply\nformat binary_middle_endian 1.0\n", "line 2: the format"},
+        {"ply\nformat ascii 1.0\nelement face 1\nproperty list uchar float vertex_index\nend_header\n3 0 1 0.5\n",
+         "line 6: a whole number is expected"},
+    };
+    for (const Case& c : cases) {
+        SCOPED_TRACE(c.bytes);
+        const std::string message = message_of(c.bytes);
+        EXPECT_NE(message.find(c.expected), std::string::npos) << message;
+    }
+}
+
+TEST(SurfaceReader, RefusesWhatCannotBeOpened) {
+    for (const std::string& path : {std::string("/no/such/file.stl"), std::string("-"), std::string("/")}) {
+        SCOPED_TRACE(path);
+        try {
+            read_surface(path);
+            ADD_FAILURE();
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::io);
+            EXPECT_EQ(std::string(error.what()).find(path), 0u) << error.what();
+        }
+    }
+}
+
+TEST(StlReader, AcceptsOddSpacingCapitalsAndKeywordsInNames) {
+    const Soup soup = read_bytes(
+        "\r\n  SOLID  endsolid facet vertex 1 \r\n\tFacet\tNORMAL nan -1.#IND 0\r\nOuter Loop Vertex +0 0 0\r\n\r\n"
+        "vertex 1e0 0 0 VERTEX 0 .1E+1 -0 EndLoop\r\nENDFACET endsolid facet\r\n\r\n");
+    EXPECT_EQ(soup.vertices, (std::vector<Vec3>{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}));
+    EXPECT_EQ(soup.patch_names, std::vector<std::string>{"endsolid facet vertex 1"});
+}
+
+TEST(StlReader, MakesPatchesOfSolids) {
+    const std::string facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n";
+    const Soup soup = read_bytes("solid a\n" + facet + "endsolid\nsolid\nendsolid\nsolid\n" + facet +
+                                 "endsolid\nsolid a\n" + facet + "endsolid a\n");
+    EXPECT_EQ(soup.patch, (std::vector<std::int32_t>{0, 1, 0}));
+    EXPECT_EQ(soup.patch_names, (std::vector<std::string>{"a", "solid_3"}));
+}
+
+TEST(ObjReader, ReadsSlashesNegativeIndicesAndPolygons) {
+    const Soup soup = read_bytes(
+        "# square\nmtllib a.mtl\nv 0 0 0\nv 1 0 0 # right\nv 1 1 0 0.5 0.5 0.5\nv 0 1 0\nvt 0 0\nvn 0 0 1\n"
+        "f 1/1/1 2//1 3/1 -1\nf -4 -3 -2");
+    EXPECT_EQ(soup.vertices.size(), 4u);
+    EXPECT_EQ(soup.facets, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}}));
+}
+
+TEST(ObjReader, TakesGroupsBeforeObjectsBeforeMaterials) {
+    const auto patches = [](const std::string& first, const std::string& second) {
+        return read_bytes("v 0 0 0\nv 1 0 0\nv 0 1 0\n" + first + "f 1 2 3\n" + second + "f 3 2 1\n").patch_names;
+    };
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(patches("o a\ng b c\nusemtl d\n", "o e\nusemtl f\n"), (Names{"b c"}));
+    EXPECT_EQ(patches("o a\nusemtl d\n", "o e\nusemtl f\n"), (Names{"a", "e"}));
+    EXPECT_EQ(patches("usemtl d\n", "usemtl f\n"), (Names{"d", "f"}));
+    EXPECT_EQ(patches("", "g\n"), (Names{"surface", "default"}));
+    EXPECT_EQ(patches("", ""), (Names{"surface"}));
+}
+
+TEST(OffReader, AcceptsCommentsCountsOnSeveralLinesAndColours) {
+    const Soup soup = read_bytes(
+        "# a comment\nCOFF # another\n4\n1 # facets\n0\n\n0 0 0 255 0 0 255\n1 0 0 255 0 0 255\n"
+        "1 1 0 255 0 0 255 # third\n0 1 0 255 0 0 255\n4 0 1 2 3 0.1 0.2 0.3\n");
+    EXPECT_EQ(soup.vertices.size(), 4u);
+    EXPECT_EQ(soup.facets, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+    EXPECT_EQ(read_bytes("OFF 3 1 0\n0 0 0 1 0 0 0 1 0\n3 0 1 2\n").facets.size(), 1u);
+}
+
+TEST(PlyReader, PassesOverOtherElementsAndProperties) {
+    const Soup soup = read_bytes(
+        "ply\r\nformat ascii 1.0\r\nobj_info x\r\nelement camera 1\r\nproperty list uchar float view\r\n"
+        "element vertex 3\r\nproperty uchar flag\r\nproperty int16 x\r\nproperty float32 y\r\nproperty double z\r\n"
+        "element face 1\r\nproperty uint8 flag\r\nproperty list uint8 uint32 vertex_index\r\n"
+        "property list uchar float texcoord\r\nend_header\r\n2 0.5 0.5\r\n9 0 0 0\r\n9 1 0 0\r\n9 0 1 0\r\n"
+        "7 3 0 1 2 2 0.1 0.2\r\n");
+    EXPECT_EQ(soup.vertices, (std::vector<Vec3>{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}));
+    EXPECT_EQ(soup.facets, (std::vector<Triangle>{{0, 1, 2}}));
+}
+
+}  // namespace
+}  // namespace kerf

@@ -1,0 +1,175 @@
+#include "surface/surface.h"
+
+#include <algorithm>
+#include <random>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "core/bytes.h"
+#include "core/error.h"
+#include "shapes.h"
+
+namespace kerf {
+namespace {
+
+using test::to_arrays;
+
+// With facets and corners in random order, so that nothing depends on how the shapes are made.
+Soup shuffled(Soup soup, unsigned seed) {
+    std::mt19937 random(seed);
+    std::shuffle(soup.facets.begin(), soup.facets.end(), random);
+    for (Triangle& t : soup.facets) std::rotate(t.begin(), t.begin() + random() % 3, t.end());
+    return soup;
+}
+
+class SurfaceLaws : public testing::TestWithParam<int> {
+ protected:
+    SurfaceLaws() : soup_(shuffled(shapes()[GetParam()], 1)), surface_(to_arrays(soup_)) {}
+
+    static std::vector<Soup> shapes() {
+        return {test::tetrahedron(),   test::box(Vec3(0, 0, 0), Vec3(1, 2, 3), {2, 3, 4}),
+                test::icosphere(2),    test::torus(3, 1, 12, 7),
+                test::uv_sphere(6, 8), test::nested_boxes(3, 2)};
+    }
+
+    Soup soup_;
+    Surface surface_;
+};
+INSTANTIATE_TEST_SUITE_P(Shapes, SurfaceLaws, testing::Range(0, 6));
+
+TEST_P(SurfaceLaws, KeepsNumbersCoordinatesKeysAndPatches) {
+    SurfaceArrays arrays = to_arrays(soup_);
+    for (std::size_t v = 0; v < arrays.vertex_key.size(); ++v)
+        arrays.vertex_key[v] = make_key(3, 7 * static_cast<std::int32_t>(v));
+    for (std::size_t f = 0; f < arrays.facet_key.size(); ++f) {
+        arrays.facet_key[f] = make_key(5, 9 * static_cast<std::int32_t>(f));
+        arrays.patch[f] = static_cast<std::int32_t>(f % 3) - 1;
+    }
+    const Surface surface(arrays);
+    const SurfaceArrays back = surface.arrays();
+    EXPECT_EQ(back.vertices, arrays.vertices);
+    EXPECT_EQ(back.facets, arrays.facets);
+    EXPECT_EQ(back.vertex_key, arrays.vertex_key);
+    EXPECT_EQ(back.facet_key, arrays.facet_key);
+    EXPECT_EQ(back.patch, arrays.patch);
+}
+
+TEST_P(SurfaceLaws, HalfEdgesFormTrianglesAndPairs) {
+    std::vector<int> seen(3 * soup_.facets.size(), 0);
+    for (std::int32_t f = 0; f < surface_.facet_count(); ++f) {
+        EXPECT_EQ(surface_.vertices(f), soup_.facets[f]);
+        const auto h = surface_.half_edges(f);
+        for (int i = 0; i < 3; ++i) {
+            ASSERT_LT(static_cast<std::size_t>(h[i]), seen.size());
+            ++seen[h[i]];
+            EXPECT_EQ(surface_.from_vertex(h[i]), soup_.facets[f][i]);
+            EXPECT_EQ(surface_.to_vertex(h[i]), soup_.facets[f][(i + 1) % 3]);
+            EXPECT_EQ(surface_.next(h[i]), h[(i + 1) % 3]);
+            EXPECT_EQ(surface_.facet_of(h[i]), f);
+            const std::int32_t other = Surface::opposite(h[i]);
+            EXPECT_EQ(surface_.from_vertex(other), surface_.to_vertex(h[i]));
+            EXPECT_EQ(surface_.to_vertex(other), surface_.from_vertex(h[i]));
+            EXPECT_EQ(surface_.neighbours(f)[i], surface_.facet_of(other));
+        }
+    }
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), static_cast<std::ptrdiff_t>(seen.size()));
+}
+
+TEST_P(SurfaceLaws, RotationVisitsEveryFacetOfAVertexOnce) {
+    std::vector<std::set<std::int32_t>> expected(soup_.vertices.size());
+    for (std::size_t f = 0; f < soup_.facets.size(); ++f)
+        for (std::int32_t v : soup_.facets[f]) expected[v].insert(static_cast<std::int32_t>(f));
+    for (std::int32_t v = 0; v < surface_.vertex_count(); ++v) {
+        std::set<std::int32_t> visited;
+        const std::int32_t start = surface_.outgoing(v);
+        std::int32_t h = start;
+        do {
+            EXPECT_EQ(surface_.from_vertex(h), v);
+            ASSERT_TRUE(visited.insert(surface_.facet_of(h)).second) << "vertex " << v;
+            h = surface_.rotate(h);
+        } while (h != start);
+        EXPECT_EQ(visited, expected[v]);
+    }
+}
+
+TEST_P(SurfaceLaws, DoesNotChangeOnTheWayThroughBytes) {
+    const SurfaceArrays arrays = surface_.arrays();
+    const SurfaceArrays back = from_bytes<SurfaceArrays>(to_bytes(arrays));
+    EXPECT_EQ(back.vertices, arrays.vertices);
+    EXPECT_EQ(back.facets, arrays.facets);
+    EXPECT_EQ(back.vertex_key, arrays.vertex_key);
+    EXPECT_EQ(back.facet_key, arrays.facet_key);
+    EXPECT_EQ(back.patch, arrays.patch);
+    EXPECT_EQ(to_bytes(back), to_bytes(arrays));
+}
+
+TEST_P(SurfaceLaws, EveryTurnedFacetBreaksItsThreeEdges) {
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+        SCOPED_TRACE(seed);
+        Soup soup = soup_;
+        const std::size_t f = std::mt19937(seed)() % soup.facets.size();
+        std::swap(soup.facets[f][0], soup.facets[f][1]);
+        const auto defects = find_manifold_defects(soup.vertices.size(), soup.facets);
+        ASSERT_EQ(defects.size(), 3u);
+        for (const ManifoldDefect& defect : defects) {
+            EXPECT_EQ(defect.kind, ManifoldDefect::Kind::edge_orientation);
+            EXPECT_EQ(std::count(defect.facets.begin(), defect.facets.end(), static_cast<std::int32_t>(f)), 1);
+        }
+        EXPECT_THROW(Surface(to_arrays(soup)), Error);
+    }
+}
+
+TEST(FindManifoldDefects, FindsOpenEdgesAndPinchedVertices) {
+    Soup soup = test::join(test::box(), test::box(Vec3(1, 1, 1), Vec3(2, 2, 2)));
+    weld_exactly(soup);
+    const auto pinched = find_manifold_defects(soup.vertices.size(), soup.facets);
+    ASSERT_EQ(pinched.size(), 1u);
+    EXPECT_EQ(pinched[0].kind, ManifoldDefect::Kind::non_manifold_vertex);
+    EXPECT_EQ(soup.vertices[pinched[0].vertices[0]], Vec3(1, 1, 1));
+
+    Soup open = test::icosphere(1);
+    open.facets.pop_back();
+    const auto edges = find_manifold_defects(open.vertices.size(), open.facets);
+    ASSERT_EQ(edges.size(), 3u);
+    for (const ManifoldDefect& defect : edges) EXPECT_EQ(defect.kind, ManifoldDefect::Kind::open_edge);
+}
+
+TEST(FindManifoldDefects, AllowsVerticesWithoutFacets) {
+    Soup soup = test::box();
+    soup.vertices.emplace_back(5, 5, 5);
+    EXPECT_TRUE(find_manifold_defects(soup.vertices.size(), soup.facets).empty());
+    EXPECT_EQ(Surface(to_arrays(soup)).outgoing(8), -1);
+}
+
+TEST(SurfaceConstructor, NamesTheFirstDefect) {
+    Soup soup = test::tetrahedron();
+    soup.facets.pop_back();
+    try {
+        Surface surface(to_arrays(soup));
+        ADD_FAILURE();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::internal);
+        EXPECT_NE(std::string(error.what()).find("open edge at vertex 1"), std::string::npos) << error.what();
+    }
+}
+
+TEST(FindShells, NumbersComponentsBySmallestFacet) {
+    const Soup soup = test::join(test::tetrahedron(), test::join(test::torus(3, 1, 8, 5), test::box()));
+    const Shells shells = find_shells(Surface(to_arrays(soup)));
+    EXPECT_EQ(shells.count, 3);
+    for (std::int32_t f = 0; f < 96; ++f) EXPECT_EQ(shells.of_facet[f], f < 4 ? 0 : f < 84 ? 1 : 2) << f;
+
+    const Soup mixed = shuffled(soup, 3);
+    const Shells found = find_shells(Surface(to_arrays(mixed)));
+    EXPECT_EQ(found.count, 3);
+    std::int32_t next = 0;  // a new number is always the next one
+    for (std::int32_t shell : found.of_facet) {
+        ASSERT_LE(shell, next);
+        next = std::max(next, shell + 1);
+    }
+}
+
+}  // namespace
+}  // namespace kerf

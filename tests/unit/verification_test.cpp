@@ -1,0 +1,258 @@
+#include "mesh/verification.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "shapes.h"
+
+namespace kerf {
+namespace {
+
+constexpr int cells = 3;  // along each axis of the mesh below
+
+struct MeshedSurface {
+    TetMesh mesh;
+    SurfaceArrays surface;
+};
+
+std::int32_t grid_vertex(int x, int y, int z) { return (x * (cells + 1) + y) * (cells + 1) + z; }
+
+// Kuhn's six tetrahedra around the main diagonal of a cube, one for each order of the axes.
+void add_cell(TetMesh& mesh, const Vec3& corner) {
+    std::array<int, 3> axes = {0, 1, 2};
+    do {
+        Vec3 p = corner;
+        Tetrahedron tet;
+        for (int i = 0; i < 4; ++i) {
+            tet[i] = grid_vertex(int(p.x()), int(p.y()), int(p.z()));
+            if (i < 3) p[axes[i]] += 1;
+        }
+        const auto at = [&](int i) { return mesh.vertices[tet[i]]; };
+        if ((at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0)) < 0) std::swap(tet[2], tet[3]);
+        mesh.tets.push_back(tet);
+    } while (std::next_permutation(axes.begin(), axes.end()));
+}
+
+Triangle face_of(const Tetrahedron& tet, int i) {
+    return {tet[tet_faces[i][0]], tet[tet_faces[i][1]], tet[tet_faces[i][2]]};
+}
+
+Triangle sorted(Triangle t) {
+    std::sort(t.begin(), t.end());
+    return t;
+}
+
+void set_neighbours(TetMesh& mesh) {
+    std::map<Triangle, std::vector<std::pair<std::int32_t, int>>> sides;
+    mesh.neighbours.assign(mesh.tets.size(), {-1, -1, -1, -1});
+    for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tets.size()); ++t)
+        for (int i = 0; i < 4; ++i) sides[sorted(face_of(mesh.tets[t], i))].push_back({t, i});
+    for (const auto& [face, side] : sides)
+        if (side.size() == 2) {
+            mesh.neighbours[side[0].first][side[0].second] = side[1].first;
+            mesh.neighbours[side[1].first][side[1].second] = side[0].first;
+        }
+}
+
+// A cube of cells^3 cells. All its vertices belong to the surface as numbered here, also the 8 in the middle.
+MeshedSurface meshed_cube() {
+    MeshedSurface cube;
+    TetMesh& mesh = cube.mesh;
+    for (int x = 0; x <= cells; ++x)
+        for (int y = 0; y <= cells; ++y)
+            for (int z = 0; z <= cells; ++z) mesh.vertices.emplace_back(x, y, z);
+    for (int x = 0; x < cells; ++x)
+        for (int y = 0; y < cells; ++y)
+            for (int z = 0; z < cells; ++z) add_cell(mesh, Vec3(x, y, z));
+    set_neighbours(mesh);
+    mesh.boundary_vertex_count = static_cast<std::int32_t>(mesh.vertices.size());
+    cube.surface.vertices = mesh.vertices;
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+        for (int i = 0; i < 4; ++i)
+            if (mesh.neighbours[t][i] < 0) cube.surface.facets.push_back(face_of(mesh.tets[t], i));
+    return cube;
+}
+
+struct Counts {
+    std::int64_t inverted = 0, missing = 0, extra = 0, mismatched = 0, moved = 0;
+    bool operator==(const Counts&) const = default;
+};
+
+std::ostream& operator<<(std::ostream& out, const Counts& c) {
+    return out << "inverted " << c.inverted << ", missing " << c.missing << ", extra " << c.extra << ", mismatched "
+               << c.mismatched << ", moved " << c.moved;
+}
+
+Counts counts(const MeshedSurface& m) {
+    const MeshLaws laws = verify_mesh(m.mesh, m.surface);
+    return {laws.inverted_tets, laws.missing_facets, laws.extra_boundary_faces, laws.mismatched_neighbours,
+            laws.moved_vertices};
+}
+
+int boundary_faces(const TetMesh& mesh, std::int32_t t) {
+    return static_cast<int>(std::count(mesh.neighbours[t].begin(), mesh.neighbours[t].end(), -1));
+}
+
+// A tetrahedron in the inside and one at the boundary, so that every kind of damage meets both.
+std::vector<std::int32_t> samples(const TetMesh& mesh) {
+    std::vector<std::int32_t> found(2, -1);
+    for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tets.size()); ++t)
+        found[boundary_faces(mesh, t) > 0] = t;
+    return found;
+}
+
+TEST(Verification, HoldsForACorrectMesh) {
+    const MeshedSurface cube = meshed_cube();
+    const MeshLaws laws = verify_mesh(cube.mesh, cube.surface);
+    EXPECT_EQ(counts(cube), Counts{});
+    EXPECT_DOUBLE_EQ(laws.volume, cells * cells * cells);
+    EXPECT_TRUE(laws.hold());
+}
+
+TEST(Verification, DoesNotDependOnOrderAndRotation) {
+    for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+        SCOPED_TRACE(seed);
+        std::mt19937 random(seed);
+        MeshedSurface cube = meshed_cube();
+        for (std::size_t f = 0; f < cube.surface.facets.size(); ++f) {
+            std::swap(cube.surface.facets[f], cube.surface.facets[random() % cube.surface.facets.size()]);
+            std::rotate(cube.surface.facets[f].begin(), cube.surface.facets[f].begin() + random() % 3,
+                        cube.surface.facets[f].end());
+        }
+        EXPECT_EQ(counts(cube), Counts{});
+        const auto behind = tets_at_facets(cube.mesh, cube.surface);
+        for (std::size_t f = 0; f < behind.size(); ++f) {
+            ASSERT_GE(behind[f], 0);
+            int same = 0;
+            for (int i = 0; i < 4; ++i)
+                same += cube.mesh.neighbours[behind[f]][i] == -1 &&
+                        sorted(face_of(cube.mesh.tets[behind[f]], i)) == sorted(cube.surface.facets[f]);
+            EXPECT_EQ(same, 1);
+        }
+    }
+}
+
+TEST(Verification, FindsAFlippedTetrahedron) {
+    for (const std::int32_t t : samples(meshed_cube().mesh)) {
+        SCOPED_TRACE(t);
+        MeshedSurface cube = meshed_cube();
+        std::swap(cube.mesh.tets[t][0], cube.mesh.tets[t][1]);
+        std::swap(cube.mesh.neighbours[t][0], cube.mesh.neighbours[t][1]);
+        const int outer = boundary_faces(cube.mesh, t);
+        EXPECT_EQ(counts(cube), (Counts{1, outer, outer, 2 * (4 - outer), 0}));
+    }
+}
+
+TEST(Verification, FindsADroppedTetrahedron) {
+    for (const std::int32_t t : samples(meshed_cube().mesh)) {
+        SCOPED_TRACE(t);
+        MeshedSurface cube = meshed_cube();
+        const int outer = boundary_faces(cube.mesh, t);
+        cube.mesh.tets.erase(cube.mesh.tets.begin() + t);
+        set_neighbours(cube.mesh);
+        EXPECT_EQ(counts(cube), (Counts{0, outer, 4 - outer, 0, 0}));
+        EXPECT_FALSE(verify_mesh(cube.mesh, cube.surface).hold());
+    }
+}
+
+TEST(Verification, FindsADoubledTetrahedron) {
+    MeshedSurface cube = meshed_cube();
+    const std::int32_t t = samples(cube.mesh)[0];
+    cube.mesh.tets.push_back(cube.mesh.tets[t]);
+    cube.mesh.neighbours.push_back(cube.mesh.neighbours[t]);
+    EXPECT_EQ(counts(cube), (Counts{0, 0, 0, 4, 0}));
+}
+
+TEST(Verification, FindsAMovedVertex) {
+    for (std::size_t v = 0; v < meshed_cube().mesh.vertices.size(); ++v) {
+        SCOPED_TRACE(v);
+        MeshedSurface cube = meshed_cube();
+        double& x = cube.mesh.vertices[v].x();
+        x = std::nextafter(x, 10.0);
+        EXPECT_EQ(counts(cube), (Counts{0, 0, 0, 0, 1}));
+        EXPECT_FALSE(verify_mesh(cube.mesh, cube.surface).hold());
+    }
+    MeshedSurface cube = meshed_cube();
+    cube.mesh.boundary_vertex_count -= 3;
+    EXPECT_EQ(counts(cube), (Counts{0, 0, 0, 0, 3}));
+}
+
+TEST(Verification, FindsABrokenNeighbour) {
+    const TetMesh whole = meshed_cube().mesh;
+    const auto tet_count = static_cast<std::int32_t>(whole.tets.size());
+    for (std::int32_t t = 0; t < tet_count; t += 7)
+        for (int i = 0; i < 4; ++i) {
+            SCOPED_TRACE(testing::Message() << "tetrahedron " << t << ", face " << i);
+            const int inner = whole.neighbours[t][i] >= 0;
+            for (const std::int32_t wrong : {t, tet_count, -2, std::numeric_limits<std::int32_t>::max()}) {
+                MeshedSurface cube = meshed_cube();
+                cube.mesh.neighbours[t][i] = wrong;
+                EXPECT_EQ(counts(cube), (Counts{0, 1 - inner, 0, 1 + inner, 0}));
+            }
+            MeshedSurface cut = meshed_cube();
+            cut.mesh.neighbours[t][i] = -1;
+            EXPECT_EQ(counts(cut), (Counts{0, 0, inner, inner, 0}));
+        }
+}
+
+TEST(Verification, FindsExchangedNeighbours) {
+    MeshedSurface cube = meshed_cube();
+    const std::int32_t t = samples(cube.mesh)[0];
+    std::swap(cube.mesh.neighbours[t][0], cube.mesh.neighbours[t][1]);
+    // Seen from t both faces lead to the wrong tetrahedron, and seen from these t names them over another face.
+    EXPECT_EQ(counts(cube), (Counts{0, 0, 0, 4, 0}));
+}
+
+TEST(Verification, FindsADeletedDoubledOrTurnedFacet) {
+    for (std::size_t f = 0; f < meshed_cube().surface.facets.size(); f += 5) {
+        SCOPED_TRACE(f);
+        MeshedSurface deleted = meshed_cube(), doubled = meshed_cube(), turned = meshed_cube();
+        deleted.surface.facets.erase(deleted.surface.facets.begin() + static_cast<std::ptrdiff_t>(f));
+        EXPECT_EQ(counts(deleted), (Counts{0, 0, 1, 0, 0}));
+        doubled.surface.facets.push_back(doubled.surface.facets[f]);
+        EXPECT_EQ(counts(doubled), (Counts{0, 1, 0, 0, 0}));
+        std::swap(turned.surface.facets[f][0], turned.surface.facets[f][1]);
+        EXPECT_EQ(counts(turned), (Counts{0, 1, 1, 0, 0}));
+        EXPECT_EQ(tets_at_facets(turned.mesh, turned.surface)[f], -1);
+    }
+}
+
+TEST(Verification, OrientationIsExact) {
+    // d lies one rounding step above, in, or below the plane of a, b and c.
+    MeshedSurface one;
+    const auto inverted = [&](double z) {
+        one.mesh.vertices = {Vec3(0.1, 0.1, 0.1), Vec3(1.1, 0.1, 1.1), Vec3(0.1, 1.1, 1.1), Vec3(0.6, 0.6, z)};
+        one.mesh.tets = {{0, 1, 2, 3}};
+        one.mesh.neighbours = {{-1, -1, -1, -1}};
+        return counts(one).inverted;
+    };
+    int changes = 0;
+    double z = 1.1 - 1e-15;
+    for (std::int64_t last = inverted(z); z < 1.1 + 1e-15; z = std::nextafter(z, 2.0)) {
+        changes += inverted(z) != last;
+        last = inverted(z);
+    }
+    EXPECT_EQ(changes, 1);
+    EXPECT_EQ(inverted(1.2), 0);
+    EXPECT_EQ(inverted(1.0), 1);
+}
+
+TEST(Verification, VolumesMustAgree) {
+    MeshLaws laws;
+    laws.volume = laws.surface_volume = 2;
+    EXPECT_TRUE(laws.hold());
+    laws.volume = 2 * (1 + 0.5e-10);
+    EXPECT_TRUE(laws.hold());
+    laws.volume = 2 * (1 + 2e-10);
+    EXPECT_FALSE(laws.hold());
+    laws.volume = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(laws.hold());
+}
+
+}  // namespace
+}  // namespace kerf
