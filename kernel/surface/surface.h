@@ -3,8 +3,10 @@
 
 #include <vector>
 
-#include <OpenMesh/Core/Geometry/EigenVectorT.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+
+// Specialises what the header above declares.
+#include <OpenMesh/Core/Geometry/EigenVectorT.hh>
 
 #include "core/types.h"
 
