@@ -143,13 +143,13 @@ bool PlaneTrial::span_interface(Attempt& attempt) const {
 bool PlaneTrial::build_halves(Attempt& attempt) const {
     std::array<SurfaceArrays, 2> arrays = split(surface_, attempt.side, attempt.interface, node_);
     for (std::size_t i = 0; i < arrays.size(); ++i) {
-        const auto defects = find_manifold_defects(arrays[i].vertices.size(), arrays[i].facets);
-        if (!defects.empty()) {
-            attempt.record.places.push_back(arrays[i].vertices[defects[0].vertices[0]]);
+        auto built = Surface::build(std::move(arrays[i]));
+        if (const auto* defect = std::get_if<ManifoldDefect>(&built)) {
+            attempt.record.places = {arrays[i].vertices[defect->vertices.front()]};
             attempt.record.refusal = Refusal::not_manifold;
             return false;
         }
-        attempt.halves[i] = Surface(std::move(arrays[i]));
+        attempt.halves[i] = std::move(std::get<Surface>(built));
         const std::int32_t misplaced = find_misplaced_shell(attempt.halves[i]);
         if (misplaced >= 0) {
             attempt.record.places.push_back(attempt.halves[i].point(misplaced));

@@ -37,23 +37,30 @@ LoadProfile::LoadProfile(const Surface& surface, const Plane& plane, const LoadM
     const auto [low, high] = std::minmax_element(height.begin(), height.end());
     lowest_ = *low;
     highest_ = *high;
-    facets_.reserve(surface.facet_count());
-    for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
-        const Triangle t = surface.vertices(f);
-        const Vec3 normal_area =
-            (surface.point(t[1]) - surface.point(t[0])).cross(surface.point(t[2]) - surface.point(t[0])) / 2;
-        std::array<double, 3> z = {height[t[0]], height[t[1]], height[t[2]]};
-        std::sort(z.begin(), z.end());
-        facets_.push_back({z[0], z[1], z[2], normal_area.dot(plane.normal), (z[0] + z[1] + z[2]) / 3});
+    if (model.balance == Balance::nodes) {
+        for (const double z : height) items_.push_back({z, z, z, 0, z});
+    } else {
+        items_.reserve(surface.facet_count());
+        for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
+            const Triangle t = surface.vertices(f);
+            const Vec3& a = surface.point(t[0]);
+            const Vec3 normal_area = (surface.point(t[1]) - a).cross(surface.point(t[2]) - a) / 2;
+            std::array<double, 3> z = {height[t[0]], height[t[1]], height[t[2]]};
+            std::sort(z.begin(), z.end());
+            items_.push_back({z[0], z[1], z[2], normal_area.dot(plane.normal), (z[0] + z[1] + z[2]) / 3});
+        }
     }
-    nodes_ = std::move(height);
-    total_ = load_below(facets_, nodes_, highest_);
+    total_ = load_below(items_, {}, highest_);
 }
 
-double LoadProfile::load_below(const std::vector<Item>& items, const std::vector<double>& nodes, double height) const {
-    if (model_.balance == Balance::nodes)
-        return static_cast<double>(std::count_if(nodes.begin(), nodes.end(), [&](double z) { return z <= height; }));
-    double count = 0, volume = 0;
+void LoadProfile::Below::add(const Item& item) {
+    count += 1;
+    area_z += item.area_z;
+    moment += item.area_z * item.centroid;
+}
+
+double LoadProfile::load_below(std::span<const Item> items, const Below& below, double height) const {
+    double count = below.count, volume = below.moment - height * below.area_z;
     for (const Item& f : items) {
         if (f.centroid <= height) ++count;
         if (f.low >= height) continue;
@@ -70,16 +77,27 @@ double LoadProfile::load_below(const std::vector<Item>& items, const std::vector
             volume += whole - share * depth / 3 * f.area_z;
         }
     }
-    return model_.load(0, count, volume);
+    return model_.load(count, count, volume);
 }
 
-double LoadProfile::fraction_below(double height) const { return load_below(facets_, nodes_, height) / total_; }
+double LoadProfile::fraction_below(double height) const { return load_below(items_, {}, height) / total_; }
 
+// Items that fall out of the bracket are settled, so the work halves with every step.
 double LoadProfile::bisect(double fraction) const {
+    std::vector<Item> open = items_;
+    Below below;
     double low = lowest_, high = highest_;
     for (int i = 0; i < 40 && high - low > 1e-9 * (highest_ - lowest_); ++i) {
         const double middle = (low + high) / 2;
-        (load_below(facets_, nodes_, middle) < fraction * total_ ? low : high) = middle;
+        (load_below(open, below, middle) < fraction * total_ ? low : high) = middle;
+        std::size_t kept = 0;
+        for (const Item& item : open) {
+            if (item.high <= low)
+                below.add(item);
+            else if (item.low < high)
+                open[kept++] = item;
+        }
+        open.resize(kept);
     }
     return (low + high) / 2;
 }

@@ -1,6 +1,7 @@
 // How much work lies below a plane.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "cut/cut.h"
@@ -36,16 +37,23 @@ class LoadProfile {
     double highest() const { return highest_; }
 
  private:
+    // One facet, or one vertex if nodes are balanced.
     struct Item {
         double low, mid, high;  // heights of the facet's vertices, ascending
         double area_z;          // area times the normal's height component
         double centroid;
     };
-    double load_below(const std::vector<Item>& items, const std::vector<double>& nodes, double height) const;
+    // Items that lie wholly below every height still in question: their volume is linear in the height.
+    struct Below {
+        double count = 0;
+        double area_z = 0;
+        double moment = 0;  // of area_z about height 0
+        void add(const Item& item);
+    };
+    double load_below(std::span<const Item> items, const Below& below, double height) const;
 
     LoadModel model_;
-    std::vector<Item> facets_;
-    std::vector<double> nodes_;
+    std::vector<Item> items_;
     double lowest_ = 0, highest_ = 0, total_ = 0;
 };
 

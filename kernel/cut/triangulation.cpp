@@ -25,9 +25,9 @@ using Cdt =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
                                                CGAL::No_constraint_intersection_tag>;
 
-constexpr double growth = 0.3;             // of the size per distance from the contour
-constexpr double too_large = 1.2;          // circumradius x sqrt(3) over size
-constexpr double too_flat = 1.0;           // circumradius over shortest edge; 1: smallest angle 30 degrees
+constexpr double growth = 0.5;             // of the size per distance from the contour
+constexpr double too_large = 1.5;          // circumradius x sqrt(3) over size
+constexpr double too_flat = 1.1;           // circumradius over shortest edge; 1.1: smallest angle 27 degrees
 constexpr double edge_clearance = 0.4;     // least distance of a point from a contour edge, in lengths of that edge
 constexpr double vertex_clearance = 0.35;  // least distance of a point from a vertex, in sizes
 constexpr int smoothing_sweeps = 8;

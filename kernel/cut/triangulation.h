@@ -25,7 +25,7 @@ struct PlanarTriangulation {
 };
 
 /// Constrained Delaunay triangulation with interior points only: contour edges are shared with the surface and never
-/// split. Sizes start from the contour edges and grow at rate 0.3 with the distance; triangles that are too large or
+/// split. Sizes start from the contour edges and grow at rate 0.5 with the distance; triangles that are too large or
 /// too flat get their circumcentre unless it lies outside, too close to a contour edge or to a vertex. Guarded
 /// smoothing ends it. Exact predicates, deterministic. O(n log n).
 PlanarTriangulation triangulate(const PlanarRegion& region);

@@ -14,7 +14,7 @@ struct DecomposeOptions {
 };
 
 /// No part should have fewer facets; a part below twice this number is not cut.
-inline constexpr std::int32_t min_facets_per_part = 100;
+inline constexpr std::int32_t min_facets_per_part = 50;
 
 /// What is kept of a node of the tree once it has been cut.
 struct TreeNode {

@@ -294,6 +294,7 @@ RunReport Run::finish(const Stopwatch& whole, double read_seconds) {
         report_.tets += part.result.tets;
         if (part.result.tets) report_.quality.add(part.result.quality);
         report_.seconds.verify = std::max(report_.seconds.verify, part.result.verify_seconds);
+        report_.seconds.write = std::max(report_.seconds.write, part.result.write_seconds);
         largest_worker = std::max(largest_worker, part.result.peak_rss_bytes);
         hashes.push_back({part.id, part.result.hash});
     }

@@ -147,10 +147,12 @@ const char* name(ManifoldDefect::Kind kind) {
 }
 
 // OpenMesh's own add_face searches for existing edges; with the partners known the connectivity is written directly.
-HalfEdgeMesh build_half_edges(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
-                              const std::vector<std::int32_t>& partner) {
+std::shared_ptr<const HalfEdgeMesh> build_half_edges(const std::vector<Vec3>& vertices,
+                                                     const std::vector<Triangle>& facets,
+                                                     const std::vector<std::int32_t>& partner) {
     using Mesh = HalfEdgeMesh;
-    Mesh mesh;
+    const auto shared = std::make_shared<Mesh>();
+    Mesh& mesh = *shared;
     mesh.reserve(vertices.size(), partner.size() / 2, facets.size());
     for (const Vec3& p : vertices) mesh.new_vertex(p);
     std::vector<std::int32_t> half_edge(partner.size());
@@ -173,7 +175,7 @@ HalfEdgeMesh build_half_edges(const std::vector<Vec3>& vertices, const std::vect
         }
         mesh.set_halfedge_handle(facet, Mesh::HalfedgeHandle(half_edge[3 * f]));
     }
-    return mesh;
+    return shared;
 }
 
 }  // namespace
@@ -185,35 +187,30 @@ std::vector<ManifoldDefect> find_manifold_defects(std::size_t vertex_count, cons
     return defects;
 }
 
-Surface::Surface(SurfaceArrays arrays) {
+Surface::Surface() : mesh_(std::make_shared<const HalfEdgeMesh>()) {}
+
+Surface::Surface(SurfaceArrays&& arrays, const std::vector<std::int32_t>& partner)
+    : mesh_(build_half_edges(arrays.vertices, arrays.facets, partner)),
+      points_(mesh_->points()),
+      vertex_key_(std::move(arrays.vertex_key)),
+      facet_key_(std::move(arrays.facet_key)),
+      patch_(std::move(arrays.patch)) {}
+
+std::variant<Surface, ManifoldDefect> Surface::build(SurfaceArrays&& arrays) {
     const Pairing pairing = pair_corners(arrays.vertices.size(), arrays.facets);
-    if (!pairing.defects.empty()) {
-        const ManifoldDefect& defect = pairing.defects.front();
-        const Vec3& p = arrays.vertices[defect.vertices.front()];
-        throw Error(ErrorCode::internal, std::string("The surface has ") + name(defect.kind) + " at vertex " +
-                                             std::to_string(defect.vertices.front()) + " (" + std::to_string(p.x()) +
+    if (!pairing.defects.empty()) return pairing.defects.front();
+    return Surface(std::move(arrays), pairing.partner);
+}
+
+Surface::Surface(SurfaceArrays arrays) {
+    auto built = build(std::move(arrays));
+    if (const auto* defect = std::get_if<ManifoldDefect>(&built)) {
+        const Vec3& p = arrays.vertices[defect->vertices.front()];
+        throw Error(ErrorCode::internal, std::string("The surface has ") + name(defect->kind) + " at vertex " +
+                                             std::to_string(defect->vertices.front()) + " (" + std::to_string(p.x()) +
                                              ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) + ").");
     }
-    mesh_ = build_half_edges(arrays.vertices, arrays.facets, pairing.partner);
-    vertex_key_ = std::move(arrays.vertex_key);
-    facet_key_ = std::move(arrays.facet_key);
-    patch_ = std::move(arrays.patch);
-}
-
-std::array<std::int32_t, 3> Surface::half_edges(std::int32_t facet) const {
-    const std::int32_t h = mesh_.halfedge_handle(HalfEdgeMesh::FaceHandle(facet)).idx();
-    const std::int32_t n = next(h);
-    return {h, n, next(n)};
-}
-
-Triangle Surface::vertices(std::int32_t facet) const {
-    const auto h = half_edges(facet);
-    return {to_vertex(h[2]), to_vertex(h[0]), to_vertex(h[1])};
-}
-
-std::array<std::int32_t, 3> Surface::neighbours(std::int32_t facet) const {
-    const auto h = half_edges(facet);
-    return {facet_of(opposite(h[0])), facet_of(opposite(h[1])), facet_of(opposite(h[2]))};
+    *this = std::move(std::get<Surface>(built));
 }
 
 SurfaceArrays Surface::arrays() const {

@@ -1,6 +1,8 @@
 // The closed surface of a body or subdomain: a half-edge mesh with keys.
 #pragma once
 
+#include <memory>
+#include <variant>
 #include <vector>
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
@@ -48,42 +50,55 @@ struct ManifoldDefect {
 /// Requires indices in range and no facet with a repeated vertex. Vertices without facets are allowed. O(#V + #F).
 std::vector<ManifoldDefect> find_manifold_defects(std::size_t vertex_count, const std::vector<Triangle>& facets);
 
-/// Closed, oriented 2-manifold. Facet and vertex numbers are those of the arrays it was built from.
+/// Closed, oriented 2-manifold. Facet and vertex numbers are those of the arrays it was built from. Immutable; copies
+/// share the half-edges.
 class Surface {
  public:
-    Surface() = default;
+    Surface();
 
-    /// Builds the half-edges in O(#V + #F). Throws Error(internal) naming the first manifold defect: diagnose before.
+    /// Builds the half-edges in O(#V + #F), or returns the first manifold defect and leaves the arrays as they are.
+    static std::variant<Surface, ManifoldDefect> build(SurfaceArrays&& arrays);
+    /// As build(), for arrays that are known to be a closed 2-manifold. Throws Error(internal) naming the defect.
     explicit Surface(SurfaceArrays arrays);
 
-    const HalfEdgeMesh& mesh() const { return mesh_; }
+    const HalfEdgeMesh& mesh() const { return *mesh_; }
     std::int32_t vertex_count() const { return static_cast<std::int32_t>(vertex_key_.size()); }
     std::int32_t facet_count() const { return static_cast<std::int32_t>(facet_key_.size()); }
 
-    const Vec3& point(std::int32_t vertex) const { return mesh_.point(HalfEdgeMesh::VertexHandle(vertex)); }
+    const Vec3& point(std::int32_t vertex) const { return points_[vertex]; }
     Key vertex_key(std::int32_t vertex) const { return vertex_key_[vertex]; }
     Key facet_key(std::int32_t facet) const { return facet_key_[facet]; }
     std::int32_t patch(std::int32_t facet) const { return patch_[facet]; }
 
     /// Half-edges of a facet in the order of its vertices: half-edge i runs from vertex i to vertex i+1.
-    std::array<std::int32_t, 3> half_edges(std::int32_t facet) const;
-    Triangle vertices(std::int32_t facet) const;
+    std::array<std::int32_t, 3> half_edges(std::int32_t facet) const {
+        const std::int32_t h = mesh_->halfedge_handle(HalfEdgeMesh::FaceHandle(facet)).idx();
+        const std::int32_t n = next(h);
+        return {h, n, next(n)};
+    }
+    Triangle vertices(std::int32_t facet) const {
+        const auto h = half_edges(facet);
+        return {to_vertex(h[2]), to_vertex(h[0]), to_vertex(h[1])};
+    }
     /// The facet across half-edge i, for each i.
-    std::array<std::int32_t, 3> neighbours(std::int32_t facet) const;
+    std::array<std::int32_t, 3> neighbours(std::int32_t facet) const {
+        const auto h = half_edges(facet);
+        return {facet_of(opposite(h[0])), facet_of(opposite(h[1])), facet_of(opposite(h[2]))};
+    }
     std::int32_t from_vertex(std::int32_t half_edge) const { return to_vertex(half_edge ^ 1); }
     std::int32_t to_vertex(std::int32_t half_edge) const {
-        return mesh_.to_vertex_handle(HalfEdgeMesh::HalfedgeHandle(half_edge)).idx();
+        return mesh_->to_vertex_handle(HalfEdgeMesh::HalfedgeHandle(half_edge)).idx();
     }
     std::int32_t facet_of(std::int32_t half_edge) const {
-        return mesh_.face_handle(HalfEdgeMesh::HalfedgeHandle(half_edge)).idx();
+        return mesh_->face_handle(HalfEdgeMesh::HalfedgeHandle(half_edge)).idx();
     }
     std::int32_t next(std::int32_t half_edge) const {
-        return mesh_.next_halfedge_handle(HalfEdgeMesh::HalfedgeHandle(half_edge)).idx();
+        return mesh_->next_halfedge_handle(HalfEdgeMesh::HalfedgeHandle(half_edge)).idx();
     }
     static std::int32_t opposite(std::int32_t half_edge) { return half_edge ^ 1; }
     /// Some half-edge that starts at the vertex, -1 for a vertex without facets.
     std::int32_t outgoing(std::int32_t vertex) const {
-        return mesh_.halfedge_handle(HalfEdgeMesh::VertexHandle(vertex)).idx();
+        return mesh_->halfedge_handle(HalfEdgeMesh::VertexHandle(vertex)).idx();
     }
     /// Turns to the next half-edge around its start vertex (clockwise seen from outside).
     std::int32_t rotate(std::int32_t half_edge) const { return next(opposite(half_edge)); }
@@ -91,7 +106,10 @@ class Surface {
     SurfaceArrays arrays() const;
 
  private:
-    HalfEdgeMesh mesh_;
+    Surface(SurfaceArrays&& arrays, const std::vector<std::int32_t>& partner);
+
+    std::shared_ptr<const HalfEdgeMesh> mesh_;  // OpenMesh cannot be moved, only copied
+    const Vec3* points_ = nullptr;              // of the mesh; its own accessor is no array access
     std::vector<Key> vertex_key_;
     std::vector<Key> facet_key_;
     std::vector<std::int32_t> patch_;
