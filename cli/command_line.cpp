@@ -73,6 +73,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     CLI::App* check = app.add_subcommand("check", "Diagnose a surface without meshing it.");
     check->add_option("input", line.options.input, "Surface file.")->required()->type_name("INPUT");
     check->add_flag("--json", line.json, "Print every defect as JSON.");
+    CLI::App* verify = app.add_subcommand("verify", "Check every law of a finished run again, from its files.");
+    verify->add_option("folder", line.options.output, "Folder of the run.")->required()->type_name("DIR");
 
     // The table binds every option to one place, so the values of `mesh` and `decompose` share it.
     try {
@@ -96,6 +98,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         if (line.print_config) line.config = (mesh->parsed() ? mesh : decompose)->config_to_str(true, true);
     } else if (check->parsed()) {
         line.command = Command::check;
+    } else if (verify->parsed()) {
+        line.command = Command::verify;
     }
     return line;
 }

@@ -8,7 +8,7 @@
 
 namespace kerf {
 
-enum class Command { none, mesh, decompose, check };
+enum class Command { none, mesh, decompose, check, verify };
 
 struct CommandLine {
     Command command = Command::none;

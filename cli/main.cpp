@@ -9,6 +9,7 @@
 #include "cli/command_line.h"
 #include "cli/progress.h"
 #include "cli/ranks.h"
+#include "cli/verify.h"
 
 namespace kerf {
 
@@ -56,7 +57,14 @@ int run_program(int argc, char** argv) {
         std::fputs(line.config.c_str(), stdout);
         return 0;
     }
-    return line.command == Command::check ? check_surface(line.options.input, line.json) : run_command(line);
+    switch (line.command) {
+        case Command::check:
+            return check_surface(line.options.input, line.json);
+        case Command::verify:
+            return verify_run(line.options.output);
+        default:
+            return run_command(line);
+    }
 }
 
 }  // namespace

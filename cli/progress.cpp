@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -12,8 +13,7 @@ namespace {
 
 std::string time_left(double elapsed, std::size_t done, std::size_t total) {
     if (done == 0) return "--:--";
-    const auto seconds =
-        static_cast<long>(elapsed * static_cast<double>(total - done) / static_cast<double>(done) + 0.5);
+    const long seconds = std::lround(elapsed * static_cast<double>(total - done) / static_cast<double>(done));
     return fmt::format("{:02}:{:02}", seconds / 60, seconds % 60);
 }
 

@@ -1,8 +1,7 @@
 // A candidate is the centroid of a facet of the void shell, moved a little along the normal, which points out of the
 // material and so into the void. It is proven by the shells around it, found by the parity of crossings of a ray with
 // each shell: they must be the shells around the void shell and the void shell itself, and outward and inward ones must
-// cancel. A crossing is decided by the signs of determinants that exceed their rounding error; where one does not (a
-// ray through an edge, a point on a facet), the ray is cast again in another direction.
+// cancel.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -13,85 +12,41 @@
 
 #include "core/error.h"
 #include "surface/mass_properties.h"
+#include "surface/ray_parity.h"
 #include "volume/mesher.h"
 
 namespace kerf {
 
 namespace {
 
-struct Shell {
-    std::vector<Triangle> facets;
-    Eigen::AlignedBox3d box;
+struct NestedShell : Shell {
     bool is_void = false;
 };
 
-std::vector<Shell> split_into_shells(const SurfaceArrays& surface) {
+std::vector<NestedShell> split_into_shells(const SurfaceArrays& surface) {
     const Shells components = find_shells(Surface(surface));
-    std::vector<Shell> shells(components.count);
-    for (std::size_t f = 0; f < surface.facets.size(); ++f) {
-        Shell& shell = shells[components.of_facet[f]];
-        shell.facets.push_back(surface.facets[f]);
-        for (std::int32_t v : surface.facets[f]) shell.box.extend(surface.vertices[v]);
+    std::vector<NestedShell> shells;
+    for (Shell& shell : collect_shells(surface.vertices, surface.facets, components.of_facet, components.count)) {
+        const bool is_void = enclosed_volume(surface.vertices, shell.facets) < 0;
+        shells.push_back({std::move(shell), is_void});
     }
-    for (Shell& shell : shells) shell.is_void = enclosed_volume(surface.vertices, shell.facets) < 0;
     return shells;
 }
 
-// Sign of det[a, b, c], 0 where rounding could have changed it. The relative bound covers the rounding of the product
-// and of the differences from which the vectors come.
-int certain_sign(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const double det = a.dot(b.cross(c));
-    if (std::abs(det) <= 1e-14 * a.norm() * b.norm() * c.norm()) return 0;
-    return det > 0 ? 1 : -1;
-}
-
-// Whether the ray from the origin meets triangle abc; nothing if rounding leaves it open.
-std::optional<bool> ray_meets(const Vec3& direction, const Vec3& a, const Vec3& b, const Vec3& c) {
-    const auto [low, high] =
-        std::minmax({certain_sign(direction, a, b), certain_sign(direction, b, c), certain_sign(direction, c, a)});
-    if (low < 0 && high > 0) return false;
-    const int side = certain_sign(a, b, c);
-    if (low * high == 0 || side == 0) return std::nullopt;
-    return low == side;
-}
-
-std::optional<bool> encloses_along(const SurfaceArrays& surface, const Shell& shell, const Vec3& point,
-                                   const Vec3& direction) {
-    bool inside = false;
-    for (const auto& [a, b, c] : shell.facets) {
-        const std::optional<bool> meets =
-            ray_meets(direction, surface.vertices[a] - point, surface.vertices[b] - point, surface.vertices[c] - point);
-        if (!meets) return std::nullopt;
-        inside ^= *meets;
-    }
-    return inside;
-}
-
-// Nothing if no direction decides: the point lies on the shell.
-std::optional<bool> encloses(const SurfaceArrays& surface, const Shell& shell, const Vec3& point) {
-    if (!shell.box.contains(point)) return false;
-    static const std::array<Vec3, 5> directions = {Vec3(0.819, 0.403, 0.409), Vec3(-0.287, 0.911, 0.297),
-                                                   Vec3(0.173, -0.541, 0.823), Vec3(-0.613, -0.337, -0.715),
-                                                   Vec3(0.521, 0.127, -0.844)};
-    for (const Vec3& direction : directions)
-        if (const std::optional<bool> inside = encloses_along(surface, shell, point, direction)) return inside;
-    return std::nullopt;
-}
-
 // For each shell whether the point lies inside of it; shell `self` is taken as given, because the point may lie on it.
-std::optional<std::vector<bool>> shells_around(const SurfaceArrays& surface, const std::vector<Shell>& shells,
+std::optional<std::vector<bool>> shells_around(const SurfaceArrays& surface, const std::vector<NestedShell>& shells,
                                                const Vec3& point, std::size_t self) {
     std::vector<bool> around(shells.size(), true);
     for (std::size_t s = 0; s < shells.size(); ++s) {
         if (s == self) continue;
-        const std::optional<bool> inside = encloses(surface, shells[s], point);
+        const std::optional<bool> inside = encloses(surface.vertices, shells[s], point);
         if (!inside) return std::nullopt;
         around[s] = *inside;
     }
     return around;
 }
 
-int winding_number(const std::vector<Shell>& shells, const std::vector<bool>& around) {
+int winding_number(const std::vector<NestedShell>& shells, const std::vector<bool>& around) {
     int winding = 0;
     for (std::size_t s = 0; s < shells.size(); ++s)
         if (around[s]) winding += shells[s].is_void ? -1 : 1;
@@ -118,7 +73,7 @@ std::vector<Triangle> largest_facets(const SurfaceArrays& surface, const Shell& 
     return largest;
 }
 
-Vec3 hole_point(const SurfaceArrays& surface, const std::vector<Shell>& shells, std::size_t void_shell) {
+Vec3 hole_point(const SurfaceArrays& surface, const std::vector<NestedShell>& shells, std::size_t void_shell) {
     const Shell& shell = shells[void_shell];
     const Vec3& on_shell = surface.vertices[shell.facets[0][0]];
     const auto wanted = shells_around(surface, shells, on_shell, void_shell);
@@ -128,7 +83,7 @@ Vec3 hole_point(const SurfaceArrays& surface, const std::vector<Shell>& shells, 
                 const Vec3 n = normal(surface, t);
                 const Vec3 centroid = (surface.vertices[t[0]] + surface.vertices[t[1]] + surface.vertices[t[2]]) / 3;
                 const Vec3 candidate = centroid + step * std::sqrt(n.norm()) * n.normalized();
-                if (encloses(surface, shell, candidate) == true &&
+                if (encloses(surface.vertices, shell, candidate) == true &&
                     shells_around(surface, shells, candidate, void_shell) == wanted)
                     return candidate;
             }
@@ -143,7 +98,7 @@ Vec3 hole_point(const SurfaceArrays& surface, const std::vector<Shell>& shells, 
 }  // namespace
 
 std::vector<Vec3> hole_points(const SurfaceArrays& surface) {
-    const std::vector<Shell> shells = split_into_shells(surface);
+    const std::vector<NestedShell> shells = split_into_shells(surface);
     std::vector<Vec3> points;
     for (std::size_t s = 0; s < shells.size(); ++s)
         if (shells[s].is_void) points.push_back(hole_point(surface, shells, s));

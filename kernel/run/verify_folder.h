@@ -1,0 +1,27 @@
+// A finished run, checked from its files alone.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "run/report.h"
+
+namespace kerf {
+
+/// What kerf verify found.
+struct FolderVerification {
+    RunVerification laws;
+    std::int64_t moved_vertices = 0;    ///< vertices whose coordinates differ between parts, or from the input
+    std::int64_t misnumbered = 0;       ///< global numbers that are missing, or used by two interior vertices
+    std::int64_t wrong_neighbours = 0;  ///< interface triangles that do not name the part on the other side
+    std::int64_t tets = 0, vertices = 0;
+    std::int32_t parts = 0;
+    std::vector<std::string> notes;  ///< what could not be checked, and why
+};
+
+/// Reads report.json, the input and every part of a run folder, one part at a time, and checks every law again: each
+/// part by verify_mesh(), the interfaces by the global numbers, the facets of the input one by one. Memory follows the
+/// surface, not the mesh. Throws Error(io) for a folder that is no finished run or a damaged file.
+FolderVerification verify_folder(const std::string& folder);
+
+}  // namespace kerf
