@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -10,6 +11,10 @@
 namespace kerf {
 
 namespace {
+
+volatile std::sig_atomic_t stop_signal = 0;
+
+void note_signal(int signal) { stop_signal = signal; }
 
 std::string time_left(double elapsed, std::size_t done, std::size_t total) {
     if (done == 0) return "--:--";
@@ -19,11 +24,19 @@ std::string time_left(double elapsed, std::size_t done, std::size_t total) {
 
 }  // namespace
 
-ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {
+    stop_signal = 0;
+    std::signal(SIGINT, note_signal);
+    std::signal(SIGTERM, note_signal);
+}
 
 ProgressLine::~ProgressLine() {
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
     if (line_open_) std::fputs("\r\033[K", stderr);
 }
+
+bool ProgressLine::cancelled() const { return stop_signal != 0; }
 
 void ProgressLine::on_progress(const char* stage, std::size_t done, std::size_t total) {
     if (quiet_ || total == 0) return;

@@ -8,12 +8,14 @@
 
 namespace kerf {
 
-/// One line that is rewritten on a terminal; a line per 10 % otherwise. Writes to standard error.
+/// One line that is rewritten on a terminal; a line per 10 % otherwise. Writes to standard error. While it lives, SIGINT
+/// and SIGTERM cancel the run.
 class ProgressLine : public RunListener {
  public:
     explicit ProgressLine(bool quiet);
     ~ProgressLine() override;
     void on_progress(const char* stage, std::size_t done, std::size_t total) override;
+    bool cancelled() const override;
 
  private:
     void print(const std::string& text);

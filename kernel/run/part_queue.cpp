@@ -11,6 +11,8 @@ namespace kerf {
 
 namespace {
 
+constexpr double cancel_interval_seconds = 0.2;
+
 bool died_by_itself(const ChildResult& child) {
     const bool fatal_signal = child.signal == SIGABRT || child.signal == SIGSEGV || child.signal == SIGBUS ||
                               child.signal == SIGFPE || child.signal == SIGILL;
@@ -49,7 +51,8 @@ class Queue {
                 idle_.pop_back();
                 start(next_++);
             }
-            if (const auto ended = pool_.wait_any()) take(static_cast<std::size_t>(ended->tag), ended->result);
+            if (options_.cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
+            if (const auto ended = pool_.wait_any(cancel_interval_seconds)) take(static_cast<std::size_t>(ended->tag), ended->result);
         }
         return std::move(outcomes_);
     }

@@ -24,12 +24,14 @@ struct QueueOptions {
     double timeout_seconds = 0;  ///< of one attempt; 0: none
     std::int64_t memory_mb = 0;
     std::int32_t attempts = 3;
+    std::function<bool()> cancelled = [] { return false; };  ///< asked a few times a second
 };
 
 /// Runs every job in a process of its own, `workers` at a time, in the given order; outcomes come back in the same
 /// order. An attempt that fails for the mesher's reasons (it aborts, crashes, or returns a mesh that breaks a law) is
 /// repeated with the vertices in another fixed order. A worker that was killed from outside, ran out of its time or of
-/// memory is not: the part has failed. `finished` is called after every part.
+/// memory is not: the part has failed. `finished` is called after every part. Throws Error(cancelled), with all workers
+/// ended, once `cancelled` says so.
 std::vector<PartOutcome> run_part_jobs(std::vector<PartJob> jobs, const QueueOptions& options,
                                        const std::function<void(std::size_t index, const PartOutcome&)>& finished);
 

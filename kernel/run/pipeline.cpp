@@ -130,7 +130,9 @@ class Run {
  private:
     bool is_root() const { return ranks_.rank() == 0; }
     void progress(const char* stage, std::size_t done, std::size_t total) {
-        if (listener_) listener_->on_progress(stage, done, total);
+        if (!listener_) return;
+        if (listener_->cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
+        listener_->on_progress(stage, done, total);
     }
     PartJob make_job(std::size_t leaf) const;
     void keep_reproducer(const Leaf& leaf, const PartReport& part) const;
@@ -156,7 +158,6 @@ void Run::decompose_surface() {
         CutListener* cuts = listener_ && listener_->wants_cuts() ? listener_ : nullptr;
         return decompose(std::move(input_.surface), options, range_of_rank(options.parts, ranks_), cuts);
     });
-    progress("decompose", 1, 1);
     report_.seconds.decompose = longest(ranks_, stopwatch.seconds());
 }
 
@@ -212,8 +213,9 @@ void Run::mesh_parts() {
         for (const std::size_t i : order) jobs.push_back(make_job(i));
         std::size_t done = 0;
         progress("volume", 0, jobs.size());
-        const QueueOptions queue = {options.worker_program, options.workers, options.timeout_seconds, options.memory_mb,
-                                    options.attempts};
+        QueueOptions queue = {options.worker_program, options.workers, options.timeout_seconds, options.memory_mb,
+                              options.attempts};
+        if (listener_) queue.cancelled = [this] { return listener_->cancelled(); };
         run_part_jobs(std::move(jobs), queue, [&](std::size_t index, const PartOutcome& outcome) {
             PartReport& part = own_parts_[order[index]];
             part.worker = outcome.worker;

@@ -14,6 +14,8 @@ class RunListener : public CutListener {
     /// Whether on_cut() is wanted: recording the stages of every cut costs memory.
     virtual bool wants_cuts() const { return false; }
     void on_cut(const Surface&, const Cut&) override {}
+    /// Asked between stages and while workers run. Once true, the run ends with Error(cancelled) and leaves no result.
+    virtual bool cancelled() const { return false; }
 };
 
 /// Reads, decomposes, meshes every subdomain in worker processes, verifies and writes the run folder.
