@@ -50,7 +50,7 @@ int run_command(const CommandLine& line) {
 int run_program(int argc, char** argv) {
     const CommandLine line = parse_command_line(argc, argv);
     if (line.finished) {
-        std::fputs(line.output.c_str(), line.exit_code == 0 ? stdout : stderr);
+        if (is_first_rank()) std::fputs(line.output.c_str(), line.exit_code == 0 ? stdout : stderr);
         return line.exit_code;
     }
     if (line.print_config) {

@@ -79,6 +79,12 @@ bool started_by_launcher() {
 
 }  // namespace
 
+bool is_first_rank() {
+    for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"})
+        if (const char* rank = std::getenv(name)) return std::atoi(rank) == 0;
+    return true;
+}
+
 Ranks join_ranks() {
 #ifdef KERF_WITH_MPI
     if (started_by_launcher()) {

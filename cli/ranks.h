@@ -15,4 +15,7 @@ struct Ranks {
 };
 Ranks join_ranks();
 
+/// Whether this process speaks for the job, told from the launcher's environment without starting MPI.
+bool is_first_rank();
+
 }  // namespace kerf

@@ -25,6 +25,13 @@ struct CutOptions {
     double good_dihedral_deg = 25;  ///< thresholds of InterfaceQuality below which a cut is soft
     double good_angle_deg = 20;
     double good_gap_rel = 0.2;
+
+    /// What the criterion bisects: the volume where it says so, else `load`.
+    LoadModel bisected_load() const {
+        LoadModel bisected = load;
+        if (criterion == Criterion::volume) bisected.balance = Balance::volume;
+        return bisected;
+    }
 };
 
 }  // namespace kerf

@@ -20,12 +20,6 @@ double bisecting_height(const LoadProfile& profile, double fraction, Criterion c
     return profile.bisect(fraction);
 }
 
-LoadModel load_of(const CutOptions& options) {
-    LoadModel load = options.load;
-    if (options.criterion == Criterion::volume) load.balance = Balance::volume;
-    return load;
-}
-
 }  // namespace
 
 std::vector<Vec3> cut_directions(const Surface& surface, const MassProperties& mass, const CutOptions& options) {
@@ -42,7 +36,7 @@ std::vector<Vec3> cut_directions(const Surface& surface, const MassProperties& m
 std::vector<PlaneCandidate> plane_candidates(const Surface& surface, const MassProperties& mass, const Vec3& direction,
                                              std::int32_t axis, double fraction, const CutOptions& options) {
     const Plane through_centroid(mass.centroid, direction);
-    const LoadProfile profile(surface, through_centroid, load_of(options));
+    const LoadProfile profile(surface, through_centroid, options.bisected_load());
     const double middle = bisecting_height(profile, fraction, options.criterion);
     std::vector<PlaneCandidate> candidates = {{through_centroid.shifted(middle), axis, 0, true}};
     const double h = crossing_edge_length(surface, candidates[0].plane);

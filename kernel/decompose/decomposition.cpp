@@ -61,10 +61,12 @@ void Decomposer::keep_whole(const Surface& surface, const TreeNode& node) {
         result_.leaves.push_back({node.id, node.mass.volume, surface.arrays()});
 }
 
-// Leaves in proportion to the load that the halves really have.
+// Leaves in proportion to the load that the halves really have; equidistant cuts have no load.
 std::int32_t Decomposer::leaves_below(const std::array<Surface, 2>& halves, std::int32_t leaves) const {
+    if (options_.cut.criterion == Criterion::equidistant) return leaves / 2;
+    const LoadModel model = options_.cut.bisected_load();
     std::array<double, 2> load;
-    for (int i = 0; i < 2; ++i) load[i] = options_.cut.load.load(halves[i], enclosed_volume(halves[i]));
+    for (int i = 0; i < 2; ++i) load[i] = model.load(halves[i], enclosed_volume(halves[i]));
     const auto share = static_cast<std::int32_t>(std::lround(leaves * load[0] / (load[0] + load[1])));
     return std::clamp(share, 1, leaves - 1);
 }

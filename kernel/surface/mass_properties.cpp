@@ -64,7 +64,7 @@ class VolumeSum {
 
 double enclosed_volume(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
     if (vertices.empty()) return 0;
-    const Vec3 base = vertices[0];
+    const Vec3& base = vertices[0];
     VolumeSum sum;
     for (const Triangle& t : facets) sum.add(vertices[t[0]] - base, vertices[t[1]] - base, vertices[t[2]] - base);
     return sum.volume();
@@ -72,7 +72,7 @@ double enclosed_volume(const std::vector<Vec3>& vertices, const std::vector<Tria
 
 double enclosed_volume(const Surface& surface) {
     if (surface.vertex_count() == 0) return 0;
-    const Vec3 base = surface.point(0);
+    const Vec3& base = surface.point(0);
     VolumeSum sum;
     for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
         const Triangle t = surface.vertices(f);
@@ -84,7 +84,7 @@ double enclosed_volume(const Surface& surface) {
 MassProperties mass_properties(const Surface& surface) {
     MassProperties m;
     if (surface.vertex_count() == 0) return m;
-    const Vec3 base = surface.point(0);
+    const Vec3& base = surface.point(0);
     const double n = surface.vertex_count();
     Vec3 sum = Vec3::Zero();
     for (std::int32_t v = 0; v < surface.vertex_count(); ++v) sum += surface.point(v) - base;

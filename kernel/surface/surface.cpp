@@ -205,6 +205,7 @@ std::variant<Surface, ManifoldDefect> Surface::build(SurfaceArrays&& arrays) {
 Surface::Surface(SurfaceArrays arrays) {
     auto built = build(std::move(arrays));
     if (const auto* defect = std::get_if<ManifoldDefect>(&built)) {
+        // NOLINTNEXTLINE(bugprone-use-after-move): build() leaves arrays with a defect as they are
         const Vec3& p = arrays.vertices[defect->vertices.front()];
         throw Error(ErrorCode::internal, std::string("The surface has ") + name(defect->kind) + " at vertex " +
                                              std::to_string(defect->vertices.front()) + " (" + std::to_string(p.x()) +
