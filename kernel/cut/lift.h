@@ -16,9 +16,10 @@ struct Obstacle {
     double clearance = 0;     ///< wanted distance of the interface, in units of `size`
 };
 
-/// Harmonic heights (cotangent weights, so that constants and planes are kept) with the contour's heights as boundary
-/// values, then bounded by the obstacles: the bound falls off with the distance at rate 0.3.
-/// `contour_height` #C; returns one height per point. O(n^1.5) for the factorisation.
+/// Harmonic heights with the contour's heights as boundary values, then bounded by the obstacles: the bound falls off
+/// with the distance at rate 0.3. Weights are cotangents, but positive where triangles are obtuse, so that no height
+/// lies beyond those of the contour; constants are kept, and planes up to that. `contour_height` #C; returns one height
+/// per point. O(n^1.5) for the factorisation.
 std::vector<double> lift_heights(const PlanarTriangulation& triangulation, const std::vector<double>& contour_height,
                                  const std::vector<Obstacle>& obstacles);
 

@@ -1,0 +1,67 @@
+// Where the time before the volume meshes goes: the steps of the kernel one by one, on the largest asset.
+#include <benchmark/benchmark.h>
+
+#include "cut/max_flow.h"
+#include "decompose/decomposition.h"
+#include "io/surface_reader.h"
+#include "mesh/quality.h"
+#include "run/input.h"
+#include "surface/diagnosis.h"
+
+namespace kerf {
+
+namespace {
+
+const std::string bearing_cap = KERF_ASSETS "/bearing_cap_52k.stl";
+
+void read_stl(benchmark::State& state) {
+    for (auto _ : state) benchmark::DoNotOptimize(read_surface(bearing_cap));
+}
+BENCHMARK(read_stl)->Unit(benchmark::kMillisecond);
+
+void diagnose_surface(benchmark::State& state) {
+    const Soup soup = read_surface(bearing_cap);
+    for (auto _ : state) benchmark::DoNotOptimize(diagnose(soup));
+}
+BENCHMARK(diagnose_surface)->Unit(benchmark::kMillisecond);
+
+void decompose_surface(benchmark::State& state) {
+    const Input input = read_input(bearing_cap);
+    DecomposeOptions options;
+    options.parts = static_cast<std::int32_t>(state.range(0));
+    for (auto _ : state) benchmark::DoNotOptimize(decompose(input.surface, options, {0, options.parts}));
+}
+BENCHMARK(decompose_surface)->ArgName("parts")->Arg(2)->Arg(8)->Unit(benchmark::kMillisecond);
+
+void quality_of_one_tet(benchmark::State& state) {
+    Vec3 apex(0.3, 0.2, 0.9);
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(apex);
+        benchmark::DoNotOptimize(tet_quality({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, apex));
+    }
+}
+BENCHMARK(quality_of_one_tet);
+
+// A ring of facets as wide as the band around a plane: terminals on the rims, capacities that vary along the ring.
+void minimum_cut_of_a_band(benchmark::State& state) {
+    const auto length = static_cast<std::int32_t>(state.range(0));
+    constexpr std::int32_t width = 16;
+    const auto node = [=](std::int32_t along, std::int32_t across) { return along % length * width + across; };
+    for (auto _ : state) {
+        MaxFlow flow(length * width);
+        for (std::int32_t i = 0; i < length; ++i) {
+            flow.add_terminal(node(i, 0), length, 0);
+            flow.add_terminal(node(i, width - 1), 0, length);
+            for (std::int32_t j = 0; j < width; ++j) {
+                flow.add_edge(node(i, j), node(i + 1, j), 1);
+                if (j + 1 < width) flow.add_edge(node(i, j), node(i, j + 1), 1 + (7 * i + 3 * j) % 5);
+            }
+        }
+        benchmark::DoNotOptimize(flow.solve(std::int64_t{2000} * length * width));
+    }
+}
+BENCHMARK(minimum_cut_of_a_band)->ArgName("length")->Arg(500)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+}  // namespace kerf
