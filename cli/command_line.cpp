@@ -59,6 +59,15 @@ CLI::App* add_run_command(CLI::App& app, const char* name, const char* text, Com
     return command;
 }
 
+// CLI11 only says that a subcommand is missing.
+std::string usage_error(const CLI::App& app, int argc, const char* const* argv, const std::string& message) {
+    const auto is_named = [&](const CLI::App* command) { return argc > 1 && command->get_name() == argv[1]; };
+    const std::vector<const CLI::App*> commands = app.get_subcommands(nullptr);
+    if (argc > 1 && argv[1][0] != '-' && std::none_of(commands.begin(), commands.end(), is_named))
+        return fmt::format("kerf: '{}' is not a command. Run kerf --help for the commands.\n", argv[1]);
+    return "kerf: " + message;
+}
+
 }  // namespace
 
 CommandLine parse_command_line(int argc, const char* const* argv) {
@@ -83,7 +92,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         std::ostringstream out, err;
         line.finished = true;
         line.exit_code = app.exit(e, out, err) == 0 ? 0 : static_cast<int>(ErrorCode::usage);
-        line.output = line.exit_code == 0 ? out.str() : err.str();
+        line.output = line.exit_code == 0 ? out.str() : usage_error(app, argc, argv, err.str());
         return line;
     }
     if (mesh->parsed() || decompose->parsed()) {
@@ -93,7 +102,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         if (parts->count() > 0 && line.options.decompose.parts < 1) {
             line.finished = true;
             line.exit_code = static_cast<int>(ErrorCode::usage);
-            line.output = fmt::format("--parts is {}, but a mesh has 1 or more parts.\n", line.options.decompose.parts);
+            line.output =
+                fmt::format("kerf: --parts is {}, but a mesh has 1 or more parts.\n", line.options.decompose.parts);
         }
         if (line.print_config) line.config = (mesh->parsed() ? mesh : decompose)->config_to_str(true, true);
     } else if (check->parsed()) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -270,15 +271,19 @@ Verdict judge_interface(const Surface& surface, const Band& band, const Interfac
 
 std::int32_t find_misplaced_shell(const Surface& half) {
     const Shells components = find_shells(half);
-    if (components.count == 1) return -1;
+    if (components.count == 1) return enclosed_volume(half) > 0 ? -1 : 0;
     const SurfaceArrays arrays = half.arrays();
     const std::vector<Shell> shells =
         collect_shells(arrays.vertices, arrays.facets, components.of_facet, components.count);
     for (std::size_t i = 0; i < shells.size(); ++i) {
         const std::int32_t vertex = shells[i].facets[0][0];
         int depth = 0;
-        for (std::size_t j = 0; j < shells.size(); ++j)
-            if (i != j) depth += encloses(arrays.vertices, shells[j], arrays.vertices[vertex]).value_or(false);
+        for (std::size_t j = 0; j < shells.size(); ++j) {
+            if (i == j) continue;
+            const std::optional<bool> inside = encloses(arrays.vertices, shells[j], arrays.vertices[vertex]);
+            if (!inside) return vertex;  // it touches another shell
+            depth += *inside;
+        }
         const bool is_void = enclosed_volume(arrays.vertices, shells[i].facets) < 0;
         if (is_void != (depth % 2 == 1)) return vertex;
     }

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "shapes.h"
+#include "support/shapes.h"
 
 namespace kerf {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "shapes.h"
+#include "support/shapes.h"
 #include "volume/mesher.h"
 
 namespace kerf {

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "mesh/verification.h"
-#include "shapes.h"
+#include "support/shapes.h"
 
 namespace kerf {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "shapes.h"
+#include "support/shapes.h"
 #include "surface/mass_properties.h"
 #include "surface/surface.h"
 

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "shapes.h"
+#include "support/shapes.h"
 
 namespace kerf {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "core/bytes.h"
 #include "core/error.h"
-#include "shapes.h"
+#include "support/shapes.h"
 
 namespace kerf {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "shapes.h"
+#include "support/shapes.h"
 
 namespace kerf {
 namespace {

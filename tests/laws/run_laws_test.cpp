@@ -1,0 +1,195 @@
+// The laws of whole runs, for every asset and many numbers of parts: in the report, and again from the files.
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include "support/assets.h"
+#include "support/run_in_process.h"
+#include "support/run_laws.h"
+#include "support/temporary_folder.h"
+#include "support/write_off.h"
+
+namespace kerf {
+namespace {
+
+void expect_verified(const RunReport& report, std::int32_t parts) {
+    EXPECT_EQ(report.exit_code, 0);
+    EXPECT_TRUE(report.verification.passed);
+    EXPECT_LE(report.verification.volume_rel_error, 1e-10);
+    EXPECT_EQ(report.verification.input_faces_missing, 0);
+    EXPECT_EQ(report.verification.extra_boundary_faces, 0);
+    EXPECT_EQ(report.verification.unmatched_interface_faces, 0);
+    EXPECT_EQ(report.verification.inverted_tets, 0);
+    EXPECT_EQ(report.verification.tets_zero_parts, 0);
+    EXPECT_EQ(report.parts.size(), static_cast<std::size_t>(parts));
+}
+
+struct FinishedRun {
+    RunReport report;
+    std::vector<PartFile> parts;
+};
+
+// Runs, checks the report, reads the files back and checks them against the input as it is read anew.
+FinishedRun run_and_check(const std::string& input, std::int32_t parts, RunListener* listener = nullptr) {
+    const test::TemporaryFolder folder;
+    Input read;
+    FinishedRun run;
+    run.report = test::run_parts(input, folder.file("out"), parts, read, listener);
+    run.report.input = nullptr;  // ends with this function
+    expect_verified(run.report, parts);
+    run.parts = test::read_parts(folder.file("out"));
+    EXPECT_EQ(run.parts.size(), run.report.parts.size());
+    EXPECT_EQ(test::broken_laws(run.parts, read_input(input).surface.arrays()), "");
+    std::int64_t tets = 0, last_id = -1;
+    for (const PartFile& part : run.parts) {
+        tets += static_cast<std::int64_t>(part.mesh.tets.size());
+        last_id = std::max(last_id, *std::max_element(part.global_id.begin(), part.global_id.end()));
+    }
+    EXPECT_EQ(tets, run.report.tets);
+    EXPECT_EQ(last_id + 1, run.report.vertices);
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"out"});
+    return run;
+}
+
+class AllAssets : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Assets, AllAssets, testing::ValuesIn(test::asset_names()),
+                         [](const auto& param) { return param.param; });
+
+TEST_P(AllAssets, ObeyEveryLawForAnyNumberOfParts) {
+    for (const std::int32_t parts : {1, 2, 3, 5, 8}) {
+        SCOPED_TRACE(testing::Message() << parts << " parts");
+        run_and_check(test::asset_path(GetParam()), parts);
+    }
+}
+
+class ManyParts : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Assets, ManyParts,
+                         testing::Values("bearing_cap_14k", "hollow_box", "knee_tibial", "sinter_packing",
+                                         "wing_in_box"),
+                         [](const auto& param) { return param.param; });
+
+TEST_P(ManyParts, ObeyEveryLaw) {
+    for (const std::int32_t parts : {16, 32}) {
+        SCOPED_TRACE(testing::Message() << parts << " parts");
+        run_and_check(test::asset_path(GetParam()), parts);
+    }
+}
+
+class CutCollector : public RunListener {
+ public:
+    void on_progress(const char*, std::size_t, std::size_t) override { ++steps; }
+    bool wants_cuts() const override { return true; }
+    void on_cut(const Surface& parent, const Cut& cut) override {
+        EXPECT_EQ(cut.side.size(), static_cast<std::size_t>(parent.facet_count()));
+        EXPECT_FALSE(cut.stages.crossed_edges.empty());
+        ++cuts;
+    }
+    int cuts = 0, steps = 0;
+};
+
+TEST(RunLaws, ListenerChangesNothing) {
+    for (const std::string asset : {"hollow_box", "knee_femoral"}) {
+        SCOPED_TRACE(asset);
+        CutCollector listener;
+        const FinishedRun with = run_and_check(test::asset_path(asset), 5, &listener);
+        const FinishedRun without = run_and_check(test::asset_path(asset), 5);
+        EXPECT_EQ(listener.cuts, 4);
+        EXPECT_GT(listener.steps, 5);
+        EXPECT_EQ(with.report.mesh_hash, without.report.mesh_hash);
+    }
+}
+
+class Transformed : public testing::TestWithParam<std::string> {
+ protected:
+    Transformed() : surface_(test::asset_surface(GetParam()).arrays()) {}
+
+    std::string written() const {
+        test::write_off(folder_.file("input.off"), surface_.vertices, surface_.facets);
+        return folder_.file("input.off");
+    }
+
+    test::TemporaryFolder folder_;
+    SurfaceArrays surface_;
+};
+INSTANTIATE_TEST_SUITE_P(Assets, Transformed, testing::Values("hollow_box", "cylinder", "pipe_with_holes"),
+                         [](const auto& param) { return param.param; });
+
+TEST_P(Transformed, PowersOfTwoLeaveTheTopology) {
+    const FinishedRun original = run_and_check(written(), 3);
+    for (const int exponent : {-20, 9}) {
+        SCOPED_TRACE(exponent);
+        SurfaceArrays scaled = surface_;
+        for (Vec3& p : scaled.vertices) p *= std::ldexp(1.0, exponent);
+        test::write_off(folder_.file("scaled.off"), scaled.vertices, scaled.facets);
+        const FinishedRun run = run_and_check(folder_.file("scaled.off"), 3);
+        ASSERT_EQ(run.parts.size(), original.parts.size());
+        for (std::size_t i = 0; i < run.parts.size(); ++i) {
+            EXPECT_EQ(run.parts[i].mesh.tets, original.parts[i].mesh.tets);
+            EXPECT_EQ(run.parts[i].global_id, original.parts[i].global_id);
+        }
+    }
+}
+
+TEST_P(Transformed, RigidMotionKeepsTheLaws) {
+    const Eigen::AngleAxisd rotation(0.7, Vec3(1, 2, 3).normalized());
+    for (Vec3& p : surface_.vertices) p = rotation * p + Vec3(40, -30, 20);
+    run_and_check(written(), 8);
+}
+
+TEST_P(Transformed, OrderOfVerticesAndFacetsKeepsTheLaws) {
+    std::mt19937 random(20);
+    std::vector<std::int32_t> order(surface_.vertices.size()), number(order.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::shuffle(order.begin(), order.end(), random);
+    std::vector<Vec3> vertices;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        vertices.push_back(surface_.vertices[order[i]]);
+        number[order[i]] = static_cast<std::int32_t>(i);
+    }
+    surface_.vertices = vertices;
+    for (Triangle& t : surface_.facets)
+        for (std::int32_t& v : t) v = number[v];
+    std::shuffle(surface_.facets.begin(), surface_.facets.end(), random);
+    run_and_check(written(), 8);
+}
+
+// The checks above must be able to fail.
+TEST(RunLaws, EveryDamageIsFound) {
+    const test::TemporaryFolder folder;
+    Input read;
+    test::run_parts(test::asset_path("hollow_box"), folder.file("out"), 3, read);
+    const std::vector<PartFile> good = test::read_parts(folder.file("out"));
+    const SurfaceArrays input = test::asset_surface("hollow_box").arrays();
+    ASSERT_EQ(test::broken_laws(good, input), "");
+    const auto expect_found = [&](const char* law, const auto& damage) {
+        std::vector<PartFile> parts = good;
+        damage(parts);
+        EXPECT_NE(test::broken_laws(parts, input).find(law), std::string::npos) << law;
+    };
+    const auto first_interface_facet = [](const PartFile& part) {
+        return std::find_if(part.neighbour.begin(), part.neighbour.end(), [](int n) { return n >= 0; }) -
+               part.neighbour.begin();
+    };
+    expect_found("at different places", [](auto& parts) {
+        for (PartFile& part : parts) part.mesh.vertices[part.facets.back()[0]].x() += 1e-12 * part.part;
+    });
+    expect_found("gaps", [](auto& parts) { parts[0].global_id.back() += 1000000; });
+    expect_found("not positive", [](auto& parts) { std::swap(parts[1].mesh.tets[0][0], parts[1].mesh.tets[0][1]); });
+    expect_found("not the boundary", [](auto& parts) { parts[1].mesh.tets.pop_back(); });
+    expect_found("not the enclosed", [](auto& parts) { parts[2].mesh.tets.pop_back(); });
+    expect_found("once in the input", [](auto& parts) { parts[0].facets.erase(parts[0].facets.begin()); });
+    expect_found("once in the input", [](auto& parts) { parts[0].patch[0] = 77; });
+    expect_found("other side", [&](auto& parts) { parts[0].neighbour[first_interface_facet(parts[0])] = 77; });
+    expect_found("other side", [&](auto& parts) {
+        Triangle& t = parts[0].facets[first_interface_facet(parts[0])];
+        std::swap(t[1], t[2]);
+    });
+}
+
+}  // namespace
+}  // namespace kerf

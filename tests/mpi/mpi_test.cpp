@@ -1,0 +1,103 @@
+// The program under mpirun: the same files for any number of ranks and workers, the same exit code on every rank.
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "support/assets.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
+
+namespace kerf {
+namespace {
+
+ChildResult run_ranks(int ranks, const std::vector<std::string>& command) {
+    // mpirun refuses the root user, as whom containers test, unless it is told twice.
+    std::vector<std::string> arguments = {
+        "OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1", KERF_MPIRUN, "--oversubscribe", "-n",
+        std::to_string(ranks)};
+    arguments.insert(arguments.end(), command.begin(), command.end());
+    return test::run_program("/usr/bin/env", arguments);
+}
+
+std::map<std::string, std::string> contents(const std::string& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        std::ifstream file(entry.path(), std::ios::binary);
+        files[entry.path().filename()].assign(std::istreambuf_iterator<char>(file), {});
+    }
+    return files;
+}
+
+std::int64_t count(const std::string& text, const std::string& word) {
+    std::int64_t n = 0;
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++n;
+    return n;
+}
+
+class MpiRuns : public testing::TestWithParam<std::pair<std::string, int>> {};
+INSTANTIATE_TEST_SUITE_P(Assets, MpiRuns,
+                         testing::Values(std::pair("hollow_box", 5), std::pair("pipe_with_holes", 8),
+                                         std::pair("cube", 2)),  // fewer parts than ranks
+                         [](const auto& param) { return param.param.first; });
+
+TEST_P(MpiRuns, PartFilesAreTheSameForAnyRanksAndWorkers) {
+    const auto& [asset, parts] = GetParam();
+    const test::TemporaryFolder folder;
+    const auto arguments = [&, parts = parts, path = test::asset_path(asset)](const std::string& out, int workers) {
+        return std::vector<std::string>{
+            "mesh", path, "-o", folder.file(out), "-n", std::to_string(parts), "--workers", std::to_string(workers)};
+    };
+    ASSERT_EQ(test::run_kerf(arguments("alone", 1)).exit_code, 0);
+    const auto expected = contents(folder.file("alone/parts"));
+    EXPECT_EQ(expected.size(), 2 * static_cast<std::size_t>(parts));
+    for (int ranks = 1; ranks <= 4; ++ranks)
+        for (const int workers : {1, 2}) {
+            SCOPED_TRACE(testing::Message() << ranks << " ranks, " << workers << " workers");
+            std::vector<std::string> command = arguments("ranks", workers);
+            command.insert(command.begin(), KERF_PROGRAM);
+            const ChildResult result = run_ranks(ranks, command);
+            ASSERT_EQ(result.exit_code, 0) << result.log;
+            EXPECT_TRUE(contents(folder.file("ranks/parts")) == expected);
+            EXPECT_EQ(folder.names(), (std::vector<std::string>{"alone", "ranks"}));
+        }
+}
+
+struct Failure {
+    const char* name;
+    std::string input, output;
+    int exit_code;
+    std::string words;  // of the message
+};
+
+TEST(MpiErrors, EveryRankEndsWithTheSameCodeAndOneSpeaks) {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder.file("empty.stl")).flush();
+    const std::vector<Failure> failures = {
+        {"missing file", folder.file("missing.stl"), folder.file("out"), 7, "cannot be read"},
+        {"empty file", folder.file("empty.stl"), folder.file("out"), 3, "is empty"},
+        {"folder below a file", test::asset_path("cube"), folder.file("empty.stl/out"), 7, "Cannot create"}};
+    for (const Failure& failure : failures) {
+        SCOPED_TRACE(failure.name);
+        // The shell swallows the code of each rank, so that mpirun neither stops the others nor adds words of its own.
+        const std::string script =
+            "'" KERF_PROGRAM "' mesh '" + failure.input + "' -o '" + failure.output + "' -n 3; echo \"code=$?;\"";
+        const ChildResult result = run_ranks(3, {"/bin/sh", "-c", script});
+        EXPECT_EQ(result.exit_code, 0);
+        EXPECT_EQ(count(test::output_of(result), "code=" + std::to_string(failure.exit_code) + ";"), 3)
+            << test::output_of(result);
+        EXPECT_EQ(count(result.log, "kerf: "), 1) << result.log;
+        EXPECT_NE(result.log.find(failure.words), std::string::npos) << result.log;
+        EXPECT_EQ(folder.names(), std::vector<std::string>{"empty.stl"});
+    }
+}
+
+TEST(MpiErrors, UsageErrorsNeedNoAgreement) {
+    EXPECT_EQ(run_ranks(2, {KERF_PROGRAM, "mesh", test::asset_path("cube"), "-o", "unused", "-n", "0"}).exit_code, 2);
+    EXPECT_FALSE(std::filesystem::exists("unused"));
+}
+
+}  // namespace
+}  // namespace kerf

@@ -1,0 +1,21 @@
+// Runs of the pipeline without the program around it.
+#pragma once
+
+#include "run/pipeline.h"
+
+namespace kerf::test {
+
+/// A run of one rank with two workers.
+inline RunReport run_parts(const std::string& input, const std::string& output, std::int32_t parts, Input& read,
+                           RunListener* listener = nullptr) {
+    RunOptions options;
+    options.input = input;
+    options.output = output;
+    options.worker_program = KERF_WORKER;
+    options.workers = 2;
+    options.decompose.parts = parts;
+    SingleRank rank;
+    return run(options, 2, rank, read, listener);
+}
+
+}  // namespace kerf::test

@@ -1,0 +1,190 @@
+// Faces are compared as corner triples in global vertex numbers, rotated so that the smallest comes first: equal
+// triples are the same face seen from the same side, and `turned` is the same face seen from behind.
+#include "support/run_laws.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <tuple>
+
+#include <Eigen/Geometry>
+
+#include "surface/intersections.h"
+#include "surface/mass_properties.h"
+
+namespace kerf::test {
+
+namespace {
+
+using Face = std::array<std::int64_t, 3>;
+
+Face rotated(Face f) {
+    std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
+    return f;
+}
+Face turned(const Face& f) { return {f[0], f[2], f[1]}; }
+
+bool same_bits(const Vec3& a, const Vec3& b) { return std::memcmp(a.data(), b.data(), sizeof(double) * 3) == 0; }
+
+// A face of the boundary of a part.
+struct BoundaryFace {
+    Face corners;
+    std::int32_t part, neighbour, patch;
+    auto key() const { return std::tie(corners, part, neighbour, patch); }
+    bool operator<(const BoundaryFace& o) const { return key() < o.key(); }
+};
+
+class RunLaws {
+ public:
+    RunLaws(const std::vector<PartFile>& parts, const SurfaceArrays& input) : parts_(parts), input_(input) {}
+
+    std::string broken() {
+        check_numbers();
+        if (!text_.empty()) return text_;  // what follows is told by global numbers
+        for (const PartFile& part : parts_) check_tetrahedra(part);
+        check_volume();
+        check_boundary();
+        return text_;
+    }
+
+ private:
+    void add(std::int64_t count, const char* law) {
+        if (count) text_ += std::to_string(count) + " " + law + "; ";
+    }
+    void check_numbers();
+    void check_tetrahedra(const PartFile& part);
+    void check_volume();
+    void check_boundary();
+    std::vector<BoundaryFace> boundary(bool interface) const;
+
+    const std::vector<PartFile>& parts_;
+    const SurfaceArrays& input_;
+    std::string text_;
+};
+
+void RunLaws::check_numbers() {
+    struct Numbered {
+        std::int64_t id;
+        Vec3 point;
+    };
+    std::vector<Numbered> all;
+    for (const PartFile& part : parts_)
+        for (std::size_t v = 0; v < part.global_id.size(); ++v)
+            all.push_back({part.global_id[v], part.mesh.vertices[v]});
+    std::sort(all.begin(), all.end(), [](const Numbered& a, const Numbered& b) { return a.id < b.id; });
+    std::vector<Vec3> points;
+    std::int64_t gaps = 0, moved = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (i > 0 && all[i].id == all[i - 1].id) {
+            moved += !same_bits(all[i].point, all[i - 1].point);
+            continue;
+        }
+        gaps += all[i].id != static_cast<std::int64_t>(points.size());
+        points.push_back(all[i].point);
+    }
+    add(gaps, "gaps in the vertex numbers");
+    add(moved, "vertices with the same number at different places");
+    if (points.size() < input_.vertices.size()) {
+        add(1, "mesh with fewer vertices than the input");
+        return;
+    }
+    std::int64_t changed = 0;
+    for (std::size_t v = 0; v < input_.vertices.size(); ++v) changed += !same_bits(points[v], input_.vertices[v]);
+    add(changed, "vertices of the input without their number and place");
+    const auto less = [](const Vec3& a, const Vec3& b) {
+        return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+    };
+    std::sort(points.begin(), points.end(), less);
+    std::int64_t doubled = 0;
+    for (std::size_t i = 1; i < points.size(); ++i) doubled += points[i] == points[i - 1];
+    add(doubled, "vertices with different numbers at the same place");
+}
+
+void RunLaws::check_tetrahedra(const PartFile& part) {
+    std::int64_t inverted = 0;
+    std::vector<Face> faces, facets;
+    for (const Tetrahedron& t : part.mesh.tets) {
+        const std::vector<Vec3>& p = part.mesh.vertices;
+        inverted += orientation_sign(p[t[0]], p[t[1]], p[t[2]], p[t[3]]) <= 0;
+        for (const auto& [i, j, k] : tet_faces) faces.push_back(rotated({t[i], t[j], t[k]}));
+    }
+    for (const Triangle& t : part.facets) facets.push_back(rotated({t[0], t[1], t[2]}));
+    std::sort(faces.begin(), faces.end());
+    std::sort(facets.begin(), facets.end());
+    std::vector<Face> outer;
+    for (const Face& face : faces)
+        if (!std::binary_search(faces.begin(), faces.end(), turned(face))) outer.push_back(face);
+    std::int64_t doubled = 0;
+    for (std::size_t i = 1; i < faces.size(); ++i) doubled += faces[i] == faces[i - 1];
+    add(part.mesh.tets.empty(), "part without tetrahedra");
+    add(inverted, "tetrahedra that are not positive");
+    add(doubled, "faces with two tetrahedra on one side");
+    add(outer != facets, "part whose boundary triangles are not the boundary of its tetrahedra");
+}
+
+void RunLaws::check_volume() {
+    double sum = 0;
+    for (const PartFile& part : parts_)
+        for (const Tetrahedron& t : part.mesh.tets) {
+            const std::vector<Vec3>& p = part.mesh.vertices;
+            sum += (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).dot(p[t[3]] - p[t[0]]) / 6;
+        }
+    const double enclosed = enclosed_volume(input_.vertices, input_.facets);
+    add(!(std::abs(sum - enclosed) <= 1e-10 * enclosed), "volume that is not the enclosed one");
+}
+
+std::vector<BoundaryFace> RunLaws::boundary(bool interface) const {
+    std::vector<BoundaryFace> faces;
+    for (const PartFile& part : parts_)
+        for (std::size_t f = 0; f < part.facets.size(); ++f) {
+            if ((part.neighbour[f] >= 0) != interface) continue;
+            const Triangle& t = part.facets[f];
+            faces.push_back({rotated({part.global_id[t[0]], part.global_id[t[1]], part.global_id[t[2]]}), part.part,
+                             part.neighbour[f], part.patch[f]});
+        }
+    std::sort(faces.begin(), faces.end());
+    return faces;
+}
+
+void RunLaws::check_boundary() {
+    std::vector<std::pair<Face, std::int32_t>> wanted, outer;
+    for (std::size_t f = 0; f < input_.facets.size(); ++f) {
+        const Triangle& t = input_.facets[f];
+        wanted.push_back({rotated({t[0], t[1], t[2]}), input_.patch[f]});
+    }
+    for (const BoundaryFace& face : boundary(false)) outer.push_back({face.corners, face.patch});
+    std::sort(wanted.begin(), wanted.end());
+    std::sort(outer.begin(), outer.end());
+    std::vector<std::pair<Face, std::int32_t>> different;
+    std::set_symmetric_difference(wanted.begin(), wanted.end(), outer.begin(), outer.end(),
+                                  std::back_inserter(different));
+    add(static_cast<std::int64_t>(different.size()), "facets that are not once in the input and once in the parts");
+
+    const std::vector<BoundaryFace> sides = boundary(true);
+    std::int64_t unmatched = 0, doubled = 0;
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+        const BoundaryFace& side = sides[i];
+        unmatched += !std::binary_search(sides.begin(), sides.end(),
+                                         BoundaryFace{turned(side.corners), side.neighbour, side.part, -1});
+        doubled += i > 0 && side.corners == sides[i - 1].corners;
+    }
+    add(unmatched, "interface faces without their other side");
+    add(doubled, "interface faces that are there twice");
+}
+
+}  // namespace
+
+std::vector<PartFile> read_parts(const std::string& folder) {
+    std::vector<PartFile> parts;
+    for (const auto& entry : std::filesystem::directory_iterator(folder + "/parts"))
+        if (entry.path().string().find(".surface.") == std::string::npos) parts.push_back(read_part(entry.path()));
+    std::sort(parts.begin(), parts.end(), [](const PartFile& a, const PartFile& b) { return a.part < b.part; });
+    return parts;
+}
+
+std::string broken_laws(const std::vector<PartFile>& parts, const SurfaceArrays& input) {
+    return RunLaws(parts, input).broken();
+}
+
+}  // namespace kerf::test

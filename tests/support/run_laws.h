@@ -1,0 +1,23 @@
+// The laws of a finished run, checked from its files and the input alone: nothing of the run's own bookkeeping is used.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/vtu_reader.h"
+#include "surface/surface.h"
+
+namespace kerf::test {
+
+/// The part files of a run folder, ascending by leaf number.
+std::vector<PartFile> read_parts(const std::string& folder);
+
+/// The laws that the parts break, each with a count; empty if all hold.
+///
+/// Volumes add up to the enclosed one; every facet of `input` is a boundary face of exactly one part, with its
+/// vertices, orientation and patch; interface faces lie once on each side, turned round, and each names the other's
+/// part; the boundary of the tetrahedra is what the file says; all tetrahedra are positive; GlobalVertexId is dense,
+/// input vertices keep their numbers, and equal numbers mean equal coordinates, bit for bit, and the reverse.
+std::string broken_laws(const std::vector<PartFile>& parts, const SurfaceArrays& input);
+
+}  // namespace kerf::test

@@ -1,0 +1,153 @@
+// Interface, acceptance and split: from a contour to two closed halves.
+#include "cut/acceptance.h"
+
+#include <algorithm>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "cut/contour.h"
+#include "cut/labels.h"
+#include "cut/split.h"
+#include "support/shapes.h"
+#include "surface/mass_properties.h"
+
+namespace kerf {
+namespace {
+
+constexpr NodeId node = 5;
+
+// A body, its plane at height z, and the interface there.
+struct Section {
+    Section(const Soup& soup, double z)
+        : surface(test::to_arrays(soup)),
+          band(make_band(surface, Plane(Vec3(0, 0, z), Vec3::UnitZ()))),
+          side(majority_labels(surface, band)) {
+        clean_labels(surface, band, side, nullptr);
+        const ContourLoops contour = trace_loops(surface, contour_edges(surface, band, side));
+        const std::vector<std::int32_t> hits(surface.vertex_count(), 0);
+        InterfaceAttempt attempt = build_interface(surface, band, side, contour.loops, hits, 0);
+        EXPECT_EQ(attempt.refusal, Refusal::none);
+        interface = std::move(attempt.interface);
+    }
+    Verdict judge() const { return judge_interface(surface, band, interface, options); }
+
+    Surface surface;
+    Band band;
+    std::vector<Side> side;
+    Interface interface;
+    CutOptions options;
+};
+
+std::vector<Soup> bodies() {
+    return {test::box(Vec3(-1, -1, -1), Vec3(1, 1, 1), 8), test::nested_boxes(2, 10), test::icosphere(3),
+            test::torus(3, 1, 40, 20)};
+}
+
+TEST(Interface, SpansTheSection) {
+    for (const Soup& soup : bodies()) {
+        const Section s(soup, 0.03);
+        EXPECT_NEAR(interface_area(s.interface), s.band.section_area, 0.1 * s.band.section_area);
+        for (std::size_t i = 0; i < s.interface.contour.size(); ++i)
+            EXPECT_EQ(s.interface.points[i], s.surface.point(s.interface.contour[i]));
+        EXPECT_EQ(s.interface.planar.size(), s.interface.points.size());
+        EXPECT_NE(s.judge().refusal, Refusal::intersection);
+        EXPECT_NE(s.judge().refusal, Refusal::chord);
+    }
+}
+
+TEST(Acceptance, GoodInterfaceHasGoodAngles) {
+    Section s(test::box(Vec3(-1, -1, -1), Vec3(1, 1, 1), 8), 0.03);
+    const Verdict verdict = s.judge();
+    EXPECT_EQ(verdict.refusal, Refusal::none);
+    EXPECT_TRUE(verdict.failed.empty());
+    EXPECT_GT(verdict.quality.dihedral_deg, 45);
+    EXPECT_GT(verdict.quality.angle_deg, 20);
+    EXPECT_GT(verdict.quality.gap_rel, 0.2);
+    s.options.good_angle_deg = 60;
+    EXPECT_EQ(s.judge().refusal, Refusal::soft);
+    EXPECT_FALSE(s.judge().failed.empty());
+}
+
+TEST(Acceptance, ShiftedPointThatPiercesTheSurfaceIsFound) {
+    for (const double height : {-5.0, 5.0}) {
+        Section s(test::box(Vec3(-1, -1, -1), Vec3(1, 1, 1), 8), 0.03);
+        ASSERT_GT(s.interface.points.size(), s.interface.contour.size());
+        s.interface.points.back().z() = height;
+        const Verdict verdict = s.judge();
+        EXPECT_EQ(verdict.refusal, Refusal::intersection);
+        EXPECT_FALSE(verdict.failed.empty());
+        for (const std::int32_t v : verdict.failed) EXPECT_LT(v, s.surface.vertex_count());
+    }
+}
+
+TEST(Acceptance, FoldedInterfaceIsFound) {
+    Section s(test::box(Vec3(-1, -1, -1), Vec3(1, 1, 1), 8), 0.03);
+    // A triangle of interior points, stood upright through its neighbours.
+    const auto count = static_cast<std::int32_t>(s.interface.contour.size());
+    const auto inside = std::find_if(s.interface.triangles.begin(), s.interface.triangles.end(),
+                                     [&](const Triangle& t) { return *std::min_element(t.begin(), t.end()) >= count; });
+    ASSERT_NE(inside, s.interface.triangles.end());
+    std::swap(s.interface.points[(*inside)[0]], s.interface.points[(*inside)[1]]);
+    EXPECT_EQ(s.judge().refusal, Refusal::intersection);
+}
+
+TEST(Acceptance, ShellsMustLieInTheMaterial) {
+    const auto misplaced = [](const Soup& soup) { return find_misplaced_shell(Surface(test::to_arrays(soup))); };
+    EXPECT_EQ(misplaced(test::box()), -1);
+    EXPECT_EQ(misplaced(test::inside_out(test::box())), 0);
+    EXPECT_EQ(misplaced(test::nested_boxes(2)), -1);
+    EXPECT_EQ(misplaced(test::nested_boxes(4)), -1);
+    EXPECT_EQ(misplaced(test::join(test::box(), test::translated(test::box(), Vec3(3, 0, 0)))), -1);
+    EXPECT_EQ(misplaced(test::join(test::box(), test::inside_out(test::translated(test::box(), Vec3(3, 0, 0))))), 8)
+        << "a void outside of the material";
+    EXPECT_GE(misplaced(test::join(test::box(Vec3::Zero(), Vec3::Constant(9), 1),
+                                   test::translated(test::box(), Vec3(3, 3, 3)))),
+              0)
+        << "material inside of material";
+}
+
+TEST(Split, FacetsArePartitionedAndInterfacesOpposite) {
+    for (const Soup& soup : bodies()) {
+        const Section s(soup, 0.03);
+        const std::array<SurfaceArrays, 2> halves = split(s.surface, s.side, s.interface, node);
+        const std::size_t interface_facets = s.interface.triangles.size();
+        std::set<Key> seen;
+        double volume = 0;
+        for (int i = 0; i < 2; ++i) {
+            const SurfaceArrays& half = halves[i];
+            EXPECT_TRUE(find_manifold_defects(half.vertices.size(), half.facets).empty());
+            volume += enclosed_volume(half.vertices, half.facets);
+            const std::size_t own = half.facets.size() - interface_facets;
+            for (std::size_t f = 0; f < own; ++f) {
+                const auto parent = key_index(half.facet_key[f]);
+                EXPECT_TRUE(seen.insert(half.facet_key[f]).second) << "a facet in both halves";
+                EXPECT_EQ(s.side[parent], i == 0 ? Side::below : Side::above);
+                EXPECT_EQ(half.patch[f], s.surface.patch(parent));
+                const Triangle t = s.surface.vertices(parent);
+                for (int k = 0; k < 3; ++k) {
+                    EXPECT_EQ(half.vertex_key[half.facets[f][k]], s.surface.vertex_key(t[k]));
+                    EXPECT_EQ(half.vertices[half.facets[f][k]], s.surface.point(t[k]));
+                }
+            }
+        }
+        EXPECT_EQ(seen.size(), static_cast<std::size_t>(s.surface.facet_count()));
+        EXPECT_NEAR(volume, enclosed_volume(s.surface), 1e-12 * volume);
+        for (std::size_t j = 0; j < interface_facets; ++j) {
+            const std::size_t f0 = halves[0].facets.size() - interface_facets + j;
+            const std::size_t f1 = halves[1].facets.size() - interface_facets + j;
+            EXPECT_EQ(halves[0].facet_key[f0], make_key(node, static_cast<std::int32_t>(j)));
+            EXPECT_EQ(halves[1].facet_key[f1], halves[0].facet_key[f0]);
+            EXPECT_EQ(halves[0].patch[f0], -1);
+            EXPECT_EQ(halves[1].patch[f1], -1);
+            const Triangle &a = halves[0].facets[f0], &b = halves[1].facets[f1];
+            for (const auto& [k, l] : {std::array{0, 0}, std::array{1, 2}, std::array{2, 1}}) {
+                EXPECT_EQ(halves[0].vertex_key[a[k]], halves[1].vertex_key[b[l]]);
+                EXPECT_EQ(halves[0].vertices[a[k]], halves[1].vertices[b[l]]);
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace kerf

@@ -1,0 +1,152 @@
+// One whole cut on every asset: valid halves, whatever the remedy was.
+#include "cut/bisect.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "core/bytes.h"
+#include "decompose/decomposition.h"
+#include "support/assets.h"
+#include "support/shapes.h"
+
+namespace kerf {
+namespace {
+
+class Bisections : public testing::TestWithParam<std::string> {
+ protected:
+    Bisections() : surface_(test::asset_surface(GetParam())), mass_(mass_properties(surface_)) {}
+
+    Bisection cut(double fraction, const CutOptions& options, bool record = false) const {
+        return bisect(surface_, mass_, 3, fraction, options, record);
+    }
+    void expect_valid(const Bisection& result) const;
+
+    Surface surface_;
+    MassProperties mass_;
+};
+INSTANTIATE_TEST_SUITE_P(Assets, Bisections, testing::ValuesIn(test::asset_names()),
+                         [](const auto& param) { return param.param; });
+
+void Bisections::expect_valid(const Bisection& result) const {
+    const Cut& cut = result.cut;
+    ASSERT_TRUE(cut.made());
+    EXPECT_EQ(cut.node, 3);
+    double volume = 0;
+    std::int64_t facets = 0;
+    for (const Surface& half : result.halves) {
+        const SurfaceArrays arrays = half.arrays();
+        EXPECT_TRUE(find_manifold_defects(arrays.vertices.size(), arrays.facets).empty());
+        volume += enclosed_volume(half);
+        facets += half.facet_count();
+    }
+    const auto interface = static_cast<std::int64_t>(cut.interface.triangles.size());
+    EXPECT_NEAR(volume, mass_.volume, 1e-12 * mass_.volume);
+    EXPECT_EQ(facets, surface_.facet_count() + 2 * interface);
+    const std::size_t contour = std::accumulate(cut.loops.begin(), cut.loops.end(), std::size_t{0},
+                                                [](std::size_t n, const auto& loop) { return n + loop.size(); });
+    EXPECT_EQ(contour, static_cast<std::size_t>(cut.contour_edges));
+    EXPECT_EQ(contour, cut.interface.contour.size());
+    EXPECT_FALSE(cut.tries.empty());
+}
+
+TEST_P(Bisections, HalvesAreClosedAndAddUp) {
+    for (const double fraction : {1 / 3.0, 0.5}) {
+        SCOPED_TRACE(fraction);
+        expect_valid(cut(fraction, {}));
+    }
+}
+
+TEST_P(Bisections, CutsOfMajorityAndFixedAxesAreValid) {
+    CutOptions edges, along_z;
+    edges.contour = ContourMethod::edges;
+    along_z.criterion = Criterion::equidistant;
+    along_z.axis = 2;
+    for (const CutOptions& options : {edges, along_z}) {
+        const Bisection result = cut(0.5, options);
+        if (!result.cut.made()) continue;  // both may fail; whatever they return is valid
+        expect_valid(result);
+        EXPECT_TRUE(options.axis < 0 || result.cut.plane.normal == Vec3::UnitZ());
+    }
+}
+
+TEST_P(Bisections, LoadIsNearTheWantedOne) {
+    const Bisection result = cut(0.5, {});
+    ASSERT_TRUE(result.cut.made());
+    const double below = result.halves[0].facet_count(), above = result.halves[1].facet_count();
+    EXPECT_NEAR(below / (below + above), 0.5, 0.15);
+}
+
+// All but what the record and the clock fill.
+Bytes bytes_of(Bisection& result) {
+    result.cut.side.clear();
+    result.cut.stages = {};
+    result.cut.seconds = 0;
+    Bytes bytes = to_bytes(result.cut);
+    for (const Surface& half : result.halves) {
+        const Bytes more = to_bytes(half.arrays());
+        bytes.insert(bytes.end(), more.begin(), more.end());
+    }
+    return bytes;
+}
+
+TEST_P(Bisections, RecordChangesNothingElse) {
+    Bisection with = cut(0.5, {}, true), without = cut(0.5, {}, false);
+    EXPECT_EQ(with.cut.side.size(), static_cast<std::size_t>(surface_.facet_count()));
+    for (const auto stage :
+         {&ContourStages::crossed_edges, &ContourStages::hanging_edges_removed, &ContourStages::closed_loops,
+          &ContourStages::multiple_paths_removed, &ContourStages::smoothed}) {
+        EXPECT_FALSE((with.cut.stages.*stage).empty());
+        EXPECT_TRUE((without.cut.stages.*stage).empty());
+    }
+    EXPECT_EQ(with.cut.stages.smoothed.size(), static_cast<std::size_t>(with.cut.contour_edges));
+    EXPECT_TRUE(without.cut.side.empty());
+    EXPECT_TRUE(bytes_of(with) == bytes_of(without));
+}
+
+TEST(Bisect, BodyThatCannotBeCutStaysWhole) {
+    const Surface tetrahedron(test::to_arrays(test::tetrahedron()));
+    const Bisection result = bisect(tetrahedron, mass_properties(tetrahedron), 1, 0.5, {}, false);
+    if (result.cut.made()) GTEST_SKIP() << "even this was cut";
+    EXPECT_EQ(result.cut.rung, Rung::whole);
+    EXPECT_FALSE(result.cut.tries.empty());
+    for (const CutTry& attempt : result.cut.tries) EXPECT_NE(attempt.refusal, Refusal::none);
+}
+
+TEST(Decompose, RangeOfLeavesIsThatOfTheWhole) {
+    DecomposeOptions options;
+    options.parts = 7;
+    const Surface surface = test::asset_surface("pipe_with_holes");
+    const Decomposition whole = decompose(surface, options, {0, 7});
+    ASSERT_EQ(whole.leaves.size(), 7u);
+    EXPECT_EQ(whole.nodes.size(), 13u);
+    for (std::int32_t first = 0; first < 7; first += 3) {
+        const LeafRange range = {first, std::min(first + 3, 7)};
+        const Decomposition some = decompose(surface, options, range);
+        ASSERT_EQ(some.leaves.size(), static_cast<std::size_t>(range.last - range.first));
+        EXPECT_LT(some.nodes.size(), whole.nodes.size());
+        for (std::size_t i = 0; i < some.leaves.size(); ++i) {
+            EXPECT_EQ(some.leaves[i].id, whole.leaves[first + i].id);
+            EXPECT_TRUE(to_bytes(some.leaves[i].surface) == to_bytes(whole.leaves[first + i].surface));
+        }
+    }
+}
+
+TEST(Decompose, ChildrenAreNumberedAsInABinaryTree) {
+    DecomposeOptions options;
+    options.parts = 5;
+    const Decomposition result = decompose(test::asset_surface("cylinder"), options, {0, 5});
+    for (const TreeNode& tree_node : result.nodes) {
+        const bool leaf = std::any_of(result.leaves.begin(), result.leaves.end(),
+                                      [&](const Leaf& l) { return l.id == tree_node.id; });
+        EXPECT_NE(leaf, tree_node.cut_made);
+        if (tree_node.id == 1) continue;
+        EXPECT_TRUE(std::any_of(result.nodes.begin(), result.nodes.end(), [&](const TreeNode& parent) {
+            return parent.id == tree_node.id / 2 && parent.cut_made && parent.leaves > tree_node.leaves;
+        }));
+    }
+}
+
+}  // namespace
+}  // namespace kerf

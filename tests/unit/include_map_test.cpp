@@ -1,0 +1,132 @@
+// Includes may only follow the arrows that kernel/README.md draws.
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+namespace kerf {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Arrows = std::map<std::string, std::set<std::string>>;  // folder -> folders it may include
+
+const fs::path root = KERF_SOURCE;
+
+// The fenced block "arrows": lines "folder -> folder folder".
+Arrows read_arrows(std::istream& text) {
+    Arrows arrows;
+    std::string line;
+    while (std::getline(text, line) && line != "```arrows") continue;
+    while (std::getline(text, line) && line != "```") {
+        std::istringstream words(line);
+        std::string folder, arrow, target;
+        words >> folder >> arrow;
+        EXPECT_EQ(arrow, "->") << line;
+        auto& targets = arrows[folder];
+        while (words >> target) targets.insert(target);
+    }
+    return arrows;
+}
+
+struct Include {
+    fs::path file;
+    std::string name;  // between the quotes or angle brackets
+};
+
+std::vector<Include> includes_of(const fs::path& folder) {
+    static const std::regex directive(R"re(^\s*#\s*include\s*["<]([^">]+)[">])re");
+    std::vector<Include> includes;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+        std::ifstream file(entry.path());
+        std::smatch match;
+        for (std::string line; std::getline(file, line);)
+            if (std::regex_search(line, match, directive)) includes.push_back({entry.path(), match[1]});
+    }
+    return includes;
+}
+
+std::vector<Include> all_includes() {
+    std::vector<Include> all = includes_of(root / "kernel");
+    for (Include& include : includes_of(root / "cli")) all.push_back(std::move(include));
+    return all;
+}
+
+std::string first_folder(const std::string& name) { return name.substr(0, name.find('/')); }
+std::string folder_of(const fs::path& file) { return file.parent_path().filename(); }
+
+// Files below the root that include a name for which `matches` holds.
+template <class Matches>
+std::set<std::string> files_including(Matches matches) {
+    std::set<std::string> files;
+    for (const Include& include : all_includes())
+        if (matches(include.name)) files.insert(fs::relative(include.file, root).string());
+    return files;
+}
+
+Arrows kernel_arrows() {
+    std::ifstream readme(root / "kernel/README.md");
+    return read_arrows(readme);
+}
+
+TEST(IncludeMap, NamesEveryFolder) {
+    const Arrows arrows = kernel_arrows();
+    ASSERT_FALSE(arrows.empty()) << "kernel/README.md has no block ```arrows";
+    for (const auto& entry : fs::directory_iterator(root / "kernel"))
+        EXPECT_TRUE(!entry.is_directory() || arrows.contains(entry.path().filename())) << entry.path();
+    for (const auto& [folder, targets] : arrows)
+        for (const std::string& target : targets) EXPECT_TRUE(arrows.contains(target)) << folder << " -> " << target;
+}
+
+TEST(IncludeMap, HasNoCircle) {
+    Arrows arrows = kernel_arrows();
+    for (bool changed = true; changed;) {  // take away folders without arrows until none is left
+        changed = false;
+        for (auto it = arrows.begin(); it != arrows.end();) {
+            if (!it->second.empty()) {
+                ++it;
+                continue;
+            }
+            for (auto& [folder, targets] : arrows) targets.erase(it->first);
+            it = arrows.erase(it);
+            changed = true;
+        }
+    }
+    EXPECT_TRUE(arrows.empty()) << "circle through " << arrows.begin()->first;
+}
+
+TEST(IncludeMap, IncludesFollowTheArrows) {
+    const Arrows arrows = kernel_arrows();
+    ASSERT_FALSE(arrows.empty());
+    std::int64_t own = 0;
+    for (const Include& include : all_includes()) {
+        const std::string target = first_folder(include.name), folder = folder_of(include.file);
+        if (!arrows.contains(target)) continue;  // of a library
+        ++own;
+        ASSERT_TRUE(arrows.contains(folder)) << include.file;
+        EXPECT_TRUE(target == folder || arrows.at(folder).contains(target))
+            << include.file << " includes " << include.name;
+    }
+    EXPECT_GT(own, 100);
+}
+
+TEST(IncludeMap, LibrariesStayInTheirPlaces) {
+    EXPECT_EQ(files_including([](const std::string& name) { return name == "mpi.h"; }),
+              std::set<std::string>{"cli/ranks.cpp"});
+    EXPECT_EQ(files_including([](const std::string& name) { return name == "tetgen.h"; }),
+              std::set<std::string>{"kernel/volume/tetgen_adapter.cpp"});
+    EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "CGAL"; }),
+              (std::set<std::string>{"kernel/cut/triangulation.cpp", "kernel/mesh/verification.cpp",
+                                     "kernel/surface/intersections.cpp"}));
+    EXPECT_TRUE(files_including([](const std::string& name) {
+                    return first_folder(name) == "GL" || first_folder(name) == "GLFW" || name == "imgui.h";
+                }).empty());
+}
+
+}  // namespace
+}  // namespace kerf

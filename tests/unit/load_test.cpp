@@ -1,0 +1,119 @@
+#include "cut/load.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "support/shapes.h"
+
+namespace kerf {
+namespace {
+
+Surface surface_of(const Soup& soup) { return Surface(test::to_arrays(soup)); }
+
+LoadProfile profile(const Surface& surface, const Plane& plane, Balance balance, double max_volume = 0) {
+    return LoadProfile(surface, plane, {balance, max_volume});
+}
+
+constexpr std::array all_balances = {Balance::nodes, Balance::faces, Balance::volume, Balance::work};
+
+TEST(LoadModel, WorkCountsFacetsAndWantedTetrahedra) {
+    EXPECT_EQ((LoadModel{Balance::nodes, 0.1}.load(10, 20, 3)), 10);
+    EXPECT_EQ((LoadModel{Balance::faces, 0.1}.load(10, 20, 3)), 20);
+    EXPECT_EQ((LoadModel{Balance::volume, 0.1}.load(10, 20, 3)), 3);
+    EXPECT_EQ((LoadModel{Balance::work, 0}.load(10, 20, 3)), 20);
+    EXPECT_DOUBLE_EQ((LoadModel{Balance::work, 0.5}.load(10, 20, 3)), 20 + 0.606 * 3 / 0.5);
+}
+
+TEST(LoadProfile, VolumeOfACubeAlongItsEdge) {
+    const Surface cube = surface_of(test::box(Vec3::Zero(), Vec3::Ones(), 3));
+    const LoadProfile load = profile(cube, Plane(Vec3::Zero(), Vec3::UnitZ()), Balance::volume);
+    EXPECT_EQ(load.lowest(), 0);
+    EXPECT_EQ(load.highest(), 1);
+    for (const double z : {0.0, 0.1, 1 / 3.0, 0.5, 2 / 3.0, 0.77, 1.0}) EXPECT_NEAR(load.fraction_below(z), z, 1e-14);
+    for (const double fraction : {0.1, 0.25, 1 / 3.0, 0.5, 0.9}) EXPECT_NEAR(load.bisect(fraction), fraction, 1e-8);
+}
+
+TEST(LoadProfile, VolumeOfACubeAlongItsDiagonal) {
+    const Surface cube = surface_of(test::box(Vec3::Zero(), Vec3::Ones(), 4));
+    const LoadProfile load = profile(cube, Plane(Vec3::Zero(), Vec3::Ones().normalized()), Balance::volume);
+    for (double s = 0.05; s < 3; s += 0.07) {  // volume with x + y + z below s
+        double volume = s * s * s;
+        if (s > 1) volume -= 3 * std::pow(s - 1, 3);
+        if (s > 2) volume += 3 * std::pow(s - 2, 3);
+        EXPECT_NEAR(load.fraction_below(s / std::sqrt(3.0)), volume / 6, 1e-13) << s;
+    }
+}
+
+TEST(LoadProfile, VolumeOfASphereIsThatOfItsCaps) {
+    const Surface sphere = surface_of(test::icosphere(4, 2, Vec3(5, -7, 11)));
+    const Vec3 normal = Vec3(1, 2, -3).normalized();
+    const LoadProfile load = profile(sphere, Plane(Vec3(5, -7, 11), normal), Balance::volume);
+    for (const double height : {-1.5, -0.6, 0.0, 0.3, 1.2}) {
+        const double depth = height + 2;
+        const double cap = std::numbers::pi * depth * depth * (6 - depth) / 3;
+        EXPECT_NEAR(load.fraction_below(height), cap / (32 * std::numbers::pi / 3), 5e-4);
+    }
+}
+
+TEST(LoadProfile, VoidsAreNoVolume) {
+    // Edge 3 around a void of edge 1: through the middle, the section is 9 - 1.
+    const Surface body = surface_of(test::nested_boxes(2, 3));
+    const LoadProfile load = profile(body, Plane(Vec3::Zero(), Vec3::UnitX()), Balance::volume);
+    EXPECT_NEAR(load.fraction_below(-0.5), 9 / 26.0, 1e-13);
+    EXPECT_NEAR(load.fraction_below(0.25), (9 + 0.75 * 8) / 26.0, 1e-13);
+}
+
+TEST(LoadProfile, GrowsFromNothingToAll) {
+    const Surface torus = surface_of(test::torus(3, 1, 24, 12));
+    const Plane plane(Vec3(0.1, 0.2, 0.3), Vec3(3, 1, 2).normalized());
+    for (const Balance balance : all_balances) {
+        SCOPED_TRACE(static_cast<int>(balance));
+        const LoadProfile load = profile(torus, plane, balance, 0.01);
+        EXPECT_NEAR(load.fraction_below(load.lowest() - 1), 0, 1e-13);
+        EXPECT_NEAR(load.fraction_below(load.highest() + 1), 1, 1e-13);
+        double last = 0;
+        for (double z = load.lowest(); z <= load.highest(); z += 0.05) {
+            EXPECT_GE(load.fraction_below(z), last - 1e-13);
+            last = load.fraction_below(z);
+        }
+    }
+}
+
+TEST(LoadProfile, BothSidesAddUp) {
+    const Surface torus = surface_of(test::torus(3, 1, 25, 13));
+    const Vec3 normal = Vec3(3, 1, 2).normalized();
+    for (const Balance balance : all_balances) {
+        const LoadProfile up = profile(torus, Plane(Vec3::Zero(), normal), balance, 0.01);
+        const LoadProfile down = profile(torus, Plane(Vec3::Zero(), -normal), balance, 0.01);
+        for (const double z : {-2.1234, -0.5678, 0.1357, 1.9753})
+            EXPECT_NEAR(up.fraction_below(z) + down.fraction_below(-z), 1, 1e-12);
+    }
+}
+
+TEST(LoadProfile, BisectIsTheInverse) {
+    const Surface torus = surface_of(test::torus(3, 1, 60, 30));
+    const Plane plane(Vec3(50, 0, 0), Vec3(3, 1, 2).normalized());
+    for (const Balance balance : all_balances) {
+        SCOPED_TRACE(static_cast<int>(balance));
+        const LoadProfile load = profile(torus, plane, balance, 0.01);
+        for (const double fraction : {0.2, 1 / 3.0, 0.5, 0.75}) {
+            const double grain = balance == Balance::volume ? 1e-7 : 0.002;  // of one facet or vertex, and of rounding
+            EXPECT_NEAR(load.fraction_below(load.bisect(fraction)), fraction, grain);
+        }
+    }
+}
+
+TEST(LoadProfile, PlaceDoesNotMatter) {
+    const Vec3 far(1e5, -2e5, 3e5);
+    const Soup soup = test::icosphere(2);
+    const Surface near_one = surface_of(soup), far_one = surface_of(test::translated(soup, far));
+    const Vec3 normal = Vec3(1, 1, 2).normalized();
+    for (const double z : {-0.7, 0.1, 0.4})
+        EXPECT_NEAR(profile(near_one, Plane(Vec3::Zero(), normal), Balance::volume).fraction_below(z),
+                    profile(far_one, Plane(far, normal), Balance::volume).fraction_below(z), 1e-9);
+}
+
+}  // namespace
+}  // namespace kerf

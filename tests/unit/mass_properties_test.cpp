@@ -1,0 +1,92 @@
+#include "surface/mass_properties.h"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include "support/shapes.h"
+
+namespace kerf {
+namespace {
+
+MassProperties properties(const Soup& soup) { return mass_properties(Surface(test::to_arrays(soup))); }
+
+Soup rotated(Soup soup, const Eigen::Matrix3d& rotation) {
+    for (Vec3& p : soup.vertices) p = rotation * p;
+    return soup;
+}
+
+void expect_axes(const MassProperties& mass, const Eigen::Matrix3d& axes, double tolerance) {
+    EXPECT_LE((mass.axes - axes).cwiseAbs().maxCoeff(), tolerance) << mass.axes;
+}
+
+TEST(MassProperties, OfABox) {
+    const MassProperties mass = properties(test::box(Vec3(1, 2, 3), Vec3(7, 4, 6), {6, 2, 3}));
+    EXPECT_NEAR(mass.volume, 36, 1e-12);
+    EXPECT_NEAR(mass.area, 2 * (12 + 6 + 18), 1e-12);
+    EXPECT_LE((mass.centroid - Vec3(4, 3, 4.5)).norm(), 1e-13);
+    expect_axes(mass, (Eigen::Matrix3d() << 1, 0, 0, 0, 0, 1, 0, 1, 0).finished(), 0);  // x is longest, then z
+    EXPECT_LT(mass.eigenvalues[0], mass.eigenvalues[1]);
+    EXPECT_LT(mass.eigenvalues[1], mass.eigenvalues[2]);
+}
+
+TEST(MassProperties, InertiaIsThatOfTheVertices) {
+    const Soup soup = test::torus(3, 1, 11, 7);
+    const MassProperties mass = properties(soup);
+    Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+    for (const Vec3& p : soup.vertices) {
+        const Vec3 r = p - mass.centroid;
+        inertia += r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose();
+    }
+    EXPECT_LE((mass.inertia - inertia).cwiseAbs().maxCoeff(), 1e-10 * inertia.norm());
+}
+
+TEST(MassProperties, OfShellsAndVoids) {
+    EXPECT_NEAR(properties(test::nested_boxes(2, 2)).volume, 26, 1e-12);
+    EXPECT_NEAR(properties(test::nested_boxes(3, 2)).volume, 125 - 26, 1e-11);
+    EXPECT_LT(properties(test::inside_out(test::box())).volume, 0);
+    const MassProperties sphere = properties(test::icosphere(5, 2));
+    EXPECT_NEAR(sphere.volume, 32 * std::numbers::pi / 3, 0.05);
+    EXPECT_NEAR(sphere.area, 16 * std::numbers::pi, 0.05);
+}
+
+TEST(MassProperties, VolumeDoesNotSufferFarFromTheOrigin) {
+    const Soup soup = test::icosphere(3);
+    EXPECT_NEAR(properties(test::translated(soup, Vec3(1e6, -1e6, 1e6))).volume / properties(soup).volume, 1, 1e-9);
+}
+
+TEST(MassProperties, AxesFollowARotation) {
+    const Soup soup = test::box(Vec3(-3, -1, -2), Vec3(3, 1, 2), {6, 2, 4});
+    const MassProperties still = properties(soup);
+    for (const double angle : {0.2, 0.9, 2.5}) {
+        SCOPED_TRACE(angle);
+        const Eigen::Matrix3d rotation = Eigen::AngleAxisd(angle, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+        const MassProperties mass = properties(rotated(soup, rotation));
+        EXPECT_LE((mass.eigenvalues - still.eigenvalues).norm(), 1e-9 * still.eigenvalues.norm());
+        for (int i = 0; i < 3; ++i) {
+            EXPECT_NEAR(std::abs(mass.axes.col(i).dot(rotation * still.axes.col(i))), 1, 1e-12);
+            Eigen::Index largest = 0;
+            mass.axes.col(i).cwiseAbs().maxCoeff(&largest);
+            EXPECT_GT(mass.axes(largest, i), 0);
+        }
+    }
+}
+
+TEST(MassProperties, SymmetricBodiesGetCoordinateAxes) {
+    expect_axes(properties(test::box(Vec3::Zero(), Vec3::Ones(), 4)), Eigen::Matrix3d::Identity(), 0);
+    expect_axes(properties(test::icosphere(3)), Eigen::Matrix3d::Identity(), 0);
+    expect_axes(properties(test::icosphere(3, 1, Vec3(0.1, 0.7, 1e3))), Eigen::Matrix3d::Identity(), 0);
+    // A bar with a square section: its length is axis 0, the other two are tied.
+    const MassProperties bar = properties(test::box(Vec3::Zero(), Vec3(1, 1, 5), {2, 2, 10}));
+    expect_axes(bar, (Eigen::Matrix3d() << 0, 1, 0, 0, 0, 1, 1, 0, 0).finished(), 0);
+}
+
+TEST(MassProperties, RoundingOfSymmetricBodiesDoesNotTurnTheAxes) {
+    Soup soup = test::box(Vec3::Zero(), Vec3::Ones(), 4);
+    for (std::size_t i = 0; i < soup.vertices.size(); i += 3) soup.vertices[i].x() += 1e-12;
+    expect_axes(properties(soup), Eigen::Matrix3d::Identity(), 0);
+}
+
+}  // namespace
+}  // namespace kerf

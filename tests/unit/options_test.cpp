@@ -1,0 +1,102 @@
+#include "run/options.h"
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace kerf {
+namespace {
+
+RunOptions resolved(RunOptions options, int ranks = 1, int cores = 1) {
+    options.resolve(ranks, cores);
+    return options;
+}
+
+template <class Change>
+void expect_refused(const std::string& name, Change change) {
+    SCOPED_TRACE(name);
+    RunOptions options;
+    change(options);
+    try {
+        options.resolve(1, 1);
+        ADD_FAILURE() << "no error";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::usage);
+        EXPECT_NE(std::string(error.what()).find("--" + name), std::string::npos) << error.what();
+    }
+}
+
+TEST(RunOptions, PartsDefaultToRanksTimesWorkers) {
+    RunOptions options;
+    options.decompose.parts = 0;
+    EXPECT_EQ(resolved(options, 3, 4).workers, 4);
+    EXPECT_EQ(resolved(options, 3, 4).decompose.parts, 12);
+    options.workers = 2;
+    EXPECT_EQ(resolved(options, 3, 4).decompose.parts, 6);
+    options.decompose.parts = 7;
+    EXPECT_EQ(resolved(options, 3, 4).decompose.parts, 7);
+    options.workers = 0;
+    EXPECT_EQ(resolved(options, 1, 0).workers, 1);
+}
+
+TEST(RunOptions, SizeIsTheVolumeOfARegularTetrahedron) {
+    RunOptions options;
+    options.size = 0.5;
+    const RunOptions by_size = resolved(options);
+    EXPECT_NEAR(by_size.mesher.max_volume, 0.125 / (6 * std::sqrt(2.0)), 1e-15);
+    EXPECT_EQ(by_size.decompose.cut.max_volume, by_size.mesher.max_volume);
+    EXPECT_EQ(by_size.decompose.cut.load.max_volume, by_size.mesher.max_volume);
+    options.mesher.max_volume = 0.3;
+    EXPECT_EQ(resolved(options).mesher.max_volume, 0.3) << "the volume wins over the size";
+}
+
+TEST(RunOptions, ValuesOutOfRangeAreNamed) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    expect_refused("workers", [](RunOptions& o) { o.workers = -1; });
+    expect_refused("parts", [](RunOptions& o) { o.decompose.parts = -1; });
+    for (const double bad : {-1.0, nan, std::numeric_limits<double>::infinity()}) {
+        expect_refused("size", [&](RunOptions& o) { o.size = bad; });
+        expect_refused("max-volume", [&](RunOptions& o) { o.mesher.max_volume = bad; });
+        expect_refused("radius-edge", [&](RunOptions& o) { o.mesher.radius_edge = bad; });
+    }
+    expect_refused("radius-edge", [](RunOptions& o) { o.mesher.radius_edge = 1; });
+    expect_refused("timeout", [&](RunOptions& o) { o.timeout_seconds = nan; });
+    expect_refused("memory", [](RunOptions& o) { o.memory_mb = -1; });
+    expect_refused("attempts", [](RunOptions& o) { o.attempts = 0; });
+}
+
+TEST(OptionFields, HaveDistinctNamesAndAHelp) {
+    RunOptions options;
+    std::set<std::string> names;
+    for (const OptionField& field : option_fields(options)) {
+        EXPECT_TRUE(names.insert(field.name).second) << field.name;
+        EXPECT_EQ(field.help.back(), '.') << field.name;
+    }
+}
+
+TEST(OptionFields, ChoicesReachTheirValues) {
+    RunOptions options;
+    int choices = 0;
+    for (const OptionField& field : option_fields(options)) {
+        const auto* choice = std::get_if<OptionField::Choice>(&field.value);
+        if (!choice) continue;
+        ++choices;
+        SCOPED_TRACE(field.name);
+        for (int i = 0; i < static_cast<int>(choice->names.size()); ++i) {
+            choice->set(i);
+            EXPECT_EQ(choice->get(), i);
+        }
+    }
+    EXPECT_GE(choices, 4);
+    EXPECT_EQ(options.decompose.cut.axis, 2);
+    EXPECT_EQ(options.decompose.cut.criterion, Criterion::equidistant);
+    EXPECT_EQ(options.decompose.cut.load.balance, Balance::work);
+    EXPECT_EQ(options.decompose.cut.contour, ContourMethod::edges);
+}
+
+}  // namespace
+}  // namespace kerf
