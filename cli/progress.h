@@ -8,8 +8,8 @@
 
 namespace kerf {
 
-/// One line that is rewritten on a terminal; a line per 10 % otherwise. Writes to standard error. While it lives, SIGINT
-/// and SIGTERM cancel the run.
+/// One line that is rewritten on a terminal; a line per 10 % otherwise. Writes to standard error. While it lives,
+/// SIGINT and SIGTERM cancel the run.
 class ProgressLine : public RunListener {
  public:
     explicit ProgressLine(bool quiet);

@@ -24,6 +24,7 @@ namespace {
 
 constexpr std::int32_t planes_before_soft = 3;  // tried before a soft cut is good enough
 constexpr std::int32_t soft_rounds = 6;         // of local repair of a valid cut
+constexpr int max_raises = 4;                   // of the penalties, until the contour moves
 constexpr double interface_growth = 1.1;        // longest interface edge over that of the largest wanted tetrahedron
 constexpr double regular_tet_edges_cubed = 8.485281374238570;  // 6 sqrt(2): cubed edge over volume
 
@@ -74,15 +75,19 @@ class PlaneTrial {
           penalty_(band_.facets.size(), 1),
           hits_(surface.vertex_count(), 0) {}
 
+    // A contour and its interface, judged; without the halves.
     Attempt attempt(std::int32_t repair);
+    // Builds the halves of a valid attempt, or refuses it.
+    void complete(Attempt& attempt) const;
     // Makes the places where the attempt failed expensive. False if there is nothing to repair.
     bool learn(const Attempt& attempt);
 
  private:
     void refuse(Attempt& attempt, Refusal refusal, std::vector<std::int32_t> vertices) const;
-    bool find_contour(Attempt& attempt) const;
-    bool span_interface(Attempt& attempt) const;
-    bool build_halves(Attempt& attempt) const;
+    bool label_facets(Attempt& attempt) const;
+    bool find_contour(Attempt& attempt);
+    void span_interface(Attempt& attempt) const;
+    void raise_penalty();
     double max_interface_edge() const {
         if (options_.max_volume <= 0) return 0;
         return interface_growth * std::cbrt(regular_tet_edges_cubed * options_.max_volume);
@@ -94,8 +99,11 @@ class PlaneTrial {
     const CutOptions& options_;
     bool record_;
     Band band_;
-    std::vector<double> penalty_;     // per band facet
-    std::vector<std::int32_t> hits_;  // per vertex
+    std::vector<double> penalty_;          // per band facet
+    std::vector<std::int32_t> hits_;       // per vertex
+    std::vector<std::size_t> bad_facets_;  // of the band, around the places of the last failure
+    double penalty_factor_ = 1;
+    std::vector<SurfaceEdge> last_contour_;
 };
 
 void PlaneTrial::refuse(Attempt& attempt, Refusal refusal, std::vector<std::int32_t> vertices) const {
@@ -106,18 +114,31 @@ void PlaneTrial::refuse(Attempt& attempt, Refusal refusal, std::vector<std::int3
     for (std::int32_t v : attempt.failed) attempt.record.places.push_back(surface_.point(v));
 }
 
-bool PlaneTrial::find_contour(Attempt& attempt) const {
+// False if the minimum cut was not found.
+bool PlaneTrial::label_facets(Attempt& attempt) const {
     attempt.side = majority_labels(surface_, band_);
     if (record_) {
         attempt.stages.crossed_edges = crossed_edges(surface_, band_);
         attempt.stages.hanging_edges_removed = contour_edges(surface_, band_, attempt.side);
     }
-    if (options_.contour == ContourMethod::min_cut && !minimum_cut_labels(surface_, band_, penalty_, attempt.side)) {
-        refuse(attempt, Refusal::flow_limit, {});
+    if (options_.contour == ContourMethod::min_cut && !minimum_cut_labels(surface_, band_, penalty_, attempt.side))
         return false;
-    }
     clean_labels(surface_, band_, attempt.side, record_ ? &attempt.stages : nullptr);
-    const std::vector<SurfaceEdge> edges = contour_edges(surface_, band_, attempt.side);
+    return true;
+}
+
+bool PlaneTrial::find_contour(Attempt& attempt) {
+    std::vector<SurfaceEdge> edges;
+    for (int raise = 0; raise <= max_raises; ++raise) {
+        if (!label_facets(attempt)) {
+            refuse(attempt, Refusal::flow_limit, {});
+            return false;
+        }
+        edges = contour_edges(surface_, band_, attempt.side);
+        if (edges != last_contour_) break;
+        raise_penalty();  // the failed places are not expensive enough yet
+    }
+    last_contour_ = edges;
     if (record_) attempt.stages.smoothed = edges;
     ContourLoops contour = trace_loops(surface_, edges);
     if (edges.empty()) refuse(attempt, Refusal::empty_side, {});
@@ -126,38 +147,35 @@ bool PlaneTrial::find_contour(Attempt& attempt) const {
     return attempt.record.refusal == Refusal::none;
 }
 
-bool PlaneTrial::span_interface(Attempt& attempt) const {
+void PlaneTrial::span_interface(Attempt& attempt) const {
     InterfaceAttempt spanned =
         build_interface(surface_, band_, attempt.side, attempt.loops, hits_, max_interface_edge());
     if (spanned.refusal != Refusal::none) {
         refuse(attempt, spanned.refusal, std::move(spanned.failed));
-        return false;
+        return;
     }
     attempt.interface = std::move(spanned.interface);
     Verdict verdict = judge_interface(surface_, band_, attempt.interface, options_);
     attempt.record.quality = verdict.quality;
     if (verdict.refusal != Refusal::none) refuse(attempt, verdict.refusal, std::move(verdict.failed));
-    return attempt.valid();
 }
 
-bool PlaneTrial::build_halves(Attempt& attempt) const {
+void PlaneTrial::complete(Attempt& attempt) const {
+    const auto refuse_half = [&](Refusal refusal, const Vec3& place) {
+        attempt.record.refusal = refusal;
+        attempt.record.places = {place};
+    };
     std::array<SurfaceArrays, 2> arrays = split(surface_, attempt.side, attempt.interface, node_);
-    for (std::size_t i = 0; i < arrays.size(); ++i) {
+    for (std::size_t i = 0; i < arrays.size() && attempt.valid(); ++i) {
         auto built = Surface::build(std::move(arrays[i]));
         if (const auto* defect = std::get_if<ManifoldDefect>(&built)) {
-            attempt.record.places = {arrays[i].vertices[defect->vertices.front()]};
-            attempt.record.refusal = Refusal::not_manifold;
-            return false;
+            refuse_half(Refusal::not_manifold, arrays[i].vertices[defect->vertices.front()]);
+            continue;
         }
         attempt.halves[i] = std::move(std::get<Surface>(built));
         const std::int32_t misplaced = find_misplaced_shell(attempt.halves[i]);
-        if (misplaced >= 0) {
-            attempt.record.places.push_back(attempt.halves[i].point(misplaced));
-            attempt.record.refusal = Refusal::misplaced_shell;
-            return false;
-        }
+        if (misplaced >= 0) refuse_half(Refusal::misplaced_shell, attempt.halves[i].point(misplaced));
     }
-    return true;
 }
 
 Attempt PlaneTrial::attempt(std::int32_t repair) {
@@ -167,7 +185,7 @@ Attempt PlaneTrial::attempt(std::int32_t repair) {
     attempt.record.step = candidate_.step;
     attempt.record.repair = repair;
     attempt.section_area = band_.section_area;
-    if (find_contour(attempt) && span_interface(attempt)) build_halves(attempt);
+    if (find_contour(attempt)) span_interface(attempt);
     return attempt;
 }
 
@@ -177,15 +195,18 @@ bool PlaneTrial::learn(const Attempt& attempt) {
     for (std::int32_t v : attempt.failed) bad[v] = 1;
     if (attempt.record.refusal == Refusal::intersection || attempt.record.refusal == Refusal::soft)
         for (std::int32_t v : attempt.failed) ++hits_[v];
-    const double factor = penalty_factor(attempt.record.refusal);
-    bool changed = false;
+    penalty_factor_ = penalty_factor(attempt.record.refusal);
+    bad_facets_.clear();
     for (std::size_t i = 0; i < band_.facets.size(); ++i) {
         const Triangle t = surface_.vertices(band_.facets[i]);
-        if (!bad[t[0]] && !bad[t[1]] && !bad[t[2]]) continue;
-        penalty_[i] *= factor;
-        changed = true;
+        if (bad[t[0]] || bad[t[1]] || bad[t[2]]) bad_facets_.push_back(i);
     }
-    return changed;
+    raise_penalty();
+    return !bad_facets_.empty();
+}
+
+void PlaneTrial::raise_penalty() {
+    for (const std::size_t i : bad_facets_) penalty_[i] *= penalty_factor_;
 }
 
 Rung rung_of(const CutTry& record) {
@@ -224,6 +245,9 @@ bool Ladder::try_plane(const PlaneCandidate& candidate, std::vector<CutTry>& tri
     const std::int32_t rounds = options_.contour == ContourMethod::min_cut ? options_.repairs : 0;
     for (std::int32_t repair = 0, soft = 0; repair <= rounds && soft < soft_rounds; ++repair) {
         auto attempt = std::make_unique<Attempt>(trial.attempt(repair));
+        const double value = attempt->valid() ? softness(attempt->record.quality, options_) : 0;
+        const bool wanted = attempt->record.refusal == Refusal::none || value > best_softness_;
+        if (attempt->valid() && wanted) trial.complete(*attempt);
         tries.push_back(attempt->record);
         if (attempt->record.refusal == Refusal::none) {
             best_ = std::move(attempt);
@@ -232,8 +256,7 @@ bool Ladder::try_plane(const PlaneCandidate& candidate, std::vector<CutTry>& tri
         const bool more = trial.learn(*attempt);
         if (attempt->valid()) {
             ++soft;
-            const double value = softness(attempt->record.quality, options_);
-            if (!best_ || value > best_softness_) {
+            if (wanted) {
                 best_softness_ = value;
                 best_ = std::move(attempt);
             }

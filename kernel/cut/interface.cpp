@@ -13,9 +13,9 @@ namespace kerf {
 
 namespace {
 
-constexpr double obstacle_height = 2.5;  // vertices further from the plane are no obstacles, in local edges
-constexpr double wanted_height = 1.2;    // nearer ones become vertices of the interface below or above them
-constexpr double clearance = 0.6;        // of the interface from an obstacle, in local edges
+constexpr double obstacle_depth = 2.5;  // vertices further from the plane are no obstacles, in local edges
+constexpr double wanted_depth = 1.2;    // nearer ones become vertices of the interface below or above them
+constexpr double clearance = 0.6;       // of the interface from an obstacle, in local edges
 constexpr double clearance_per_hit = 0.1;
 constexpr double hit_clearance = 0.35;  // of vertices beside the contour, once they were hit
 
@@ -40,6 +40,9 @@ VertexRing ring_of(const Surface& surface, std::int32_t vertex, const std::vecto
     return ring;
 }
 
+// How far a vertex lies on its own side of the plane; negative beyond it.
+double depth(double height, Side side) { return side == Side::below ? -height : height; }
+
 std::vector<Obstacle> find_obstacles(const Surface& surface, const Band& band, const std::vector<Side>& side,
                                      const std::vector<char>& on_contour, const std::vector<std::int32_t>& hits) {
     std::vector<Obstacle> obstacles;
@@ -49,7 +52,7 @@ std::vector<Obstacle> find_obstacles(const Surface& surface, const Band& band, c
             if (seen[v]) continue;
             seen[v] = 1;
             const VertexRing ring = ring_of(surface, v, on_contour);
-            if (std::abs(band.distance[v]) >= obstacle_height * ring.mean_edge) continue;
+            if (depth(band.distance[v], side[band.facets[i]]) >= obstacle_depth * ring.mean_edge) continue;
             if (ring.touches_contour && !hits[v]) continue;  // its facets leave the contour at an angle that is checked
             const double wanted = (ring.touches_contour ? hit_clearance : clearance) + clearance_per_hit * hits[v];
             obstacles.push_back(
@@ -81,7 +84,7 @@ InterfaceAttempt build_interface(const Surface& surface, const Band& band, const
     }
     const std::vector<Obstacle> obstacles = find_obstacles(surface, band, side, on_contour, hits);
     for (const Obstacle& o : obstacles)
-        if (std::abs(o.height) < wanted_height * o.size) region.wanted.push_back(o.position);
+        if (depth(o.height, o.side) < wanted_depth * o.size) region.wanted.push_back({o.position, o.size});
 
     PlanarTriangulation planar = triangulate(region);
     attempt.refusal = planar.refusal;

@@ -208,11 +208,7 @@ void Triangulator::consider(Cdt::Face_handle face) {
 }
 
 void Triangulator::insert_wanted() {
-    for (const Vec2& p : region_.wanted) {
-        const Cdt::Face_handle face = cdt_.locate(to_point(p));
-        if (cdt_.is_infinite(face) || !face->info()) continue;
-        insert_interior(p, mean_size(face), face);
-    }
+    for (const auto& [position, size] : region_.wanted) insert_interior(position, size, Cdt::Face_handle());
 }
 
 void Triangulator::refine() {

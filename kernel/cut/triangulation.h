@@ -8,11 +8,17 @@
 
 namespace kerf {
 
+/// An interior point that should become a vertex, and the edge length wanted there.
+struct WantedPoint {
+    Vec2 position;
+    double size;
+};
+
 /// The region to triangulate and how fine.
 struct PlanarRegion {
     std::vector<Vec2> contour;                       ///< #C
     std::vector<std::array<std::int32_t, 2>> edges;  ///< closed loops over `contour`; the inside is on the left
-    std::vector<Vec2> wanted;                        ///< interior points that should become vertices where they fit
+    std::vector<WantedPoint> wanted;                 ///< inserted where they fit
     double max_edge = 0;                             ///< upper bound of the edge length; 0: none
 };
 
@@ -25,9 +31,9 @@ struct PlanarTriangulation {
 };
 
 /// Constrained Delaunay triangulation with interior points only: contour edges are shared with the surface and never
-/// split. Sizes start from the contour edges and grow at rate 0.5 with the distance; triangles that are too large or
-/// too flat get their circumcentre unless it lies outside, too close to a contour edge or to a vertex. Guarded
-/// smoothing ends it. Exact predicates, deterministic. O(n log n).
+/// split. Sizes start from the contour edges and wanted points and grow at rate 0.5 with the distance; triangles that
+/// are too large or too flat get their circumcentre unless it lies outside, too close to a contour edge or to a vertex.
+/// Guarded smoothing ends it. Exact predicates, deterministic. O(n log n).
 PlanarTriangulation triangulate(const PlanarRegion& region);
 
 }  // namespace kerf

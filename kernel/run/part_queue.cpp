@@ -52,7 +52,8 @@ class Queue {
                 start(next_++);
             }
             if (options_.cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
-            if (const auto ended = pool_.wait_any(cancel_interval_seconds)) take(static_cast<std::size_t>(ended->tag), ended->result);
+            if (const auto ended = pool_.wait_any(cancel_interval_seconds))
+                take(static_cast<std::size_t>(ended->tag), ended->result);
         }
         return std::move(outcomes_);
     }

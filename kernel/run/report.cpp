@@ -122,6 +122,9 @@ Json part_json(const PartReport& part) {
                  {"mesher", "tetgen"},
                  {"attempts", part.attempts},
                  {"seconds", part.seconds},
+                 {"mesh_seconds", part.result.mesh_seconds},
+                 {"verify_seconds", part.result.verify_seconds},
+                 {"write_seconds", part.result.write_seconds},
                  {"peak_rss_bytes", part.result.peak_rss_bytes}};
     if (!part.failures.empty()) json["failures"] = part.failures;
     if (part.result.code) json["error"] = part.result.message;

@@ -138,14 +138,14 @@ TEST(Triangulation, SizesGrowInwardsUpToTheBound) {
 
 TEST(Triangulation, WantedPointsBecomeVerticesWhereTheyFit) {
     PlanarRegion region = disc(30, 1);
-    region.wanted = {Vec2(0.1, 0.2), Vec2(-0.4, 0.3), Vec2(5, 5)};
+    region.wanted = {{Vec2(0.1, 0.2), 0.2}, {Vec2(-0.4, 0.3), 0.2}, {Vec2(5, 5), 0.2}};
     const PlanarTriangulation t = triangulate(region);
     expect_conforming(region, t);
     for (int i = 0; i < 2; ++i) {
         const auto nearest = std::min_element(t.points.begin(), t.points.end(), [&](const Vec2& a, const Vec2& b) {
-            return (a - region.wanted[i]).norm() < (b - region.wanted[i]).norm();
+            return (a - region.wanted[i].position).norm() < (b - region.wanted[i].position).norm();
         });
-        EXPECT_LT((*nearest - region.wanted[i]).norm(), 0.15) << "smoothing may move it a little";
+        EXPECT_LT((*nearest - region.wanted[i].position).norm(), 0.15) << "smoothing may move it a little";
     }
 }
 
