@@ -1,4 +1,5 @@
-// A worker that somebody kills: its part is reported and kept as a reproducer, the others are written.
+// A worker that somebody kills: its part is reported and kept as a reproducer, the others are written. A run that
+// somebody interrupts ends with its workers and leaves nothing.
 #include <unistd.h>
 
 #include <chrono>
@@ -30,12 +31,16 @@ std::vector<pid_t> children_of(pid_t process) {
     return {std::istream_iterator<pid_t>(list), {}};
 }
 
-// The first worker of the only child of this process, once it computes; at most 20 s of waiting.
-std::optional<pid_t> await_worker() {
+struct Processes {
+    pid_t kerf, worker;
+};
+
+// The only child of this process and its first worker, once that computes; at most 20 s of waiting.
+std::optional<Processes> await_worker() {
     for (int i = 0; i < 2000; ++i) {
         for (const pid_t kerf : children_of(::getpid()))
             for (const pid_t worker : children_of(kerf))
-                if (read_text("/proc/" + std::to_string(worker) + "/comm") == "kerf-worker\n") return worker;
+                if (read_text("/proc/" + std::to_string(worker) + "/comm") == "kerf-worker\n") return {{kerf, worker}};
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     return {};
@@ -48,9 +53,9 @@ TEST(KilledWorker, IsReportedAndTheOtherPartsAreWritten) {
                {"mesh", test::asset_path("cube"), "-o", folder.file("out"), "-n", "4", "--workers", "1", "--max-volume",
                 "2e-6"},  // about a second for a part
                {}, 120);
-    const std::optional<pid_t> worker = await_worker();
-    ASSERT_TRUE(worker);
-    ASSERT_EQ(::kill(*worker, SIGKILL), 0);
+    const std::optional<Processes> found = await_worker();
+    ASSERT_TRUE(found);
+    ASSERT_EQ(::kill(found->worker, SIGKILL), 0);
     const ChildResult result = pool.wait_any()->result;
     EXPECT_EQ(result.exit_code, 4) << result.log;
     EXPECT_NE(result.log.find("killed by signal 9"), std::string::npos) << result.log;
@@ -81,6 +86,25 @@ TEST(KilledWorker, TimeLimitIsReportedAlike) {
                                                "--max-volume", "2e-7", "--timeout", "0.3"});
     EXPECT_EQ(result.exit_code, 4) << result.log;
     EXPECT_NE(result.log.find("ran longer than its 0.3 s"), std::string::npos) << result.log;
+}
+
+TEST(CancelledRun, EndsItsWorkersAndLeavesNothing) {
+    for (const int signal : {SIGINT, SIGTERM}) {
+        SCOPED_TRACE(signal);
+        const test::TemporaryFolder folder;
+        ChildPool pool;
+        pool.start(0, KERF_PROGRAM,
+                   {"mesh", test::asset_path("cube"), "-o", folder.file("out"), "-n", "2", "--max-volume", "1e-6"}, {},
+                   120);
+        const std::optional<Processes> found = await_worker();
+        ASSERT_TRUE(found);
+        ASSERT_EQ(::kill(found->kerf, signal), 0);
+        const ChildResult result = pool.wait_any()->result;
+        EXPECT_EQ(result.exit_code, 130) << result.log;
+        EXPECT_NE(result.log.find("cancelled"), std::string::npos) << result.log;
+        EXPECT_TRUE(folder.names().empty());
+        EXPECT_EQ(::kill(found->worker, 0), -1) << "the worker is still there";
+    }
 }
 
 }  // namespace
