@@ -118,30 +118,34 @@ void require_sizes(bool sizes_agree) {
 // What files of parts and of their surfaces have in common. The arguments must outlive the grid.
 Grid make_grid(const std::vector<Vec3>& vertices, const std::vector<Tetrahedron>& tets, const SurfaceArrays& surface,
                const PartArrays& arrays) {
-    const std::size_t V = vertices.size(), T = tets.size(), F = surface.facets.size(), B = surface.vertices.size();
-    require_sizes(B <= V && arrays.boundary_id.size() == B && arrays.neighbour.size() == F &&
-                  surface.patch.size() == F);
+    const std::size_t vertex_count = vertices.size(), boundary_count = surface.vertices.size();
+    const std::size_t tet_count = tets.size(), facet_count = surface.facets.size();
+    require_sizes(boundary_count <= vertex_count && arrays.boundary_id.size() == boundary_count &&
+                  arrays.neighbour.size() == facet_count && surface.patch.size() == facet_count);
     constexpr std::uint8_t vtk_triangle = 5, vtk_tetra = 10;
     const auto none = [](std::size_t) { return -1; };
     const auto part = [part = arrays.part](std::size_t) { return part; };
 
-    Grid grid{.point_count = V, .cell_count = T + F, .boundary_vertex_count = B};
+    Grid grid{
+        .point_count = vertex_count, .cell_count = tet_count + facet_count, .boundary_vertex_count = boundary_count};
     grid.field_data.arrays = {string_array("PatchNames", arrays.patch_names)};
-    grid.point_data().arrays = {computed_array<std::int64_t>("GlobalVertexId", V, [B, &arrays](std::size_t v) {
-        return v < B ? arrays.boundary_id[v] : static_cast<std::int64_t>(v - B);
-    })};
-    grid.cell_data().arrays = {
-        cell_array<std::int32_t>("Part", T, F, part, part),
-        cell_array<std::int32_t>("Patch", T, F, none, [&](std::size_t f) { return surface.patch[f]; }),
-        cell_array<std::int32_t>("Neighbour", T, F, none, [&](std::size_t f) { return arrays.neighbour[f]; })};
+    grid.point_data().arrays = {
+        computed_array<std::int64_t>("GlobalVertexId", vertex_count, [boundary_count, &arrays](std::size_t v) {
+            return v < boundary_count ? arrays.boundary_id[v] : static_cast<std::int64_t>(v - boundary_count);
+        })};
+    grid.cell_data().arrays = {cell_array<std::int32_t>("Part", tet_count, facet_count, part, part),
+                               cell_array<std::int32_t>("Patch", tet_count, facet_count, none,
+                                                        [&](std::size_t f) { return surface.patch[f]; }),
+                               cell_array<std::int32_t>("Neighbour", tet_count, facet_count, none,
+                                                        [&](std::size_t f) { return arrays.neighbour[f]; })};
     grid.points().arrays = {point_array(vertices)};
-    grid.cells().arrays = {
-        connectivity_array(tets, surface.facets),
-        cell_array<std::int64_t>(
-            "offsets", T, F, [](std::size_t t) { return 4 * (t + 1); },
-            [T](std::size_t f) { return 4 * T + 3 * (f + 1); }),
-        cell_array<std::uint8_t>(
-            "types", T, F, [](std::size_t) { return vtk_tetra; }, [](std::size_t) { return vtk_triangle; })};
+    grid.cells().arrays = {connectivity_array(tets, surface.facets),
+                           cell_array<std::int64_t>(
+                               "offsets", tet_count, facet_count, [](std::size_t t) { return 4 * (t + 1); },
+                               [tet_count](std::size_t f) { return 4 * tet_count + 3 * (f + 1); }),
+                           cell_array<std::uint8_t>(
+                               "types", tet_count, facet_count, [](std::size_t) { return vtk_tetra; },
+                               [](std::size_t) { return vtk_triangle; })};
     return grid;
 }
 
