@@ -35,18 +35,17 @@ std::vector<std::int32_t> find_representatives(const std::vector<Vec3>& vertices
     return representative;
 }
 
-}  // namespace
-
-std::int64_t weld_exactly(Soup& soup) {
-    // The representative precedes those it stands for, so its new number is known when theirs is looked up.
-    std::vector<std::int32_t> new_number = find_representatives(soup.vertices);
+// Keeps the vertices that stand for themselves. representative[v]: v itself, an earlier vertex that replaces it, or -1
+// for a vertex that no facet uses. Returns the number removed.
+std::int64_t renumber(Soup& soup, std::vector<std::int32_t> representative) {
+    std::vector<std::int32_t>& new_number = representative;
     std::int32_t kept = 0;
     for (std::size_t v = 0; v < soup.vertices.size(); ++v) {
-        if (new_number[v] < static_cast<std::int32_t>(v)) {
-            new_number[v] = new_number[new_number[v]];
-        } else {
+        if (new_number[v] == static_cast<std::int32_t>(v)) {
             soup.vertices[kept] = soup.vertices[v];
             new_number[v] = kept++;
+        } else if (new_number[v] >= 0) {
+            new_number[v] = new_number[new_number[v]];  // an earlier vertex, whose new number is known
         }
     }
     const auto removed = static_cast<std::int64_t>(soup.vertices.size()) - kept;
@@ -56,21 +55,15 @@ std::int64_t weld_exactly(Soup& soup) {
     return removed;
 }
 
+}  // namespace
+
+std::int64_t weld_exactly(Soup& soup) { return renumber(soup, find_representatives(soup.vertices)); }
+
 std::int64_t drop_unused_vertices(Soup& soup) {
-    std::vector<std::int32_t> new_number(soup.vertices.size(), -1);
+    std::vector<std::int32_t> representative(soup.vertices.size(), -1);
     for (const Triangle& t : soup.facets)
-        for (std::int32_t v : t) new_number[v] = 0;
-    std::int32_t kept = 0;
-    for (std::size_t v = 0; v < soup.vertices.size(); ++v) {
-        if (new_number[v] < 0) continue;
-        soup.vertices[kept] = soup.vertices[v];
-        new_number[v] = kept++;
-    }
-    const auto removed = static_cast<std::int64_t>(soup.vertices.size()) - kept;
-    soup.vertices.resize(kept);
-    for (Triangle& t : soup.facets)
-        for (std::int32_t& v : t) v = new_number[v];
-    return removed;
+        for (std::int32_t v : t) representative[v] = v;
+    return renumber(soup, std::move(representative));
 }
 
 }  // namespace kerf

@@ -108,7 +108,6 @@ TEST_P(Bisections, RecordChangesNothingElse) {
 TEST(Bisect, BodyThatCannotBeCutStaysWhole) {
     const Surface tetrahedron(test::to_arrays(test::tetrahedron()));
     const Bisection result = bisect(tetrahedron, mass_properties(tetrahedron), 1, 0.5, {}, false);
-    if (result.cut.made()) GTEST_SKIP() << "even this was cut";
     EXPECT_EQ(result.cut.rung, Rung::whole);
     EXPECT_FALSE(result.cut.tries.empty());
     for (const CutTry& attempt : result.cut.tries) EXPECT_NE(attempt.refusal, Refusal::none);

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "core/error.h"
+#include "support/temporary_folder.h"
 
 namespace kerf {
 namespace {
@@ -19,21 +20,11 @@ namespace fs = std::filesystem;
 
 class RunFolderTest : public testing::Test {
  protected:
-    RunFolderTest()
-        : base_(fs::canonical(testing::TempDir()) /
-                (std::string("kerf_run_") + testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
-                 std::to_string(::getpid()))) {
-        fs::create_directories(base_);
-    }
-    ~RunFolderTest() override { fs::remove_all(base_); }
-
-    std::string path(const std::string& name) const { return (base_ / name).string(); }
-    std::size_t entries() const {
-        return static_cast<std::size_t>(std::distance(fs::directory_iterator(base_), fs::directory_iterator()));
-    }
+    std::string path(const std::string& name) const { return folder_.file(name); }
+    std::size_t entries() const { return folder_.names().size(); }
 
  private:
-    fs::path base_;
+    test::TemporaryFolder folder_;
 };
 
 void put(const std::string& file, const std::string& text) { std::ofstream(file) << text; }
@@ -188,11 +179,29 @@ TEST_F(RunFolderTest, SaysWhyAFolderCannotBeCreated) {
     EXPECT_NE(io_error([] { RunFolder::create("/"); }), "");
 }
 
+// Permissions do not bind the super-user, so while this lives such a process is somebody else.
+class OrdinaryUser {
+ public:
+    OrdinaryUser() : user_(::geteuid()) {
+        constexpr uid_t nobody = 65534;
+        EXPECT_EQ(::seteuid(user_ == 0 ? nobody : user_), 0);
+    }
+    ~OrdinaryUser() { EXPECT_EQ(::seteuid(user_), 0); }
+    OrdinaryUser(const OrdinaryUser&) = delete;
+    OrdinaryUser& operator=(const OrdinaryUser&) = delete;
+
+ private:
+    uid_t user_;
+};
+
 TEST_F(RunFolderTest, SaysThatPermissionsForbidIt) {
-    if (::geteuid() == 0) GTEST_SKIP() << "permissions do not bind the super-user";
     fs::create_directory(path("locked"));
     fs::permissions(path("locked"), fs::perms::owner_read | fs::perms::owner_exec);
-    EXPECT_NE(io_error([&] { RunFolder::create(path("locked/run")); }).find("Permission denied"), std::string::npos);
+    {
+        const OrdinaryUser user;
+        const std::string message = io_error([&] { RunFolder::create(path("locked/run")); });
+        EXPECT_NE(message.find("Permission denied"), message.npos) << message;
+    }
     fs::permissions(path("locked"), fs::perms::owner_all);
 }
 
