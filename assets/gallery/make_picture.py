@@ -20,7 +20,7 @@ COLOURS = ["#56B4E9", "#E69F00", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#C
 EDGE_SHADE = 0.42  # of the part's colour
 LEVELS_APART = 8  # of a colour channel: fewer colours make a smaller file
 BACKGROUND = "#FFFFFF"
-SIZE = (1200, 700)
+SIZE = (1200, 560)
 OVERSAMPLING = 3  # thin edges need more than the samples of the graphics library
 SPREAD = 0.26  # of a part's way from the centre of the body
 VIEW_FROM = (-0.14, 0.5, 1.0)
@@ -136,7 +136,7 @@ def main():
     parser.add_argument("folder", type=pathlib.Path, help="finished run folder")
     parser.add_argument("picture", type=pathlib.Path, help="PNG file to write")
     parser.add_argument("--open", type=int, default=5, help="which part is opened, counted from 0")
-    parser.add_argument("--zoom", type=float, default=1.5)
+    parser.add_argument("--zoom", type=float, default=2.05)
     args = parser.parse_args()
     renderer = scene(args.folder, args.open)
     aim(renderer, args.zoom)
