@@ -223,6 +223,7 @@ void Run::mesh_parts() {
             part.seconds = outcome.seconds;
             part.failures = outcome.failures;
             part.result = outcome.result;
+            if (part.result.code == static_cast<int>(ErrorCode::io)) throw Error(ErrorCode::io, part.result.message);
             if (part.result.code) keep_reproducer(own_.leaves[order[index]], part);
             progress("volume", ++done, order.size());
         });
@@ -280,6 +281,18 @@ void Run::measure_balance() {
     if (sum > 0) report_.imbalance = most * static_cast<double>(busy.size()) / sum;
 }
 
+// 0 if every part was meshed; `memory` if all that failed ran out of it, else `subdomain`.
+int failure_code(const std::vector<PartReport>& parts) {
+    int code = 0;
+    for (const PartReport& part : parts) {
+        if (part.result.code == 0) continue;
+        const bool memory = part.result.code == static_cast<int>(ErrorCode::memory);
+        if (!memory) return static_cast<int>(ErrorCode::subdomain);
+        code = part.result.code;
+    }
+    return code;
+}
+
 std::int64_t own_peak_rss_bytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -289,10 +302,8 @@ std::int64_t own_peak_rss_bytes() {
 RunReport Run::finish(const Stopwatch& whole, double read_seconds) {
     report_.quality = PartQuality(input_.diagonal);
     std::vector<PartHash> hashes;
-    bool failed = false;
     std::int64_t largest_worker = 0;
     for (const PartReport& part : report_.parts) {
-        failed |= part.result.code != 0;
         report_.tets += part.result.tets;
         if (part.result.tets) report_.quality.add(part.result.quality);
         report_.seconds.verify = std::max(report_.seconds.verify, part.result.verify_seconds);
@@ -305,9 +316,8 @@ RunReport Run::finish(const Stopwatch& whole, double read_seconds) {
     for (const std::int64_t bytes : all_gather(ranks_, own_peak_rss_bytes()))
         report_.peak_rss_bytes += bytes + report_.options.workers * largest_worker;
     if (report_.options.volume) report_.mesh_hash = hash_of_parts(hashes);
-    if (failed)
-        report_.exit_code = static_cast<int>(ErrorCode::subdomain);
-    else if (!report_.verification.passed)
+    report_.exit_code = failure_code(report_.parts);
+    if (report_.exit_code == 0 && !report_.verification.passed)
         report_.exit_code = static_cast<int>(ErrorCode::verification);
     report_.seconds.read = read_seconds;
     report_.seconds.wall = longest(ranks_, whole.seconds());

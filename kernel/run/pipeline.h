@@ -21,8 +21,9 @@ class RunListener : public CutListener {
 /// Reads, decomposes, meshes every subdomain in worker processes, verifies and writes the run folder.
 ///
 /// Collective. The part files depend on input, options and K alone. Parts that could not be meshed leave a reproducer
-/// in DIR/failed and exit_code 4 in the report; a law that does not hold leaves exit_code 8. Throws Error on every rank
-/// alike for what leaves no result; the run folder then does not exist.
+/// in DIR/failed and exit_code 4 in the report, 5 if all of them ran out of memory; a law that does not hold leaves
+/// exit_code 8. Throws Error on every rank alike for what leaves no result, a full disk among them; the run folder then
+/// does not exist.
 /// `input` receives the surface that the report refers to.
 RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input& input,
               RunListener* listener = nullptr);

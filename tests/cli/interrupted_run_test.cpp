@@ -1,5 +1,5 @@
 // A worker that somebody kills: its part is reported and kept as a reproducer, the others are written. A run that
-// somebody interrupts ends with its workers and leaves nothing.
+// somebody interrupts ends with its workers and leaves nothing. Limits of time and memory are reported like failures.
 #include <unistd.h>
 
 #include <chrono>
@@ -86,6 +86,15 @@ TEST(KilledWorker, TimeLimitIsReportedAlike) {
                                                "--max-volume", "2e-7", "--timeout", "0.3"});
     EXPECT_EQ(result.exit_code, 4) << result.log;
     EXPECT_NE(result.log.find("ran longer than its 0.3 s"), std::string::npos) << result.log;
+}
+
+TEST(MemoryLimit, IsReportedWithItsOwnCode) {
+    const test::TemporaryFolder folder;
+    const ChildResult result = test::run_kerf({"mesh", test::asset_path("bearing_cap_14k"), "-o", folder.file("out"),
+                                               "-n", "2", "--max-volume", "0.05", "--memory", "250"});
+    EXPECT_EQ(result.exit_code, 5) << result.log;
+    EXPECT_NE(result.log.find("memory"), std::string::npos) << result.log;
+    EXPECT_TRUE(std::filesystem::exists(folder.file("out/failed/part_0002.smesh")));
 }
 
 TEST(CancelledRun, EndsItsWorkersAndLeavesNothing) {
