@@ -5,12 +5,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
 #include <memory>
 
 #include <Eigen/Geometry>
 
-#include "core/error.h"
+#include "core/regular_tet.h"
 #include "cut/acceptance.h"
 #include "cut/contour.h"
 #include "cut/interface.h"
@@ -26,7 +25,6 @@ constexpr std::int32_t planes_before_soft = 3;  // tried before a soft cut is go
 constexpr std::int32_t soft_rounds = 6;         // of local repair of a valid cut
 constexpr int max_raises = 4;                   // of the penalties, until the contour moves
 constexpr double interface_growth = 1.1;        // longest interface edge over that of the largest wanted tetrahedron
-constexpr double regular_tet_edges_cubed = 8.485281374238570;  // 6 sqrt(2): cubed edge over volume
 
 // All that one try produced.
 struct Attempt {
@@ -90,7 +88,7 @@ class PlaneTrial {
     void raise_penalty();
     double max_interface_edge() const {
         if (options_.max_volume <= 0) return 0;
-        return interface_growth * std::cbrt(regular_tet_edges_cubed * options_.max_volume);
+        return interface_growth * regular_tet_edge(options_.max_volume);
     }
 
     const Surface& surface_;

@@ -6,12 +6,11 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/regular_tet.h"
 
 namespace kerf {
 
 namespace {
-
-constexpr double regular_tet_edges_cubed = 8.485281374238570;  // 6 sqrt(2): cubed edge over volume
 
 template <class Enum>
 OptionField::Choice choice(Enum& value, std::vector<std::string> names, int first = 0) {
@@ -37,7 +36,7 @@ void RunOptions::resolve(int ranks, int cores_of_rank) {
     require(timeout_seconds >= 0, "timeout", "0 (none) or more seconds", timeout_seconds);
     require(memory_mb >= 0, "memory", "0 (unlimited) or more MB", static_cast<double>(memory_mb));
     require(attempts >= 1, "attempts", "1 or more", attempts);
-    if (mesher.max_volume == 0 && size > 0) mesher.max_volume = size * size * size / regular_tet_edges_cubed;
+    if (mesher.max_volume == 0 && size > 0) mesher.max_volume = regular_tet_volume(size);
     decompose.cut.max_volume = decompose.cut.load.max_volume = mesher.max_volume;
 }
 

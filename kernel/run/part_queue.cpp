@@ -69,7 +69,7 @@ class Queue {
     void take(std::size_t index, const ChildResult& child) {
         PartOutcome& outcome = outcomes_[index];
         outcome.seconds += child.seconds;
-        const bool answered = child.end == ChildResult::End::exited && child.exit_code == 0;
+        const bool answered = child.end == ChildResult::End::exited && child.exit_code == 0 && !child.output.empty();
         outcome.result = answered ? from_bytes<PartResult>(child.output) : result_of_silence(child);
         const bool mesher_failed =
             outcome.result.code == static_cast<int>(ErrorCode::subdomain) && (answered || died_by_itself(child));
