@@ -133,7 +133,7 @@ bool PlaneTrial::find_contour(Attempt& attempt) {
             return false;
         }
         edges = contour_edges(surface_, band_, attempt.side);
-        if (edges != last_contour_) break;
+        if (edges != last_contour_ || bad_facets_.empty()) break;
         raise_penalty();  // the failed places are not expensive enough yet
     }
     last_contour_ = edges;

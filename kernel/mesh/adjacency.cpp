@@ -46,12 +46,12 @@ void connect_tets(TetMesh& mesh) {
         std::sort(begin, stop, [](const Face& a, const Face& b) {
             return std::tie(a.middle, a.high, a.side) < std::tie(b.middle, b.high, b.side);
         });
-        for (auto it = begin; it != stop && it + 1 != stop; ++it)
-            if (it->middle == (it + 1)->middle && it->high == (it + 1)->high) {
-                join(mesh, *it, *(it + 1));
-                ++it;
-                if (it + 1 == stop) break;
-            }
+        for (auto it = begin; it != stop;) {
+            const auto same_face = [&](const Face& face) { return face.middle == it->middle && face.high == it->high; };
+            const auto next = std::find_if_not(it, stop, same_face);
+            if (next - it >= 2) join(mesh, *it, *(it + 1));
+            it = next;
+        }
     }
 }
 

@@ -7,14 +7,8 @@ namespace kerf {
 
 namespace {
 
-std::array<Key, 3> rotated_to_smallest(std::array<Key, 3> keys) {
-    std::rotate(keys.begin(), std::min_element(keys.begin(), keys.end()), keys.end());
-    return keys;
-}
-
 bool opposite(const InterfaceSide& a, const InterfaceSide& b) {
-    return a.leaf != b.leaf && a.vertices[0] == b.vertices[0] && a.vertices[1] == b.vertices[2] &&
-           a.vertices[2] == b.vertices[1];
+    return a.leaf != b.leaf && a.vertices == reversed(b.vertices);
 }
 
 }  // namespace

@@ -6,13 +6,14 @@
 
 #include "decompose/decomposition.h"
 #include "run/communicator.h"
+#include "run/oriented_triangle.h"
 
 namespace kerf {
 
 /// One side of an interface facet.
 struct InterfaceSide {
     Key facet;
-    std::array<Key, 3> vertices;  ///< rotated so that the smallest comes first
+    NamedTriangle vertices;  ///< rotated so that the smallest comes first
     NodeId leaf;
 };
 

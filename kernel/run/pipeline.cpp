@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 
 #include <fmt/format.h>
@@ -137,7 +138,7 @@ class Run {
     PartJob make_job(std::size_t leaf) const;
     void keep_reproducer(const Leaf& leaf, const PartReport& part) const;
     void verify();
-    void measure_balance();
+    void measure_workers();
 
     Communicator& ranks_;
     Input& input_;
@@ -265,20 +266,29 @@ void Run::verify() {
         parts_hold &= part.result.code == 0 && laws.hold();
     }
     v.volume_rel_error = std::abs(volume - input_.volume) / input_.volume;
-    v.passed = parts_hold && v.volume_rel_error <= 1e-10 && v.input_faces_missing == 0 && v.extra_boundary_faces == 0 &&
-               v.unmatched_interface_faces == 0 && v.inverted_tets == 0 && v.tets_zero_parts == 0;
+    v.passed = parts_hold && v.all_hold();
 }
 
-void Run::measure_balance() {
-    std::map<std::pair<int, int>, double> busy;
-    for (int rank = 0; rank < ranks_.size(); ++rank)
-        for (int worker = 0; worker < report_.options.workers; ++worker) busy[{rank, worker}] = 0;
-    double sum = 0, most = 0;
-    for (const PartReport& part : report_.parts) {
-        most = std::max(most, busy[{part.rank, part.worker}] += part.seconds);
-        sum += part.seconds;
-    }
-    if (sum > 0) report_.imbalance = most * static_cast<double>(busy.size()) / sum;
+// Sums of a measure over the parts of each worker of each rank.
+template <class Measure>
+std::vector<double> per_worker(const RunReport& report, Measure measure) {
+    std::vector<double> sums(static_cast<std::size_t>(report.ranks * report.options.workers), 0);
+    for (const PartReport& part : report.parts)
+        sums[static_cast<std::size_t>(part.rank * report.options.workers + part.worker)] += measure(part);
+    return sums;
+}
+
+void Run::measure_workers() {
+    const auto longest_sum = [&](double PartResult::*seconds) {
+        const auto sums = per_worker(report_, [&](const PartReport& part) { return part.result.*seconds; });
+        return *std::max_element(sums.begin(), sums.end());
+    };
+    report_.seconds.verify = longest_sum(&PartResult::verify_seconds);
+    report_.seconds.write = longest_sum(&PartResult::write_seconds);
+    const auto busy = per_worker(report_, [](const PartReport& part) { return part.seconds; });
+    const double sum = std::accumulate(busy.begin(), busy.end(), 0.0);
+    if (sum > 0)
+        report_.imbalance = *std::max_element(busy.begin(), busy.end()) * static_cast<double>(busy.size()) / sum;
 }
 
 // 0 if every part was meshed; `memory` if all that failed ran out of it, else `subdomain`.
@@ -306,13 +316,11 @@ RunReport Run::finish(const Stopwatch& whole, double read_seconds) {
     for (const PartReport& part : report_.parts) {
         report_.tets += part.result.tets;
         if (part.result.tets) report_.quality.add(part.result.quality);
-        report_.seconds.verify = std::max(report_.seconds.verify, part.result.verify_seconds);
-        report_.seconds.write = std::max(report_.seconds.write, part.result.write_seconds);
         largest_worker = std::max(largest_worker, part.result.peak_rss_bytes);
         hashes.push_back({part.id, part.result.hash});
     }
     verify();
-    measure_balance();
+    measure_workers();
     for (const std::int64_t bytes : all_gather(ranks_, own_peak_rss_bytes()))
         report_.peak_rss_bytes += bytes + report_.options.workers * largest_worker;
     if (report_.options.volume) report_.mesh_hash = hash_of_parts(hashes);
@@ -341,6 +349,8 @@ RunReport Run::finish(const Stopwatch& whole, double read_seconds) {
 
 RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input& input, RunListener* listener) {
     const Stopwatch whole;
+    // Hosts may differ, but the defaults of K and workers must not.
+    for (const int cores : all_gather(ranks, cores_of_rank)) cores_of_rank = std::min(cores_of_rank, cores);
     in_agreement(ranks, [&] {
         options.resolve(ranks.size(), cores_of_rank);
         if (listener) listener->on_progress("read", 0, 1);

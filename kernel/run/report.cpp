@@ -181,6 +181,11 @@ std::string rungs_text(const std::vector<TreeNode>& nodes) {
 
 }  // namespace
 
+bool RunVerification::all_hold() const {
+    return volume_rel_error <= 1e-10 && input_faces_missing == 0 && extra_boundary_faces == 0 &&
+           unmatched_interface_faces == 0 && inverted_tets == 0 && tets_zero_parts == 0;
+}
+
 std::string to_json(const RunReport& report) {
     const RunVerification& v = report.verification;
     Json json = {{"schema", 1},

@@ -40,10 +40,14 @@ struct RunVerification {
     std::int64_t unmatched_interface_faces = 0;  ///< not once on each side, with the same keys in opposite order
     std::int64_t inverted_tets = 0;
     std::int64_t tets_zero_parts = 0;  ///< parts without a tetrahedron
+
+    /// True if the volumes agree to 1e-10 relative and every count is zero.
+    bool all_hold() const;
 };
 
 struct StageSeconds {
-    double read = 0, decompose = 0, mesh = 0, write = 0, verify = 0, wall = 0;  ///< longest over the ranks
+    double read = 0, decompose = 0, mesh = 0, wall = 0;  ///< longest over the ranks
+    double verify = 0, write = 0;                        ///< within mesh; longest sum over the parts of a worker
 };
 
 struct RunReport {
