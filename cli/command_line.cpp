@@ -55,8 +55,22 @@ CLI::App* add_run_command(CLI::App& app, const char* name, const char* text, Com
     command->add_flag("-q,--quiet", line.quiet, "Print nothing but errors.");
     command->add_flag("--print-config", line.print_config, "Print the options as a config file and end.")
         ->configurable(false);
-    command->set_config("--config", "", "Read options from a TOML file; the command line wins.");
+    command->add_option("--config", line.config_file, "Read options from a TOML file; the command line wins.")
+        ->type_name("FILE")
+        ->configurable(false);
     return command;
+}
+
+// CLI11 reads config files for the whole program only. Throws CLI::ParseError.
+void read_config(CLI::App& command, const std::string& path) {
+    if (path.empty()) return;
+    for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_file(path)) {
+        CLI::Option* option = command.get_option_no_throw("--" + item.name);
+        if (!option) throw CLI::ConfigError("'" + item.name + "' in " + path + " is not an option.");
+        if (option->count() > 0) continue;
+        option->add_result(item.inputs);
+        option->run_callback();
+    }
 }
 
 // CLI11 only says that a subcommand is missing.
@@ -88,6 +102,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     // The table binds every option to one place, so the values of `mesh` and `decompose` share it.
     try {
         app.parse(argc, argv);
+        for (CLI::App* command : {mesh, decompose})
+            if (command->parsed()) read_config(*command, line.config_file);
     } catch (const CLI::ParseError& e) {
         std::ostringstream out, err;
         line.finished = true;

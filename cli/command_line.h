@@ -16,6 +16,7 @@ struct CommandLine {
     bool quiet = false;
     bool json = false;          ///< check: machine-readable output
     bool print_config = false;  ///< print the effective options and end
+    std::string config_file;    ///< options that the command line does not give
     std::string config;         ///< them, in the form of a config file
     bool finished = false;      ///< help or version was asked for, or the usage was wrong: end with exit_code
     int exit_code = 0;

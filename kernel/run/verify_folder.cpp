@@ -76,7 +76,10 @@ class FolderVerifier {
 };
 
 void FolderVerifier::check_part(std::int32_t leaf) {
-    PartFile part = read_part(folder_ + "/parts/" + part_file_name(leaf));
+    const std::string path = folder_ + "/parts/" + part_file_name(leaf);
+    if (!std::filesystem::exists(path))
+        throw Error(ErrorCode::io, fmt::format("{} is missing: the part was not meshed. Run kerf mesh again.", path));
+    PartFile part = read_part(path);
     SurfaceArrays surface;
     surface.vertices.assign(part.mesh.vertices.begin(), part.mesh.vertices.begin() + part.mesh.boundary_vertex_count);
     surface.facets = part.facets;

@@ -107,6 +107,26 @@ TEST_F(BadInput, NothingToDo) {
     expect_message(test::run_kerf({"saw", good_}), 2, {"'saw' is not a command"});
 }
 
+// The printed options, read again, print themselves; the command line wins over the file.
+TEST_F(BadInput, ConfigFileGivesOptions) {
+    const std::vector<std::string> mesh = {"mesh", good_, "-o", folder_.file("out")};
+    const auto printed = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), mesh.begin(), mesh.end());
+        options.push_back("--print-config");
+        const ChildResult result = test::run_kerf(options);
+        EXPECT_EQ(result.exit_code, 0) << result.log;
+        return test::output_of(result);
+    };
+    const std::string text = printed({"-n", "3", "--size", "0.25", "--cut", "volume"});
+    const std::string config = folder_.file("kerf.toml");
+    std::ofstream(config) << text;
+    EXPECT_EQ(printed({"--config", config}), text);
+    EXPECT_EQ(printed({"--config", config, "-n", "5"}), printed({"-n", "5", "--size", "0.25", "--cut", "volume"}));
+
+    std::ofstream(config) << "parts = 2\nsice = 1\n";
+    expect_message(test::run_kerf({"mesh", good_, "-o", folder_.file("out"), "--config", config}), 2, {"'sice'"});
+}
+
 TEST_F(BadInput, RefusalKeepsTheOlderRun) {
     const std::vector<std::string> run = {"mesh", good_, "-o", folder_.file("out"), "-n", "1", "-q"};
     ASSERT_EQ(test::run_kerf(run).exit_code, 0);
