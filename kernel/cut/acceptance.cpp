@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include <Eigen/Geometry>
 
+#include "cut/angles.h"
 #include "cut/planar_grid.h"
 #include "surface/intersections.h"
 #include "surface/mass_properties.h"
@@ -18,8 +18,6 @@
 namespace kerf {
 
 namespace {
-
-double degrees(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi; }
 
 // Closest point by the regions of the triangle (Ericson 2005, section 5.1.5).
 double point_triangle_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -174,19 +172,11 @@ void InterfaceJudge::measure_angles(double threshold, InterfaceQuality& quality,
     for (const Triangle& t : interface_.triangles) {
         const auto p = corners(t);
         for (int i = 0; i < 3; ++i) {
-            const Vec3 a = (p[(i + 1) % 3] - p[i]).normalized(), b = (p[(i + 2) % 3] - p[i]).normalized();
-            const double angle = degrees(a.dot(b));
+            const double angle = angle_degrees(p[i], p[(i + 1) % 3], p[(i + 2) % 3]);
             quality.angle_deg = std::min(quality.angle_deg, angle);
             if (angle < threshold) add_contour_corners(t, soft);
         }
     }
-}
-
-// Unit vector in the triangle, perpendicular to its edge a-b, towards the apex.
-Vec3 towards_apex(const Vec3& a, const Vec3& b, const Vec3& apex) {
-    const Vec3 edge = (b - a).normalized();
-    const Vec3 r = apex - a;
-    return (r - r.dot(edge) * edge).normalized();
 }
 
 void InterfaceJudge::measure_dihedrals(double threshold, InterfaceQuality& quality,
@@ -201,7 +191,7 @@ void InterfaceJudge::measure_dihedrals(double threshold, InterfaceQuality& quali
             const Vec3 inward = towards_apex(a, b, interface_.points[t[(i + 2) % 3]]);
             for (std::int32_t side : {h, Surface::opposite(h)}) {
                 const Vec3 along = towards_apex(a, b, surface_.point(surface_.to_vertex(surface_.next(side))));
-                const double angle = degrees(inward.dot(along));
+                const double angle = acos_degrees(inward.dot(along));
                 quality.dihedral_deg = std::min(quality.dihedral_deg, angle);
                 if (angle < threshold) soft.insert(soft.end(), {from, to});
             }

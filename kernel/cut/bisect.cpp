@@ -9,7 +9,6 @@
 
 #include <Eigen/Geometry>
 
-#include "core/regular_tet.h"
 #include "cut/acceptance.h"
 #include "cut/contour.h"
 #include "cut/interface.h"
@@ -24,7 +23,6 @@ namespace {
 constexpr std::int32_t planes_before_soft = 3;  // tried before a soft cut is good enough
 constexpr std::int32_t soft_rounds = 6;         // of local repair of a valid cut
 constexpr int max_raises = 4;                   // of the penalties, until the contour moves
-constexpr double interface_growth = 1.1;        // longest interface edge over that of the largest wanted tetrahedron
 
 // All that one try produced.
 struct Attempt {
@@ -86,10 +84,6 @@ class PlaneTrial {
     bool find_contour(Attempt& attempt);
     void span_interface(Attempt& attempt) const;
     void raise_penalty();
-    double max_interface_edge() const {
-        if (options_.max_volume <= 0) return 0;
-        return interface_growth * regular_tet_edge(options_.max_volume);
-    }
 
     const Surface& surface_;
     const PlaneCandidate& candidate_;
@@ -147,7 +141,7 @@ bool PlaneTrial::find_contour(Attempt& attempt) {
 
 void PlaneTrial::span_interface(Attempt& attempt) const {
     InterfaceAttempt spanned =
-        build_interface(surface_, band_, attempt.side, attempt.loops, hits_, max_interface_edge());
+        build_interface(surface_, band_, attempt.side, attempt.loops, hits_, options_.max_interface_edge());
     if (spanned.refusal != Refusal::none) {
         refuse(attempt, spanned.refusal, std::move(spanned.failed));
         return;
@@ -281,16 +275,6 @@ std::unique_ptr<Attempt> Ladder::climb(std::vector<CutTry>& tries) {
             }
         }
     return std::move(best_);
-}
-
-void describe_contour(const Surface& surface, Cut& cut) {
-    for (const auto& loop : cut.loops)
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Vec3 &a = surface.point(loop[i]), &b = surface.point(loop[(i + 1) % loop.size()]);
-            ++cut.contour_edges;
-            cut.contour_length += (b - a).norm();
-            cut.max_deviation = std::max(cut.max_deviation, std::abs(cut.plane.distance(a)));
-        }
 }
 
 }  // namespace

@@ -17,6 +17,18 @@ Plane Plane::shifted(double distance) const {
     return moved;
 }
 
+const char* name(ContourMethod method) {
+    switch (method) {
+        case ContourMethod::min_cut:
+            return "min-cut";
+        case ContourMethod::edges:
+            return "edges";
+        case ContourMethod::straight:
+            return "straight";
+    }
+    return "";
+}
+
 const char* name(Rung rung) {
     switch (rung) {
         case Rung::first_try:
@@ -29,6 +41,8 @@ const char* name(Rung rung) {
             return "other-axis";
         case Rung::soft:
             return "soft";
+        case Rung::straight:
+            return "straight";
         case Rung::whole:
             return "whole";
     }
@@ -57,10 +71,22 @@ const char* name(Refusal refusal) {
             return "not-manifold";
         case Refusal::misplaced_shell:
             return "misplaced-shell";
+        case Refusal::coincident_vertices:
+            return "coincident-vertices";
         case Refusal::soft:
             return "soft";
     }
     return "";
+}
+
+void describe_contour(const Surface& parent, Cut& cut) {
+    for (const auto& loop : cut.loops)
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Vec3 &a = parent.point(loop[i]), &b = parent.point(loop[(i + 1) % loop.size()]);
+            ++cut.contour_edges;
+            cut.contour_length += (b - a).norm();
+            cut.max_deviation = std::max(cut.max_deviation, std::abs(cut.plane.distance(a)));
+        }
 }
 
 }  // namespace kerf

@@ -36,9 +36,12 @@ constexpr Side other(Side side) { return side == Side::below ? Side::above : Sid
 
 /// How a contour is found on the surface.
 enum class ContourMethod {
-    min_cut,  ///< minimum cut of the facet graph in a band around the plane
-    edges,    ///< majority of the facet's vertices (Ivanov)
+    min_cut,   ///< minimum cut of the facet graph in a band around the plane
+    edges,     ///< majority of the facet's vertices (Ivanov)
+    straight,  ///< facets are split at a coordinate plane
 };
+
+const char* name(ContourMethod method);
 
 /// The remedy by which a cut was accepted, in the order in which they are tried.
 enum class Rung {
@@ -47,6 +50,7 @@ enum class Rung {
     plane_step,    ///< the plane was moved along the first axis
     other_axis,    ///< another principal axis
     soft,          ///< valid, but below a quality threshold; the best of all tries
+    straight,      ///< the facets were split at a coordinate plane
     whole,         ///< no cut: the part stays whole
 };
 const char* name(Rung rung);
@@ -63,6 +67,7 @@ enum class Refusal {
     intersection,         ///< interface and surface meet off the contour
     not_manifold,         ///< a half is not a closed 2-manifold
     misplaced_shell,      ///< a shell without contour lies in the wrong half
+    coincident_vertices,  ///< of a straight cut: a vertex on the plane, or two new ones in one place
     soft,                 ///< valid, but an angle or gap is below its threshold
 };
 const char* name(Refusal refusal);
@@ -151,5 +156,9 @@ struct Cut {
           max_deviation, section_area, interface_area, seconds);
     }
 };
+
+/// Fills contour_edges, contour_length and max_deviation from the loops and the plane. `parent` is the surface whose
+/// vertices the loops name.
+void describe_contour(const Surface& parent, Cut& cut);
 
 }  // namespace kerf

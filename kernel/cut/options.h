@@ -1,6 +1,7 @@
 // What a user may choose about cuts.
 #pragma once
 
+#include "core/regular_tet.h"
 #include "cut/cut.h"
 #include "cut/load.h"
 
@@ -26,6 +27,8 @@ struct CutOptions {
     double good_angle_deg = 20;
     double good_gap_rel = 0.2;
 
+    /// Longest wanted edge of an interface: a little more than that of the largest wanted tetrahedron; 0: any.
+    double max_interface_edge() const { return max_volume > 0 ? 1.1 * regular_tet_edge(max_volume) : 0; }
     /// What the criterion bisects: the volume where it says so, else `load`.
     LoadModel bisected_load() const {
         LoadModel bisected = load;

@@ -41,10 +41,12 @@ bool edges_cross(const PlanarRegion& region, const std::array<std::int32_t, 2>& 
                  const std::array<std::int32_t, 2>& f) {
     const auto point = [&](std::int32_t i) { return to_point(region.contour[i]); };
     for (int i = 0; i < 2; ++i)
-        if (e[i] == f[1 - i]) {  // consecutive: they meet elsewhere only if folded onto each other
-            const Point shared = point(e[i]), p = point(e[1 - i]), q = point(f[i]);
-            return p == q || (CGAL::collinear(p, shared, q) && !CGAL::collinear_are_ordered_along_line(p, shared, q));
-        }
+        for (int j = 0; j < 2; ++j)
+            if (e[i] == f[j]) {  // they meet elsewhere only if folded onto each other
+                const Point shared = point(e[i]), p = point(e[1 - i]), q = point(f[1 - j]);
+                return p == q ||
+                       (CGAL::collinear(p, shared, q) && !CGAL::collinear_are_ordered_along_line(p, shared, q));
+            }
     return CGAL::do_intersect(Kernel::Segment_2(point(e[0]), point(e[1])), Kernel::Segment_2(point(f[0]), point(f[1])));
 }
 
@@ -124,6 +126,7 @@ std::vector<std::int32_t> Triangulator::insert_contour() {
         size_[b] += length / 2;
         cdt_.insert_constraint(vertices_[a], vertices_[b]);
     }
+    for (double& size : size_) size = std::max(size, region_.least_edge);
     if (region_.max_edge > 0)
         for (double& size : size_) size = std::min(size, region_.max_edge);
     mark_inside();
@@ -203,7 +206,9 @@ void Triangulator::consider(Cdt::Face_handle face) {
                c = to_vec(face->vertex(2)->point());
     const double la = (b - c).norm(), lb = (c - a).norm(), lc = (a - b).norm();
     const double radius = la * lb * lc / (2 * cross_2d(b - a, c - a));
-    if (radius * std::sqrt(3.0) <= too_large * mean_size(face) && radius <= too_flat * std::min({la, lb, lc})) return;
+    if (radius * std::sqrt(3.0) <= too_large * mean_size(face) &&
+        radius <= too_flat * std::max(region_.least_edge, std::min({la, lb, lc})))
+        return;
     queue_.push({radius, {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()}});
 }
 
@@ -285,8 +290,10 @@ PlanarTriangulation triangulate(const PlanarRegion& region) {
         result.refusal = Refusal::nesting;
         return result;
     }
-    triangulator.insert_wanted();
-    triangulator.refine();
+    if (region.refined) {
+        triangulator.insert_wanted();
+        triangulator.refine();
+    }
     result = triangulator.extract();
     smooth(result, region.contour.size());
     return result;

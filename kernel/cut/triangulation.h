@@ -20,6 +20,8 @@ struct PlanarRegion {
     std::vector<std::array<std::int32_t, 2>> edges;  ///< closed loops over `contour`; the inside is on the left
     std::vector<WantedPoint> wanted;                 ///< inserted where they fit
     double max_edge = 0;                             ///< upper bound of the edge length; 0: none
+    double least_edge = 0;                           ///< shorter contour edges do not make the triangles small
+    bool refined = true;                             ///< false: no interior points
 };
 
 /// A conforming triangulation of the region, or why there is none.

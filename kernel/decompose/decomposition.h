@@ -4,54 +4,43 @@
 #include <utility>
 #include <vector>
 
-#include "cut/bisect.h"
+#include "decompose/tree_node.h"
 
 namespace kerf {
 
+/// What may happen to the facets of the input where no contour of edges divides a part.
+enum class FacetPolicy {
+    keep,   ///< the part stays whole
+    split,  ///< facets are split by a straight cut
+};
+
 struct DecomposeOptions {
     std::int32_t parts = 8;  ///< K >= 1, any whole number
+    FacetPolicy facets = FacetPolicy::split;
     CutOptions cut;
 };
 
-/// No part should have fewer facets; a part below twice this number is not cut.
+/// No part should have fewer facets; a part below twice this number has no contour of edges that is worth it.
 inline constexpr std::int32_t min_facets_per_part = 50;
-
-/// What is kept of a node of the tree once it has been cut.
-struct TreeNode {
-    NodeId id = 1;
-    std::int32_t first_leaf = 0;  ///< of the leaves below it, in the order of the tree
-    std::int32_t leaves = 1;      ///< wanted below it
-    std::int32_t vertices = 0;
-    std::int32_t facets = 0;
-    MassProperties mass;
-    bool cut_made = false;
-    bool cut_tried = false;
-    Plane plane;
-    ContourMethod method = ContourMethod::min_cut;
-    Rung rung = Rung::whole;
-    std::int32_t tries = 0;
-    std::int32_t loops = 0;
-    std::int64_t contour_edges = 0;
-    double contour_length = 0, max_deviation = 0, section_area = 0, interface_area = 0;
-    std::int32_t interface_faces = 0;
-    std::int32_t interface_vertices = 0;  ///< interior ones, which this cut added
-    InterfaceQuality quality;
-    double seconds = 0;  ///< wall clock of the cut; goes into the report only
-
-    template <class Archive>
-    void archive(Archive& a) {
-        a(id, first_leaf, leaves, vertices, facets, mass.volume, mass.area, mass.centroid);
-        for (int i = 0; i < 9; ++i) a(mass.inertia.data()[i], mass.axes.data()[i]);
-        a(mass.eigenvalues, cut_made, cut_tried, plane, method, rung, tries, loops, contour_edges, contour_length,
-          max_deviation, section_area, interface_area, interface_faces, interface_vertices, quality, seconds);
-    }
-};
 
 /// The closed surface of one subdomain.
 struct Leaf {
     NodeId id = 1;
-    double volume = 0;  ///< enclosed
+    std::int32_t first_leaf = 0;  ///< as in TreeNode
+    std::int32_t leaves = 1;      ///< more than one: it should have been cut, but has no contour of edges
+    double volume = 0;            ///< enclosed
     SurfaceArrays surface;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(id, first_leaf, leaves, volume, surface);
+    }
+};
+
+/// A facet of the input that straight cuts have split: its pieces cover it and have its key.
+struct DividedFacet {
+    std::int32_t facet = 0;
+    std::array<Vec3, 3> corners;
 };
 
 /// Is told of every cut while its data is at hand.
@@ -64,12 +53,14 @@ class CutListener {
 /// A range [first, last) of leaves in the order of the tree.
 struct LeafRange {
     std::int32_t first = 0, last = 0;
+    bool contains(std::int32_t leaf) const { return leaf >= first && leaf < last; }
     bool meets(std::int32_t begin, std::int32_t count) const { return begin < last && begin + count > first; }
 };
 
 struct Decomposition {
-    std::vector<TreeNode> nodes;  ///< visited ones, in depth-first order
-    std::vector<Leaf> leaves;     ///< those of the range, in the order of the tree
+    std::vector<TreeNode> nodes;               ///< visited ones, in depth-first order
+    std::vector<Leaf> leaves;                  ///< those of the range, in the order of the tree
+    std::vector<DividedFacet> divided_facets;  ///< ascending by facet
 };
 
 /// Cuts the surface into options.parts subdomains and returns those of `range`; only branches that lead to them are

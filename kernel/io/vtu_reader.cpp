@@ -138,6 +138,7 @@ PartFile read_part(const std::string& path) {
     part.facets = take_cells<Triangle>(file, corners, facet_count, header.boundary_vertex_count);
     part.part = common_part(file);
     part.patch = facet_values(file, "Patch", tet_count, -1);
+    part.facet = facet_values(file, "Facet", tet_count, -1);
     part.neighbour = facet_values(file, "Neighbour", tet_count, -1);
     part.global_id = file.values<std::int64_t>("GlobalVertexId", header.point_count);
     part.patch_names = read_names(file);

@@ -13,6 +13,7 @@ struct PartFile {
     TetMesh mesh;                         ///< without `neighbours`
     std::vector<Triangle> facets;         ///< #F; boundary triangles, over the boundary vertices of the mesh
     std::vector<std::int32_t> patch;      ///< #F
+    std::vector<std::int32_t> facet;      ///< #F; the facet of the input that holds it, -1 on interfaces
     std::vector<std::int32_t> neighbour;  ///< #F
     std::int32_t part = 0;
     std::vector<std::int64_t> global_id;  ///< #V; GlobalVertexId

@@ -80,6 +80,8 @@ Array computed_array(std::string name, std::size_t count, Value value) {
             }};
 }
 
+std::int32_t input_facet(Key key) { return key_node(key) == 0 ? key_index(key) : -1; }
+
 // An array with one value per cell: of_tet(t) for the tetrahedra, then of_facet(f).
 template <class T, class OfTet, class OfFacet>
 Array cell_array(std::string name, std::size_t tet_count, std::size_t facet_count, OfTet of_tet, OfFacet of_facet) {
@@ -121,7 +123,8 @@ Grid make_grid(const std::vector<Vec3>& vertices, const std::vector<Tetrahedron>
     const std::size_t vertex_count = vertices.size(), boundary_count = surface.vertices.size();
     const std::size_t tet_count = tets.size(), facet_count = surface.facets.size();
     require_sizes(boundary_count <= vertex_count && arrays.boundary_id.size() == boundary_count &&
-                  arrays.neighbour.size() == facet_count && surface.patch.size() == facet_count);
+                  arrays.neighbour.size() == facet_count && surface.patch.size() == facet_count &&
+                  surface.facet_key.size() == facet_count);
     constexpr std::uint8_t vtk_triangle = 5, vtk_tetra = 10;
     const auto none = [](std::size_t) { return -1; };
     const auto part = [part = arrays.part](std::size_t) { return part; };
@@ -133,11 +136,14 @@ Grid make_grid(const std::vector<Vec3>& vertices, const std::vector<Tetrahedron>
         computed_array<std::int64_t>("GlobalVertexId", vertex_count, [boundary_count, &arrays](std::size_t v) {
             return v < boundary_count ? arrays.boundary_id[v] : static_cast<std::int64_t>(v - boundary_count);
         })};
-    grid.cell_data().arrays = {cell_array<std::int32_t>("Part", tet_count, facet_count, part, part),
-                               cell_array<std::int32_t>("Patch", tet_count, facet_count, none,
-                                                        [&](std::size_t f) { return surface.patch[f]; }),
-                               cell_array<std::int32_t>("Neighbour", tet_count, facet_count, none,
-                                                        [&](std::size_t f) { return arrays.neighbour[f]; })};
+    grid.cell_data().arrays = {
+        cell_array<std::int32_t>("Part", tet_count, facet_count, part, part),
+        cell_array<std::int32_t>("Patch", tet_count, facet_count, none,
+                                 [&](std::size_t f) { return surface.patch[f]; }),
+        cell_array<std::int32_t>("Facet", tet_count, facet_count, none,
+                                 [&](std::size_t f) { return input_facet(surface.facet_key[f]); }),
+        cell_array<std::int32_t>("Neighbour", tet_count, facet_count, none,
+                                 [&](std::size_t f) { return arrays.neighbour[f]; })};
     grid.points().arrays = {point_array(vertices)};
     grid.cells().arrays = {connectivity_array(tets, surface.facets),
                            cell_array<std::int64_t>(

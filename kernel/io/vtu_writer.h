@@ -22,13 +22,12 @@ struct PartArrays {
 
 /// Writes DIR/parts/part_XXXX.vtu: the tetrahedra, then the boundary triangles.
 ///
-/// Point array GlobalVertexId (Int64). Cell arrays Part, Patch, Neighbour (Int32), MinDihedralAngle, MaxDihedralAngle,
-/// RadiusEdgeRatio, AspectRatio, Shape (Float32); a boundary triangle carries the quality of the tetrahedron behind it,
-/// NaN if there is none; a tetrahedron has Patch and Neighbour -1. Field data PatchNames (String) and
-/// BoundaryVertexCount (Int32). Interior vertices are numbered from 0 until number_interior_vertices() is called,
-/// because their numbers depend on the other parts.
-/// `quality`: see tet_qualities(); `tet_at_facet`: see tets_at_facets(). The bytes depend on the arguments alone.
-/// Throws Error(io).
+/// Point array GlobalVertexId (Int64). Cell arrays Part, Patch, Facet (of the input), Neighbour (Int32),
+/// MinDihedralAngle, MaxDihedralAngle, RadiusEdgeRatio, AspectRatio, Shape (Float32); a boundary triangle carries the
+/// quality of the tetrahedron behind it, NaN if there is none; a tetrahedron has Patch, Facet and Neighbour -1. Field
+/// data PatchNames (String) and BoundaryVertexCount (Int32). Interior vertices are numbered from 0 until
+/// number_interior_vertices() is called, because their numbers depend on the other parts. `quality`: see
+/// tet_qualities(); `tet_at_facet`: see tets_at_facets(). The bytes depend on the arguments alone. Throws Error(io).
 void write_part(const std::string& path, const TetMesh& mesh, const SurfaceArrays& surface,
                 std::span<const TetQuality> quality, std::span<const std::int32_t> tet_at_facet,
                 const PartArrays& arrays);

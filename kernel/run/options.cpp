@@ -36,6 +36,8 @@ void RunOptions::resolve(int ranks, int cores_of_rank) {
     require(timeout_seconds >= 0, "timeout", "0 (none) or more seconds", timeout_seconds);
     require(memory_mb >= 0, "memory", "0 (unlimited) or more MB", static_cast<double>(memory_mb));
     require(attempts >= 1, "attempts", "1 or more", attempts);
+    if (decompose.facets == FacetPolicy::keep && decompose.cut.contour == ContourMethod::straight)
+        throw Error(ErrorCode::usage, "--contour straight splits facets, and --surface keep forbids it. Drop one.");
     if (mesher.max_volume == 0 && size > 0) mesher.max_volume = regular_tet_volume(size);
     decompose.cut.max_volume = decompose.cut.load.max_volume = mesher.max_volume;
 }
@@ -54,8 +56,10 @@ std::vector<OptionField> option_fields(RunOptions& o) {
          choice(cut.axis, {"auto", "x", "y", "z"}, -1)},
         {"balance", "", "What the halves of a cut have alike. Default work.",
          choice(cut.load.balance, {"nodes", "faces", "volume", "work"})},
-        {"contour", "", "How contours are found: minimum cut, or crossed edges. Default min-cut.",
-         choice(cut.contour, {"min-cut", "edges"})},
+        {"contour", "", "How contours are found: minimum cut, crossed edges, or split facets. Default min-cut.",
+         choice(cut.contour, {"min-cut", "edges", "straight"})},
+        {"surface", "", "Whether facets may be split where no contour of edges exists. Default split.",
+         choice(o.decompose.facets, {"keep", "split"})},
         {"mesher", "", "What fills the parts. Default tetgen.", choice(o.mesher.kind, {"tetgen"})},
         {"workers", "", "Mesher processes of each rank. Default: its share of the cores.", &o.workers},
         {"timeout", "", "Seconds for one attempt at one part; 0: none. Default 600.", &o.timeout_seconds},

@@ -14,8 +14,9 @@ namespace kerf {
 struct RunOptions {
     std::string input;
     std::string output;
-    std::string worker_program;                            ///< path of kerf-worker
-    DecomposeOptions decompose = {.parts = 0, .cut = {}};  ///< parts 0: ranks times workers
+    std::string worker_program;  ///< path of kerf-worker
+    DecomposeOptions decompose = {
+        .parts = 0, .facets = FacetPolicy::split, .cut = {}};  ///< parts 0: ranks times workers
     MesherOptions mesher;
     double size = 0;               ///< wanted edge length; sets mesher.max_volume unless that is given; 0: none
     std::int32_t workers = 0;      ///< processes on this rank's host; 0: its share of the cores

@@ -15,9 +15,11 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
+#include "decompose/straight_division.h"
 #include "io/run_folder.h"
 #include "io/text_file.h"
 #include "run/failed_part.h"
+#include "run/input_cover.h"
 #include "run/interface_match.h"
 #include "run/mesh_hash.h"
 #include "run/numbering.h"
@@ -39,15 +41,6 @@ double longest(Communicator& ranks, double seconds) {
     double most = 0;
     for (double s : all_gather(ranks, seconds)) most = std::max(most, s);
     return most;
-}
-
-void check_part_count(const Input& input, std::int32_t parts) {
-    const std::int64_t most = std::max<std::int64_t>(1, input.facets / min_facets_per_part);
-    if (parts > most)
-        throw Error(ErrorCode::usage,
-                    fmt::format("{} has {} facets, too few for {} parts. Use -n {} or fewer, or a finer "
-                                "surface.",
-                                input.path, input.facets, parts, most));
 }
 
 LeafRange range_of_rank(std::int32_t parts, const Communicator& ranks) {
@@ -99,16 +92,17 @@ PartReport describe_part(const Leaf& leaf, const std::vector<NodeId>& neighbours
     return part;
 }
 
-// Input facets that are a facet of no leaf or of several.
-std::int64_t count_missing_input_facets(Communicator& ranks, std::int64_t facets, const std::vector<Leaf>& leaves) {
-    std::vector<std::uint8_t> owners(static_cast<std::size_t>(facets), 0);
-    for (const Leaf& leaf : leaves)
-        for (const Key key : leaf.surface.facet_key)
-            if (key_node(key) == 0 && owners[key_index(key)] < 255) ++owners[key_index(key)];
-    std::vector<std::int32_t> total(owners.size(), 0);
-    for (const auto& of_rank : all_gather(ranks, owners))
-        for (std::size_t f = 0; f < total.size(); ++f) total[f] += of_rank[f];
-    return std::count_if(total.begin(), total.end(), [](std::int32_t n) { return n != 1; });
+// Fewer facets leave no contour of edges; fewer than a tetrahedron has make no part.
+std::int64_t least_facets(const DecomposeOptions& options) {
+    return options.facets == FacetPolicy::keep ? min_facets_per_part : 4;
+}
+
+void check_part_count(const Input& input, const DecomposeOptions& options) {
+    const std::int64_t most = std::max<std::int64_t>(1, input.facets / least_facets(options));
+    if (options.parts > most)
+        throw Error(ErrorCode::usage, fmt::format("{} has {} facets, too few for {} parts. Use -n {} or fewer, or a "
+                                                  "finer surface.",
+                                                  input.path, input.facets, options.parts, most));
 }
 
 // One rank's share of the run.
@@ -122,6 +116,7 @@ class Run {
     }
 
     void decompose_surface();
+    void divide_unfinished();
     void join_interfaces();
     void mesh_parts();
     void number_interiors();
@@ -135,6 +130,7 @@ class Run {
         if (listener_->cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
         listener_->on_progress(stage, done, total);
     }
+    CutListener* cut_listener() const { return listener_ && listener_->wants_cuts() ? listener_ : nullptr; }
     PartJob make_job(std::size_t leaf) const;
     void keep_reproducer(const Leaf& leaf, const PartReport& part) const;
     void verify();
@@ -156,17 +152,34 @@ void Run::decompose_surface() {
     const DecomposeOptions& options = report_.options.decompose;
     own_ = in_agreement(ranks_, [&] {
         progress("decompose", 0, 1);
-        CutListener* cuts = listener_ && listener_->wants_cuts() ? listener_ : nullptr;
-        return decompose(std::move(input_.surface), options, range_of_rank(options.parts, ranks_), cuts);
+        return decompose(std::move(input_.surface), options, range_of_rank(options.parts, ranks_), cut_listener());
     });
+    if (options.facets == FacetPolicy::split) divide_unfinished();
+    report_.split_facets = static_cast<std::int64_t>(own_.divided_facets.size());
     report_.seconds.decompose = longest(ranks_, stopwatch.seconds());
+}
+
+// Parts without a contour of edges need all others beside them, because split facets may be theirs too.
+void Run::divide_unfinished() {
+    const auto is_unfinished = [](const Leaf& leaf) { return leaf.leaves > 1; };
+    const bool own = std::any_of(own_.leaves.begin(), own_.leaves.end(), is_unfinished);
+    const std::vector<char> ranks = all_gather(ranks_, static_cast<char>(own));
+    if (std::none_of(ranks.begin(), ranks.end(), [](char any) { return any; })) return;
+    Decomposition whole;
+    whole.nodes = gather_nodes(ranks_, own_.nodes);
+    for (std::vector<Leaf>& leaves : all_gather(ranks_, own_.leaves))
+        std::move(leaves.begin(), leaves.end(), std::back_inserter(whole.leaves));
+    const DecomposeOptions& options = report_.options.decompose;
+    own_ = in_agreement(ranks_, [&] {
+        return divide_straight(std::move(whole), options, range_of_rank(options.parts, ranks_), cut_listener());
+    });
 }
 
 void Run::join_interfaces() {
     report_.nodes = gather_nodes(ranks_, own_.nodes);
     const InterfaceTable table(ranks_, own_.leaves);
     report_.verification.unmatched_interface_faces = table.unmatched();
-    report_.verification.input_faces_missing = count_missing_input_facets(ranks_, input_.facets, own_.leaves);
+    report_.verification.input_faces_missing = count_missing_input_facets(ranks_, input_.facets, own_);
     const VertexNumbering numbering(input_.vertices, report_.nodes);
     surface_vertices_ = numbering.surface_vertices();
     for (const Leaf& leaf : own_.leaves) {
@@ -355,7 +368,7 @@ RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input&
         options.resolve(ranks.size(), cores_of_rank);
         if (listener) listener->on_progress("read", 0, 1);
         input = read_input(options.input);
-        check_part_count(input, options.decompose.parts);
+        check_part_count(input, options.decompose);
     });
     const double read_seconds = longest(ranks, whole.seconds());
     const bool volume = options.volume;

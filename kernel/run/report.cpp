@@ -76,7 +76,7 @@ Json options_json(RunOptions options) {
 
 Json cut_json(const TreeNode& node) {
     return {{"plane", {{"point", to_json(node.plane.origin)}, {"normal", to_json(node.plane.normal)}}},
-            {"method", node.method == ContourMethod::min_cut ? "min-cut" : "edges"},
+            {"method", name(node.method)},
             {"rung", name(node.rung)},
             {"tries", node.tries},
             {"loops", node.loops},
@@ -140,6 +140,7 @@ Json totals_json(const RunReport& report) {
             {"tets", report.tets},
             {"volume", volume},
             {"interface_area", interface_area},
+            {"split_facets", report.split_facets},
             {"read_seconds", report.seconds.read},
             {"decompose_seconds", report.seconds.decompose},
             {"mesh_seconds", report.seconds.mesh},
@@ -166,7 +167,7 @@ std::string grouped(std::int64_t n) {
 }
 
 std::string rungs_text(const std::vector<TreeNode>& nodes) {
-    std::vector<int> counts(6, 0);
+    std::vector<int> counts(static_cast<std::size_t>(Rung::whole) + 1, 0);
     int cuts = 0;
     for (const TreeNode& node : nodes)
         if (node.cut_tried) {

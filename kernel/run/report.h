@@ -57,6 +57,7 @@ struct RunReport {
     std::vector<TreeNode> nodes;    ///< ascending by number
     std::vector<PartReport> parts;  ///< in the order of the tree
     RunVerification verification;
+    std::int64_t split_facets = 0;  ///< facets of the input that straight cuts have split
     StageSeconds seconds;
     std::int64_t vertices = 0;  ///< distinct, of the whole mesh
     std::int64_t tets = 0;

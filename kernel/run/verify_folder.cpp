@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <span>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@
 #include "io/vtu_reader.h"
 #include "mesh/adjacency.h"
 #include "run/oriented_triangle.h"
-#include "surface/mass_properties.h"
+#include "surface/facet_cover.h"
 
 namespace kerf {
 
@@ -29,6 +30,13 @@ struct PlacedVertex {
 struct InterfaceFacet {
     NamedTriangle vertices;  // oriented as in the part with the smaller number
     std::int32_t part, neighbour;
+};
+
+// A boundary triangle that lies on a facet of the input: the facet itself, or a piece of it.
+struct InputPiece {
+    std::int32_t facet;
+    NamedTriangle vertices;
+    bool operator<(const InputPiece& o) const { return std::tie(facet, vertices) < std::tie(o.facet, o.vertices); }
 };
 
 nlohmann::json read_report(const std::string& folder) {
@@ -63,6 +71,7 @@ class FolderVerifier {
     void check_interfaces();
     void check_numbering();
     void check_input();
+    bool is_facet(const Surface& input, std::int32_t facet, std::span<const InputPiece> pieces) const;
     void summarise();
 
     std::string folder_;
@@ -71,7 +80,7 @@ class FolderVerifier {
     double volume_ = 0;
     std::vector<PlacedVertex> boundary_;                  // of all parts; after check_shared_vertices() each once
     std::vector<std::array<std::int64_t, 2>> interiors_;  // first and last + 1 number of every part
-    std::vector<NamedTriangle> input_facets_;
+    std::vector<InputPiece> pieces_;
     std::vector<InterfaceFacet> interfaces_;
 };
 
@@ -109,7 +118,7 @@ void FolderVerifier::keep_boundary(const PartFile& part) {
         const Triangle& t = part.facets[f];
         const NamedTriangle g = rotated_to_smallest({part.global_id[t[0]], part.global_id[t[1]], part.global_id[t[2]]});
         if (part.neighbour[f] < 0)
-            input_facets_.push_back(g);
+            pieces_.push_back({part.facet[f], g});
         else
             interfaces_.push_back({part.part < part.neighbour[f] ? g : reversed(g), part.part, part.neighbour[f]});
     }
@@ -157,6 +166,21 @@ void FolderVerifier::check_numbering() {
     result_.vertices = next;
 }
 
+// True if the pieces are the facet itself, or cover it with new vertices on the way.
+bool FolderVerifier::is_facet(const Surface& input, std::int32_t facet, std::span<const InputPiece> pieces) const {
+    const Triangle t = input.vertices(facet);
+    if (pieces.size() == 1) return pieces[0].vertices == rotated_to_smallest({t[0], t[1], t[2]});
+    std::vector<std::array<Vec3, 3>> corners;
+    for (const InputPiece& piece : pieces) {
+        std::array<Vec3, 3>& corner = corners.emplace_back();
+        for (std::size_t i = 0; i < 3; ++i)
+            corner[i] = std::lower_bound(boundary_.begin(), boundary_.end(), piece.vertices[i],
+                                         [](const PlacedVertex& v, std::int64_t id) { return v.id < id; })
+                            ->point;
+    }
+    return covers({input.point(t[0]), input.point(t[1]), input.point(t[2])}, corners);
+}
+
 // The facets that are no interface must be those of the input, each once, at the same coordinates.
 void FolderVerifier::check_input() {
     const std::string path = report_.at("input").at("path");
@@ -167,21 +191,15 @@ void FolderVerifier::check_input() {
         result_.notes.push_back(fmt::format("The facets were not compared with the input: {}", e.what()));
         return;
     }
-    std::vector<NamedTriangle> wanted;
+    std::sort(pieces_.begin(), pieces_.end());
+    auto next = std::find_if(pieces_.begin(), pieces_.end(), [](const InputPiece& p) { return p.facet >= 0; });
+    result_.laws.extra_boundary_faces += next - pieces_.begin();
     for (std::int32_t f = 0; f < input.surface.facet_count(); ++f) {
-        const Triangle t = input.surface.vertices(f);
-        wanted.push_back(rotated_to_smallest({t[0], t[1], t[2]}));
+        const auto first = next;
+        while (next != pieces_.end() && next->facet == f) ++next;
+        result_.laws.input_faces_missing += !is_facet(input.surface, f, {first, next});
     }
-    std::sort(wanted.begin(), wanted.end());
-    std::sort(input_facets_.begin(), input_facets_.end());
-    std::vector<NamedTriangle> differing;
-    std::set_difference(wanted.begin(), wanted.end(), input_facets_.begin(), input_facets_.end(),
-                        std::back_inserter(differing));
-    result_.laws.input_faces_missing += static_cast<std::int64_t>(differing.size());
-    differing.clear();
-    std::set_difference(input_facets_.begin(), input_facets_.end(), wanted.begin(), wanted.end(),
-                        std::back_inserter(differing));
-    result_.laws.extra_boundary_faces += static_cast<std::int64_t>(differing.size());
+    result_.laws.extra_boundary_faces += pieces_.end() - next;
     for (const PlacedVertex& v : boundary_)
         if (v.id < input.vertices)
             result_.moved_vertices += input.surface.point(static_cast<std::int32_t>(v.id)) != v.point;

@@ -74,8 +74,13 @@ TEST_F(BadInput, SelfIntersectingSurface) {
 TEST_F(BadInput, ZeroParts) { expect_refused(good_, 2, {"--parts is 0", "1 or more"}, {"-n", "0"}); }
 TEST_F(BadInput, NegativeParts) { expect_refused(good_, 2, {"--parts is -3", "1 or more"}, {"-n", "-3"}); }
 TEST_F(BadInput, TooManyParts) {
+    expect_refused(good_, 2, {"3786 facets", "-n 946"}, {"-n", "947"});
     const std::int32_t most = 3786 / min_facets_per_part;
-    expect_refused(good_, 2, {"3786 facets", "-n " + std::to_string(most)}, {"-n", std::to_string(most + 1)});
+    expect_refused(good_, 2, {"3786 facets", "-n " + std::to_string(most)},
+                   {"-n", std::to_string(most + 1), "--surface", "keep"});
+}
+TEST_F(BadInput, StraightContourThatKeepsTheSurface) {
+    expect_refused(good_, 2, {"--contour straight", "--surface keep"}, {"--contour", "straight", "--surface", "keep"});
 }
 TEST_F(BadInput, PartsNoNumber) { expect_refused(good_, 2, {"--parts", "many"}, {"-n", "many"}); }
 TEST_F(BadInput, UnknownOption) { expect_refused(good_, 2, {"--frobnicate"}, {"--frobnicate"}); }

@@ -182,8 +182,9 @@ TEST(RunLaws, EveryDamageIsFound) {
     expect_found("not positive", [](auto& parts) { std::swap(parts[1].mesh.tets[0][0], parts[1].mesh.tets[0][1]); });
     expect_found("not the boundary", [](auto& parts) { parts[1].mesh.tets.pop_back(); });
     expect_found("not the enclosed", [](auto& parts) { parts[2].mesh.tets.pop_back(); });
-    expect_found("once in the input", [](auto& parts) { parts[0].facets.erase(parts[0].facets.begin()); });
-    expect_found("once in the input", [](auto& parts) { parts[0].patch[0] = 77; });
+    expect_found("once in the input", [](auto& parts) { parts[0].neighbour[0] = 77; });
+    expect_found("without a facet of the input", [](auto& parts) { parts[0].patch[0] = 77; });
+    expect_found("without a facet of the input", [](auto& parts) { parts[0].facet[0] = 1 << 30; });
     expect_found("other side", [&](auto& parts) { parts[0].neighbour[first_interface_facet(parts[0])] = 77; });
     expect_found("other side", [&](auto& parts) {
         Triangle& t = parts[0].facets[first_interface_facet(parts[0])];

@@ -95,7 +95,7 @@ TEST(OptionFields, ChoicesReachTheirValues) {
     EXPECT_EQ(options.decompose.cut.axis, 2);
     EXPECT_EQ(options.decompose.cut.criterion, Criterion::equidistant);
     EXPECT_EQ(options.decompose.cut.load.balance, Balance::work);
-    EXPECT_EQ(options.decompose.cut.contour, ContourMethod::edges);
+    EXPECT_EQ(options.decompose.cut.contour, ContourMethod::straight);
 }
 
 }  // namespace

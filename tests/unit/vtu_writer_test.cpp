@@ -54,6 +54,7 @@ Part random_part(unsigned seed) {
     for (std::int32_t f = 0; f < facets; ++f) {
         part.surface.facets.push_back({number(boundary), number(boundary), number(boundary)});
         part.surface.patch.push_back(number(4) - 1);
+        part.surface.facet_key.push_back(make_key(number(3), number(1000)));
         part.arrays.neighbour.push_back(number(20) - 1);
         part.tet_at_facet.push_back(number(tets + 1) - 1);
     }
@@ -80,6 +81,10 @@ void expect_surface(const PartFile& file, const Part& part) {
     EXPECT_EQ(file.facets, part.surface.facets);
     EXPECT_EQ(file.patch, part.surface.patch);
     EXPECT_EQ(file.neighbour, part.arrays.neighbour);
+    for (std::size_t f = 0; f < file.facet.size(); ++f) {
+        const Key key = part.surface.facet_key[f];
+        EXPECT_EQ(file.facet[f], key_node(key) == 0 ? key_index(key) : -1);
+    }
     EXPECT_EQ(file.part, part.arrays.part);
     EXPECT_EQ(file.patch_names, part.arrays.patch_names);
     EXPECT_EQ(file.mesh.boundary_vertex_count, part.mesh.boundary_vertex_count);
@@ -214,7 +219,7 @@ TEST_F(VtuWriter, PvtuNamesItsPiecesAndTheArraysOfThePieces) {
     int shared = 0;
     for (const VtuHeader::Array& array : header.arrays)
         shared += pvtu.find("type=\"" + array.type + "\" Name=\"" + array.name + "\"") != pvtu.npos;
-    EXPECT_EQ(shared, 10);  // GlobalVertexId, 3 tags, 5 measures, Points
+    EXPECT_EQ(shared, 11);  // GlobalVertexId, 4 tags, 5 measures, Points
 }
 
 TEST_F(VtuWriter, AFullDiskIsAnErrorThatNamesTheFile) {

@@ -1,0 +1,44 @@
+// Facets divided where a coordinate plane crosses them.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "cut/cut.h"
+
+namespace kerf {
+
+/// One triangle after some of its edges got a vertex.
+struct TrianglePieces {
+    std::array<Triangle, 3> pieces;
+    int count = 0;
+};
+
+/// The triangles that replace `t` if its edge from corner i to corner i + 1 gets the vertex on_edge[i]; -1 leaves an
+/// edge as it is, and at most two edges may be divided. The quadrilateral that two divided edges leave is halved along
+/// the diagonal with the larger smallest angle, so the answer depends on the coordinates, and on the numbers only where
+/// the angles are equal. Orientation is kept.
+TrianglePieces split_triangle(const Triangle& t, const std::array<std::int32_t, 3>& on_edge,
+                              const std::vector<Vec3>& vertices);
+
+/// An edge with a new vertex between its ends.
+struct SplitEdge {
+    std::int32_t below, above;  ///< ends
+    std::int32_t vertex;        ///< new
+};
+
+/// A closed surface whose facets do not cross a coordinate plane: they end there.
+struct PlaneSplit {
+    SurfaceArrays arrays;              ///< the surface's vertices, then the new ones with the keys (node, 0, 1, ...)
+    std::vector<SplitEdge> edges;      ///< ascending by new vertex
+    std::vector<std::int32_t> parent;  ///< #F of `arrays`: facet of the surface, ascending
+    std::vector<Side> side;            ///< #F of `arrays`
+};
+
+/// Splits the facets that cross the plane x[axis] = height. Every crossed edge gets one new vertex, computed once from
+/// its lower to its higher end; x[axis] of it is `height` exactly. Children keep key and patch of their facet.
+/// Returns nothing if a vertex lies on the plane, or two new vertices fall together. Exact decisions. O(#F).
+std::optional<PlaneSplit> split_at_plane(const Surface& surface, int axis, double height, NodeId node);
+
+}  // namespace kerf

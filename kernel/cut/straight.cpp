@@ -1,0 +1,200 @@
+// Vertices are never moved to the plane: that folds strips of long triangles over. The plane moves instead, into a gap
+// between the coordinates of the vertices. The surface touches the plane in the contour alone, and the interface lies
+// in it exactly, so the two cannot meet elsewhere; only the children of split facets are rounded and need a check.
+#include "cut/straight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include <Eigen/Geometry>
+
+#include "cut/contour.h"
+#include "cut/triangulation.h"
+#include "surface/intersections.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr std::size_t max_planes = 12;
+constexpr double wide_gap = 0.02;           // of the extent: wider gaps are no better
+constexpr double load_weight = 0.5;         // of the distance from the wanted load, per half window
+constexpr double crossing_weight = 2;       // of the share of facets that are split
+constexpr double equidistant_window = 0.1;  // of the extent, on either side
+
+// A coordinate plane whose in-plane coordinates are coordinates of space, without rounding.
+Plane coordinate_plane(int axis, double height) {
+    Plane plane;
+    plane.origin = height * Vec3::Unit(axis);
+    plane.normal = Vec3::Unit(axis);
+    plane.u = Vec3::Unit((axis + 1) % 3);
+    plane.v = Vec3::Unit((axis + 2) % 3);
+    return plane;
+}
+
+std::vector<double> sorted_coordinates(const Surface& surface, int axis) {
+    std::vector<double> x(surface.vertex_count());
+    for (std::int32_t v = 0; v < surface.vertex_count(); ++v) x[v] = surface.point(v)[axis];
+    std::sort(x.begin(), x.end());
+    x.erase(std::unique(x.begin(), x.end()), x.end());
+    return x;
+}
+
+// How many facets a plane across one axis crosses.
+class CrossingCount {
+ public:
+    CrossingCount(const Surface& surface, int axis) {
+        for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
+            const Triangle t = surface.vertices(f);
+            const auto [low, high] =
+                std::minmax({surface.point(t[0])[axis], surface.point(t[1])[axis], surface.point(t[2])[axis]});
+            low_.push_back(low);
+            high_.push_back(high);
+        }
+        std::sort(low_.begin(), low_.end());
+        std::sort(high_.begin(), high_.end());
+    }
+    double share(double height) const {
+        const auto begun = std::lower_bound(low_.begin(), low_.end(), height) - low_.begin();
+        const auto ended = std::lower_bound(high_.begin(), high_.end(), height) - high_.begin();
+        return static_cast<double>(begun - ended) / static_cast<double>(low_.size());
+    }
+
+ private:
+    std::vector<double> low_, high_;  // each sorted by itself
+};
+
+struct Window {
+    double low, wanted, high;
+};
+
+Window load_window(const Surface& surface, int axis, double fraction, const CutOptions& options) {
+    const LoadProfile profile(surface, coordinate_plane(axis, 0), options.bisected_load());
+    if (options.criterion == Criterion::equidistant) {
+        const double extent = profile.highest() - profile.lowest();
+        const double wanted = profile.lowest() + fraction * extent;
+        return {wanted - equidistant_window * extent, wanted, wanted + equidistant_window * extent};
+    }
+    return {profile.bisect(std::max(0.0, fraction - options.load_window)), profile.bisect(fraction),
+            profile.bisect(std::min(1.0, fraction + options.load_window))};
+}
+
+struct RatedPlane {
+    double score;
+    StraightPlane plane;
+    bool operator<(const RatedPlane& o) const {
+        return std::tie(o.score, plane.axis, plane.height) < std::tie(score, o.plane.axis, o.plane.height);
+    }
+};
+
+void rate_planes(const Surface& surface, int axis, double largest_extent, double fraction, const CutOptions& options,
+                 std::vector<RatedPlane>& rated) {
+    const std::vector<double> x = sorted_coordinates(surface, axis);
+    const double extent = x.back() - x.front();
+    if (extent == 0) return;
+    const Window window = load_window(surface, axis, fraction, options);
+    const CrossingCount crossing(surface, axis);
+    const double half_window = std::max(window.high - window.low, wide_gap * extent) / 2;
+    for (std::size_t i = 1; i < x.size(); ++i) {
+        if (x[i] < window.low || x[i - 1] > window.high) continue;
+        const double margin = std::min(x[i] - x[i - 1], wide_gap * extent) / 2;
+        const double height = std::clamp(window.wanted, x[i - 1] + margin, x[i] - margin);
+        if (!(x[i - 1] < height && height < x[i])) continue;  // neighbouring numbers
+        const double score = 2 * margin / (wide_gap * extent) -
+                             load_weight * std::abs(height - window.wanted) / half_window -
+                             crossing_weight * crossing.share(height) - (1 - extent / largest_extent);
+        rated.push_back({score, {axis, height}});
+    }
+}
+
+std::vector<SurfaceEdge> contour_of(const Surface& parent, const PlaneSplit& split) {
+    std::vector<SurfaceEdge> edges;
+    for (std::int32_t f = 0; f < parent.facet_count(); ++f) {
+        if (split.side[f] != Side::below) continue;
+        for (const std::int32_t h : parent.half_edges(f))
+            if (split.side[parent.facet_of(Surface::opposite(h))] == Side::above)
+                edges.push_back({parent.from_vertex(h), parent.to_vertex(h)});
+    }
+    return edges;
+}
+
+// Spans the loops in the plane; the refusal of the triangulation.
+Refusal span_plane(const Surface& parent, Cut& cut) {
+    PlanarRegion region;
+    region.refined = false;
+    Interface& interface = cut.interface;
+    for (const auto& loop : cut.loops) {
+        const auto first = static_cast<std::int32_t>(interface.contour.size());
+        const auto n = static_cast<std::int32_t>(loop.size());
+        for (std::int32_t i = 0; i < n; ++i) {
+            interface.contour.push_back(loop[i]);
+            interface.points.push_back(parent.point(loop[i]));
+            region.contour.push_back(cut.plane.project(parent.point(loop[i])));
+            region.edges.push_back({first + (i + 1) % n, first + i});
+        }
+    }
+    PlanarTriangulation planar = triangulate(region);
+    interface.planar = std::move(planar.points);
+    interface.triangles = std::move(planar.triangles);
+    for (const Triangle& t : interface.triangles) {
+        const Vec2 &a = interface.planar[t[0]], &b = interface.planar[t[1]], &c = interface.planar[t[2]];
+        cut.section_area += ((b - a).x() * (c - a).y() - (b - a).y() * (c - a).x()) / 2;
+    }
+    cut.interface_area = cut.section_area;
+    return planar.refusal;
+}
+
+Refusal try_plane(const Surface& surface, const StraightPlane& plane, StraightCut& result) {
+    Cut& cut = result.cut;
+    cut.plane = coordinate_plane(plane.axis, plane.height);
+    std::optional<PlaneSplit> split = split_at_plane(surface, plane.axis, plane.height, cut.node);
+    if (!split) return Refusal::coincident_vertices;
+    result.split = std::move(*split);
+    const SurfaceArrays& arrays = result.split.arrays;
+    if (!find_self_intersections(arrays.vertices, arrays.facets, 1).empty()) return Refusal::intersection;
+    result.parent = Surface(SurfaceArrays(arrays));
+    const std::vector<SurfaceEdge> edges = contour_of(result.parent, result.split);
+    if (edges.empty()) return Refusal::empty_side;
+    cut.loops = trace_loops(result.parent, edges).loops;
+    return span_plane(result.parent, cut);
+}
+
+}  // namespace
+
+std::vector<StraightPlane> straight_planes(const Surface& surface, double fraction, const CutOptions& options) {
+    Eigen::AlignedBox3d box;
+    for (std::int32_t v = 0; v < surface.vertex_count(); ++v) box.extend(surface.point(v));
+    std::vector<RatedPlane> rated;
+    for (int axis = 0; axis < 3; ++axis)
+        if (options.axis < 0 || options.axis == axis)
+            rate_planes(surface, axis, box.sizes().maxCoeff(), fraction, options, rated);
+    const auto kept = rated.begin() + static_cast<std::ptrdiff_t>(std::min(max_planes, rated.size()));
+    std::partial_sort(rated.begin(), kept, rated.end());
+    std::vector<StraightPlane> planes;
+    for (auto it = rated.begin(); it != kept; ++it) planes.push_back(it->plane);
+    return planes;
+}
+
+std::optional<StraightCut> cut_straight(const Surface& surface, NodeId node, double fraction, const CutOptions& options,
+                                        std::vector<CutTry>& tries) {
+    std::int32_t step = 0;
+    for (const StraightPlane& plane : straight_planes(surface, fraction, options)) {
+        StraightCut result;
+        result.cut.node = node;
+        CutTry record;
+        record.refusal = try_plane(surface, plane, result);
+        record.plane = result.cut.plane;
+        record.axis = plane.axis;
+        record.step = step++;
+        tries.push_back(record);
+        if (record.refusal != Refusal::none) continue;
+        result.cut.rung = Rung::straight;
+        result.cut.method = ContourMethod::straight;
+        describe_contour(result.parent, result.cut);
+        return result;
+    }
+    return std::nullopt;
+}
+
+}  // namespace kerf

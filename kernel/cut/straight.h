@@ -1,0 +1,38 @@
+// The straight cut: facets are split where they cross a coordinate plane. The rung for surfaces without a contour of
+// edges, such as those of CAD programs whose triangles are as long as the part.
+#pragma once
+
+#include <optional>
+
+#include "cut/facet_split.h"
+#include "cut/options.h"
+#include "surface/mass_properties.h"
+
+namespace kerf {
+
+/// The plane x[axis] = height.
+struct StraightPlane {
+    int axis = 0;
+    double height = 0;
+};
+
+/// Planes for a straight cut, best first, at most twelve. Each runs through a gap between the vertices' coordinates
+/// inside of the load window: wide gaps are preferred, for short new edges are what harms, then planes near the wanted
+/// load, planes that cross few facets and the long directions of the body. Coordinate axes only, so that every decision
+/// about the plane is exact. O(#F log #F).
+std::vector<StraightPlane> straight_planes(const Surface& surface, double fraction, const CutOptions& options);
+
+/// A straight cut that was made.
+struct StraightCut {
+    PlaneSplit split;  ///< the parent with its facets split at the plane
+    Surface parent;    ///< the same as a surface
+    Cut cut;           ///< vertices, facets and sides are those of `parent`; rung and tries are set
+};
+
+/// Cuts along the first of straight_planes() that gives simple closed contours with the section inside and children
+/// free of self-intersections (exact). The interface lies in the plane and has no interior points yet: it is
+/// triangulated finely after the last cut that crosses it. Nothing if every plane was refused; `tries` tells why.
+std::optional<StraightCut> cut_straight(const Surface& surface, NodeId node, double fraction, const CutOptions& options,
+                                        std::vector<CutTry>& tries);
+
+}  // namespace kerf

@@ -1,0 +1,197 @@
+// A part's surface is read out of the complex, cut by itself, and the result is written back: the pieces of a split
+// facet take its place, so that both owners of an interface facet hold the same pieces. Faces of other parts that only
+// share a crossed edge get the same vertex on it.
+#include "decompose/face_complex.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+namespace kerf {
+
+namespace {
+
+// A vertex or facet of one leaf; sorted, equal keys come together.
+struct KeyedItem {
+    Key key;
+    std::int32_t leaf, index;
+    bool operator<(const KeyedItem& o) const { return std::tie(key, leaf, index) < std::tie(o.key, o.leaf, o.index); }
+};
+
+template <class KeysOf>
+std::vector<KeyedItem> sorted_items(const std::vector<Leaf>& leaves, KeysOf keys_of) {
+    std::vector<KeyedItem> items;
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+        const std::vector<Key>& keys = keys_of(leaves[i].surface);
+        for (std::size_t j = 0; j < keys.size(); ++j)
+            items.push_back({keys[j], static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)});
+    }
+    std::sort(items.begin(), items.end());
+    return items;
+}
+
+using UndirectedEdge = std::array<std::int32_t, 2>;
+
+UndirectedEdge undirected(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
+
+Triangle turned(const Triangle& t) { return {t[0], t[2], t[1]}; }
+
+}  // namespace
+
+FaceComplex::FaceComplex(const std::vector<Leaf>& leaves) {
+    std::vector<std::vector<std::int32_t>> number(leaves.size());
+    for (std::size_t i = 0; i < leaves.size(); ++i) number[i].resize(leaves[i].surface.vertices.size());
+    for (const KeyedItem& v : sorted_items(
+             leaves, [](const SurfaceArrays& s) -> auto& { return s.vertex_key; })) {
+        if (vertex_key_.empty() || vertex_key_.back() != v.key) {
+            points_.push_back(leaves[v.leaf].surface.vertices[v.index]);
+            vertex_key_.push_back(v.key);
+        }
+        number[v.leaf][v.index] = static_cast<std::int32_t>(vertex_key_.size()) - 1;
+    }
+    is_new_.assign(points_.size(), 0);
+    for (const KeyedItem& f : sorted_items(
+             leaves, [](const SurfaceArrays& s) -> auto& { return s.facet_key; })) {
+        const Leaf& leaf = leaves[f.leaf];
+        if (!faces_.empty() && faces_.back().key == f.key) {
+            faces_.back().owner[1] = leaf.id;
+            continue;
+        }
+        const Triangle& t = leaf.surface.facets[f.index];
+        faces_.push_back({{number[f.leaf][t[0]], number[f.leaf][t[1]], number[f.leaf][t[2]]},
+                          {leaf.id, 0},
+                          f.key,
+                          leaf.surface.patch[f.index]});
+    }
+}
+
+FaceComplex::Part FaceComplex::part(NodeId id) const {
+    Part part;
+    std::vector<std::int32_t> number(points_.size(), -1);
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+        const ComplexFace& face = faces_[f];
+        if (!face.bounds(id)) continue;
+        Triangle t = face.owner[0] == id ? face.corners : turned(face.corners);
+        for (std::int32_t& v : t) {
+            if (number[v] < 0) {
+                number[v] = static_cast<std::int32_t>(part.vertex.size());
+                part.vertex.push_back(v);
+                part.arrays.vertices.push_back(points_[v]);
+                part.arrays.vertex_key.push_back(vertex_key_[v]);
+            }
+            v = number[v];
+        }
+        part.arrays.facets.push_back(t);
+        part.arrays.facet_key.push_back(face.key);
+        part.arrays.patch.push_back(face.patch);
+        part.face.push_back(static_cast<std::int32_t>(f));
+    }
+    return part;
+}
+
+std::int32_t FaceComplex::add_point(const Vec3& point, NodeId cut) {
+    const std::int32_t vertex = vertex_count();
+    points_.push_back(point);
+    vertex_key_.push_back(make_key(cut, vertex));  // until assign_keys()
+    is_new_.push_back(1);
+    return vertex;
+}
+
+void FaceComplex::note_division(const ComplexFace& face) {
+    if (face.divided || face.cap != 0 || key_node(face.key) != 0) return;
+    const Triangle& t = face.corners;
+    divided_facets_.push_back({key_index(face.key), {points_[t[0]], points_[t[1]], points_[t[2]]}});
+}
+
+void FaceComplex::divide(NodeId id, const Part& whole, const StraightCut& cut) {
+    const PlaneSplit& split = cut.split;
+    std::vector<std::int32_t> vertex = whole.vertex;
+    for (std::size_t i = vertex.size(); i < split.arrays.vertices.size(); ++i)
+        vertex.push_back(add_point(split.arrays.vertices[i], id));
+    std::vector<SplitEdge> edges;
+    for (const SplitEdge& e : split.edges) edges.push_back({vertex[e.below], vertex[e.above], vertex[e.vertex]});
+    split_others(id, std::move(edges));
+
+    for (std::size_t i = 0, end = 0; i < split.parent.size(); i = end) {
+        while (end < split.parent.size() && split.parent[end] == split.parent[i]) ++end;
+        ComplexFace face = faces_[whole.face[split.parent[i]]];
+        const std::size_t own = face.owner[0] == id ? 0 : 1;
+        if (end - i > 1) {
+            note_division(face);
+            face.divided = true;
+        }
+        for (std::size_t piece = i; piece < end; ++piece) {
+            const Triangle& t = split.arrays.facets[piece];
+            face.corners = {vertex[t[0]], vertex[t[1]], vertex[t[2]]};
+            if (own == 1) face.corners = turned(face.corners);
+            face.owner[own] = 2 * id + (split.side[piece] == Side::above ? 1 : 0);
+            if (piece == i)
+                faces_[whole.face[split.parent[i]]] = face;
+            else
+                faces_.push_back(face);
+        }
+    }
+    planes_.emplace_back(id, cut.cut.plane);
+    const Interface& cap = cut.cut.interface;
+    for (const Triangle& t : cap.triangles) {
+        const auto corner = [&](int i) { return vertex[cap.contour[t[i]]]; };
+        faces_.push_back({{corner(0), corner(1), corner(2)}, {2 * id, 2 * id + 1}, make_key(id, 0), -1, id});
+    }
+}
+
+void FaceComplex::split_others(NodeId id, std::vector<SplitEdge> edges) {
+    const auto ends = [](const SplitEdge& e) { return undirected(e.below, e.above); };
+    std::sort(edges.begin(), edges.end(), [&](auto& a, auto& b) { return ends(a) < ends(b); });
+    std::vector<char> touched(points_.size(), 0);
+    for (const SplitEdge& e : edges) touched[e.below] = touched[e.above] = 1;
+    const auto vertex_on = [&](std::int32_t a, std::int32_t b) {
+        if (!touched[a] || !touched[b]) return -1;
+        const auto it = std::lower_bound(edges.begin(), edges.end(), undirected(a, b),
+                                         [&](const SplitEdge& e, const UndirectedEdge& key) { return ends(e) < key; });
+        return it != edges.end() && ends(*it) == undirected(a, b) ? it->vertex : -1;
+    };
+    for (std::size_t f = 0, count = faces_.size(); f < count; ++f) {
+        if (faces_[f].bounds(id)) continue;
+        ComplexFace face = faces_[f];
+        const Triangle t = face.corners;
+        const TrianglePieces pieces =
+            split_triangle(t, {vertex_on(t[0], t[1]), vertex_on(t[1], t[2]), vertex_on(t[2], t[0])}, points_);
+        if (pieces.count == 1) continue;
+        note_division(face);
+        face.divided = true;
+        for (int i = 0; i < pieces.count; ++i) {
+            face.corners = pieces.pieces[i];
+            if (i == 0)
+                faces_[f] = face;
+            else
+                faces_.push_back(face);
+        }
+    }
+}
+
+const Plane& FaceComplex::plane(NodeId cut) const {
+    return std::find_if(planes_.begin(), planes_.end(), [&](const auto& p) { return p.first == cut; })->second;
+}
+
+void FaceComplex::replace_caps(const std::vector<ComplexFace>& caps) {
+    std::erase_if(faces_, [](const ComplexFace& face) { return face.cap != 0; });
+    faces_.insert(faces_.end(), caps.begin(), caps.end());
+}
+
+std::vector<std::pair<NodeId, std::int32_t>> FaceComplex::assign_keys() {
+    std::map<NodeId, std::int32_t> vertices, caps;
+    std::vector<char> used(points_.size(), 0);
+    for (ComplexFace& face : faces_) {
+        for (std::int32_t v : face.corners) used[v] = 1;
+        if (face.cap != 0) face.key = make_key(face.cap, caps[face.cap]++);
+    }
+    for (std::size_t v = 0; v < points_.size(); ++v)
+        if (is_new_[v] && used[v]) {
+            const NodeId cut = key_node(vertex_key_[v]);
+            vertex_key_[v] = make_key(cut, vertices[cut]++);
+        }
+    return {vertices.begin(), vertices.end()};
+}
+
+}  // namespace kerf

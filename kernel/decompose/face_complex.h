@@ -1,0 +1,71 @@
+// All facets of a decomposition in one place, each once, so that a straight cut can split those of the neighbours too.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "cut/straight.h"
+#include "decompose/decomposition.h"
+
+namespace kerf {
+
+/// A facet and the parts that it bounds.
+struct ComplexFace {
+    Triangle corners;                      ///< counter-clockwise seen from outside of owner[0]
+    std::array<NodeId, 2> owner = {0, 0};  ///< owner[1] is 0 for facets of the input
+    Key key = 0;                           ///< as in SurfaceArrays
+    std::int32_t patch = -1;
+    NodeId cap = 0;        ///< the straight cut in whose plane it lies, owner[0] below; 0: none
+    bool divided = false;  ///< a piece of a facet that was split
+
+    bool bounds(NodeId part) const { return owner[0] == part || owner[1] == part; }
+};
+
+/// The faces of a decomposition. Vertices and faces keep their numbers when parts are divided; new ones follow.
+class FaceComplex {
+ public:
+    /// Joins the closed surfaces of all parts by the keys of vertices and facets. O(n log n).
+    explicit FaceComplex(const std::vector<Leaf>& leaves);
+
+    /// The closed surface of one part, and what its vertices and facets are here.
+    struct Part {
+        SurfaceArrays arrays;
+        std::vector<std::int32_t> vertex;
+        std::vector<std::int32_t> face;
+    };
+    Part part(NodeId id) const;
+
+    /// Replaces part `id` by 2 id and 2 id + 1. `whole` is what part(id) returned, `cut` a straight cut of its surface.
+    /// Pieces of a split facet have the owners of the facet; faces of other parts that hold a crossed edge are split
+    /// too. O(#faces).
+    void divide(NodeId id, const Part& whole, const StraightCut& cut);
+
+    const Vec3& point(std::int32_t vertex) const { return points_[vertex]; }
+    std::int32_t vertex_count() const { return static_cast<std::int32_t>(points_.size()); }
+    const std::vector<ComplexFace>& faces() const { return faces_; }
+    /// The plane of a straight cut.
+    const Plane& plane(NodeId cut) const;
+    const std::vector<DividedFacet>& divided_facets() const { return divided_facets_; }
+
+    /// A new vertex, made by a straight cut.
+    std::int32_t add_point(const Vec3& point, NodeId cut);
+    /// Replaces all faces that lie in the planes of straight cuts.
+    void replace_caps(const std::vector<ComplexFace>& caps);
+
+    /// Gives the caps and the vertices of straight cuts dense keys in the order of their numbers; vertices without
+    /// faces get none. Returns the number of vertices that each straight cut made, ascending by cut.
+    std::vector<std::pair<NodeId, std::int32_t>> assign_keys();
+
+ private:
+    void split_others(NodeId id, std::vector<SplitEdge> edges);
+    void note_division(const ComplexFace& face);
+
+    std::vector<Vec3> points_;
+    std::vector<Key> vertex_key_;
+    std::vector<char> is_new_;  // per vertex: made by a straight cut
+    std::vector<ComplexFace> faces_;
+    std::vector<std::pair<NodeId, Plane>> planes_;  // in the order of the cuts
+    std::vector<DividedFacet> divided_facets_;
+};
+
+}  // namespace kerf

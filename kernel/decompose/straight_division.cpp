@@ -1,0 +1,121 @@
+// Depth first, the half below before the half above. When the turn of a part comes, cuts of others may have split its
+// facets, so it is read from the complex then and no sooner.
+#include "decompose/straight_division.h"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+
+#include "decompose/cap_quality.h"
+#include "decompose/cap_triangulation.h"
+#include "decompose/face_complex.h"
+
+namespace kerf {
+
+namespace {
+
+class StraightDivision {
+ public:
+    StraightDivision(Decomposition whole, const DecomposeOptions& options, CutListener* listener)
+        : options_(options), listener_(listener), complex_(whole.leaves) {
+        for (TreeNode& node : whole.nodes) nodes_.emplace(node.id, node);
+    }
+
+    void divide(NodeId id);
+    void finish_interfaces();
+    Decomposition take(LeafRange range);
+
+ private:
+    void add_child(NodeId id, std::int32_t first_leaf, std::int32_t leaves);
+    bool cut(TreeNode& node);
+    double load(NodeId id) const;
+
+    const DecomposeOptions& options_;
+    CutListener* listener_;
+    FaceComplex complex_;
+    std::map<NodeId, TreeNode> nodes_;
+    std::vector<NodeId> leaves_;  // in the order of the tree
+};
+
+double StraightDivision::load(NodeId id) const {
+    const SurfaceArrays part = complex_.part(id).arrays;
+    return options_.cut.bisected_load().load(static_cast<double>(part.vertices.size()),
+                                             static_cast<double>(part.facets.size()),
+                                             enclosed_volume(part.vertices, part.facets));
+}
+
+void StraightDivision::add_child(NodeId id, std::int32_t first_leaf, std::int32_t leaves) {
+    const Surface surface(complex_.part(id).arrays);
+    nodes_.emplace(id, describe_node(id, first_leaf, leaves, surface, mass_properties(surface)));
+    divide(id);
+}
+
+bool StraightDivision::cut(TreeNode& node) {
+    const auto start = std::chrono::steady_clock::now();
+    const FaceComplex::Part part = complex_.part(node.id);
+    std::vector<CutTry> tries;
+    std::optional<StraightCut> made =
+        cut_straight(Surface(part.arrays), node.id, fraction_below(node.leaves), options_.cut, tries);
+    node.cut_tried = true;
+    if (!made) return false;
+    complex_.divide(node.id, part, *made);
+    made->cut.tries = std::move(tries);
+    made->cut.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const std::int32_t tries_by_edges = node.tries;
+    const double seconds_by_edges = node.seconds;
+    describe_cut(made->cut, node);
+    node.tries += tries_by_edges;
+    node.seconds += seconds_by_edges;
+    if (listener_) listener_->on_cut(made->parent, made->cut);
+    return true;
+}
+
+void StraightDivision::divide(NodeId id) {
+    TreeNode& node = nodes_.at(id);
+    if (node.leaves == 1 || !cut(node)) {
+        leaves_.push_back(id);
+        return;
+    }
+    const std::int32_t below = leaves_below({load(2 * id), load(2 * id + 1)}, node.leaves, options_.cut);
+    add_child(2 * id, node.first_leaf, below);
+    add_child(2 * id + 1, node.first_leaf + below, node.leaves - below);
+}
+
+void StraightDivision::finish_interfaces() {
+    triangulate_caps(complex_, options_.cut.max_interface_edge());
+    for (const auto& [id, vertices] : complex_.assign_keys()) nodes_.at(id).interface_vertices = vertices;
+    for (const auto& [id, cap] : measure_caps(complex_)) {
+        nodes_.at(id).interface_faces = cap.faces;
+        nodes_.at(id).quality = cap.quality;
+    }
+}
+
+Decomposition StraightDivision::take(LeafRange range) {
+    Decomposition result;
+    for (const auto& [id, node] : nodes_) result.nodes.push_back(node);
+    for (const NodeId id : leaves_) {
+        const TreeNode& node = nodes_.at(id);
+        if (!range.contains(node.first_leaf)) continue;
+        result.leaves.push_back({id, node.first_leaf, node.leaves, 0, complex_.part(id).arrays});
+        Leaf& leaf = result.leaves.back();
+        leaf.volume = enclosed_volume(leaf.surface.vertices, leaf.surface.facets);
+    }
+    result.divided_facets = complex_.divided_facets();
+    std::sort(result.divided_facets.begin(), result.divided_facets.end(),
+              [](const DividedFacet& a, const DividedFacet& b) { return a.facet < b.facet; });
+    return result;
+}
+
+}  // namespace
+
+Decomposition divide_straight(Decomposition whole, const DecomposeOptions& options, LeafRange range,
+                              CutListener* listener) {
+    std::vector<NodeId> leaves;
+    for (const Leaf& leaf : whole.leaves) leaves.push_back(leaf.id);
+    StraightDivision division(std::move(whole), options, listener);
+    for (const NodeId leaf : leaves) division.divide(leaf);
+    division.finish_interfaces();
+    return division.take(range);
+}
+
+}  // namespace kerf

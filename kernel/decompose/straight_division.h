@@ -1,0 +1,17 @@
+// The rung after all others: parts without a contour of edges are divided by straight cuts.
+#pragma once
+
+#include "decompose/decomposition.h"
+
+namespace kerf {
+
+/// Divides every leaf that wants more than one part by straight cuts, recursively, and returns the leaves of `range`.
+///
+/// `whole` holds all nodes and leaves of decompose(). A straight cut splits facets, and those of interfaces belong to
+/// two parts, so the parts are not independent here: every rank does all of it, on one complex of faces, in the order
+/// of the tree. Interfaces are triangulated after the last cut. The result depends on `whole` and the options only.
+/// A part that no plane divides stays whole. O(n) per cut, n: facets of all parts.
+Decomposition divide_straight(Decomposition whole, const DecomposeOptions& options, LeafRange range,
+                              CutListener* listener = nullptr);
+
+}  // namespace kerf

@@ -1,0 +1,45 @@
+#include "decompose/tree_node.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kerf {
+
+TreeNode describe_node(NodeId id, std::int32_t first_leaf, std::int32_t leaves, const Surface& surface,
+                       const MassProperties& mass) {
+    TreeNode node;
+    node.id = id;
+    node.first_leaf = first_leaf;
+    node.leaves = leaves;
+    node.vertices = surface.vertex_count();
+    node.facets = surface.facet_count();
+    node.mass = mass;
+    return node;
+}
+
+void describe_cut(const Cut& cut, TreeNode& node) {
+    node.cut_tried = true;
+    node.cut_made = cut.made();
+    node.plane = cut.plane;
+    node.method = cut.method;
+    node.rung = cut.rung;
+    node.tries = static_cast<std::int32_t>(cut.tries.size());
+    node.loops = static_cast<std::int32_t>(cut.loops.size());
+    node.contour_edges = cut.contour_edges;
+    node.contour_length = cut.contour_length;
+    node.max_deviation = cut.max_deviation;
+    node.section_area = cut.section_area;
+    node.interface_area = cut.interface_area;
+    node.interface_faces = static_cast<std::int32_t>(cut.interface.triangles.size());
+    node.interface_vertices = static_cast<std::int32_t>(cut.interface.points.size() - cut.interface.contour.size());
+    node.quality = cut.quality;
+    node.seconds = cut.seconds;
+}
+
+std::int32_t leaves_below(const std::array<double, 2>& load, std::int32_t leaves, const CutOptions& options) {
+    if (options.criterion == Criterion::equidistant) return leaves / 2;
+    const auto share = static_cast<std::int32_t>(std::lround(leaves * load[0] / (load[0] + load[1])));
+    return std::clamp(share, 1, leaves - 1);
+}
+
+}  // namespace kerf

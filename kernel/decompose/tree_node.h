@@ -1,0 +1,53 @@
+// A node of the tree of a decomposition, without its surface.
+#pragma once
+
+#include "cut/bisect.h"
+
+namespace kerf {
+
+/// What is kept of a node of the tree once it has been cut.
+struct TreeNode {
+    NodeId id = 1;
+    std::int32_t first_leaf = 0;  ///< of the leaves below it, in the order of the tree
+    std::int32_t leaves = 1;      ///< wanted below it
+    std::int32_t vertices = 0;
+    std::int32_t facets = 0;
+    MassProperties mass;
+    bool cut_made = false;
+    bool cut_tried = false;
+    Plane plane;
+    ContourMethod method = ContourMethod::min_cut;
+    Rung rung = Rung::whole;
+    std::int32_t tries = 0;
+    std::int32_t loops = 0;
+    std::int64_t contour_edges = 0;
+    double contour_length = 0, max_deviation = 0, section_area = 0, interface_area = 0;
+    std::int32_t interface_faces = 0;
+    std::int32_t interface_vertices = 0;  ///< interior ones, which this cut added
+    InterfaceQuality quality;
+    double seconds = 0;  ///< wall clock of the cut; goes into the report only
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(id, first_leaf, leaves, vertices, facets, mass.volume, mass.area, mass.centroid);
+        for (int i = 0; i < 9; ++i) a(mass.inertia.data()[i], mass.axes.data()[i]);
+        a(mass.eigenvalues, cut_made, cut_tried, plane, method, rung, tries, loops, contour_edges, contour_length,
+          max_deviation, section_area, interface_area, interface_faces, interface_vertices, quality, seconds);
+    }
+};
+
+/// A node before it is cut.
+TreeNode describe_node(NodeId id, std::int32_t first_leaf, std::int32_t leaves, const Surface& surface,
+                       const MassProperties& mass);
+
+/// Fills what a cut, made or not, tells of its node.
+void describe_cut(const Cut& cut, TreeNode& node);
+
+/// How many of `leaves` the half below gets: in proportion to the loads of the halves, at least one each. Equidistant
+/// cuts know no load and give it one half.
+std::int32_t leaves_below(const std::array<double, 2>& load, std::int32_t leaves, const CutOptions& options);
+
+/// The share of the load that a node with this many leaves leaves below its cut.
+inline double fraction_below(std::int32_t leaves) { return static_cast<double>(leaves / 2) / leaves; }
+
+}  // namespace kerf

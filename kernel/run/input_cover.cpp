@@ -1,0 +1,68 @@
+#include "run/input_cover.h"
+
+#include <algorithm>
+
+#include "surface/facet_cover.h"
+
+namespace kerf {
+
+namespace {
+
+struct Piece {
+    std::int32_t facet;
+    std::array<Vec3, 3> corners;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(facet, corners[0], corners[1], corners[2]);
+    }
+};
+
+// Pieces of all leaves, by facet.
+std::vector<Piece> gather_pieces(Communicator& ranks, const std::vector<char>& divided,
+                                 const std::vector<Leaf>& leaves) {
+    std::vector<Piece> own;
+    for (const Leaf& leaf : leaves)
+        for (std::size_t f = 0; f < leaf.surface.facets.size(); ++f) {
+            const Key key = leaf.surface.facet_key[f];
+            if (key_node(key) != 0 || !divided[key_index(key)]) continue;
+            const Triangle& t = leaf.surface.facets[f];
+            const std::vector<Vec3>& p = leaf.surface.vertices;
+            own.push_back({key_index(key), {p[t[0]], p[t[1]], p[t[2]]}});
+        }
+    std::vector<Piece> all;
+    for (const auto& of_rank : all_gather(ranks, own)) all.insert(all.end(), of_rank.begin(), of_rank.end());
+    std::stable_sort(all.begin(), all.end(), [](const Piece& a, const Piece& b) { return a.facet < b.facet; });
+    return all;
+}
+
+std::int64_t count_uncovered(const std::vector<DividedFacet>& facets, const std::vector<Piece>& pieces) {
+    std::int64_t uncovered = 0;
+    std::size_t next = 0;
+    for (const DividedFacet& facet : facets) {
+        std::vector<std::array<Vec3, 3>> corners;
+        for (; next < pieces.size() && pieces[next].facet == facet.facet; ++next)
+            corners.push_back(pieces[next].corners);
+        uncovered += !covers(facet.corners, corners);
+    }
+    return uncovered;
+}
+
+}  // namespace
+
+std::int64_t count_missing_input_facets(Communicator& ranks, std::int64_t facets, const Decomposition& own) {
+    std::vector<char> divided(static_cast<std::size_t>(facets), 0);
+    for (const DividedFacet& facet : own.divided_facets) divided[facet.facet] = 1;
+    std::vector<std::uint8_t> owners(static_cast<std::size_t>(facets), 0);
+    for (const Leaf& leaf : own.leaves)
+        for (const Key key : leaf.surface.facet_key)
+            if (key_node(key) == 0 && owners[key_index(key)] < 255) ++owners[key_index(key)];
+    std::vector<std::int32_t> total(owners.size(), 0);
+    for (const auto& of_rank : all_gather(ranks, owners))
+        for (std::size_t f = 0; f < total.size(); ++f) total[f] += of_rank[f];
+    std::int64_t missing = 0;
+    for (std::size_t f = 0; f < total.size(); ++f) missing += !divided[f] && total[f] != 1;
+    return missing + count_uncovered(own.divided_facets, gather_pieces(ranks, divided, own.leaves));
+}
+
+}  // namespace kerf
