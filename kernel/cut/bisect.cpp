@@ -4,6 +4,7 @@
 #include "cut/bisect.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <memory>
 
@@ -20,9 +21,17 @@ namespace kerf {
 
 namespace {
 
+constexpr double least_softness = 0.02;         // worse cuts make tetrahedra that are of no use
 constexpr std::int32_t planes_before_soft = 3;  // tried before a soft cut is good enough
 constexpr std::int32_t soft_rounds = 6;         // of local repair of a valid cut
 constexpr int max_raises = 4;                   // of the penalties, until the contour moves
+
+// Bound of the steps of all minimum cuts of a node: well-shaped surfaces rarely need a hundredth of it, slivers would
+// take minutes. It halves from level to level, so that the levels together take no more than twice the first.
+std::int64_t flow_step_budget(NodeId node, std::int32_t facets) {
+    const int level = std::bit_width(static_cast<std::uint32_t>(node)) - 1;
+    return 5'000'000 + (3'000 * static_cast<std::int64_t>(facets) >> level);
+}
 
 // All that one try produced.
 struct Attempt {
@@ -61,12 +70,13 @@ double softness(const InterfaceQuality& quality, const CutOptions& options) {
 class PlaneTrial {
  public:
     PlaneTrial(const Surface& surface, const PlaneCandidate& candidate, NodeId node, const CutOptions& options,
-               bool record)
+               bool record, std::int64_t& step_budget)
         : surface_(surface),
           candidate_(candidate),
           node_(node),
           options_(options),
           record_(record),
+          step_budget_(step_budget),
           band_(make_band(surface, candidate.plane)),
           penalty_(band_.facets.size(), 1),
           hits_(surface.vertex_count(), 0) {}
@@ -80,7 +90,7 @@ class PlaneTrial {
 
  private:
     void refuse(Attempt& attempt, Refusal refusal, std::vector<std::int32_t> vertices) const;
-    bool label_facets(Attempt& attempt) const;
+    bool label_facets(Attempt& attempt);
     bool find_contour(Attempt& attempt);
     void span_interface(Attempt& attempt) const;
     void raise_penalty();
@@ -90,6 +100,7 @@ class PlaneTrial {
     NodeId node_;
     const CutOptions& options_;
     bool record_;
+    std::int64_t& step_budget_;  // of the minimum cuts of all planes
     Band band_;
     std::vector<double> penalty_;          // per band facet
     std::vector<std::int32_t> hits_;       // per vertex
@@ -107,13 +118,14 @@ void PlaneTrial::refuse(Attempt& attempt, Refusal refusal, std::vector<std::int3
 }
 
 // False if the minimum cut was not found.
-bool PlaneTrial::label_facets(Attempt& attempt) const {
+bool PlaneTrial::label_facets(Attempt& attempt) {
     attempt.side = majority_labels(surface_, band_);
     if (record_) {
         attempt.stages.crossed_edges = crossed_edges(surface_, band_);
         attempt.stages.hanging_edges_removed = contour_edges(surface_, band_, attempt.side);
     }
-    if (options_.contour == ContourMethod::min_cut && !minimum_cut_labels(surface_, band_, penalty_, attempt.side))
+    if (options_.contour == ContourMethod::min_cut &&
+        !minimum_cut_labels(surface_, band_, penalty_, attempt.side, step_budget_))
         return false;
     clean_labels(surface_, band_, attempt.side, record_ ? &attempt.stages : nullptr);
     return true;
@@ -213,7 +225,13 @@ class Ladder {
  public:
     Ladder(const Surface& surface, const MassProperties& mass, NodeId node, double fraction, const CutOptions& options,
            bool record)
-        : surface_(surface), mass_(mass), node_(node), fraction_(fraction), options_(options), record_(record) {}
+        : surface_(surface),
+          mass_(mass),
+          node_(node),
+          fraction_(fraction),
+          options_(options),
+          record_(record),
+          step_budget_(flow_step_budget(node, surface.facet_count())) {}
 
     // The accepted attempt, or none. All tries are appended to `tries`.
     std::unique_ptr<Attempt> climb(std::vector<CutTry>& tries);
@@ -228,12 +246,13 @@ class Ladder {
     double fraction_;
     const CutOptions& options_;
     bool record_;
+    std::int64_t step_budget_;
     std::unique_ptr<Attempt> best_;
-    double best_softness_ = 0;
+    double best_softness_ = least_softness;
 };
 
 bool Ladder::try_plane(const PlaneCandidate& candidate, std::vector<CutTry>& tries) {
-    PlaneTrial trial(surface_, candidate, node_, options_, record_);
+    PlaneTrial trial(surface_, candidate, node_, options_, record_, step_budget_);
     const std::int32_t rounds = options_.contour == ContourMethod::min_cut ? options_.repairs : 0;
     for (std::int32_t repair = 0, soft = 0; repair <= rounds && soft < soft_rounds; ++repair) {
         auto attempt = std::make_unique<Attempt>(trial.attempt(repair));
@@ -269,7 +288,7 @@ std::unique_ptr<Attempt> Ladder::climb(std::vector<CutTry>& tries) {
                                                     fraction_, options_);
             for (const PlaneCandidate& candidate : candidates[axis]) {
                 if (candidate.inside_load_window != inside) continue;
-                if (best_ && planes >= planes_before_soft) return std::move(best_);
+                if (step_budget_ <= 0 || (best_ && planes >= planes_before_soft)) return std::move(best_);
                 ++planes;
                 if (try_plane(candidate, tries)) return std::move(best_);
             }

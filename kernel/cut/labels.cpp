@@ -42,7 +42,7 @@ std::vector<Side> majority_labels(const Surface& surface, const Band& band) {
 }
 
 bool minimum_cut_labels(const Surface& surface, const Band& band, const std::vector<double>& penalty,
-                        std::vector<Side>& side) {
+                        std::vector<Side>& side, std::int64_t& step_budget) {
     const auto count = static_cast<std::int32_t>(band.facets.size());
     const double h = band.edge_length;
     std::vector<FacetTerms> terms(count);
@@ -69,7 +69,9 @@ bool minimum_cut_labels(const Surface& surface, const Band& band, const std::vec
                                   side[neighbour] == Side::below ? 0 : weight);
         }
     }
-    if (!flow.solve(steps_per_facet * count)) return false;
+    const bool solved = flow.solve(std::min(step_budget, steps_per_facet * count));
+    step_budget -= flow.steps();
+    if (!solved) return false;
     for (std::int32_t i = 0; i < count; ++i) side[band.facets[i]] = flow.on_sink_side(i) ? Side::above : Side::below;
     return true;
 }

@@ -101,6 +101,7 @@ double MaxFlow::bottleneck_to_terminal(std::int32_t node, double flow) const {
 void MaxFlow::push_to_terminal(std::int32_t node, double flow) {
     const bool source = tree_[node] == Tree::source;
     while (parent_[node] != terminal_parent) {
+        steps_ += 2;  // the bottleneck was searched on the same path
         const std::int32_t up = parent_[node];
         const std::int32_t along = source ? up ^ 1 : up;
         const std::int32_t next = arcs_[up].head;

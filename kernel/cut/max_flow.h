@@ -19,6 +19,8 @@ class MaxFlow {
 
     /// False if more than `step_limit` arcs had to be looked at; the labels are then meaningless.
     bool solve(std::int64_t step_limit);
+    /// Arcs that solve() has looked at.
+    std::int64_t steps() const { return steps_; }
     /// After solve(): true if the node is on the sink's side of the minimum cut (free nodes count to the source).
     bool on_sink_side(std::int32_t node) const { return tree_[node] == Tree::sink; }
 

@@ -2,6 +2,7 @@
 #include "cut/contour.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
@@ -54,7 +55,8 @@ class Contours : public testing::TestWithParam<std::string> {
     }
     std::vector<Side> minimum_cut(const Band& band) const {
         std::vector<Side> side = majority_labels(surface_, band);
-        EXPECT_TRUE(minimum_cut_labels(surface_, band, std::vector<double>(band.facets.size(), 1), side));
+        std::int64_t unlimited = std::numeric_limits<std::int64_t>::max();
+        EXPECT_TRUE(minimum_cut_labels(surface_, band, std::vector<double>(band.facets.size(), 1), side, unlimited));
         return side;
     }
 
@@ -162,7 +164,14 @@ TEST_P(Contours, PenaltyPushesTheContourAway) {
         return count;
     };
     const std::int64_t before = expensive_edges();
-    ASSERT_TRUE(minimum_cut_labels(surface_, band, penalty, side));
+    std::int64_t budget = std::numeric_limits<std::int64_t>::max();
+    ASSERT_TRUE(minimum_cut_labels(surface_, band, penalty, side, budget));
+    EXPECT_LT(budget, std::numeric_limits<std::int64_t>::max());
+    std::int64_t none = 3;
+    const std::vector<Side> before = side;
+    EXPECT_FALSE(minimum_cut_labels(surface_, band, penalty, side, none));
+    EXPECT_LE(none, 0);
+    EXPECT_EQ(side, before);
     EXPECT_LT(expensive_edges(), before);
 }
 
