@@ -168,10 +168,10 @@ TEST_P(Contours, PenaltyPushesTheContourAway) {
     ASSERT_TRUE(minimum_cut_labels(surface_, band, penalty, side, budget));
     EXPECT_LT(budget, std::numeric_limits<std::int64_t>::max());
     std::int64_t none = 3;
-    const std::vector<Side> before = side;
+    const std::vector<Side> labels = side;
     EXPECT_FALSE(minimum_cut_labels(surface_, band, penalty, side, none));
     EXPECT_LE(none, 0);
-    EXPECT_EQ(side, before);
+    EXPECT_EQ(side, labels);
     EXPECT_LT(expensive_edges(), before);
 }
 
