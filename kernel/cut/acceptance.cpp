@@ -105,14 +105,11 @@ InterfaceJudge::InterfaceJudge(const Surface& surface, const Band& band, const I
 void InterfaceJudge::find_slab_facets() {
     const double low = *std::min_element(low_.begin(), low_.end());
     const double high = *std::max_element(high_.begin(), high_.end());
-    for (std::int32_t f = 0; f < surface_.facet_count(); ++f) {
-        const Triangle t = surface_.vertices(f);
-        const auto [f_low, f_high] = std::minmax({band_.distance[t[0]], band_.distance[t[1]], band_.distance[t[2]]});
-        if (f_low > high || f_high < low) continue;
+    band_.for_each_facet_between(surface_, low, high, [&](std::int32_t f, double f_low, double f_high) {
         SlabFacet facet{f, {}, f_low, f_high};
-        for (std::int32_t v : t) facet.box.extend(band_.plane.project(surface_.point(v)));
+        for (std::int32_t v : surface_.vertices(f)) facet.box.extend(band_.plane.project(surface_.point(v)));
         slab_.push_back(facet);
-    }
+    });
 }
 
 std::int32_t InterfaceJudge::find_half_edge(std::int32_t from, std::int32_t to) const {

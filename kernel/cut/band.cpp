@@ -54,6 +54,7 @@ Band make_band(const Surface& surface, const Plane& plane) {
     band.plane = plane;
     band.distance = vertex_distances(surface, plane);
     band.edge_length = mean_crossing_length(surface, band.distance);
+    band.half_width = width * band.edge_length;
     band.index_of.assign(surface.facet_count(), -1);
     for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
         const auto half_edges = surface.half_edges(f);
@@ -64,6 +65,8 @@ Band make_band(const Surface& surface, const Plane& plane) {
             high = std::max(high, d);
             sum += d;
         }
+        if (low > band.half_width || high < -band.half_width) continue;
+        band.slab_facets.push_back(f);
         const bool meets_plane = low <= 0 && high >= 0;
         if (!meets_plane && std::abs(sum) >= 3 * width * band.edge_length) continue;
         band.index_of[f] = static_cast<std::int32_t>(band.facets.size());

@@ -78,6 +78,7 @@ class PlaneTrial {
           record_(record),
           step_budget_(step_budget),
           band_(make_band(surface, candidate.plane)),
+          majority_(majority_labels(surface, band_)),
           penalty_(band_.facets.size(), 1),
           hits_(surface.vertex_count(), 0) {}
 
@@ -102,6 +103,7 @@ class PlaneTrial {
     bool record_;
     std::int64_t& step_budget_;  // of the minimum cuts of all planes
     Band band_;
+    std::vector<Side> majority_;           // labels that every round starts from
     std::vector<double> penalty_;          // per band facet
     std::vector<std::int32_t> hits_;       // per vertex
     std::vector<std::size_t> bad_facets_;  // of the band, around the places of the last failure
@@ -119,7 +121,7 @@ void PlaneTrial::refuse(Attempt& attempt, Refusal refusal, std::vector<std::int3
 
 // False if the minimum cut was not found.
 bool PlaneTrial::label_facets(Attempt& attempt) {
-    attempt.side = majority_labels(surface_, band_);
+    attempt.side = majority_;
     if (record_) {
         attempt.stages.crossed_edges = crossed_edges(surface_, band_);
         attempt.stages.hanging_edges_removed = contour_edges(surface_, band_, attempt.side);
@@ -169,11 +171,12 @@ void PlaneTrial::complete(Attempt& attempt) const {
         attempt.record.refusal = refusal;
         attempt.record.places = {place};
     };
-    std::array<SurfaceArrays, 2> arrays = split(surface_, attempt.side, attempt.interface, node_);
-    for (std::size_t i = 0; i < arrays.size() && attempt.valid(); ++i) {
-        auto built = Surface::build(std::move(arrays[i]));
+    std::array<Half, 2> halves = split(surface_, attempt.side, attempt.interface, node_);
+    for (std::size_t i = 0; i < halves.size() && attempt.valid(); ++i) {
+        SurfaceArrays& arrays = halves[i].arrays;
+        auto built = Surface::build(std::move(arrays), std::move(halves[i].partner));
         if (const auto* defect = std::get_if<ManifoldDefect>(&built)) {
-            refuse_half(Refusal::not_manifold, arrays[i].vertices[defect->vertices.front()]);
+            refuse_half(Refusal::not_manifold, arrays.vertices[defect->vertices.front()]);
             continue;
         }
         attempt.halves[i] = std::move(std::get<Surface>(built));
@@ -279,20 +282,18 @@ bool Ladder::try_plane(const PlaneCandidate& candidate, std::vector<CutTry>& tri
 
 std::unique_ptr<Attempt> Ladder::climb(std::vector<CutTry>& tries) {
     const std::vector<Vec3> directions = cut_directions(surface_, mass_, options_);
-    std::vector<std::vector<PlaneCandidate>> candidates(directions.size());
+    std::vector<PlaneSequence> sequences;
+    for (std::size_t axis = 0; axis < directions.size(); ++axis)
+        sequences.emplace_back(surface_, mass_, directions[axis], static_cast<std::int32_t>(axis), fraction_, options_);
     std::int32_t planes = 0;
     for (const bool inside : {true, false})
-        for (std::size_t axis = 0; axis < directions.size(); ++axis) {
-            if (candidates[axis].empty())
-                candidates[axis] = plane_candidates(surface_, mass_, directions[axis], static_cast<std::int32_t>(axis),
-                                                    fraction_, options_);
-            for (const PlaneCandidate& candidate : candidates[axis]) {
-                if (candidate.inside_load_window != inside) continue;
+        for (PlaneSequence& sequence : sequences)
+            for (std::size_t i = 0; const PlaneCandidate* candidate = sequence.at(i); ++i) {
+                if (candidate->inside_load_window != inside) continue;
                 if (step_budget_ <= 0 || (best_ && planes >= planes_before_soft)) return std::move(best_);
                 ++planes;
-                if (try_plane(candidate, tries)) return std::move(best_);
+                if (try_plane(*candidate, tries)) return std::move(best_);
             }
-        }
     return std::move(best_);
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <Eigen/Geometry>
 
@@ -82,6 +83,28 @@ double LoadProfile::load_below(std::span<const Item> items, const Below& below, 
 
 double LoadProfile::fraction_below(double height) const { return load_below(items_, {}, height) / total_; }
 
+void LoadProfile::settle(double low, double high, std::vector<Item>& open, Below& below) {
+    std::size_t kept = 0;
+    for (const Item& item : open) {
+        if (item.high <= low)
+            below.add(item);
+        else if (item.low < high)
+            open[kept++] = item;
+    }
+    open.resize(kept);
+}
+
+std::vector<double> LoadProfile::fractions_below(const std::vector<double>& heights) const {
+    std::vector<double> fractions;
+    if (heights.empty()) return fractions;
+    const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+    std::vector<Item> open = items_;
+    Below below;
+    settle(*low, std::nextafter(*high, INFINITY), open, below);  // vertices at the highest height lie below it
+    for (const double height : heights) fractions.push_back(load_below(open, below, height) / total_);
+    return fractions;
+}
+
 // Items that fall out of the bracket are settled, so the work halves with every step.
 double LoadProfile::bisect(double fraction) const {
     std::vector<Item> open = items_;
@@ -90,14 +113,7 @@ double LoadProfile::bisect(double fraction) const {
     for (int i = 0; i < 40 && high - low > 1e-9 * (highest_ - lowest_); ++i) {
         const double middle = (low + high) / 2;
         (load_below(open, below, middle) < fraction * total_ ? low : high) = middle;
-        std::size_t kept = 0;
-        for (const Item& item : open) {
-            if (item.high <= low)
-                below.add(item);
-            else if (item.low < high)
-                open[kept++] = item;
-        }
-        open.resize(kept);
+        settle(low, high, open, below);
     }
     return (low + high) / 2;
 }

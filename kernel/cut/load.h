@@ -31,6 +31,8 @@ class LoadProfile {
 
     /// Fraction of the whole load below the given height. O(#V + #F).
     double fraction_below(double height) const;
+    /// The same for many heights. O(#V + #F + n m) with m facets between the lowest and the highest of n heights.
+    std::vector<double> fractions_below(const std::vector<double>& heights) const;
     /// Height below which the given fraction of the load lies. Expected O(#V + #F).
     double bisect(double fraction) const;
     double lowest() const { return lowest_; }
@@ -51,6 +53,9 @@ class LoadProfile {
         void add(const Item& item);
     };
     double load_below(std::span<const Item> items, const Below& below, double height) const;
+    // Drops from `open` what matters to no height between the two: what lies above, and what lies below, which is added
+    // to `below`.
+    static void settle(double low, double high, std::vector<Item>& open, Below& below);
 
     LoadModel model_;
     std::vector<Item> items_;

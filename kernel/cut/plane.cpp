@@ -33,22 +33,34 @@ std::vector<Vec3> cut_directions(const Surface& surface, const MassProperties& m
     return {Vec3::Unit(order[0]), Vec3::Unit(order[1]), Vec3::Unit(order[2])};
 }
 
-std::vector<PlaneCandidate> plane_candidates(const Surface& surface, const MassProperties& mass, const Vec3& direction,
-                                             std::int32_t axis, double fraction, const CutOptions& options) {
-    const Plane through_centroid(mass.centroid, direction);
-    const LoadProfile profile(surface, through_centroid, options.bisected_load());
-    const double middle = bisecting_height(profile, fraction, options.criterion);
-    std::vector<PlaneCandidate> candidates = {{through_centroid.shifted(middle), axis, 0, true}};
-    const double h = crossing_edge_length(surface, candidates[0].plane);
-    for (std::int32_t i = 1; i <= options.plane_steps; ++i)
+const PlaneCandidate* PlaneSequence::at(std::size_t i) {
+    if (candidates_.empty()) add_bisection();
+    if (i == 1 && candidates_.size() == 1) add_steps();
+    return i < candidates_.size() ? &candidates_[i] : nullptr;
+}
+
+void PlaneSequence::add_bisection() {
+    const LoadProfile profile(surface_, through_centroid_, options_.bisected_load());
+    middle_ = bisecting_height(profile, fraction_, options_.criterion);
+    candidates_.push_back({through_centroid_.shifted(middle_), axis_, 0, true});
+}
+
+// The profile is made again: most cuts need no steps, and it would be the largest array while the halves are built.
+void PlaneSequence::add_steps() {
+    const LoadProfile profile(surface_, through_centroid_, options_.bisected_load());
+    const double h = crossing_edge_length(surface_, candidates_[0].plane);
+    std::vector<double> heights;
+    for (std::int32_t i = 1; i <= options_.plane_steps; ++i)
         for (const std::int32_t step : {i, -i}) {
-            const double height = middle + step * step_length * h * (1 + step_growth * i);
+            const double height = middle_ + step * step_length * h * (1 + step_growth * i);
             if (height <= profile.lowest() || height >= profile.highest()) continue;
-            const bool inside = options.criterion == Criterion::equidistant ||
-                                std::abs(profile.fraction_below(height) - fraction) <= options.load_window;
-            candidates.push_back({through_centroid.shifted(height), axis, step, inside});
+            heights.push_back(height);
+            candidates_.push_back({through_centroid_.shifted(height), axis_, step, true});
         }
-    return candidates;
+    if (options_.criterion == Criterion::equidistant) return;
+    const std::vector<double> below = profile.fractions_below(heights);
+    for (std::size_t i = 0; i < below.size(); ++i)
+        candidates_[i + 1].inside_load_window = std::abs(below[i] - fraction_) <= options_.load_window;
 }
 
 }  // namespace kerf

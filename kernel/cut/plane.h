@@ -19,9 +19,34 @@ struct PlaneCandidate {
 /// With a fixed axis there is only that one.
 std::vector<Vec3> cut_directions(const Surface& surface, const MassProperties& mass, const CutOptions& options);
 
-/// The plane that leaves `fraction` of the load (of the extent for equidistant cuts) below, then steps to both sides.
-/// Steps are 0.6 crossing edges and grow by 15 % each. O(#V + #F) for the bisection and for every step.
-std::vector<PlaneCandidate> plane_candidates(const Surface& surface, const MassProperties& mass, const Vec3& direction,
-                                             std::int32_t axis, double fraction, const CutOptions& options);
+/// The planes across one direction: first the one that leaves `fraction` of the load (of the extent for equidistant
+/// cuts) below, then steps to both sides. Steps are 0.6 crossing edges and grow by 15 % each. The surface, mass and
+/// options must outlive it.
+class PlaneSequence {
+ public:
+    /// O(1); the planes are made when they are asked for.
+    PlaneSequence(const Surface& surface, const MassProperties& mass, const Vec3& direction, std::int32_t axis,
+                  double fraction, const CutOptions& options)
+        : surface_(surface),
+          options_(options),
+          through_centroid_(mass.centroid, direction),
+          axis_(axis),
+          fraction_(fraction) {}
+
+    /// The i-th plane, or none beyond the last. O(#V + #F) for the first and for the second, which makes all steps.
+    const PlaneCandidate* at(std::size_t i);
+
+ private:
+    void add_bisection();
+    void add_steps();
+
+    const Surface& surface_;
+    const CutOptions& options_;
+    Plane through_centroid_;
+    std::int32_t axis_;
+    double fraction_;
+    double middle_ = 0;  // height of the bisection
+    std::vector<PlaneCandidate> candidates_;
+};
 
 }  // namespace kerf

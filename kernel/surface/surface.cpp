@@ -1,9 +1,10 @@
-// Half-edges from facets by counting sort: the three half-edges of every facet are bucketed by their smaller end
-// vertex, and within a bucket (six entries on average) those with the same larger end are partners. No hashing, so the
-// order of edges, and with it everything that follows, depends on the input alone.
+// Half-edges from facets by counting sort: the half-edges of every facet whose partners are not known yet are bucketed
+// by their smaller end vertex, and within a bucket (six entries on average) those with the same larger end are
+// partners. No hashing, so the order of edges, and with it everything that follows, depends on the input alone.
 #include "surface/surface.h"
 
 #include <algorithm>
+#include <numeric>
 #include <span>
 
 #include "core/error.h"
@@ -25,20 +26,30 @@ struct CornerBuckets {
     std::vector<Corner> corners;
 };
 
-CornerBuckets bucket_corners(std::size_t vertex_count, const std::vector<Triangle>& facets) {
+// Calls visit(corner, smaller end vertex, larger end vertex) for the corners without a partner, ascending.
+template <class Visit>
+void for_each_open_corner(const std::vector<Triangle>& facets, const std::vector<std::int32_t>& partner, Visit visit) {
+    for (std::size_t c = 0; c < partner.size(); ++c) {
+        if (partner[c] >= 0) continue;
+        const Triangle& t = facets[c / 3];
+        const auto [low, high] = std::minmax(t[c % 3], t[(c + 1) % 3]);
+        visit(static_cast<std::int32_t>(c), low, high);
+    }
+}
+
+CornerBuckets bucket_corners(std::size_t vertex_count, const std::vector<Triangle>& facets,
+                             const std::vector<std::int32_t>& partner) {
     CornerBuckets buckets;
     buckets.first.assign(vertex_count + 1, 0);
-    for (const Triangle& t : facets)
-        for (int i = 0; i < 3; ++i) ++buckets.first[std::min(t[i], t[(i + 1) % 3]) + 1];
+    for_each_open_corner(facets, partner,
+                         [&](std::int32_t, std::int32_t low, std::int32_t) { ++buckets.first[low + 1]; });
     for (std::size_t v = 0; v < vertex_count; ++v) buckets.first[v + 1] += buckets.first[v];
 
-    buckets.corners.resize(3 * facets.size());
+    buckets.corners.resize(buckets.first.back());
     std::vector<std::int32_t> end(buckets.first.begin(), buckets.first.end() - 1);
-    for (std::size_t f = 0; f < facets.size(); ++f)
-        for (int i = 0; i < 3; ++i) {
-            const auto [low, high] = std::minmax(facets[f][i], facets[f][(i + 1) % 3]);
-            buckets.corners[end[low]++] = {high, static_cast<std::int32_t>(3 * f + i)};
-        }
+    for_each_open_corner(facets, partner, [&](std::int32_t corner, std::int32_t low, std::int32_t high) {
+        buckets.corners[end[low]++] = {high, corner};
+    });
     for (std::size_t v = 0; v < vertex_count; ++v) {
         // Corners arrive in ascending order, so a stable sort by the far end suffices.
         const auto begin = buckets.corners.begin() + buckets.first[v];
@@ -74,31 +85,30 @@ ManifoldDefect edge_defect(ManifoldDefect::Kind kind, std::int32_t low, std::spa
     return defect;
 }
 
+enum class VertexCheck : char {
+    none,
+    fan,   // the facets around the vertex have to be one fan
+    open,  // an edge without partner ends here, which is a defect of its own
+};
+
 // Facets around a vertex that are joined over proper edges form one fan at a manifold vertex.
-void find_vertex_defects(std::size_t vertex_count, const std::vector<Triangle>& facets,
-                         const std::vector<std::int32_t>& partner, std::vector<ManifoldDefect>& defects) {
+void find_vertex_defects(const std::vector<Triangle>& facets, const std::vector<std::int32_t>& partner,
+                         const std::vector<VertexCheck>& check, std::vector<ManifoldDefect>& defects) {
+    const std::size_t vertex_count = check.size();
     std::vector<std::int32_t> degree(vertex_count, 0), fan_size(vertex_count, 0);
-    for (const Triangle& t : facets)
-        for (std::int32_t v : t) ++degree[v];
-    const auto corner_count = static_cast<std::int32_t>(3 * facets.size());
-    std::vector<char> irregular(vertex_count, 0);
-    for (std::int32_t c = 0; c < corner_count; ++c) {
-        const std::int32_t v = start_vertex(facets, c);
-        if (partner[c] < 0) irregular[v] = irregular[start_vertex(facets, next_corner(c))] = 1;
-    }
-    for (std::int32_t c = 0; c < corner_count; ++c) {
-        const std::int32_t v = start_vertex(facets, c);
-        if (fan_size[v] || irregular[v]) continue;
-        std::int32_t turn = c;
+    for (std::size_t c = 0; c < partner.size(); ++c) {
+        const std::int32_t v = facets[c / 3][c % 3];
+        if (check[v] != VertexCheck::fan || degree[v]++ > 0) continue;
+        auto turn = static_cast<std::int32_t>(c);
         do {
             ++fan_size[v];
             turn = next_corner(partner[turn]);
-        } while (turn != c);
+        } while (turn != static_cast<std::int32_t>(c));
     }
     std::vector<std::int32_t> slot(vertex_count, -1);
     const std::size_t first_new = defects.size();
     for (std::size_t v = 0; v < vertex_count; ++v)
-        if (!irregular[v] && fan_size[v] != degree[v]) {
+        if (fan_size[v] != degree[v]) {
             slot[v] = static_cast<std::int32_t>(defects.size());
             defects.push_back({ManifoldDefect::Kind::non_manifold_vertex, {static_cast<std::int32_t>(v)}, {}});
         }
@@ -113,23 +123,35 @@ struct Pairing {
     std::vector<ManifoldDefect> defects;
 };
 
-Pairing pair_corners(std::size_t vertex_count, const std::vector<Triangle>& facets) {
-    Pairing pairing;
-    pairing.partner.assign(3 * facets.size(), -1);
-    for_each_edge(bucket_corners(vertex_count, facets), [&](std::int32_t low, std::span<const Corner> corners) {
+// Pairs the corners that have no partner yet, and looks for defects at them.
+Pairing pair_corners(std::size_t vertex_count, const std::vector<Triangle>& facets, std::vector<std::int32_t> known) {
+    std::vector<VertexCheck> check(vertex_count, VertexCheck::none);
+    for_each_open_corner(facets, known, [&](std::int32_t, std::int32_t low, std::int32_t high) {
+        check[low] = check[high] = VertexCheck::fan;
+    });
+    Pairing pairing{std::move(known), {}};
+    const auto note_defect = [&](ManifoldDefect::Kind kind, std::int32_t low, std::span<const Corner> corners) {
+        pairing.defects.push_back(edge_defect(kind, low, corners));
+        check[low] = check[corners[0].far_end] = VertexCheck::open;
+    };
+    const CornerBuckets buckets = bucket_corners(vertex_count, facets, pairing.partner);
+    for_each_edge(buckets, [&](std::int32_t low, std::span<const Corner> corners) {
         using Kind = ManifoldDefect::Kind;
         if (corners.size() != 2) {
-            const Kind kind = corners.size() == 1 ? Kind::open_edge : Kind::non_manifold_edge;
-            pairing.defects.push_back(edge_defect(kind, low, corners));
+            note_defect(corners.size() == 1 ? Kind::open_edge : Kind::non_manifold_edge, low, corners);
         } else if (start_vertex(facets, corners[0].corner) == start_vertex(facets, corners[1].corner)) {
-            pairing.defects.push_back(edge_defect(Kind::edge_orientation, low, corners));
+            note_defect(Kind::edge_orientation, low, corners);
         } else {
             pairing.partner[corners[0].corner] = corners[1].corner;
             pairing.partner[corners[1].corner] = corners[0].corner;
         }
     });
-    find_vertex_defects(vertex_count, facets, pairing.partner, pairing.defects);
+    find_vertex_defects(facets, pairing.partner, check, pairing.defects);
     return pairing;
+}
+
+Pairing pair_corners(std::size_t vertex_count, const std::vector<Triangle>& facets) {
+    return pair_corners(vertex_count, facets, std::vector<std::int32_t>(3 * facets.size(), -1));
 }
 
 const char* name(ManifoldDefect::Kind kind) {
@@ -149,28 +171,25 @@ const char* name(ManifoldDefect::Kind kind) {
 // OpenMesh's own add_face searches for existing edges; with the partners known the connectivity is written directly.
 std::shared_ptr<const HalfEdgeMesh> build_half_edges(const std::vector<Vec3>& vertices,
                                                      const std::vector<Triangle>& facets,
-                                                     const std::vector<std::int32_t>& partner) {
+                                                     std::vector<std::int32_t> partner) {
     using Mesh = HalfEdgeMesh;
     const auto shared = std::make_shared<Mesh>();
     Mesh& mesh = *shared;
-    mesh.reserve(vertices.size(), partner.size() / 2, facets.size());
-    for (const Vec3& p : vertices) mesh.new_vertex(p);
-    std::vector<std::int32_t> half_edge(partner.size());
-    for (std::size_t c = 0; c < partner.size(); ++c) {
-        const auto corner = static_cast<std::int32_t>(c);
-        if (partner[c] < corner)
-            half_edge[c] = Surface::opposite(half_edge[partner[c]]);
-        else
-            half_edge[c] = mesh.new_edge(Mesh::VertexHandle(start_vertex(facets, corner)),
-                                         Mesh::VertexHandle(start_vertex(facets, next_corner(corner))))
-                               .idx();
-    }
+    mesh.resize(vertices.size(), partner.size() / 2, facets.size());
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+        mesh.set_point(Mesh::VertexHandle(static_cast<int>(v)), vertices[v]);
+    std::vector<std::int32_t>& half_edge = partner;  // a corner is not looked at again once its half-edge is numbered
+    std::int32_t edges = 0;
+    for (std::size_t c = 0; c < partner.size(); ++c)
+        half_edge[c] =
+            partner[c] < static_cast<std::int32_t>(c) ? Surface::opposite(half_edge[partner[c]]) : 2 * edges++;
     for (std::size_t f = 0; f < facets.size(); ++f) {
-        const Mesh::FaceHandle facet = mesh.new_face();
-        for (int i = 0; i < 3; ++i) {
-            const Mesh::HalfedgeHandle h(half_edge[3 * f + i]);
+        const Mesh::FaceHandle facet(static_cast<int>(f));
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Mesh::HalfedgeHandle h(half_edge[3 * f + i]), next(half_edge[3 * f + (i + 1) % 3]);
             mesh.set_face_handle(h, facet);
-            mesh.set_next_halfedge_handle(h, Mesh::HalfedgeHandle(half_edge[3 * f + (i + 1) % 3]));
+            mesh.set_next_halfedge_handle(h, next);
+            mesh.set_vertex_handle(h, Mesh::VertexHandle(facets[f][(i + 1) % 3]));
             mesh.set_halfedge_handle(Mesh::VertexHandle(facets[f][i]), h);
         }
         mesh.set_halfedge_handle(facet, Mesh::HalfedgeHandle(half_edge[3 * f]));
@@ -189,17 +208,22 @@ std::vector<ManifoldDefect> find_manifold_defects(std::size_t vertex_count, cons
 
 Surface::Surface() : mesh_(std::make_shared<const HalfEdgeMesh>()) {}
 
-Surface::Surface(SurfaceArrays&& arrays, const std::vector<std::int32_t>& partner)
-    : mesh_(build_half_edges(arrays.vertices, arrays.facets, partner)),
+Surface::Surface(Paired, SurfaceArrays&& arrays, std::vector<std::int32_t> partner)
+    : mesh_(build_half_edges(arrays.vertices, arrays.facets, std::move(partner))),
       points_(mesh_->points()),
       vertex_key_(std::move(arrays.vertex_key)),
       facet_key_(std::move(arrays.facet_key)),
       patch_(std::move(arrays.patch)) {}
 
 std::variant<Surface, ManifoldDefect> Surface::build(SurfaceArrays&& arrays) {
-    const Pairing pairing = pair_corners(arrays.vertices.size(), arrays.facets);
-    if (!pairing.defects.empty()) return pairing.defects.front();
-    return Surface(std::move(arrays), pairing.partner);
+    std::vector<std::int32_t> none_known(3 * arrays.facets.size(), -1);
+    return build(std::move(arrays), std::move(none_known));
+}
+
+std::variant<Surface, ManifoldDefect> Surface::build(SurfaceArrays&& arrays, std::vector<std::int32_t> partner) {
+    Pairing pairing = pair_corners(arrays.vertices.size(), arrays.facets, std::move(partner));
+    if (!pairing.defects.empty()) return std::move(pairing.defects.front());
+    return Surface(Paired(), std::move(arrays), std::move(pairing.partner));
 }
 
 Surface::Surface(SurfaceArrays arrays) {
@@ -228,23 +252,19 @@ SurfaceArrays Surface::arrays() const {
 
 Shells find_shells(const Surface& surface) {
     Shells shells;
-    shells.of_facet.assign(surface.facet_count(), -1);
-    std::vector<std::int32_t> stack;
-    for (std::int32_t seed = 0; seed < surface.facet_count(); ++seed) {
-        if (shells.of_facet[seed] >= 0) continue;
-        shells.of_facet[seed] = shells.count;
-        stack.push_back(seed);
-        while (!stack.empty()) {
-            const std::int32_t facet = stack.back();
-            stack.pop_back();
-            for (std::int32_t other : surface.neighbours(facet))
-                if (shells.of_facet[other] < 0) {
-                    shells.of_facet[other] = shells.count;
-                    stack.push_back(other);
-                }
-        }
-        ++shells.count;
+    std::vector<std::int32_t>& parent = shells.of_facet;  // of the same shell and not larger; roots are their own
+    parent.resize(surface.facet_count());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&](std::int32_t facet) {
+        while (parent[facet] != facet) facet = parent[facet] = parent[parent[facet]];
+        return facet;
+    };
+    for (std::int32_t h = 0; h < 3 * surface.facet_count(); h += 2) {
+        const auto [low, high] = std::minmax({root(surface.facet_of(h)), root(surface.facet_of(Surface::opposite(h)))});
+        parent[high] = low;
     }
+    for (std::int32_t f = 0; f < surface.facet_count(); ++f)  // parents come first, so theirs are shell numbers already
+        parent[f] = parent[f] == f ? shells.count++ : parent[parent[f]];
     return shells;
 }
 

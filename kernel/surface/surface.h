@@ -58,6 +58,10 @@ class Surface {
 
     /// Builds the half-edges in O(#V + #F), or returns the first manifold defect and leaves the arrays as they are.
     static std::variant<Surface, ManifoldDefect> build(SurfaceArrays&& arrays);
+    /// As build(), where the neighbours of most facets are known. Corner 3 f + i is the half-edge of facet f from its
+    /// vertex i to the next; `partner` (3 #F) is the opposite corner, or -1 where it has to be found. Known partners
+    /// are trusted; only the others are paired, and only the vertices at them are proven to be manifold.
+    static std::variant<Surface, ManifoldDefect> build(SurfaceArrays&& arrays, std::vector<std::int32_t> partner);
     /// As build(), for arrays that are known to be a closed 2-manifold. Throws Error(internal) naming the defect.
     explicit Surface(SurfaceArrays arrays);
 
@@ -106,7 +110,8 @@ class Surface {
     SurfaceArrays arrays() const;
 
  private:
-    Surface(SurfaceArrays&& arrays, const std::vector<std::int32_t>& partner);
+    struct Paired {};  // every corner has its partner
+    Surface(Paired, SurfaceArrays&& arrays, std::vector<std::int32_t> partner);
 
     std::shared_ptr<const HalfEdgeMesh> mesh_;  // OpenMesh cannot be moved, only copied
     const Vec3* points_ = nullptr;              // of the mesh; its own accessor is no array access

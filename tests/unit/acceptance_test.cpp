@@ -110,7 +110,8 @@ TEST(Acceptance, ShellsMustLieInTheMaterial) {
 TEST(Split, FacetsArePartitionedAndInterfacesOpposite) {
     for (const Soup& soup : bodies()) {
         const Section s(soup, 0.03);
-        const std::array<SurfaceArrays, 2> halves = split(s.surface, s.side, s.interface, node);
+        const std::array<Half, 2> split_halves = split(s.surface, s.side, s.interface, node);
+        const std::array<SurfaceArrays, 2> halves = {split_halves[0].arrays, split_halves[1].arrays};
         const std::size_t interface_facets = s.interface.triangles.size();
         std::set<Key> seen;
         double volume = 0;

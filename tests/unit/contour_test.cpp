@@ -51,7 +51,7 @@ class Contours : public testing::TestWithParam<std::string> {
         const MassProperties mass = mass_properties(surface_);
         for (const Vec3& direction : cut_directions(surface_, mass, {}))
             for (const double fraction : {0.31, 0.5})
-                planes_.push_back(plane_candidates(surface_, mass, direction, 0, fraction, {}).front().plane);
+                planes_.push_back(PlaneSequence(surface_, mass, direction, 0, fraction, {}).at(0)->plane);
     }
     std::vector<Side> minimum_cut(const Band& band) const {
         std::vector<Side> side = majority_labels(surface_, band);

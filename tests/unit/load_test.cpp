@@ -105,6 +105,22 @@ TEST(LoadProfile, BisectIsTheInverse) {
     }
 }
 
+TEST(LoadProfile, ManyHeightsAtOnceAreThoseOneByOne) {
+    const Surface torus = surface_of(test::torus(3, 1, 40, 20));
+    const Surface cube = surface_of(test::box(Vec3::Zero(), Vec3::Ones(), 4));  // vertices at the heights themselves
+    for (const Balance balance : all_balances)
+        for (const Surface* surface : {&torus, &cube})
+            for (const std::vector<double>& heights :
+                 {std::vector<double>{}, {0.25}, {0.5, 0.75, 0.25}, {0.1, 0.9, 0.4, 0.3}, {-99, 99, 0}}) {
+                SCOPED_TRACE(testing::PrintToString(static_cast<int>(balance)) + testing::PrintToString(heights));
+                const LoadProfile load = profile(*surface, Plane(Vec3::Zero(), Vec3::UnitX()), balance, 0.01);
+                const std::vector<double> fractions = load.fractions_below(heights);
+                ASSERT_EQ(fractions.size(), heights.size());
+                for (std::size_t i = 0; i < heights.size(); ++i)
+                    EXPECT_NEAR(fractions[i], load.fraction_below(heights[i]), 1e-13);
+            }
+}
+
 TEST(LoadProfile, PlaceDoesNotMatter) {
     const Vec3 far(1e5, -2e5, 3e5);
     const Soup soup = test::icosphere(2);
