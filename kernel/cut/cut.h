@@ -79,6 +79,9 @@ struct InterfaceQuality {
     }
 };
 
+/// An edge of the parent surface by its vertices; a contour edge has the half below on its left.
+using SurfaceEdge = std::array<std::int32_t, 2>;
+
 /// One attempt: a plane, a round of local repair, and what came of it.
 struct CutTry {
     Plane plane;
@@ -86,17 +89,15 @@ struct CutTry {
     std::int32_t step = 0;    ///< step along the axis, 0 at the load's bisection
     std::int32_t repair = 0;  ///< round of local repair
     Refusal refusal = Refusal::none;
-    std::vector<Vec3> places;  ///< where it failed
-    InterfaceQuality quality;  ///< meaningful if refusal is none or soft
+    std::vector<Vec3> places;          ///< where it failed
+    std::vector<SurfaceEdge> contour;  ///< pinched ones too; empty without a listener
+    InterfaceQuality quality;          ///< meaningful if refusal is none or soft
 
     template <class Archive>
     void archive(Archive& a) {
-        a(plane, axis, step, repair, refusal, places, quality);
+        a(plane, axis, step, repair, refusal, places, contour, quality);
     }
 };
-
-/// An edge of the parent surface by its vertices; a contour edge has the half below on its left.
-using SurfaceEdge = std::array<std::int32_t, 2>;
 
 /// The contour at each stage of its making. Recorded for the accepted try, and only on request.
 struct ContourStages {
