@@ -16,11 +16,13 @@
 #include <Eigen/Geometry>
 
 #include "io/run_folder.h"
+#include "io/stl_writer.h"
 #include "io/text_file.h"
 #include "run/failed_part.h"
 #include "run/interface_match.h"
 #include "run/mesh_hash.h"
 #include "run/numbering.h"
+#include "run/trace.h"
 
 namespace kerf {
 
@@ -154,12 +156,16 @@ class Run {
 void Run::decompose_surface() {
     const Stopwatch stopwatch;
     const DecomposeOptions& options = report_.options.decompose;
+    const LeafRange range = range_of_rank(options.parts, ranks_);
+    CutListener* cuts = listener_ && listener_->wants_cuts() ? listener_ : nullptr;
+    std::optional<TraceRecorder> trace;
+    if (!report_.options.trace_file.empty()) cuts = &trace.emplace(report_.options, input_, cuts);
     own_ = in_agreement(ranks_, [&] {
         progress("decompose", 0, 1);
-        CutListener* cuts = listener_ && listener_->wants_cuts() ? listener_ : nullptr;
-        return decompose(std::move(input_.surface), options, range_of_rank(options.parts, ranks_), cuts);
+        return decompose(std::move(input_.surface), options, range, cuts);
     });
     report_.seconds.decompose = longest(ranks_, stopwatch.seconds());
+    if (trace) trace->write(report_.options.trace_file, ranks_, own_, range);  // a run that fails later has one, too
 }
 
 void Run::join_interfaces() {
@@ -179,8 +185,12 @@ void Run::join_interfaces() {
         own_arrays_.push_back(std::move(arrays));
     }
     in_agreement(ranks_, [&] {
-        for (std::size_t i = 0; i < own_.leaves.size(); ++i)
-            write_part_surface(folder_.part_surface_file(own_.leaves[i].id), own_.leaves[i].surface, own_arrays_[i]);
+        for (std::size_t i = 0; i < own_.leaves.size(); ++i) {
+            const Leaf& leaf = own_.leaves[i];
+            write_part_surface(folder_.part_surface_file(leaf.id), leaf.surface, own_arrays_[i]);
+            if (report_.options.stl)
+                write_stl(folder_.part_stl_file(leaf.id), leaf.surface.vertices, leaf.surface.facets);
+        }
     });
 }
 
