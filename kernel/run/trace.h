@@ -61,7 +61,7 @@ class TraceRecorder : public CutListener {
 
     /// Collective. Brings the cuts of all ranks together and writes them on the root rank. `own`: what decompose() has
     /// returned for `range` on this rank; of the ranks that made the same cut, the one with its first leaf gives it.
-    /// Throws Error(io) on all ranks.
+    /// Every rank receives the bytes of all. Throws Error(io) on all ranks.
     void write(const std::string& path, Communicator& ranks, const Decomposition& own, LeafRange range);
 
  private:
