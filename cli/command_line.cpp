@@ -35,6 +35,8 @@ void add_field(CLI::App& app, const OptionField& field) {
                     ->check(CLI::IsMember(all))
                     ->default_str(all[static_cast<std::size_t>(value.get())])
                     ->type_name("");
+            } else if constexpr (std::is_same_v<std::decay_t<decltype(value)>, bool*>) {
+                app.add_flag(names, *value, field.help);
             } else {
                 app.add_option(names, *value, field.help)->capture_default_str();
             }
@@ -53,6 +55,7 @@ CLI::App* add_run_command(CLI::App& app, const char* name, const char* text, Com
         ->type_name("DIR");
     for (const OptionField& field : option_fields(line.options)) add_field(*command, field);
     command->add_flag("-q,--quiet", line.quiet, "Print nothing but errors.");
+    command->add_flag("-v,--verbose", line.verbose, "Print the tree of cuts with every node of it.");
     command->add_flag("--print-config", line.print_config, "Print the options as a config file and end.")
         ->configurable(false);
     command->add_option("--config", line.config_file, "Read options from a TOML file; the command line wins.")
@@ -92,7 +95,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     app.require_subcommand(1);
     app.get_formatter()->column_width(28);
     CLI::App* mesh = add_run_command(app, "mesh", "Decompose, mesh every part, verify, write, report.", line);
-    CLI::App* decompose = add_run_command(app, "decompose", "The same, up to the closed surface of every part.", line);
+    CLI::App* decompose =
+        add_run_command(app, "decompose", "The same, up to the closed surfaces of the parts; print the tree.", line);
     CLI::App* check = app.add_subcommand("check", "Diagnose a surface without meshing it.");
     check->add_option("input", line.options.input, "Surface file.")->required()->type_name("INPUT");
     check->add_flag("--json", line.json, "Print every defect as JSON.");

@@ -14,6 +14,7 @@ struct CommandLine {
     Command command = Command::none;
     RunOptions options;
     bool quiet = false;
+    bool verbose = false;       ///< print every node of the tree of cuts
     bool json = false;          ///< check: machine-readable output
     bool print_config = false;  ///< print the effective options and end
     std::string config_file;    ///< options that the command line does not give

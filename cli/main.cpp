@@ -10,6 +10,7 @@
 #include "cli/progress.h"
 #include "cli/ranks.h"
 #include "cli/verify.h"
+#include "run/tree_text.h"
 
 namespace kerf {
 
@@ -38,6 +39,8 @@ int run_command(const CommandLine& line) {
             ProgressLine progress(line.quiet || !root);
             report = run(options, ranks.cores_of_rank, *ranks.communicator, input, &progress);
         }
+        if (root && !line.quiet && (line.verbose || !options.volume))
+            fmt::print(stderr, "{}\n", tree_text(report.nodes, line.verbose));
         if (root && !line.quiet) fmt::print(stderr, "{}", to_text(report));
         if (root) report_failed_parts(report);
         return report.exit_code;

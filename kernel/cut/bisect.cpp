@@ -145,7 +145,7 @@ bool PlaneTrial::find_contour(Attempt& attempt) {
         raise_penalty();  // the failed places are not expensive enough yet
     }
     last_contour_ = edges;
-    if (record_) attempt.stages.smoothed = edges;
+    if (record_) attempt.stages.smoothed = attempt.record.contour = edges;
     ContourLoops contour = trace_loops(surface_, edges);
     if (edges.empty()) refuse(attempt, Refusal::empty_side, {});
     if (!contour.pinched.empty()) refuse(attempt, Refusal::pinched_contour, contour.pinched);

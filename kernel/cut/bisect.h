@@ -19,7 +19,8 @@ struct Bisection {
 /// The ladder: minimum cut; local repair (the weights at the failed places are raised and the same plane is solved
 /// again); steps of the plane within the load window; the other axes; the best soft cut; none. Every accepted cut is
 /// proven: no intersection, both halves closed 2-manifolds, every shell in its half. Depends on the surface, node,
-/// fraction and options alone. `record` fills Cut::side and Cut::stages and changes nothing else.
+/// fraction and options alone. `record` fills Cut::side, Cut::stages and CutTry::contour and changes nothing
+/// else.
 Bisection bisect(const Surface& surface, const MassProperties& mass, NodeId node, double fraction,
                  const CutOptions& options, bool record);
 

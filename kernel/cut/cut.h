@@ -84,6 +84,9 @@ struct InterfaceQuality {
     }
 };
 
+/// An edge of the parent surface by its vertices; a contour edge has the half below on its left.
+using SurfaceEdge = std::array<std::int32_t, 2>;
+
 /// One attempt: a plane, a round of local repair, and what came of it.
 struct CutTry {
     Plane plane;
@@ -91,17 +94,15 @@ struct CutTry {
     std::int32_t step = 0;    ///< step along the axis, 0 at the load's bisection
     std::int32_t repair = 0;  ///< round of local repair
     Refusal refusal = Refusal::none;
-    std::vector<Vec3> places;  ///< where it failed
-    InterfaceQuality quality;  ///< meaningful if refusal is none or soft
+    std::vector<Vec3> places;          ///< where it failed
+    std::vector<SurfaceEdge> contour;  ///< pinched ones too; empty without a listener
+    InterfaceQuality quality;          ///< meaningful if refusal is none or soft
 
     template <class Archive>
     void archive(Archive& a) {
-        a(plane, axis, step, repair, refusal, places, quality);
+        a(plane, axis, step, repair, refusal, places, contour, quality);
     }
 };
-
-/// An edge of the parent surface by its vertices; a contour edge has the half below on its left.
-using SurfaceEdge = std::array<std::int32_t, 2>;
 
 /// The contour at each stage of its making. Recorded for the accepted try, and only on request.
 struct ContourStages {
@@ -140,6 +141,7 @@ struct Cut {
     std::vector<std::vector<std::int32_t>> loops;  ///< closed contours as parent vertices; below is on the left
     std::vector<Side> side;                        ///< per facet of the parent; empty without a listener
     ContourStages stages;                          ///< empty without a listener
+    SurfaceArrays split_parent;                    ///< of a straight cut: the parent, its facets split; with a listener
     Interface interface;
     InterfaceQuality quality;
     std::int64_t contour_edges = 0;
@@ -152,8 +154,8 @@ struct Cut {
     bool made() const { return rung != Rung::whole; }
     template <class Archive>
     void archive(Archive& a) {
-        a(node, rung, method, plane, tries, loops, side, stages, interface, quality, contour_edges, contour_length,
-          max_deviation, section_area, interface_area, seconds);
+        a(node, rung, method, plane, tries, loops, side, stages, split_parent, interface, quality, contour_edges,
+          contour_length, max_deviation, section_area, interface_area, seconds);
     }
 };
 

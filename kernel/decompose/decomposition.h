@@ -47,6 +47,8 @@ struct DividedFacet {
 class CutListener {
  public:
     virtual ~CutListener() = default;
+    /// A node where no contour of edges was found may be told of twice: then by a straight cut, whose parent comes with
+    /// its facets split.
     virtual void on_cut(const Surface& parent, const Cut& cut) = 0;
 };
 

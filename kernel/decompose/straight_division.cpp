@@ -57,7 +57,10 @@ bool StraightDivision::cut(TreeNode& node) {
     std::optional<StraightCut> made =
         cut_straight(Surface(part.arrays), node.id, fraction_below(node.leaves), options_.cut, tries);
     node.cut_tried = true;
-    if (!made) return false;
+    if (!made) {
+        node.tries += static_cast<std::int32_t>(tries.size());
+        return false;
+    }
     complex_.divide(node.id, part, *made);
     made->cut.tries = std::move(tries);
     made->cut.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -66,7 +69,11 @@ bool StraightDivision::cut(TreeNode& node) {
     describe_cut(made->cut, node);
     node.tries += tries_by_edges;
     node.seconds += seconds_by_edges;
-    if (listener_) listener_->on_cut(made->parent, made->cut);
+    if (listener_) {
+        made->cut.side = made->split.side;
+        made->cut.split_parent = made->split.arrays;
+        listener_->on_cut(made->parent, made->cut);
+    }
     return true;
 }
 

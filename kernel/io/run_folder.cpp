@@ -104,6 +104,7 @@ RunFolder RunFolder::join(const std::string& temporary_path) {
 std::string RunFolder::file(const std::string& name) const { return (fs::path(temporary_) / name).string(); }
 std::string RunFolder::part_file(int leaf) const { return file("parts/" + part_file_name(leaf)); }
 std::string RunFolder::part_surface_file(int leaf) const { return file("parts/" + part_surface_file_name(leaf)); }
+std::string RunFolder::part_stl_file(int leaf) const { return file("parts/" + part_stl_file_name(leaf)); }
 
 void RunFolder::commit() {
     if (!owner_) throw Error(ErrorCode::internal, "A run folder is committed once, and by its creator.");
@@ -128,5 +129,6 @@ void RunFolder::commit() {
 
 std::string part_file_name(int leaf) { return fmt::format("part_{:04}.vtu", leaf); }
 std::string part_surface_file_name(int leaf) { return fmt::format("part_{:04}.surface.vtu", leaf); }
+std::string part_stl_file_name(int leaf) { return fmt::format("part_{:04}.stl", leaf); }
 
 }  // namespace kerf

@@ -25,6 +25,7 @@ class RunFolder {
     const std::string& temporary_path() const { return temporary_; }
     std::string part_file(int leaf) const;          ///< .../parts/part_0008.vtu
     std::string part_surface_file(int leaf) const;  ///< .../parts/part_0008.surface.vtu
+    std::string part_stl_file(int leaf) const;      ///< .../parts/part_0008.stl
     std::string file(const std::string& name) const;
 
     /// Renames the folder to its final name; an older run there is removed afterwards. Of several runs into one folder
@@ -37,8 +38,9 @@ class RunFolder {
     bool owner_ = false;
 };
 
-/// part_0008.vtu, part_0008.surface.vtu: names relative to the folder `parts`.
+/// part_0008.vtu, part_0008.surface.vtu, part_0008.stl: names relative to the folder `parts`.
 std::string part_file_name(int leaf);
 std::string part_surface_file_name(int leaf);
+std::string part_stl_file_name(int leaf);
 
 }  // namespace kerf

@@ -47,4 +47,6 @@ std::string hash_of_parts(std::span<const PartHash> parts) {
     return fmt::format("{:016x}{:016x}", high, low);
 }
 
+std::uint64_t hash_bytes(std::span<const char> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
+
 }  // namespace kerf

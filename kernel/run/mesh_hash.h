@@ -1,4 +1,4 @@
-// A fingerprint of meshes that two runs can be compared by.
+// Fingerprints: of meshes, that two runs can be compared by, and of the bytes of a file.
 #pragma once
 
 #include <array>
@@ -20,5 +20,8 @@ struct PartHash {
     std::array<std::uint64_t, 2> hash = {0, 0};
 };
 std::string hash_of_parts(std::span<const PartHash> parts);
+
+/// 64-bit hash (XXH3): tells damaged bytes from good ones.
+std::uint64_t hash_bytes(std::span<const char> bytes);
 
 }  // namespace kerf

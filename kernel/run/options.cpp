@@ -1,7 +1,9 @@
 #include "run/options.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -22,7 +24,55 @@ void require(bool good, const std::string& option, const std::string& range, dou
     if (!good) throw Error(ErrorCode::usage, fmt::format("--{} is {}, but it must be {}.", option, value, range));
 }
 
+// The folder is replaced as a whole at the end of the run.
+bool lies_inside(const std::string& file, const std::string& folder) {
+    const auto normal = [](const std::string& path) {
+        std::error_code ignored;  // a path that cannot be used is refused where it is used
+        const auto clean = std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
+        return clean.has_filename() ? clean : clean.parent_path();
+    };
+    const std::filesystem::path inner = normal(file), outer = normal(folder);
+    return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
+
+template <class T>
+std::string text_of(const T* value) {
+    return fmt::format("{}", *value);
+}
+std::string text_of(const OptionField::Choice& choice) { return choice.names[static_cast<std::size_t>(choice.get())]; }
+
+// False if the text is no such value.
+template <class Number>
+bool assign(Number* value, const std::string& text) {
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, *value);
+    return error == std::errc() && stop == end;
+}
+bool assign(bool* value, const std::string& text) {
+    *value = text == "true";
+    return *value || text == "false";
+}
+bool assign(std::string* value, const std::string& text) {
+    *value = text;
+    return true;
+}
+bool assign(const OptionField::Choice& choice, const std::string& text) {
+    const auto found = std::find(choice.names.begin(), choice.names.end(), text);
+    if (found == choice.names.end()) return false;
+    choice.set(static_cast<int>(found - choice.names.begin()));
+    return true;
+}
+
 }  // namespace
+
+std::string OptionField::text() const {
+    return std::visit([](const auto& place) { return text_of(place); }, value);
+}
+
+void OptionField::set_text(const std::string& text) const {
+    if (!std::visit([&](const auto& place) { return assign(place, text); }, value))
+        throw Error(ErrorCode::usage, fmt::format("'{}' is no value of --{}. {}", text, name, help));
+}
 
 void RunOptions::resolve(int ranks, int cores_of_rank) {
     require(workers >= 0, "workers", "0 (share of the cores) or more", workers);
@@ -38,6 +88,10 @@ void RunOptions::resolve(int ranks, int cores_of_rank) {
     require(attempts >= 1, "attempts", "1 or more", attempts);
     if (decompose.facets == FacetPolicy::keep && decompose.cut.contour == ContourMethod::straight)
         throw Error(ErrorCode::usage, "--contour straight splits facets, and --surface keep forbids it. Drop one.");
+    if (!trace_file.empty() && lies_inside(trace_file, output))
+        throw Error(ErrorCode::usage, fmt::format("--trace is {}, which lies in the output folder {}. That is replaced "
+                                                  "as a whole when the run ends, so choose a place outside of it.",
+                                                  trace_file, output));
     if (mesher.max_volume == 0 && size > 0) mesher.max_volume = regular_tet_volume(size);
     decompose.cut.max_volume = decompose.cut.load.max_volume = mesher.max_volume;
 }
@@ -61,12 +115,14 @@ std::vector<OptionField> option_fields(RunOptions& o) {
         {"surface", "", "Whether facets may be split where no contour of edges exists. Default split.",
          choice(o.decompose.facets, {"keep", "split"})},
         {"mesher", "", "What fills the parts. Default tetgen.", choice(o.mesher.kind, {"tetgen"})},
-        {"workers", "", "Mesher processes of each rank. Default: its share of the cores.", &o.workers},
-        {"timeout", "", "Seconds for one attempt at one part; 0: none. Default 600.", &o.timeout_seconds},
-        {"memory", "", "Memory of one worker in MB; 0: unlimited. Default 0.", &o.memory_mb},
+        {"workers", "", "Mesher processes of each rank. Default: its share of the cores.", &o.workers, false},
+        {"timeout", "", "Seconds for one attempt at one part; 0: none. Default 600.", &o.timeout_seconds, false},
+        {"memory", "", "Memory of one worker in MB; 0: unlimited. Default 0.", &o.memory_mb, false},
         {"attempts", "", "Attempts at a part, each with its vertices in another order. Default 3.", &o.attempts},
         {"tetgen", "", "Expert: TetGen switches instead of q and a (p, Y are always on).", &o.mesher.tetgen_switches},
-        {"report", "", "Write the report to this file too.", &o.report_file},
+        {"stl", "", "Write the closed surface of every part as binary STL, too.", &o.stl, false},
+        {"report", "", "Write the report to this file too.", &o.report_file, false},
+        {"trace", "", "Write every cut with its stages and refused tries to this file.", &o.trace_file, false},
     };
 }
 

@@ -24,6 +24,8 @@ struct RunOptions {
     std::int64_t memory_mb = 0;    ///< address space of one worker; 0: unlimited
     std::int32_t attempts = 3;     ///< at one part, each with its vertices in another order
     std::string report_file;       ///< a copy of the report; empty: only DIR/report.json
+    std::string trace_file;        ///< all cuts with their stages (run/trace.h); empty: none. Not inside of `output`
+    bool stl = false;              ///< the surfaces of the parts as STL, too
     bool volume = true;            ///< false: stop at the closed surfaces of the parts
 
     /// Fills what follows from other choices and checks ranges. Throws Error(usage) naming option, value and range.
@@ -41,7 +43,13 @@ struct OptionField {
     std::string name;        ///< without dashes
     std::string short_name;  ///< a letter, or empty
     std::string help;        ///< one sentence with unit and default
-    std::variant<std::int32_t*, std::int64_t*, double*, std::string*, Choice> value;
+    std::variant<std::int32_t*, std::int64_t*, double*, bool*, std::string*, Choice> value;
+    bool shapes_parts = true;  ///< false: a finished run has the same part files whatever it is
+
+    /// The value as text, numbers with all their digits; set_text() takes it back and throws Error(usage), naming the
+    /// option, for what is no such value.
+    std::string text() const;
+    void set_text(const std::string& text) const;
 };
 
 /// The table: command line, config file, report and viewer show the same options in this order.

@@ -17,12 +17,14 @@
 
 #include "decompose/straight_division.h"
 #include "io/run_folder.h"
+#include "io/stl_writer.h"
 #include "io/text_file.h"
 #include "run/failed_part.h"
 #include "run/input_cover.h"
 #include "run/interface_match.h"
 #include "run/mesh_hash.h"
 #include "run/numbering.h"
+#include "run/trace.h"
 
 namespace kerf {
 
@@ -116,7 +118,7 @@ class Run {
     }
 
     void decompose_surface();
-    void divide_unfinished();
+    void divide_unfinished(CutListener* cuts);
     void join_interfaces();
     void mesh_parts();
     void number_interiors();
@@ -130,7 +132,6 @@ class Run {
         if (listener_->cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
         listener_->on_progress(stage, done, total);
     }
-    CutListener* cut_listener() const { return listener_ && listener_->wants_cuts() ? listener_ : nullptr; }
     PartJob make_job(std::size_t leaf) const;
     void keep_reproducer(const Leaf& leaf, const PartReport& part) const;
     void verify();
@@ -150,17 +151,22 @@ class Run {
 void Run::decompose_surface() {
     const Stopwatch stopwatch;
     const DecomposeOptions& options = report_.options.decompose;
+    const LeafRange range = range_of_rank(options.parts, ranks_);
+    CutListener* cuts = listener_ && listener_->wants_cuts() ? listener_ : nullptr;
+    std::optional<TraceRecorder> trace;
+    if (!report_.options.trace_file.empty()) cuts = &trace.emplace(report_.options, input_, cuts);
     own_ = in_agreement(ranks_, [&] {
         progress("decompose", 0, 1);
-        return decompose(std::move(input_.surface), options, range_of_rank(options.parts, ranks_), cut_listener());
+        return decompose(std::move(input_.surface), options, range, cuts);
     });
-    if (options.facets == FacetPolicy::split) divide_unfinished();
+    if (options.facets == FacetPolicy::split) divide_unfinished(cuts);
     report_.split_facets = static_cast<std::int64_t>(own_.divided_facets.size());
     report_.seconds.decompose = longest(ranks_, stopwatch.seconds());
+    if (trace) trace->write(report_.options.trace_file, ranks_, own_, range);  // a run that fails later has one, too
 }
 
 // Parts without a contour of edges need all others beside them, because split facets may be theirs too.
-void Run::divide_unfinished() {
+void Run::divide_unfinished(CutListener* cuts) {
     const auto is_unfinished = [](const Leaf& leaf) { return leaf.leaves > 1; };
     const bool own = std::any_of(own_.leaves.begin(), own_.leaves.end(), is_unfinished);
     const std::vector<char> ranks = all_gather(ranks_, static_cast<char>(own));
@@ -170,9 +176,8 @@ void Run::divide_unfinished() {
     for (std::vector<Leaf>& leaves : all_gather(ranks_, own_.leaves))
         std::move(leaves.begin(), leaves.end(), std::back_inserter(whole.leaves));
     const DecomposeOptions& options = report_.options.decompose;
-    own_ = in_agreement(ranks_, [&] {
-        return divide_straight(std::move(whole), options, range_of_rank(options.parts, ranks_), cut_listener());
-    });
+    own_ = in_agreement(
+        ranks_, [&] { return divide_straight(std::move(whole), options, range_of_rank(options.parts, ranks_), cuts); });
 }
 
 void Run::join_interfaces() {
@@ -192,8 +197,12 @@ void Run::join_interfaces() {
         own_arrays_.push_back(std::move(arrays));
     }
     in_agreement(ranks_, [&] {
-        for (std::size_t i = 0; i < own_.leaves.size(); ++i)
-            write_part_surface(folder_.part_surface_file(own_.leaves[i].id), own_.leaves[i].surface, own_arrays_[i]);
+        for (std::size_t i = 0; i < own_.leaves.size(); ++i) {
+            const Leaf& leaf = own_.leaves[i];
+            write_part_surface(folder_.part_surface_file(leaf.id), leaf.surface, own_arrays_[i]);
+            if (report_.options.stl)
+                write_stl(folder_.part_stl_file(leaf.id), leaf.surface.vertices, leaf.surface.facets);
+        }
     });
 }
 

@@ -116,7 +116,9 @@ Json part_json(const PartReport& part) {
                  {"vertices", part.result.vertices},
                  {"tets", part.result.tets},
                  {"volume", part.result.laws.volume},
+                 {"surface_vertices", part.surface_vertices},
                  {"surface_faces", part.surface_facets},
+                 {"surface_volume", part.surface_volume},
                  {"interface_area", part.interface_area},
                  {"neighbours", part.neighbours},
                  {"mesher", "tetgen"},
@@ -135,7 +137,8 @@ Json totals_json(const RunReport& report) {
     double interface_area = 0;
     for (const TreeNode& node : report.nodes) interface_area += node.interface_area;
     double volume = 0;
-    for (const PartReport& part : report.parts) volume += part.result.laws.volume;
+    for (const PartReport& part : report.parts)
+        volume += report.options.volume ? part.result.laws.volume : part.surface_volume;
     return {{"vertices", report.vertices},
             {"tets", report.tets},
             {"volume", volume},

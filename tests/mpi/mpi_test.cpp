@@ -1,12 +1,11 @@
 // The program under mpirun: the same files for any number of ranks and workers, the same exit code on every rank.
 #include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <map>
 
 #include <gtest/gtest.h>
 
 #include "support/assets.h"
+#include "support/file_contents.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -20,15 +19,6 @@ ChildResult run_ranks(int ranks, const std::vector<std::string>& command) {
         std::to_string(ranks)};
     arguments.insert(arguments.end(), command.begin(), command.end());
     return test::run_program("/usr/bin/env", arguments);
-}
-
-std::map<std::string, std::string> contents(const std::string& folder) {
-    std::map<std::string, std::string> files;
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        std::ifstream file(entry.path(), std::ios::binary);
-        files[entry.path().filename()].assign(std::istreambuf_iterator<char>(file), {});
-    }
-    return files;
 }
 
 std::int64_t count(const std::string& text, const std::string& word) {
@@ -51,7 +41,7 @@ TEST_P(MpiRuns, PartFilesAreTheSameForAnyRanksAndWorkers) {
             "mesh", path, "-o", folder.file(out), "-n", std::to_string(parts), "--workers", std::to_string(workers)};
     };
     ASSERT_EQ(test::run_kerf(arguments("alone", 1)).exit_code, 0);
-    const auto expected = contents(folder.file("alone/parts"));
+    const auto expected = test::contents(folder.file("alone/parts"));
     EXPECT_EQ(expected.size(), 2 * static_cast<std::size_t>(parts));
     for (int ranks = 1; ranks <= 4; ++ranks)
         for (const int workers : {1, 2}) {
@@ -60,9 +50,27 @@ TEST_P(MpiRuns, PartFilesAreTheSameForAnyRanksAndWorkers) {
             command.insert(command.begin(), KERF_PROGRAM);
             const ChildResult result = run_ranks(ranks, command);
             ASSERT_EQ(result.exit_code, 0) << result.log;
-            EXPECT_TRUE(contents(folder.file("ranks/parts")) == expected);
+            EXPECT_TRUE(test::contents(folder.file("ranks/parts")) == expected);
             EXPECT_EQ(folder.names(), (std::vector<std::string>{"alone", "ranks"}));
         }
+}
+
+TEST_P(MpiRuns, TracesAreTheSameForAnyRanks) {
+    const auto& [asset, parts] = GetParam();
+    const test::TemporaryFolder folder;
+    std::string expected;
+    for (int ranks = 1; ranks <= 3; ++ranks) {
+        SCOPED_TRACE(testing::Message() << ranks << " ranks");
+        const std::string trace = folder.file("ranks_" + std::to_string(ranks));
+        const ChildResult result =
+            run_ranks(ranks, {KERF_PROGRAM, "decompose", test::asset_path(asset), "-o", folder.file("out"), "-n",
+                              std::to_string(parts), "--trace", trace});
+        ASSERT_EQ(result.exit_code, 0) << result.log;
+        const std::string bytes = test::bytes_of_file(trace);
+        if (ranks == 1) expected = bytes;
+        EXPECT_FALSE(bytes.empty());
+        EXPECT_TRUE(bytes == expected);
+    }
 }
 
 struct Failure {
@@ -92,6 +100,15 @@ TEST(MpiErrors, EveryRankEndsWithTheSameCodeAndOneSpeaks) {
         EXPECT_NE(result.log.find(failure.words), std::string::npos) << result.log;
         EXPECT_EQ(folder.names(), std::vector<std::string>{"empty.stl"});
     }
+}
+
+TEST(MpiErrors, TraceThatCannotBeWrittenEndsEveryRank) {
+    const test::TemporaryFolder folder;
+    const ChildResult result = run_ranks(3, {KERF_PROGRAM, "decompose", test::asset_path("cube"), "-o",
+                                             folder.file("out"), "-n", "3", "--trace", folder.file("no/cube.trace")});
+    EXPECT_EQ(result.exit_code, 7) << result.log;
+    EXPECT_EQ(count(result.log, "kerf: "), 1) << result.log;
+    EXPECT_EQ(folder.names(), std::vector<std::string>());
 }
 
 TEST(MpiErrors, UsageErrorsNeedNoAgreement) {

@@ -82,6 +82,7 @@ TEST_P(Bisections, LoadIsNearTheWantedOne) {
 Bytes bytes_of(Bisection& result) {
     result.cut.side.clear();
     result.cut.stages = {};
+    for (CutTry& attempt : result.cut.tries) attempt.contour.clear();
     result.cut.seconds = 0;
     Bytes bytes = to_bytes(result.cut);
     for (const Surface& half : result.halves) {
@@ -102,6 +103,14 @@ TEST_P(Bisections, RecordChangesNothingElse) {
     }
     EXPECT_EQ(with.cut.stages.smoothed.size(), static_cast<std::size_t>(with.cut.contour_edges));
     EXPECT_TRUE(without.cut.side.empty());
+    bool contour_was_used = false;
+    for (const CutTry& attempt : with.cut.tries) {
+        const bool has_none = attempt.refusal == Refusal::empty_side || attempt.refusal == Refusal::flow_limit;
+        EXPECT_EQ(attempt.contour.empty(), has_none) << name(attempt.refusal);
+        contour_was_used |= attempt.contour == with.cut.stages.smoothed;
+    }
+    EXPECT_TRUE(contour_was_used);
+    for (const CutTry& attempt : without.cut.tries) EXPECT_TRUE(attempt.contour.empty());
     EXPECT_TRUE(bytes_of(with) == bytes_of(without));
 }
 

@@ -98,5 +98,68 @@ TEST(OptionFields, ChoicesReachTheirValues) {
     EXPECT_EQ(options.decompose.cut.contour, ContourMethod::straight);
 }
 
+TEST(OptionFields, TextGivesTheValueBack) {
+    RunOptions options;
+    options.decompose.parts = 7;
+    options.size = 0.1;
+    options.mesher.tetgen_switches = "q1.2 a";
+    options.stl = true;
+    options.decompose.cut.axis = 1;
+    RunOptions copy;
+    const std::vector<OptionField> fields = option_fields(options), copied = option_fields(copy);
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        SCOPED_TRACE(fields[i].name);
+        copied[i].set_text(fields[i].text());
+        EXPECT_EQ(copied[i].text(), fields[i].text());
+    }
+    EXPECT_EQ(copy.decompose.parts, 7);
+    EXPECT_EQ(copy.size, 0.1);
+    EXPECT_EQ(copy.mesher.tetgen_switches, "q1.2 a");
+    EXPECT_TRUE(copy.stl);
+    EXPECT_EQ(copy.decompose.cut.axis, 1);
+}
+
+TEST(OptionFields, TextThatIsNoValueIsRefused) {
+    RunOptions options;
+    const auto is_refused = [](const OptionField& field, const std::string& text) {
+        try {
+            field.set_text(text);
+            return false;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::usage);
+            EXPECT_NE(std::string(error.what()).find("--" + field.name), std::string::npos) << error.what();
+            return true;
+        }
+    };
+    for (const OptionField& field : option_fields(options)) {
+        SCOPED_TRACE(field.name);
+        const bool is_text = std::holds_alternative<std::string*>(field.value);
+        for (const char* text : {"luck", "", "1x"}) EXPECT_EQ(is_refused(field, text), !is_text) << text;
+    }
+}
+
+TEST(RunOptions, TraceMustLieOutsideOfTheOutputFolder) {
+    const auto is_refused = [](const std::string& trace, const std::string& output) {
+        RunOptions options;
+        options.trace_file = trace;
+        options.output = output;
+        try {
+            options.resolve(1, 1);
+            return false;
+        } catch (const Error& error) {
+            return error.code() == ErrorCode::usage;
+        }
+    };
+    for (const char* output : {"out", "out/", "./out", "a/../out"}) {
+        SCOPED_TRACE(output);
+        EXPECT_TRUE(is_refused("out/run.trace", output));
+        EXPECT_TRUE(is_refused("out/parts/run.trace", output));
+        EXPECT_TRUE(is_refused("out", output));
+        EXPECT_FALSE(is_refused("out.trace", output));
+        EXPECT_FALSE(is_refused("run.trace", output));
+        EXPECT_FALSE(is_refused("other/out/run.trace", output));
+    }
+}
+
 }  // namespace
 }  // namespace kerf

@@ -1,0 +1,43 @@
+// See stl_reader.cpp for the format. The header must not begin with "solid": readers would take the file for text.
+#include "io/stl_writer.h"
+
+#include <array>
+
+#include <Eigen/Geometry>
+
+#include "io/checked_file.h"
+#include "io/stl_format.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr std::string_view header_text = "Binary STL of Kerf";
+
+template <class T>
+void append(std::string& bytes, const T& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+void append_point(std::string& bytes, const Vec3& p) {
+    append(bytes, std::array{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});
+}
+
+}  // namespace
+
+void write_stl(const std::string& path, const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
+    std::string bytes(header_text);
+    bytes.reserve(stl_header_size + stl_facet_size * facets.size());
+    bytes.resize(stl_header_size - sizeof(std::uint32_t), ' ');
+    append(bytes, static_cast<std::uint32_t>(facets.size()));
+    for (const auto& [a, b, c] : facets) {
+        append_point(bytes, (vertices[b] - vertices[a]).cross(vertices[c] - vertices[a]).stableNormalized());
+        for (const std::int32_t v : {a, b, c}) append_point(bytes, vertices[v]);
+        append(bytes, std::uint16_t{0});
+    }
+    CheckedFile file(path, "wb");
+    file.write(bytes);
+    file.close();
+}
+
+}  // namespace kerf

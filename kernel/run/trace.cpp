@@ -1,0 +1,159 @@
+// A file of a trace is a header and one record, both through core/bytes.h. The surfaces of inner nodes are not in it:
+// the sides of the facets and the interface of a cut give both halves again, with the same numbers.
+#include "run/trace.h"
+
+#include <algorithm>
+#include <bit>
+
+#include <fmt/format.h>
+
+#include "cut/split.h"
+#include "io/checked_file.h"
+#include "io/file_bytes.h"
+#include "run/mesh_hash.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr std::uint64_t trace_magic = 0x636172746672656b;  // "kerftrac" in little-endian order
+constexpr std::uint32_t trace_version = 2;  // is raised whenever a field of the record is added, dropped or changed
+
+struct TraceHeader {
+    std::uint64_t magic = trace_magic;
+    std::uint32_t version = trace_version;
+    std::uint64_t record_size = 0;
+    std::uint64_t record_hash = 0;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(magic, version, record_size, record_hash);
+    }
+};
+
+[[noreturn]] void refuse(const std::string& path, const std::string& reason) {
+    throw Error(ErrorCode::io, path + ": " + reason);
+}
+
+std::size_t header_size() { return to_bytes(TraceHeader()).size(); }
+
+void check(const TraceHeader& header, std::span<const char> record, const std::string& path) {
+    if (header.magic != trace_magic)
+        refuse(path, "the file is no trace of Kerf. Give a file that --trace has written.");
+    if (header.version != trace_version)
+        refuse(path, fmt::format("the trace has format {}, but this version of Kerf reads format {}. Read it with the "
+                                 "version that wrote it, or repeat the run.",
+                                 header.version, trace_version));
+    if (header.record_size != record.size())
+        refuse(path, fmt::format("the trace is truncated or damaged: {} bytes should follow its header, but {} do. "
+                                 "Copy it again, or repeat the run.",
+                                 header.record_size, record.size()));
+    if (header.record_hash != hash_bytes(record))
+        refuse(path,
+               "the trace is damaged: its bytes are not those that were written. Copy it again, or repeat the "
+               "run.");
+}
+
+}  // namespace
+
+const Cut* Trace::find(NodeId node) const {
+    const auto found = std::partition_point(cuts.begin(), cuts.end(), [&](const Cut& c) { return c.node < node; });
+    return found != cuts.end() && found->node == node ? &*found : nullptr;
+}
+
+Surface replay(const Trace& trace, NodeId node) {
+    if (const Cut* straight = trace.find(node); straight && !straight->split_parent.facets.empty())
+        return Surface(straight->split_parent);
+    if (node == 1) return Surface(trace.surface);
+    const Cut* cut = trace.find(node / 2);
+    if (!cut || !cut->made())
+        throw Error(ErrorCode::usage, fmt::format("The tree of {} has no node {}. Its root is 1, the children of a "
+                                                  "node i that was cut are 2i and 2i+1.",
+                                                  trace.input, node));
+    const Surface parent = replay(trace, node / 2);
+    return Surface(std::move(split(parent, cut->side, cut->interface, cut->node)[node % 2]));
+}
+
+RunOptions options_of(const Trace& trace) {
+    RunOptions options;
+    const std::vector<OptionField> fields = option_fields(options);
+    for (const OptionText& option : trace.options) {
+        const auto field =
+            std::find_if(fields.begin(), fields.end(), [&](const OptionField& f) { return f.name == option.name; });
+        if (field == fields.end())
+            throw Error(ErrorCode::usage, fmt::format("The trace of {} has the option --{}, which this version of Kerf "
+                                                      "does not know. Read it with the version that wrote it.",
+                                                      trace.input, option.name));
+        field->set_text(option.text);
+    }
+    options.input = trace.input;
+    options.resolve(1, 1);
+    return options;
+}
+
+void write_trace(const std::string& path, const Trace& trace) {
+    const Bytes record = to_bytes(trace);
+    TraceHeader header;
+    header.record_size = record.size();
+    header.record_hash = hash_bytes(record);
+    const Bytes begin = to_bytes(header);
+    CheckedFile file(path, "wb");
+    file.write(begin.data(), begin.size());
+    file.write(record.data(), record.size());
+    file.close();
+}
+
+Trace read_trace(const std::string& path) {
+    const std::string file = read_file(path);
+    if (file.size() < header_size())
+        refuse(path, fmt::format("the file ends after {} bytes, within the header of a trace. Copy it again, or give a "
+                                 "file that --trace has written.",
+                                 file.size()));
+    const std::span<const char> bytes(file);
+    const std::span<const char> record = bytes.subspan(header_size());
+    check(from_bytes<TraceHeader>(bytes), record, path);
+    return from_bytes<Trace>(record);
+}
+
+TraceRecorder::TraceRecorder(const RunOptions& options, const Input& input, CutListener* next) : next_(next) {
+    trace_.input = input.path;
+    trace_.surface = input.surface.arrays();
+    trace_.patch_names = input.patch_names;
+    RunOptions copy = options;  // the table reads and writes
+    for (const OptionField& field : option_fields(copy))
+        if (field.shapes_parts) trace_.options.push_back({field.name, field.text()});
+}
+
+void TraceRecorder::on_cut(const Surface& parent, const Cut& cut) {
+    const auto earlier =
+        std::find_if(trace_.cuts.begin(), trace_.cuts.end(), [&](const Cut& other) { return other.node == cut.node; });
+    if (earlier == trace_.cuts.end()) {
+        trace_.cuts.push_back(cut);
+        trace_.cuts.back().seconds = 0;
+    } else {  // a straight cut where no contour of edges was found
+        const std::vector<CutTry> tries = std::move(earlier->tries);
+        *earlier = cut;
+        earlier->seconds = 0;
+        earlier->tries.insert(earlier->tries.begin(), tries.begin(), tries.end());
+    }
+    if (next_) next_->on_cut(parent, cut);
+}
+
+void TraceRecorder::write(const std::string& path, Communicator& ranks, const Decomposition& own, LeafRange range) {
+    const auto by_node = [](const Cut& a, const Cut& b) { return a.node < b.node; };
+    std::sort(trace_.cuts.begin(), trace_.cuts.end(), by_node);
+    std::vector<Cut> given;
+    for (const TreeNode& node : own.nodes)
+        if (node.cut_tried && range.meets(node.first_leaf, 1)) given.push_back(*trace_.find(node.id));
+    const std::vector<Bytes> all = ranks.all_gather(to_bytes(given));
+    in_agreement(ranks, [&] {
+        if (ranks.rank() != 0) return;
+        trace_.cuts.clear();
+        for (const Bytes& bytes : all)
+            for (Cut& cut : from_bytes<std::vector<Cut>>(bytes)) trace_.cuts.push_back(std::move(cut));
+        std::sort(trace_.cuts.begin(), trace_.cuts.end(), by_node);
+        write_trace(path, trace_);
+    });
+}
+
+}  // namespace kerf

@@ -1,0 +1,73 @@
+// A run that can be looked at again elsewhere: its surface, its options and every cut with all that was tried.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "run/communicator.h"
+#include "run/input.h"
+#include "run/options.h"
+
+namespace kerf {
+
+/// One option of the table in run/options.h by its name, and its value as OptionField::text() gives it.
+struct OptionText {
+    std::string name, text;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(name, text);
+    }
+};
+
+/// What --trace writes. It depends on input, options and K alone: not on ranks, workers or time.
+struct Trace {
+    std::string input;                     ///< path of the surface file, as it was given
+    SurfaceArrays surface;                 ///< as it was cut: welded and oriented
+    std::vector<std::string> patch_names;  ///< of surface.patch
+    std::vector<OptionText> options;       ///< those that shape the parts, resolved
+    std::vector<Cut> cuts;  ///< of every node where one was tried, ascending by number; recorded, with seconds 0
+
+    /// The cut of a node, nullptr if none was tried there. O(log #cuts).
+    const Cut* find(NodeId node) const;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(input, surface, patch_names, options, cuts);
+    }
+};
+
+/// The surface of a node of the tree, with the vertex and facet numbers that its Cut refers to: the splits of the nodes
+/// above are done again, O(#F) for each. A node with a straight cut comes with its facets split. Throws Error(usage) if
+/// the tree has no such node.
+Surface replay(const Trace& trace, NodeId node);
+
+/// The options of the run: with them and the surface the same cuts can be made again. Throws Error(usage) for a name
+/// or value that this version does not have.
+RunOptions options_of(const Trace& trace);
+
+/// Writes the file, replacing what was there. Throws Error(io).
+void write_trace(const std::string& path, const Trace& trace);
+
+/// Throws Error(io) if the file cannot be read, is none of these, was written by another version or a machine of
+/// another byte order, is truncated or damaged.
+Trace read_trace(const std::string& path);
+
+/// Keeps the cuts that decompose() makes on one rank. Calls may come in any order, one at a time.
+class TraceRecorder : public CutListener {
+ public:
+    /// `next`, unless null, is told of every cut, too.
+    TraceRecorder(const RunOptions& options, const Input& input, CutListener* next);
+    void on_cut(const Surface& parent, const Cut& cut) override;
+
+    /// Collective. Brings the cuts of all ranks together and writes them on the root rank. `own`: what decompose() has
+    /// returned for `range` on this rank; of the ranks that made the same cut, the one with its first leaf gives it.
+    /// Every rank receives the bytes of all. Throws Error(io) on all ranks.
+    void write(const std::string& path, Communicator& ranks, const Decomposition& own, LeafRange range);
+
+ private:
+    Trace trace_;
+    CutListener* next_;
+};
+
+}  // namespace kerf

@@ -1,0 +1,95 @@
+// kerf decompose and --trace as a user sees them.
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "io/run_folder.h"
+#include "io/surface_reader.h"
+#include "support/assets.h"
+#include "support/file_contents.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
+
+namespace kerf {
+namespace {
+
+class Decompose : public testing::Test {
+ protected:
+    ChildResult run(const std::string& command, const std::vector<std::string>& more) const {
+        std::vector<std::string> arguments = {command, test::asset_path("pipe_with_holes"), "-o", folder_.file("out")};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        ChildResult result = test::run_kerf(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.log;
+        return result;
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(Decompose, PrintsTheTreeUnlessQuiet) {
+    const auto prints = [&](const std::string& command, const std::vector<std::string>& more, const char* header) {
+        return run(command, more).log.find(header) != std::string::npos;
+    };
+    const char *nodes = "source  products", *levels = "level   cuts  parts";
+    EXPECT_TRUE(prints("decompose", {"-n", "3"}, nodes));
+    EXPECT_TRUE(prints("decompose", {"-n", "40"}, levels));
+    EXPECT_TRUE(prints("mesh", {"-n", "3", "-v"}, nodes));
+    EXPECT_FALSE(prints("mesh", {"-n", "3"}, nodes));
+    EXPECT_EQ(run("decompose", {"-n", "3", "-q"}).log, "");
+}
+
+TEST_F(Decompose, WritesSurfacesAsStlOnRequest) {
+    run("decompose", {"-n", "3", "-q"});
+    const auto without = test::contents(folder_.file("out/parts"));
+    run("decompose", {"-n", "3", "-q", "--stl"});
+    const auto with = test::contents(folder_.file("out/parts"));
+    EXPECT_EQ(without.size(), 3u);
+    EXPECT_EQ(with.size(), 6u);
+    for (const auto& [name, bytes] : without) EXPECT_TRUE(with.at(name) == bytes) << name;
+    const auto report = nlohmann::json::parse(test::bytes_of_file(folder_.file("out/report.json")));
+    for (const auto& part : report["parts"]) {
+        const std::string name = "out/parts/" + part_stl_file_name(part["id"].get<int>());
+        EXPECT_EQ(read_surface(folder_.file(name)).facets.size(), part["surface_faces"].get<std::size_t>()) << name;
+    }
+}
+
+TEST_F(Decompose, ReportHasTheSizesOfTheSurfaces) {
+    run("decompose", {"-n", "4", "-q"});
+    const auto report = nlohmann::json::parse(test::bytes_of_file(folder_.file("out/report.json")));
+    double volume = 0;
+    for (const auto& part : report["parts"]) {
+        volume += part["surface_volume"].get<double>();
+        EXPECT_GT(part["surface_vertices"], 100);
+    }
+    EXPECT_NEAR(volume / report["input"]["volume"].get<double>(), 1, 1e-12);
+    EXPECT_EQ(report["totals"]["volume"], volume);
+}
+
+TEST_F(Decompose, TraceChangesNoResult) {
+    for (const std::string command : {"mesh", "decompose"}) {
+        SCOPED_TRACE(command);
+        run(command, {"-n", "5", "-q"});
+        const auto parts = test::contents(folder_.file("out/parts"));
+        auto files = test::contents(folder_.file("out"));
+        run(command, {"-n", "5", "-q", "--trace", folder_.file("run.trace")});
+        EXPECT_TRUE(test::contents(folder_.file("out/parts")) == parts);
+        auto traced_files = test::contents(folder_.file("out"));
+        const auto report = nlohmann::json::parse(files.extract("report.json").mapped());
+        const auto traced_report = nlohmann::json::parse(traced_files.extract("report.json").mapped());
+        EXPECT_TRUE(traced_files == files);
+        EXPECT_EQ(traced_report["mesh_hash"], report["mesh_hash"]);
+        EXPECT_GT(test::bytes_of_file(folder_.file("run.trace")).size(), 1000u);
+    }
+}
+
+TEST_F(Decompose, TraceInTheOutputFolderIsRefused) {
+    const ChildResult result = test::run_kerf({"decompose", test::asset_path("cube"), "-o", folder_.file("out"), "-n",
+                                               "2", "--trace", folder_.file("other/../out/cube.trace")});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.log.find("lies in the output folder"), std::string::npos) << result.log;
+    EXPECT_EQ(folder_.names(), std::vector<std::string>());
+}
+
+}  // namespace
+}  // namespace kerf

@@ -1,0 +1,25 @@
+// The bytes of files, to compare runs by.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+
+namespace kerf::test {
+
+inline std::string bytes_of_file(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The files of a folder, without its sub-folders, by their names.
+inline std::map<std::string, std::string> contents(const std::string& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (entry.is_regular_file()) files[entry.path().filename()] = bytes_of_file(entry.path());
+    return files;
+}
+
+}  // namespace kerf::test
