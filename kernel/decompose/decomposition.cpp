@@ -1,66 +1,110 @@
+// The halves of a cut are independent, so each branch of the tree is a value of its own, which its parent appends in
+// the order of the tree, whichever thread has finished first.
 #include "decompose/decomposition.h"
+
+#include <future>
+#include <mutex>
 
 namespace kerf {
 
 namespace {
+
+// A node and all below it.
+struct Branch {
+    NodeId id = 1;
+    std::int32_t first_leaf = 0, leaves = 1;
+};
 
 class Decomposer {
  public:
     Decomposer(const DecomposeOptions& options, LeafRange range, CutListener* listener)
         : options_(options), range_(range), listener_(listener) {}
 
-    void descend(Surface surface, NodeId id, std::int32_t first_leaf, std::int32_t leaves);
-    Decomposition take() { return std::move(result_); }
+    Decomposition descend(Surface surface, const Branch& branch, std::int32_t threads);
 
  private:
-    void keep_whole(const Surface& surface, const TreeNode& node);
-    std::array<double, 2> loads(const std::array<Surface, 2>& halves) const;
+    using Halves = std::array<Surface, 2>;
+
+    void keep_whole(const Surface& surface, Decomposition& result) const;
+    std::array<double, 2> loads(const Halves& halves) const;
+    void tell_listener(const Surface& surface, const Cut& cut);
+    void descend_halves(Halves halves, const std::array<Branch, 2>& branches, std::int32_t threads,
+                        Decomposition& result);
 
     const DecomposeOptions& options_;
     LeafRange range_;
     CutListener* listener_;
-    Decomposition result_;
+    std::mutex listener_mutex_;
 };
 
-void Decomposer::keep_whole(const Surface& surface, const TreeNode& node) {
-    if (range_.contains(node.first_leaf))
-        result_.leaves.push_back({node.id, node.first_leaf, node.leaves, node.mass.volume, surface.arrays()});
+void append(Decomposition& result, Decomposition branch) {
+    result.nodes.insert(result.nodes.end(), branch.nodes.begin(), branch.nodes.end());
+    std::move(branch.leaves.begin(), branch.leaves.end(), std::back_inserter(result.leaves));
 }
 
-std::array<double, 2> Decomposer::loads(const std::array<Surface, 2>& halves) const {
+// The last node of the result becomes a leaf.
+void Decomposer::keep_whole(const Surface& surface, Decomposition& result) const {
+    const TreeNode& node = result.nodes.back();
+    if (range_.contains(node.first_leaf))
+        result.leaves.push_back({node.id, node.first_leaf, node.leaves, node.mass.volume, surface.arrays()});
+}
+
+std::array<double, 2> Decomposer::loads(const Halves& halves) const {
     const LoadModel model = options_.cut.bisected_load();
     return {model.load(halves[0], enclosed_volume(halves[0])), model.load(halves[1], enclosed_volume(halves[1]))};
 }
 
-void Decomposer::descend(Surface surface, NodeId id, std::int32_t first_leaf, std::int32_t leaves) {
+void Decomposer::tell_listener(const Surface& surface, const Cut& cut) {
+    if (!listener_) return;
+    const std::lock_guard lock(listener_mutex_);
+    listener_->on_cut(surface, cut);
+}
+
+Decomposition Decomposer::descend(Surface surface, const Branch& branch, std::int32_t threads) {
+    const auto [id, first_leaf, leaves] = branch;
     const MassProperties mass = mass_properties(surface);
-    const std::size_t index = result_.nodes.size();
-    result_.nodes.push_back(describe_node(id, first_leaf, leaves, surface, mass));
+    Decomposition result;
+    TreeNode& node = result.nodes.emplace_back(describe_node(id, first_leaf, leaves, surface, mass));
     const bool by_edges = options_.cut.contour != ContourMethod::straight;
     if (leaves == 1 || surface.facet_count() < 2 * min_facets_per_part || !by_edges) {
-        keep_whole(surface, result_.nodes[index]);
-        return;
+        keep_whole(surface, result);
+        return result;
     }
     Bisection bisection = bisect(surface, mass, id, fraction_below(leaves), options_.cut, listener_ != nullptr);
-    if (listener_) listener_->on_cut(surface, bisection.cut);
-    describe_cut(bisection.cut, result_.nodes[index]);
+    tell_listener(surface, bisection.cut);
+    describe_cut(bisection.cut, node);
     if (!bisection.cut.made()) {
-        keep_whole(surface, result_.nodes[index]);
-        return;
+        keep_whole(surface, result);
+        return result;
     }
     surface = Surface();  // the halves hold all that is needed below
     const std::int32_t below = leaves_below(loads(bisection.halves), leaves, options_.cut);
-    if (range_.meets(first_leaf, below)) descend(std::move(bisection.halves[0]), 2 * id, first_leaf, below);
-    if (range_.meets(first_leaf + below, leaves - below))
-        descend(std::move(bisection.halves[1]), 2 * id + 1, first_leaf + below, leaves - below);
+    const Branch lower{2 * id, first_leaf, below}, upper{2 * id + 1, first_leaf + below, leaves - below};
+    descend_halves(std::move(bisection.halves), {lower, upper}, threads, result);
+    return result;
+}
+
+void Decomposer::descend_halves(Halves halves, const std::array<Branch, 2>& branches, std::int32_t threads,
+                                Decomposition& result) {
+    const auto wanted = [&](std::size_t i) { return range_.meets(branches[i].first_leaf, branches[i].leaves); };
+    const auto half = [&](std::size_t i, std::int32_t own_threads) {
+        return descend(std::exchange(halves[i], {}), branches[i], own_threads);
+    };
+    if (threads > 1 && wanted(0) && wanted(1)) {
+        std::future<Decomposition> below = std::async(std::launch::async, half, 0, threads / 2);
+        Decomposition above = half(1, threads - threads / 2);
+        append(result, below.get());
+        append(result, std::move(above));
+    } else {
+        for (const std::size_t i : {0, 1})
+            if (wanted(i)) append(result, half(i, threads));
+    }
 }
 
 }  // namespace
 
 Decomposition decompose(Surface surface, const DecomposeOptions& options, LeafRange range, CutListener* listener) {
-    Decomposer decomposer(options, range, listener);
-    decomposer.descend(std::move(surface), 1, 0, options.parts);
-    return decomposer.take();
+    return Decomposer(options, range, listener).descend(std::move(surface), {1, 0, options.parts}, options.threads);
 }
 
 }  // namespace kerf

@@ -18,6 +18,7 @@ struct DecomposeOptions {
     std::int32_t parts = 8;  ///< K >= 1, any whole number
     FacetPolicy facets = FacetPolicy::split;
     CutOptions cut;
+    std::int32_t threads = 1;  ///< at most; the result is the same for any number
 };
 
 /// No part should have fewer facets; a part below twice this number has no contour of edges that is worth it.
@@ -43,7 +44,8 @@ struct DividedFacet {
     std::array<Vec3, 3> corners;
 };
 
-/// Is told of every cut while its data is at hand.
+/// Is told of every cut while its data is at hand: one call at a time, from any thread. On several threads cuts arrive
+/// in any order, parents before children.
 class CutListener {
  public:
     virtual ~CutListener() = default;
@@ -68,8 +70,9 @@ struct Decomposition {
 /// Cuts the surface into options.parts subdomains and returns those of `range`; only branches that lead to them are
 /// descended. A node that wants k leaves is cut at floor(k/2)/k of the load; the halves then get leaves in proportion
 /// to the load that they have. A part that cannot be cut stays whole, so that there may be fewer leaves than wanted; it
-/// belongs to whoever owns its first leaf. The result depends on surface and options only, not on the range or
-/// listener. Cost n + n/2 + n/4 + ... for a single leaf, n log K for all.
+/// belongs to whoever owns its first leaf. The result depends on surface and options only, not on the range, listener
+/// or threads. Cost n + n/2 + n/4 + ... for a single leaf, n log K for all; the first cut runs on one thread, the
+/// halves of a cut share the threads.
 Decomposition decompose(Surface surface, const DecomposeOptions& options, LeafRange range,
                         CutListener* listener = nullptr);
 

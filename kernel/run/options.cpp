@@ -79,6 +79,7 @@ void RunOptions::resolve(int ranks, int cores_of_rank) {
     if (workers == 0) workers = std::max(1, cores_of_rank);
     require(decompose.parts >= 0, "parts", "1 or more", decompose.parts);
     if (decompose.parts == 0) decompose.parts = ranks * workers;
+    decompose.threads = workers;  // they have nothing to do yet
     require(size >= 0 && std::isfinite(size), "size", "positive", size);
     require(mesher.max_volume >= 0 && std::isfinite(mesher.max_volume), "max-volume", "positive", mesher.max_volume);
     require(mesher.radius_edge == 0 || (mesher.radius_edge > 1 && std::isfinite(mesher.radius_edge)), "radius-edge",

@@ -2,11 +2,13 @@
 #include "cut/bisect.h"
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 
 #include <gtest/gtest.h>
 
 #include "core/bytes.h"
+#include "core/error.h"
 #include "decompose/decomposition.h"
 #include "support/assets.h"
 #include "support/shapes.h"
@@ -138,6 +140,63 @@ TEST(Decompose, RangeOfLeavesIsThatOfTheWhole) {
             EXPECT_EQ(some.leaves[i].id, whole.leaves[first + i].id);
             EXPECT_TRUE(to_bytes(some.leaves[i].surface) == to_bytes(whole.leaves[first + i].surface));
         }
+    }
+}
+
+// All but the clock.
+Bytes bytes_of(Decomposition& result) {
+    for (TreeNode& node : result.nodes) node.seconds = 0;
+    Bytes bytes = to_bytes(result.nodes);
+    const Bytes more = to_bytes(result.leaves);
+    bytes.insert(bytes.end(), more.begin(), more.end());
+    return bytes;
+}
+
+// Counts itself in and out: a call during another would see two.
+class OrderChecker : public CutListener {
+ public:
+    void on_cut(const Surface&, const Cut& cut) override {
+        EXPECT_EQ(++inside_, 1);
+        EXPECT_TRUE(cut.node == 1 || std::find(nodes.begin(), nodes.end(), cut.node / 2) != nodes.end());
+        nodes.push_back(cut.node);
+        --inside_;
+    }
+    std::vector<NodeId> nodes;
+
+ private:
+    std::atomic<int> inside_ = 0;
+};
+
+TEST(Decompose, ThreadsChangeNothing) {
+    for (const std::string asset : {"cylinder", "hollow_box", "wing_in_box"}) {
+        const Surface surface = test::asset_surface(asset);
+        for (const LeafRange range : {LeafRange{0, 9}, LeafRange{2, 5}}) {
+            SCOPED_TRACE(asset + " from leaf " + std::to_string(range.first));
+            DecomposeOptions options;
+            options.parts = 9;
+            Decomposition one = decompose(surface, options, range);
+            for (const std::int32_t threads : {2, 3, 16}) {
+                options.threads = threads;
+                OrderChecker listener;
+                Decomposition many = decompose(surface, options, range, &listener);
+                EXPECT_TRUE(bytes_of(many) == bytes_of(one)) << threads << " threads";
+                EXPECT_EQ(static_cast<std::ptrdiff_t>(listener.nodes.size()),
+                          std::count_if(one.nodes.begin(), one.nodes.end(), [](auto& n) { return n.cut_tried; }));
+            }
+        }
+    }
+}
+
+TEST(Decompose, ErrorsOfListenersReachTheCaller) {
+    class Thrower : public CutListener {
+        void on_cut(const Surface&, const Cut& cut) override {
+            if (cut.node == 2) throw Error(ErrorCode::cancelled, "Enough.");
+        }
+    } thrower;
+    DecomposeOptions options;
+    for (const std::int32_t threads : {1, 2, 4}) {
+        options.threads = threads;
+        EXPECT_THROW(decompose(test::asset_surface("cylinder"), options, {0, options.parts}, &thrower), Error);
     }
 }
 

@@ -171,5 +171,54 @@ TEST(FindShells, NumbersComponentsBySmallestFacet) {
     }
 }
 
+// Halves of a cut know most partners: forgetting any of them changes nothing but the time.
+TEST(Surface, KnownPartnersGiveTheSameHalfEdges) {
+    std::mt19937 random(7);
+    for (const Soup& soup : {test::tetrahedron(), test::box(), test::icosphere(2), test::torus(3, 1, 12, 9)}) {
+        const SurfaceArrays arrays = test::to_arrays(soup);
+        const Surface whole{SurfaceArrays(arrays)};
+        std::vector<std::int32_t> corner_of(3 * arrays.facets.size());
+        for (std::int32_t f = 0; f < whole.facet_count(); ++f)
+            for (int i = 0; i < 3; ++i) corner_of[whole.half_edges(f)[i]] = 3 * f + i;
+        for (int trial = 0; trial < 10; ++trial) {
+            SCOPED_TRACE(testing::Message() << soup.patch_names[0] << ", trial " << trial << " of seed 7");
+            std::vector<std::int32_t> partner(corner_of.size(), -1);
+            for (std::size_t h = 0; h < partner.size(); h += 2)
+                if (random() % 10 >= static_cast<unsigned>(trial)) {
+                    partner[corner_of[h]] = corner_of[h + 1];
+                    partner[corner_of[h + 1]] = corner_of[h];
+                }
+            auto built = Surface::build(SurfaceArrays(arrays), partner);
+            ASSERT_TRUE(std::holds_alternative<Surface>(built));
+            const Surface& surface = std::get<Surface>(built);
+            for (std::int32_t f = 0; f < whole.facet_count(); ++f) {
+                EXPECT_EQ(surface.half_edges(f), whole.half_edges(f));
+                EXPECT_EQ(surface.vertices(f), whole.vertices(f));
+                EXPECT_EQ(surface.neighbours(f), whole.neighbours(f));
+            }
+        }
+    }
+}
+
+TEST(Surface, OpenCornersWithoutPartnerAreDefects) {
+    SurfaceArrays arrays = test::to_arrays(test::icosphere(1));
+    const Surface whole{SurfaceArrays(arrays)};
+    std::vector<std::int32_t> partner(3 * arrays.facets.size());
+    for (std::int32_t f = 0; f < whole.facet_count(); ++f)
+        for (int i = 0; i < 3; ++i) {
+            const std::int32_t g = whole.neighbours(f)[i];
+            const auto others = whole.neighbours(g);
+            partner[3 * f + i] =
+                static_cast<std::int32_t>(3 * g + (std::find(others.begin(), others.end(), f) - others.begin()));
+        }
+    arrays.facets.pop_back();  // its neighbours lose theirs
+    partner.resize(partner.size() - 3);
+    for (std::int32_t& p : partner)
+        if (p >= static_cast<std::int32_t>(partner.size())) p = -1;
+    const auto built = Surface::build(std::move(arrays), partner);
+    ASSERT_TRUE(std::holds_alternative<ManifoldDefect>(built));
+    EXPECT_EQ(std::get<ManifoldDefect>(built).kind, ManifoldDefect::Kind::open_edge);
+}
+
 }  // namespace
 }  // namespace kerf
