@@ -46,7 +46,9 @@ void add_field(CLI::App& app, const OptionField& field) {
 
 CLI::App* add_run_command(CLI::App& app, const char* name, const char* text, CommandLine& line) {
     CLI::App* command = app.add_subcommand(name, text);
-    command->add_option("input", line.options.input, "Closed surface: STL, OBJ, PLY or OFF.")
+    command
+        ->add_option("input", line.options.input,
+                     "Closed surface: STL, OBJ, PLY, OFF, MEDIT .mesh, TetGen .smesh or .poly.")
         ->required()
         ->type_name("INPUT")
         ->configurable(false);

@@ -23,9 +23,7 @@ bool read_header(TextScanner& scanner) {
 std::int64_t read_count(TextScanner& scanner) {
     const std::string_view word = scanner.next_word();
     if (word == "BINARY") scanner.fail("binary OFF is not supported. Export the surface as text.");
-    const std::int64_t count = scanner.to_integer(word);
-    if (count < 0) scanner.fail("a number of elements is negative. Correct it or export the surface again.");
-    return count;
+    return scanner.to_count(word);
 }
 
 void read_facet(TextScanner& scanner, SoupBuilder& builder, std::vector<std::int64_t>& corners) {
@@ -51,11 +49,7 @@ Soup read_off(std::string_view bytes, const std::string& path) {
     }
     std::vector<std::int64_t> corners;
     for (std::int64_t f = 0; f < facets; ++f) read_facet(scanner, builder, corners);
-    if (!scanner.at_end()) {
-        scanner.next_word();
-        scanner.fail("the file goes on after the " + std::to_string(facets) +
-                     " facets that its header claims. Correct the numbers or export the surface again.");
-    }
+    scanner.expect_end("the " + std::to_string(facets) + " facets that its header claims");
     return builder.finish();
 }
 

@@ -27,6 +27,7 @@ class SoupBuilder {
     }
     /// Facets to come belong to the patch of this name; a patch without facets is not kept.
     void set_patch(std::string_view name) {
+        if (name == patch_name_) return;
         patch_name_ = name;
         patch_ = -1;
     }

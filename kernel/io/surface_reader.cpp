@@ -1,5 +1,5 @@
 // The format is told by the content: a binary STL by its size, which no text meets by chance, the others by their first
-// word. File names are not looked at.
+// word. Only TetGen's files, which begin with a number, are told by the ending of their name.
 #include "io/surface_reader.h"
 
 #include <algorithm>
@@ -34,8 +34,13 @@ Reader recognise(std::string_view bytes, const std::string& path) {
     if (word == "ply") return read_ply;
     if (word.ends_with("OFF")) return read_off;
     if (is_ascii_stl(bytes) || holds_nul(bytes)) return read_stl;
+    if (word == "MeshVersionFormatted") return read_medit;
     if (is_obj_keyword(word)) return read_obj;
-    throw Error(ErrorCode::input, path + ": the format is not recognised. Give STL, OBJ, PLY or OFF.");
+    if (path.ends_with(".smesh") || path.ends_with(".poly")) return read_tetgen;
+    throw Error(ErrorCode::input,
+                path +
+                    ": the format is not recognised. Give STL, OBJ, PLY, OFF, MEDIT's .mesh as text, or TetGen's "
+                    ".smesh or .poly.");
 }
 
 }  // namespace

@@ -29,6 +29,11 @@ class TextScanner {
         skip(false);
         return position_ == text_.size() || text_[position_] == '\n';
     }
+    /// The first character of the next word, over line ends; there must be one.
+    char peek() {
+        skip(true);
+        return text_[position_];
+    }
     /// The next word, over line ends; throws Error(input) at the end of the text.
     std::string_view next_word() {
         if (at_end()) fail("the file ends too early. It is truncated: export or copy it again.");
@@ -36,8 +41,29 @@ class TextScanner {
     }
     double next_real() { return to_real(next_word()); }
     std::int64_t next_integer() { return to_integer(next_word()); }
+    /// An index that counts from `first`, as one that counts from 0.
+    std::int64_t next_index(std::int64_t first) {
+        const std::int64_t index = next_integer();
+        if (index < first)
+            fail("an index is " + std::to_string(index) + ", but the file counts from " + std::to_string(first) +
+                 ". Correct it or export the surface again.");
+        return index - first;
+    }
+    /// A whole number that is not negative.
+    std::int64_t next_count() { return to_count(next_word()); }
     double to_real(std::string_view word) const { return to_number<double>(word, "number"); }
     std::int64_t to_integer(std::string_view word) const { return to_number<std::int64_t>(word, "whole number"); }
+    std::int64_t to_count(std::string_view word) const {
+        const std::int64_t count = to_integer(word);
+        if (count < 0) fail("a number of elements is negative. Correct it or export the surface again.");
+        return count;
+    }
+    /// Throws Error(input) if a word is left behind `last`, the last of what the file announced.
+    void expect_end(const std::string& last) {
+        if (at_end()) return;
+        scan_word();
+        fail("the file goes on after " + last + ". Correct the numbers or export the surface again.");
+    }
 
     /// The rest of the current line without surrounding blanks; the scanner stands at the next line.
     std::string_view rest_of_line() {

@@ -1,6 +1,8 @@
 // Real surfaces beyond the project's own, where a folder with them is at hand. All `good` ones are found to be clean;
 // the well-shaped ones among them are meshed and every law is checked. `bad` ones are refused with a code and a
 // message.
+#include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -16,8 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 bool readable(const fs::path& path) {
-    const std::string type = path.extension();
-    return type == ".stl" || type == ".obj" || type == ".ply" || type == ".off";
+    constexpr std::array<const char*, 7> types = {".stl", ".obj", ".ply", ".off", ".mesh", ".smesh", ".poly"};
+    return std::find(types.begin(), types.end(), path.extension()) != types.end();
 }
 
 std::vector<std::string> surfaces(const std::string& folder) {

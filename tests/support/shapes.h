@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "surface/soup.h"
 #include "surface/surface.h"
@@ -164,6 +165,69 @@ inline Soup nested_boxes(int count, int n = 1) {
         const Soup cube = box(-half, half, n);
         soup = join(std::move(soup), (count - 1 - i) % 2 ? inside_out(cube) : cube);
     }
+    return soup;
+}
+
+/// Rings of major radius 3 and minor radius 0.6 in a row along x, alternately flat and upright, each through its
+/// neighbours and touching none: 2 n_major n_minor facets per ring, a shell of genus 1 each.
+inline Soup linked_rings(int count, int n_major, int n_minor) {
+    Soup soup;
+    for (int i = 0; i < count; ++i) {
+        Soup ring = torus(3, 0.6, n_major, n_minor);
+        for (Vec3& p : ring.vertices) {
+            if (i % 2) p = Vec3(p.x(), -p.z(), p.y());
+            p.x() += 4.2 * i;
+        }
+        soup = join(std::move(soup), ring);
+    }
+    return soup;
+}
+
+/// Block of nx x ny x nz unit cubes with a spherical cavity of radius 0.3 in each: 80 facets per cavity, and
+/// 16 (nx ny + ny nz + nz nx) outside.
+inline Soup block_with_cavities(const std::array<int, 3>& n) {
+    Soup soup = box(Vec3::Zero(), Vec3(n[0], n[1], n[2]), {2 * n[0], 2 * n[1], 2 * n[2]});
+    for (int i = 0; i < n[0]; ++i)
+        for (int j = 0; j < n[1]; ++j)
+            for (int k = 0; k < n[2]; ++k)
+                soup = join(std::move(soup), inside_out(icosphere(1, 0.3, Vec3(i + 0.5, j + 0.5, k + 0.5))));
+    return soup;
+}
+
+/// Removes both of two facets with the same corners in opposite order: what solids side by side have in common.
+inline void cancel_common_facets(Soup& soup) {
+    std::map<Triangle, std::vector<std::size_t>> facets_at;
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        Triangle corners = soup.facets[f];
+        std::sort(corners.begin(), corners.end());
+        facets_at[corners].push_back(f);
+    }
+    std::vector<char> is_kept(soup.facets.size(), 1);
+    for (const auto& [corners, facets] : facets_at)
+        if (facets.size() == 2) is_kept[facets[0]] = is_kept[facets[1]] = 0;
+    std::size_t kept = 0;
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        if (!is_kept[f]) continue;
+        soup.patch[kept] = soup.patch[f];
+        soup.facets[kept++] = soup.facets[f];
+    }
+    soup.facets.resize(kept);
+    soup.patch.resize(kept);
+}
+
+/// Open-cell porous element: a cubic frame of beams with unit square sections around `cells`^3 unit pores, open to all
+/// sides; the sides of the unit cubes that make it are divided into n x n squares. One shell of high genus.
+inline Soup porous_frame(int cells, int n) {
+    Soup soup;
+    const int end = 2 * cells + 1;
+    for (int i = 0; i < end; ++i)
+        for (int j = 0; j < end; ++j)
+            for (int k = 0; k < end; ++k)
+                if (i % 2 + j % 2 + k % 2 < 2)  // on a beam, or where beams cross
+                    soup = join(std::move(soup), box(Vec3(i, j, k), Vec3(i + 1, j + 1, k + 1), n));
+    weld_exactly(soup);
+    cancel_common_facets(soup);
+    drop_unused_vertices(soup);
     return soup;
 }
 

@@ -26,8 +26,9 @@ using test::torus;
 // A file in the folder for temporary files that disappears with its object.
 class TemporaryFile {
  public:
-    explicit TemporaryFile(const std::string& bytes)
-        : path_(std::filesystem::temp_directory_path() / ("kerf_surface_reader_test_" + std::to_string(getpid()))) {
+    explicit TemporaryFile(const std::string& bytes, const std::string& ending = "")
+        : path_(std::filesystem::temp_directory_path() /
+                ("kerf_surface_reader_test_" + std::to_string(getpid()) + ending)) {
         std::ofstream(path_, std::ios::binary) << bytes;
     }
     ~TemporaryFile() { std::filesystem::remove(path_); }
@@ -38,13 +39,15 @@ class TemporaryFile {
     std::filesystem::path path_;
 };
 
-Soup read_bytes(const std::string& bytes) { return read_surface(TemporaryFile(bytes).path()); }
+Soup read_bytes(const std::string& bytes, const std::string& ending = "") {
+    return read_surface(TemporaryFile(bytes, ending).path());
+}
 
-std::string message_of(const std::string& bytes, ErrorCode code = ErrorCode::input) {
+std::string message_of(const std::string& bytes, const std::string& ending = "") {
     try {
-        read_bytes(bytes);
+        read_bytes(bytes, ending);
     } catch (const Error& error) {
-        EXPECT_EQ(error.code(), code) << error.what();
+        EXPECT_EQ(error.code(), ErrorCode::input) << error.what();
         EXPECT_NE(std::string(error.what()).find("kerf_surface_reader_test"), std::string::npos) << error.what();
         return error.what();
     }
@@ -113,6 +116,46 @@ std::string to_off(const Soup& soup) {
     return out.str();
 }
 
+std::string reference(const Soup& soup, std::size_t facet) { return std::to_string(10 - soup.patch[facet]); }
+
+std::string to_medit(const Soup& soup) {
+    auto out = precise_stream();
+    out << "MeshVersionFormatted 2\nDimension 3\nVertices\n" << soup.vertices.size() << "\n";
+    for (const Vec3& p : soup.vertices) out << p.transpose() << " 0\n";
+    out << "Corners 1\n1\nTriangles\n" << soup.facets.size() << "\n";
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        for (std::int32_t v : soup.facets[f]) out << v + 1 << " ";
+        out << reference(soup, f) << "\n";
+    }
+    out << "Tetrahedra\n1\n1 2 3 4 0\nEnd\n";
+    return out.str();
+}
+
+std::string to_node_list(const Soup& soup, int first) {
+    auto out = precise_stream();
+    out << "# nodes\n" << soup.vertices.size() << " 3 1 0\n";
+    for (std::size_t v = 0; v < soup.vertices.size(); ++v)
+        out << v + first << " " << soup.vertices[v].transpose() << " 0.5\n";
+    return out.str();
+}
+
+std::string to_facet_list(const Soup& soup, int first, bool is_poly) {
+    std::ostringstream out;
+    out << soup.facets.size() << " 1\n";
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        if (is_poly) out << "1 0 " << reference(soup, f) << "\n";
+        out << 3;
+        for (std::int32_t v : soup.facets[f]) out << " " << v + first;
+        out << (is_poly ? "" : " " + reference(soup, f)) << " # facet\n";
+    }
+    out << "1\n1 0.5 0.5 0.5\n1\n1 0.1 0.1 0.1 7 0.01\n";
+    return out.str();
+}
+
+std::string to_tetgen(const Soup& soup, int first, bool is_poly) {
+    return to_node_list(soup, first) + to_facet_list(soup, first, is_poly);
+}
+
 std::string ply_header(const Soup& soup, const std::string& format) {
     return "ply\nformat " + format + " 1.0\ncomment made by a test\nelement vertex " +
            std::to_string(soup.vertices.size()) +
@@ -173,6 +216,23 @@ TEST(SurfaceReader, GivesBackWhatTheIndexedFormatsHold) {
     }
 }
 
+TEST(SurfaceReader, GivesBackWhatMeditAndTetgenHold) {
+    for (const Soup& soup : shapes()) {
+        SCOPED_TRACE(soup.patch_names.front());
+        std::vector<Soup> read = {read_bytes(to_medit(soup))};
+        for (const int first : {0, 1}) {
+            read.push_back(read_bytes(to_tetgen(soup, first, false), ".smesh"));
+            read.push_back(read_bytes(to_tetgen(soup, first, true), ".poly"));
+        }
+        for (std::size_t i = 0; i < read.size(); ++i) {
+            SCOPED_TRACE(i);
+            expect_same(read[i], soup);
+            EXPECT_EQ(read[i].patch, soup.patch);
+            EXPECT_EQ(read[i].patch_names.front(), i == 0 ? "reference_10" : "marker_10");
+        }
+    }
+}
+
 TEST(SurfaceReader, WeldsTheCornersOfStl) {
     for (const Soup& soup : shapes()) {
         SCOPED_TRACE(soup.patch_names.front());
@@ -207,6 +267,20 @@ TEST(SurfaceReader, RefusesEveryTruncation) {
     }
 }
 
+TEST(SurfaceReader, RefusesEveryTruncationBeforeTheLastFacet) {
+    const Soup soup = tetrahedron();
+    const auto expect_refused = [](const std::string& bytes, std::size_t end, const std::string& ending) {
+        for (std::size_t size = 0; size < end; ++size) {
+            SCOPED_TRACE(ending + " at " + std::to_string(size));
+            message_of(bytes.substr(0, size), ending);
+        }
+    };
+    const std::string medit = to_medit(soup), smesh = to_tetgen(soup, 1, false), poly = to_tetgen(soup, 0, true);
+    expect_refused(medit, medit.find("\nTetrahedra") - 1, ".mesh");  // the reference has two digits
+    expect_refused(smesh, smesh.rfind(" 10 # facet"), ".smesh");     // a marker may be missing
+    expect_refused(poly, poly.rfind(" # facet"), ".poly");
+}
+
 TEST(SurfaceReader, ReportsATruncatedBinaryStlThatBeginsWithSolidAsSuch) {
     std::string bytes = to_binary_stl(icosphere(1), "solid part");
     bytes.resize(bytes.size() - 75);
@@ -218,15 +292,18 @@ TEST(SurfaceReader, ReportsATruncatedBinaryStlThatBeginsWithSolidAsSuch) {
 
 TEST(SurfaceReader, KeepsIndicesInRangeOnDamagedFiles) {
     const Soup soup = box();
-    for (const std::string& bytes : {to_binary_stl(soup), to_ascii_stl(soup), to_obj(soup), to_off(soup),
-                                     to_ascii_ply(soup), to_binary_ply(soup, false)})
+    const std::vector<std::array<std::string, 2>> files = {
+        {to_binary_stl(soup), ".stl"}, {to_ascii_stl(soup), ".stl"},          {to_obj(soup), ".obj"},
+        {to_off(soup), ".off"},        {to_ascii_ply(soup), ".ply"},          {to_binary_ply(soup, false), ".ply"},
+        {to_medit(soup), ".mesh"},     {to_tetgen(soup, 0, false), ".smesh"}, {to_tetgen(soup, 1, true), ".poly"}};
+    for (const auto& [bytes, ending] : files)
         for (unsigned seed = 1; seed <= 300; ++seed) {
             SCOPED_TRACE(bytes.substr(0, 20) + " seed " + std::to_string(seed));
             std::mt19937 random(seed);
             std::string damaged = bytes;
             for (int i = 0; i < 3; ++i) damaged[random() % damaged.size()] = static_cast<char>(random());
             try {
-                const Soup read = read_bytes(damaged);
+                const Soup read = read_bytes(damaged, ending);
                 ASSERT_EQ(read.patch.size(), read.facets.size());
                 for (const Triangle& t : read.facets)
                     for (std::int32_t v : t) ASSERT_LT(static_cast<std::size_t>(v), read.vertices.size());
@@ -247,16 +324,22 @@ TEST(SurfaceReader, DoesNotBelieveClaimedCounts) {
         "ply\nformat binary_little_endian 1.0\nelement face 1\nproperty list uint int vertex_index\nend_header\n";
     append(list, std::numeric_limits<std::uint32_t>::max());
     message_of(list);
+    message_of("MeshVersionFormatted 2 Dimension 3 Vertices 9000000000000000000 0 0 0 0");
+    message_of("9000000000000000000 3\n1 0 0 0\n", ".smesh");
+    message_of("1 3\n1 0 0 0\n1 0\n9000000000000000000 1 1 1", ".smesh");
 }
 
 TEST(SurfaceReader, NamesThePlaceAndTheCause) {
     struct Case {
-        std::string bytes, expected;
+        std::string bytes, expected, ending = "";
     };
+    const std::string medit = "MeshVersionFormatted 2\nDimension 3\nVertices 3\n0 0 0 0\n1 0 0 0\n0 1 0 0\n";
+    const std::string nodes = "3 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n";
     const std::string facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n";
     const std::vector<Case> cases = {
         {"", "empty"},
         {"PK\x03\x04 something else", "not recognised"},
+        {nodes + "1 0\n3 1 2 3\n", "not recognised"},
         {"solid a\nendsolid a\n", "no facets"},
         {"solid a\n" + facet, "truncated"},
         {"solid a\n" + facet + "facet normal 0 0 1\nouter loop\nvertex 0 0 blah\n", "line 5: a number is expected"},
@@ -280,10 +363,25 @@ TEST(SurfaceReader, NamesThePlaceAndTheCause) {
         {"ply\nformat binary_middle_endian 1.0\n", "line 2: the format"},
         {"ply\nformat ascii 1.0\nelement face 1\nproperty list uchar float vertex_index\nend_header\n3 0 1 0.5\n",
          "line 6: a whole number is expected"},
+        {"MeshVersionFormatted 2\nDimension 2\n", "line 2: the dimension is not 3"},
+        {medit, "no facets"},
+        {medit + "Triangles 1\n1 2 4 0\n", "line 8: a facet names vertex number 3"},
+        {medit + "Triangles 1\n0 2 3 0\n", "line 8: an index is 0, but the file counts from 1"},
+        {medit + "0 0 1 0\n", "line 7: a keyword is expected, not \"0\""},
+        {medit + "Triangles -1\n", "line 7: a number of elements is negative"},
+        {"3 2 0 0\n1 0 0\n", "line 1: the dimension is not 3", ".poly"},
+        {"2 3\n1 0 0 0\n3 0 0 0\n", "line 3: the nodes are not numbered one by one", ".smesh"},
+        {"1 3\n2 0 0 0\n", "line 2: the nodes are not numbered one by one", ".smesh"},
+        {nodes + "1 0\n3 1 2 4\n", "line 6: a facet names vertex number 3", ".smesh"},
+        {nodes + "1 0\n3 1 2 0\n", "line 6: an index is 0, but the file counts from 1", ".smesh"},
+        {nodes + "1 0\n2 1 2\n", "line 6: a facet has less than three", ".smesh"},
+        {nodes + "1 0\n2 0\n3 1 2 3\n2 1 2\n", "line 6: a facet has 2 polygons and 0 holes", ".poly"},
+        {nodes + "1 0\n1 1\n3 1 2 3\n1 0 0 0\n", "line 6: a facet has 1 polygons and 1 holes", ".poly"},
+        {nodes + "1 0\n3 1 2 3\n0\n0\n3 1 2 3\n", "line 9: the file goes on after its lists", ".smesh"},
     };
     for (const Case& c : cases) {
         SCOPED_TRACE(c.bytes);
-        const std::string message = message_of(c.bytes);
+        const std::string message = message_of(c.bytes, c.ending);
         EXPECT_NE(message.find(c.expected), std::string::npos) << message;
     }
 }
@@ -344,6 +442,48 @@ TEST(OffReader, AcceptsCommentsCountsOnSeveralLinesAndColours) {
     EXPECT_EQ(soup.vertices.size(), 4u);
     EXPECT_EQ(soup.facets, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
     EXPECT_EQ(read_bytes("OFF 3 1 0\n0 0 0 1 0 0 0 1 0\n3 0 1 2\n").facets.size(), 1u);
+}
+
+TEST(MeditReader, TakesTrianglesWithReferencesAndPassesOverTheRest) {
+    const Soup soup = read_bytes(
+        "# a comment\nMeshVersionFormatted\n2\n\nDimension\n3\nNormals 1\nnan -1e-3 0\nVertices\n4\n0 0 0 1\n1 0 0 1\n"
+        "1 1 0 1\n0 1 0 1\nRequiredVertices 1 1\nTriangles\n2 # with references\n1 2 3 -7\n1 3 4 2\nRequiredTriangles "
+        "1\n"
+        "1\nEdges 1 1 2 0\nQuadrilaterals 1 1 2 3 4 0\nEnd\nTriangles 1 1 2 3 0");
+    EXPECT_EQ(soup.vertices.size(), 4u);
+    EXPECT_EQ(soup.facets, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+    EXPECT_EQ(soup.patch, (std::vector<std::int32_t>{0, 1}));
+    EXPECT_EQ(soup.patch_names, (std::vector<std::string>{"reference_-7", "reference_2"}));
+}
+
+TEST(TetgenReader, AcceptsPolygonsCommentsAndMissingLists) {
+    const std::string nodes = "# box\n4\n0 0 0 0 # origin\n1 1 0 0 0.5 0.5 9\n\n2 1 1 0\n3 0 1 0\n";
+    const std::vector<Triangle> fan = {{0, 1, 2}, {0, 2, 3}};
+    EXPECT_EQ(read_bytes(nodes + "1\n4 0 1\n2 3", ".smesh").facets, fan);
+    EXPECT_EQ(read_bytes(nodes + "1\n1\n4 0 1 2 3\n0\n", ".poly").facets, fan);
+    EXPECT_EQ(read_bytes(nodes + "1 1\n4 0 1 2 3 5", ".smesh").patch_names, std::vector<std::string>{"marker_5"});
+    EXPECT_EQ(read_bytes(nodes + "1 0\n4 0 1 2 3 5", ".smesh").patch_names, std::vector<std::string>{"surface"});
+}
+
+TEST(TetgenReader, TakesTheNodesBesideAFileThatHasNone) {
+    const Soup soup = box();
+    const TemporaryFile nodes(to_node_list(soup, 1), ".node");
+    expect_same(read_bytes("0 3 0 0\n" + to_facet_list(soup, 1, false), ".smesh"), soup);
+    expect_same(read_bytes("0\n" + to_facet_list(soup, 1, true), ".poly"), soup);
+    const TemporaryFile damaged("1 3\n1 0 0 x\n", ".node");
+    const std::string message = message_of("0\n" + to_facet_list(soup, 1, true), ".poly");
+    EXPECT_NE(message.find(".node, line 2: a number is expected"), std::string::npos) << message;
+}
+
+TEST(TetgenReader, NamesAMissingNodeFile) {
+    const TemporaryFile file("0 3\n1 0\n3 1 2 3\n", ".smesh");
+    try {
+        read_surface(file.path());
+        ADD_FAILURE();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::io);
+        EXPECT_NE(std::string(error.what()).find(".node"), std::string::npos) << error.what();
+    }
 }
 
 TEST(PlyReader, PassesOverOtherElementsAndProperties) {

@@ -1,0 +1,68 @@
+// MEDIT's .mesh as text: sections of a capitalised keyword, a count and as many lines of numbers, up to the word End.
+// Vertices are x y z and a reference, Triangles three corners (from 1) and a reference, which is their patch. Every
+// other section is passed over up to the next keyword: tetrahedra, edges, ridges, normals, required elements.
+#include <string>
+#include <vector>
+
+#include "io/soup_builder.h"
+#include "io/surface_reader.h"
+#include "io/text_scanner.h"
+
+namespace kerf {
+
+namespace {
+
+bool begins_keyword(char c) { return c >= 'A' && c <= 'Z'; }
+
+void read_dimension(TextScanner& scanner) {
+    if (scanner.next_integer() != 3)
+        scanner.fail("the dimension is not 3. Export the surface with three coordinates per vertex.");
+}
+
+void read_vertices(TextScanner& scanner, SoupBuilder& builder) {
+    const std::int64_t count = scanner.next_count();
+    for (std::int64_t v = 0; v < count; ++v) {
+        const double x = scanner.next_real(), y = scanner.next_real(), z = scanner.next_real();
+        builder.add_vertex({x, y, z});
+        scanner.next_integer();  // the reference
+    }
+}
+
+void read_triangles(TextScanner& scanner, SoupBuilder& builder) {
+    const std::int64_t count = scanner.next_count();
+    std::vector<std::int64_t> corners(3);
+    for (std::int64_t f = 0; f < count; ++f) {
+        for (std::int64_t& corner : corners) corner = scanner.next_index(1);
+        builder.set_patch("reference_" + std::to_string(scanner.next_integer()));
+        builder.add_polygon(corners, [&](const std::string& what) { scanner.fail(what); });
+    }
+}
+
+void pass_over_section(TextScanner& scanner) {
+    while (!scanner.at_end() && !begins_keyword(scanner.peek())) scanner.next_word();
+}
+
+}  // namespace
+
+Soup read_medit(std::string_view bytes, const std::string& path) {
+    TextScanner scanner(bytes, path, '#');
+    SoupBuilder builder(path);
+    while (!scanner.at_end()) {
+        const std::string_view keyword = scanner.next_word();
+        if (keyword == "End") break;
+        if (!begins_keyword(keyword.front()))
+            scanner.fail("a keyword is expected, not \"" + std::string(keyword.substr(0, 40)) +
+                         "\". Correct the number of elements before it or export the surface again.");
+        if (keyword == "Dimension")
+            read_dimension(scanner);
+        else if (keyword == "Vertices")
+            read_vertices(scanner, builder);
+        else if (keyword == "Triangles")
+            read_triangles(scanner, builder);
+        else
+            pass_over_section(scanner);
+    }
+    return builder.finish();
+}
+
+}  // namespace kerf
