@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
+#include <functional>
 #include <memory>
 
 #include <Eigen/Geometry>
@@ -64,6 +65,10 @@ double penalty_factor(Refusal refusal) {
 double softness(const InterfaceQuality& quality, const CutOptions& options) {
     return std::min({quality.dihedral_deg / options.good_dihedral_deg, quality.angle_deg / options.good_angle_deg,
                      quality.gap_rel / options.good_gap_rel});
+}
+
+bool divides(const std::vector<Side>& side) {
+    return std::adjacent_find(side.begin(), side.end(), std::not_equal_to<>()) != side.end();
 }
 
 // One plane and its rounds of local repair.
@@ -147,7 +152,7 @@ bool PlaneTrial::find_contour(Attempt& attempt) {
     last_contour_ = edges;
     if (record_) attempt.stages.smoothed = attempt.record.contour = edges;
     ContourLoops contour = trace_loops(surface_, edges);
-    if (edges.empty()) refuse(attempt, Refusal::empty_side, {});
+    if (edges.empty() && !divides(attempt.side)) refuse(attempt, Refusal::empty_side, {});
     if (!contour.pinched.empty()) refuse(attempt, Refusal::pinched_contour, contour.pinched);
     attempt.loops = std::move(contour.loops);
     return attempt.record.refusal == Refusal::none;
@@ -192,7 +197,8 @@ Attempt PlaneTrial::attempt(std::int32_t repair) {
     attempt.record.step = candidate_.step;
     attempt.record.repair = repair;
     attempt.section_area = band_.section_area;
-    if (find_contour(attempt)) span_interface(attempt);
+    // Between shells that lie apart a plane divides the body without touching it.
+    if (find_contour(attempt) && !attempt.loops.empty()) span_interface(attempt);
     return attempt;
 }
 

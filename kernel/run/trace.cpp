@@ -71,7 +71,7 @@ Surface replay(const Trace& trace, NodeId node) {
                                                   "node i that was cut are 2i and 2i+1.",
                                                   trace.input, node));
     const Surface parent = replay(trace, node / 2);
-    return Surface(std::move(split(parent, cut->side, cut->interface, cut->node)[node % 2]));
+    return Surface(std::move(split(parent, cut->side, cut->interface, cut->node)[node % 2].arrays));
 }
 
 RunOptions options_of(const Trace& trace) {
