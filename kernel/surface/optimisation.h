@@ -17,7 +17,9 @@ struct OptimisationOptions {
 
 /// Moves vertices so that the distance energy plus the spring energy of Hoppe et al. 1993 falls: the squared distances
 /// of sample points of the original surface (its vertices and facet centroids) to the current one, plus `spring` times
-/// the squared lengths of the edges. Returns #V positions; number of vertices and facets stay.
+/// the squared lengths of the edges. A sample is measured to the facet where it was last found closest, which bounds
+/// its distance from above; the energy never ends above that of the input. Returns #V positions; number of vertices and
+/// facets stay.
 ///
 /// Vertices that keep their place bit for bit: those with fixed[v] != 0 (#V, or empty), those without facets, and the
 /// ends of every edge that has not exactly two consistently oriented facets, that divides two patches (#F) or two
