@@ -43,10 +43,8 @@ class InterfaceJudge {
     InterfaceQuality measure(const CutOptions& options, std::vector<std::int32_t>& soft);
 
  private:
-    struct SlabFacet {
-        std::int32_t facet;
+    struct NearFacet : SlabFacet {
         PlanarBox box;
-        double low, high;  // heights
     };
     std::int32_t id(std::int32_t point) const {
         return point < contour_count_ ? interface_.contour[point] : surface_.vertex_count() + point;
@@ -74,7 +72,7 @@ class InterfaceJudge {
     std::int32_t contour_count_;
     std::vector<PlanarBox> boxes_;    // of the interface triangles
     std::vector<double> low_, high_;  // heights of the interface triangles
-    std::vector<SlabFacet> slab_;     // facets that share heights with the interface
+    std::vector<NearFacet> slab_;     // facets that share heights with the interface
     PlanarGrid grid_;                 // of the interface triangles
 };
 
@@ -105,10 +103,10 @@ InterfaceJudge::InterfaceJudge(const Surface& surface, const Band& band, const I
 void InterfaceJudge::find_slab_facets() {
     const double low = *std::min_element(low_.begin(), low_.end());
     const double high = *std::max_element(high_.begin(), high_.end());
-    band_.for_each_facet_between(surface_, low, high, [&](std::int32_t f, double f_low, double f_high) {
-        SlabFacet facet{f, {}, f_low, f_high};
-        for (std::int32_t v : surface_.vertices(f)) facet.box.extend(band_.plane.project(surface_.point(v)));
-        slab_.push_back(facet);
+    band_.for_each_facet_between(surface_, low, high, [&](const SlabFacet& facet) {
+        PlanarBox box;
+        for (std::int32_t v : surface_.vertices(facet.facet)) box.extend(band_.plane.project(surface_.point(v)));
+        slab_.push_back({facet, box});
     });
 }
 
@@ -143,7 +141,7 @@ std::vector<std::int32_t> InterfaceJudge::chords() const {
 
 std::vector<std::int32_t> InterfaceJudge::intersections() {
     std::vector<std::int32_t> vertices;
-    for (const SlabFacet& f : slab_) {
+    for (const NearFacet& f : slab_) {
         const Triangle t = surface_.vertices(f.facet);
         grid_.for_each_overlap(f.box, [&](std::int32_t i) {
             if (low_[i] > f.high || high_[i] < f.low) return;
@@ -204,7 +202,7 @@ void InterfaceJudge::measure_gaps(double threshold, InterfaceQuality& quality, s
         const auto p = corners(interface_.triangles[i]);
         size[i] = ((p[1] - p[0]).norm() + (p[2] - p[1]).norm() + (p[0] - p[2]).norm()) / 3;
     }
-    for (const SlabFacet& f : slab_) {
+    for (const NearFacet& f : slab_) {
         const Triangle t = surface_.vertices(f.facet);
         const auto facet = facet_corners(t);
         const double margin = threshold * (f.box.high - f.box.low).norm();

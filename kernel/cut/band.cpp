@@ -66,7 +66,7 @@ Band make_band(const Surface& surface, const Plane& plane) {
             sum += d;
         }
         if (low > band.half_width || high < -band.half_width) continue;
-        band.slab_facets.push_back(f);
+        band.slab.push_back({f, low, high});
         const bool meets_plane = low <= 0 && high >= 0;
         if (!meets_plane && std::abs(sum) >= 3 * width * band.edge_length) continue;
         band.index_of[f] = static_cast<std::int32_t>(band.facets.size());

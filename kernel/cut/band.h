@@ -8,6 +8,12 @@
 
 namespace kerf {
 
+/// How far a facet reaches: the lowest and highest distance of its vertices from the plane.
+struct SlabFacet {
+    std::int32_t facet;
+    double low, high;
+};
+
 /// Facets that meet the plane or whose centroid is nearer than three crossing edges. All other facets lie on one side.
 struct Band {
     Plane plane;
@@ -18,26 +24,29 @@ struct Band {
     std::vector<std::int32_t> facets;    ///< ascending
     std::vector<std::int32_t> index_of;  ///< per facet of the surface: its index in `facets`, or -1
     std::vector<std::array<std::int32_t, 3>> half_edges;  ///< per band facet
-    std::vector<std::int32_t> slab_facets;  ///< that reach into |distance| <= half_width, ascending; all of the band do
+    std::vector<SlabFacet> slab;  ///< facets that reach into |distance| <= half_width, ascending; all of the band do
 
     /// Mean of the distances of the facet's vertices.
     double facet_distance(const Surface& surface, std::int32_t facet) const {
         const Triangle t = surface.vertices(facet);
         return (distance[t[0]] + distance[t[1]] + distance[t[2]]) / 3;
     }
-    /// Calls visit(facet, its lowest, its highest distance) for the facets that reach into [low, high], ascending.
-    /// O(#slab facets) within the half width, else O(#F).
+    /// Calls visit(slab facet) for the facets that reach into [low, high], ascending. O(#slab) within the half width,
+    /// else O(#F).
     template <class Visit>
     void for_each_facet_between(const Surface& surface, double low, double high, Visit visit) const {
-        const auto visit_if_between = [&](std::int32_t facet) {
-            const Triangle t = surface.vertices(facet);
-            const auto [lowest, highest] = std::minmax({distance[t[0]], distance[t[1]], distance[t[2]]});
-            if (lowest <= high && highest >= low) visit(facet, lowest, highest);
+        const auto visit_if_between = [&](const SlabFacet& facet) {
+            if (facet.low <= high && facet.high >= low) visit(facet);
         };
         if (low >= -half_width && high <= half_width)
-            for (std::int32_t facet : slab_facets) visit_if_between(facet);
+            for (const SlabFacet& facet : slab) visit_if_between(facet);
         else
-            for (std::int32_t facet = 0; facet < surface.facet_count(); ++facet) visit_if_between(facet);
+            for (std::int32_t f = 0; f < surface.facet_count(); ++f) visit_if_between(reach_of(surface, f));
+    }
+    SlabFacet reach_of(const Surface& surface, std::int32_t facet) const {
+        const Triangle t = surface.vertices(facet);
+        const auto [low, high] = std::minmax({distance[t[0]], distance[t[1]], distance[t[2]]});
+        return {facet, low, high};
     }
 };
 
