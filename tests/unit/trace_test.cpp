@@ -198,7 +198,7 @@ TEST(TraceLayout, NeedsANewVersionWhenItChanges) {
     Trace trace;
     trace.cuts.resize(1);
     trace.cuts[0].tries.resize(1);
-    EXPECT_EQ(to_bytes(trace).size(), 500u) << "raise trace_version in run/trace.cpp, then correct this number";
+    EXPECT_EQ(to_bytes(trace).size(), 540u) << "raise trace_version in run/trace.cpp, then correct this number";
 }
 
 }  // namespace
