@@ -64,7 +64,6 @@ class InterfaceJudge {
     void measure_angles(double threshold, InterfaceQuality& quality, std::vector<std::int32_t>& soft) const;
     void measure_dihedrals(double threshold, InterfaceQuality& quality, std::vector<std::int32_t>& soft) const;
     void measure_gaps(double threshold, InterfaceQuality& quality, std::vector<std::int32_t>& soft);
-    std::int32_t find_half_edge(std::int32_t from, std::int32_t to) const;
 
     const Surface& surface_;
     const Band& band_;
@@ -110,16 +109,6 @@ void InterfaceJudge::find_slab_facets() {
     });
 }
 
-std::int32_t InterfaceJudge::find_half_edge(std::int32_t from, std::int32_t to) const {
-    const std::int32_t first = surface_.outgoing(from);
-    std::int32_t h = first;
-    do {
-        if (surface_.to_vertex(h) == to) return h;
-        h = surface_.rotate(h);
-    } while (h != first);
-    return -1;
-}
-
 // Contour edges appear once as directed edges of interface triangles, all others twice. An edge between contour points
 // that the surface has too would get four facets.
 std::vector<std::int32_t> InterfaceJudge::chords() const {
@@ -134,7 +123,7 @@ std::vector<std::int32_t> InterfaceJudge::chords() const {
     for (std::size_t i = 1; i < between.size(); ++i) {
         if (between[i] != between[i - 1]) continue;
         const std::int32_t a = interface_.contour[between[i][0]], b = interface_.contour[between[i][1]];
-        if (find_half_edge(a, b) >= 0) vertices.insert(vertices.end(), {a, b});
+        if (surface_.find_half_edge(a, b) >= 0) vertices.insert(vertices.end(), {a, b});
     }
     return vertices;
 }
@@ -180,7 +169,7 @@ void InterfaceJudge::measure_dihedrals(double threshold, InterfaceQuality& quali
         for (int i = 0; i < 3; ++i) {
             if (t[i] >= contour_count_ || t[(i + 1) % 3] >= contour_count_) continue;
             const std::int32_t from = interface_.contour[t[i]], to = interface_.contour[t[(i + 1) % 3]];
-            const std::int32_t h = find_half_edge(from, to);
+            const std::int32_t h = surface_.find_half_edge(from, to);
             if (h < 0) continue;  // an interior edge between contour points
             const Vec3 &a = surface_.point(from), &b = surface_.point(to);
             const Vec3 inward = towards_apex(a, b, interface_.points[t[(i + 2) % 3]]);

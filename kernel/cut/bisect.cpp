@@ -159,8 +159,7 @@ bool PlaneTrial::find_contour(Attempt& attempt) {
 }
 
 void PlaneTrial::span_interface(Attempt& attempt) const {
-    InterfaceAttempt spanned =
-        build_interface(surface_, band_, attempt.side, attempt.loops, hits_, options_.max_interface_edge());
+    InterfaceAttempt spanned = build_interface(surface_, band_, attempt.side, attempt.loops, hits_, options_);
     if (spanned.refusal != Refusal::none) {
         refuse(attempt, spanned.refusal, std::move(spanned.failed));
         return;

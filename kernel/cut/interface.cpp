@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "cut/dihedral_ranges.h"
 #include "cut/lift.h"
 #include "cut/triangulation.h"
 
@@ -17,6 +18,7 @@ constexpr double obstacle_depth = 2.5;  // vertices further from the plane are n
 constexpr double wanted_depth = 1.2;    // nearer ones become vertices of the interface below or above them
 constexpr double clearance = 0.6;       // of the interface from an obstacle, in local edges
 constexpr double clearance_per_hit = 0.1;
+constexpr double dihedral_margin = 3;   // degrees above what is good enough
 constexpr double hit_clearance = 0.35;  // of vertices beside the contour, once they were hit
 
 struct VertexRing {
@@ -65,10 +67,10 @@ std::vector<Obstacle> find_obstacles(const Surface& surface, const Band& band, c
 
 InterfaceAttempt build_interface(const Surface& surface, const Band& band, const std::vector<Side>& side,
                                  const std::vector<std::vector<std::int32_t>>& loops,
-                                 const std::vector<std::int32_t>& hits, double max_edge) {
+                                 const std::vector<std::int32_t>& hits, const CutOptions& options) {
     InterfaceAttempt attempt;
     PlanarRegion region;
-    region.max_edge = max_edge;
+    region.max_edge = options.max_interface_edge();
     std::vector<double> contour_height;
     std::vector<char> on_contour(surface.vertex_count(), 0);
     std::vector<std::int32_t>& contour = attempt.interface.contour;
@@ -91,7 +93,9 @@ InterfaceAttempt build_interface(const Surface& surface, const Band& band, const
     for (std::int32_t i : planar.failed) attempt.failed.push_back(contour[i]);
     if (attempt.refusal != Refusal::none) return attempt;
 
-    const std::vector<double> height = lift_heights(planar, contour_height, obstacles);
+    const std::vector<double> height = lift_heights(
+        planar, contour_height, obstacles,
+        dihedral_ranges(surface, band, side, contour, planar, options.good_dihedral_deg + dihedral_margin));
     for (std::size_t i = 0; i < planar.points.size(); ++i)
         attempt.interface.points.push_back(i < contour.size() ? surface.point(contour[i])
                                                               : band.plane.lift(planar.points[i], height[i]));

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cut/band.h"
+#include "cut/options.h"
 
 namespace kerf {
 
@@ -14,11 +15,11 @@ struct InterfaceAttempt {
     Interface interface;
 };
 
-/// Spans the contour's loops. `max_edge` bounds its triangles (0: none). `hits` (#V) counts how often an interface has
-/// run into a surface vertex before: its clearance grows with it.
+/// Spans the contour's loops with triangles as small as a volume bound of `options` asks for. `hits` (#V) counts how
+/// often an interface has run into a surface vertex before: its clearance grows with it.
 InterfaceAttempt build_interface(const Surface& surface, const Band& band, const std::vector<Side>& side,
                                  const std::vector<std::vector<std::int32_t>>& loops,
-                                 const std::vector<std::int32_t>& hits, double max_edge);
+                                 const std::vector<std::int32_t>& hits, const CutOptions& options);
 
 /// Area of the lifted triangles.
 double interface_area(const Interface& interface);

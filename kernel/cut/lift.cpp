@@ -88,15 +88,9 @@ void solve_harmonic(const WeightedGraph& graph, std::size_t contour_count, std::
     for (Eigen::Index i = 0; i < interior; ++i) height[contour_count + static_cast<std::size_t>(i)] = solution[i];
 }
 
-struct Bounds {
-    double low = -INFINITY, high = INFINITY;
-    double clamp(double z) const { return low > high ? (low + high) / 2 : std::clamp(z, low, high); }
-};
-
-// Bounds of the interior points; contour points lie on the surface and stay.
-std::vector<Bounds> obstacle_bounds(const PlanarTriangulation& t, std::size_t contour_count,
-                                    const std::vector<Obstacle>& obstacles) {
-    std::vector<Bounds> bounds(t.points.size());
+// Narrows the ranges of interior points; contour points lie on the surface and stay.
+void add_obstacles(const PlanarTriangulation& t, std::size_t contour_count, const std::vector<Obstacle>& obstacles,
+                   std::vector<HeightRange>& bounds) {
     std::vector<PlanarBox> boxes;
     for (std::size_t v = contour_count; v < t.points.size(); ++v) boxes.push_back({t.points[v], t.points[v]});
     PlanarGrid grid(std::move(boxes));
@@ -109,10 +103,9 @@ std::vector<Bounds> obstacle_bounds(const PlanarTriangulation& t, std::size_t co
             else
                 bounds[v].high = std::min(bounds[v].high, o.height - lead);
         });
-    return bounds;
 }
 
-void relax_within_bounds(const WeightedGraph& graph, std::size_t contour_count, const std::vector<Bounds>& bounds,
+void relax_within_bounds(const WeightedGraph& graph, std::size_t contour_count, const std::vector<HeightRange>& bounds,
                          std::vector<double>& height) {
     for (int sweep = 0; sweep < sweeps; ++sweep)
         for (std::size_t v = contour_count; v < height.size(); ++v) {
@@ -128,16 +121,17 @@ void relax_within_bounds(const WeightedGraph& graph, std::size_t contour_count, 
 }  // namespace
 
 std::vector<double> lift_heights(const PlanarTriangulation& triangulation, const std::vector<double>& contour_height,
-                                 const std::vector<Obstacle>& obstacles) {
+                                 const std::vector<Obstacle>& obstacles, std::vector<HeightRange> ranges) {
     const std::size_t contour_count = contour_height.size();
     std::vector<double> height = contour_height;
     height.resize(triangulation.points.size(), 0);
     const WeightedGraph graph = cotangent_graph(triangulation);
     solve_harmonic(graph, contour_count, height);
-    const std::vector<Bounds> bounds = obstacle_bounds(triangulation, contour_count, obstacles);
+    ranges.resize(height.size());
+    add_obstacles(triangulation, contour_count, obstacles, ranges);
     bool violated = false;
-    for (std::size_t v = contour_count; v < height.size(); ++v) violated |= bounds[v].clamp(height[v]) != height[v];
-    if (violated) relax_within_bounds(graph, contour_count, bounds, height);
+    for (std::size_t v = contour_count; v < height.size(); ++v) violated |= ranges[v].clamp(height[v]) != height[v];
+    if (violated) relax_within_bounds(graph, contour_count, ranges, height);
     return height;
 }
 

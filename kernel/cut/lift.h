@@ -1,6 +1,8 @@
 // Heights of an interface over its plane.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "cut/triangulation.h"
@@ -16,11 +18,17 @@ struct Obstacle {
     double clearance = 0;     ///< wanted distance of the interface, in units of `size`
 };
 
-/// Harmonic heights with the contour's heights as boundary values, then bounded by the obstacles: the bound falls off
-/// with the distance at rate 0.3. Weights are cotangents, but positive where triangles are obtuse, so that no height
-/// lies beyond those of the contour; constants are kept, and planes up to that. `contour_height` #C; returns one height
-/// per point. O(n^1.5) for the factorisation.
+/// Where the height of a point may lie; empty (low > high) means the middle.
+struct HeightRange {
+    double low = -INFINITY, high = INFINITY;
+    double clamp(double z) const { return low > high ? (low + high) / 2 : std::clamp(z, low, high); }
+};
+
+/// Harmonic heights with the contour's heights as boundary values, then bounded by `ranges` (one per point, or none)
+/// and by the obstacles, whose bound falls off with the distance at rate 0.3. Weights are cotangents, but positive
+/// where triangles are obtuse, so that no height lies beyond those of the contour; constants are kept, and planes up to
+/// that. `contour_height` #C; returns one height per point. O(n^1.5) for the factorisation.
 std::vector<double> lift_heights(const PlanarTriangulation& triangulation, const std::vector<double>& contour_height,
-                                 const std::vector<Obstacle>& obstacles);
+                                 const std::vector<Obstacle>& obstacles, std::vector<HeightRange> ranges = {});
 
 }  // namespace kerf

@@ -238,6 +238,16 @@ Surface::Surface(SurfaceArrays arrays) {
     *this = std::move(std::get<Surface>(built));
 }
 
+std::int32_t Surface::find_half_edge(std::int32_t from, std::int32_t to) const {
+    const std::int32_t first = outgoing(from);
+    std::int32_t h = first;
+    do {
+        if (to_vertex(h) == to) return h;
+        h = rotate(h);
+    } while (h != first);
+    return -1;
+}
+
 SurfaceArrays Surface::arrays() const {
     SurfaceArrays arrays;
     arrays.vertices.reserve(vertex_count());

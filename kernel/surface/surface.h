@@ -107,6 +107,9 @@ class Surface {
     /// Turns to the next half-edge around its start vertex (clockwise seen from outside).
     std::int32_t rotate(std::int32_t half_edge) const { return next(opposite(half_edge)); }
 
+    /// The half-edge between two vertices, -1 if there is none. O(degree).
+    std::int32_t find_half_edge(std::int32_t from, std::int32_t to) const;
+
     SurfaceArrays arrays() const;
 
  private:

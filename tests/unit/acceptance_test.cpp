@@ -26,7 +26,7 @@ struct Section {
         clean_labels(surface, band, side, nullptr);
         const ContourLoops contour = trace_loops(surface, contour_edges(surface, band, side));
         const std::vector<std::int32_t> hits(surface.vertex_count(), 0);
-        InterfaceAttempt attempt = build_interface(surface, band, side, contour.loops, hits, 0);
+        InterfaceAttempt attempt = build_interface(surface, band, side, contour.loops, hits, CutOptions());
         EXPECT_EQ(attempt.refusal, Refusal::none);
         interface = std::move(attempt.interface);
     }
