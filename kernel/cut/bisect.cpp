@@ -231,12 +231,12 @@ Rung rung_of(const CutTry& record) {
 // Walks the ladder and keeps the best soft cut on the way.
 class Ladder {
  public:
-    Ladder(const Surface& surface, const MassProperties& mass, NodeId node, double fraction, const CutOptions& options,
-           bool record)
+    Ladder(const Surface& surface, const MassProperties& mass, NodeId node, const CutPlace& place,
+           const CutOptions& options, bool record)
         : surface_(surface),
           mass_(mass),
           node_(node),
-          fraction_(fraction),
+          place_(place),
           options_(options),
           record_(record),
           step_budget_(flow_step_budget(node, surface.facet_count())) {}
@@ -251,7 +251,7 @@ class Ladder {
     const Surface& surface_;
     const MassProperties& mass_;
     NodeId node_;
-    double fraction_;
+    const CutPlace& place_;
     const CutOptions& options_;
     bool record_;
     std::int64_t step_budget_;
@@ -286,10 +286,12 @@ bool Ladder::try_plane(const PlaneCandidate& candidate, std::vector<CutTry>& tri
 }
 
 std::unique_ptr<Attempt> Ladder::climb(std::vector<CutTry>& tries) {
-    const std::vector<Vec3> directions = cut_directions(surface_, mass_, options_);
+    std::vector<Vec3> directions = cut_directions(surface_, mass_, options_);
+    std::rotate(directions.begin(), directions.begin() + place_.axis, directions.begin() + place_.axis + 1);
     std::vector<PlaneSequence> sequences;
     for (std::size_t axis = 0; axis < directions.size(); ++axis)
-        sequences.emplace_back(surface_, mass_, directions[axis], static_cast<std::int32_t>(axis), fraction_, options_);
+        sequences.emplace_back(surface_, mass_, directions[axis], static_cast<std::int32_t>(axis), place_.fraction,
+                               options_);
     std::int32_t planes = 0;
     for (const bool inside : {true, false})
         for (PlaneSequence& sequence : sequences)
@@ -304,14 +306,15 @@ std::unique_ptr<Attempt> Ladder::climb(std::vector<CutTry>& tries) {
 
 }  // namespace
 
-Bisection bisect(const Surface& surface, const MassProperties& mass, NodeId node, double fraction,
+Bisection bisect(const Surface& surface, const MassProperties& mass, NodeId node, const CutPlace& place,
                  const CutOptions& options, bool record) {
     const auto start = std::chrono::steady_clock::now();
     Bisection result;
     Cut& cut = result.cut;
     cut.node = node;
     cut.method = options.contour;
-    const std::unique_ptr<Attempt> accepted = Ladder(surface, mass, node, fraction, options, record).climb(cut.tries);
+    cut.place = place;
+    const std::unique_ptr<Attempt> accepted = Ladder(surface, mass, node, place, options, record).climb(cut.tries);
     if (accepted) {
         cut.rung = rung_of(accepted->record);
         cut.plane = accepted->record.plane;

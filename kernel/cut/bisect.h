@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "cut/options.h"
+#include "cut/place.h"
 #include "surface/mass_properties.h"
 
 namespace kerf {
@@ -14,14 +14,14 @@ struct Bisection {
     std::array<Surface, 2> halves;  ///< below, above; empty if !cut.made()
 };
 
-/// Cuts the surface so that `fraction` of the load lies below the plane.
+/// Cuts the surface at `place`: the fraction of the load below the first plane, and the axis that is tried first.
 ///
 /// The ladder: minimum cut; local repair (the weights at the failed places are raised and the same plane is solved
 /// again); steps of the plane within the load window; the other axes; the best soft cut; none. Every accepted cut is
 /// proven: no intersection, both halves closed 2-manifolds, every shell in its half. Depends on the surface, node,
-/// fraction and options alone. `record` fills Cut::side, Cut::stages and CutTry::contour and changes nothing
+/// place and options alone. `record` fills Cut::side, Cut::stages and CutTry::contour and changes nothing
 /// else.
-Bisection bisect(const Surface& surface, const MassProperties& mass, NodeId node, double fraction,
+Bisection bisect(const Surface& surface, const MassProperties& mass, NodeId node, const CutPlace& place,
                  const CutOptions& options, bool record);
 
 }  // namespace kerf

@@ -131,6 +131,19 @@ struct Interface {
     }
 };
 
+/// Where the first plane of a cut goes.
+struct CutPlace {
+    double fraction = 0.5;  ///< of the load below the plane
+    std::int32_t axis = 0;  ///< rank of the direction in the order of preference of the criterion
+    double section_gain =
+        0;  ///< share of the section's area that is saved against axis 0 and half of the leaves; estimate
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(fraction, axis, section_gain);
+    }
+};
+
 /// One bisection.
 struct Cut {
     NodeId node = 1;
@@ -147,6 +160,7 @@ struct Cut {
     std::int64_t contour_edges = 0;
     double contour_length = 0;
     double max_deviation = 0;   ///< largest distance of a contour vertex from the plane
+    CutPlace place;             ///< of the first plane
     double section_area = 0;    ///< of the surface with the plane
     double interface_area = 0;  ///< of the lifted interface
     double seconds = 0;         ///< wall clock; goes into the report only
@@ -154,7 +168,7 @@ struct Cut {
     bool made() const { return rung != Rung::whole; }
     template <class Archive>
     void archive(Archive& a) {
-        a(node, rung, method, plane, tries, loops, side, stages, split_parent, interface, quality, contour_edges,
+        a(node, rung, method, plane, tries, loops, side, stages, split_parent, place, interface, quality, contour_edges,
           contour_length, max_deviation, section_area, interface_area, seconds);
     }
 };

@@ -18,9 +18,7 @@ struct LoadModel {
     double max_volume = 0;  ///< a; 0: none
 
     double load(double vertices, double facets, double volume) const;
-    double load(const Surface& surface, double volume) const {
-        return load(surface.vertex_count(), surface.facet_count(), volume);
-    }
+    bool needs_volume() const { return balance == Balance::volume || (balance == Balance::work && max_volume > 0); }
 };
 
 /// Load below the planes of one direction. Facets count by their centroid, volume is exact.

@@ -51,7 +51,10 @@ void Decomposer::keep_whole(const Surface& surface, Decomposition& result) const
 
 std::array<double, 2> Decomposer::loads(const Halves& halves) const {
     const LoadModel model = options_.cut.bisected_load();
-    return {model.load(halves[0], enclosed_volume(halves[0])), model.load(halves[1], enclosed_volume(halves[1]))};
+    const auto load = [&](const Surface& half) {
+        return model.load(half.vertex_count(), half.facet_count(), model.needs_volume() ? enclosed_volume(half) : 0);
+    };
+    return {load(halves[0]), load(halves[1])};
 }
 
 void Decomposer::tell_listener(const Surface& surface, const Cut& cut) {
@@ -70,7 +73,8 @@ Decomposition Decomposer::descend(Surface surface, const Branch& branch, std::in
         keep_whole(surface, result);
         return result;
     }
-    Bisection bisection = bisect(surface, mass, id, fraction_below(leaves), options_.cut, listener_ != nullptr);
+    const CutPlace place = choose_place(surface, mass, leaves, options_.cut);
+    Bisection bisection = bisect(surface, mass, id, place, options_.cut, listener_ != nullptr);
     tell_listener(surface, bisection.cut);
     describe_cut(bisection.cut, node);
     if (!bisection.cut.made()) {

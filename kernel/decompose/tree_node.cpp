@@ -21,6 +21,7 @@ void describe_cut(const Cut& cut, TreeNode& node) {
     node.cut_tried = true;
     node.cut_made = cut.made();
     node.plane = cut.plane;
+    node.place = cut.place;
     node.method = cut.method;
     node.rung = cut.rung;
     node.tries = static_cast<std::int32_t>(cut.tries.size());

@@ -15,6 +15,7 @@ struct TreeNode {
     MassProperties mass;
     bool cut_made = false;
     bool cut_tried = false;
+    CutPlace place;
     Plane plane;
     ContourMethod method = ContourMethod::min_cut;
     Rung rung = Rung::whole;
@@ -31,8 +32,9 @@ struct TreeNode {
     void archive(Archive& a) {
         a(id, first_leaf, leaves, vertices, facets, mass.volume, mass.area, mass.centroid);
         for (int i = 0; i < 9; ++i) a(mass.inertia.data()[i], mass.axes.data()[i]);
-        a(mass.eigenvalues, cut_made, cut_tried, plane, method, rung, tries, loops, contour_edges, contour_length,
-          max_deviation, section_area, interface_area, interface_faces, interface_vertices, quality, seconds);
+        a(mass.eigenvalues, cut_made, cut_tried, place, plane, method, rung, tries, loops, contour_edges,
+          contour_length, max_deviation, section_area, interface_area, interface_faces, interface_vertices, quality,
+          seconds);
     }
 };
 

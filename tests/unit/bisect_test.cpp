@@ -21,7 +21,7 @@ class Bisections : public testing::TestWithParam<std::string> {
     Bisections() : surface_(test::asset_surface(GetParam())), mass_(mass_properties(surface_)) {}
 
     Bisection cut(double fraction, const CutOptions& options, bool record = false) const {
-        return bisect(surface_, mass_, 3, fraction, options, record);
+        return bisect(surface_, mass_, 3, {fraction}, options, record);
     }
     void expect_valid(const Bisection& result) const;
 
@@ -118,7 +118,7 @@ TEST_P(Bisections, RecordChangesNothingElse) {
 
 TEST(Bisect, BodyThatCannotBeCutStaysWhole) {
     const Surface tetrahedron(test::to_arrays(test::tetrahedron()));
-    const Bisection result = bisect(tetrahedron, mass_properties(tetrahedron), 1, 0.5, {}, false);
+    const Bisection result = bisect(tetrahedron, mass_properties(tetrahedron), 1, {}, {}, false);
     EXPECT_EQ(result.cut.rung, Rung::whole);
     EXPECT_FALSE(result.cut.tries.empty());
     for (const CutTry& attempt : result.cut.tries) EXPECT_NE(attempt.refusal, Refusal::none);

@@ -132,7 +132,7 @@ class TraceFile : public testing::Test {
         trace.input = "sphere.off";
         trace.surface = test::to_arrays(test::icosphere(2));
         const Surface surface(trace.surface);
-        trace.cuts.push_back(bisect(surface, mass_properties(surface), 1, 0.5, {}, true).cut);
+        trace.cuts.push_back(bisect(surface, mass_properties(surface), 1, {}, {}, true).cut);
         trace.options = {{"parts", "2"}};
         write_trace(path_, trace);
         good_ = test::bytes_of_file(path_);
@@ -168,7 +168,7 @@ TEST_F(TraceFile, ForeignFilesAreRefused) {
     expect_refused(std::string(1000, '\0'), "no trace of Kerf");
     std::string newer = good_;
     ++newer[sizeof(std::uint64_t)];
-    expect_refused(newer, "reads format 2");
+    expect_refused(newer, "reads format 3");
     std::filesystem::remove(path_);
     EXPECT_THROW(read_trace(path_), Error);
 }
@@ -198,7 +198,7 @@ TEST(TraceLayout, NeedsANewVersionWhenItChanges) {
     Trace trace;
     trace.cuts.resize(1);
     trace.cuts[0].tries.resize(1);
-    EXPECT_EQ(to_bytes(trace).size(), 540u) << "raise trace_version in run/trace.cpp, then correct this number";
+    EXPECT_EQ(to_bytes(trace).size(), 560u) << "raise trace_version in run/trace.cpp, then correct this number";
 }
 
 }  // namespace

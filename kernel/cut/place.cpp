@@ -1,0 +1,88 @@
+// The area of the section at height s is the derivative of the volume below, A(s) = - sum of the facets' area vectors
+// below s, normal component: one histogram of the facets gives it at all heights, and its integral the volume.
+#include "cut/place.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "cut/plane.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr std::size_t bins = 128;
+constexpr std::int32_t least_leaves = 8;  // below, what a cut unbalances is not evened out any more
+constexpr double least_gain = 0.25;       // of the section's area
+constexpr double imbalance_price = 5;     // of the section's area per load off a share of j/leaves
+
+// Load and section below the upper end of each bin of heights.
+struct SectionProfile {
+    std::array<double, bins> load{}, area{};
+
+    // The section where the given share of the load lies below.
+    double area_at(double fraction) const {
+        const auto it = std::lower_bound(load.begin(), load.end(), fraction * load.back());
+        return area[static_cast<std::size_t>(std::min(it, load.end() - 1) - load.begin())];
+    }
+};
+
+SectionProfile section_profile(const Surface& surface, const Vec3& direction, const LoadModel& model) {
+    double low = INFINITY, high = -INFINITY;
+    for (std::int32_t v = 0; v < surface.vertex_count(); ++v) {
+        const double height = direction.dot(surface.point(v));
+        low = std::min(low, height);
+        high = std::max(high, height);
+    }
+    std::array<double, bins> count{}, area_z{};
+    const double bin_height = (high - low) / bins;
+    for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
+        const Triangle t = surface.vertices(f);
+        const Vec3 &a = surface.point(t[0]), &b = surface.point(t[1]), &c = surface.point(t[2]);
+        const double height = direction.dot(a + b + c) / 3 - low;
+        const auto bin = std::min(bins - 1, static_cast<std::size_t>(std::max(0.0, height / bin_height)));
+        count[bin] += 1;
+        area_z[bin] += (b - a).cross(c - a).dot(direction) / 2;
+    }
+    SectionProfile profile;
+    double facets = 0, area = 0, volume = 0;
+    for (std::size_t i = 0; i < bins; ++i) {
+        facets += count[i];
+        area -= area_z[i];
+        volume += area * bin_height;
+        profile.load[i] = model.load(facets, facets, volume);
+        profile.area[i] = area;
+    }
+    return profile;
+}
+
+}  // namespace
+
+CutPlace choose_place(const Surface& surface, const MassProperties& mass, std::int32_t leaves,
+                      const CutOptions& options) {
+    CutPlace place{static_cast<double>(leaves / 2) / leaves};
+    if (options.criterion != Criterion::inertia || options.axis >= 0 || leaves < least_leaves) return place;
+    const double half = place.fraction;
+    const std::vector<Vec3> directions = cut_directions(surface, mass, options);
+    double usual = 0, best = 0;
+    for (std::size_t axis = 0; axis < directions.size(); ++axis) {
+        const SectionProfile profile = section_profile(surface, directions[axis], options.bisected_load());
+        if (axis == 0) {
+            usual = profile.area_at(half);
+            best = (1 - least_gain) * usual;
+        }
+        for (std::int32_t below = 1; below < leaves; ++below) {
+            const double fraction = static_cast<double>(below) / leaves;
+            const double area = profile.area_at(fraction);
+            if (std::abs(fraction - half) > options.load_window || area <= 0 || area >= best) continue;
+            best = area;
+            place = {fraction, static_cast<std::int32_t>(axis), 1 - area / usual};
+        }
+    }
+    return place;
+}
+
+}  // namespace kerf
