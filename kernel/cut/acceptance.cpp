@@ -11,6 +11,7 @@
 
 #include "cut/angles.h"
 #include "cut/planar_grid.h"
+#include "surface/closest_point.h"
 #include "surface/intersections.h"
 #include "surface/mass_properties.h"
 #include "surface/ray_parity.h"
@@ -18,20 +19,6 @@
 namespace kerf {
 
 namespace {
-
-// Closest point by the regions of the triangle (Ericson 2005, section 5.1.5).
-double point_triangle_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-    const auto to_segment = [&](const Vec3& s, const Vec3& e) {
-        const Vec3 d = e - s;
-        const double t = std::clamp((p - s).dot(d) / d.squaredNorm(), 0.0, 1.0);
-        return (p - s - t * d).norm();
-    };
-    const Vec3 n = (b - a).cross(c - a);
-    const bool inside =
-        n.dot((b - a).cross(p - a)) >= 0 && n.dot((c - b).cross(p - b)) >= 0 && n.dot((a - c).cross(p - c)) >= 0;
-    if (inside) return std::abs(n.dot(p - a)) / n.norm();
-    return std::min({to_segment(a, b), to_segment(b, c), to_segment(c, a)});
-}
 
 class InterfaceJudge {
  public:

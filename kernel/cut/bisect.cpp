@@ -180,6 +180,7 @@ void PlaneTrial::complete(Attempt& attempt) const {
         SurfaceArrays& arrays = halves[i].arrays;
         auto built = Surface::build(std::move(arrays), std::move(halves[i].partner));
         if (const auto* defect = std::get_if<ManifoldDefect>(&built)) {
+            // NOLINTNEXTLINE(bugprone-use-after-move): build() leaves arrays with a defect as they are
             refuse_half(Refusal::not_manifold, arrays.vertices[defect->vertices.front()]);
             continue;
         }

@@ -17,7 +17,6 @@ namespace {
 constexpr std::size_t bins = 128;
 constexpr std::int32_t least_leaves = 8;  // below, what a cut unbalances is not evened out any more
 constexpr double least_gain = 0.25;       // of the section's area
-constexpr double imbalance_price = 5;     // of the section's area per load off a share of j/leaves
 
 // Load and section below the upper end of each bin of heights.
 struct SectionProfile {

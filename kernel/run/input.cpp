@@ -1,5 +1,6 @@
 #include "run/input.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -8,7 +9,9 @@
 #include "core/error.h"
 #include "io/surface_reader.h"
 #include "surface/diagnosis.h"
+#include "surface/intersections.h"
 #include "surface/mass_properties.h"
+#include "surface/optimisation.h"
 
 namespace kerf {
 
@@ -26,9 +29,27 @@ SurfaceArrays with_input_keys(Soup soup) {
     return arrays;
 }
 
+// Moves vertices of a surface that is known to be clean.
+void optimise(Soup& soup, std::int32_t sweeps, Input& input) {
+    OptimisationOptions options;
+    options.sweeps = sweeps;
+    std::vector<Vec3> moved = optimise_nodes(soup.vertices, soup.facets, soup.patch, {}, options);
+    if (const auto pairs = find_self_intersections(moved, soup.facets, 1); !pairs.empty())
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("{}: with --optimise-surface {} the facets {} and {} would intersect. Use fewer sweeps or "
+                        "leave the option out.",
+                        input.path, sweeps, pairs[0].first, pairs[0].second));
+    for (std::size_t v = 0; v < moved.size(); ++v) {
+        input.moved_vertices += moved[v] != soup.vertices[v];
+        input.largest_move = std::max(input.largest_move, (moved[v] - soup.vertices[v]).norm());
+    }
+    soup.vertices = std::move(moved);
+}
+
 }  // namespace
 
-Input read_input(const std::string& path) {
+Input read_input(const std::string& path, std::int32_t optimisation_sweeps) {
     Input input;
     input.path = path;
     Soup soup = read_surface(path);
@@ -37,6 +58,7 @@ Input read_input(const std::string& path) {
     if (!diagnosis.clean()) throw Error(ErrorCode::input, fmt::format("{}: {}", path, diagnosis.summary()));
     input.unused_vertices = drop_unused_vertices(soup);
     input.orientation = orient(soup);
+    if (optimisation_sweeps > 0) optimise(soup, optimisation_sweeps, input);
     input.patch_names = soup.patch_names;
     Eigen::AlignedBox3d box;
     for (const Vec3& p : soup.vertices) box.extend(p);

@@ -22,12 +22,17 @@ struct Input {
     std::int64_t welded_vertices = 0;  ///< merged because their coordinates are equal
     std::int64_t unused_vertices = 0;  ///< dropped because no facet uses them
     OrientationReport orientation;
+    std::int64_t moved_vertices = 0;  ///< by the optimisation of the surface
+    double largest_move = 0;          ///< of a vertex by that
     std::vector<std::string> patch_names;
     Surface surface;
 };
 
 /// Reads, welds vertices with equal coordinates, diagnoses and orients. What was repaired is counted. Throws Error(io)
 /// or Error(input), naming the file, the first offenders and what to do.
-Input read_input(const std::string& path);
+///
+/// With `optimisation_sweeps` > 0 vertices off the feature edges then slide to better places (surface/optimisation.h):
+/// that surface takes the place of the file's in all that follows. Throws Error(usage) if it would intersect itself.
+Input read_input(const std::string& path, std::int32_t optimisation_sweeps = 0);
 
 }  // namespace kerf

@@ -75,6 +75,7 @@ void OptionField::set_text(const std::string& text) const {
 }
 
 void RunOptions::resolve(int ranks, int cores_of_rank) {
+    require(optimisation_sweeps >= 0, "optimise-surface", "0 (keep it) or more sweeps", optimisation_sweeps);
     require(workers >= 0, "workers", "0 (share of the cores) or more", workers);
     if (workers == 0) workers = std::max(1, cores_of_rank);
     require(decompose.parts >= 0, "parts", "1 or more", decompose.parts);
@@ -115,6 +116,9 @@ std::vector<OptionField> option_fields(RunOptions& o) {
          choice(cut.contour, {"min-cut", "edges", "straight"})},
         {"surface", "", "Whether facets may be split where no contour of edges exists. Default split.",
          choice(o.decompose.facets, {"keep", "split"})},
+        {"optimise-surface", "",
+         "Sweeps that slide vertices off the feature edges to better places first. Default 0: the surface is kept.",
+         &o.optimisation_sweeps},
         {"mesher", "", "What fills the parts. Default tetgen.", choice(o.mesher.kind, {"tetgen"})},
         {"workers", "", "Mesher processes of each rank. Default: its share of the cores.", &o.workers, false},
         {"timeout", "", "Seconds for one attempt at one part; 0: none. Default 600.", &o.timeout_seconds, false},

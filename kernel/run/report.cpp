@@ -46,18 +46,21 @@ Json to_json(const QualityDistributions& quality) {
 }
 
 Json input_json(const Input& input) {
-    return {{"path", input.path},
-            {"vertices", input.vertices},
-            {"faces", input.facets},
-            {"components", input.components},
-            {"genus", input.genus},
-            {"volume", input.volume},
-            {"area", input.area},
-            {"repairs",
-             {{"vertices_welded", input.welded_vertices},
-              {"vertices_unused", input.unused_vertices},
-              {"facets_flipped", input.orientation.facets_flipped},
-              {"shells_flipped", input.orientation.shells_flipped}}}};
+    Json json = {{"path", input.path},
+                 {"vertices", input.vertices},
+                 {"faces", input.facets},
+                 {"components", input.components},
+                 {"genus", input.genus},
+                 {"volume", input.volume},
+                 {"area", input.area},
+                 {"repairs",
+                  {{"vertices_welded", input.welded_vertices},
+                   {"vertices_unused", input.unused_vertices},
+                   {"facets_flipped", input.orientation.facets_flipped},
+                   {"shells_flipped", input.orientation.shells_flipped}}}};
+    if (input.moved_vertices > 0)
+        json["optimisation"] = {{"vertices_moved", input.moved_vertices}, {"largest_move", input.largest_move}};
+    return json;
 }
 
 Json options_json(RunOptions options) {
@@ -234,8 +237,14 @@ std::string to_text(const RunReport& report) {
     };
     line("input", fmt::format("{}: {} facets, {} shell{}, genus {}, volume {:.6g}", input.path, grouped(input.facets),
                               input.components, input.components == 1 ? "" : "s", input.genus, input.volume));
+    if (input.moved_vertices > 0)
+        line("optimised",
+             fmt::format("{} vertices moved by {:.3g} at most", grouped(input.moved_vertices), input.largest_move));
     line("parts", fmt::format("{} of {} wanted; {}", report.parts.size(), report.options.decompose.parts,
                               rungs_text(report.nodes)));
+    if (report.split_facets > 0)
+        line("split", fmt::format("{} facets, where no contour of edges exists (--surface keep forbids it)",
+                                  grouped(report.split_facets)));
     if (section > 0)
         line("interfaces", fmt::format("area {:.6g}, {:.3f} of the plane sections; smallest angle {:.1f} deg",
                                        interface, interface / section, angle));

@@ -186,7 +186,7 @@ void FolderVerifier::check_input() {
     const std::string path = report_.at("input").at("path");
     Input input;
     try {
-        input = read_input(path);
+        input = read_input(path, report_.at("options").value("optimise-surface", 0));
     } catch (const Error& e) {
         result_.notes.push_back(fmt::format("The facets were not compared with the input: {}", e.what()));
         return;
