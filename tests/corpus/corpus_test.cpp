@@ -1,6 +1,6 @@
-// Real surfaces beyond the project's own, where a folder with them is at hand. All `good` ones are found to be clean;
-// the well-shaped ones among them are meshed and every law is checked. `bad` ones are refused with a code and a
-// message.
+// Real surfaces beyond the project's own, where a folder with them is at hand. All `good` ones are found to be clean
+// and decompose; the well-shaped ones among them, and some of CAD programs, are meshed and every law is checked. `bad`
+// ones are refused with a code and a message.
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "support/decomposition_laws.h"
 #include "support/run_in_process.h"
 #include "support/run_laws.h"
 #include "support/temporary_folder.h"
@@ -51,6 +52,21 @@ TEST_P(GoodSurface, IsReadAndClean) {
     EXPECT_EQ(input.facets, input.surface.facet_count());
 }
 
+TEST_P(GoodSurface, DecomposesIntoEveryNumberOfParts) {
+    constexpr std::int32_t facets_for_a_part = 300;
+    const Surface surface = std::move(read_input(GetParam()).surface);
+    for (const std::int32_t parts : {2, 8, 32}) {
+        SCOPED_TRACE(testing::Message() << parts << " parts");
+        DecomposeOptions options;
+        options.parts = parts;
+        options.threads = 2;
+        const Decomposition whole = test::decompose_whole(surface, options);
+        EXPECT_EQ(test::broken_laws(whole, surface.arrays()), "");
+        const bool all_wanted = surface.facet_count() >= facets_for_a_part * parts;
+        EXPECT_GE(whole.leaves.size(), all_wanted ? static_cast<std::size_t>(parts) : 1u);
+    }
+}
+
 std::vector<std::string> well_shaped_surfaces() {
     std::vector<std::string> paths;
     for (const char* name : {"mesh2hrtf_head.ply", "openfoam_flange.stl", "openfoam_DTC-scaled.stl",
@@ -74,6 +90,29 @@ TEST_P(WellShapedSurface, IsMeshedAndVerifiedWithoutAFailedCut) {
         EXPECT_EQ(report.parts.size(), static_cast<std::size_t>(parts));
         EXPECT_EQ(test::broken_laws(test::read_parts(folder.file("out")), surface), "");
     }
+}
+
+// Triangles as long as the part, with sides down to a thousandth of that.
+std::vector<std::string> cad_surfaces() {
+    std::vector<std::string> paths;
+    for (const char* name : {"netgen_hinge.stl", "trimesh_featuretype.ply", "openfoam_shield.obj",
+                             "prusa_y-motor-holder.stl", "windtunnel_honeycomb_round.stl",
+                             "voron_exhaust_filter_housing.stl", "openfoam_tank.obj", "openfoam_NACA0012.obj"})
+        paths.push_back(fs::path(KERF_CORPUS) / "good" / name);
+    return paths;
+}
+
+class CadSurface : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Corpus, CadSurface, testing::ValuesIn(cad_surfaces()), test_name);
+
+TEST_P(CadSurface, IsMeshedInEightPartsByTheLaws) {
+    const test::TemporaryFolder folder;
+    Input input;
+    const RunReport report = test::run_parts(GetParam(), folder.file("out"), 8, input);
+    EXPECT_EQ(report.exit_code, 0);
+    EXPECT_TRUE(report.verification.passed);
+    EXPECT_EQ(report.parts.size(), 8u);
+    EXPECT_EQ(test::broken_laws(test::read_parts(folder.file("out")), read_input(GetParam()).surface.arrays()), "");
 }
 
 class BadSurface : public testing::TestWithParam<std::string> {};

@@ -7,7 +7,9 @@
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/program.h"
+#include "support/shapes.h"
 #include "support/temporary_folder.h"
+#include "support/write_off.h"
 
 namespace kerf {
 namespace {
@@ -71,6 +73,42 @@ TEST_P(MpiRuns, TracesAreTheSameForAnyRanks) {
         EXPECT_FALSE(bytes.empty());
         EXPECT_TRUE(bytes == expected);
     }
+}
+
+// A straight cut splits facets of neighbours, too, which other ranks hold.
+class MpiStraightCuts : public testing::Test {
+ protected:
+    void expect_same_for_any_ranks(const std::string& command, const std::string& input, std::int32_t parts) const {
+        std::map<std::string, std::string> expected;
+        for (int ranks = 1; ranks <= 3; ++ranks) {
+            SCOPED_TRACE(testing::Message() << command << ", " << ranks << " ranks");
+            const ChildResult result = run_ranks(
+                ranks, {KERF_PROGRAM, command, input, "-o", folder_.file("out"), "-n", std::to_string(parts)});
+            ASSERT_EQ(result.exit_code, 0) << result.log;
+            const std::string report = test::bytes_of_file(folder_.file("out/report.json"));
+            EXPECT_NE(report.find("\"rung\": \"straight\""), std::string::npos);
+            const auto files = test::contents(folder_.file("out/parts"));
+            if (ranks == 1) expected = files;
+            EXPECT_GE(files.size(), static_cast<std::size_t>(parts));
+            EXPECT_TRUE(files == expected);
+        }
+    }
+    std::string written(const Soup& soup) const {
+        test::write_off(folder_.file("surface.off"), soup.vertices, soup.facets);
+        return folder_.file("surface.off");
+    }
+
+ private:
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(MpiStraightCuts, PartFilesAreTheSameForAnyRanks) {
+    expect_same_for_any_ranks("mesh", written(test::plate_with_hole(24)), 6);
+    expect_same_for_any_ranks("mesh", written(test::porous_frame(2, 1)), 5);
+}
+
+TEST_F(MpiStraightCuts, PartFilesAreTheSameWhereCutsAlongEdgesCameBefore) {
+    expect_same_for_any_ranks("decompose", test::asset_path("hollow_box"), 200);
 }
 
 struct Failure {

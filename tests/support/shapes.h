@@ -134,6 +134,57 @@ inline Soup torus(double major_radius, double minor_radius, int n_major, int n_m
     return soup;
 }
 
+/// Prism with n sides about the z axis: 4 n facets, of which the 2 n of the sides are as long as the part.
+inline Soup prism(int n, double radius, double height) {
+    Soup soup;
+    soup.vertices = {Vec3::Zero(), Vec3(0, 0, height)};
+    for (int i = 0; i < n; ++i)
+        for (const double z : {0.0, height}) {
+            const double angle = 2 * std::numbers::pi * i / n;
+            soup.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+        }
+    for (std::int32_t i = 0; i < n; ++i) {
+        const std::int32_t a = 2 + 2 * i, b = 2 + 2 * ((i + 1) % n);  // vertices above follow those below
+        soup.facets.insert(soup.facets.end(), {{0, b, a}, {a, b, b + 1}, {a, b + 1, a + 1}, {1, a + 1, b + 1}});
+        soup.patch.insert(soup.patch.end(), {0, 1, 1, 2});
+    }
+    soup.patch_names = {"below", "sides", "above"};
+    return soup;
+}
+
+/// Square plate with a round hole of n vertices, n a multiple of 4: every facet of the upper and lower side runs from
+/// the hole to a corner or from an outer edge to the hole. 4 n + 16 facets.
+inline Soup plate_with_hole(int n) {
+    Soup soup;
+    soup.patch_names = {"plate"};
+    const auto add_pair = [&](double x, double y) {
+        for (const double z : {-0.1, 0.1}) soup.vertices.emplace_back(x, y, z);
+    };
+    for (int i = 0; i < 4; ++i) add_pair(i == 0 || i == 3 ? 2 : -2, i < 2 ? 2 : -2);
+    for (int i = 0; i < n; ++i) {
+        const double angle = 2 * std::numbers::pi * (i + 0.3) / n;
+        add_pair(std::cos(angle), std::sin(angle));
+    }
+    const auto add_sides = [&](std::int32_t a, std::int32_t b, std::int32_t c) {  // counter-clockwise from above
+        soup.facets.insert(soup.facets.end(), {{a + 1, b + 1, c + 1}, {a, c, b}});
+    };
+    const auto add_wall = [&](std::int32_t a, std::int32_t b) {  // seen from outside, a on the left
+        soup.facets.insert(soup.facets.end(), {{a, b, b + 1}, {a, b + 1, a + 1}});
+    };
+    const auto hole = [&](int i) { return 8 + 2 * (i % n); };
+    for (int quarter = 0; quarter < 4; ++quarter) {
+        const std::int32_t corner = 2 * quarter, next = 2 * ((quarter + 1) % 4);
+        for (int i = quarter * n / 4; i < (quarter + 1) * n / 4; ++i) {
+            add_sides(corner, hole(i + 1), hole(i));
+            add_wall(hole(i + 1), hole(i));
+        }
+        add_sides(corner, next, hole((quarter + 1) * n / 4));
+        add_wall(corner, next);
+    }
+    soup.patch.assign(soup.facets.size(), 0);
+    return soup;
+}
+
 /// The same surface with every facet turned.
 inline Soup inside_out(Soup soup) {
     for (Triangle& t : soup.facets) std::swap(t[1], t[2]);

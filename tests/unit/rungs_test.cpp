@@ -1,0 +1,109 @@
+// Every rung of the ladder, on a body that needs it, and one body whose cut steps down the ladder as remedies are taken
+// away.
+#include <gtest/gtest.h>
+
+#include "support/assets.h"
+#include "support/decomposition_laws.h"
+#include "support/shapes.h"
+
+namespace kerf {
+namespace {
+
+constexpr double out_of_reach_deg = 61;  // every triangle has a smaller angle
+
+DecomposeOptions in_parts(std::int32_t parts) {
+    DecomposeOptions options;
+    options.parts = parts;
+    return options;
+}
+
+// The first cut; that the whole tree is valid is checked, too.
+TreeNode first_cut(const Surface& surface, const DecomposeOptions& options) {
+    const Decomposition whole = test::decompose_whole(surface, options);
+    EXPECT_EQ(test::broken_laws(whole, surface.arrays()), "");
+    return whole.nodes.front();
+}
+TreeNode first_cut(const Soup& soup, const DecomposeOptions& options) {
+    return first_cut(Surface(test::to_arrays(soup)), options);
+}
+
+void expect_rung(Rung expected, const TreeNode& node) {
+    EXPECT_EQ(node.rung, expected) << name(node.rung) << ", not " << name(expected);
+    EXPECT_EQ(node.cut_made, expected != Rung::whole);
+    EXPECT_EQ(node.method, expected == Rung::straight ? ContourMethod::straight : ContourMethod::min_cut);
+}
+
+TEST(Rungs, SphereNeedsOneTry) {
+    const TreeNode node = first_cut(test::icosphere(3), in_parts(2));
+    expect_rung(Rung::first_try, node);
+    EXPECT_EQ(node.tries, 1);
+}
+
+TEST(Rungs, KneeNeedsLocalRepair) {
+    const TreeNode node = first_cut(test::asset_surface("knee_tibial"), in_parts(5));
+    expect_rung(Rung::local_repair, node);
+    EXPECT_GT(node.tries, 1);
+}
+
+TEST(Rungs, PorousFrameNeedsAnotherPlaneWhereNothingIsRepaired) {
+    DecomposeOptions options = in_parts(5);
+    options.cut.repairs = 0;
+    const TreeNode node = first_cut(test::porous_frame(2, 2), options);
+    expect_rung(Rung::plane_step, node);
+    EXPECT_GT(node.tries, 1);
+}
+
+TEST(Rungs, BlockWithCavitiesNeedsAnotherAxis) {
+    const TreeNode node = first_cut(test::block_with_cavities({3, 2, 2}), in_parts(2));
+    expect_rung(Rung::other_axis, node);
+    EXPECT_GT(node.tries, 2);
+}
+
+TEST(Rungs, ThinPlateIsLeftWithASoftCut) {
+    const CutOptions thresholds;
+    const TreeNode node = first_cut(test::box(Vec3::Zero(), Vec3(100, 100, 0.5), {40, 40, 1}), in_parts(2));
+    expect_rung(Rung::soft, node);
+    EXPECT_TRUE(node.quality.dihedral_deg < thresholds.good_dihedral_deg ||
+                node.quality.angle_deg < thresholds.good_angle_deg || node.quality.gap_rel < thresholds.good_gap_rel);
+}
+
+TEST(Rungs, BoxOfTwelveFacetsNeedsAStraightCutOrStaysWhole) {
+    DecomposeOptions options = in_parts(2);
+    expect_rung(Rung::straight, first_cut(test::box(), options));
+    options.facets = FacetPolicy::keep;
+    const TreeNode kept = first_cut(test::box(), options);
+    expect_rung(Rung::whole, kept);
+    EXPECT_FALSE(kept.cut_tried);
+}
+
+TEST(Rungs, CoarseFrameIsTriedInVainAndThenCutStraightOrStaysWhole) {
+    DecomposeOptions options = in_parts(2);
+    const Soup frame = test::porous_frame(2, 1);
+    const TreeNode straight = first_cut(frame, options);
+    expect_rung(Rung::straight, straight);
+    options.facets = FacetPolicy::keep;
+    const TreeNode kept = first_cut(frame, options);
+    expect_rung(Rung::whole, kept);
+    EXPECT_TRUE(kept.cut_tried);
+    EXPECT_GT(kept.tries, 1);
+    EXPECT_GT(straight.tries, kept.tries);  // those in vain count
+}
+
+TEST(Rungs, RemediesTakenAwayLeadDownTheLadder) {
+    const Surface block(test::to_arrays(test::block_with_cavities({3, 2, 2})));
+    DecomposeOptions options = in_parts(5);
+    expect_rung(Rung::local_repair, first_cut(block, options));
+    options.cut.repairs = 0;
+    expect_rung(Rung::plane_step, first_cut(block, options));
+    options.cut.plane_steps = 0;
+    expect_rung(Rung::other_axis, first_cut(block, options));
+    options.cut.good_angle_deg = out_of_reach_deg;
+    expect_rung(Rung::soft, first_cut(block, options));
+    options.cut.contour = ContourMethod::straight;
+    expect_rung(Rung::straight, first_cut(block, options));
+    options.facets = FacetPolicy::keep;
+    expect_rung(Rung::whole, first_cut(block, options));
+}
+
+}  // namespace
+}  // namespace kerf
