@@ -111,8 +111,8 @@ bool has_places(Refusal refusal) {
 TEST(TracedTries, SayWhereTheyFailedAndOnWhichContour) {
     Witness witness;
     DecomposeOptions options;
-    options.parts = 8;
-    decompose(test::asset_surface("knee_tibial"), options, {0, options.parts}, &witness);
+    options.parts = 16;
+    decompose(test::asset_surface("wing_in_box"), options, {0, options.parts}, &witness);
     int refused = 0;
     for (const auto& [node, cut] : witness.cuts)
         for (const CutTry& attempt : from_bytes<Cut>(to_bytes(cut)).tries) {
