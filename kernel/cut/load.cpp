@@ -1,7 +1,8 @@
 // Volume below the plane z = s by the divergence theorem with the field (0, 0, z - s): V(s) = sum over the surface
 // below of the integral of (z - s) n_z dA; the cap contributes nothing because z = s there. For a whole facet the
 // integral is (mean z - s) A n_z; for a crossing facet the part below is the facet minus the corner above, or the
-// corner below.
+// corner below. The second moment, the integral of z^2, is the same with p(z) = z^3/3 in place of z: p' is what is
+// integrated over the volume.
 #include "cut/load.h"
 
 #include <algorithm>
@@ -25,6 +26,7 @@ double LoadModel::load(double vertices, double facets, double volume) const {
         case Balance::faces:
             return facets;
         case Balance::volume:
+        case Balance::inertia:
             return volume;
         case Balance::work:
             return facets + (max_volume > 0 ? volume_weight * volume / max_volume : 0);
@@ -39,7 +41,7 @@ LoadProfile::LoadProfile(const Surface& surface, const Plane& plane, const LoadM
     lowest_ = *low;
     highest_ = *high;
     if (model.balance == Balance::nodes) {
-        for (const double z : height) items_.push_back({z, z, z, 0, z});
+        for (const double z : height) items_.push_back({z, z, z, 0, z, 0});
     } else {
         items_.reserve(surface.facet_count());
         for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
@@ -48,7 +50,8 @@ LoadProfile::LoadProfile(const Surface& surface, const Plane& plane, const LoadM
             const Vec3 normal_area = (surface.point(t[1]) - a).cross(surface.point(t[2]) - a) / 2;
             std::array<double, 3> z = {height[t[0]], height[t[1]], height[t[2]]};
             std::sort(z.begin(), z.end());
-            items_.push_back({z[0], z[1], z[2], normal_area.dot(plane.normal), (z[0] + z[1] + z[2]) / 3});
+            items_.push_back({z[0], z[1], z[2], normal_area.dot(plane.normal), (z[0] + z[1] + z[2]) / 3,
+                              mean_potential(z[0], z[1], z[2])});
         }
     }
     total_ = load_below(items_, {}, highest_);
@@ -57,28 +60,39 @@ LoadProfile::LoadProfile(const Surface& surface, const Plane& plane, const LoadM
 void LoadProfile::Below::add(const Item& item) {
     count += 1;
     area_z += item.area_z;
-    moment += item.area_z * item.centroid;
+    integral += item.area_z * item.potential;
+}
+
+double LoadProfile::potential(double height) const {
+    return model_.balance == Balance::inertia ? height * height * height / 3 : height;
+}
+
+// Over a triangle with these heights: of z the mean of the three, of z^3 that of the ten products of three of them.
+double LoadProfile::mean_potential(double a, double b, double c) const {
+    if (model_.balance != Balance::inertia) return (a + b + c) / 3;
+    return ((a * a + b * b + c * c) * (a + b + c) + a * b * c) / 30;
 }
 
 double LoadProfile::load_below(std::span<const Item> items, const Below& below, double height) const {
-    double count = below.count, volume = below.moment - height * below.area_z;
+    const double level = potential(height);
+    double count = below.count, integral = below.integral - level * below.area_z;
     for (const Item& f : items) {
         if (f.centroid <= height) ++count;
         if (f.low >= height) continue;
-        const double whole = (f.centroid - height) * f.area_z;
+        const double whole = (f.potential - level) * f.area_z;
         if (f.high <= height) {
-            volume += whole;
-        } else if (f.mid >= height) {  // one corner below: a similar triangle, centroid a third of its depth below
+            integral += whole;
+        } else if (f.mid >= height) {  // one corner below: a similar triangle
             const double depth = height - f.low;
             const double share = depth * depth / ((f.mid - f.low) * (f.high - f.low));
-            volume -= share * depth / 3 * f.area_z;
+            integral += share * (mean_potential(f.low, height, height) - level) * f.area_z;
         } else {  // one corner above
             const double depth = f.high - height;
             const double share = depth * depth / ((f.high - f.mid) * (f.high - f.low));
-            volume += whole - share * depth / 3 * f.area_z;
+            integral += whole - share * (mean_potential(f.high, height, height) - level) * f.area_z;
         }
     }
-    return model_.load(count, count, volume);
+    return model_.load(count, count, integral);
 }
 
 double LoadProfile::fraction_below(double height) const { return load_below(items_, {}, height) / total_; }

@@ -63,7 +63,8 @@ SectionProfile section_profile(const Surface& surface, const Vec3& direction, co
 CutPlace choose_place(const Surface& surface, const MassProperties& mass, std::int32_t leaves,
                       const CutOptions& options) {
     CutPlace place{static_cast<double>(leaves / 2) / leaves};
-    if (options.criterion != Criterion::inertia || options.axis >= 0 || leaves < least_leaves) return place;
+    const bool free = options.criterion == Criterion::inertia && options.load.balance != Balance::inertia;
+    if (!free || options.axis >= 0 || leaves < least_leaves) return place;
     const double half = place.fraction;
     const std::vector<Vec3> directions = cut_directions(surface, mass, options);
     double usual = 0, best = 0;

@@ -111,7 +111,7 @@ std::vector<OptionField> option_fields(RunOptions& o) {
         {"axis", "", "Coordinate axis across which to cut. Default: chosen by --cut.",
          choice(cut.axis, {"auto", "x", "y", "z"}, -1)},
         {"balance", "", "What the halves of a cut have alike. Default work.",
-         choice(cut.load.balance, {"nodes", "faces", "volume", "work"})},
+         choice(cut.load.balance, {"nodes", "faces", "volume", "inertia", "work"})},
         {"contour", "", "How contours are found: minimum cut, crossed edges, or split facets. Default min-cut.",
          choice(cut.contour, {"min-cut", "edges", "straight"})},
         {"surface", "", "Whether facets may be split where no contour of edges exists. Default split.",

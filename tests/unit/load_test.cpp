@@ -16,7 +16,8 @@ LoadProfile profile(const Surface& surface, const Plane& plane, Balance balance,
     return LoadProfile(surface, plane, {balance, max_volume});
 }
 
-constexpr std::array all_balances = {Balance::nodes, Balance::faces, Balance::volume, Balance::work};
+constexpr std::array all_balances = {Balance::nodes, Balance::faces, Balance::volume, Balance::inertia,
+                                     Balance::work};
 
 TEST(LoadModel, WorkCountsFacetsAndWantedTetrahedra) {
     EXPECT_EQ((LoadModel{Balance::nodes, 0.1}.load(10, 20, 3)), 10);
@@ -55,6 +56,25 @@ TEST(LoadProfile, VolumeOfASphereIsThatOfItsCaps) {
         const double cap = std::numbers::pi * depth * depth * (6 - depth) / 3;
         EXPECT_NEAR(load.fraction_below(height), cap / (32 * std::numbers::pi / 3), 5e-4);
     }
+}
+
+TEST(LoadProfile, SecondMomentOfACubeAlongItsEdge) {
+    const Surface cube = surface_of(test::box(Vec3::Zero(), Vec3::Ones(), 3));
+    for (const double origin : {0.0, 0.5, -2.0}) {
+        const LoadProfile load = profile(cube, Plane(Vec3(0, 0, origin), Vec3::UnitZ()), Balance::inertia);
+        const auto moment = [&](double z) { return (std::pow(z - origin, 3) + std::pow(origin, 3)) / 3; };
+        for (const double z : {0.0, 0.1, 1 / 3.0, 0.5, 0.77, 1.0})
+            EXPECT_NEAR(load.fraction_below(z - origin), moment(z) / moment(1), 1e-12);
+    }
+}
+
+TEST(LoadProfile, SecondMomentOfACubeAlongItsDiagonal) {
+    // Of the cube's corner at x + y + z < s below 1: the integral of (u/sqrt3)^2 (u^2/2) du with u = x + y + z.
+    const Surface cube = surface_of(test::box(Vec3::Zero(), Vec3::Ones(), 4));
+    const LoadProfile load = profile(cube, Plane(Vec3::Zero(), Vec3::Ones().normalized()), Balance::inertia);
+    const double whole = (3 * (1 / 3.0) + 6 * (1 / 4.0)) / 3;  // of (x + y + z)^2 / 3
+    for (double s = 0.05; s < 1; s += 0.07)
+        EXPECT_NEAR(load.fraction_below(s / std::sqrt(3.0)), std::pow(s, 5) / 30 / whole, 1e-13) << s;
 }
 
 TEST(LoadProfile, VoidsAreNoVolume) {
@@ -99,7 +119,8 @@ TEST(LoadProfile, BisectIsTheInverse) {
         SCOPED_TRACE(static_cast<int>(balance));
         const LoadProfile load = profile(torus, plane, balance, 0.01);
         for (const double fraction : {0.2, 1 / 3.0, 0.5, 0.75}) {
-            const double grain = balance == Balance::volume ? 1e-7 : 0.002;  // of one facet or vertex, and of rounding
+            const bool continuous = balance == Balance::volume || balance == Balance::inertia;
+            const double grain = continuous ? 1e-7 : 0.002;  // of one facet or vertex, and of rounding
             EXPECT_NEAR(load.fraction_below(load.bisect(fraction)), fraction, grain);
         }
     }
