@@ -62,11 +62,11 @@ std::string broken_laws(const MeshLaws& laws) {
 void fill_result(const PartJob& job, PartResult& result) {
     const TetMesh mesh =
         timed(result.mesh_seconds, [&] { return mesh_volume(job.surface, job.mesher, job.vertex_order_seed); });
+    timed(result.verify_seconds, [&] { result.laws = verify_mesh(mesh, job.surface); });
+    if (!result.laws.hold()) throw Error(ErrorCode::subdomain, broken_laws(result.laws));
     result.vertices = static_cast<std::int64_t>(mesh.vertices.size());
     result.interior_vertices = mesh.interior_vertex_count();
     result.tets = static_cast<std::int64_t>(mesh.tets.size());
-    timed(result.verify_seconds, [&] { result.laws = verify_mesh(mesh, job.surface); });
-    if (!result.laws.hold()) throw Error(ErrorCode::subdomain, broken_laws(result.laws));
     timed(result.verify_seconds, [&] { result.hash = hash_part(mesh, job.surface); });
     timed(result.write_seconds, [&] {
         const std::vector<TetQuality> quality = tet_qualities(mesh);

@@ -16,8 +16,7 @@ LoadProfile profile(const Surface& surface, const Plane& plane, Balance balance,
     return LoadProfile(surface, plane, {balance, max_volume});
 }
 
-constexpr std::array all_balances = {Balance::nodes, Balance::faces, Balance::volume, Balance::inertia,
-                                     Balance::work};
+constexpr std::array all_balances = {Balance::nodes, Balance::faces, Balance::volume, Balance::inertia, Balance::work};
 
 TEST(LoadModel, WorkCountsFacetsAndWantedTetrahedra) {
     EXPECT_EQ((LoadModel{Balance::nodes, 0.1}.load(10, 20, 3)), 10);
