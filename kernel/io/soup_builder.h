@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <map>
+#include <numeric>
 #include <span>
 #include <string>
 #include <string_view>
@@ -40,14 +41,17 @@ class SoupBuilder {
             if (v < 0 || v >= vertex_count())
                 fail("a facet names vertex number " + std::to_string(v) + " (counted from 0), but there are " +
                      std::to_string(vertex_count()) + " vertices. Correct it or export the surface again.");
+        if (corners.size() > 3) number_polygons();
         const auto corner = [&](std::size_t i) { return static_cast<std::int32_t>(corners[i]); };
         for (std::size_t i = 2; i < corners.size(); ++i) add_facet({corner(0), corner(i - 1), corner(i)});
+        ++polygon_count_;
     }
     /// A triangle of three new vertices.
     void add_separate_facet(const Vec3& a, const Vec3& b, const Vec3& c) {
         for (const Vec3* p : {&a, &b, &c}) add_vertex(*p);
         const auto end = static_cast<std::int32_t>(soup_.vertices.size());
         add_facet({end - 3, end - 2, end - 1});
+        ++polygon_count_;
     }
     /// The soup; throws Error(input) if there is no facet in it.
     Soup finish() {
@@ -63,6 +67,14 @@ class SoupBuilder {
         if (patch_ < 0) patch_ = find_or_add_patch();
         soup_.facets.push_back(facet);
         soup_.patch.push_back(patch_);
+        if (has_fans_) soup_.polygon.push_back(polygon_count_);
+    }
+    // From the first fan on, facets and polygons have different numbers.
+    void number_polygons() {
+        if (has_fans_) return;
+        has_fans_ = true;
+        soup_.polygon.resize(soup_.facets.size());
+        std::iota(soup_.polygon.begin(), soup_.polygon.end(), 0);
     }
     std::int32_t find_or_add_patch() {
         const auto next = static_cast<std::int32_t>(soup_.patch_names.size());
@@ -74,6 +86,8 @@ class SoupBuilder {
     const std::string& path_;
     Soup soup_;
     std::string patch_name_ = "surface";
+    std::int32_t polygon_count_ = 0;
+    bool has_fans_ = false;
     std::int32_t patch_ = -1;  // of the current name, -1 as long as no facet has used it
     std::map<std::string, std::int32_t> patch_of_name_;
 };
