@@ -17,9 +17,8 @@ struct Soup {
     /// #F; number of the face of the file, counted from 0, that the facet was cut from. Empty if every face is a
     /// triangle, so that facets and faces have the same numbers.
     std::vector<std::int32_t> polygon = {};
-    std::vector<Vec3> holes = {};  ///< points in voids that the file names; units of the file
-    std::vector<std::string> notes =
-        {};  ///< what the reader passed over, a sentence each: "12 tetrahedra were ignored."
+    std::vector<Vec3> holes = {};         ///< points in voids that the file names; units of the file
+    std::vector<std::string> notes = {};  ///< what the reader passed over: "12 tetrahedra were ignored."
 };
 
 /// Merges vertices with exactly equal coordinates (-0 equals 0). The first of equals stays, the order is kept.
