@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 
 #include "core/error.h"
+#include "io/compressed.h"
 #include "io/file_bytes.h"
 #include "io/stl_format.h"
 #include "io/text_scanner.h"
@@ -45,8 +47,10 @@ Reader recognise(std::string_view bytes, const std::string& path) {
 
 }  // namespace
 
-Soup read_surface(const std::string& path) {
-    const std::string content = read_file(path);
+Soup read_surface(const std::string& path) { return read_surface_bytes(read_file(path), path); }
+
+Soup read_surface_bytes(std::string file, const std::string& path) {
+    const std::string content = decompress(std::move(file), path);
     std::string_view bytes = content;
     if (bytes.empty()) throw Error(ErrorCode::input, path + ": the file is empty. Export the surface again.");
     if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);  // byte-order mark of UTF-8

@@ -20,6 +20,9 @@ namespace kerf {
 /// refused.
 Soup read_surface(const std::string& path);
 
+/// The same for the bytes of a file that is already in memory.
+Soup read_surface_bytes(std::string file, const std::string& path);
+
 /// The formats by themselves, on the bytes of a file; `path` serves messages, and tells TetGen's .poly from .smesh and
 /// where the .node file of one without nodes is.
 Soup read_stl(std::string_view bytes, const std::string& path);
