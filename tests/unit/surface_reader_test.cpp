@@ -353,7 +353,11 @@ TEST(SurfaceReader, NamesThePlaceAndTheCause) {
         {"v 0 0 0\nv 1 0 0\nf 1 2\n", "line 3: a facet has less than three vertices"},
         {"v 0 0\nv 1 0 0\n", "line 1: a vertex has less than three coordinates"},
         {"v 0 0 1,5\n", "line 1: a number is expected, not \"1,5\""},
-        {"v 0 0 1e999\n", "line 1: the number \"1e999\" is too large"},
+        {"v 0 0 0\nf 1 1 99999999999999999999\n", "line 2: the number \"99999999999999999999\" is too large"},
+        {"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.001\nf 1 2 3\nf 1 2 3 4\n", "line 6: face 1 (counted from 0) with 4"},
+        {"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.001\nf 1 2 3 4\n", "is not planar"},
+        {"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 2 0\nf 1 2 3 4\n", "is not convex"},
+        {"v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nf 1 2 3 4\n", "has no area"},
         {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 5\n", "line 6: a facet names vertex number 5"},
         {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2\n", "line 7: the file goes on after the 1 facets"},
         {"OFF\n-3 1 0\n", "line 2: a number of elements is negative"},
@@ -384,6 +388,27 @@ TEST(SurfaceReader, NamesThePlaceAndTheCause) {
         const std::string message = message_of(c.bytes, c.ending);
         EXPECT_NE(message.find(c.expected), std::string::npos) << message;
     }
+}
+
+TEST(SurfaceReader, ReadsNumbersBeyondTheDoublesAsTheNearest) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const std::vector<std::pair<std::string, double>> numbers = {{"1e-400", 0},
+                                                                 {"-1e-400", 0},
+                                                                 {"123456e-500", 0},
+                                                                 {"1e-99999999999999999999", 0},
+                                                                 {"inf", infinity},
+                                                                 {"1e999", infinity},
+                                                                 {"1e+99999999999999999999", infinity},
+                                                                 {"-1e999", -infinity},
+                                                                 {"4.9e-324", 5e-324},
+                                                                 {"0.00001e310", 1e305},
+                                                                 {"-Infinity", -infinity},
+                                                                 {"1000000000e301", infinity}};
+    for (const auto& [word, value] : numbers) {
+        SCOPED_TRACE(word);
+        EXPECT_EQ(read_bytes("v 0 0 " + word + "\nf 1 1 1\n").vertices[0], Vec3(0, 0, value));
+    }
+    EXPECT_TRUE(read_bytes("v 0 0 nan\nf 1 1 1\n").vertices[0].hasNaN());
 }
 
 TEST(SurfaceReader, RefusesWhatCannotBeOpened) {
