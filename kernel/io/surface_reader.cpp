@@ -35,6 +35,7 @@ Reader recognise(std::string_view bytes, const std::string& path) {
     const std::string_view word = first_word(bytes, path);
     if (word == "ply") return read_ply;
     if (word.ends_with("OFF")) return read_off;
+    if (word.starts_with('$')) return read_gmsh;
     if (is_ascii_stl(bytes) || holds_nul(bytes)) return read_stl;
     if (word == "MeshVersionFormatted") return read_medit;
     if (is_obj_keyword(word)) return read_obj;

@@ -29,6 +29,7 @@ Soup read_stl(std::string_view bytes, const std::string& path);
 Soup read_obj(std::string_view bytes, const std::string& path);
 Soup read_ply(std::string_view bytes, const std::string& path);
 Soup read_off(std::string_view bytes, const std::string& path);
+Soup read_gmsh(std::string_view bytes, const std::string& path);
 Soup read_medit(std::string_view bytes, const std::string& path);
 Soup read_tetgen(std::string_view bytes, const std::string& path);
 

@@ -14,14 +14,12 @@
 
 #include "core/error.h"
 #include "support/shapes.h"
+#include "support/surface_files.h"
 
 namespace kerf {
 namespace {
 
-using test::box;
-using test::icosphere;
-using test::tetrahedron;
-using test::torus;
+using namespace test;
 
 // A file in the folder for temporary files that disappears with its object.
 class TemporaryFile {
@@ -53,135 +51,6 @@ std::string message_of(const std::string& bytes, const std::string& ending = "")
     }
     ADD_FAILURE() << "accepted:\n" << bytes;
     return "";
-}
-
-template <class T>
-void append(std::string& bytes, T value, bool swap = false) {
-    char raw[sizeof value];
-    std::memcpy(raw, &value, sizeof value);
-    if (swap) std::reverse(raw, raw + sizeof value);
-    bytes.append(raw, sizeof value);
-}
-
-std::ostringstream precise_stream() {
-    std::ostringstream out;
-    out.precision(17);
-    return out;
-}
-
-std::string to_binary_stl(const Soup& soup, std::string header = "made by a test") {
-    header.resize(80, ' ');
-    append(header, static_cast<std::uint32_t>(soup.facets.size()));
-    for (const Triangle& t : soup.facets) {
-        for (int i = 0; i < 3; ++i) append(header, 0.0f);
-        for (std::int32_t v : t)
-            for (int i = 0; i < 3; ++i) append(header, static_cast<float>(soup.vertices[v][i]));
-        append(header, std::uint16_t{0});
-    }
-    return header;
-}
-
-// One solid per patch, in the order of the patches.
-std::string to_ascii_stl(const Soup& soup) {
-    auto out = precise_stream();
-    for (std::size_t patch = 0; patch < soup.patch_names.size(); ++patch) {
-        out << "solid " << soup.patch_names[patch] << "\n";
-        for (std::size_t f = 0; f < soup.facets.size(); ++f) {
-            if (soup.patch[f] != static_cast<std::int32_t>(patch)) continue;
-            out << "facet normal 0 0 0\nouter loop\n";
-            for (std::int32_t v : soup.facets[f]) out << "vertex " << soup.vertices[v].transpose() << "\n";
-            out << "endloop\nendfacet\n";
-        }
-        out << "endsolid " << soup.patch_names[patch] << "\n";
-    }
-    return out.str();
-}
-
-std::string to_obj(const Soup& soup) {
-    auto out = precise_stream();
-    for (const Vec3& p : soup.vertices) out << "v " << p.transpose() << "\n";
-    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
-        if (f == 0 || soup.patch[f] != soup.patch[f - 1]) out << "g " << soup.patch_names[soup.patch[f]] << "\n";
-        const Triangle& t = soup.facets[f];
-        out << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
-    }
-    return out.str();
-}
-
-std::string to_off(const Soup& soup) {
-    auto out = precise_stream();
-    out << "OFF\n" << soup.vertices.size() << " " << soup.facets.size() << " 0\n";
-    for (const Vec3& p : soup.vertices) out << p.transpose() << "\n";
-    for (const Triangle& t : soup.facets) out << "3 " << t[0] << " " << t[1] << " " << t[2] << "\n";
-    return out.str();
-}
-
-std::string reference(const Soup& soup, std::size_t facet) { return std::to_string(10 - soup.patch[facet]); }
-
-std::string to_medit(const Soup& soup) {
-    auto out = precise_stream();
-    out << "MeshVersionFormatted 2\nDimension 3\nVertices\n" << soup.vertices.size() << "\n";
-    for (const Vec3& p : soup.vertices) out << p.transpose() << " 0\n";
-    out << "Corners 1\n1\nTriangles\n" << soup.facets.size() << "\n";
-    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
-        for (std::int32_t v : soup.facets[f]) out << v + 1 << " ";
-        out << reference(soup, f) << "\n";
-    }
-    out << "Tetrahedra\n1\n1 2 3 4 0\nEnd\n";
-    return out.str();
-}
-
-std::string to_node_list(const Soup& soup, int first) {
-    auto out = precise_stream();
-    out << "# nodes\n" << soup.vertices.size() << " 3 1 0\n";
-    for (std::size_t v = 0; v < soup.vertices.size(); ++v)
-        out << v + first << " " << soup.vertices[v].transpose() << " 0.5\n";
-    return out.str();
-}
-
-std::string to_facet_list(const Soup& soup, int first, bool is_poly) {
-    std::ostringstream out;
-    out << soup.facets.size() << " 1\n";
-    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
-        if (is_poly) out << "1 0 " << reference(soup, f) << "\n";
-        out << 3;
-        for (std::int32_t v : soup.facets[f]) out << " " << v + first;
-        out << (is_poly ? "" : " " + reference(soup, f)) << " # facet\n";
-    }
-    out << "1\n1 0.5 0.5 0.5\n1\n1 0.1 0.1 0.1 7 0.01\n";
-    return out.str();
-}
-
-std::string to_tetgen(const Soup& soup, int first, bool is_poly) {
-    return to_node_list(soup, first) + to_facet_list(soup, first, is_poly);
-}
-
-std::string ply_header(const Soup& soup, const std::string& format) {
-    return "ply\nformat " + format + " 1.0\ncomment made by a test\nelement vertex " +
-           std::to_string(soup.vertices.size()) +
-           "\nproperty double x\nproperty double y\nproperty double z\nproperty uchar red\nelement face " +
-           std::to_string(soup.facets.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
-}
-
-std::string to_ascii_ply(const Soup& soup) {
-    auto out = precise_stream();
-    out << ply_header(soup, "ascii");
-    for (const Vec3& p : soup.vertices) out << p.transpose() << " 255\n";
-    for (const Triangle& t : soup.facets) out << "3 " << t[0] << " " << t[1] << " " << t[2] << "\n";
-    return out.str();
-}
-
-std::string to_binary_ply(const Soup& soup, bool big_endian) {
-    std::string bytes = ply_header(soup, big_endian ? "binary_big_endian" : "binary_little_endian");
-    for (const Vec3& p : soup.vertices) {
-        for (int i = 0; i < 3; ++i) append(bytes, p[i], big_endian);
-        append(bytes, std::uint8_t{255});
-    }
-    for (const Triangle& t : soup.facets) {
-        append(bytes, std::uint8_t{3});
-        for (std::int32_t v : t) append(bytes, v, big_endian);
-    }
-    return bytes;
 }
 
 std::vector<Soup> shapes() {
@@ -233,6 +102,21 @@ TEST(SurfaceReader, GivesBackWhatMeditAndTetgenHold) {
     }
 }
 
+TEST(SurfaceReader, GivesBackWhatGmshHolds) {
+    for (const Soup& soup : shapes())
+        for (const bool is_msh41 : {false, true})
+            for (const auto& [is_binary, is_big_endian] : {std::pair(false, false), {true, false}, {true, true}}) {
+                SCOPED_TRACE(soup.patch_names.front() + (is_msh41 ? " 4.1" : " 2.2"));
+                SCOPED_TRACE(is_binary ? is_big_endian ? "big endian" : "little endian" : "text");
+                const Soup read = read_bytes(to_msh(soup, {is_msh41, is_binary, is_big_endian}));
+                expect_same(read, soup);
+                EXPECT_EQ(read.patch, soup.patch);
+                EXPECT_EQ(read.patch_names, soup.patch_names);
+                EXPECT_EQ(read.notes, (std::vector<std::string>{"2 tetrahedra were ignored.", "1 line was ignored.",
+                                                                "1 point was ignored."}));
+            }
+}
+
 TEST(SurfaceReader, WeldsTheCornersOfStl) {
     for (const Soup& soup : shapes()) {
         SCOPED_TRACE(soup.patch_names.front());
@@ -279,6 +163,11 @@ TEST(SurfaceReader, RefusesEveryTruncationBeforeTheLastFacet) {
     expect_refused(medit, medit.find("\nTetrahedra") - 1, ".mesh");  // the reference has two digits
     expect_refused(smesh, smesh.rfind(" 10 # facet"), ".smesh");     // a marker may be missing
     expect_refused(poly, poly.rfind(" # facet"), ".poly");
+    for (const bool is_msh41 : {false, true})
+        for (const bool is_binary : {false, true}) {
+            const std::string msh = to_msh(soup, {is_msh41, is_binary, true});
+            expect_refused(msh, msh.rfind("$EndElements") - 4, ".msh");
+        }
 }
 
 TEST(SurfaceReader, ReportsATruncatedBinaryStlThatBeginsWithSolidAsSuch) {
@@ -292,10 +181,17 @@ TEST(SurfaceReader, ReportsATruncatedBinaryStlThatBeginsWithSolidAsSuch) {
 
 TEST(SurfaceReader, KeepsIndicesInRangeOnDamagedFiles) {
     const Soup soup = box();
-    const std::vector<std::array<std::string, 2>> files = {
-        {to_binary_stl(soup), ".stl"}, {to_ascii_stl(soup), ".stl"},          {to_obj(soup), ".obj"},
-        {to_off(soup), ".off"},        {to_ascii_ply(soup), ".ply"},          {to_binary_ply(soup, false), ".ply"},
-        {to_medit(soup), ".mesh"},     {to_tetgen(soup, 0, false), ".smesh"}, {to_tetgen(soup, 1, true), ".poly"}};
+    const std::vector<std::array<std::string, 2>> files = {{to_binary_stl(soup), ".stl"},
+                                                           {to_ascii_stl(soup), ".stl"},
+                                                           {to_obj(soup), ".obj"},
+                                                           {to_off(soup), ".off"},
+                                                           {to_ascii_ply(soup), ".ply"},
+                                                           {to_binary_ply(soup, false), ".ply"},
+                                                           {to_msh(soup, {false, false, false}), ".msh"},
+                                                           {to_msh(soup, {true, true, true}), ".msh"},
+                                                           {to_medit(soup), ".mesh"},
+                                                           {to_tetgen(soup, 0, false), ".smesh"},
+                                                           {to_tetgen(soup, 1, true), ".poly"}};
     for (const auto& [bytes, ending] : files)
         for (unsigned seed = 1; seed <= 300; ++seed) {
             SCOPED_TRACE(bytes.substr(0, 20) + " seed " + std::to_string(seed));
@@ -334,6 +230,7 @@ TEST(SurfaceReader, NamesThePlaceAndTheCause) {
         std::string bytes, expected, ending = "";
     };
     const std::string medit = "MeshVersionFormatted 2\nDimension 3\nVertices 3\n0 0 0 0\n1 0 0 0\n0 1 0 0\n";
+    const std::string msh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n";
     const std::string nodes = "3 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n";
     const std::string facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n";
     const std::vector<Case> cases = {
@@ -356,7 +253,7 @@ TEST(SurfaceReader, NamesThePlaceAndTheCause) {
         {"v 0 0 0\nf 1 1 99999999999999999999\n", "line 2: the number \"99999999999999999999\" is too large"},
         {"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.001\nf 1 2 3\nf 1 2 3 4\n", "line 6: face 1 (counted from 0) with 4"},
         {"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.001\nf 1 2 3 4\n", "is not planar"},
-        {"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 2 0\nf 1 2 3 4\n", "is not convex"},
+        {"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 3 1 0\nf 1 2 3 4\n", "is not convex"},
         {"v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nf 1 2 3 4\n", "has no area"},
         {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 5\n", "line 6: a facet names vertex number 5"},
         {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2\n", "line 7: the file goes on after the 1 facets"},
@@ -373,6 +270,18 @@ TEST(SurfaceReader, NamesThePlaceAndTheCause) {
         {medit + "Triangles 1\n0 2 3 0\n", "line 8: an index is 0, but the file counts from 1"},
         {medit + "0 0 1 0\n", "line 7: a keyword is expected, not \"0\""},
         {medit + "Triangles -1\n", "line 7: a number of elements is negative"},
+        {"$NOD\n1\n", "MSH version 1 cannot be read"},
+        {"$MeshFormat\n4 0 8\n", "line 2: MSH version 4 cannot be read"},
+        {"$MeshFormat\n4.1 1 8\n\x02\x01\x01\x02$EndMeshFormat\n", "order of the bytes is not 1"},
+        {"$MeshFormat\n4.1 0 4\n", "line 2: the size of a real number is not 8"},
+        {"$Nodes\n0\n", "$MeshFormat is missing"},
+        {msh, "no facets"},
+        {msh + "$Elements\n1\n1 2 0 1 2 4\n", "line 12: element 1 names node 4, which the file does not have"},
+        {msh + "$Elements\n1\n1 9 0 1 2 3 1 2 3\n", "line 12: elements of type 9 (triangles with 6 nodes)"},
+        {msh + "$Elements\n1\n1 16 0 1 2 3 1 2 3\n", "(quadrangles with 8 nodes)"},
+        {msh + "$Elements\n1\n1 77 0 1 2 3\n", "line 12: elements of type 77 (unknown)"},
+        {msh + "$Elements\n1\n1 2 0 1 2\n", "line 12: the file ends too early"},
+        {msh + "$Nodes\n2\n1 0 0 0\n1 0 0 0\n", "there are two nodes 1"},
         {"3 2 0 0\n1 0 0\n", "line 1: the dimension is not 3", ".poly"},
         {"2 3\n1 0 0 0\n3 0 0 0\n", "line 3: the nodes are not numbered one by one", ".smesh"},
         {"1 3\n2 0 0 0\n", "line 2: the nodes are not numbered one by one", ".smesh"},
@@ -467,6 +376,20 @@ TEST(OffReader, AcceptsCommentsCountsOnSeveralLinesAndColours) {
     EXPECT_EQ(soup.vertices.size(), 4u);
     EXPECT_EQ(soup.facets, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
     EXPECT_EQ(read_bytes("OFF 3 1 0\n0 0 0 1 0 0 0 1 0\n3 0 1 2\n").facets.size(), 1u);
+}
+
+TEST(GmshReader, NamesPatchesOfGroupsElseOfSurfaces) {
+    const std::string head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Comments\n$MeshFormat\n$EndComments\n";
+    const std::string nodes = "$Nodes\n4\n9 0 0 0\n-2 1 0 0\n70000 0 1 0\n1 1 1 0\n$EndNodes\n";
+    const Soup soup =
+        read_bytes(head + "$PhysicalNames\n2\n1 5 \"a curve\"\n2 6 \"in let\"\n$EndPhysicalNames\n" + nodes +
+                   "$Elements\n6\n1 2 2 6 1 9 -2 70000\n2 2 3 5 1 0 9 70000 -2\n3 2 2 6 1 9 70000 -2\n"
+                   "4 2 0 9 -2 70000\n5 2 1 0 9 -2 70000\n6 3 2 0 8 9 -2 1 70000\n$EndElements\n");
+    EXPECT_EQ(soup.facets, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 1}, {0, 1, 2}, {0, 1, 2}, {0, 1, 3}, {0, 3, 2}}));
+    EXPECT_EQ(soup.patch, (std::vector<std::int32_t>{0, 1, 2, 2, 3, 3}));
+    EXPECT_EQ(soup.patch_names, (std::vector<std::string>{"in let", "physical_5", "surface_0", "surface_8"}));
+    EXPECT_EQ(soup.polygon, (std::vector<std::int32_t>{0, 1, 2, 3, 4, 4}));
+    EXPECT_TRUE(soup.notes.empty());
 }
 
 TEST(MeditReader, TakesTrianglesWithReferencesAndPassesOverTheRest) {
