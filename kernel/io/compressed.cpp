@@ -6,6 +6,7 @@
 #include <zstd.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <new>
@@ -122,6 +123,12 @@ std::string decompress(std::string bytes, const std::string& path) {
     if (bytes.starts_with(gzip_magic)) return decompress_gzip(bytes, path);
     if (bytes.starts_with(zstd_magic)) return decompress_zstd(bytes, path);
     return bytes;
+}
+
+std::string name_in_archive(const std::string& path) {
+    const std::filesystem::path file(path);
+    const bool is_archive = file.extension() == ".gz" || file.extension() == ".zst";
+    return is_archive ? (file.parent_path() / file.stem()).string() : path;
 }
 
 }  // namespace kerf

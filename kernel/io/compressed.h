@@ -13,4 +13,7 @@ namespace kerf {
 /// header claims, and by these limits.
 std::string decompress(std::string bytes, const std::string& path);
 
+/// The name of what is in an archive: "part.poly" for "part.poly.gz" or "part.poly.zst"; other names as they are.
+std::string name_in_archive(const std::string& path);
+
 }  // namespace kerf

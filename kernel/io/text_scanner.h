@@ -13,8 +13,8 @@
 
 namespace kerf {
 
-/// Walks over a text word by word. Words are separated by blanks, tabs and line ends (LF or CR LF); a comment runs from
-/// the comment character to the end of its line. Numbers do not depend on the locale. Errors name file and line.
+/// Walks over a text word by word. Words are separated by blanks, tabs and line ends (LF, CR LF or CR); a comment runs
+/// from the comment character to the end of its line. Numbers do not depend on the locale. Errors name file and line.
 class TextScanner {
  public:
     /// `comment` 0: the format has no comments.
@@ -28,7 +28,7 @@ class TextScanner {
     /// True if no word is left in the current line.
     bool at_line_end() {
         skip(false);
-        return position_ == text_.size() || text_[position_] == '\n';
+        return position_ == text_.size() || is_line_end(text_[position_]);
     }
     /// The first character of the next word, over line ends; there must be one.
     char peek() {
@@ -89,8 +89,9 @@ class TextScanner {
         return rest;
     }
     void skip_line() {
-        const std::size_t end = text_.find('\n', position_);
-        position_ = end == std::string_view::npos ? text_.size() : end + 1;
+        position_ = find_line_end();
+        if (text_.substr(position_, 2) == "\r\n") ++position_;
+        if (position_ < text_.size()) ++position_;
     }
     std::size_t position() const { return position_; }
     /// Goes on at a byte behind what has been read.
@@ -98,22 +99,29 @@ class TextScanner {
 
     /// Throws Error(input) naming file and line of the last word before `what`.
     [[noreturn]] void fail(const std::string& what) const {
-        const std::size_t end = std::min(word_, text_.size());
-        const auto line = 1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+        std::int64_t line = 1;
+        for (std::size_t i = 0; i < word_; ++i)
+            line += text_[i] == '\n' || (text_[i] == '\r' && text_.substr(i + 1, 1) != "\n");
         throw Error(ErrorCode::input, path_ + ", line " + std::to_string(line) + ": " + what);
     }
 
  private:
+    static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
     static bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
     void skip(bool over_line_ends) {
         for (; position_ < text_.size(); ++position_) {
             const char c = text_[position_];
             if (comment_ && c == comment_)
-                position_ = std::min(text_.find('\n', position_), text_.size()) - 1;
-            else if (!is_space(c) || (c == '\n' && !over_line_ends))
+                position_ = find_line_end() - 1;
+            else if (!is_space(c) || (is_line_end(c) && !over_line_ends))
                 return;
         }
+    }
+    std::size_t find_line_end() const {
+        std::size_t end = position_;
+        while (end < text_.size() && !is_line_end(text_[end])) ++end;
+        return end;
     }
     std::string_view scan_word() {
         word_ = position_;

@@ -13,28 +13,29 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "support/archives.h"
 #include "support/shapes.h"
 #include "support/surface_files.h"
 
 namespace kerf {
 namespace {
 
+namespace fs = std::filesystem;
 using namespace test;
 
 // A file in the folder for temporary files that disappears with its object.
 class TemporaryFile {
  public:
     explicit TemporaryFile(const std::string& bytes, const std::string& ending = "")
-        : path_(std::filesystem::temp_directory_path() /
-                ("kerf_surface_reader_test_" + std::to_string(getpid()) + ending)) {
+        : path_(fs::temp_directory_path() / ("kerf_surface_reader_test_" + std::to_string(getpid()) + ending)) {
         std::ofstream(path_, std::ios::binary) << bytes;
     }
-    ~TemporaryFile() { std::filesystem::remove(path_); }
+    ~TemporaryFile() { fs::remove(path_); }
     TemporaryFile(const TemporaryFile&) = delete;
     std::string path() const { return path_.string(); }
 
  private:
-    std::filesystem::path path_;
+    fs::path path_;
 };
 
 Soup read_bytes(const std::string& bytes, const std::string& ending = "") {
@@ -138,6 +139,43 @@ TEST(SurfaceReader, TellsBinaryStlByItsSizeWhateverItsHeaderSays) {
     }
 }
 
+TEST(SurfaceReader, TellsEveryFormatByItsContentWhateverTheEnding) {
+    for (const Soup& soup : shapes())
+        for (const SurfaceFile& file : to_all_formats(soup)) {
+            const Soup expected = read_bytes(file.bytes, fs::path(file.name).extension());
+            for (const char* ending :
+                 {"", ".stl", ".obj", ".ply", ".off", ".msh", ".mesh", ".smesh", ".poly", ".txt"}) {
+                SCOPED_TRACE(file.name + " as " + ending);
+                expect_same(read_bytes(file.bytes, ending), expected);
+            }
+        }
+}
+
+TEST(SurfaceReader, ReadsArchivesOfEveryFormat) {
+    const Soup soup = box(Vec3(-1, 2, 1.0 / 3), Vec3(5, 7, 11), 2);
+    for (const SurfaceFile& file : to_all_formats(soup)) {
+        SCOPED_TRACE(file.name);
+        const std::string ending = fs::path(file.name).extension();
+        const Soup expected = read_bytes(file.bytes, ending);
+        expect_same(read_bytes(gzip(file.bytes), ending + ".gz"), expected);
+        expect_same(read_bytes(zstd(file.bytes), ending + ".zst"), expected);
+    }
+}
+
+TEST(SurfaceReader, ReadsEveryKindOfLineEnd) {
+    for (const SurfaceFile& file : to_all_formats(box())) {
+        if (file.bytes.find('\0') != std::string::npos) continue;
+        for (const char* line_end : {"\r\n", "\r"}) {
+            SCOPED_TRACE(file.name + (line_end[1] ? " CR LF" : " CR"));
+            std::string bytes;
+            for (const char c : file.bytes) c == '\n' ? bytes += line_end : bytes += c;
+            const Soup soup = read_bytes(bytes, fs::path(file.name).extension());
+            expect_same(soup, read_bytes(file.bytes, fs::path(file.name).extension()));
+            EXPECT_EQ(soup.patch_names, read_bytes(file.bytes).patch_names);
+        }
+    }
+}
+
 TEST(SurfaceReader, RefusesEveryTruncation) {
     const Soup soup = tetrahedron();
     for (const std::string& bytes : {to_binary_stl(soup), to_binary_stl(soup, "solid"), to_ascii_stl(soup),
@@ -236,14 +274,17 @@ TEST(SurfaceReader, NamesThePlaceAndTheCause) {
     const std::vector<Case> cases = {
         {"", "empty"},
         {"PK\x03\x04 something else", "not recognised"},
-        {nodes + "1 0\n3 1 2 3\n", "not recognised"},
+        {"1 2 3\n4 5 6\n", "not recognised"},
+        {"0.5 3 0\n", "not recognised"},
+        {std::string("\1\0\0\0\3\0\0\0\3\0\0\0", 12), "binary MEDIT (.meshb) is not supported"},
+        {std::string("\0\0\0\1\0\0\0\2\0\0\0\3", 12), "binary MEDIT (.meshb) is not supported"},
         {"solid a\nendsolid a\n", "no facets"},
         {"solid a\n" + facet, "truncated"},
         {"solid a\n" + facet + "facet normal 0 0 1\nouter loop\nvertex 0 0 blah\n", "line 5: a number is expected"},
         {"solid a\n" + facet + "facette\n", "line 3: \"facet\" or \"endsolid\" is expected"},
         {"solid a\nfacet normal 0 0 1 outer loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nvertex 1 1 0\n",
          "line 6: \"endloop\" is expected"},
-        {to_binary_stl(tetrahedron()) + "x", "longer than its header claims 4 facets"},
+        {to_binary_stl(tetrahedron()) + std::string(50, 'x'), "longer than its header claims 4 facets"},
         {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "line 4: a facet names vertex number 3 (counted from 0)"},
         {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n", "line 4"},
         {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", "line 4: a face names vertex 0"},
@@ -261,6 +302,8 @@ TEST(SurfaceReader, NamesThePlaceAndTheCause) {
         {"OFF BINARY\n", "binary OFF is not supported"},
         {"4OFF\n", "three dimensions"},
         {"ply\nformat ascii 2.0\nelement vertex 1\nproperty quad x\n", "line 4: the type \"quad\" is unknown"},
+        {"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n",
+         "the vertices have no property z"},
         {"ply\nformat binary_middle_endian 1.0\n", "line 2: the format"},
         {"ply\nformat ascii 1.0\nelement face 1\nproperty list uchar float vertex_index\nend_header\n3 0 1 0.5\n",
          "line 6: a whole number is expected"},
@@ -269,6 +312,8 @@ TEST(SurfaceReader, NamesThePlaceAndTheCause) {
         {medit + "Triangles 1\n1 2 4 0\n", "line 8: a facet names vertex number 3"},
         {medit + "Triangles 1\n0 2 3 0\n", "line 8: an index is 0, but the file counts from 1"},
         {medit + "0 0 1 0\n", "line 7: a keyword is expected, not \"0\""},
+        {medit + "TrianglesP2 1\n1 2 3 1 2 3 0\n", "line 7: curved elements (TrianglesP2)"},
+        {medit + "Quadrilaterals 1\n1 2 3 3 0\n", "line 8: face 0"},
         {medit + "Triangles -1\n", "line 7: a number of elements is negative"},
         {"$NOD\n1\n", "MSH version 1 cannot be read"},
         {"$MeshFormat\n4 0 8\n", "line 2: MSH version 4 cannot be read"},
@@ -341,6 +386,19 @@ TEST(StlReader, AcceptsOddSpacingCapitalsAndKeywordsInNames) {
     EXPECT_EQ(soup.patch_names, std::vector<std::string>{"endsolid facet vertex 1"});
 }
 
+TEST(StlReader, PassesOverPadding) {
+    const std::string text = to_ascii_stl(box()), binary = to_binary_stl(box());
+    for (const std::string& padding : {std::string("\x1a"), std::string("\0\0\0", 3), std::string("\r\n \x1a\0", 5)})
+        expect_same(read_bytes(text + padding), read_bytes(text));
+    for (const std::size_t size : {1u, 2u, 49u}) {
+        const Soup padded = read_bytes(binary + std::string(size, '\1'));
+        expect_same(padded, read_bytes(binary));
+        const std::string bytes = size == 1 ? "1 byte behind the last facet was" : " bytes behind the last facet were";
+        ASSERT_EQ(padded.notes.size(), 1u);
+        EXPECT_NE(padded.notes[0].find(bytes + " ignored."), std::string::npos) << padded.notes[0];
+    }
+}
+
 TEST(StlReader, MakesPatchesOfSolids) {
     const std::string facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n";
     const Soup soup = read_bytes("solid a\n" + facet + "endsolid\nsolid\nendsolid\nsolid\n" + facet +
@@ -397,11 +455,14 @@ TEST(MeditReader, TakesTrianglesWithReferencesAndPassesOverTheRest) {
         "# a comment\nMeshVersionFormatted\n2\n\nDimension\n3\nNormals 1\nnan -1e-3 0\nVertices\n4\n0 0 0 1\n1 0 0 1\n"
         "1 1 0 1\n0 1 0 1\nRequiredVertices 1 1\nTriangles\n2 # with references\n1 2 3 -7\n1 3 4 2\nRequiredTriangles "
         "1\n"
-        "1\nEdges 1 1 2 0\nQuadrilaterals 1 1 2 3 4 0\nEnd\nTriangles 1 1 2 3 0");
+        "1\nEdges 1 1 2 0\nTetrahedra 12\n1 2 3 4 0\nPyramids 1 1 2 3 4 1 0\nQuadrilaterals 1 1 2 3 4 "
+        "-7\nEnd\nTriangles 1 1 2 3 0");
     EXPECT_EQ(soup.vertices.size(), 4u);
-    EXPECT_EQ(soup.facets, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
-    EXPECT_EQ(soup.patch, (std::vector<std::int32_t>{0, 1}));
+    EXPECT_EQ(soup.facets, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}, {0, 2, 3}}));
+    EXPECT_EQ(soup.polygon, (std::vector<std::int32_t>{0, 1, 2, 2}));
+    EXPECT_EQ(soup.patch, (std::vector<std::int32_t>{0, 1, 0, 0}));
     EXPECT_EQ(soup.patch_names, (std::vector<std::string>{"reference_-7", "reference_2"}));
+    EXPECT_EQ(soup.notes, (std::vector<std::string>{"12 tetrahedra were ignored.", "1 pyramid was ignored."}));
 }
 
 TEST(TetgenReader, AcceptsPolygonsCommentsAndMissingLists) {
@@ -411,6 +472,14 @@ TEST(TetgenReader, AcceptsPolygonsCommentsAndMissingLists) {
     EXPECT_EQ(read_bytes(nodes + "1\n1\n4 0 1 2 3\n0\n", ".poly").facets, fan);
     EXPECT_EQ(read_bytes(nodes + "1 1\n4 0 1 2 3 5", ".smesh").patch_names, std::vector<std::string>{"marker_5"});
     EXPECT_EQ(read_bytes(nodes + "1 0\n4 0 1 2 3 5", ".smesh").patch_names, std::vector<std::string>{"surface"});
+}
+
+TEST(TetgenReader, KeepsHolesAndNotesRegions) {
+    for (const bool is_poly : {false, true}) {
+        const Soup soup = read_bytes(to_tetgen(box(), 1, is_poly), ".smesh");
+        EXPECT_EQ(soup.holes, (std::vector<Vec3>{Vec3(0.5, 0.5, 0.5)}));
+        EXPECT_EQ(soup.notes, std::vector<std::string>{"1 region was ignored."});
+    }
 }
 
 TEST(TetgenReader, TakesTheNodesBesideAFileThatHasNone) {
