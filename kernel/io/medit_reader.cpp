@@ -1,6 +1,9 @@
 // MEDIT's .mesh as text: sections of a capitalised keyword, a count and as many lines of numbers, up to the word End.
-// Vertices are x y z and a reference, Triangles three corners (from 1) and a reference, which is their patch. Every
-// other section is passed over up to the next keyword: tetrahedra, edges, ridges, normals, required elements.
+// Vertices are x y z and a reference, Triangles and Quadrilaterals their corners (from 1) and a reference, which is
+// their patch. Every other section is passed over up to the next keyword: tetrahedra, edges, ridges, normals, required
+// elements.
+#include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -28,9 +31,9 @@ void read_vertices(TextScanner& scanner, SoupBuilder& builder) {
     }
 }
 
-void read_triangles(TextScanner& scanner, SoupBuilder& builder) {
+void read_faces(TextScanner& scanner, std::size_t corner_count, SoupBuilder& builder) {
     const std::int64_t count = scanner.next_count();
-    std::vector<std::int64_t> corners(3);
+    std::vector<std::int64_t> corners(corner_count);
     for (std::int64_t f = 0; f < count; ++f) {
         for (std::int64_t& corner : corners) corner = scanner.next_index(1);
         builder.set_patch("reference_" + std::to_string(scanner.next_integer()));
@@ -38,8 +41,38 @@ void read_triangles(TextScanner& scanner, SoupBuilder& builder) {
     }
 }
 
-void pass_over_section(TextScanner& scanner) {
+// Of volume elements the user should know that they were not used.
+void note_volume_elements(TextScanner& scanner, std::string_view keyword, SoupBuilder& builder) {
+    struct Kind {
+        std::string_view keyword;
+        const char *one, *many;
+    };
+    constexpr std::array<Kind, 4> kinds = {{{"Tetrahedra", "tetrahedron", "tetrahedra"},
+                                            {"Hexahedra", "hexahedron", "hexahedra"},
+                                            {"Prisms", "prism", "prisms"},
+                                            {"Pyramids", "pyramid", "pyramids"}}};
+    const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.keyword == keyword; });
+    if (kind != kinds.end()) builder.note_ignored(scanner.next_count(), kind->one, kind->many);
+}
+
+void pass_over_section(TextScanner& scanner, std::string_view keyword, SoupBuilder& builder) {
+    note_volume_elements(scanner, keyword, builder);
     while (!scanner.at_end() && !begins_keyword(scanner.peek())) scanner.next_word();
+}
+
+void read_section(TextScanner& scanner, std::string_view keyword, SoupBuilder& builder) {
+    if (keyword.starts_with("TrianglesP") || keyword.starts_with("QuadrilateralsQ"))
+        scanner.fail("curved elements (" + std::string(keyword) + ") cannot be read. Export straight triangles.");
+    if (keyword == "Dimension")
+        read_dimension(scanner);
+    else if (keyword == "Vertices")
+        read_vertices(scanner, builder);
+    else if (keyword == "Triangles")
+        read_faces(scanner, 3, builder);
+    else if (keyword == "Quadrilaterals")
+        read_faces(scanner, 4, builder);
+    else
+        pass_over_section(scanner, keyword, builder);
 }
 
 }  // namespace
@@ -53,14 +86,7 @@ Soup read_medit(std::string_view bytes, const std::string& path) {
         if (!begins_keyword(keyword.front()))
             scanner.fail("a keyword is expected, not \"" + std::string(keyword.substr(0, 40)) +
                          "\". Correct the number of elements before it or export the surface again.");
-        if (keyword == "Dimension")
-            read_dimension(scanner);
-        else if (keyword == "Vertices")
-            read_vertices(scanner, builder);
-        else if (keyword == "Triangles")
-            read_triangles(scanner, builder);
-        else
-            pass_over_section(scanner);
+        read_section(scanner, keyword, builder);
     }
     return builder.finish();
 }

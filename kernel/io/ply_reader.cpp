@@ -7,11 +7,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <string>
 #include <vector>
 
-#include "core/error.h"
+#include "io/binary_scanner.h"
 #include "io/soup_builder.h"
 #include "io/surface_reader.h"
 #include "io/text_scanner.h"
@@ -120,50 +119,33 @@ class TextSource {
 // Numbers written as their bytes.
 class BinarySource {
  public:
-    BinarySource(std::string_view bytes, std::size_t begin, const std::string& path, std::endian order)
-        : bytes_(bytes), position_(begin), path_(path), swap_(order != std::endian::native) {}
+    explicit BinarySource(const BinaryScanner& scanner) : scanner_(scanner) {}
 
     double next(Scalar type) {
         switch (type) {
             case Scalar::int8:
-                return take<std::int8_t>();
+                return scanner_.next<std::int8_t>();
             case Scalar::uint8:
-                return take<std::uint8_t>();
+                return scanner_.next<std::uint8_t>();
             case Scalar::int16:
-                return take<std::int16_t>();
+                return scanner_.next<std::int16_t>();
             case Scalar::uint16:
-                return take<std::uint16_t>();
+                return scanner_.next<std::uint16_t>();
             case Scalar::int32:
-                return take<std::int32_t>();
+                return scanner_.next<std::int32_t>();
             case Scalar::uint32:
-                return take<std::uint32_t>();
+                return scanner_.next<std::uint32_t>();
             case Scalar::float32:
-                return take<float>();
+                return scanner_.next<float>();
             case Scalar::float64:
-                return take<double>();
+                return scanner_.next<double>();
         }
         return 0;
     }
-    [[noreturn]] void fail(const std::string& what) const {
-        throw Error(ErrorCode::input, path_ + ", byte " + std::to_string(position_) + ": " + what);
-    }
+    [[noreturn]] void fail(const std::string& what) const { scanner_.fail(what); }
 
  private:
-    template <class Number>
-    double take() {
-        if (bytes_.size() - position_ < sizeof(Number))
-            fail("the file ends too early. It is truncated: export or copy it again.");
-        std::array<char, sizeof(Number)> raw;
-        std::memcpy(raw.data(), bytes_.data() + position_, raw.size());
-        if (swap_) std::reverse(raw.begin(), raw.end());
-        position_ += raw.size();
-        return static_cast<double>(std::bit_cast<Number>(raw));
-    }
-
-    std::string_view bytes_;
-    std::size_t position_;
-    const std::string& path_;
-    bool swap_;
+    BinaryScanner scanner_;
 };
 
 template <class Source>
@@ -214,6 +196,16 @@ void read_face(Source& source, const Element& element, SoupBuilder& builder, std
     }
 }
 
+// Without them a vertex would take no bytes, and all would lie in one point.
+void check_coordinates(const TextScanner& scanner, const Header& header) {
+    for (const Element& element : header.elements)
+        if (element.name == "vertex")
+            for (const char* axis : {"x", "y", "z"})
+                if (std::none_of(element.properties.begin(), element.properties.end(),
+                                 [&](const Property& p) { return p.name == axis && !p.is_list; }))
+                    scanner.fail("the vertices have no property " + std::string(axis) + ". Export the surface again.");
+}
+
 template <class Source>
 Soup read_body(Source source, const Header& header, const std::string& path) {
     SoupBuilder builder(path);
@@ -237,9 +229,10 @@ Soup read_body(Source source, const Header& header, const std::string& path) {
 Soup read_ply(std::string_view bytes, const std::string& path) {
     TextScanner scanner(bytes, path);
     const Header header = read_header(scanner);
+    check_coordinates(scanner, header);
     if (header.encoding == Encoding::ascii) return read_body(TextSource(scanner), header, path);
     const std::endian order = header.encoding == Encoding::big_endian ? std::endian::big : std::endian::little;
-    return read_body(BinarySource(bytes, scanner.position(), path, order), header, path);
+    return read_body(BinarySource(BinaryScanner(bytes, scanner.position(), path, order)), header, path);
 }
 
 }  // namespace kerf

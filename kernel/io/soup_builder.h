@@ -3,12 +3,14 @@
 
 #include <limits>
 #include <map>
+#include <numeric>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "core/error.h"
+#include "io/polygon_fan.h"
 #include "surface/soup.h"
 
 namespace kerf {
@@ -31,8 +33,8 @@ class SoupBuilder {
         patch_name_ = name;
         patch_ = -1;
     }
-    /// Fan of triangles around the first corner, in the current patch. Calls `fail(message)`, which must throw, if the
-    /// polygon has less than three corners or one that is no vertex so far.
+    /// The polygon as a fan of triangles, in the current patch. Calls `fail(message)`, which must throw, if the polygon
+    /// has less than three corners, or one that is no vertex so far, or if no fan covers it (see find_fan()).
     template <class Fail>
     void add_polygon(std::span<const std::int64_t> corners, const Fail& fail) {
         if (corners.size() < 3) fail("a facet has less than three vertices. Remove it or export the surface again.");
@@ -40,14 +42,32 @@ class SoupBuilder {
             if (v < 0 || v >= vertex_count())
                 fail("a facet names vertex number " + std::to_string(v) + " (counted from 0), but there are " +
                      std::to_string(vertex_count()) + " vertices. Correct it or export the surface again.");
-        const auto corner = [&](std::size_t i) { return static_cast<std::int32_t>(corners[i]); };
+        const PolygonFan fan = corners.size() > 3 ? find_fan(soup_.vertices, corners) : PolygonFan{};
+        if (fan.obstacle)
+            fail("face " + std::to_string(polygon_count_) + " (counted from 0) with " + std::to_string(corners.size()) +
+                 " corners cannot be cut into triangles because it " + fan.obstacle +
+                 ". Export the surface as triangles.");
+        if (corners.size() > 3) number_polygons();
+        const auto corner = [&](std::size_t i) {
+            return static_cast<std::int32_t>(corners[(fan.apex + i) % corners.size()]);
+        };
         for (std::size_t i = 2; i < corners.size(); ++i) add_facet({corner(0), corner(i - 1), corner(i)});
+        ++polygon_count_;
     }
     /// A triangle of three new vertices.
     void add_separate_facet(const Vec3& a, const Vec3& b, const Vec3& c) {
         for (const Vec3* p : {&a, &b, &c}) add_vertex(*p);
         const auto end = static_cast<std::int32_t>(soup_.vertices.size());
         add_facet({end - 3, end - 2, end - 1});
+        ++polygon_count_;
+    }
+    /// A point in a void.
+    void add_hole(const Vec3& point) { soup_.holes.push_back(point); }
+    /// Says that something of the file was not used; nothing if `count` is 0.
+    void note_ignored(std::int64_t count, const char* one, const char* many) {
+        if (count == 0) return;
+        soup_.notes.push_back(std::to_string(count) + " " +
+                              (count == 1 ? std::string(one) + " was" : std::string(many) + " were") + " ignored.");
     }
     /// The soup; throws Error(input) if there is no facet in it.
     Soup finish() {
@@ -63,6 +83,14 @@ class SoupBuilder {
         if (patch_ < 0) patch_ = find_or_add_patch();
         soup_.facets.push_back(facet);
         soup_.patch.push_back(patch_);
+        if (has_fans_) soup_.polygon.push_back(polygon_count_);
+    }
+    // From the first fan on, facets and polygons have different numbers.
+    void number_polygons() {
+        if (has_fans_) return;
+        has_fans_ = true;
+        soup_.polygon.resize(soup_.facets.size());
+        std::iota(soup_.polygon.begin(), soup_.polygon.end(), 0);
     }
     std::int32_t find_or_add_patch() {
         const auto next = static_cast<std::int32_t>(soup_.patch_names.size());
@@ -74,6 +102,8 @@ class SoupBuilder {
     const std::string& path_;
     Soup soup_;
     std::string patch_name_ = "surface";
+    std::int32_t polygon_count_ = 0;
+    bool has_fans_ = false;
     std::int32_t patch_ = -1;  // of the current name, -1 as long as no facet has used it
     std::map<std::string, std::int32_t> patch_of_name_;
 };

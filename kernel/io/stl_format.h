@@ -26,14 +26,20 @@ inline bool is_binary_stl(std::string_view bytes) {
 
 inline bool holds_nul(std::string_view bytes) { return bytes.find('\0') != std::string_view::npos; }
 
-/// True for a text that begins with "solid" in any case.
+/// The text without what some programs append to texts: NUL and the end-of-file character of DOS.
+inline std::string_view without_padding(std::string_view text) {
+    while (!text.empty() && (text.back() == '\0' || text.back() == '\x1a')) text.remove_suffix(1);
+    return text;
+}
+
+/// True for a text that begins with "solid" in any case; padding may follow.
 inline bool is_ascii_stl(std::string_view bytes) {
     const std::size_t begin = bytes.find_first_not_of(" \t\r\n");
     if (begin == std::string_view::npos) return false;
     const std::string_view word = bytes.substr(begin, 5);
     for (std::size_t i = 0; i < 5; ++i)
         if (i >= word.size() || (word[i] | 0x20) != "solid"[i]) return false;
-    return !holds_nul(bytes);
+    return !holds_nul(without_padding(bytes));
 }
 
 }  // namespace kerf

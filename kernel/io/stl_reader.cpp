@@ -24,11 +24,21 @@ Vec3 read_corner(const char* bytes) {
     return Vec3(p[0], p[1], p[2]);
 }
 
+// All facets that the header claims, which the file holds.
 void read_binary(std::string_view bytes, SoupBuilder& builder) {
-    for (std::size_t at = stl_header_size; at < bytes.size(); at += stl_facet_size) {
+    const std::size_t end = stl_header_size + stl_facet_size * claimed_stl_facets(bytes);
+    for (std::size_t at = stl_header_size; at < end; at += stl_facet_size) {
         const char* corners = bytes.data() + at + 12;
         builder.add_separate_facet(read_corner(corners), read_corner(corners + 12), read_corner(corners + 24));
     }
+    builder.note_ignored(static_cast<std::int64_t>(bytes.size() - end), "byte behind the last facet",
+                         "bytes behind the last facet");
+}
+
+// Less than a facet behind the claimed ones is padding; more may be facets that the count misses.
+bool holds_claimed_facets(std::string_view bytes) {
+    if (bytes.size() < stl_header_size) return false;
+    return (bytes.size() - stl_header_size) / stl_facet_size == claimed_stl_facets(bytes);
 }
 
 [[noreturn]] void refuse_size(std::string_view bytes, const std::string& path) {
@@ -98,10 +108,10 @@ void read_ascii(std::string_view text, const std::string& path, SoupBuilder& bui
 
 Soup read_stl(std::string_view bytes, const std::string& path) {
     SoupBuilder builder(path);
-    if (is_binary_stl(bytes))
+    if (!is_binary_stl(bytes) && is_ascii_stl(bytes))
+        read_ascii(without_padding(bytes), path, builder);
+    else if (holds_claimed_facets(bytes))
         read_binary(bytes, builder);
-    else if (is_ascii_stl(bytes))
-        read_ascii(bytes, path, builder);
     else
         refuse_size(bytes, path);
     Soup soup = builder.finish();

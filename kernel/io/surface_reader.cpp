@@ -1,12 +1,15 @@
 // The format is told by the content: a binary STL by its size, which no text meets by chance, the others by their first
-// word. Only TetGen's files, which begin with a number, are told by the ending of their name.
+// word or, TetGen's lists of numbers, by their first line. The ending of the name is only asked where that leaves a
+// doubt.
 #include "io/surface_reader.h"
 
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 
 #include "core/error.h"
+#include "io/compressed.h"
 #include "io/file_bytes.h"
 #include "io/stl_format.h"
 #include "io/text_scanner.h"
@@ -28,25 +31,51 @@ bool is_obj_keyword(std::string_view word) {
     return std::find(keywords.begin(), keywords.end(), word) != keywords.end();
 }
 
+bool is_count(std::string_view word) { return word.find_first_not_of("0123456789") == std::string_view::npos; }
+
+// TetGen's first line: a number of nodes, then the dimension 3 and more counts, or nothing.
+bool begins_like_tetgen(std::string_view bytes, const std::string& path) {
+    const std::string name = name_in_archive(path);
+    if (name.ends_with(".smesh") || name.ends_with(".poly")) return true;
+    TextScanner scanner(bytes, path, '#');
+    if (scanner.at_end() || !is_count(scanner.next_word())) return false;
+    return scanner.at_line_end() || scanner.next_word() == "3";
+}
+
+// Binary MEDIT begins with a 1 in its own order of bytes and a version.
+bool is_binary_medit(std::string_view bytes) {
+    const bool is_little = bytes.starts_with(std::string_view("\1\0\0\0", 4));
+    const bool is_big = bytes.starts_with(std::string_view("\0\0\0\1", 4));
+    if (bytes.size() < 8 || (!is_little && !is_big)) return false;
+    const char version = bytes[is_little ? 4 : 7];
+    return version >= 1 && version <= 4;
+}
+
 Reader recognise(std::string_view bytes, const std::string& path) {
     if (is_binary_stl(bytes)) return read_stl;
     const std::string_view word = first_word(bytes, path);
     if (word == "ply") return read_ply;
     if (word.ends_with("OFF")) return read_off;
-    if (is_ascii_stl(bytes) || holds_nul(bytes)) return read_stl;
+    if (word.starts_with('$')) return read_gmsh;
     if (word == "MeshVersionFormatted") return read_medit;
+    if (is_binary_medit(bytes))
+        throw Error(ErrorCode::input,
+                    path + ": binary MEDIT (.meshb) is not supported. Save the mesh as text (.mesh).");
+    if (is_ascii_stl(bytes) || holds_nul(bytes)) return read_stl;
     if (is_obj_keyword(word)) return read_obj;
-    if (path.ends_with(".smesh") || path.ends_with(".poly")) return read_tetgen;
+    if (begins_like_tetgen(bytes, path)) return read_tetgen;
     throw Error(ErrorCode::input,
                 path +
-                    ": the format is not recognised. Give STL, OBJ, PLY, OFF, MEDIT's .mesh as text, or TetGen's "
-                    ".smesh or .poly.");
+                    ": the format is not recognised. Give STL, OBJ, PLY, OFF, Gmsh's .msh, MEDIT's .mesh as text, or "
+                    "TetGen's .smesh or .poly, plain or compressed with gzip or zstd.");
 }
 
 }  // namespace
 
-Soup read_surface(const std::string& path) {
-    const std::string content = read_file(path);
+Soup read_surface(const std::string& path) { return read_surface_bytes(read_file(path), path); }
+
+Soup read_surface_bytes(std::string file, const std::string& path) {
+    const std::string content = decompress(std::move(file), path);
     std::string_view bytes = content;
     if (bytes.empty()) throw Error(ErrorCode::input, path + ": the file is empty. Export the surface again.");
     if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);  // byte-order mark of UTF-8

@@ -8,24 +8,33 @@
 
 namespace kerf {
 
-/// Reads STL (binary or ASCII), OBJ, PLY (ASCII, both binary endians), OFF or MEDIT .mesh (ASCII), told apart by
-/// content, or TetGen .smesh or .poly, told by the ending, in double precision where the format has it. STL triangles
-/// are welded exactly; other formats keep their vertices as they are.
+/// Reads STL (binary or ASCII), OBJ, PLY (ASCII, both binary endians), OFF, Gmsh MSH 2 or 4.1 (ASCII, both binary
+/// endians), MEDIT .mesh (ASCII), TetGen .smesh or .poly, each also compressed with gzip or zstd, in double precision
+/// where the format has it. The content tells the format. The ending is only asked where the content leaves a doubt:
+/// .smesh or .poly for a list of numbers whose first line is not that of TetGen's nodes, .smesh for a first facet that
+/// is broken over lines. STL triangles are welded exactly; other formats keep their vertices as they are.
 ///
-/// Polygons of more than three vertices are fan-triangulated. STL solids, OBJ groups, MEDIT references and TetGen
-/// markers become patches. Of MEDIT only vertices and triangles are taken: volume elements, quadrilaterals and all else
-/// are passed over. TetGen's hole points and regions are not used. Throws Error(io) for a file that cannot be opened or
-/// read, Error(input) for content that is empty, truncated, or malformed, each naming the file, the place (line, byte
-/// or facet) and the way out. Memory is bounded by a multiple of the file's size, whatever its header claims. `-` is
-/// refused.
+/// STL solids, OBJ groups (else objects, else materials), Gmsh's physical groups (else surfaces), MEDIT references and
+/// TetGen markers become patches. Polygons are cut into a fan where they are planar and convex, see find_fan(); others
+/// are refused. Volume elements, curves, points and regions are passed over; Soup::notes says so. TetGen's hole points
+/// are in Soup::holes. Numbers beyond the doubles are read as the nearest, that is infinite or zero, and "nan" is NaN.
+///
+/// Throws Error(io) for a file that cannot be opened or read, Error(input) for content that is empty, truncated, or
+/// malformed, each naming the file, the place (line, byte or facet) and the way out. A binary STL may have up to 49
+/// bytes of padding; with more its count of facets is in doubt, and it is refused. Memory is bounded by a multiple of
+/// the size of the content, whatever its header claims. `-` is refused.
 Soup read_surface(const std::string& path);
 
-/// The formats by themselves, on the bytes of a file; `path` serves messages, and tells TetGen's .poly from .smesh and
-/// where the .node file of one without nodes is.
+/// The same for the bytes of a file that is already in memory.
+Soup read_surface_bytes(std::string file, const std::string& path);
+
+/// The formats by themselves, on the bytes of a file without compression; `path` serves messages, and tells TetGen's
+/// .poly from .smesh in doubt and where the .node file of one without nodes is.
 Soup read_stl(std::string_view bytes, const std::string& path);
 Soup read_obj(std::string_view bytes, const std::string& path);
 Soup read_ply(std::string_view bytes, const std::string& path);
 Soup read_off(std::string_view bytes, const std::string& path);
+Soup read_gmsh(std::string_view bytes, const std::string& path);
 Soup read_medit(std::string_view bytes, const std::string& path);
 Soup read_tetgen(std::string_view bytes, const std::string& path);
 

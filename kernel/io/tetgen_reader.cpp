@@ -1,11 +1,12 @@
 // TetGen's .smesh and .poly: four lists of lines, each behind a line with its length. Nodes are a number (from 0 or
 // 1), x y z and what may follow; if there are none, they are in the .node file beside. A facet of .smesh is its number
 // of corners, the corners and a boundary marker; one of .poly says on a line of its own how many polygons and holes it
-// has and its marker. Hole points and regions are read and not used: the nesting of the shells tells the voids.
+// has and its marker. Hole points are kept, regions passed over.
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "io/compressed.h"
 #include "io/file_bytes.h"
 #include "io/soup_builder.h"
 #include "io/surface_reader.h"
@@ -70,27 +71,42 @@ void read_corners(TextScanner& scanner, std::int64_t first_node, std::vector<std
     for (std::int64_t i = 0; i < size; ++i) corners.push_back(scanner.next_index(first_node));
 }
 
-void read_facets(TextScanner& scanner, bool is_poly, std::int64_t first_node, SoupBuilder& builder) {
+// True if the first facet is one of .poly: a line of more than three numbers is a facet of .smesh, and a line that
+// begins with 1 says in .poly that there is one polygon. The others are facets of .smesh over several lines, or have
+// several polygons, as the ending says.
+bool is_poly(TextScanner scanner, const std::string& path) {
+    if (scanner.at_end()) return false;
+    const std::int64_t first = scanner.next_integer();
+    int more = 0;
+    for (; more < 3 && !scanner.at_line_end(); ++more) scanner.next_word();
+    return more < 3 && (first == 1 || !name_in_archive(path).ends_with(".smesh"));
+}
+
+void read_facets(TextScanner& scanner, const std::string& path, std::int64_t first_node, SoupBuilder& builder) {
     const std::int64_t count = scanner.next_count();
     const bool has_markers = !scanner.at_line_end() && scanner.next_integer() != 0;
     scanner.skip_line();
+    const bool poly = is_poly(scanner, path);
     std::vector<std::int64_t> corners;
     for (std::int64_t f = 0; f < count; ++f) {
-        if (is_poly) read_facet_line(scanner, has_markers, builder);
+        if (poly) read_facet_line(scanner, has_markers, builder);
         read_corners(scanner, first_node, corners);
-        finish_facet_line(scanner, has_markers && !is_poly, builder);
+        finish_facet_line(scanner, has_markers && !poly, builder);
         builder.add_polygon(corners, [&](const std::string& what) { scanner.fail(what); });
     }
 }
 
-// Hole points or regions: a number and x y z per line; the list may be missing.
-void pass_over_points(TextScanner& scanner) {
+// Calls take(point) for each of a list of lines, each a number and x y z; the list may be missing. Returns its length.
+template <class Take>
+std::int64_t read_points(TextScanner& scanner, const Take& take) {
     const std::int64_t count = scanner.at_end() ? 0 : scanner.next_count();
     for (std::int64_t i = 0; i < count; ++i) {
         scanner.next_integer();
-        for (int axis = 0; axis < 3; ++axis) scanner.next_real();
+        const double x = scanner.next_real(), y = scanner.next_real(), z = scanner.next_real();
+        take(Vec3(x, y, z));
         scanner.skip_line();  // attribute and volume bound of a region
     }
+    return count;
 }
 
 }  // namespace
@@ -98,13 +114,13 @@ void pass_over_points(TextScanner& scanner) {
 Soup read_tetgen(std::string_view bytes, const std::string& path) {
     TextScanner scanner(bytes, path, '#');
     SoupBuilder builder(path);
-    const fs::path file(path);
     const std::int64_t nodes = read_node_count(scanner);
-    const std::int64_t first_node = nodes > 0 ? read_nodes(scanner, nodes, builder)
-                                              : read_node_file(fs::path(file).replace_extension("node"), builder);
-    read_facets(scanner, file.extension() == ".poly", first_node, builder);
-    pass_over_points(scanner);  // in holes
-    pass_over_points(scanner);  // in regions
+    const std::string node_file = fs::path(name_in_archive(path)).replace_extension("node");
+    const std::int64_t first_node =
+        nodes > 0 ? read_nodes(scanner, nodes, builder) : read_node_file(node_file, builder);
+    read_facets(scanner, path, first_node, builder);
+    read_points(scanner, [&](const Vec3& point) { builder.add_hole(point); });
+    builder.note_ignored(read_points(scanner, [](const Vec3&) {}), "region", "regions");
     scanner.expect_end("its lists of nodes, facets, holes and regions");
     return builder.finish();
 }

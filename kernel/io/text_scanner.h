@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -12,8 +13,8 @@
 
 namespace kerf {
 
-/// Walks over a text word by word. Words are separated by blanks, tabs and line ends (LF or CR LF); a comment runs from
-/// the comment character to the end of its line. Numbers do not depend on the locale. Errors name file and line.
+/// Walks over a text word by word. Words are separated by blanks, tabs and line ends (LF, CR LF or CR); a comment runs
+/// from the comment character to the end of its line. Numbers do not depend on the locale. Errors name file and line.
 class TextScanner {
  public:
     /// `comment` 0: the format has no comments.
@@ -27,7 +28,7 @@ class TextScanner {
     /// True if no word is left in the current line.
     bool at_line_end() {
         skip(false);
-        return position_ == text_.size() || text_[position_] == '\n';
+        return position_ == text_.size() || is_line_end(text_[position_]);
     }
     /// The first character of the next word, over line ends; there must be one.
     char peek() {
@@ -51,8 +52,21 @@ class TextScanner {
     }
     /// A whole number that is not negative.
     std::int64_t next_count() { return to_count(next_word()); }
-    double to_real(std::string_view word) const { return to_number<double>(word, "number"); }
-    std::int64_t to_integer(std::string_view word) const { return to_number<std::int64_t>(word, "whole number"); }
+    /// The nearest double: infinite or zero for a number beyond the doubles; "nan" and "inf" are read, too.
+    double to_real(std::string_view word) const {
+        double value = 0;
+        const std::string_view digits = without_plus(word);
+        const std::errc error = parse(digits, value);
+        if (error == std::errc::result_out_of_range) return nearest_beyond_range(digits);
+        if (error != std::errc()) refuse(word, "number", error);
+        return value;
+    }
+    std::int64_t to_integer(std::string_view word) const {
+        std::int64_t value = 0;
+        const std::errc error = parse(without_plus(word), value);
+        if (error != std::errc()) refuse(word, "whole number", error);
+        return value;
+    }
     std::int64_t to_count(std::string_view word) const {
         const std::int64_t count = to_integer(word);
         if (count < 0) fail("a number of elements is negative. Correct it or export the surface again.");
@@ -75,29 +89,39 @@ class TextScanner {
         return rest;
     }
     void skip_line() {
-        const std::size_t end = text_.find('\n', position_);
-        position_ = end == std::string_view::npos ? text_.size() : end + 1;
+        position_ = find_line_end();
+        if (text_.substr(position_, 2) == "\r\n") ++position_;
+        if (position_ < text_.size()) ++position_;
     }
     std::size_t position() const { return position_; }
+    /// Goes on at a byte behind what has been read.
+    void go_to(std::size_t position) { position_ = position; }
 
     /// Throws Error(input) naming file and line of the last word before `what`.
     [[noreturn]] void fail(const std::string& what) const {
-        const std::size_t end = std::min(word_, text_.size());
-        const auto line = 1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+        std::int64_t line = 1;
+        for (std::size_t i = 0; i < word_; ++i)
+            line += text_[i] == '\n' || (text_[i] == '\r' && text_.substr(i + 1, 1) != "\n");
         throw Error(ErrorCode::input, path_ + ", line " + std::to_string(line) + ": " + what);
     }
 
  private:
+    static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
     static bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
     void skip(bool over_line_ends) {
         for (; position_ < text_.size(); ++position_) {
             const char c = text_[position_];
             if (comment_ && c == comment_)
-                position_ = std::min(text_.find('\n', position_), text_.size()) - 1;
-            else if (!is_space(c) || (c == '\n' && !over_line_ends))
+                position_ = find_line_end() - 1;
+            else if (!is_space(c) || (is_line_end(c) && !over_line_ends))
                 return;
         }
+    }
+    std::size_t find_line_end() const {
+        std::size_t end = position_;
+        while (end < text_.size() && !is_line_end(text_[end])) ++end;
+        return end;
     }
     std::string_view scan_word() {
         word_ = position_;
@@ -105,19 +129,33 @@ class TextScanner {
             ++position_;
         return text_.substr(word_, position_ - word_);
     }
+    static std::string_view without_plus(std::string_view word) {
+        const bool has_plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
+        return has_plus ? word.substr(1) : word;
+    }
+    /// The whole word or nothing.
     template <class Number>
-    Number to_number(std::string_view word, const char* kind) const {
-        std::string_view digits = word;
-        if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
-        Number value{};
-        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-        if (error != std::errc() || end != digits.data() + digits.size()) refuse(word, kind, error);
-        return value;
+    static std::errc parse(std::string_view word, Number& value) {
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+        return error == std::errc() && end != word.data() + word.size() ? std::errc::invalid_argument : error;
+    }
+    // Zero or infinity, by the power of ten of the first digit that is not 0.
+    static double nearest_beyond_range(std::string_view number) {
+        const bool is_negative = number.front() == '-';
+        const std::size_t e = std::min(number.find_first_of("eE"), number.size());
+        const std::size_t point = std::min(number.find('.'), e), first = number.find_first_of("123456789");
+        std::int64_t exponent = 0;
+        const std::string_view power = without_plus(number.substr(std::min(e + 1, number.size())));
+        const bool is_huge_power = parse(power, exponent) == std::errc::result_out_of_range;
+        const auto lead = static_cast<std::int64_t>(point) - static_cast<std::int64_t>(first);
+        const bool is_large = is_huge_power ? power.front() != '-' : exponent > -lead;
+        const double magnitude = is_large ? std::numeric_limits<double>::infinity() : 0.0;
+        return is_negative ? -magnitude : magnitude;
     }
 
     [[noreturn]] void refuse(std::string_view word, const char* kind, std::errc error) const {
         const std::string quoted = "\"" + std::string(word.substr(0, 40)) + "\"";
-        fail((error == std::errc::result_out_of_range ? "the number " + quoted + " is too large or too close to zero"
+        fail((error == std::errc::result_out_of_range ? "the number " + quoted + " is too large"
                                                       : "a " + std::string(kind) + " is expected, not " + quoted) +
              ". Correct the line or export the surface again.");
     }

@@ -14,6 +14,11 @@ struct Soup {
     std::vector<Triangle> facets;          ///< #F; indices into `vertices`
     std::vector<std::int32_t> patch;       ///< #F; index into `patch_names`
     std::vector<std::string> patch_names;  ///< never empty once a reader has returned
+    /// #F; number of the face of the file, counted from 0, that the facet was cut from. Empty if every face is a
+    /// triangle, so that facets and faces have the same numbers.
+    std::vector<std::int32_t> polygon = {};
+    std::vector<Vec3> holes = {};         ///< points in voids that the file names; units of the file
+    std::vector<std::string> notes = {};  ///< what the reader passed over: "12 tetrahedra were ignored."
 };
 
 /// Merges vertices with exactly equal coordinates (-0 equals 0). The first of equals stays, the order is kept.

@@ -13,30 +13,29 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "support/archives.h"
 #include "support/shapes.h"
+#include "support/surface_files.h"
 
 namespace kerf {
 namespace {
 
-using test::box;
-using test::icosphere;
-using test::tetrahedron;
-using test::torus;
+namespace fs = std::filesystem;
+using namespace test;
 
 // A file in the folder for temporary files that disappears with its object.
 class TemporaryFile {
  public:
     explicit TemporaryFile(const std::string& bytes, const std::string& ending = "")
-        : path_(std::filesystem::temp_directory_path() /
-                ("kerf_surface_reader_test_" + std::to_string(getpid()) + ending)) {
+        : path_(fs::temp_directory_path() / ("kerf_surface_reader_test_" + std::to_string(getpid()) + ending)) {
         std::ofstream(path_, std::ios::binary) << bytes;
     }
-    ~TemporaryFile() { std::filesystem::remove(path_); }
+    ~TemporaryFile() { fs::remove(path_); }
     TemporaryFile(const TemporaryFile&) = delete;
     std::string path() const { return path_.string(); }
 
  private:
-    std::filesystem::path path_;
+    fs::path path_;
 };
 
 Soup read_bytes(const std::string& bytes, const std::string& ending = "") {
@@ -53,135 +52,6 @@ std::string message_of(const std::string& bytes, const std::string& ending = "")
     }
     ADD_FAILURE() << "accepted:\n" << bytes;
     return "";
-}
-
-template <class T>
-void append(std::string& bytes, T value, bool swap = false) {
-    char raw[sizeof value];
-    std::memcpy(raw, &value, sizeof value);
-    if (swap) std::reverse(raw, raw + sizeof value);
-    bytes.append(raw, sizeof value);
-}
-
-std::ostringstream precise_stream() {
-    std::ostringstream out;
-    out.precision(17);
-    return out;
-}
-
-std::string to_binary_stl(const Soup& soup, std::string header = "made by a test") {
-    header.resize(80, ' ');
-    append(header, static_cast<std::uint32_t>(soup.facets.size()));
-    for (const Triangle& t : soup.facets) {
-        for (int i = 0; i < 3; ++i) append(header, 0.0f);
-        for (std::int32_t v : t)
-            for (int i = 0; i < 3; ++i) append(header, static_cast<float>(soup.vertices[v][i]));
-        append(header, std::uint16_t{0});
-    }
-    return header;
-}
-
-// One solid per patch, in the order of the patches.
-std::string to_ascii_stl(const Soup& soup) {
-    auto out = precise_stream();
-    for (std::size_t patch = 0; patch < soup.patch_names.size(); ++patch) {
-        out << "solid " << soup.patch_names[patch] << "\n";
-        for (std::size_t f = 0; f < soup.facets.size(); ++f) {
-            if (soup.patch[f] != static_cast<std::int32_t>(patch)) continue;
-            out << "facet normal 0 0 0\nouter loop\n";
-            for (std::int32_t v : soup.facets[f]) out << "vertex " << soup.vertices[v].transpose() << "\n";
-            out << "endloop\nendfacet\n";
-        }
-        out << "endsolid " << soup.patch_names[patch] << "\n";
-    }
-    return out.str();
-}
-
-std::string to_obj(const Soup& soup) {
-    auto out = precise_stream();
-    for (const Vec3& p : soup.vertices) out << "v " << p.transpose() << "\n";
-    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
-        if (f == 0 || soup.patch[f] != soup.patch[f - 1]) out << "g " << soup.patch_names[soup.patch[f]] << "\n";
-        const Triangle& t = soup.facets[f];
-        out << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
-    }
-    return out.str();
-}
-
-std::string to_off(const Soup& soup) {
-    auto out = precise_stream();
-    out << "OFF\n" << soup.vertices.size() << " " << soup.facets.size() << " 0\n";
-    for (const Vec3& p : soup.vertices) out << p.transpose() << "\n";
-    for (const Triangle& t : soup.facets) out << "3 " << t[0] << " " << t[1] << " " << t[2] << "\n";
-    return out.str();
-}
-
-std::string reference(const Soup& soup, std::size_t facet) { return std::to_string(10 - soup.patch[facet]); }
-
-std::string to_medit(const Soup& soup) {
-    auto out = precise_stream();
-    out << "MeshVersionFormatted 2\nDimension 3\nVertices\n" << soup.vertices.size() << "\n";
-    for (const Vec3& p : soup.vertices) out << p.transpose() << " 0\n";
-    out << "Corners 1\n1\nTriangles\n" << soup.facets.size() << "\n";
-    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
-        for (std::int32_t v : soup.facets[f]) out << v + 1 << " ";
-        out << reference(soup, f) << "\n";
-    }
-    out << "Tetrahedra\n1\n1 2 3 4 0\nEnd\n";
-    return out.str();
-}
-
-std::string to_node_list(const Soup& soup, int first) {
-    auto out = precise_stream();
-    out << "# nodes\n" << soup.vertices.size() << " 3 1 0\n";
-    for (std::size_t v = 0; v < soup.vertices.size(); ++v)
-        out << v + first << " " << soup.vertices[v].transpose() << " 0.5\n";
-    return out.str();
-}
-
-std::string to_facet_list(const Soup& soup, int first, bool is_poly) {
-    std::ostringstream out;
-    out << soup.facets.size() << " 1\n";
-    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
-        if (is_poly) out << "1 0 " << reference(soup, f) << "\n";
-        out << 3;
-        for (std::int32_t v : soup.facets[f]) out << " " << v + first;
-        out << (is_poly ? "" : " " + reference(soup, f)) << " # facet\n";
-    }
-    out << "1\n1 0.5 0.5 0.5\n1\n1 0.1 0.1 0.1 7 0.01\n";
-    return out.str();
-}
-
-std::string to_tetgen(const Soup& soup, int first, bool is_poly) {
-    return to_node_list(soup, first) + to_facet_list(soup, first, is_poly);
-}
-
-std::string ply_header(const Soup& soup, const std::string& format) {
-    return "ply\nformat " + format + " 1.0\ncomment made by a test\nelement vertex " +
-           std::to_string(soup.vertices.size()) +
-           "\nproperty double x\nproperty double y\nproperty double z\nproperty uchar red\nelement face " +
-           std::to_string(soup.facets.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
-}
-
-std::string to_ascii_ply(const Soup& soup) {
-    auto out = precise_stream();
-    out << ply_header(soup, "ascii");
-    for (const Vec3& p : soup.vertices) out << p.transpose() << " 255\n";
-    for (const Triangle& t : soup.facets) out << "3 " << t[0] << " " << t[1] << " " << t[2] << "\n";
-    return out.str();
-}
-
-std::string to_binary_ply(const Soup& soup, bool big_endian) {
-    std::string bytes = ply_header(soup, big_endian ? "binary_big_endian" : "binary_little_endian");
-    for (const Vec3& p : soup.vertices) {
-        for (int i = 0; i < 3; ++i) append(bytes, p[i], big_endian);
-        append(bytes, std::uint8_t{255});
-    }
-    for (const Triangle& t : soup.facets) {
-        append(bytes, std::uint8_t{3});
-        for (std::int32_t v : t) append(bytes, v, big_endian);
-    }
-    return bytes;
 }
 
 std::vector<Soup> shapes() {
@@ -233,6 +103,21 @@ TEST(SurfaceReader, GivesBackWhatMeditAndTetgenHold) {
     }
 }
 
+TEST(SurfaceReader, GivesBackWhatGmshHolds) {
+    for (const Soup& soup : shapes())
+        for (const bool is_msh41 : {false, true})
+            for (const auto& [is_binary, is_big_endian] : {std::pair(false, false), {true, false}, {true, true}}) {
+                SCOPED_TRACE(soup.patch_names.front() + (is_msh41 ? " 4.1" : " 2.2"));
+                SCOPED_TRACE(is_binary ? is_big_endian ? "big endian" : "little endian" : "text");
+                const Soup read = read_bytes(to_msh(soup, {is_msh41, is_binary, is_big_endian}));
+                expect_same(read, soup);
+                EXPECT_EQ(read.patch, soup.patch);
+                EXPECT_EQ(read.patch_names, soup.patch_names);
+                EXPECT_EQ(read.notes, (std::vector<std::string>{"2 tetrahedra were ignored.", "1 line was ignored.",
+                                                                "1 point was ignored."}));
+            }
+}
+
 TEST(SurfaceReader, WeldsTheCornersOfStl) {
     for (const Soup& soup : shapes()) {
         SCOPED_TRACE(soup.patch_names.front());
@@ -251,6 +136,43 @@ TEST(SurfaceReader, TellsBinaryStlByItsSizeWhateverItsHeaderSays) {
     for (const char* header : {"", "solid", "solid facet normal 0 0 0", "OFF", "ply", "v 1 2 3", "#"}) {
         SCOPED_TRACE(header);
         EXPECT_EQ(read_bytes(to_binary_stl(box(), header)).facets.size(), 12u);
+    }
+}
+
+TEST(SurfaceReader, TellsEveryFormatByItsContentWhateverTheEnding) {
+    for (const Soup& soup : shapes())
+        for (const SurfaceFile& file : to_all_formats(soup)) {
+            const Soup expected = read_bytes(file.bytes, fs::path(file.name).extension());
+            for (const char* ending :
+                 {"", ".stl", ".obj", ".ply", ".off", ".msh", ".mesh", ".smesh", ".poly", ".txt"}) {
+                SCOPED_TRACE(file.name + " as " + ending);
+                expect_same(read_bytes(file.bytes, ending), expected);
+            }
+        }
+}
+
+TEST(SurfaceReader, ReadsArchivesOfEveryFormat) {
+    const Soup soup = box(Vec3(-1, 2, 1.0 / 3), Vec3(5, 7, 11), 2);
+    for (const SurfaceFile& file : to_all_formats(soup)) {
+        SCOPED_TRACE(file.name);
+        const std::string ending = fs::path(file.name).extension();
+        const Soup expected = read_bytes(file.bytes, ending);
+        expect_same(read_bytes(gzip(file.bytes), ending + ".gz"), expected);
+        expect_same(read_bytes(zstd(file.bytes), ending + ".zst"), expected);
+    }
+}
+
+TEST(SurfaceReader, ReadsEveryKindOfLineEnd) {
+    for (const SurfaceFile& file : to_all_formats(box())) {
+        if (file.bytes.find('\0') != std::string::npos) continue;
+        for (const char* line_end : {"\r\n", "\r"}) {
+            SCOPED_TRACE(file.name + (line_end[1] ? " CR LF" : " CR"));
+            std::string bytes;
+            for (const char c : file.bytes) c == '\n' ? bytes += line_end : bytes += c;
+            const Soup soup = read_bytes(bytes, fs::path(file.name).extension());
+            expect_same(soup, read_bytes(file.bytes, fs::path(file.name).extension()));
+            EXPECT_EQ(soup.patch_names, read_bytes(file.bytes).patch_names);
+        }
     }
 }
 
@@ -279,6 +201,11 @@ TEST(SurfaceReader, RefusesEveryTruncationBeforeTheLastFacet) {
     expect_refused(medit, medit.find("\nTetrahedra") - 1, ".mesh");  // the reference has two digits
     expect_refused(smesh, smesh.rfind(" 10 # facet"), ".smesh");     // a marker may be missing
     expect_refused(poly, poly.rfind(" # facet"), ".poly");
+    for (const bool is_msh41 : {false, true})
+        for (const bool is_binary : {false, true}) {
+            const std::string msh = to_msh(soup, {is_msh41, is_binary, true});
+            expect_refused(msh, msh.rfind("$EndElements") - 4, ".msh");
+        }
 }
 
 TEST(SurfaceReader, ReportsATruncatedBinaryStlThatBeginsWithSolidAsSuch) {
@@ -292,10 +219,17 @@ TEST(SurfaceReader, ReportsATruncatedBinaryStlThatBeginsWithSolidAsSuch) {
 
 TEST(SurfaceReader, KeepsIndicesInRangeOnDamagedFiles) {
     const Soup soup = box();
-    const std::vector<std::array<std::string, 2>> files = {
-        {to_binary_stl(soup), ".stl"}, {to_ascii_stl(soup), ".stl"},          {to_obj(soup), ".obj"},
-        {to_off(soup), ".off"},        {to_ascii_ply(soup), ".ply"},          {to_binary_ply(soup, false), ".ply"},
-        {to_medit(soup), ".mesh"},     {to_tetgen(soup, 0, false), ".smesh"}, {to_tetgen(soup, 1, true), ".poly"}};
+    const std::vector<std::array<std::string, 2>> files = {{to_binary_stl(soup), ".stl"},
+                                                           {to_ascii_stl(soup), ".stl"},
+                                                           {to_obj(soup), ".obj"},
+                                                           {to_off(soup), ".off"},
+                                                           {to_ascii_ply(soup), ".ply"},
+                                                           {to_binary_ply(soup, false), ".ply"},
+                                                           {to_msh(soup, {false, false, false}), ".msh"},
+                                                           {to_msh(soup, {true, true, true}), ".msh"},
+                                                           {to_medit(soup), ".mesh"},
+                                                           {to_tetgen(soup, 0, false), ".smesh"},
+                                                           {to_tetgen(soup, 1, true), ".poly"}};
     for (const auto& [bytes, ending] : files)
         for (unsigned seed = 1; seed <= 300; ++seed) {
             SCOPED_TRACE(bytes.substr(0, 20) + " seed " + std::to_string(seed));
@@ -334,32 +268,42 @@ TEST(SurfaceReader, NamesThePlaceAndTheCause) {
         std::string bytes, expected, ending = "";
     };
     const std::string medit = "MeshVersionFormatted 2\nDimension 3\nVertices 3\n0 0 0 0\n1 0 0 0\n0 1 0 0\n";
+    const std::string msh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n";
     const std::string nodes = "3 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n";
     const std::string facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n";
     const std::vector<Case> cases = {
         {"", "empty"},
         {"PK\x03\x04 something else", "not recognised"},
-        {nodes + "1 0\n3 1 2 3\n", "not recognised"},
+        {"1 2 3\n4 5 6\n", "not recognised"},
+        {"0.5 3 0\n", "not recognised"},
+        {std::string("\1\0\0\0\3\0\0\0\3\0\0\0", 12), "binary MEDIT (.meshb) is not supported"},
+        {std::string("\0\0\0\1\0\0\0\2\0\0\0\3", 12), "binary MEDIT (.meshb) is not supported"},
         {"solid a\nendsolid a\n", "no facets"},
         {"solid a\n" + facet, "truncated"},
         {"solid a\n" + facet + "facet normal 0 0 1\nouter loop\nvertex 0 0 blah\n", "line 5: a number is expected"},
         {"solid a\n" + facet + "facette\n", "line 3: \"facet\" or \"endsolid\" is expected"},
         {"solid a\nfacet normal 0 0 1 outer loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nvertex 1 1 0\n",
          "line 6: \"endloop\" is expected"},
-        {to_binary_stl(tetrahedron()) + "x", "longer than its header claims 4 facets"},
+        {to_binary_stl(tetrahedron()) + std::string(50, 'x'), "longer than its header claims 4 facets"},
         {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "line 4: a facet names vertex number 3 (counted from 0)"},
         {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n", "line 4"},
         {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", "line 4: a face names vertex 0"},
         {"v 0 0 0\nv 1 0 0\nf 1 2\n", "line 3: a facet has less than three vertices"},
         {"v 0 0\nv 1 0 0\n", "line 1: a vertex has less than three coordinates"},
         {"v 0 0 1,5\n", "line 1: a number is expected, not \"1,5\""},
-        {"v 0 0 1e999\n", "line 1: the number \"1e999\" is too large"},
+        {"v 0 0 0\nf 1 1 99999999999999999999\n", "line 2: the number \"99999999999999999999\" is too large"},
+        {"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.001\nf 1 2 3\nf 1 2 3 4\n", "line 6: face 1 (counted from 0) with 4"},
+        {"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.001\nf 1 2 3 4\n", "is not planar"},
+        {"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 3 1 0\nf 1 2 3 4\n", "is not convex"},
+        {"v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nf 1 2 3 4\n", "has no area"},
         {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 5\n", "line 6: a facet names vertex number 5"},
         {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2\n", "line 7: the file goes on after the 1 facets"},
         {"OFF\n-3 1 0\n", "line 2: a number of elements is negative"},
         {"OFF BINARY\n", "binary OFF is not supported"},
         {"4OFF\n", "three dimensions"},
         {"ply\nformat ascii 2.0\nelement vertex 1\nproperty quad x\n", "line 4: the type \"quad\" is unknown"},
+        {"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n",
+         "the vertices have no property z"},
         {"ply\nformat binary_middle_endian 1.0\n", "line 2: the format"},
         {"ply\nformat ascii 1.0\nelement face 1\nproperty list uchar float vertex_index\nend_header\n3 0 1 0.5\n",
          "line 6: a whole number is expected"},
@@ -368,7 +312,21 @@ TEST(SurfaceReader, NamesThePlaceAndTheCause) {
         {medit + "Triangles 1\n1 2 4 0\n", "line 8: a facet names vertex number 3"},
         {medit + "Triangles 1\n0 2 3 0\n", "line 8: an index is 0, but the file counts from 1"},
         {medit + "0 0 1 0\n", "line 7: a keyword is expected, not \"0\""},
+        {medit + "TrianglesP2 1\n1 2 3 1 2 3 0\n", "line 7: curved elements (TrianglesP2)"},
+        {medit + "Quadrilaterals 1\n1 2 3 3 0\n", "line 8: face 0"},
         {medit + "Triangles -1\n", "line 7: a number of elements is negative"},
+        {"$NOD\n1\n", "MSH version 1 cannot be read"},
+        {"$MeshFormat\n4 0 8\n", "line 2: MSH version 4 cannot be read"},
+        {"$MeshFormat\n4.1 1 8\n\x02\x01\x01\x02$EndMeshFormat\n", "order of the bytes is not 1"},
+        {"$MeshFormat\n4.1 0 4\n", "line 2: the size of a real number is not 8"},
+        {"$Nodes\n0\n", "$MeshFormat is missing"},
+        {msh, "no facets"},
+        {msh + "$Elements\n1\n1 2 0 1 2 4\n", "line 12: element 1 names node 4, which the file does not have"},
+        {msh + "$Elements\n1\n1 9 0 1 2 3 1 2 3\n", "line 12: elements of type 9 (triangles with 6 nodes)"},
+        {msh + "$Elements\n1\n1 16 0 1 2 3 1 2 3\n", "(quadrangles with 8 nodes)"},
+        {msh + "$Elements\n1\n1 77 0 1 2 3\n", "line 12: elements of type 77 (unknown)"},
+        {msh + "$Elements\n1\n1 2 0 1 2\n", "line 12: the file ends too early"},
+        {msh + "$Nodes\n2\n1 0 0 0\n1 0 0 0\n", "there are two nodes 1"},
         {"3 2 0 0\n1 0 0\n", "line 1: the dimension is not 3", ".poly"},
         {"2 3\n1 0 0 0\n3 0 0 0\n", "line 3: the nodes are not numbered one by one", ".smesh"},
         {"1 3\n2 0 0 0\n", "line 2: the nodes are not numbered one by one", ".smesh"},
@@ -384,6 +342,27 @@ TEST(SurfaceReader, NamesThePlaceAndTheCause) {
         const std::string message = message_of(c.bytes, c.ending);
         EXPECT_NE(message.find(c.expected), std::string::npos) << message;
     }
+}
+
+TEST(SurfaceReader, ReadsNumbersBeyondTheDoublesAsTheNearest) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const std::vector<std::pair<std::string, double>> numbers = {{"1e-400", 0},
+                                                                 {"-1e-400", 0},
+                                                                 {"123456e-500", 0},
+                                                                 {"1e-99999999999999999999", 0},
+                                                                 {"inf", infinity},
+                                                                 {"1e999", infinity},
+                                                                 {"1e+99999999999999999999", infinity},
+                                                                 {"-1e999", -infinity},
+                                                                 {"4.9e-324", 5e-324},
+                                                                 {"0.00001e310", 1e305},
+                                                                 {"-Infinity", -infinity},
+                                                                 {"1000000000e301", infinity}};
+    for (const auto& [word, value] : numbers) {
+        SCOPED_TRACE(word);
+        EXPECT_EQ(read_bytes("v 0 0 " + word + "\nf 1 1 1\n").vertices[0], Vec3(0, 0, value));
+    }
+    EXPECT_TRUE(read_bytes("v 0 0 nan\nf 1 1 1\n").vertices[0].hasNaN());
 }
 
 TEST(SurfaceReader, RefusesWhatCannotBeOpened) {
@@ -405,6 +384,19 @@ TEST(StlReader, AcceptsOddSpacingCapitalsAndKeywordsInNames) {
         "vertex 1e0 0 0 VERTEX 0 .1E+1 -0 EndLoop\r\nENDFACET endsolid facet\r\n\r\n");
     EXPECT_EQ(soup.vertices, (std::vector<Vec3>{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}));
     EXPECT_EQ(soup.patch_names, std::vector<std::string>{"endsolid facet vertex 1"});
+}
+
+TEST(StlReader, PassesOverPadding) {
+    const std::string text = to_ascii_stl(box()), binary = to_binary_stl(box());
+    for (const std::string& padding : {std::string("\x1a"), std::string("\0\0\0", 3), std::string("\r\n \x1a\0", 5)})
+        expect_same(read_bytes(text + padding), read_bytes(text));
+    for (const std::size_t size : {1u, 2u, 49u}) {
+        const Soup padded = read_bytes(binary + std::string(size, '\1'));
+        expect_same(padded, read_bytes(binary));
+        const std::string bytes = size == 1 ? "1 byte behind the last facet was" : " bytes behind the last facet were";
+        ASSERT_EQ(padded.notes.size(), 1u);
+        EXPECT_NE(padded.notes[0].find(bytes + " ignored."), std::string::npos) << padded.notes[0];
+    }
 }
 
 TEST(StlReader, MakesPatchesOfSolids) {
@@ -444,16 +436,33 @@ TEST(OffReader, AcceptsCommentsCountsOnSeveralLinesAndColours) {
     EXPECT_EQ(read_bytes("OFF 3 1 0\n0 0 0 1 0 0 0 1 0\n3 0 1 2\n").facets.size(), 1u);
 }
 
+TEST(GmshReader, NamesPatchesOfGroupsElseOfSurfaces) {
+    const std::string head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Comments\n$MeshFormat\n$EndComments\n";
+    const std::string nodes = "$Nodes\n4\n9 0 0 0\n-2 1 0 0\n70000 0 1 0\n1 1 1 0\n$EndNodes\n";
+    const Soup soup =
+        read_bytes(head + "$PhysicalNames\n2\n1 5 \"a curve\"\n2 6 \"in let\"\n$EndPhysicalNames\n" + nodes +
+                   "$Elements\n6\n1 2 2 6 1 9 -2 70000\n2 2 3 5 1 0 9 70000 -2\n3 2 2 6 1 9 70000 -2\n"
+                   "4 2 0 9 -2 70000\n5 2 1 0 9 -2 70000\n6 3 2 0 8 9 -2 1 70000\n$EndElements\n");
+    EXPECT_EQ(soup.facets, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 1}, {0, 1, 2}, {0, 1, 2}, {0, 1, 3}, {0, 3, 2}}));
+    EXPECT_EQ(soup.patch, (std::vector<std::int32_t>{0, 1, 2, 2, 3, 3}));
+    EXPECT_EQ(soup.patch_names, (std::vector<std::string>{"in let", "physical_5", "surface_0", "surface_8"}));
+    EXPECT_EQ(soup.polygon, (std::vector<std::int32_t>{0, 1, 2, 3, 4, 4}));
+    EXPECT_TRUE(soup.notes.empty());
+}
+
 TEST(MeditReader, TakesTrianglesWithReferencesAndPassesOverTheRest) {
     const Soup soup = read_bytes(
         "# a comment\nMeshVersionFormatted\n2\n\nDimension\n3\nNormals 1\nnan -1e-3 0\nVertices\n4\n0 0 0 1\n1 0 0 1\n"
         "1 1 0 1\n0 1 0 1\nRequiredVertices 1 1\nTriangles\n2 # with references\n1 2 3 -7\n1 3 4 2\nRequiredTriangles "
         "1\n"
-        "1\nEdges 1 1 2 0\nQuadrilaterals 1 1 2 3 4 0\nEnd\nTriangles 1 1 2 3 0");
+        "1\nEdges 1 1 2 0\nTetrahedra 12\n1 2 3 4 0\nPyramids 1 1 2 3 4 1 0\nQuadrilaterals 1 1 2 3 4 "
+        "-7\nEnd\nTriangles 1 1 2 3 0");
     EXPECT_EQ(soup.vertices.size(), 4u);
-    EXPECT_EQ(soup.facets, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
-    EXPECT_EQ(soup.patch, (std::vector<std::int32_t>{0, 1}));
+    EXPECT_EQ(soup.facets, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}, {0, 2, 3}}));
+    EXPECT_EQ(soup.polygon, (std::vector<std::int32_t>{0, 1, 2, 2}));
+    EXPECT_EQ(soup.patch, (std::vector<std::int32_t>{0, 1, 0, 0}));
     EXPECT_EQ(soup.patch_names, (std::vector<std::string>{"reference_-7", "reference_2"}));
+    EXPECT_EQ(soup.notes, (std::vector<std::string>{"12 tetrahedra were ignored.", "1 pyramid was ignored."}));
 }
 
 TEST(TetgenReader, AcceptsPolygonsCommentsAndMissingLists) {
@@ -463,6 +472,14 @@ TEST(TetgenReader, AcceptsPolygonsCommentsAndMissingLists) {
     EXPECT_EQ(read_bytes(nodes + "1\n1\n4 0 1 2 3\n0\n", ".poly").facets, fan);
     EXPECT_EQ(read_bytes(nodes + "1 1\n4 0 1 2 3 5", ".smesh").patch_names, std::vector<std::string>{"marker_5"});
     EXPECT_EQ(read_bytes(nodes + "1 0\n4 0 1 2 3 5", ".smesh").patch_names, std::vector<std::string>{"surface"});
+}
+
+TEST(TetgenReader, KeepsHolesAndNotesRegions) {
+    for (const bool is_poly : {false, true}) {
+        const Soup soup = read_bytes(to_tetgen(box(), 1, is_poly), ".smesh");
+        EXPECT_EQ(soup.holes, (std::vector<Vec3>{Vec3(0.5, 0.5, 0.5)}));
+        EXPECT_EQ(soup.notes, std::vector<std::string>{"1 region was ignored."});
+    }
 }
 
 TEST(TetgenReader, TakesTheNodesBesideAFileThatHasNone) {

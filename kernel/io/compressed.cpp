@@ -1,0 +1,134 @@
+// Both libraries are fed the whole archive and asked for one block after the other, so that the limits are checked
+// before there is memory for more than a block beyond them.
+#include "io/compressed.h"
+
+#include <zlib.h>
+#include <zstd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <new>
+#include <string_view>
+#include <utility>
+
+#include "core/error.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr std::string_view gzip_magic = "\x1f\x8b";
+constexpr std::string_view zstd_magic = "\x28\xb5\x2f\xfd";
+
+// What comes out of an archive.
+class Content {
+ public:
+    Content(std::size_t archive_size, const std::string& path)
+        : limit_(std::min(archive_size * growth_limit, size_limit)), path_(path), block_(block_size, '\0') {}
+
+    std::string& block() { return block_; }
+    void take(std::size_t size) {
+        if (size > limit_ - bytes_.size())
+            fail("grows more than 1000-fold or beyond 64 GB. Decompress it and look at it.");
+        bytes_.append(block_, 0, size);
+    }
+    std::string release() { return std::move(bytes_); }
+    [[noreturn]] void fail(const std::string& what) const {
+        throw Error(ErrorCode::input, path_ + ": the archive " + what);
+    }
+    [[noreturn]] void fail_truncated() const { fail("is truncated. Compress or copy it again."); }
+    [[noreturn]] void fail_damaged(const char* reason) const {
+        fail("is damaged (" + std::string(reason ? reason : "no reason given") + "). Compress or copy it again.");
+    }
+
+ private:
+    static constexpr std::size_t block_size = std::size_t{1} << 18;
+    static constexpr std::size_t growth_limit = 1000, size_limit = 64'000'000'000;
+    std::size_t limit_;
+    const std::string& path_;
+    std::string block_, bytes_;
+};
+
+class GzipStream {
+ public:
+    GzipStream() {
+        constexpr int gzip_with_largest_window = 16 + 15;
+        if (inflateInit2(&stream_, gzip_with_largest_window) != Z_OK) throw std::bad_alloc();
+    }
+    ~GzipStream() { inflateEnd(&stream_); }
+    GzipStream(const GzipStream&) = delete;
+    GzipStream& operator=(const GzipStream&) = delete;
+
+    void restart() { inflateReset(&stream_); }
+    /// Reads from the front of `archive` into `block`; returns the number of bytes written. is_done() tells whether
+    /// that was the last of an archive.
+    std::size_t next(std::string_view& archive, Content& content) {
+        constexpr std::size_t most = std::numeric_limits<uInt>::max();
+        const auto offered = static_cast<uInt>(std::min(archive.size(), most));
+        std::string& block = content.block();
+        stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(archive.data()));
+        stream_.avail_in = offered;
+        stream_.next_out = reinterpret_cast<Bytef*>(block.data());
+        stream_.avail_out = static_cast<uInt>(block.size());
+        status_ = inflate(&stream_, Z_NO_FLUSH);
+        if (status_ == Z_MEM_ERROR) throw std::bad_alloc();
+        if (status_ == Z_BUF_ERROR) content.fail_truncated();
+        if (status_ != Z_OK && status_ != Z_STREAM_END) content.fail_damaged(stream_.msg);
+        archive.remove_prefix(offered - stream_.avail_in);
+        return block.size() - stream_.avail_out;
+    }
+    bool is_done() const { return status_ == Z_STREAM_END; }
+
+ private:
+    z_stream stream_{};
+    int status_ = Z_OK;
+};
+
+std::string decompress_gzip(std::string_view archive, const std::string& path) {
+    Content content(archive.size(), path);
+    GzipStream stream;
+    while (!archive.empty() || !stream.is_done()) {
+        if (stream.is_done()) {
+            if (!archive.starts_with(gzip_magic)) content.fail_damaged("something else follows it");
+            stream.restart();
+        }
+        content.take(stream.next(archive, content));
+    }
+    return content.release();
+}
+
+std::string decompress_zstd(std::string_view archive, const std::string& path) {
+    Content content(archive.size(), path);
+    const std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)> stream(ZSTD_createDStream(), ZSTD_freeDStream);
+    if (!stream) throw std::bad_alloc();
+    ZSTD_inBuffer input{archive.data(), archive.size(), 0};
+    bool is_done = false;
+    while (input.pos < input.size || !is_done) {
+        const std::size_t begin = input.pos;
+        ZSTD_outBuffer output{content.block().data(), content.block().size(), 0};
+        const std::size_t status = ZSTD_decompressStream(stream.get(), &output, &input);
+        if (ZSTD_isError(status)) content.fail_damaged(ZSTD_getErrorName(status));
+        is_done = status == 0;
+        if (!is_done && input.pos == begin && output.pos == 0) content.fail_truncated();
+        content.take(output.pos);
+    }
+    return content.release();
+}
+
+}  // namespace
+
+std::string decompress(std::string bytes, const std::string& path) {
+    if (bytes.starts_with(gzip_magic)) return decompress_gzip(bytes, path);
+    if (bytes.starts_with(zstd_magic)) return decompress_zstd(bytes, path);
+    return bytes;
+}
+
+std::string name_in_archive(const std::string& path) {
+    const std::filesystem::path file(path);
+    const bool is_archive = file.extension() == ".gz" || file.extension() == ".zst";
+    return is_archive ? (file.parent_path() / file.stem()).string() : path;
+}
+
+}  // namespace kerf

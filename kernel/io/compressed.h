@@ -1,0 +1,19 @@
+// Archives of one file: gzip and zstd.
+#pragma once
+
+#include <string>
+
+namespace kerf {
+
+/// The content of a gzip or zstd archive, told by its first bytes; all other bytes are given back as they are. Archives
+/// that were joined give their contents one behind the other. `path` serves messages.
+///
+/// Throws Error(input) naming the file for an archive that is truncated or damaged or has something else behind it, and
+/// for one that grows more than 1000-fold or beyond 64 GB: memory is bounded by what the archive holds, whatever its
+/// header claims, and by these limits.
+std::string decompress(std::string bytes, const std::string& path);
+
+/// The name of what is in an archive: "part.poly" for "part.poly.gz" or "part.poly.zst"; other names as they are.
+std::string name_in_archive(const std::string& path);
+
+}  // namespace kerf

@@ -1,0 +1,294 @@
+#include "support/surface_files.h"
+
+#include <sstream>
+
+namespace kerf::test {
+
+namespace {
+
+std::ostringstream precise_stream() {
+    std::ostringstream out;
+    out.precision(17);
+    return out;
+}
+
+// Of the patch of a facet.
+std::string reference(const Soup& soup, std::size_t facet) { return std::to_string(10 - soup.patch[facet]); }
+
+std::string ply_header(const Soup& soup, const std::string& format) {
+    return "ply\nformat " + format + " 1.0\ncomment made by a test\nelement vertex " +
+           std::to_string(soup.vertices.size()) +
+           "\nproperty double x\nproperty double y\nproperty double z\nproperty uchar red\nelement face " +
+           std::to_string(soup.facets.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+}
+
+// Numbers as text or bytes.
+class MshText {
+ public:
+    explicit MshText(const MshStyle& style) : style_(style) { out_.precision(17); }
+    MshText& text(const std::string& text) {
+        out_ << text;
+        return *this;
+    }
+    MshText& integer(std::int32_t value) { return number(value); }
+    MshText& size(std::size_t value) { return number(static_cast<std::int64_t>(value)); }
+    MshText& real(double value) { return number(value); }
+    /// A line of text ends; between numbers of a binary file there are none.
+    MshText& end_line() { return style_.is_binary ? *this : text("\n"); }
+    bool is_binary() const { return style_.is_binary; }
+    std::string bytes() const { return out_.str(); }
+
+ private:
+    template <class Number>
+    MshText& number(Number value) {
+        std::string raw;
+        append(raw, value, style_.is_big_endian);
+        style_.is_binary ? out_ << raw : out_ << value << ' ';
+        return *this;
+    }
+
+    MshStyle style_;
+    std::ostringstream out_;
+};
+
+std::int32_t node_tag(std::size_t vertex) { return 1000000 - 7 * static_cast<std::int32_t>(vertex); }
+
+void write_element_2(MshText& out, int number, int type, int patch, const std::vector<std::int32_t>& nodes) {
+    if (out.is_binary())
+        out.integer(type).integer(1).integer(2).integer(number);
+    else
+        out.integer(number).integer(type).integer(2);
+    out.integer(10 - patch).integer(5 + patch);
+    for (const std::int32_t v : nodes) out.integer(node_tag(v));
+    out.end_line();
+}
+
+void write_msh2(const Soup& soup, MshText& out) {
+    out.text("$Nodes\n" + std::to_string(soup.vertices.size()) + "\n");
+    for (std::size_t v = 0; v < soup.vertices.size(); ++v) {
+        out.integer(node_tag(v));
+        for (const double x : soup.vertices[v]) out.real(x);
+        out.end_line();
+    }
+    out.text("\n$EndNodes\n$Elements\n" + std::to_string(soup.facets.size() + 4) + "\n");
+    write_element_2(out, 1, 15, 0, {0});
+    write_element_2(out, 2, 1, 0, {0, 1});
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        if (f == 1) write_element_2(out, 3, 4, 0, {0, 1, 2, 3});
+        if (f == 2) write_element_2(out, 4, 4, 0, {0, 1, 2, 3});
+        const Triangle& t = soup.facets[f];
+        write_element_2(out, static_cast<int>(f + 5), 2, soup.patch[f], {t[0], t[1], t[2]});
+    }
+    out.text("\n$EndElements\n");
+}
+
+void write_entities_41(const Soup& soup, MshText& out) {
+    out.text("$Entities\n").size(1).size(1).size(soup.patch_names.size()).size(1).end_line();
+    out.integer(1).real(0).real(0).real(0).size(0).end_line();
+    const auto write_box = [&] {
+        for (int i = 0; i < 6; ++i) out.real(0.5);
+    };
+    out.integer(1);
+    write_box();
+    out.size(1).integer(-3).size(2).integer(1).integer(-1).end_line();
+    for (std::size_t p = 0; p < soup.patch_names.size(); ++p) {
+        out.integer(static_cast<int>(5 + p));
+        write_box();
+        out.size(2).integer(-static_cast<int>(10 - p)).integer(99).size(1).integer(1).end_line();
+    }
+    out.integer(1);
+    write_box();
+    out.size(1).integer(10).size(1).integer(5).text("\n$EndEntities\n");
+}
+
+// Two blocks: the first vertex on a curve with a parameter, the others inside.
+void write_nodes_41(const Soup& soup, MshText& out) {
+    const std::size_t count = soup.vertices.size();
+    out.text("$Nodes\n").size(2).size(count).size(1).size(1000000).end_line();
+    for (const std::size_t first : {std::size_t{0}, std::size_t{1}}) {
+        const std::size_t last = first == 0 ? 1 : count;
+        out.integer(first == 0 ? 1 : 3).integer(1).integer(first == 0).size(last - first).end_line();
+        for (std::size_t v = first; v < last; ++v) out.size(node_tag(v)).end_line();
+        for (std::size_t v = first; v < last; ++v) {
+            for (const double x : soup.vertices[v]) out.real(x);
+            if (first == 0) out.real(0.25);
+            out.end_line();
+        }
+    }
+    out.text("\n$EndNodes\n");
+}
+
+void write_block_41(MshText& out, int dimension, int entity, int type,
+                    const std::vector<std::vector<std::int32_t>>& elements) {
+    out.integer(dimension).integer(entity).integer(type).size(elements.size()).end_line();
+    for (const std::vector<std::int32_t>& nodes : elements) {
+        out.size(1);
+        for (const std::int32_t v : nodes) out.size(node_tag(v));
+        out.end_line();
+    }
+}
+
+// A block for every run of facets of one patch, so that the order stays.
+void write_elements_41(const Soup& soup, MshText& out) {
+    std::vector<std::size_t> runs;
+    for (std::size_t f = 0; f <= soup.facets.size(); ++f)
+        if (f == 0 || f == soup.facets.size() || soup.patch[f] != soup.patch[f - 1]) runs.push_back(f);
+    out.text("$Elements\n").size(runs.size() + 2).size(soup.facets.size() + 4).size(1).size(1).end_line();
+    write_block_41(out, 0, 1, 15, {{0}});
+    write_block_41(out, 1, 1, 1, {{0, 1}});
+    write_block_41(out, 3, 1, 4, {{0, 1, 2, 3}, {0, 1, 2, 3}});
+    for (std::size_t r = 0; r + 1 < runs.size(); ++r) {
+        std::vector<std::vector<std::int32_t>> triangles;
+        for (std::size_t f = runs[r]; f < runs[r + 1]; ++f)
+            triangles.emplace_back(soup.facets[f].begin(), soup.facets[f].end());
+        write_block_41(out, 2, 5 + soup.patch[runs[r]], 2, triangles);
+    }
+    out.text("\n$EndElements\n");
+}
+
+void write_msh41(const Soup& soup, MshText& out) {
+    write_entities_41(soup, out);
+    write_nodes_41(soup, out);
+    write_elements_41(soup, out);
+}
+
+}  // namespace
+
+std::string to_binary_stl(const Soup& soup, std::string header) {
+    header.resize(80, ' ');
+    append(header, static_cast<std::uint32_t>(soup.facets.size()));
+    for (const Triangle& t : soup.facets) {
+        for (int i = 0; i < 3; ++i) append(header, 0.0f);
+        for (std::int32_t v : t)
+            for (int i = 0; i < 3; ++i) append(header, static_cast<float>(soup.vertices[v][i]));
+        append(header, std::uint16_t{0});
+    }
+    return header;
+}
+
+std::string to_ascii_stl(const Soup& soup) {
+    auto out = precise_stream();
+    for (std::size_t patch = 0; patch < soup.patch_names.size(); ++patch) {
+        out << "solid " << soup.patch_names[patch] << "\n";
+        for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+            if (soup.patch[f] != static_cast<std::int32_t>(patch)) continue;
+            out << "facet normal 0 0 0\nouter loop\n";
+            for (std::int32_t v : soup.facets[f]) out << "vertex " << soup.vertices[v].transpose() << "\n";
+            out << "endloop\nendfacet\n";
+        }
+        out << "endsolid " << soup.patch_names[patch] << "\n";
+    }
+    return out.str();
+}
+
+std::string to_obj(const Soup& soup) {
+    auto out = precise_stream();
+    for (const Vec3& p : soup.vertices) out << "v " << p.transpose() << "\n";
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        if (f == 0 || soup.patch[f] != soup.patch[f - 1]) out << "g " << soup.patch_names[soup.patch[f]] << "\n";
+        const Triangle& t = soup.facets[f];
+        out << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
+    }
+    return out.str();
+}
+
+std::string to_off(const Soup& soup) {
+    auto out = precise_stream();
+    out << "OFF\n" << soup.vertices.size() << " " << soup.facets.size() << " 0\n";
+    for (const Vec3& p : soup.vertices) out << p.transpose() << "\n";
+    for (const Triangle& t : soup.facets) out << "3 " << t[0] << " " << t[1] << " " << t[2] << "\n";
+    return out.str();
+}
+
+std::string to_medit(const Soup& soup) {
+    auto out = precise_stream();
+    out << "MeshVersionFormatted 2\nDimension 3\nVertices\n" << soup.vertices.size() << "\n";
+    for (const Vec3& p : soup.vertices) out << p.transpose() << " 0\n";
+    out << "Corners 1\n1\nTriangles\n" << soup.facets.size() << "\n";
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        for (std::int32_t v : soup.facets[f]) out << v + 1 << " ";
+        out << reference(soup, f) << "\n";
+    }
+    out << "Tetrahedra\n1\n1 2 3 4 0\nEnd\n";
+    return out.str();
+}
+
+std::string to_node_list(const Soup& soup, int first) {
+    auto out = precise_stream();
+    out << "# nodes\n" << soup.vertices.size() << " 3 1 0\n";
+    for (std::size_t v = 0; v < soup.vertices.size(); ++v)
+        out << v + first << " " << soup.vertices[v].transpose() << " 0.5\n";
+    return out.str();
+}
+
+std::string to_facet_list(const Soup& soup, int first, bool is_poly) {
+    std::ostringstream out;
+    out << soup.facets.size() << " 1\n";
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        if (is_poly) out << "1 0 " << reference(soup, f) << "\n";
+        out << 3;
+        for (std::int32_t v : soup.facets[f]) out << " " << v + first;
+        out << (is_poly ? "" : " " + reference(soup, f)) << " # facet\n";
+    }
+    out << "1\n1 0.5 0.5 0.5\n1\n1 0.1 0.1 0.1 7 0.01\n";
+    return out.str();
+}
+
+std::string to_tetgen(const Soup& soup, int first, bool is_poly) {
+    return to_node_list(soup, first) + to_facet_list(soup, first, is_poly);
+}
+
+std::string to_ascii_ply(const Soup& soup) {
+    auto out = precise_stream();
+    out << ply_header(soup, "ascii");
+    for (const Vec3& p : soup.vertices) out << p.transpose() << " 255\n";
+    for (const Triangle& t : soup.facets) out << "3 " << t[0] << " " << t[1] << " " << t[2] << "\n";
+    return out.str();
+}
+
+std::string to_binary_ply(const Soup& soup, bool big_endian) {
+    std::string bytes = ply_header(soup, big_endian ? "binary_big_endian" : "binary_little_endian");
+    for (const Vec3& p : soup.vertices) {
+        for (int i = 0; i < 3; ++i) append(bytes, p[i], big_endian);
+        append(bytes, std::uint8_t{255});
+    }
+    for (const Triangle& t : soup.facets) {
+        append(bytes, std::uint8_t{3});
+        for (std::int32_t v : t) append(bytes, v, big_endian);
+    }
+    return bytes;
+}
+
+std::string to_msh(const Soup& soup, const MshStyle& style) {
+    MshText out(style);
+    out.text(style.is_msh41 ? "$MeshFormat\n4.1 " : "$MeshFormat\n2.2 ").text(style.is_binary ? "1 8\n" : "0 8\n");
+    if (style.is_binary) out.integer(1);
+    out.text("\n$EndMeshFormat\n$PhysicalNames\n").text(std::to_string(soup.patch_names.size() + 1) + "\n");
+    for (std::size_t p = 0; p < soup.patch_names.size(); ++p)
+        out.text("2 " + std::to_string(10 - p) + " \"" + soup.patch_names[p] + "\"\n");
+    out.text("3 10 \"volume\"\n$EndPhysicalNames\n");
+    style.is_msh41 ? write_msh41(soup, out) : write_msh2(soup, out);
+    return out.bytes();
+}
+
+std::vector<SurfaceFile> to_all_formats(const Soup& soup) {
+    std::vector<SurfaceFile> files = {{"binary.stl", to_binary_stl(soup)},
+                                      {"ascii.stl", to_ascii_stl(soup)},
+                                      {"groups.obj", to_obj(soup)},
+                                      {"plain.off", to_off(soup)},
+                                      {"ascii.ply", to_ascii_ply(soup)},
+                                      {"little.ply", to_binary_ply(soup, false)},
+                                      {"big.ply", to_binary_ply(soup, true)},
+                                      {"medit.mesh", to_medit(soup)},
+                                      {"tetgen.smesh", to_tetgen(soup, 0, false)},
+                                      {"tetgen.poly", to_tetgen(soup, 1, true)}};
+    for (const bool is_msh41 : {false, true}) {
+        const std::string version = is_msh41 ? "msh41" : "msh22";
+        files.push_back({version + "_ascii.msh", to_msh(soup, {is_msh41, false, false})});
+        files.push_back({version + "_little.msh", to_msh(soup, {is_msh41, true, false})});
+        files.push_back({version + "_big.msh", to_msh(soup, {is_msh41, true, true})});
+    }
+    return files;
+}
+
+}  // namespace kerf::test
