@@ -1,102 +1,221 @@
-// Checks in the order of DefectKind, each on what the ones before it let pass: edges need facets without repeated
-// vertices, fans at a vertex need facets of one orientation, intersections need a closed manifold. Everything is found
-// by sorting and by exact predicates.
+// Checks in the order of DefectKind. Facets that repairs leave out are left out of the checks that follow, so that what
+// is listed is what is there after the repairs. Everything is found by sorting and by exact predicates.
 #include "surface/diagnosis.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include "surface/intersections.h"
+#include "surface/open_loops.h"
 #include "surface/orientation.h"
+#include "surface/superfluous_facets.h"
 #include "surface/surface.h"
 
 namespace kerf {
 
 namespace {
 
-using Defects = std::vector<Defect>;
+constexpr double largest_magnitude = 1e50;  // TetGen's predicates multiply five lengths
+constexpr double least_extent = 1e-50;
+constexpr double rounding_limit = 64;  // an edge of so many units in the last place of its coordinates is short
+constexpr std::size_t intersection_limit = 10'000;
+constexpr std::size_t warning_limit = 1000;
 
-bool has_repeated_vertex(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
-
-Defect facet_defect(DefectKind kind, const Soup& soup, std::vector<std::int32_t> facets) {
-    const Triangle& t = soup.facets[facets.front()];
-    return {kind, std::move(facets), {t.begin(), t.end()}, soup.vertices[t[0]]};
+// The smallest angle by the largest cosine.
+double smallest_angle_deg(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const std::array<Vec3, 3> side = {b - a, c - b, a - c};
+    double smallest = 180;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 back = -side[(i + 2) % 3];
+        const double angle = std::atan2(side[i].cross(back).norm(), side[i].dot(back));
+        smallest = std::min(smallest, angle * 180 / std::numbers::pi);
+    }
+    return smallest;
 }
 
-void find_non_finite(const Soup& soup, Defects& defects) {
-    std::vector<std::int32_t> defect_of_vertex(soup.vertices.size(), -1);
-    for (std::size_t v = 0; v < soup.vertices.size(); ++v) {
-        if (soup.vertices[v].allFinite()) continue;
-        defect_of_vertex[v] = static_cast<std::int32_t>(defects.size());
-        defects.push_back({DefectKind::non_finite, {}, {static_cast<std::int32_t>(v)}});
+class Examination {
+ public:
+    Examination(const Soup& soup, const DiagnosisOptions& options) : soup_(soup), options_(options) {}
+    Diagnosis run();
+
+ private:
+    void find_non_finite();
+    void find_absurd();
+    void find_flat();
+    void find_superfluous();
+    void find_degenerate();
+    void select_facets();
+    void find_non_manifold(const ConsistentFacets& consistent);
+    void find_turned(const ConsistentFacets& consistent);
+    void find_misplaced_shells(const ConsistentFacets& consistent);
+    void find_intersections();
+    void find_needles();
+    void find_short_edges();
+
+    void add(Defect defect) {
+        ++result_.counts[static_cast<std::size_t>(defect.kind)];
+        result_.defects.push_back(std::move(defect));
     }
-    if (defects.empty()) return;
-    for (std::size_t f = 0; f < soup.facets.size(); ++f)
-        for (std::int32_t v : soup.facets[f]) {
+    void add_at_facet(DefectKind kind, Severity severity, std::vector<std::int32_t> facets) {
+        const Triangle& t = soup_.facets[facets.front()];
+        add({kind, severity, std::move(facets), {t.begin(), t.end()}, soup_.vertices[t[0]]});
+    }
+    void add_worst(DefectKind kind, std::vector<Defect> found);
+    void drop(std::int32_t facet) {
+        result_.dropped.resize(soup_.facets.size(), 0);
+        result_.dropped[facet] = ignored_[facet] = 1;
+    }
+    void number_as_in_soup(std::vector<std::int32_t>& facets) const {
+        for (std::int32_t& f : facets) f = number_[f];
+    }
+
+    const Soup& soup_;
+    const DiagnosisOptions& options_;
+    Diagnosis result_;
+    std::vector<char> unbounded_;  // #V; coordinates that no predicate can work with
+    std::vector<char> ignored_;    // #F; left out of the checks to come
+    std::vector<char> no_area_;    // #F
+    // What is left of the facets, and their numbers in the soup.
+    std::vector<Triangle> facets_;
+    std::vector<std::int32_t> number_;
+};
+
+void Examination::find_non_finite() {
+    std::vector<std::int32_t> defect_of_vertex(soup_.vertices.size(), -1);
+    for (std::size_t v = 0; v < soup_.vertices.size(); ++v) {
+        if (soup_.vertices[v].allFinite()) continue;
+        unbounded_[v] = 1;
+        defect_of_vertex[v] = static_cast<std::int32_t>(result_.defects.size());
+        add({DefectKind::non_finite, Severity::error, {}, {static_cast<std::int32_t>(v)}});
+    }
+    if (result_.clean()) return;
+    for (std::size_t f = 0; f < soup_.facets.size(); ++f)
+        for (std::int32_t v : soup_.facets[f]) {
             if (defect_of_vertex[v] < 0) continue;
-            Defect& defect = defects[defect_of_vertex[v]];
+            Defect& defect = result_.defects[defect_of_vertex[v]];
             defect.facets.push_back(static_cast<std::int32_t>(f));
-            for (std::int32_t other : soup.facets[f])  // a neighbour is the nearest place that can be shown
-                if (soup.vertices[other].allFinite()) defect.where = soup.vertices[other];
+            for (std::int32_t other : soup_.facets[f])  // a neighbour is the nearest place that can be shown
+                if (soup_.vertices[other].allFinite()) defect.where = soup_.vertices[other];
         }
 }
 
+void Examination::find_absurd() {
+    Defect defect{DefectKind::absurd_magnitude, Severity::error, {}, {}};
+    Eigen::AlignedBox3d box;
+    for (std::size_t v = 0; v < soup_.vertices.size(); ++v) {
+        if (unbounded_[v]) continue;
+        box.extend(soup_.vertices[v]);
+        if (soup_.vertices[v].cwiseAbs().maxCoeff() <= largest_magnitude) continue;
+        unbounded_[v] = 1;
+        defect.vertices.push_back(static_cast<std::int32_t>(v));
+    }
+    const bool tiny = !box.isEmpty() && box.sizes().maxCoeff() < least_extent && box.sizes().maxCoeff() > 0;
+    if (tiny) defect.vertices = {0};
+    if (defect.vertices.empty()) return;
+    defect.where = soup_.vertices[defect.vertices.front()];
+    add(std::move(defect));
+}
+
 // All vertices lie in the plane of the first three that span one.
-void find_flat(const Soup& soup, Defects& defects) {
-    const std::vector<Vec3>& p = soup.vertices;
+void Examination::find_flat() {
+    const std::vector<Vec3>& p = soup_.vertices;
     const auto last = p.end();
     const auto a = p.begin();
     const auto b = std::find_if(a, last, [&](const Vec3& x) { return x != *a; });
     const auto c = b == last ? last : std::find_if(b, last, [&](const Vec3& x) { return !collinear(*a, *b, x); });
     const bool has_volume =
         c != last && std::any_of(c, last, [&](const Vec3& x) { return orientation_sign(*a, *b, *c, x) != 0; });
-    if (!has_volume) defects.push_back(facet_defect(DefectKind::flat, soup, {0}));
+    if (!has_volume) add_at_facet(DefectKind::flat, Severity::error, {0});
 }
 
-void find_degenerate(const Soup& soup, Defects& defects) {
-    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
-        const Triangle& t = soup.facets[f];
-        if (has_repeated_vertex(t) || collinear(soup.vertices[t[0]], soup.vertices[t[1]], soup.vertices[t[2]]))
-            defects.push_back(facet_defect(DefectKind::degenerate_facet, soup, {static_cast<std::int32_t>(f)}));
+void Examination::find_superfluous() {
+    const SuperfluousFacets found = find_superfluous_facets(soup_.facets);
+    for (const std::int32_t f : found.repeated_vertex) {
+        add_at_facet(DefectKind::degenerate_facet, Severity::repaired, {f});
+        drop(f);
+    }
+    for (const FacetCopies& copies : found.copies) {
+        const auto first = copies.facets.begin() + std::max(copies.keep, 0);
+        if (copies.shell >= 0) {  // one copy stands for all in the checks to come
+            std::for_each(copies.facets.begin() + 1, copies.facets.end(), [&](std::int32_t f) { ignored_[f] = 1; });
+        } else if (copies.keep < 0) {
+            add_at_facet(DefectKind::duplicate_facet, Severity::error, copies.facets);
+        } else {
+            add_at_facet(DefectKind::duplicate_facet, Severity::repaired, copies.facets);
+            std::for_each(first, copies.facets.end(), [&](std::int32_t f) { drop(f); });
+        }
+    }
+    for (const std::vector<std::int32_t>& shell : found.coincident_shells)
+        add({DefectKind::coincident_shell, Severity::error, shell, {}, soup_.vertices[soup_.facets[shell[0]][0]]});
+}
+
+void Examination::find_degenerate() {
+    for (std::size_t f = 0; f < soup_.facets.size(); ++f) {
+        const Triangle& t = soup_.facets[f];
+        if (unbounded_[t[0]] || unbounded_[t[1]] || unbounded_[t[2]]) {
+            no_area_[f] = 1;
+        } else if (!ignored_[f] && collinear(soup_.vertices[t[0]], soup_.vertices[t[1]], soup_.vertices[t[2]])) {
+            no_area_[f] = 1;
+            add_at_facet(DefectKind::degenerate_facet, Severity::error, {static_cast<std::int32_t>(f)});
+        }
     }
 }
 
-void find_duplicates(const Soup& soup, Defects& defects) {
-    std::vector<std::pair<Triangle, std::int32_t>> sorted;
-    sorted.reserve(soup.facets.size());
-    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
-        sorted.emplace_back(soup.facets[f], static_cast<std::int32_t>(f));
-        std::sort(sorted.back().first.begin(), sorted.back().first.end());
-    }
-    std::sort(sorted.begin(), sorted.end());
-    for (std::size_t i = 0, j = 0; i < sorted.size(); i = j) {
-        std::vector<std::int32_t> equal;
-        for (; j < sorted.size() && sorted[j].first == sorted[i].first; ++j) equal.push_back(sorted[j].second);
-        if (equal.size() > 1) defects.push_back(facet_defect(DefectKind::duplicate_facet, soup, std::move(equal)));
+void Examination::select_facets() {
+    for (std::size_t f = 0; f < soup_.facets.size(); ++f) {
+        if (ignored_[f]) continue;
+        facets_.push_back(soup_.facets[f]);
+        number_.push_back(static_cast<std::int32_t>(f));
     }
 }
 
-DefectKind to_defect_kind(ManifoldDefect::Kind kind) {
-    if (kind == ManifoldDefect::Kind::open_edge) return DefectKind::open_edge;
-    return kind == ManifoldDefect::Kind::non_manifold_edge ? DefectKind::non_manifold_edge
-                                                           : DefectKind::non_manifold_vertex;
+void Examination::find_non_manifold(const ConsistentFacets& consistent) {
+    using Kind = ManifoldDefect::Kind;
+    bool open = false;
+    for (ManifoldDefect& found : find_manifold_defects(soup_.vertices.size(), consistent.facets)) {
+        open |= found.kind == Kind::open_edge;
+        if (found.kind == Kind::edge_orientation || found.kind == Kind::open_edge) continue;
+        const bool at_edge = found.kind == Kind::non_manifold_edge;
+        number_as_in_soup(found.facets);
+        const Vec3 where = (soup_.vertices[found.vertices.front()] + soup_.vertices[found.vertices.back()]) / 2;
+        add({at_edge ? DefectKind::non_manifold_edge : DefectKind::non_manifold_vertex, Severity::error,
+             std::move(found.facets), std::move(found.vertices), where});
+    }
+    if (!open) return;
+    for (OpenLoop& loop : find_open_loops(soup_.vertices, consistent.facets)) {
+        number_as_in_soup(loop.facets);
+        const Vec3 where = soup_.vertices[loop.vertices.front()];
+        add({DefectKind::open_edge, Severity::error, std::move(loop.facets), std::move(loop.vertices), where,
+             loop.length});
+    }
 }
 
-void find_non_manifold(const Soup& soup, Defects& defects) {
-    std::vector<std::int32_t> number;  // in the soup, of the facets without repeated vertices
-    std::vector<Triangle> facets;
-    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
-        if (has_repeated_vertex(soup.facets[f])) continue;
-        number.push_back(static_cast<std::int32_t>(f));
-        facets.push_back(soup.facets[f]);
-    }
-    for (ManifoldDefect& found : find_manifold_defects(soup.vertices.size(), make_consistent(facets).facets)) {
-        if (found.kind == ManifoldDefect::Kind::edge_orientation) continue;
-        for (std::int32_t& f : found.facets) f = number[f];
-        const Vec3 where = (soup.vertices[found.vertices.front()] + soup.vertices[found.vertices.back()]) / 2;
-        defects.push_back({to_defect_kind(found.kind), std::move(found.facets), std::move(found.vertices), where});
+void Examination::find_turned(const ConsistentFacets& consistent) {
+    for (const std::int32_t f : consistent.contradictions)
+        add_at_facet(DefectKind::one_sided, Severity::error, {number_[f]});
+    if (!consistent.contradictions.empty() || consistent.turned.empty()) return;
+    std::vector<std::int32_t> turned = consistent.turned;
+    number_as_in_soup(turned);
+    add({DefectKind::inconsistent_orientation, Severity::repaired, std::move(turned), {},
+         soup_.vertices[facets_[consistent.turned.front()][0]]});
+}
+
+void Examination::find_misplaced_shells(const ConsistentFacets& consistent) {
+    const std::vector<ShellPlace> shells = locate_shells(soup_.vertices, consistent);
+    for (const ShellPlace& shell : shells) {
+        const std::vector<std::int32_t> facet = {number_[shell.first_facet]};
+        if (shell.touches >= 0)
+            add_at_facet(DefectKind::touching_shells, Severity::error, facet);
+        else if (shell.parent < 0 && !shell.outward)
+            add_at_facet(DefectKind::inverted_shell, Severity::repaired, facet);
+        else if (shell.ambiguous(shells))
+            add_at_facet(DefectKind::ambiguous_shell,
+                         options_.voids == Voids::parity ? Severity::repaired : Severity::error, facet);
     }
 }
 
@@ -114,123 +233,108 @@ Vec3 common_place(const Soup& soup, const Triangle& s, const Triangle& t) {
     return (low + high) / 2;
 }
 
-void find_intersections(const Soup& soup, Defects& defects) {
-    for (const auto& [f, g] : find_self_intersections(soup.vertices, soup.facets)) {
-        const Triangle &s = soup.facets[f], &t = soup.facets[g];
-        defects.push_back(
-            {DefectKind::self_intersection, {f, g}, {s[0], s[1], s[2], t[0], t[1], t[2]}, common_place(soup, s, t)});
+void Examination::find_intersections() {
+    std::vector<Triangle> solid;
+    std::vector<std::int32_t> number;
+    for (std::size_t i = 0; i < facets_.size(); ++i) {
+        if (no_area_[number_[i]]) continue;
+        solid.push_back(facets_[i]);
+        number.push_back(number_[i]);
+    }
+    for (const auto& [f, g] : find_self_intersections(soup_.vertices, solid, intersection_limit)) {
+        const Triangle &s = solid[f], &t = solid[g];
+        add({DefectKind::self_intersection,
+             Severity::error,
+             {number[f], number[g]},
+             {s[0], s[1], s[2], t[0], t[1], t[2]},
+             common_place(soup_, s, t)});
     }
 }
 
-void sort_defects(Defects& defects) {
+void Examination::add_worst(DefectKind kind, std::vector<Defect> found) {
+    const auto count = static_cast<std::int64_t>(found.size());
+    std::stable_sort(found.begin(), found.end(), [](const Defect& a, const Defect& b) { return a.measure < b.measure; });
+    if (found.size() > warning_limit) found.resize(warning_limit);
+    for (Defect& defect : found) result_.defects.push_back(std::move(defect));
+    result_.counts[static_cast<std::size_t>(kind)] = count;
+}
+
+void Examination::find_needles() {
+    std::vector<Defect> found;
+    for (std::size_t i = 0; i < facets_.size(); ++i) {
+        if (no_area_[number_[i]]) continue;
+        const Triangle& t = facets_[i];
+        const double angle = smallest_angle_deg(soup_.vertices[t[0]], soup_.vertices[t[1]], soup_.vertices[t[2]]);
+        if (angle < options_.needle_angle_deg)
+            found.push_back({DefectKind::needle, Severity::warning, {number_[i]}, {t.begin(), t.end()},
+                             soup_.vertices[t[0]], angle});
+    }
+    add_worst(DefectKind::needle, std::move(found));
+}
+
+void Examination::find_short_edges() {
+    std::vector<Defect> found;
+    for (std::size_t i = 0; i < facets_.size(); ++i) {
+        if (no_area_[number_[i]]) continue;
+        for (std::size_t j = 0; j < 3; ++j) {
+            const std::int32_t a = facets_[i][j], b = facets_[i][(j + 1) % 3];
+            if (a > b) continue;  // the facet on the other side has it
+            const Vec3 &p = soup_.vertices[a], &q = soup_.vertices[b];
+            const double magnitude = std::max(p.cwiseAbs().maxCoeff(), q.cwiseAbs().maxCoeff());
+            const double length = (q - p).norm();
+            if (length < rounding_limit * std::numeric_limits<double>::epsilon() * magnitude)
+                found.push_back({DefectKind::short_edge, Severity::warning, {number_[i]}, {a, b}, p, length});
+        }
+    }
+    add_worst(DefectKind::short_edge, std::move(found));
+}
+
+Diagnosis Examination::run() {
+    if (soup_.facets.empty()) {
+        add({DefectKind::empty, Severity::error, {}, {}});
+        return std::move(result_);
+    }
+    unbounded_.assign(soup_.vertices.size(), 0);
+    ignored_.assign(soup_.facets.size(), 0);
+    no_area_.assign(soup_.facets.size(), 0);
+    find_non_finite();
+    find_absurd();
+    if (result_.clean()) find_flat();
+    find_superfluous();
+    find_degenerate();
+    select_facets();
+    const ConsistentFacets consistent = make_consistent(facets_);
+    find_non_manifold(consistent);
+    find_turned(consistent);
+    find_intersections();
+    if (result_.clean()) find_misplaced_shells(consistent);
+    find_needles();
+    find_short_edges();
     const auto first_facet = [](const Defect& d) { return d.facets.empty() ? -1 : d.facets.front(); };
-    std::stable_sort(defects.begin(), defects.end(), [&](const Defect& a, const Defect& b) {
+    std::stable_sort(result_.defects.begin(), result_.defects.end(), [&](const Defect& a, const Defect& b) {
         return std::pair(a.kind, first_facet(a)) < std::pair(b.kind, first_facet(b));
     });
+    return std::move(result_);
 }
 
-std::string counted(std::int64_t n, DefectKind kind) {
-    std::string noun = name(kind);
-    if (n != 1 && noun.ends_with("vertex")) noun.replace(noun.size() - 2, 2, "ice");
-    return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
-}
-
-const char* remedy(DefectKind kind) {
-    switch (kind) {
-        case DefectKind::empty:
-            return "export the surface again";
-        case DefectKind::non_finite:
-            return "correct the coordinates or export the surface again";
-        case DefectKind::flat:
-            return "give the boundary of a body, not a sheet";
-        case DefectKind::degenerate_facet:
-            return "collapse or remove the facets where the surface was made";
-        case DefectKind::duplicate_facet:
-            return "remove the copies";
-        case DefectKind::open_edge:
-            return "close the holes, or merge vertices that are nearly equal";
-        case DefectKind::non_manifold_edge:
-        case DefectKind::non_manifold_vertex:
-            return "unite the bodies that touch there, or move them apart";
-        case DefectKind::self_intersection:
-            return "unite the parts that overlap where the surface was made";
-    }
-    return "";
-}
-
-// "facet 3", "vertices 4 and 7": at most four numbers.
-std::string list(const char* one, const char* many, const std::vector<std::int32_t>& numbers) {
-    constexpr std::size_t limit = 4;
-    if (numbers.size() == 1) return fmt::format("{} {}", one, numbers[0]);
-    const auto end = numbers.begin() + static_cast<std::ptrdiff_t>(std::min(limit, numbers.size()));
-    return fmt::format("{} {}{}", many, fmt::join(numbers.begin(), end, ", "), numbers.size() > limit ? ", ..." : "");
-}
-
-std::string place(const Defect& defect) {
-    std::string text;
-    if (!defect.facets.empty()) text = list("facet", "facets", defect.facets);
-    // The corners of a facet say nothing that its number does not say.
-    if (!defect.vertices.empty() && defect.vertices.size() < 3)
-        text += (text.empty() ? "" : ", ") + list("vertex", "vertices", defect.vertices);
-    return fmt::format("{} near ({:.9g}, {:.9g}, {:.9g})", text, defect.where.x(), defect.where.y(), defect.where.z());
-}
+bool is_error(const Defect& defect) { return defect.severity == Severity::error; }
 
 }  // namespace
 
-const char* name(DefectKind kind) {
-    switch (kind) {
-        case DefectKind::empty:
-            return "empty surface";
-        case DefectKind::non_finite:
-            return "non-finite vertex";
-        case DefectKind::flat:
-            return "flat surface";
-        case DefectKind::degenerate_facet:
-            return "degenerate facet";
-        case DefectKind::duplicate_facet:
-            return "duplicate facet";
-        case DefectKind::open_edge:
-            return "open edge";
-        case DefectKind::non_manifold_edge:
-            return "non-manifold edge";
-        case DefectKind::non_manifold_vertex:
-            return "non-manifold vertex";
-        case DefectKind::self_intersection:
-            return "self-intersection";
-    }
-    return "";
+bool Diagnosis::clean() const { return std::none_of(defects.begin(), defects.end(), is_error); }
+
+std::string Diagnosis::summary(const Soup& soup) const {
+    const auto first = std::find_if(defects.begin(), defects.end(), is_error);
+    if (first == defects.end()) return "The surface is closed, manifold and free of self-intersections.";
+    if (first->kind == DefectKind::empty) return fmt::format("The surface has no facets: {}.", remedy(first->kind));
+    if (first->kind == DefectKind::flat)
+        return fmt::format("All vertices of the surface lie in one plane: {}.", remedy(first->kind));
+    const auto errors = std::count_if(defects.begin(), defects.end(),
+                                      [&](const Defect& d) { return is_error(d) && d.kind == first->kind; });
+    return fmt::format("The surface has {}, {}{}: {}.", counted(errors, first->kind),
+                       errors > 1 ? "the first at " : "at ", place(*first, soup), remedy(first->kind));
 }
 
-std::int64_t Diagnosis::count(DefectKind kind) const {
-    return std::count_if(defects.begin(), defects.end(), [&](const Defect& d) { return d.kind == kind; });
-}
-
-std::string Diagnosis::summary() const {
-    if (clean()) return "The surface is closed, manifold and free of self-intersections.";
-    const Defect& first = defects.front();
-    if (first.kind == DefectKind::empty) return fmt::format("The surface has no facets: {}.", remedy(first.kind));
-    if (first.kind == DefectKind::flat)
-        return fmt::format("All vertices of the surface lie in one plane: {}.", remedy(first.kind));
-    return fmt::format("The surface has {}, {}{}: {}.", counted(count(first.kind), first.kind),
-                       count(first.kind) > 1 ? "the first at " : "at ", place(first), remedy(first.kind));
-}
-
-Diagnosis diagnose(const Soup& soup) {
-    Diagnosis diagnosis;
-    Defects& defects = diagnosis.defects;
-    if (soup.facets.empty()) {
-        defects.push_back({DefectKind::empty, {}, {}});
-        return diagnosis;
-    }
-    find_non_finite(soup, defects);
-    if (!defects.empty()) return diagnosis;
-    find_flat(soup, defects);
-    find_degenerate(soup, defects);
-    find_duplicates(soup, defects);
-    find_non_manifold(soup, defects);
-    if (defects.empty()) find_intersections(soup, defects);
-    sort_defects(defects);
-    return diagnosis;
-}
+Diagnosis diagnose(const Soup& soup, const DiagnosisOptions& options) { return Examination(soup, options).run(); }
 
 }  // namespace kerf

@@ -1,46 +1,40 @@
-// Everything that keeps a triangle soup from being the boundary of a body, with the numbers of the offenders.
+// Everything that keeps a triangle soup from being the boundary of a body, or that will give bad cells.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "surface/soup.h"
+#include "surface/defect.h"
 
 namespace kerf {
 
-enum class DefectKind {
-    empty,                ///< no facets
-    non_finite,           ///< a coordinate is NaN or infinite
-    flat,                 ///< all vertices lie in one plane
-    degenerate_facet,     ///< repeated vertex, or three collinear vertices (exact)
-    duplicate_facet,      ///< same three vertices as another facet
-    open_edge,            ///< edge of one facet only
-    non_manifold_edge,    ///< edge of three or more facets
-    non_manifold_vertex,  ///< the facets at the vertex form more than one fan
-    self_intersection,    ///< two facets meet outside of what they share
+/// A shell inside another one that is turned like it may be a second body or a void: refused, or taken as a void.
+enum class Voids { as_given, parity };
+
+struct DiagnosisOptions {
+    Voids voids = Voids::as_given;
+    double needle_angle_deg = 1;  ///< facets with a smaller angle are needles
 };
 
-const char* name(DefectKind kind);
-
-struct Defect {
-    DefectKind kind;
-    std::vector<std::int32_t> facets;    ///< numbers as in the soup
-    std::vector<std::int32_t> vertices;  ///< numbers as in the soup
-    Vec3 where = Vec3::Zero();           ///< a point at the defect
-};
-
-/// Defects ordered by kind, then by first facet. Orientation is no defect here: orient() repairs it.
+/// Defects ordered by kind, then by first facet.
 struct Diagnosis {
     std::vector<Defect> defects;
-    bool clean() const { return defects.empty(); }
-    std::int64_t count(DefectKind kind) const;
-    /// One sentence: the most fundamental kind, how many, the first with numbers and coordinates, and what to do.
-    std::string summary() const;
+    std::array<std::int64_t, defect_kind_count> counts = {};  ///< found of each kind; more than listed of some
+    std::vector<char> dropped;  ///< #F; facets that repairs leave out. Empty: none
+
+    /// The surface can be meshed, after repairs.
+    bool clean() const;
+    std::int64_t count(DefectKind kind) const { return counts[static_cast<std::size_t>(kind)]; }
+    /// One sentence: the most fundamental error, how many, the first with numbers and coordinates, and what to do.
+    std::string summary(const Soup& soup) const;
 };
 
-/// Finds all defects in one pass; kinds that make later checks meaningless end it (empty, non-finite). At most 1000
-/// self-intersections are listed, and they are looked for only where the soup is otherwise a closed manifold.
-/// Exact. O(#F log #F); 116 k facets in less than a second.
-Diagnosis diagnose(const Soup& soup);
+/// Finds all defects in one pass, each check on what it can work with: edges on facets without repeated vertices,
+/// intersections on those with an area. Shells are located only where the surface is otherwise a closed manifold. All
+/// decisions about topology and intersections are exact. `soup`: welded. At most 10,000 self-intersections, and the 1000
+/// worst needles and shortest edges, are listed. O(#F log #F); 400 k facets in 4 s.
+Diagnosis diagnose(const Soup& soup, const DiagnosisOptions& options = {});
 
 }  // namespace kerf

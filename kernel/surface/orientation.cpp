@@ -7,9 +7,10 @@
 
 #include <algorithm>
 #include <optional>
-#include <string>
 #include <tuple>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "core/error.h"
 #include "surface/mass_properties.h"
@@ -65,16 +66,19 @@ class Propagation {
                 turn_minority();
                 ++result_.shell_count;
             }
+        std::sort(result_.turned.begin(), result_.turned.end());
         return std::move(result_);
     }
 
  private:
     void search(std::int32_t seed) {
         members_.assign(1, seed);
+        contradiction_ = -1;
         result_.shell[seed] = result_.shell_count;
         for (std::size_t i = 0; i < members_.size(); ++i)
             for (std::int32_t corner = 3 * members_[i]; corner < 3 * members_[i] + 3; ++corner)
                 if (partner_[corner] >= 0) cross(corner);
+        if (contradiction_ >= 0) result_.contradictions.push_back(contradiction_);
     }
     void cross(std::int32_t corner) {
         const std::int32_t facet = corner / 3, other = partner_[corner] / 3;
@@ -84,17 +88,19 @@ class Propagation {
             result_.shell[other] = result_.shell_count;
             turned_[other] = turned;
             members_.push_back(other);
-        } else if (turned_[other] != turned && (result_.contradiction < 0 || other < result_.contradiction)) {
-            result_.contradiction = other;
+        } else if (turned_[other] != turned && (contradiction_ < 0 || other < contradiction_)) {
+            contradiction_ = other;
         }
     }
     void turn_minority() {
         const auto count = std::count_if(members_.begin(), members_.end(), [&](std::int32_t f) { return turned_[f]; });
         const auto size = static_cast<std::ptrdiff_t>(members_.size());
         const char minority = 2 * count <= size;
-        for (std::int32_t f : members_)
-            if (turned_[f] == minority) turn(result_.facets[f]);
-        result_.turned += std::min(count, size - count);
+        for (std::int32_t f : members_) {
+            if (turned_[f] != minority) continue;
+            turn(result_.facets[f]);
+            result_.turned.push_back(f);
+        }
     }
     std::int32_t start_vertex(std::int32_t corner) const { return facets_[corner / 3][corner % 3]; }
 
@@ -102,6 +108,7 @@ class Propagation {
     std::vector<std::int32_t> partner_;
     std::vector<char> turned_;  // relative to the first facet of the shell
     std::vector<std::int32_t> members_;
+    std::int32_t contradiction_ = -1;  // of the shell that is searched
     ConsistentFacets result_;
 };
 
@@ -115,29 +122,20 @@ std::optional<bool> is_inner(const std::vector<Vec3>& vertices, const Shell& inn
     return std::nullopt;
 }
 
-[[noreturn]] void refuse_contact(const ConsistentFacets& consistent, std::size_t inner, std::size_t outer) {
-    const auto first_facet = [&](std::size_t shell) {
-        const auto found =
-            std::find(consistent.shell.begin(), consistent.shell.end(), static_cast<std::int32_t>(shell));
-        return std::to_string(found - consistent.shell.begin());
-    };
-    throw Error(ErrorCode::input, "The shell of facet " + first_facet(inner) + " touches that of facet " +
-                                      first_facet(outer) + ", so that inside and outside cannot be told apart. " +
-                                      "Unite the bodies or move them apart.");
-}
-
-// Number of shells around each shell.
-std::vector<int> nesting_depths(const std::vector<Vec3>& vertices, const std::vector<Shell>& shells,
-                                const ConsistentFacets& consistent) {
-    std::vector<int> depth(shells.size(), 0);
-    for (std::size_t i = 0; i < shells.size(); ++i)
-        for (std::size_t j = 0; j < shells.size(); ++j) {
-            if (i == j) continue;
-            const std::optional<bool> inner = is_inner(vertices, shells[i], shells[j]);
-            if (!inner) refuse_contact(consistent, i, j);
-            depth[i] += *inner;
+// Sets depth, parent or contact of shell i.
+void place_among(const std::vector<Vec3>& vertices, const std::vector<Shell>& shells, std::size_t i,
+                 std::vector<std::int32_t>& around, ShellPlace& place) {
+    around.clear();
+    for (std::size_t j = 0; j < shells.size(); ++j) {
+        if (i == j) continue;
+        const std::optional<bool> inner = is_inner(vertices, shells[i], shells[j]);
+        if (!inner) {
+            place.touches = static_cast<std::int32_t>(j);
+            return;
         }
-    return depth;
+        if (*inner) around.push_back(static_cast<std::int32_t>(j));
+    }
+    place.depth = static_cast<std::int32_t>(around.size());
 }
 
 // The shell gets its own vertices because cancellation grows with the distance from the first vertex.
@@ -154,34 +152,50 @@ bool is_outward(const std::vector<Vec3>& vertices, const Shell& shell) {
     return enclosed_volume(corners, facets) > 0;
 }
 
-[[noreturn]] void refuse_one_sided(const Soup& soup, std::int32_t facet) {
+[[noreturn]] void refuse(const Soup& soup, std::int32_t facet, const char* what) {
     const Vec3& p = soup.vertices[soup.facets[facet][0]];
-    throw Error(ErrorCode::input, "The surface is one-sided like a Moebius strip: going around it, facet " +
-                                      std::to_string(facet) + " at (" + std::to_string(p.x()) + ", " +
-                                      std::to_string(p.y()) + ", " + std::to_string(p.z()) +
-                                      ") comes back turned. It bounds no body: model it again.");
+    throw Error(ErrorCode::input, fmt::format("The shell of facet {} near ({:.9g}, {:.9g}, {:.9g}) {}",
+                                              soup.file_facets({facet})[0], p.x(), p.y(), p.z(), what));
 }
 
 }  // namespace
 
 ConsistentFacets make_consistent(const std::vector<Triangle>& facets) { return Propagation(facets).run(); }
 
+std::vector<ShellPlace> locate_shells(const std::vector<Vec3>& vertices, const ConsistentFacets& consistent) {
+    const std::vector<Shell> shells =
+        collect_shells(vertices, consistent.facets, consistent.shell, consistent.shell_count);
+    std::vector<ShellPlace> places(shells.size());
+    for (std::size_t f = consistent.shell.size(); f-- > 0;)
+        places[consistent.shell[f]].first_facet = static_cast<std::int32_t>(f);
+    std::vector<std::vector<std::int32_t>> around(shells.size());
+    for (std::size_t i = 0; i < shells.size(); ++i) {
+        place_among(vertices, shells, i, around[i], places[i]);
+        places[i].outward = is_outward(vertices, shells[i]);
+    }
+    for (std::size_t i = 0; i < shells.size(); ++i)
+        for (const std::int32_t j : around[i])
+            if (places[j].depth == places[i].depth - 1) places[i].parent = j;
+    return places;
+}
+
 OrientationReport orient(Soup& soup) {
     ConsistentFacets consistent = make_consistent(soup.facets);
-    if (consistent.contradiction >= 0) refuse_one_sided(soup, consistent.contradiction);
-    const std::vector<Shell> shells =
-        collect_shells(soup.vertices, consistent.facets, consistent.shell, consistent.shell_count);
-    const std::vector<int> depth = nesting_depths(soup.vertices, shells, consistent);
-
+    if (!consistent.contradictions.empty())
+        refuse(soup, consistent.contradictions[0], "is one-sided like a Moebius strip. It bounds no body: model it again.");
     OrientationReport report;
-    report.facets_flipped = consistent.turned;
+    report.facets_flipped = static_cast<std::int64_t>(consistent.turned.size());
     report.shells = consistent.shell_count;
-    std::vector<char> flip(shells.size(), 0);
-    for (std::size_t i = 0; i < shells.size(); ++i) {
-        const bool is_void = depth[i] % 2;
-        flip[i] = is_outward(soup.vertices, shells[i]) == is_void;
+    std::vector<char> flip;
+    for (const ShellPlace& shell : locate_shells(soup.vertices, consistent)) {
+        if (shell.touches >= 0)
+            refuse(soup, shell.first_facet,
+                   "touches another one, so that inside and outside cannot be told apart. Unite the bodies or move them "
+                   "apart.");
+        const bool is_void = shell.depth % 2;
+        flip.push_back(shell.outward == is_void);
         report.void_shells += is_void;
-        report.shells_flipped += flip[i];
+        report.shells_flipped += flip.back();
     }
     soup.facets = std::move(consistent.facets);
     for (std::size_t f = 0; f < soup.facets.size(); ++f)

@@ -1,9 +1,14 @@
 // Welding by one pass over a hash table with open addressing, filled in the order of the vertices: the first of equals
 // is found by every later one. The hash only decides who is compared with whom, so the result does not depend on it.
+// With a tolerance the table holds cells of a grid of that width, and the 27 cells around a vertex are looked through.
 #include "surface/soup.h"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
+#include <numeric>
+#include <utility>
 
 namespace kerf {
 
@@ -40,9 +45,19 @@ std::vector<std::int32_t> find_representatives(const std::vector<Vec3>& vertices
 std::int64_t renumber(Soup& soup, std::vector<std::int32_t> representative) {
     std::vector<std::int32_t>& new_number = representative;
     std::int32_t kept = 0;
+    const auto loses = [&](std::size_t v) { return new_number[v] != static_cast<std::int32_t>(v); };
+    const std::size_t count = soup.vertices.size();
+    if (soup.vertex_number.empty()) {
+        bool any = false;
+        for (std::size_t v = 0; v < count && !any; ++v) any = loses(v);
+        if (!any) return 0;
+        soup.vertex_number.resize(count);
+        std::iota(soup.vertex_number.begin(), soup.vertex_number.end(), 0);
+    }
     for (std::size_t v = 0; v < soup.vertices.size(); ++v) {
         if (new_number[v] == static_cast<std::int32_t>(v)) {
             soup.vertices[kept] = soup.vertices[v];
+            soup.vertex_number[kept] = soup.vertex_number[v];
             new_number[v] = kept++;
         } else if (new_number[v] >= 0) {
             new_number[v] = new_number[new_number[v]];  // an earlier vertex, whose new number is known
@@ -50,12 +65,89 @@ std::int64_t renumber(Soup& soup, std::vector<std::int32_t> representative) {
     }
     const auto removed = static_cast<std::int64_t>(soup.vertices.size()) - kept;
     soup.vertices.resize(kept);
+    soup.vertex_number.resize(kept);
     for (Triangle& t : soup.facets)
         for (std::int32_t& v : t) v = new_number[v];
     return removed;
 }
 
+// Vertices in cells of a grid whose width is the tolerance; only the first vertex of a group is entered.
+class WeldGrid {
+ public:
+    WeldGrid(const std::vector<Vec3>& vertices, double width)
+        : vertices_(vertices),
+          width_(width),
+          mask_(std::bit_ceil(2 * vertices.size() + 1) - 1),
+          first_(mask_ + 1, -1),
+          next_(vertices.size(), -1) {}
+
+    // The first entered vertex within the tolerance of v, or -1.
+    std::int32_t find(std::int32_t v) const {
+        const Vec3& p = vertices_[v];
+        std::int32_t found = -1;
+        for (int i = 0; i < 27; ++i) {
+            const Vec3 offset(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+            for (std::int32_t u = first_[slot(p + width_ * offset)]; u >= 0; u = next_[u])
+                if ((vertices_[u] - p).norm() <= width_ && (found < 0 || u < found)) found = u;
+        }
+        return found;
+    }
+    void enter(std::int32_t v) { next_[v] = std::exchange(first_[slot(vertices_[v])], v); }
+
+ private:
+    std::size_t slot(const Vec3& p) const { return hash((p / width_).array().floor().matrix()) & mask_; }
+
+    const std::vector<Vec3>& vertices_;
+    double width_;
+    std::size_t mask_;
+    std::vector<std::int32_t> first_, next_;  // of the vertices in a slot
+};
+
+std::vector<std::int32_t> numbers_in_file(const std::vector<std::int32_t>& own, const std::vector<std::int32_t>& file) {
+    if (file.empty()) return own;
+    std::vector<std::int32_t> numbers;
+    for (const std::int32_t i : own) numbers.push_back(file[i]);
+    return numbers;
+}
+
 }  // namespace
+
+std::vector<std::int32_t> Soup::file_facets(const std::vector<std::int32_t>& own) const {
+    return numbers_in_file(own, polygon);
+}
+std::vector<std::int32_t> Soup::file_vertices(const std::vector<std::int32_t>& own) const {
+    return numbers_in_file(own, vertex_number);
+}
+
+std::int64_t weld_within(Soup& soup, double tolerance) {
+    WeldGrid grid(soup.vertices, tolerance);
+    std::vector<std::int32_t> representative(soup.vertices.size());
+    for (std::size_t v = 0; v < soup.vertices.size(); ++v) {
+        const auto own = static_cast<std::int32_t>(v);
+        const std::int32_t found = soup.vertices[v].allFinite() ? grid.find(own) : -1;
+        representative[v] = found < 0 ? own : found;
+        if (found < 0) grid.enter(own);
+    }
+    return renumber(soup, std::move(representative));
+}
+
+void drop_facets(Soup& soup, const std::vector<char>& drop) {
+    if (std::none_of(drop.begin(), drop.end(), [](char d) { return d; })) return;
+    if (soup.polygon.empty()) {
+        soup.polygon.resize(soup.facets.size());
+        std::iota(soup.polygon.begin(), soup.polygon.end(), 0);
+    }
+    std::size_t kept = 0;
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        if (drop[f]) continue;
+        soup.facets[kept] = soup.facets[f];
+        soup.patch[kept] = soup.patch[f];
+        soup.polygon[kept++] = soup.polygon[f];
+    }
+    soup.facets.resize(kept);
+    soup.patch.resize(kept);
+    soup.polygon.resize(kept);
+}
 
 std::int64_t weld_exactly(Soup& soup) { return renumber(soup, find_representatives(soup.vertices)); }
 

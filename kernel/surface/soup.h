@@ -17,13 +17,26 @@ struct Soup {
     /// #F; number of the face of the file, counted from 0, that the facet was cut from. Empty if every face is a
     /// triangle, so that facets and faces have the same numbers.
     std::vector<std::int32_t> polygon = {};
+    /// #V; number of the vertex in the file, counted from 0. Empty if the numbers agree.
+    std::vector<std::int32_t> vertex_number = {};
     std::vector<Vec3> holes = {};         ///< points in voids that the file names; units of the file
     std::vector<std::string> notes = {};  ///< what the reader passed over: "12 tetrahedra were ignored."
+
+    /// The numbers that the file gives to facets and vertices.
+    std::vector<std::int32_t> file_facets(const std::vector<std::int32_t>& own) const;
+    std::vector<std::int32_t> file_vertices(const std::vector<std::int32_t>& own) const;
 };
 
 /// Merges vertices with exactly equal coordinates (-0 equals 0). The first of equals stays, the order is kept.
 /// NaN equals nothing. Returns the number of vertices removed. O(#V), deterministic.
 std::int64_t weld_exactly(Soup& soup);
+
+/// Merges vertices that lie within `tolerance` of the first of their group, in the order of the vertices; facets may
+/// become degenerate. Changes the geometry. Returns the number of vertices removed. Expected O(#V), deterministic.
+std::int64_t weld_within(Soup& soup, double tolerance);
+
+/// Removes facets; the others keep their order and their numbers in the file. `drop`: #F.
+void drop_facets(Soup& soup, const std::vector<char>& drop);
 
 /// Removes vertices that no facet uses; the order of the others is kept. Returns the number removed. O(#V + #F).
 std::int64_t drop_unused_vertices(Soup& soup);

@@ -169,8 +169,8 @@ TEST(MakeConsistent, ReportsShellsInTheOrderOfTheirFirstFacet) {
     const Soup soup = join(box(), join(test::tetrahedron(), test::icosphere(0)));
     const ConsistentFacets consistent = make_consistent(soup.facets);
     EXPECT_EQ(consistent.shell_count, 3);
-    EXPECT_EQ(consistent.turned, 0);
-    EXPECT_EQ(consistent.contradiction, -1);
+    EXPECT_TRUE(consistent.turned.empty());
+    EXPECT_TRUE(consistent.contradictions.empty());
     for (std::size_t f = 0; f < soup.facets.size(); ++f) EXPECT_EQ(consistent.shell[f], f < 12 ? 0 : f < 16 ? 1 : 2);
 }
 

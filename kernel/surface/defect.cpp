@@ -1,0 +1,132 @@
+#include "surface/defect.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace kerf {
+
+namespace {
+
+// "facet 3", "vertices 4, 7": at most four numbers.
+std::string list(const char* one, const char* many, const std::vector<std::int32_t>& numbers) {
+    constexpr std::size_t limit = 4;
+    if (numbers.size() == 1) return fmt::format("{} {}", one, numbers[0]);
+    const auto end = numbers.begin() + static_cast<std::ptrdiff_t>(std::min(limit, numbers.size()));
+    return fmt::format("{} {}{}", many, fmt::join(numbers.begin(), end, ", "), numbers.size() > limit ? ", ..." : "");
+}
+
+}  // namespace
+
+const char* name(DefectKind kind) {
+    switch (kind) {
+        case DefectKind::empty:
+            return "empty surface";
+        case DefectKind::non_finite:
+            return "non-finite vertex";
+        case DefectKind::absurd_magnitude:
+            return "absurd magnitude";
+        case DefectKind::flat:
+            return "flat surface";
+        case DefectKind::degenerate_facet:
+            return "degenerate facet";
+        case DefectKind::duplicate_facet:
+            return "duplicate facet";
+        case DefectKind::coincident_shell:
+            return "coincident shell";
+        case DefectKind::open_edge:
+            return "open edge loop";
+        case DefectKind::non_manifold_edge:
+            return "non-manifold edge";
+        case DefectKind::non_manifold_vertex:
+            return "non-manifold vertex";
+        case DefectKind::inconsistent_orientation:
+            return "inconsistent orientation";
+        case DefectKind::one_sided:
+            return "one-sided shell";
+        case DefectKind::inverted_shell:
+            return "inverted shell";
+        case DefectKind::ambiguous_shell:
+            return "ambiguous shell";
+        case DefectKind::touching_shells:
+            return "touching shell";
+        case DefectKind::self_intersection:
+            return "self-intersection";
+        case DefectKind::needle:
+            return "needle";
+        case DefectKind::short_edge:
+            return "short edge";
+    }
+    return "";
+}
+
+const char* name(Severity severity) {
+    switch (severity) {
+        case Severity::error:
+            return "error";
+        case Severity::repaired:
+            return "repaired";
+        case Severity::warning:
+            return "warning";
+    }
+    return "";
+}
+
+const char* remedy(DefectKind kind) {
+    switch (kind) {
+        case DefectKind::empty:
+            return "export the surface again";
+        case DefectKind::non_finite:
+            return "correct the coordinates or export the surface again";
+        case DefectKind::absurd_magnitude:
+            return "choose another unit of length, so that coordinates lie between 1e-50 and 1e50";
+        case DefectKind::flat:
+            return "give the boundary of a body, not a sheet";
+        case DefectKind::degenerate_facet:
+            return "collapse or remove the facets where the surface was made";
+        case DefectKind::duplicate_facet:
+            return "remove the copies";
+        case DefectKind::coincident_shell:
+            return "remove all copies of the body but one";
+        case DefectKind::open_edge:
+            return "close the holes, merge vertices that are nearly equal with --weld, or fill small holes with "
+                   "--fill-holes";
+        case DefectKind::non_manifold_edge:
+        case DefectKind::non_manifold_vertex:
+            return "unite the bodies that touch there, or move them apart";
+        case DefectKind::inconsistent_orientation:
+            return "nothing needs to be done, they are turned";
+        case DefectKind::one_sided:
+            return "model the surface again, it bounds no body";
+        case DefectKind::inverted_shell:
+            return "nothing needs to be done, it is turned";
+        case DefectKind::ambiguous_shell:
+            return "make it a void with --voids parity, turn it, or remove it";
+        case DefectKind::touching_shells:
+            return "unite the bodies or move them apart";
+        case DefectKind::self_intersection:
+            return "unite the parts that overlap where the surface was made";
+        case DefectKind::needle:
+            return "mesh the surface again where good cells are needed";
+        case DefectKind::short_edge:
+            return "move the part closer to the origin or collapse the edges";
+    }
+    return "";
+}
+
+std::string counted(std::int64_t n, DefectKind kind) {
+    std::string noun = name(kind);
+    if (n != 1 && noun.ends_with("vertex")) noun.replace(noun.size() - 2, 2, "ice");
+    return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
+}
+
+std::string place(const Defect& defect, const Soup& soup) {
+    std::string text;
+    if (!defect.facets.empty()) text = list("facet", "facets", soup.file_facets(defect.facets));
+    // The corners of a facet say nothing that its number does not say.
+    if (!defect.vertices.empty() && (defect.facets.empty() || defect.vertices.size() < 3))
+        text += (text.empty() ? "" : ", ") + list("vertex", "vertices", soup.file_vertices(defect.vertices));
+    return fmt::format("{} near ({:.9g}, {:.9g}, {:.9g})", text, defect.where.x(), defect.where.y(), defect.where.z());
+}
+
+}  // namespace kerf

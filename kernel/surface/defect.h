@@ -1,0 +1,62 @@
+// One thing that is wrong with a triangle soup, with the numbers of the offenders.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "surface/soup.h"
+
+namespace kerf {
+
+enum class DefectKind {
+    empty,                     ///< no facets
+    non_finite,                ///< a coordinate is NaN or infinite
+    absurd_magnitude,          ///< coordinates whose products leave the range of double precision
+    flat,                      ///< all vertices lie in one plane
+    degenerate_facet,          ///< repeated vertex, or three collinear vertices (exact)
+    duplicate_facet,           ///< same three vertices as another facet
+    coincident_shell,          ///< every facet of it is there twice or more
+    open_edge,                 ///< a loop or chain of edges of one facet only
+    non_manifold_edge,         ///< edge of three or more facets
+    non_manifold_vertex,       ///< the facets at the vertex form more than one fan
+    inconsistent_orientation,  ///< facets turned against the rest of their shell
+    one_sided,                 ///< a shell that no choice of orientation makes consistent
+    inverted_shell,            ///< outside shell with inward normals
+    ambiguous_shell,           ///< inside another shell and turned like it: a void, or a second body?
+    touching_shells,           ///< a shell's vertices lie on another shell
+    self_intersection,         ///< two facets meet outside of what they share
+    needle,                    ///< a facet with an angle below the threshold
+    short_edge,                ///< an edge near the rounding limit of its coordinates
+};
+inline constexpr std::size_t defect_kind_count = static_cast<std::size_t>(DefectKind::short_edge) + 1;
+
+enum class Severity {
+    error,     ///< the surface cannot be meshed
+    repaired,  ///< is mended without any change of the geometry before meshing
+    warning,   ///< can be meshed, cells may be bad there
+};
+
+struct Defect {
+    DefectKind kind;
+    Severity severity;
+    std::vector<std::int32_t> facets;    ///< numbers as in the soup
+    std::vector<std::int32_t> vertices;  ///< numbers as in the soup; of a loop in the order of going around
+    Vec3 where = Vec3::Zero();           ///< a point at the defect
+    double measure = 0;                  ///< length of an open loop or a short edge; a needle's angle in degrees
+};
+
+const char* name(DefectKind kind);
+const char* name(Severity severity);
+
+/// What to do about it, in the imperative: "remove the copies".
+const char* remedy(DefectKind kind);
+
+/// "3 open edge loops", "1 needle".
+std::string counted(std::int64_t n, DefectKind kind);
+
+/// Where it is, as one phrase: "facets 3, 8, vertex 4 near (0, 0, 1)". Facets have the numbers that the file gives them
+/// (Soup::polygon), counted from 0; vertices those that the file gives them (Soup::vertex_number).
+std::string place(const Defect& defect, const Soup& soup);
+
+}  // namespace kerf
