@@ -47,9 +47,8 @@ void add_field(CLI::App& app, const OptionField& field) {
 CLI::App* add_run_command(CLI::App& app, const char* name, const char* text, CommandLine& line) {
     CLI::App* command = app.add_subcommand(name, text);
     command
-        ->add_option(
-            "input", line.options.input,
-            "Closed surface: STL, OBJ, PLY, OFF, Gmsh .msh, MEDIT .mesh, TetGen .smesh or .poly; also as .gz or .zst.")
+        ->add_option("input", line.options.input,
+                     "Closed surface: STL, OBJ, PLY, OFF, .msh, .mesh, .smesh or .poly; also as .gz or .zst.")
         ->required()
         ->type_name("INPUT")
         ->configurable(false);
