@@ -1,55 +1,130 @@
 #include "cli/check.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "io/surface_reader.h"
-#include "surface/diagnosis.h"
-#include "surface/orientation.h"
+#include "io/offenders_writer.h"
 
 namespace kerf {
 
 namespace {
 
-nlohmann::ordered_json to_json(const Defect& defect) {
-    return {{"kind", name(defect.kind)},
-            {"facets", defect.facets},
-            {"vertices", defect.vertices},
-            {"where", {defect.where.x(), defect.where.y(), defect.where.z()}}};
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Defect& defect, const Soup& soup) {
+    Json json = {{"kind", name(defect.kind)},
+                 {"severity", name(defect.severity)},
+                 {"facets", soup.file_facets(defect.facets)},
+                 {"vertices", soup.file_vertices(defect.vertices)},
+                 {"where", {defect.where.x(), defect.where.y(), defect.where.z()}},
+                 {"what_to_do", remedy(defect.kind)}};
+    if (defect.kind == DefectKind::needle) json["angle_deg"] = defect.measure;
+    if (defect.kind == DefectKind::open_edge || defect.kind == DefectKind::short_edge) json["length"] = defect.measure;
+    return json;
 }
 
-std::string describe(const OrientationReport& orientation) {
-    std::string text = fmt::format("{} shell{}", orientation.shells, orientation.shells == 1 ? "" : "s");
-    if (orientation.void_shells) text += fmt::format(", {} of them voids", orientation.void_shells);
-    if (orientation.facets_flipped) text += fmt::format(", {} facets to be turned", orientation.facets_flipped);
-    if (orientation.shells_flipped) text += fmt::format(", {} shells to be turned", orientation.shells_flipped);
-    return text;
+Json to_json(const InputRepairs& r) {
+    return {{"vertices_welded", r.welded_vertices}, {"vertices_unused", r.unused_vertices},
+            {"facets_dropped", r.dropped_facets},   {"vertices_merged", r.merged_vertices},
+            {"facets_removed", r.removed_facets},   {"holes_filled", r.filled_holes},
+            {"facets_added", r.added_facets}};
+}
+
+void print_json(const Json& json) { fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace)); }
+
+void print_json(const std::string& path, const CheckedSoup& checked) {
+    const Soup& soup = checked.soup;
+    Json counts = Json::object(), defects = Json::array();
+    for (std::size_t k = 0; k < defect_kind_count; ++k)
+        if (const std::int64_t n = checked.diagnosis.counts[k]) counts[name(static_cast<DefectKind>(k))] = n;
+    for (const Defect& defect : checked.diagnosis.defects) defects.push_back(to_json(defect, soup));
+    print_json(Json{{"path", path},
+                    {"can_be_meshed", checked.diagnosis.clean()},
+                    {"vertices", soup.vertices.size()},
+                    {"faces", soup.facets.size()},
+                    {"patches", soup.patch_names},
+                    {"notes", soup.notes},
+                    {"repairs", to_json(checked.repairs)},
+                    {"counts", std::move(counts)},
+                    {"defects", std::move(defects)}});
+}
+
+// One line for the defects of equal kind and severity; of needles, the worst is named.
+void print_kind(const CheckedSoup& checked, std::vector<Defect>::const_iterator first,
+                std::vector<Defect>::const_iterator last) {
+    const auto worst = std::min_element(first, last, [](const Defect& a, const Defect& b) {
+        return a.kind == DefectKind::open_edge ? a.measure > b.measure : a.measure < b.measure;
+    });
+    const bool is_warning = first->severity == Severity::warning;
+    const std::int64_t count = is_warning ? checked.diagnosis.count(first->kind) : last - first;
+    const bool is_measured = first->measure > 0;
+    std::string measure;
+    if (first->kind == DefectKind::needle) measure = fmt::format(", {:.3g} deg", worst->measure);
+    if (first->kind == DefectKind::open_edge)
+        measure = fmt::format(", {} edges, length {:.6g}", worst->facets.size(), worst->measure);
+    if (first->kind == DefectKind::short_edge) measure = fmt::format(", length {:.3g}", worst->measure);
+    fmt::print("  {:<9} {}: {}{}{}; {}.\n", name(first->severity), counted(count, first->kind),
+               count == 1    ? ""
+               : is_measured ? "the worst "
+                             : "the first ",
+               place(*worst, checked.soup), measure, remedy(first->kind));
+}
+
+void print_text(const CheckRequest& request, CheckedSoup& checked) {
+    const Diagnosis& diagnosis = checked.diagnosis;
+    fmt::print("{}: {} facets, {} vertices, {} patch{}\n", request.path, checked.soup.facets.size(),
+               checked.soup.vertices.size(), checked.soup.patch_names.size(),
+               checked.soup.patch_names.size() == 1 ? "" : "es");
+    for (const std::string& note : checked.soup.notes) fmt::print("  note      {}\n", note);
+    for (auto first = diagnosis.defects.begin(); first != diagnosis.defects.end();) {
+        const auto last = std::find_if(first, diagnosis.defects.end(), [&](const Defect& d) {
+            return d.kind != first->kind || d.severity != first->severity;
+        });
+        print_kind(checked, first, last);
+        first = last;
+    }
+    const bool clean = diagnosis.clean();
+    const bool more = diagnosis.defects.size() > 1;
+    fmt::print("{}\n", clean ? "It can be meshed." : "It cannot be meshed as it is.");
+    if (more) fmt::print("--json lists all, --offenders FILE.vtu shows them in ParaView.\n");
+}
+
+// The reader stops at the first thing that it does not understand.
+int report_unreadable(const CheckRequest& request, const Error& error) {
+    if (request.json)
+        print_json(Json{{"path", request.path},
+                        {"can_be_meshed", false},
+                        {"counts", {{"unreadable", 1}}},
+                        {"defects", Json::array({Json{{"kind", "unreadable"},
+                                                      {"severity", "error"},
+                                                      {"facets", Json::array()},
+                                                      {"vertices", Json::array()},
+                                                      {"message", error.what()}}})}});
+    else
+        fmt::print("  error     unreadable: {}\n", error.what());
+    return static_cast<int>(error.code());
 }
 
 }  // namespace
 
-int check_surface(const std::string& path, bool json) {
-    Soup soup = read_surface(path);
-    weld_exactly(soup);
-    const Diagnosis diagnosis = diagnose(soup);
-    if (json) {
-        nlohmann::ordered_json report = {{"path", path},
-                                         {"vertices", soup.vertices.size()},
-                                         {"faces", soup.facets.size()},
-                                         {"defects", nlohmann::ordered_json::array()}};
-        for (const Defect& defect : diagnosis.defects) report["defects"].push_back(to_json(defect));
-        fmt::print("{}\n", report.dump(2));
-    } else if (!diagnosis.clean()) {
-        fmt::print("{}: {}\nkerf check --json lists all {} defects.\n", path, diagnosis.summary(),
-                   diagnosis.defects.size());
+int check_surface(const CheckRequest& request) {
+    request.options.check();
+    CheckedSoup checked;
+    try {
+        checked = check_input(request.path, request.options, request.needle_angle_deg);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::input) throw;
+        return report_unreadable(request, error);
     }
-    if (!diagnosis.clean()) return static_cast<int>(ErrorCode::input);
-    const OrientationReport orientation = orient(soup);
-    if (!json)
-        fmt::print("{}: {} facets, {} vertices, {}. It can be meshed.\n", path, soup.facets.size(),
-                   soup.vertices.size(), describe(orientation));
-    return 0;
+    if (!request.offenders_file.empty()) write_offenders(request.offenders_file, checked.soup, checked.diagnosis);
+    if (request.json)
+        print_json(request.path, checked);
+    else
+        print_text(request, checked);
+    return checked.diagnosis.clean() ? 0 : static_cast<int>(ErrorCode::input);
 }
 
 }  // namespace kerf

@@ -3,10 +3,21 @@
 
 #include <string>
 
+#include "run/input.h"
+
 namespace kerf {
 
-/// Prints a summary, or with `json` every defect, to standard output. Returns 0 for a surface that can be meshed,
-/// else 3. Throws Error for a file that cannot be read or parsed.
-int check_surface(const std::string& path, bool json);
+struct CheckRequest {
+    std::string path;
+    InputOptions options;
+    double needle_angle_deg = 1;
+    bool json = false;
+    std::string offenders_file;  ///< VTU of the offending facets and vertices; empty: none
+};
+
+/// Prints counts, the worst of each kind and what to do, or with `json` every defect, to standard output. Returns 0 for
+/// a surface that can be meshed, else 3, also for one that cannot be parsed; its defect is "unreadable" then. Throws
+/// Error for a file that cannot be opened or written.
+int check_surface(const CheckRequest& request);
 
 }  // namespace kerf

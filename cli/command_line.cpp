@@ -100,8 +100,13 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     CLI::App* decompose =
         add_run_command(app, "decompose", "The same, up to the closed surfaces of the parts; print the tree.", line);
     CLI::App* check = app.add_subcommand("check", "Diagnose a surface without meshing it.");
-    check->add_option("input", line.options.input, "Surface file.")->required()->type_name("INPUT");
-    check->add_flag("--json", line.json, "Print every defect as JSON.");
+    check->add_option("input", line.check.path, "Surface file.")->required()->type_name("INPUT");
+    check->add_flag("--json", line.check.json, "Print every defect as JSON.");
+    check->add_option("--offenders", line.check.offenders_file, "Write the offending facets, edges and places as VTU.")
+        ->type_name("FILE");
+    check->add_option("--needle-angle", line.check.needle_angle_deg, "Degrees below which a facet is a needle.")
+        ->capture_default_str();
+    for (const OptionField& field : input_option_fields(line.check.options)) add_field(*check, field);
     CLI::App* verify = app.add_subcommand("verify", "Check every law of a finished run again, from its files.");
     verify->add_option("folder", line.options.output, "Folder of the run.")->required()->type_name("DIR");
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/check.h"
 #include "run/options.h"
 
 namespace kerf {
@@ -14,8 +15,8 @@ struct CommandLine {
     Command command = Command::none;
     RunOptions options;
     bool quiet = false;
-    bool verbose = false;       ///< print every node of the tree of cuts
-    bool json = false;          ///< check: machine-readable output
+    bool verbose = false;  ///< print every node of the tree of cuts
+    CheckRequest check;
     bool print_config = false;  ///< print the effective options and end
     std::string config_file;    ///< options that the command line does not give
     std::string config;         ///< them, in the form of a config file

@@ -62,7 +62,7 @@ int run_program(int argc, char** argv) {
     }
     switch (line.command) {
         case Command::check:
-            return check_surface(line.options.input, line.json);
+            return check_surface(line.check);
         case Command::verify:
             return verify_run(line.options.output);
         default:

@@ -34,7 +34,7 @@ class SoupBuilder {
         patch_ = -1;
     }
     /// The polygon as a fan of triangles, in the current patch. Calls `fail(message)`, which must throw, if the polygon
-    /// has less than three corners, or one that is no vertex so far, or if no fan covers it (see find_fan()).
+    /// has less than three corners, or one that is no vertex so far. One that no fan covers (see find_fan()) is noted.
     template <class Fail>
     void add_polygon(std::span<const std::int64_t> corners, const Fail& fail) {
         if (corners.size() < 3) fail("a facet has less than three vertices. Remove it or export the surface again.");
@@ -43,10 +43,7 @@ class SoupBuilder {
                 fail("a facet names vertex number " + std::to_string(v) + " (counted from 0), but there are " +
                      std::to_string(vertex_count()) + " vertices. Correct it or export the surface again.");
         const PolygonFan fan = corners.size() > 3 ? find_fan(soup_.vertices, corners) : PolygonFan{};
-        if (fan.obstacle)
-            fail("face " + std::to_string(polygon_count_) + " (counted from 0) with " + std::to_string(corners.size()) +
-                 " corners cannot be cut into triangles because it " + fan.obstacle +
-                 ". Export the surface as triangles.");
+        if (fan.obstacle) soup_.unfit_polygons.push_back(polygon_count_);
         if (corners.size() > 3) number_polygons();
         const auto corner = [&](std::size_t i) {
             return static_cast<std::int32_t>(corners[(fan.apex + i) % corners.size()]);

@@ -116,6 +116,7 @@ Soup read_stl(std::string_view bytes, const std::string& path) {
         refuse_size(bytes, path);
     Soup soup = builder.finish();
     weld_exactly(soup);
+    soup.vertex_number.clear();  // the file numbers no vertices
     return soup;
 }
 

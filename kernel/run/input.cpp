@@ -8,10 +8,11 @@
 
 #include "core/error.h"
 #include "io/surface_reader.h"
-#include "surface/diagnosis.h"
+#include "surface/hole_filling.h"
 #include "surface/intersections.h"
 #include "surface/mass_properties.h"
 #include "surface/optimisation.h"
+#include "surface/regions.h"
 
 namespace kerf {
 
@@ -49,16 +50,52 @@ void optimise(Soup& soup, std::int32_t sweeps, Input& input) {
 
 }  // namespace
 
-Input read_input(const std::string& path, std::int32_t optimisation_sweeps) {
+CheckedSoup check_input(const std::string& path, const InputOptions& options, double needle_angle_deg) {
+    return check_soup(read_surface(path), options, needle_angle_deg);
+}
+
+CheckedSoup check_soup(Soup read, const InputOptions& options, double needle_angle_deg) {
+    CheckedSoup checked{std::move(read), {}, {}};
+    Soup& soup = checked.soup;
+    InputRepairs& repairs = checked.repairs;
+    repairs.welded_vertices = weld_exactly(soup);
+    if (options.weld_tolerance > 0) repairs.merged_vertices = weld_within(soup, options.weld_tolerance);
+    if (options.keep_largest) repairs.removed_facets = keep_largest_component(soup);
+    if (options.fill_hole_edges > 0) {
+        const HoleFilling filling = fill_holes(soup, options.fill_hole_edges);
+        repairs.filled_holes = filling.holes;
+        repairs.added_facets = filling.facets;
+    }
+    repairs.unused_vertices = drop_unused_vertices(soup);
+    checked.diagnosis = diagnose(soup, {options.voids, needle_angle_deg});
+    const std::vector<char>& dropped = checked.diagnosis.dropped;
+    repairs.dropped_facets = std::count(dropped.begin(), dropped.end(), char{1});
+    return checked;
+}
+
+OrientationReport apply_repairs(CheckedSoup& checked) {
+    if (checked.repairs.dropped_facets > 0) {
+        drop_facets(checked.soup, checked.diagnosis.dropped);
+        checked.repairs.unused_vertices += drop_unused_vertices(checked.soup);
+    }
+    checked.diagnosis = {};  // its numbers have lost their meaning
+    return orient(checked.soup);
+}
+
+Input read_input(const std::string& path, const InputOptions& options) {
     Input input;
     input.path = path;
-    Soup soup = read_surface(path);
-    input.welded_vertices = weld_exactly(soup);
-    const Diagnosis diagnosis = diagnose(soup);
-    if (!diagnosis.clean()) throw Error(ErrorCode::input, fmt::format("{}: {}", path, diagnosis.summary()));
-    input.unused_vertices = drop_unused_vertices(soup);
-    input.orientation = orient(soup);
-    if (optimisation_sweeps > 0) optimise(soup, optimisation_sweeps, input);
+    CheckedSoup checked = check_input(path, options);
+    Soup& soup = checked.soup;
+    if (!checked.diagnosis.clean())
+        throw Error(ErrorCode::input,
+                    fmt::format("{}: {} Run kerf check on it for all defects.", path, checked.diagnosis.summary(soup)));
+    input.orientation = apply_repairs(checked);
+    input.repairs = checked.repairs;
+    input.notes = soup.notes;
+    if (options.feature_angle_deg > 0 && soup.patch_names.size() == 1)
+        make_feature_patches(soup, options.feature_angle_deg);
+    if (options.optimisation_sweeps > 0) optimise(soup, options.optimisation_sweeps, input);
     input.patch_names = soup.patch_names;
     Eigen::AlignedBox3d box;
     for (const Vec3& p : soup.vertices) box.extend(p);

@@ -4,10 +4,42 @@
 #include <string>
 #include <vector>
 
+#include "surface/diagnosis.h"
 #include "surface/orientation.h"
 #include "surface/surface.h"
 
 namespace kerf {
+
+/// What may be done to a surface before it is diagnosed and cut. Only `voids` leaves the geometry as it is.
+struct InputOptions {
+    double weld_tolerance = 0;         ///< vertices this close are merged; units of the file, 0: only equal ones
+    std::int32_t fill_hole_edges = 0;  ///< open loops of at most so many edges are spanned
+    bool keep_largest = false;         ///< only the connected component of the largest area stays
+    Voids voids = Voids::as_given;
+    double feature_angle_deg = 0;          ///< patches between sharper edges where the file has one patch; 0: none
+    std::int32_t optimisation_sweeps = 0;  ///< of vertices off the feature edges; 0: none moves
+
+    /// Throws Error(usage) naming option, value and range.
+    void check() const;
+};
+
+/// What was repaired.
+struct InputRepairs {
+    std::int64_t welded_vertices = 0;  ///< merged because their coordinates are equal
+    std::int64_t unused_vertices = 0;  ///< dropped because no facet uses them
+    std::int64_t dropped_facets = 0;   ///< copies, and facets with a repeated vertex
+    std::int64_t merged_vertices = 0;  ///< by weld_tolerance
+    std::int64_t removed_facets = 0;   ///< by keep_largest
+    std::int64_t filled_holes = 0;     ///< by fill_hole_edges
+    std::int64_t added_facets = 0;     ///< in these holes
+};
+
+/// A surface file after the repairs that come before orientation, and what is wrong with it.
+struct CheckedSoup {
+    Soup soup;
+    Diagnosis diagnosis;  ///< of `soup`, in which dropped facets still are
+    InputRepairs repairs;
+};
 
 /// A surface ready to be cut, and what was learnt about it.
 struct Input {
@@ -18,21 +50,28 @@ struct Input {
     std::int64_t genus = 0;  ///< sum over the components
     double volume = 0;
     double area = 0;
-    double diagonal = 0;               ///< of the bounding box
-    std::int64_t welded_vertices = 0;  ///< merged because their coordinates are equal
-    std::int64_t unused_vertices = 0;  ///< dropped because no facet uses them
+    double diagonal = 0;  ///< of the bounding box
+    InputRepairs repairs;
     OrientationReport orientation;
     std::int64_t moved_vertices = 0;  ///< by the optimisation of the surface
     double largest_move = 0;          ///< of a vertex by that
     std::vector<std::string> patch_names;
+    std::vector<std::string> notes;  ///< what the reader passed over
     Surface surface;
 };
 
-/// Reads, welds vertices with equal coordinates, diagnoses and orients. What was repaired is counted. Throws Error(io)
-/// or Error(input), naming the file, the first offenders and what to do.
-///
-/// With `optimisation_sweeps` > 0 vertices off the feature edges then slide to better places (surface/optimisation.h):
-/// that surface takes the place of the file's in all that follows. Throws Error(usage) if it would intersect itself.
-Input read_input(const std::string& path, std::int32_t optimisation_sweeps = 0);
+/// Reads, repairs, diagnoses. Throws Error(io) or Error(input) only for a file that cannot be read or parsed.
+CheckedSoup check_input(const std::string& path, const InputOptions& options = {}, double needle_angle_deg = 1);
+
+/// The same for what a reader returned.
+CheckedSoup check_soup(Soup soup, const InputOptions& options = {}, double needle_angle_deg = 1);
+
+/// Drops the superfluous facets of a soup without errors, and orients it.
+OrientationReport apply_repairs(CheckedSoup& checked);
+
+/// check_input() and apply_repairs(), then builds the surface. Throws Error(input), naming the file, the
+/// first offenders and what to do, if the surface has errors. Throws Error(usage) if the sweeps of the optimisation
+/// would make it intersect itself; else that surface takes the place of the file's in all that follows.
+Input read_input(const std::string& path, const InputOptions& options = {});
 
 }  // namespace kerf

@@ -75,7 +75,7 @@ void OptionField::set_text(const std::string& text) const {
 }
 
 void RunOptions::resolve(int ranks, int cores_of_rank) {
-    require(optimisation_sweeps >= 0, "optimise-surface", "0 (keep it) or more sweeps", optimisation_sweeps);
+    input_options.check();
     require(workers >= 0, "workers", "0 (share of the cores) or more", workers);
     if (workers == 0) workers = std::max(1, cores_of_rank);
     require(decompose.parts >= 0, "parts", "1 or more", decompose.parts);
@@ -98,9 +98,35 @@ void RunOptions::resolve(int ranks, int cores_of_rank) {
     decompose.cut.max_volume = decompose.cut.load.max_volume = mesher.max_volume;
 }
 
+void InputOptions::check() const {
+    require(weld_tolerance >= 0 && std::isfinite(weld_tolerance), "weld", "0 (only equal vertices) or positive",
+            weld_tolerance);
+    require(fill_hole_edges >= 0, "fill-holes", "0 (none) or more edges", fill_hole_edges);
+    require(feature_angle_deg >= 0 && feature_angle_deg < 180, "feature-angle", "0 (none) or below 180 degrees",
+            feature_angle_deg);
+    require(optimisation_sweeps >= 0, "optimise-surface", "0 (keep it) or more sweeps", optimisation_sweeps);
+}
+
+std::vector<OptionField> input_option_fields(InputOptions& o) {
+    return {
+        {"weld", "", "Merge vertices closer than this, in units of the input. Default 0: only equal ones.",
+         &o.weld_tolerance},
+        {"fill-holes", "", "Fill open loops of at most so many edges. Default 0: none.", &o.fill_hole_edges},
+        {"keep-largest", "", "Keep only the connected component of the largest area.", &o.keep_largest},
+        {"voids", "", "A shell inside another and turned like it: refused, or by parity a void. Default as-given.",
+         choice(o.voids, {"as-given", "parity"})},
+        {"feature-angle", "",
+         "Degrees between facets above which an edge bounds patches, if the file has none. Default 0: one patch.",
+         &o.feature_angle_deg},
+        {"optimise-surface", "",
+         "Sweeps that slide vertices off the feature edges to better places first. Default 0: the surface is kept.",
+         &o.optimisation_sweeps},
+    };
+}
+
 std::vector<OptionField> option_fields(RunOptions& o) {
     CutOptions& cut = o.decompose.cut;
-    return {
+    std::vector<OptionField> fields = {
         {"parts", "n", "Number of parts K >= 1. Default: ranks x workers.", &o.decompose.parts},
         {"size", "", "Wanted edge length inside, in units of the input. Default: as the surface.", &o.size},
         {"max-volume", "", "Largest volume of a tetrahedron, instead of --size.", &o.mesher.max_volume},
@@ -116,9 +142,6 @@ std::vector<OptionField> option_fields(RunOptions& o) {
          choice(cut.contour, {"min-cut", "edges", "straight"})},
         {"surface", "", "Whether facets may be split where no contour of edges exists. Default split.",
          choice(o.decompose.facets, {"keep", "split"})},
-        {"optimise-surface", "",
-         "Sweeps that slide vertices off the feature edges to better places first. Default 0: the surface is kept.",
-         &o.optimisation_sweeps},
         {"mesher", "", "What fills the parts. Default tetgen.", choice(o.mesher.kind, {"tetgen"})},
         {"workers", "", "Mesher processes of each rank. Default: its share of the cores.", &o.workers, false},
         {"timeout", "", "Seconds for one attempt at one part; 0: none. Default 600.", &o.timeout_seconds, false},
@@ -129,6 +152,9 @@ std::vector<OptionField> option_fields(RunOptions& o) {
         {"report", "", "Write the report to this file too.", &o.report_file, false},
         {"trace", "", "Write every cut with its stages and refused tries to this file.", &o.trace_file, false},
     };
+    const std::vector<OptionField> of_input = input_option_fields(o.input_options);
+    fields.insert(fields.end(), of_input.begin(), of_input.end());
+    return fields;
 }
 
 }  // namespace kerf

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "decompose/decomposition.h"
+#include "run/input.h"
 #include "volume/mesher.h"
 
 namespace kerf {
@@ -18,16 +19,16 @@ struct RunOptions {
     DecomposeOptions decompose = {
         .parts = 0, .facets = FacetPolicy::split, .cut = {}};  ///< parts 0: ranks times workers
     MesherOptions mesher;
-    double size = 0;                       ///< wanted edge length; sets mesher.max_volume unless that is given; 0: none
-    std::int32_t optimisation_sweeps = 0;  ///< of the surface's vertices before all else; 0: none moves
-    std::int32_t workers = 0;              ///< processes on this rank's host; 0: its share of the cores
-    double timeout_seconds = 600;          ///< of one attempt at one part; 0: none
-    std::int64_t memory_mb = 0;            ///< address space of one worker; 0: unlimited
-    std::int32_t attempts = 3;             ///< at one part, each with its vertices in another order
-    std::string report_file;               ///< a copy of the report; empty: only DIR/report.json
-    std::string trace_file;  ///< all cuts with their stages (run/trace.h); empty: none. Not inside of `output`
-    bool stl = false;        ///< the surfaces of the parts as STL, too
-    bool volume = true;      ///< false: stop at the closed surfaces of the parts
+    double size = 0;               ///< wanted edge length; sets mesher.max_volume unless that is given; 0: none
+    InputOptions input_options;    ///< of the surface before all else
+    std::int32_t workers = 0;      ///< processes on this rank's host; 0: its share of the cores
+    double timeout_seconds = 600;  ///< of one attempt at one part; 0: none
+    std::int64_t memory_mb = 0;    ///< address space of one worker; 0: unlimited
+    std::int32_t attempts = 3;     ///< at one part, each with its vertices in another order
+    std::string report_file;       ///< a copy of the report; empty: only DIR/report.json
+    std::string trace_file;        ///< all cuts with their stages (run/trace.h); empty: none. Not inside of `output`
+    bool stl = false;              ///< the surfaces of the parts as STL, too
+    bool volume = true;            ///< false: stop at the closed surfaces of the parts
 
     /// Fills what follows from other choices and checks ranges. Throws Error(usage) naming option, value and range.
     void resolve(int ranks, int cores_of_rank);
@@ -52,6 +53,9 @@ struct OptionField {
     std::string text() const;
     void set_text(const std::string& text) const;
 };
+
+/// The fields that say what is done to the input.
+std::vector<OptionField> input_option_fields(InputOptions& options);
 
 /// The table: command line, config file, report and viewer show the same options in this order.
 std::vector<OptionField> option_fields(RunOptions& options);

@@ -376,7 +376,7 @@ RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input&
     in_agreement(ranks, [&] {
         options.resolve(ranks.size(), cores_of_rank);
         if (listener) listener->on_progress("read", 0, 1);
-        input = read_input(options.input, options.optimisation_sweeps);
+        input = read_input(options.input, options.input_options);
         check_part_count(input, options.decompose);
     });
     const double read_seconds = longest(ranks, whole.seconds());

@@ -54,10 +54,16 @@ Json input_json(const Input& input) {
                  {"volume", input.volume},
                  {"area", input.area},
                  {"repairs",
-                  {{"vertices_welded", input.welded_vertices},
-                   {"vertices_unused", input.unused_vertices},
+                  {{"vertices_welded", input.repairs.welded_vertices},
+                   {"vertices_unused", input.repairs.unused_vertices},
+                   {"facets_dropped", input.repairs.dropped_facets},
+                   {"vertices_merged", input.repairs.merged_vertices},
+                   {"facets_removed", input.repairs.removed_facets},
+                   {"holes_filled", input.repairs.filled_holes},
+                   {"facets_added", input.repairs.added_facets},
                    {"facets_flipped", input.orientation.facets_flipped},
                    {"shells_flipped", input.orientation.shells_flipped}}}};
+    if (!input.notes.empty()) json["notes"] = input.notes;
     if (input.moved_vertices > 0)
         json["optimisation"] = {{"vertices_moved", input.moved_vertices}, {"largest_move", input.largest_move}};
     return json;
@@ -219,7 +225,23 @@ std::string to_json(const RunReport& report) {
                    {"tets_zero_parts", v.tets_zero_parts}}},
                  {"mesh_hash", report.mesh_hash},
                  {"exit_code", report.exit_code}};
-    return json.dump(2) + "\n";
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+// What was done to the surface, without the welding of equal vertices.
+std::string repairs_text(const Input& input) {
+    const InputRepairs& r = input.repairs;
+    std::string text;
+    const auto add = [&](std::int64_t count, const char* what) {
+        if (count) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(count), what);
+    };
+    add(r.dropped_facets, "superfluous facets dropped");
+    add(input.orientation.facets_flipped, "facets turned");
+    add(input.orientation.shells_flipped, "shells turned");
+    add(r.merged_vertices, "vertices merged");
+    add(r.removed_facets, "facets of smaller components removed");
+    add(r.filled_holes, "holes filled");
+    return text;
 }
 
 std::string to_text(const RunReport& report) {
@@ -237,6 +259,8 @@ std::string to_text(const RunReport& report) {
     };
     line("input", fmt::format("{}: {} facets, {} shell{}, genus {}, volume {:.6g}", input.path, grouped(input.facets),
                               input.components, input.components == 1 ? "" : "s", input.genus, input.volume));
+    if (const std::string repairs = repairs_text(input); !repairs.empty()) line("repaired", repairs);
+    for (const std::string& note : input.notes) line("note", note);
     if (input.moved_vertices > 0)
         line("optimised",
              fmt::format("{} vertices moved by {:.3g} at most", grouped(input.moved_vertices), input.largest_move));

@@ -181,12 +181,20 @@ bool FolderVerifier::is_facet(const Surface& input, std::int32_t facet, std::spa
     return covers({input.point(t[0]), input.point(t[1]), input.point(t[2])}, corners);
 }
 
+InputOptions input_options_of(const nlohmann::json& options) {
+    InputOptions of_input;
+    for (const OptionField& field : input_option_fields(of_input))
+        if (const auto value = options.find(field.name); value != options.end())
+            field.set_text(value->is_string() ? value->get<std::string>() : value->dump());
+    return of_input;
+}
+
 // The facets that are no interface must be those of the input, each once, at the same coordinates.
 void FolderVerifier::check_input() {
     const std::string path = report_.at("input").at("path");
     Input input;
     try {
-        input = read_input(path, report_.at("options").value("optimise-surface", 0));
+        input = read_input(path, input_options_of(report_.at("options")));
     } catch (const Error& e) {
         result_.notes.push_back(fmt::format("The facets were not compared with the input: {}", e.what()));
         return;

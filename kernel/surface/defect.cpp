@@ -26,6 +26,8 @@ const char* name(DefectKind kind) {
             return "non-finite vertex";
         case DefectKind::absurd_magnitude:
             return "absurd magnitude";
+        case DefectKind::unfit_polygon:
+            return "unfit polygon";
         case DefectKind::flat:
             return "flat surface";
         case DefectKind::degenerate_facet:
@@ -80,6 +82,8 @@ const char* remedy(DefectKind kind) {
             return "correct the coordinates or export the surface again";
         case DefectKind::absurd_magnitude:
             return "choose another unit of length, so that coordinates lie between 1e-50 and 1e50";
+        case DefectKind::unfit_polygon:
+            return "export the surface as triangles: the faces are not planar or not convex";
         case DefectKind::flat:
             return "give the boundary of a body, not a sheet";
         case DefectKind::degenerate_facet:

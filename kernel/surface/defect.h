@@ -13,6 +13,7 @@ enum class DefectKind {
     empty,                     ///< no facets
     non_finite,                ///< a coordinate is NaN or infinite
     absurd_magnitude,          ///< coordinates whose products leave the range of double precision
+    unfit_polygon,             ///< a face of the file that is not planar or cannot be cut into a fan of triangles
     flat,                      ///< all vertices lie in one plane
     degenerate_facet,          ///< repeated vertex, or three collinear vertices (exact)
     duplicate_facet,           ///< same three vertices as another facet

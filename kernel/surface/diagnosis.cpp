@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -46,6 +47,7 @@ class Examination {
  private:
     void find_non_finite();
     void find_absurd();
+    void find_unfit();
     void find_flat();
     void find_superfluous();
     void find_degenerate();
@@ -119,6 +121,15 @@ void Examination::find_absurd() {
     if (defect.vertices.empty()) return;
     defect.where = soup_.vertices[defect.vertices.front()];
     add(std::move(defect));
+}
+
+void Examination::find_unfit() {
+    for (const std::int32_t polygon : soup_.unfit_polygons) {
+        const auto [begin, end] = std::equal_range(soup_.polygon.begin(), soup_.polygon.end(), polygon);
+        std::vector<std::int32_t> facets;
+        for (auto it = begin; it != end; ++it) facets.push_back(static_cast<std::int32_t>(it - soup_.polygon.begin()));
+        if (!facets.empty()) add_at_facet(DefectKind::unfit_polygon, Severity::error, std::move(facets));
+    }
 }
 
 // All vertices lie in the plane of the first three that span one.
@@ -201,12 +212,15 @@ void Examination::find_turned(const ConsistentFacets& consistent) {
     if (!consistent.contradictions.empty() || consistent.turned.empty()) return;
     std::vector<std::int32_t> turned = consistent.turned;
     number_as_in_soup(turned);
-    add({DefectKind::inconsistent_orientation, Severity::repaired, std::move(turned), {},
+    add({DefectKind::inconsistent_orientation,
+         Severity::repaired,
+         std::move(turned),
+         {},
          soup_.vertices[facets_[consistent.turned.front()][0]]});
 }
 
 void Examination::find_misplaced_shells(const ConsistentFacets& consistent) {
-    const std::vector<ShellPlace> shells = locate_shells(soup_.vertices, consistent);
+    const std::vector<ShellPlace> shells = locate_shells(soup_.vertices, consistent, soup_.holes);
     for (const ShellPlace& shell : shells) {
         const std::vector<std::int32_t> facet = {number_[shell.first_facet]};
         if (shell.touches >= 0)
@@ -253,7 +267,8 @@ void Examination::find_intersections() {
 
 void Examination::add_worst(DefectKind kind, std::vector<Defect> found) {
     const auto count = static_cast<std::int64_t>(found.size());
-    std::stable_sort(found.begin(), found.end(), [](const Defect& a, const Defect& b) { return a.measure < b.measure; });
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Defect& a, const Defect& b) { return a.measure < b.measure; });
     if (found.size() > warning_limit) found.resize(warning_limit);
     for (Defect& defect : found) result_.defects.push_back(std::move(defect));
     result_.counts[static_cast<std::size_t>(kind)] = count;
@@ -266,8 +281,12 @@ void Examination::find_needles() {
         const Triangle& t = facets_[i];
         const double angle = smallest_angle_deg(soup_.vertices[t[0]], soup_.vertices[t[1]], soup_.vertices[t[2]]);
         if (angle < options_.needle_angle_deg)
-            found.push_back({DefectKind::needle, Severity::warning, {number_[i]}, {t.begin(), t.end()},
-                             soup_.vertices[t[0]], angle});
+            found.push_back({DefectKind::needle,
+                             Severity::warning,
+                             {number_[i]},
+                             {t.begin(), t.end()},
+                             soup_.vertices[t[0]],
+                             angle});
     }
     add_worst(DefectKind::needle, std::move(found));
 }
@@ -299,7 +318,8 @@ Diagnosis Examination::run() {
     no_area_.assign(soup_.facets.size(), 0);
     find_non_finite();
     find_absurd();
-    if (result_.clean()) find_flat();
+    find_unfit();
+    if (std::none_of(unbounded_.begin(), unbounded_.end(), [](char u) { return u; })) find_flat();
     find_superfluous();
     find_degenerate();
     select_facets();

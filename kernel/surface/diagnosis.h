@@ -22,7 +22,7 @@ struct DiagnosisOptions {
 struct Diagnosis {
     std::vector<Defect> defects;
     std::array<std::int64_t, defect_kind_count> counts = {};  ///< found of each kind; more than listed of some
-    std::vector<char> dropped;  ///< #F; facets that repairs leave out. Empty: none
+    std::vector<char> dropped;                                ///< #F; facets that repairs leave out. Empty: none
 
     /// The surface can be meshed, after repairs.
     bool clean() const;
@@ -33,8 +33,8 @@ struct Diagnosis {
 
 /// Finds all defects in one pass, each check on what it can work with: edges on facets without repeated vertices,
 /// intersections on those with an area. Shells are located only where the surface is otherwise a closed manifold. All
-/// decisions about topology and intersections are exact. `soup`: welded. At most 10,000 self-intersections, and the 1000
-/// worst needles and shortest edges, are listed. O(#F log #F); 400 k facets in 4 s.
+/// decisions about topology and intersections are exact. `soup`: welded, without unused vertices. At most 10,000
+/// self-intersections, and the 1000 worst needles and shortest edges, are listed. O(#F log #F); 400 k facets in 4 s.
 Diagnosis diagnose(const Soup& soup, const DiagnosisOptions& options = {});
 
 }  // namespace kerf

@@ -36,16 +36,20 @@ std::vector<OpenEdge> open_edges(const std::vector<Triangle>& facets) {
         while (j < sides.size() && sides[j].low == sides[i].low && sides[j].high == sides[i].high) ++j;
         if (j == i + 1) open.push_back(sides[i].edge);
     }
-    std::sort(open.begin(), open.end(),
-              [](const OpenEdge& a, const OpenEdge& b) { return std::tie(a.from, a.facet) < std::tie(b.from, b.facet); });
+    std::sort(open.begin(), open.end(), [](const OpenEdge& a, const OpenEdge& b) {
+        return std::tie(a.from, a.facet) < std::tie(b.from, b.facet);
+    });
     return open;
 }
 
 class LoopTracer {
  public:
     LoopTracer(const std::vector<Vec3>& vertices, std::vector<OpenEdge> edges)
-        : vertices_(vertices), edges_(std::move(edges)), used_(edges_.size(), 0),
-          cursor_(edges_.size(), 0), position_(vertices.size(), -1) {}
+        : vertices_(vertices),
+          edges_(std::move(edges)),
+          used_(edges_.size(), 0),
+          cursor_(edges_.size(), 0),
+          position_(vertices.size(), -1) {}
 
     std::vector<OpenLoop> run() {
         // Chains begin where no edge arrives; then there are only loops.
@@ -55,7 +59,9 @@ class LoopTracer {
         for (std::size_t e = 0; e < edges_.size(); ++e)
             if (!std::binary_search(arrivals.begin(), arrivals.end(), edges_[e].from)) trace(e);
         for (std::size_t e = 0; e < edges_.size(); ++e) trace(e);
-        const auto lowest = [](const OpenLoop& loop) { return *std::min_element(loop.facets.begin(), loop.facets.end()); };
+        const auto lowest = [](const OpenLoop& loop) {
+            return *std::min_element(loop.facets.begin(), loop.facets.end());
+        };
         std::sort(loops_.begin(), loops_.end(), [&](const OpenLoop& a, const OpenLoop& b) {
             return std::pair(lowest(a), a.vertices) < std::pair(lowest(b), b.vertices);
         });

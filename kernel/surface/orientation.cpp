@@ -1,5 +1,4 @@
-// Edges by sorting: every facet contributes its three edges as (smaller end, larger end, corner); equal ends lie side
-// by side, and those that occur twice join two facets. A search over these joints turns facets until neighbours agree.
+// A search over the edges of two facets turns facets until neighbours agree.
 //
 // Nesting by parity: shells do not meet, so one vertex of a shell tells whether the whole shell lies within another
 // one.
@@ -7,12 +6,12 @@
 
 #include <algorithm>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "surface/edge_partners.h"
 #include "surface/mass_properties.h"
 #include "surface/ray_parity.h"
 
@@ -20,41 +19,13 @@ namespace kerf {
 
 namespace {
 
-// Edge `corner % 3` of facet `corner / 3`, from that vertex to the next.
-struct FacetEdge {
-    std::int32_t low, high, corner;
-    bool same_ends(const FacetEdge& other) const { return low == other.low && high == other.high; }
-};
-
-// For every corner the corner of the facet on the other side, -1 where an edge does not have exactly two facets.
-std::vector<std::int32_t> find_partners(const std::vector<Triangle>& facets) {
-    std::vector<FacetEdge> edges;
-    edges.reserve(3 * facets.size());
-    for (std::size_t f = 0; f < facets.size(); ++f)
-        for (int i = 0; i < 3; ++i) {
-            const auto [low, high] = std::minmax(facets[f][i], facets[f][(i + 1) % 3]);
-            edges.push_back({low, high, static_cast<std::int32_t>(3 * f + i)});
-        }
-    std::sort(edges.begin(), edges.end(), [](const FacetEdge& a, const FacetEdge& b) {
-        return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
-    });
-    std::vector<std::int32_t> partner(edges.size(), -1);
-    for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
-        while (j < edges.size() && edges[j].same_ends(edges[i])) ++j;
-        if (j - i != 2) continue;
-        partner[edges[i].corner] = edges[i + 1].corner;
-        partner[edges[i + 1].corner] = edges[i].corner;
-    }
-    return partner;
-}
-
 void turn(Triangle& facet) { std::swap(facet[1], facet[2]); }
 
 // Breadth-first search over one shell at a time, relative to the orientation of its first facet.
 class Propagation {
  public:
     explicit Propagation(const std::vector<Triangle>& facets)
-        : facets_(facets), partner_(find_partners(facets)), turned_(facets.size(), 0) {
+        : facets_(facets), partner_(edge_partners(facets)), turned_(facets.size(), 0) {
         result_.facets = facets;
         result_.shell.assign(facets.size(), -1);
     }
@@ -138,6 +109,16 @@ void place_among(const std::vector<Vec3>& vertices, const std::vector<Shell>& sh
     place.depth = static_cast<std::int32_t>(around.size());
 }
 
+void mark_shell_around(const std::vector<Vec3>& vertices, const std::vector<Shell>& shells, const Vec3& hole,
+                       std::vector<ShellPlace>& places) {
+    ShellPlace* innermost = nullptr;
+    for (std::size_t i = 0; i < shells.size(); ++i) {
+        if (!shells[i].box.contains(hole) || !encloses(vertices, shells[i], hole).value_or(false)) continue;
+        if (!innermost || places[i].depth > innermost->depth) innermost = &places[i];
+    }
+    if (innermost) innermost->has_hole = true;
+}
+
 // The shell gets its own vertices because cancellation grows with the distance from the first vertex.
 bool is_outward(const std::vector<Vec3>& vertices, const Shell& shell) {
     std::vector<Vec3> corners;
@@ -162,7 +143,8 @@ bool is_outward(const std::vector<Vec3>& vertices, const Shell& shell) {
 
 ConsistentFacets make_consistent(const std::vector<Triangle>& facets) { return Propagation(facets).run(); }
 
-std::vector<ShellPlace> locate_shells(const std::vector<Vec3>& vertices, const ConsistentFacets& consistent) {
+std::vector<ShellPlace> locate_shells(const std::vector<Vec3>& vertices, const ConsistentFacets& consistent,
+                                      const std::vector<Vec3>& holes) {
     const std::vector<Shell> shells =
         collect_shells(vertices, consistent.facets, consistent.shell, consistent.shell_count);
     std::vector<ShellPlace> places(shells.size());
@@ -176,22 +158,25 @@ std::vector<ShellPlace> locate_shells(const std::vector<Vec3>& vertices, const C
     for (std::size_t i = 0; i < shells.size(); ++i)
         for (const std::int32_t j : around[i])
             if (places[j].depth == places[i].depth - 1) places[i].parent = j;
+    for (const Vec3& hole : holes) mark_shell_around(vertices, shells, hole, places);
     return places;
 }
 
 OrientationReport orient(Soup& soup) {
     ConsistentFacets consistent = make_consistent(soup.facets);
     if (!consistent.contradictions.empty())
-        refuse(soup, consistent.contradictions[0], "is one-sided like a Moebius strip. It bounds no body: model it again.");
+        refuse(soup, consistent.contradictions[0],
+               "is one-sided like a Moebius strip. It bounds no body: model it again.");
     OrientationReport report;
     report.facets_flipped = static_cast<std::int64_t>(consistent.turned.size());
     report.shells = consistent.shell_count;
     std::vector<char> flip;
     for (const ShellPlace& shell : locate_shells(soup.vertices, consistent)) {
         if (shell.touches >= 0)
-            refuse(soup, shell.first_facet,
-                   "touches another one, so that inside and outside cannot be told apart. Unite the bodies or move them "
-                   "apart.");
+            refuse(
+                soup, shell.first_facet,
+                "touches another one, so that inside and outside cannot be told apart. Unite the bodies or move them "
+                "apart.");
         const bool is_void = shell.depth % 2;
         flip.push_back(shell.outward == is_void);
         report.void_shells += is_void;

@@ -11,7 +11,7 @@ struct ConsistentFacets {
     std::vector<Triangle> facets;     ///< #F; corners 1 and 2 exchanged where turned
     std::vector<std::int32_t> shell;  ///< #F; numbered by smallest facet
     std::int32_t shell_count = 0;
-    std::vector<std::int32_t> turned;         ///< facets turned, ascending
+    std::vector<std::int32_t> turned;          ///< facets turned, ascending
     std::vector<std::int32_t> contradictions;  ///< per one-sided shell the first facet that disagrees for any choice
 };
 
@@ -25,16 +25,18 @@ struct ShellPlace {
     std::int32_t parent = -1;   ///< the innermost shell around it
     std::int32_t touches = -1;  ///< a shell that it meets, so that depth and parent are unknown
     bool outward = true;        ///< encloses positive volume
+    bool has_hole = false;      ///< the innermost shell around a point that is said to lie in a void
 
     /// A void should be turned against its parent. One that is not may be meant as a second body.
     bool ambiguous(const std::vector<ShellPlace>& shells) const {
-        return parent >= 0 && shells[parent].outward == outward;
+        return parent >= 0 && !has_hole && shells[parent].outward == outward;
     }
 };
 
-/// Places of the shells of `consistent`, in their order. Requires closed shells. The nesting depth is found by ray
-/// parity. O(#F) plus O(#shells x #F) for shells whose bounding boxes are nested. Deterministic.
-std::vector<ShellPlace> locate_shells(const std::vector<Vec3>& vertices, const ConsistentFacets& consistent);
+/// Places of the shells of `consistent`, in their order. Requires closed shells. `holes`: points in voids. The nesting
+/// depth is found by ray parity. O(#F) plus O((#shells + #holes) x #F) for boxes that are nested. Deterministic.
+std::vector<ShellPlace> locate_shells(const std::vector<Vec3>& vertices, const ConsistentFacets& consistent,
+                                      const std::vector<Vec3>& holes = {});
 
 /// What orient() turned.
 struct OrientationReport {
@@ -47,8 +49,8 @@ struct OrientationReport {
 /// Turns facets until normals point out of the material everywhere.
 ///
 /// Within a shell the orientation is propagated by make_consistent(). Between shells the nesting depth decides: even
-/// depth outward, odd depth (a void) inward. Requires every edge to have exactly two facets and shells that do not meet;
-/// throws Error(input) for a shell that is not orientable or that meets another, naming a facet. Cost as
+/// depth outward, odd depth (a void) inward. Requires every edge to have exactly two facets and shells that do not
+/// meet; throws Error(input) for a shell that is not orientable or that meets another, naming a facet. Cost as
 /// locate_shells().
 OrientationReport orient(Soup& soup);
 

@@ -106,7 +106,8 @@ class WeldGrid {
 std::vector<std::int32_t> numbers_in_file(const std::vector<std::int32_t>& own, const std::vector<std::int32_t>& file) {
     if (file.empty()) return own;
     std::vector<std::int32_t> numbers;
-    for (const std::int32_t i : own) numbers.push_back(file[i]);
+    for (const std::int32_t i : own)
+        if (numbers.empty() || numbers.back() != file[i]) numbers.push_back(file[i]);
     return numbers;
 }
 

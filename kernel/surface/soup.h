@@ -17,12 +17,14 @@ struct Soup {
     /// #F; number of the face of the file, counted from 0, that the facet was cut from. Empty if every face is a
     /// triangle, so that facets and faces have the same numbers.
     std::vector<std::int32_t> polygon = {};
+    /// Faces of the file, ascending, whose facets are not the face: it is not planar, or no fan covers it.
+    std::vector<std::int32_t> unfit_polygons = {};
     /// #V; number of the vertex in the file, counted from 0. Empty if the numbers agree.
     std::vector<std::int32_t> vertex_number = {};
     std::vector<Vec3> holes = {};         ///< points in voids that the file names; units of the file
     std::vector<std::string> notes = {};  ///< what the reader passed over: "12 tetrahedra were ignored."
 
-    /// The numbers that the file gives to facets and vertices.
+    /// The numbers that the file gives to facets and vertices; facets of one face that follow each other count once.
     std::vector<std::int32_t> file_facets(const std::vector<std::int32_t>& own) const;
     std::vector<std::int32_t> file_vertices(const std::vector<std::int32_t>& own) const;
 };

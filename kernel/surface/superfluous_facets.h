@@ -10,7 +10,8 @@ namespace kerf {
 /// Copies of one facet: three equal vertices, in whatever order. Ascending.
 struct FacetCopies {
     std::vector<std::int32_t> facets;
-    std::int32_t keep = -1;  ///< so many stay, 0 or 1, and the edges around them have two facets each; -1: no such number
+    std::int32_t keep =
+        -1;  ///< so many stay, 0 or 1, and the edges around them have two facets each; -1: no such number
     std::int32_t shell = -1;  ///< coincident shell that they belong to, else -1
 };
 

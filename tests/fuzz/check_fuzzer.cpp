@@ -3,21 +3,16 @@
 
 #include "fuzzed.h"
 #include "io/surface_reader.h"
-#include "surface/diagnosis.h"
-#include "surface/orientation.h"
+#include "run/input.h"
 
 namespace kerf {
 
 namespace {
 
 void check(const std::string& bytes) {
-    Soup soup = read_surface_bytes(bytes, "fuzzed");
-    weld_exactly(soup);
-    const Diagnosis diagnosis = diagnose(soup);
-    if (diagnosis.summary().empty()) std::abort();
-    if (!diagnosis.clean()) return;
-    drop_unused_vertices(soup);
-    orient(soup);
+    CheckedSoup checked = check_soup(read_surface_bytes(bytes, "fuzzed"));
+    if (checked.diagnosis.summary(checked.soup).empty()) std::abort();
+    if (checked.diagnosis.clean()) apply_repairs(checked);
 }
 
 }  // namespace

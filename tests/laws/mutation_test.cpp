@@ -3,14 +3,13 @@
 
 #include "core/error.h"
 #include "io/surface_reader.h"
+#include "run/input.h"
 #include "support/archives.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/mutation.h"
 #include "support/shapes.h"
 #include "support/surface_files.h"
-#include "surface/diagnosis.h"
-#include "surface/orientation.h"
 
 namespace kerf {
 namespace {
@@ -46,15 +45,13 @@ void read_and_check(const SurfaceFile& file, bool is_archive, Outcomes& outcomes
     expect_valid_indices(soup);
     const std::size_t growth = is_archive ? 1000 : 1;
     ASSERT_LE(bytes_of(soup), 20 * growth * file.bytes.size() + 10'000);
-    weld_exactly(soup);
-    const Diagnosis diagnosis = diagnose(soup);
-    EXPECT_FALSE(diagnosis.summary().empty());
-    if (!diagnosis.clean()) {
+    CheckedSoup checked = check_soup(std::move(soup));
+    EXPECT_FALSE(checked.diagnosis.summary(checked.soup).empty());
+    if (!checked.diagnosis.clean()) {
         ++outcomes.defective;
         return;
     }
-    drop_unused_vertices(soup);
-    orient(soup);
+    apply_repairs(checked);
     ++outcomes.clean;
 }
 

@@ -1,0 +1,62 @@
+#include "surface/hole_filling.h"
+
+#include <algorithm>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+#include <CGAL/utility.h>
+
+#include "surface/open_loops.h"
+
+namespace kerf {
+
+namespace {
+
+using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
+using HoleTriangle = CGAL::Triple<int, int, int>;
+
+// Facets over positions in the loop, in its direction.
+std::vector<Triangle> span_loop(const Soup& soup, const OpenLoop& loop) {
+    std::vector<Point> rim;
+    for (const std::int32_t v : loop.vertices)
+        rim.emplace_back(soup.vertices[v].x(), soup.vertices[v].y(), soup.vertices[v].z());
+    std::vector<HoleTriangle> patch;
+    CGAL::Polygon_mesh_processing::triangulate_hole_polyline(rim, std::back_inserter(patch));
+    std::vector<Triangle> facets;
+    for (const HoleTriangle& t : patch) {
+        Triangle facet = {t.first, t.second, t.third};
+        std::sort(facet.begin(), facet.end());
+        facets.push_back(facet);
+    }
+    return facets;
+}
+
+}  // namespace
+
+HoleFilling fill_holes(Soup& soup, std::int32_t most_edges) {
+    std::vector<Triangle> proper;
+    for (const Triangle& t : soup.facets)
+        if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) proper.push_back(t);
+    HoleFilling filling;
+    const auto patch = static_cast<std::int32_t>(soup.patch_names.size());
+    const auto next_polygon = soup.polygon.empty() ? 0 : soup.polygon.back() + 1;
+    for (const OpenLoop& loop : find_open_loops(soup.vertices, proper)) {
+        const bool finite = std::all_of(loop.vertices.begin(), loop.vertices.end(),
+                                        [&](std::int32_t v) { return soup.vertices[v].allFinite(); });
+        if (!loop.closed || !finite || loop.vertices.size() < 3 ||
+            loop.vertices.size() > static_cast<std::size_t>(most_edges))
+            continue;
+        const std::vector<Triangle> facets = span_loop(soup, loop);
+        filling.holes += !facets.empty();
+        for (const Triangle& t : facets) {
+            soup.facets.push_back({loop.vertices[t[0]], loop.vertices[t[1]], loop.vertices[t[2]]});
+            soup.patch.push_back(patch);
+            if (!soup.polygon.empty()) soup.polygon.push_back(next_polygon + static_cast<std::int32_t>(filling.facets));
+            ++filling.facets;
+        }
+    }
+    if (filling.facets > 0) soup.patch_names.emplace_back("filled");
+    return filling;
+}
+
+}  // namespace kerf
