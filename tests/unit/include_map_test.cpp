@@ -122,7 +122,7 @@ TEST(IncludeMap, LibrariesStayInTheirPlaces) {
               std::set<std::string>{"kernel/volume/tetgen_adapter.cpp"});
     EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "CGAL"; }),
               (std::set<std::string>{"kernel/cut/triangulation.cpp", "kernel/mesh/verification.cpp",
-                                     "kernel/surface/intersections.cpp"}));
+                                     "kernel/surface/hole_filling.cpp", "kernel/surface/intersections.cpp"}));
     EXPECT_EQ(files_including([](const std::string& name) { return name == "zlib.h" || name == "zstd.h"; }),
               std::set<std::string>{"kernel/io/compressed.cpp"});
     EXPECT_TRUE(files_including([](const std::string& name) {
