@@ -103,18 +103,18 @@ class WeldGrid {
     std::vector<std::int32_t> first_, next_;  // of the vertices in a slot
 };
 
-std::vector<std::int32_t> numbers_in_file(const std::vector<std::int32_t>& own, const std::vector<std::int32_t>& file) {
-    if (file.empty()) return own;
-    std::vector<std::int32_t> numbers;
-    for (const std::int32_t i : own)
-        if (numbers.empty() || numbers.back() != file[i]) numbers.push_back(file[i]);
-    return numbers;
+std::vector<std::int32_t> numbers_in_file(std::vector<std::int32_t> own, const std::vector<std::int32_t>& file) {
+    if (!file.empty())
+        for (std::int32_t& i : own) i = file[i];
+    return own;
 }
 
 }  // namespace
 
 std::vector<std::int32_t> Soup::file_facets(const std::vector<std::int32_t>& own) const {
-    return numbers_in_file(own, polygon);
+    std::vector<std::int32_t> numbers = numbers_in_file(own, polygon);
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    return numbers;
 }
 std::vector<std::int32_t> Soup::file_vertices(const std::vector<std::int32_t>& own) const {
     return numbers_in_file(own, vertex_number);

@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "support/damage.h"
 #include "support/decomposition_laws.h"
+#include "support/program.h"
 #include "support/run_in_process.h"
 #include "support/run_laws.h"
 #include "support/temporary_folder.h"
@@ -47,6 +49,8 @@ class GoodSurface : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Corpus, GoodSurface, testing::ValuesIn(surfaces("good")), test_name);
 
 TEST_P(GoodSurface, IsReadAndClean) {
+    const CheckedSoup checked = check_input(GetParam());
+    EXPECT_TRUE(checked.diagnosis.clean()) << checked.diagnosis.summary(checked.soup);
     const Input input = read_input(GetParam());
     EXPECT_GT(input.volume, 0);
     EXPECT_EQ(input.facets, input.surface.facet_count());
@@ -113,6 +117,148 @@ TEST_P(CadSurface, IsMeshedInEightPartsByTheLaws) {
     EXPECT_TRUE(report.verification.passed);
     EXPECT_EQ(report.parts.size(), 8u);
     EXPECT_EQ(test::broken_laws(test::read_parts(folder.file("out")), read_input(GetParam()).surface.arrays()), "");
+}
+
+struct KindCount {
+    DefectKind kind;
+    Severity severity;
+    std::int64_t count;
+    auto operator<=>(const KindCount&) const = default;
+};
+
+// What kerf check says about a file; warnings aside.
+struct BadFile {
+    std::string name;
+    std::vector<KindCount> found;
+    std::vector<std::string> lines = {};  ///< some of test::lines()
+    std::size_t open_edges = 0;           ///< of all loops
+};
+
+const std::vector<BadFile>& bad_files() {
+    using Kind = DefectKind;
+    constexpr Severity error = Severity::error, repaired = Severity::repaired;
+    static const std::vector<BadFile> files = {
+        {"VALID_odd_ascii_spacing_crlf_uppercase__derived_hinge.stl", {}},
+        {"ambiguous_cavity_oriented_outward__derived_projection.stl",
+         {{Kind::ambiguous_shell, error, 1}},
+         {"error ambiguous shell: facets 0; vertices 0 1 2"}},
+        {"coincident_duplicate_body__derived_hinge.stl", {{Kind::coincident_shell, error, 1}}},
+        {"degenerate_2_zero_area__openscad_adns2610.stl",
+         {{Kind::degenerate_facet, error, 2}, {Kind::self_intersection, error, 34}},
+         {"error degenerate facet: facets 751; vertices 398 270 267",
+          "error degenerate facet: facets 856; vertices 383 288 285"}},
+        {"duplicate_triangles__meshlab_conrod.stl",
+         {{Kind::duplicate_facet, repaired, 3},
+          {Kind::inconsistent_orientation, repaired, 1},
+          {Kind::self_intersection, error, 13}},
+         {"repaired duplicate facet: facets 534 535; vertices 115 310 311",
+          "repaired duplicate facet: facets 1396 1397; vertices 633 810 807",
+          "repaired duplicate facet: facets 1403 1405; vertices 667 812 813"}},
+        {"flipped_triangles__admesh_hourglass.stl",
+         {{Kind::inconsistent_orientation, repaired, 1}},
+         {"repaired inconsistent orientation: facets 2145; vertices "}},
+        {"nan_coordinate__derived_unit_sphere.stl",
+         {{Kind::non_finite, error, 1}, {Kind::open_edge, error, 1}},
+         {"error non-finite vertex: facets 100; vertices 72"},
+         4},
+        {"nonmanifold_1_pinched_vertex_only__geometrycentral_hourglass.obj",
+         {{Kind::non_manifold_vertex, error, 1}},
+         {"error non-manifold vertex: facets 0 1 2 3 4 35 36 37 38 39; vertices 22"}},
+        {"nonmanifold_edge_two_cubes__openscad.stl",
+         {{Kind::non_manifold_edge, error, 1}},
+         {"error non-manifold edge: facets 7 10 12 20; vertices 5 6"}},
+        {"open_cracks_when_welded_exactly__trimesh_featuretype.stl",
+         {{Kind::open_edge, error, 16}, {Kind::self_intersection, error, 1216}},
+         {},
+         576},
+        {"open_nonorientable_moebius__geometrycentral.obj",
+         {{Kind::unfit_polygon, error, 224}, {Kind::open_edge, error, 2}, {Kind::one_sided, error, 1}},
+         {},
+         112},
+        {"selfint_37_pairs__meshlab_block.off", {{Kind::self_intersection, error, 37}}},
+    };
+    return files;
+}
+
+struct UnreadableFile {
+    std::string name, words;
+};
+
+const std::vector<UnreadableFile>& unreadable_files() {
+    static const std::vector<UnreadableFile> files = {
+        {"empty_0_bytes__openscad.stl", "the file is empty"},
+        {"parse_index_out_of_range__assimp.obj",
+         "line 23: a facet names vertex number 11 (counted from 0), but there are 8 vertices"},
+        {"parse_word_instead_of_number__openscad.stl", "line 89: a number is expected, not \"blah\""},
+        {"truncated_binary_solid_header__derived_plate_holes.stl",
+         "truncated: its header claims 1252 facets, but it ends in facet 750"},
+    };
+    return files;
+}
+
+std::string bad_path(const std::string& name) { return fs::path(KERF_CORPUS) / "bad" / name; }
+
+std::vector<KindCount> count_kinds(const Diagnosis& diagnosis) {
+    std::vector<KindCount> found;
+    for (const Defect& defect : diagnosis.defects) {
+        if (defect.severity == Severity::warning) continue;
+        if (found.empty() || found.back().kind != defect.kind) found.push_back({defect.kind, defect.severity, 0});
+        EXPECT_EQ(found.back().severity, defect.severity) << name(defect.kind);
+        ++found.back().count;
+    }
+    return found;
+}
+
+std::size_t open_edges(const Diagnosis& diagnosis) {
+    std::size_t count = 0;
+    for (const Defect& defect : diagnosis.defects)
+        if (defect.kind == DefectKind::open_edge) count += defect.facets.size();
+    return count;
+}
+
+TEST(BadFiles, AreAllInTheTables) {
+    std::vector<std::string> expected;
+    for (const BadFile& file : bad_files()) expected.push_back(bad_path(file.name));
+    for (const UnreadableFile& file : unreadable_files()) expected.push_back(bad_path(file.name));
+    std::sort(expected.begin(), expected.end());
+    EXPECT_EQ(surfaces("bad"), expected);
+}
+
+TEST(BadFiles, AreCheckedWithTheRightKindsAndNumbers) {
+    for (const BadFile& file : bad_files()) {
+        SCOPED_TRACE(file.name);
+        const CheckedSoup checked = check_input(bad_path(file.name));
+        const Diagnosis& diagnosis = checked.diagnosis;
+        EXPECT_EQ(count_kinds(diagnosis), file.found);
+        EXPECT_EQ(open_edges(diagnosis), file.open_edges);
+        const std::vector<std::string> lines = test::lines(checked);
+        for (const std::string& line : file.lines)
+            EXPECT_TRUE(std::binary_search(lines.begin(), lines.end(), line)) << line;
+        const bool any_error = std::any_of(file.found.begin(), file.found.end(),
+                                           [](const KindCount& found) { return found.severity == Severity::error; });
+        EXPECT_EQ(test::run_kerf({"check", bad_path(file.name)}).exit_code, any_error ? 3 : 0);
+    }
+}
+
+TEST(BadFiles, ThatCannotBeReadAreRefusedWithThePlace) {
+    for (const UnreadableFile& file : unreadable_files()) {
+        SCOPED_TRACE(file.name);
+        const ChildResult result = test::run_kerf({"check", bad_path(file.name)});
+        EXPECT_EQ(result.exit_code, 3);
+        EXPECT_NE(test::output_of(result).find(file.words), std::string::npos) << test::output_of(result);
+    }
+}
+
+TEST(BadFiles, CracksAndCavitiesAreMendedOnRequest) {
+    InputOptions options;
+    options.voids = Voids::parity;
+    const std::string cavity = bad_path("ambiguous_cavity_oriented_outward__derived_projection.stl");
+    EXPECT_TRUE(check_input(cavity, options).diagnosis.clean());
+    options.weld_tolerance = 1e-5;
+    const CheckedSoup welded =
+        check_input(bad_path("open_cracks_when_welded_exactly__trimesh_featuretype.stl"), options);
+    EXPECT_TRUE(welded.diagnosis.clean()) << welded.diagnosis.summary(welded.soup);
+    EXPECT_EQ(welded.soup.vertices.size(), 1722u) << "as in the same part without cracks";
 }
 
 class BadSurface : public testing::TestWithParam<std::string> {};

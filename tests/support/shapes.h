@@ -49,6 +49,7 @@ inline Soup box(const Vec3& low = Vec3::Zero(), const Vec3& high = Vec3::Ones(),
     };
     for (int axis = 0; axis < 3; ++axis) add_side(axis, false), add_side(axis, true);
     weld_exactly(soup);
+    soup.vertex_number.clear();  // there is no file
     return soup;
 }
 
@@ -279,6 +280,7 @@ inline Soup porous_frame(int cells, int n) {
     weld_exactly(soup);
     cancel_common_facets(soup);
     drop_unused_vertices(soup);
+    soup.vertex_number.clear();
     return soup;
 }
 

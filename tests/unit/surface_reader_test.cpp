@@ -292,10 +292,6 @@ TEST(SurfaceReader, NamesThePlaceAndTheCause) {
         {"v 0 0\nv 1 0 0\n", "line 1: a vertex has less than three coordinates"},
         {"v 0 0 1,5\n", "line 1: a number is expected, not \"1,5\""},
         {"v 0 0 0\nf 1 1 99999999999999999999\n", "line 2: the number \"99999999999999999999\" is too large"},
-        {"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.001\nf 1 2 3\nf 1 2 3 4\n", "line 6: face 1 (counted from 0) with 4"},
-        {"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.001\nf 1 2 3 4\n", "is not planar"},
-        {"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 3 1 0\nf 1 2 3 4\n", "is not convex"},
-        {"v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nf 1 2 3 4\n", "has no area"},
         {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 5\n", "line 6: a facet names vertex number 5"},
         {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2\n", "line 7: the file goes on after the 1 facets"},
         {"OFF\n-3 1 0\n", "line 2: a number of elements is negative"},
@@ -313,7 +309,6 @@ TEST(SurfaceReader, NamesThePlaceAndTheCause) {
         {medit + "Triangles 1\n0 2 3 0\n", "line 8: an index is 0, but the file counts from 1"},
         {medit + "0 0 1 0\n", "line 7: a keyword is expected, not \"0\""},
         {medit + "TrianglesP2 1\n1 2 3 1 2 3 0\n", "line 7: curved elements (TrianglesP2)"},
-        {medit + "Quadrilaterals 1\n1 2 3 3 0\n", "line 8: face 0"},
         {medit + "Triangles -1\n", "line 7: a number of elements is negative"},
         {"$NOD\n1\n", "MSH version 1 cannot be read"},
         {"$MeshFormat\n4 0 8\n", "line 2: MSH version 4 cannot be read"},
@@ -463,6 +458,26 @@ TEST(MeditReader, TakesTrianglesWithReferencesAndPassesOverTheRest) {
     EXPECT_EQ(soup.patch, (std::vector<std::int32_t>{0, 1, 0, 0}));
     EXPECT_EQ(soup.patch_names, (std::vector<std::string>{"reference_-7", "reference_2"}));
     EXPECT_EQ(soup.notes, (std::vector<std::string>{"12 tetrahedra were ignored.", "1 pyramid was ignored."}));
+}
+
+TEST(SurfaceReader, NotesPolygonsThatNoFanCovers) {
+    const std::string triangle = "f 1 2 3\n";
+    const std::vector<std::string> unfit = {
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.001\n",  // not planar
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 3 1 0\n",      // crosses itself
+        "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\n",      // no area
+    };
+    for (const std::string& vertices : unfit) {
+        SCOPED_TRACE(vertices);
+        const Soup soup = read_bytes(vertices + triangle + "f 1 2 3 4\n" + triangle + "f 4 3 2 1\n");
+        EXPECT_EQ(soup.unfit_polygons, (std::vector<std::int32_t>{1, 3}));
+        EXPECT_EQ(soup.polygon, (std::vector<std::int32_t>{0, 1, 1, 2, 3, 3}));
+    }
+    EXPECT_TRUE(read_bytes("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n").unfit_polygons.empty());
+    const std::string repeated =
+        "MeshVersionFormatted 2\nDimension 3\nVertices 3\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
+        "Quadrilaterals 1\n1 2 3 3 0\n";
+    EXPECT_EQ(read_bytes(repeated).unfit_polygons, std::vector<std::int32_t>{0});
 }
 
 TEST(TetgenReader, AcceptsPolygonsCommentsAndMissingLists) {

@@ -1,0 +1,239 @@
+// kerf check as a user sees it, and the repairs that are asked for: what check calls clean with them is meshed with
+// them.
+#include <cmath>
+#include <fstream>
+#include <regex>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "io/surface_reader.h"
+#include "support/assets.h"
+#include "support/damage.h"
+#include "support/file_contents.h"
+#include "support/program.h"
+#include "support/shapes.h"
+#include "support/temporary_folder.h"
+#include "support/write_off.h"
+
+namespace kerf {
+namespace {
+
+using Json = nlohmann::json;
+using test::join;
+
+class Check : public testing::Test {
+ protected:
+    std::string write(const Soup& soup) const {
+        const std::string path = folder_.file("surface.off");
+        test::write_off(path, soup.vertices, soup.facets);
+        return path;
+    }
+    static ChildResult check(const std::string& path, std::vector<std::string> more = {}) {
+        more.insert(more.begin(), {"check", path});
+        return test::run_kerf(more);
+    }
+    static Json check_json(const std::string& path, std::vector<std::string> more = {}) {
+        more.push_back("--json");
+        return Json::parse(test::output_of(check(path, more)));
+    }
+    // Refused as it is, with the options checked to be clean, meshed and verified. Gives the report of the run.
+    Json expect_mended(const Soup& soup, const std::vector<std::string>& options) const {
+        const std::string path = write(soup), out = folder_.file("out");
+        EXPECT_EQ(check(path).exit_code, 3);
+        const ChildResult checked = check(path, options);
+        EXPECT_EQ(checked.exit_code, 0) << test::output_of(checked);
+        std::vector<std::string> arguments = {"mesh", path, "-o", out, "-n", "2", "-q"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const ChildResult meshed = test::run_kerf(arguments);
+        EXPECT_EQ(meshed.exit_code, 0) << meshed.log;
+        EXPECT_EQ(test::run_kerf({"verify", out}).exit_code, 0);
+        return Json::parse(test::bytes_of_file(out + "/report.json"));
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+Soup hollow_box() { return read_surface(test::asset_path("hollow_box")); }
+
+Soup without_fan(Soup soup, std::int32_t vertex) {
+    const std::vector<std::int32_t> fan = test::facets_with(soup, {vertex});
+    for (auto f = fan.rbegin(); f != fan.rend(); ++f) test::remove_facet(soup, *f);
+    return soup;
+}
+
+// Each facet with vertices of its own, which differ from its neighbours' by up to 1e-9.
+Soup cracked(const Soup& whole, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> jitter(-5e-10, 5e-10);
+    Soup soup = whole;
+    soup.vertices.clear();
+    for (Triangle& t : soup.facets)
+        for (std::int32_t& v : t) {
+            const double x = jitter(random), y = jitter(random), z = jitter(random);
+            soup.vertices.push_back(whole.vertices[v] + Vec3(x, y, z));
+            v = static_cast<std::int32_t>(soup.vertices.size()) - 1;
+        }
+    return soup;
+}
+
+TEST_F(Check, CleanSurfacesEndWithZeroAndSayThatTheyCanBeMeshed) {
+    const ChildResult result = check(test::asset_path("cube"));
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_NE(test::output_of(result).find("4660 facets"), std::string::npos) << test::output_of(result);
+    EXPECT_NE(test::output_of(result).find("It can be meshed."), std::string::npos) << test::output_of(result);
+}
+
+TEST_F(Check, TextIsShortHoweverManyDefectsThereAre) {
+    const Soup sphere = test::icosphere(2);
+    const ChildResult result = check(write(join(sphere, test::translated(sphere, Vec3(0.01, 0.02, 0.03)))));
+    EXPECT_EQ(result.exit_code, 3);
+    const std::string text = test::output_of(result);
+    EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 5) << text;
+    EXPECT_NE(text.find("It cannot be meshed as it is."), std::string::npos) << text;
+    EXPECT_NE(text.find("--json"), std::string::npos) << text;
+}
+
+TEST_F(Check, JsonHasAMemberForEverything) {
+    Soup soup = test::icosphere(2);
+    test::remove_facet(soup, 40);
+    const std::string path = write(soup);
+    EXPECT_EQ(check(path, {"--json"}).exit_code, 3);
+    const Json json = check_json(path, {"--needle-angle", "60"});
+    EXPECT_EQ(json["path"], path);
+    EXPECT_EQ(json["can_be_meshed"], false);
+    EXPECT_EQ(json["vertices"], 162);
+    EXPECT_EQ(json["faces"], 319);
+    EXPECT_EQ(json["patches"], Json::array({"surface"}));
+    EXPECT_EQ(json["notes"], Json::array());
+    for (const char* repair : {"vertices_welded", "vertices_unused", "facets_dropped", "vertices_merged",
+                               "facets_removed", "holes_filled", "facets_added"})
+        EXPECT_EQ(json["repairs"][repair], 0) << repair;
+    EXPECT_EQ(json["counts"]["open edge loop"], 1);
+    EXPECT_EQ(json["counts"]["needle"], json["defects"].size() - 1);
+    const Json &loop = json["defects"].front(), &needle = json["defects"].back();
+    EXPECT_EQ(loop["kind"], "open edge loop");
+    EXPECT_EQ(loop["severity"], "error");
+    EXPECT_EQ(loop["facets"].size(), 3u);
+    EXPECT_EQ(loop["vertices"].size(), 3u);
+    EXPECT_EQ(loop["where"].size(), 3u);
+    EXPECT_GT(loop["length"], 0);
+    EXPECT_NE(loop["what_to_do"], "");
+    EXPECT_EQ(needle["severity"], "warning");
+    EXPECT_LT(needle["angle_deg"], 60);
+}
+
+TEST_F(Check, JsonOfAFileThatCannotBeReadHasTheMessage) {
+    const std::string path = folder_.file("bad.obj");
+    std::ofstream(path) << "v 0 0 0\nv 1 0 zero\n";
+    EXPECT_EQ(check(path).exit_code, 3);
+    const Json json = check_json(path);
+    EXPECT_EQ(json["can_be_meshed"], false);
+    EXPECT_EQ(json["defects"][0]["kind"], "unreadable");
+    EXPECT_NE(json["defects"][0]["message"].get<std::string>().find("line 2"), std::string::npos);
+    EXPECT_EQ(check(folder_.file("none.stl"), {"--json"}).exit_code, 7);
+}
+
+TEST_F(Check, JsonOfCoordinatesThatAreNoNumbersIsJson) {
+    Soup soup = test::box();
+    soup.vertices[2].x() = std::nan("");
+    const Json json = check_json(write(soup));
+    EXPECT_EQ(json["defects"][0]["kind"], "non-finite vertex");
+    EXPECT_EQ(json["defects"][0]["vertices"], Json::array({2}));
+}
+
+// The numbers of an array of the file.
+std::vector<int> array_of(const std::string& xml, const std::string& name) {
+    std::smatch found;
+    if (!std::regex_search(xml, found, std::regex("Name=\"" + name + "\"[^>]*>([^<]*)<"))) return {-999};
+    std::istringstream text(found[1]);
+    return {std::istream_iterator<int>(text), {}};
+}
+
+TEST_F(Check, OffendersAreTheFacetsTheEdgesAndThePlaces) {
+    Soup soup = test::icosphere(1);
+    test::remove_facet(soup, 40);
+    soup = join(soup, join(test::box(Vec3(5, 0, 0), Vec3(6, 1, 1)), test::box(Vec3(6, 1, 0), Vec3(7, 2, 1))));
+    weld_exactly(soup);  // the boxes share an edge
+    const std::string file = folder_.file("offenders.vtu");
+    EXPECT_EQ(check(write(soup), {"--offenders", file}).exit_code, 3);
+    const std::string xml = test::bytes_of_file(file);
+    const std::vector<int> types = array_of(xml, "types");
+    const auto count = [&](int type) { return std::count(types.begin(), types.end(), type); };
+    constexpr int point = 1, line = 4, triangle = 5;
+    EXPECT_EQ(count(triangle), 3 + 4);
+    EXPECT_EQ(count(line), 2);
+    EXPECT_EQ(count(point), 2);
+    EXPECT_NE(xml.find("NumberOfCells=\"11\""), std::string::npos);
+    for (const char* name : {"Kind", "Severity", "Defect", "Facet", "offsets"})
+        EXPECT_EQ(array_of(xml, name).size(), types.size()) << name;
+    EXPECT_EQ(array_of(xml, "offsets").back(), static_cast<int>(array_of(xml, "connectivity").size()));
+    EXPECT_EQ(array_of(xml, "connectivity").size(), 7u * 3 + 4 + 2 + 2) << "the loop is closed";
+    const std::vector<int> kinds = array_of(xml, "Kind");
+    EXPECT_EQ(std::count(kinds.begin(), kinds.end(), static_cast<int>(DefectKind::open_edge)), 5);
+    EXPECT_EQ(std::count(kinds.begin(), kinds.end(), static_cast<int>(DefectKind::non_manifold_edge)), 6);
+}
+
+TEST_F(Check, OffendersOfACleanSurfaceAreNone) {
+    const std::string file = folder_.file("offenders.vtu");
+    EXPECT_EQ(check(test::asset_path("cube"), {"--offenders", file}).exit_code, 0);
+    EXPECT_NE(test::bytes_of_file(file).find("NumberOfCells=\"0\""), std::string::npos);
+    EXPECT_EQ(check(test::asset_path("cube"), {"--offenders", folder_.file("no/such.vtu")}).exit_code, 7);
+}
+
+TEST_F(Check, NeedleAngleIsTheUsersChoice) {
+    const std::string cube = test::asset_path("cube");  // its smallest angle is 43.9 degrees
+    EXPECT_EQ(check_json(cube, {"--needle-angle", "43.5"})["counts"], Json::object());
+    const Json json = check_json(cube, {"--needle-angle", "44.5"});
+    EXPECT_GT(json["counts"]["needle"], 0);
+    EXPECT_EQ(json["can_be_meshed"], true);
+}
+
+TEST_F(Check, OptionsOutOfRangeAreRefused) {
+    for (const char* option : {"--weld", "--fill-holes", "--feature-angle"}) {
+        const ChildResult result = check(test::asset_path("cube"), {option, "-1"});
+        EXPECT_EQ(result.exit_code, 2) << option;
+        EXPECT_NE(result.log.find(option), std::string::npos) << result.log;
+    }
+    EXPECT_EQ(check(test::asset_path("cube"), {"--voids", "odd"}).exit_code, 2);
+}
+
+TEST_F(Check, WeldMendsCracks) {
+    const Soup whole = hollow_box();
+    const Json input = expect_mended(cracked(whole, 1), {"--weld", "1e-6"})["input"];
+    EXPECT_EQ(input["vertices"], whole.vertices.size());
+    EXPECT_EQ(input["repairs"]["vertices_merged"], 3 * whole.facets.size() - whole.vertices.size());
+    EXPECT_NEAR(input["volume"], 22, 1e-6);
+}
+
+TEST_F(Check, FillHolesClosesTheSurface) {
+    const Soup whole = hollow_box();
+    Soup open = without_fan(whole, whole.facets[0][0]);
+    drop_unused_vertices(open);
+    const Json input = expect_mended(open, {"--fill-holes", "20"})["input"];
+    EXPECT_EQ(input["repairs"]["holes_filled"], 1);
+    EXPECT_EQ(input["repairs"]["facets_added"].get<std::size_t>(), whole.facets.size() - 2 - open.facets.size());
+    EXPECT_NEAR(input["volume"], 22, 0.1);
+    EXPECT_EQ(check(write(open), {"--fill-holes", "2"}).exit_code, 3);
+}
+
+TEST_F(Check, KeepLargestDropsTheRest) {
+    Soup aside = test::icosphere(1, 0.1, Vec3(50, 0, 0));
+    test::remove_facet(aside, 0);
+    const Json input = expect_mended(join(read_surface(test::asset_path("cube")), aside), {"--keep-largest"})["input"];
+    EXPECT_EQ(input["faces"], 4660);
+    EXPECT_EQ(input["repairs"]["facets_removed"], 79);
+    EXPECT_NEAR(input["volume"], 1, 1e-12);
+}
+
+TEST_F(Check, ParityMakesAVoidOfASecondBody) {
+    const Soup inner = test::icosphere(1, 0.2, Vec3::Constant(0.5));
+    const Json input =
+        expect_mended(join(read_surface(test::asset_path("cube")), inner), {"--voids", "parity"})["input"];
+    EXPECT_EQ(input["components"], 2);
+    EXPECT_EQ(input["repairs"]["shells_flipped"], 1);
+    EXPECT_LT(input["volume"], 0.98);
+}
+
+}  // namespace
+}  // namespace kerf
