@@ -36,6 +36,7 @@ std::string tetgen_switches(const MesherOptions& mesher) {
     if (!mesher.tetgen_switches.empty()) return "pY" + mesher.tetgen_switches;
     std::string switches = "pY";
     if (mesher.radius_edge > 0) switches += fmt::format("q{:g}", mesher.radius_edge);
+    if (mesher.tolerance > 0) switches += fmt::format("T{:g}", mesher.tolerance);
     if (mesher.max_volume > 0) switches += fmt::format("a{:f}", mesher.max_volume);
     return switches;
 }

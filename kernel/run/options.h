@@ -24,7 +24,7 @@ struct RunOptions {
     std::int32_t workers = 0;      ///< processes on this rank's host; 0: its share of the cores
     double timeout_seconds = 600;  ///< of one attempt at one part; 0: none
     std::int64_t memory_mb = 0;    ///< address space of one worker; 0: unlimited
-    std::int32_t attempts = 3;     ///< at one part, each with its vertices in another order
+    std::int32_t attempts = 8;     ///< at one part, at most (volume/retries.h)
     std::string report_file;       ///< a copy of the report; empty: only DIR/report.json
     std::string trace_file;        ///< all cuts with their stages (run/trace.h); empty: none. Not inside of `output`
     bool stl = false;              ///< the surfaces of the parts as STL, too

@@ -6,6 +6,7 @@
 #include "core/bytes.h"
 #include "core/error.h"
 #include "volume/child_process.h"
+#include "volume/retries.h"
 
 namespace kerf {
 
@@ -40,7 +41,12 @@ class Queue {
  public:
     Queue(std::vector<PartJob> jobs, const QueueOptions& options,
           const std::function<void(std::size_t, const PartOutcome&)>& finished)
-        : jobs_(std::move(jobs)), options_(options), finished_(finished), outcomes_(jobs_.size()) {
+        : jobs_(std::move(jobs)),
+          options_(options),
+          finished_(finished),
+          outcomes_(jobs_.size()),
+          call_(jobs_.size(), 0) {
+        for (const PartJob& job : jobs_) calls_.push_back(mesher_calls(job.mesher));
         for (std::int32_t i = options_.workers; i-- > 0;) idle_.push_back(i);
     }
 
@@ -61,7 +67,11 @@ class Queue {
  private:
     void start(std::size_t index) {
         PartJob& job = jobs_[index];
-        job.vertex_order_seed = static_cast<std::uint32_t>(outcomes_[index].attempts++);
+        const MesherCall& call = calls_[index][call_[index]];
+        job.mesher = call.options;
+        job.vertex_order_seed = call.vertex_order_seed;
+        outcomes_[index].remedy = call.remedy;
+        ++outcomes_[index].attempts;
         pool_.start(static_cast<int>(index), options_.worker_program, {"--memory", std::to_string(options_.memory_mb)},
                     to_bytes(job), options_.timeout_seconds);
     }
@@ -71,12 +81,18 @@ class Queue {
         outcome.seconds += child.seconds;
         const bool answered = child.end == ChildResult::End::exited && child.exit_code == 0 && !child.output.empty();
         outcome.result = answered ? from_bytes<PartResult>(child.output) : result_of_silence(child);
-        const bool mesher_failed =
-            outcome.result.code == static_cast<int>(ErrorCode::subdomain) && (answered || died_by_itself(child));
+        const bool timed_out = child.end == ChildResult::End::timed_out;
+        const bool mesher_failed = outcome.result.code == static_cast<int>(ErrorCode::subdomain) &&
+                                   (answered || timed_out || died_by_itself(child));
         if (mesher_failed && outcome.attempts < options_.attempts) {
-            outcome.failures.push_back(outcome.result.message);
-            start(index);
-            return;
+            const auto next =
+                next_call(calls_[index], call_[index], timed_out ? MesherFailure::timed_out : MesherFailure::failed);
+            if (next) {
+                outcome.failures.push_back(outcome.result.message);
+                call_[index] = *next;
+                start(index);
+                return;
+            }
         }
         idle_.push_back(outcome.worker);
         jobs_[index] = PartJob();
@@ -87,6 +103,8 @@ class Queue {
     const QueueOptions& options_;
     const std::function<void(std::size_t, const PartOutcome&)>& finished_;
     std::vector<PartOutcome> outcomes_;
+    std::vector<std::vector<MesherCall>> calls_;
+    std::vector<std::size_t> call_;  // that runs or ran last, of each job
     std::vector<std::int32_t> idle_;
     std::size_t next_ = 0;
     ChildPool pool_;

@@ -245,6 +245,7 @@ void Run::mesh_parts() {
             part.attempts = outcome.attempts;
             part.seconds = outcome.seconds;
             part.failures = outcome.failures;
+            part.remedy = outcome.remedy;
             part.result = outcome.result;
             if (part.result.code == static_cast<int>(ErrorCode::io)) throw Error(ErrorCode::io, part.result.message);
             if (part.result.code) keep_reproducer(own_.leaves[order[index]], part);

@@ -141,6 +141,7 @@ Json part_json(const PartReport& part) {
                  {"write_seconds", part.result.write_seconds},
                  {"peak_rss_bytes", part.result.peak_rss_bytes}};
     if (!part.failures.empty()) json["failures"] = part.failures;
+    if (!part.remedy.empty()) json["remedy"] = part.remedy;
     if (part.result.code) json["error"] = part.result.message;
     return json;
 }
@@ -244,6 +245,18 @@ std::string repairs_text(const Input& input) {
     return text;
 }
 
+// "part 13: tolerance 1e-06; part 14: another order of the vertices; and 2 more".
+std::string remedies_text(const RunReport& report) {
+    constexpr std::size_t limit = 3;
+    std::vector<std::string> all;
+    for (const PartReport& part : report.parts)
+        if (part.result.code == 0 && !part.remedy.empty())
+            all.push_back(fmt::format("part {}: {}", part.id, part.remedy));
+    const auto end = all.begin() + static_cast<std::ptrdiff_t>(std::min(limit, all.size()));
+    const std::string more = all.size() > limit ? fmt::format("; and {} more", all.size() - limit) : "";
+    return fmt::format("{}{}", fmt::join(all.begin(), end, "; "), more);
+}
+
 std::string to_text(const RunReport& report) {
     const Input& input = *report.input;
     const StageSeconds& s = report.seconds;
@@ -272,6 +285,7 @@ std::string to_text(const RunReport& report) {
     if (section > 0)
         line("interfaces", fmt::format("area {:.6g}, {:.3f} of the plane sections; smallest angle {:.1f} deg",
                                        interface, interface / section, angle));
+    if (const std::string remedies = remedies_text(report); !remedies.empty()) line("retried", remedies);
     if (report.options.volume) {
         line("mesh", fmt::format("{} tetrahedra, {} vertices", grouped(report.tets), grouped(report.vertices)));
         const Distribution& dihedral = report.quality.all.measures[0];

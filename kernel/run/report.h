@@ -20,14 +20,15 @@ struct PartReport {
     double interface_area = 0;
     std::vector<NodeId> neighbours;  ///< ascending
     std::int32_t attempts = 0;
-    double seconds = 0;  ///< wall clock of all attempts
-    std::vector<std::string> failures;
+    double seconds = 0;                 ///< wall clock of all attempts
+    std::vector<std::string> failures;  ///< why earlier attempts failed
+    std::string remedy;                 ///< of the last attempt; empty: none was needed
     PartResult result;
 
     template <class Archive>
     void archive(Archive& a) {
         a(id, rank, worker, surface_volume, surface_vertices, surface_facets, interface_area, neighbours, attempts,
-          seconds, failures, result);
+          seconds, failures, remedy, result);
     }
 };
 

@@ -137,6 +137,7 @@ tetgenbehavior behaviour_of(const MesherOptions& options, const Normalisation& f
         behaviour.fixedvolume = options.max_volume > 0;
         behaviour.maxvolume = options.max_volume;
     }
+    if (options.tolerance > 0) behaviour.epsilon = options.tolerance;
     if (behaviour.fixedvolume) behaviour.maxvolume = frame.volume_to_unit(behaviour.maxvolume);
     return behaviour;
 }

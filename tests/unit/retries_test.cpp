@@ -1,0 +1,58 @@
+#include "volume/retries.h"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+namespace kerf {
+namespace {
+
+std::vector<MesherOptions> options_to_try() {
+    std::vector<MesherOptions> all;
+    for (const double radius_edge : {0.0, 1.2, 1.4, 2.0, 5.0})
+        for (const double max_volume : {0.0, 1e-3}) {
+            MesherOptions options;
+            options.radius_edge = radius_edge;
+            options.max_volume = max_volume;
+            all.push_back(options);
+        }
+    all.emplace_back().tetgen_switches = "q1.3";
+    return all;
+}
+
+TEST(MesherCalls, BeginAsAskedForAndAllDiffer) {
+    for (const MesherOptions& wanted : options_to_try()) {
+        const std::vector<MesherCall> calls = mesher_calls(wanted);
+        EXPECT_TRUE(calls[0].remedy.empty());
+        EXPECT_EQ(calls[0].vertex_order_seed, 0u);
+        std::set<std::tuple<double, double, double, std::uint32_t>> different;
+        for (const MesherCall& call : calls) {
+            different.emplace(call.options.radius_edge, call.options.max_volume, call.options.tolerance,
+                              call.vertex_order_seed);
+            EXPECT_EQ(call.options.max_volume, wanted.max_volume);
+            EXPECT_EQ(call.options.tetgen_switches, wanted.tetgen_switches);
+            EXPECT_TRUE(call.options.radius_edge == 0 || call.options.radius_edge >= wanted.radius_edge);
+        }
+        EXPECT_EQ(different.size(), calls.size());
+    }
+}
+
+TEST(MesherCalls, EndWhateverFails) {
+    for (const MesherOptions& wanted : options_to_try())
+        for (const MesherFailure failure : {MesherFailure::failed, MesherFailure::timed_out}) {
+            const std::vector<MesherCall> calls = mesher_calls(wanted);
+            std::size_t call = 0, count = 1;
+            while (const auto next = next_call(calls, call, failure)) {
+                ASSERT_GT(*next, call);
+                call = *next;
+                ++count;
+            }
+            EXPECT_EQ(call, calls.size() - 1);
+            EXPECT_EQ(count, failure == MesherFailure::failed ? calls.size() : std::min<std::size_t>(3, calls.size()));
+        }
+}
+
+}  // namespace
+}  // namespace kerf
