@@ -64,6 +64,10 @@ void expect_listed(const NamedSoup& base, const Damage& damage, unsigned seed) {
     const CheckedSoup checked = check(damaged.soup);
     EXPECT_EQ(lines(checked), lines(damaged.expected));
     EXPECT_EQ(checked.diagnosis.clean(), !any_error(damaged.expected));
+    for (const Defect& defect : checked.diagnosis.defects)
+        EXPECT_EQ(std::string(remedy(defect)).starts_with("nothing needs to be done"),
+                  defect.severity == Severity::repaired)
+            << remedy(defect);
 }
 
 // Facets from their lowest vertex on, sorted.
