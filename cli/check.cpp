@@ -112,6 +112,9 @@ int report_unreadable(const CheckRequest& request, const Error& error) {
 
 int check_surface(const CheckRequest& request) {
     request.options.check();
+    if (!(request.needle_angle_deg >= 0 && request.needle_angle_deg <= 60))
+        throw Error(ErrorCode::usage, fmt::format("--needle-angle is {}, but it must be 0 (no needles) to 60 degrees.",
+                                                  request.needle_angle_deg));
     CheckedSoup checked;
     try {
         checked = check_input(request.path, request.options, request.needle_angle_deg);
