@@ -1,5 +1,7 @@
 // Rims, copies, welding with a tolerance, filled holes, regions.
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <random>
 #include <set>
 
