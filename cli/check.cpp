@@ -20,7 +20,7 @@ Json to_json(const Defect& defect, const Soup& soup) {
                  {"facets", soup.file_facets(defect.facets)},
                  {"vertices", soup.file_vertices(defect.vertices)},
                  {"where", {defect.where.x(), defect.where.y(), defect.where.z()}},
-                 {"what_to_do", remedy(defect.kind)}};
+                 {"what_to_do", remedy(defect)}};
     if (defect.kind == DefectKind::needle) json["angle_deg"] = defect.measure;
     if (defect.kind == DefectKind::open_edge || defect.kind == DefectKind::short_edge) json["length"] = defect.measure;
     return json;
@@ -70,7 +70,7 @@ void print_kind(const CheckedSoup& checked, std::vector<Defect>::const_iterator 
                count == 1    ? ""
                : is_measured ? "the worst "
                              : "the first ",
-               place(*worst, checked.soup), measure, remedy(first->kind));
+               place(*worst, checked.soup), measure, remedy(*first));
 }
 
 void print_text(const CheckRequest& request, CheckedSoup& checked) {
@@ -112,6 +112,9 @@ int report_unreadable(const CheckRequest& request, const Error& error) {
 
 int check_surface(const CheckRequest& request) {
     request.options.check();
+    if (!(request.needle_angle_deg >= 0 && request.needle_angle_deg <= 60))
+        throw Error(ErrorCode::usage, fmt::format("--needle-angle is {}, but it must be 0 (no needles) to 60 degrees.",
+                                                  request.needle_angle_deg));
     CheckedSoup checked;
     try {
         checked = check_input(request.path, request.options, request.needle_angle_deg);

@@ -15,9 +15,10 @@ namespace kerf {
 /// is broken over lines. STL triangles are welded exactly; other formats keep their vertices as they are.
 ///
 /// STL solids, OBJ groups (else objects, else materials), Gmsh's physical groups (else surfaces), MEDIT references and
-/// TetGen markers become patches. Polygons are cut into a fan where they are planar and convex, see find_fan(); others
-/// are refused. Volume elements, curves, points and regions are passed over; Soup::notes says so. TetGen's hole points
-/// are in Soup::holes. Numbers beyond the doubles are read as the nearest, that is infinite or zero, and "nan" is NaN.
+/// TetGen markers become patches. Polygons are cut into fans, see find_fan(); those that are not planar or that no fan
+/// covers are in Soup::unfit_polygons. Volume elements, curves, points and regions are passed over; Soup::notes says
+/// so. TetGen's hole points are in Soup::holes. Numbers beyond the doubles are read as the nearest, that is infinite or
+/// zero, and "nan" is NaN.
 ///
 /// Throws Error(io) for a file that cannot be opened or read, Error(input) for content that is empty, truncated, or
 /// malformed, each naming the file, the place (line, byte or facet) and the way out. A binary STL may have up to 49

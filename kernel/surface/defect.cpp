@@ -74,8 +74,9 @@ const char* name(Severity severity) {
     return "";
 }
 
-const char* remedy(DefectKind kind) {
-    switch (kind) {
+const char* remedy(const Defect& defect) {
+    const bool repaired = defect.severity == Severity::repaired;
+    switch (defect.kind) {
         case DefectKind::empty:
             return "export the surface again";
         case DefectKind::non_finite:
@@ -87,9 +88,10 @@ const char* remedy(DefectKind kind) {
         case DefectKind::flat:
             return "give the boundary of a body, not a sheet";
         case DefectKind::degenerate_facet:
-            return "collapse or remove the facets where the surface was made";
+            return repaired ? "nothing needs to be done, they are left out"
+                            : "collapse or remove the facets where the surface was made";
         case DefectKind::duplicate_facet:
-            return "remove the copies";
+            return repaired ? "nothing needs to be done, the copies are left out" : "remove the copies";
         case DefectKind::coincident_shell:
             return "remove all copies of the body but one";
         case DefectKind::open_edge:
@@ -105,7 +107,8 @@ const char* remedy(DefectKind kind) {
         case DefectKind::inverted_shell:
             return "nothing needs to be done, it is turned";
         case DefectKind::ambiguous_shell:
-            return "make it a void with --voids parity, turn it, or remove it";
+            return repaired ? "nothing needs to be done, it is made a void"
+                            : "make it a void with --voids parity, turn it, or remove it";
         case DefectKind::touching_shells:
             return "unite the bodies or move them apart";
         case DefectKind::self_intersection:

@@ -50,8 +50,8 @@ struct Defect {
 const char* name(DefectKind kind);
 const char* name(Severity severity);
 
-/// What to do about it, in the imperative: "remove the copies".
-const char* remedy(DefectKind kind);
+/// What to do about it, in the imperative: "remove the copies"; or that repairs do it.
+const char* remedy(const Defect& defect);
 
 /// "3 open edge loops", "1 needle".
 std::string counted(std::int64_t n, DefectKind kind);

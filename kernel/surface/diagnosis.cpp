@@ -346,13 +346,13 @@ bool Diagnosis::clean() const { return std::none_of(defects.begin(), defects.end
 std::string Diagnosis::summary(const Soup& soup) const {
     const auto first = std::find_if(defects.begin(), defects.end(), is_error);
     if (first == defects.end()) return "The surface is closed, manifold and free of self-intersections.";
-    if (first->kind == DefectKind::empty) return fmt::format("The surface has no facets: {}.", remedy(first->kind));
+    if (first->kind == DefectKind::empty) return fmt::format("The surface has no facets: {}.", remedy(*first));
     if (first->kind == DefectKind::flat)
-        return fmt::format("All vertices of the surface lie in one plane: {}.", remedy(first->kind));
+        return fmt::format("All vertices of the surface lie in one plane: {}.", remedy(*first));
     const auto errors = std::count_if(defects.begin(), defects.end(),
                                       [&](const Defect& d) { return is_error(d) && d.kind == first->kind; });
     return fmt::format("The surface has {}, {}{}: {}.", counted(errors, first->kind),
-                       errors > 1 ? "the first at " : "at ", place(*first, soup), remedy(first->kind));
+                       errors > 1 ? "the first at " : "at ", place(*first, soup), remedy(*first));
 }
 
 Diagnosis diagnose(const Soup& soup, const DiagnosisOptions& options) { return Examination(soup, options).run(); }

@@ -1,6 +1,6 @@
 // Welding by one pass over a hash table with open addressing, filled in the order of the vertices: the first of equals
 // is found by every later one. The hash only decides who is compared with whom, so the result does not depend on it.
-// With a tolerance the table holds cells of a grid of that width, and the 27 cells around a vertex are looked through.
+// With a tolerance the table holds cells of a grid, and the 27 cells around a vertex are looked through.
 #include "surface/soup.h"
 
 #include <algorithm>
@@ -71,34 +71,37 @@ std::int64_t renumber(Soup& soup, std::vector<std::int32_t> representative) {
     return removed;
 }
 
-// Vertices in cells of a grid whose width is the tolerance; only the first vertex of a group is entered.
+// Vertices in cells of a grid; only the first vertex of a group is entered. Cells are numbered before neighbours are
+// counted off, and are wider than the tolerance: far from the origin a sum or a quotient of coordinates is rounded by a
+// good part of a cell.
 class WeldGrid {
  public:
-    WeldGrid(const std::vector<Vec3>& vertices, double width)
+    WeldGrid(const std::vector<Vec3>& vertices, double tolerance)
         : vertices_(vertices),
-          width_(width),
+          tolerance_(tolerance),
           mask_(std::bit_ceil(2 * vertices.size() + 1) - 1),
           first_(mask_ + 1, -1),
           next_(vertices.size(), -1) {}
 
     // The first entered vertex within the tolerance of v, or -1.
     std::int32_t find(std::int32_t v) const {
-        const Vec3& p = vertices_[v];
+        const Vec3 &p = vertices_[v], own = cell(p);
         std::int32_t found = -1;
         for (int i = 0; i < 27; ++i) {
             const Vec3 offset(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-            for (std::int32_t u = first_[slot(p + width_ * offset)]; u >= 0; u = next_[u])
-                if ((vertices_[u] - p).norm() <= width_ && (found < 0 || u < found)) found = u;
+            for (std::int32_t u = first_[slot(own + offset)]; u >= 0; u = next_[u])
+                if ((vertices_[u] - p).norm() <= tolerance_ && (found < 0 || u < found)) found = u;
         }
         return found;
     }
-    void enter(std::int32_t v) { next_[v] = std::exchange(first_[slot(vertices_[v])], v); }
+    void enter(std::int32_t v) { next_[v] = std::exchange(first_[slot(cell(vertices_[v]))], v); }
 
  private:
-    std::size_t slot(const Vec3& p) const { return hash((p / width_).array().floor().matrix()) & mask_; }
+    Vec3 cell(const Vec3& p) const { return (p / (1.5 * tolerance_)).array().floor(); }
+    std::size_t slot(const Vec3& cell) const { return hash(cell) & mask_; }
 
     const std::vector<Vec3>& vertices_;
-    double width_;
+    double tolerance_;
     std::size_t mask_;
     std::vector<std::int32_t> first_, next_;  // of the vertices in a slot
 };

@@ -196,6 +196,8 @@ TEST_F(Check, OptionsOutOfRangeAreRefused) {
         EXPECT_NE(result.log.find(option), std::string::npos) << result.log;
     }
     EXPECT_EQ(check(test::asset_path("cube"), {"--voids", "odd"}).exit_code, 2);
+    for (const char* angle : {"-1", "61", "nan"})
+        EXPECT_EQ(check(test::asset_path("cube"), {"--needle-angle", angle}).exit_code, 2) << angle;
 }
 
 TEST_F(Check, WeldMendsCracks) {

@@ -1,6 +1,7 @@
 // Every kind of defect, made in many surfaces at places that seeds choose, is listed with its kind, its severity and
 // the numbers of its facets and vertices, and nothing else is. What repairs undo is the surface that it was.
 #include <algorithm>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -64,6 +65,10 @@ void expect_listed(const NamedSoup& base, const Damage& damage, unsigned seed) {
     const CheckedSoup checked = check(damaged.soup);
     EXPECT_EQ(lines(checked), lines(damaged.expected));
     EXPECT_EQ(checked.diagnosis.clean(), !any_error(damaged.expected));
+    for (const Defect& defect : checked.diagnosis.defects)
+        EXPECT_EQ(std::string(remedy(defect)).starts_with("nothing needs to be done"),
+                  defect.severity == Severity::repaired)
+            << remedy(defect);
 }
 
 // Facets from their lowest vertex on, sorted.
@@ -90,8 +95,7 @@ TEST(Defects, EachIsListedWithItsNumbersInTheAssets) {
         for (const Damage& damage : test::all_damages()) expect_listed(asset, damage, ++seed);
 }
 
-// Shells are only located where the surface is closed otherwise, and the needle of a face that is no triangle has the
-// number of the face.
+// Shells are only located where the surface is closed otherwise; polygons get lost where soups are joined.
 TEST(Defects, TwoAtOnceAreBothListed) {
     const Lines not_combined = {"inverted shell", "second body inside", "unfit polygon"};
     const auto is_combined = [&](const Damage& d) {

@@ -184,7 +184,7 @@ Damaged flat_pocket(Soup soup, std::mt19937& random) {
 
 Damaged coincident_shell(Soup soup, std::mt19937& random) {
     const auto facet = static_cast<std::int32_t>(soup.facets.size());
-    soup = join(std::move(soup), icosphere(0, 1, Vec3::Constant(10 * extent(soup))));
+    soup = join(soup, icosphere(0, 1, Vec3::Constant(10 * extent(soup))));
     std::vector<Triangle> copies(soup.facets.begin() + facet, soup.facets.end());
     for (Triangle& t : copies) std::shuffle(t.begin(), t.end(), random);
     for (const Triangle& t : copies) add_facet(soup, t);
@@ -244,7 +244,7 @@ Damaged turned_facets(Soup soup, std::mt19937& random) {
 
 Damaged inverted(Soup soup, std::mt19937&) {
     const auto first = static_cast<std::int32_t>(soup.facets.size());
-    soup = join(std::move(soup), inside_out(icosphere(1, 1, Vec3::Constant(20 * extent(soup)))));
+    soup = join(soup, inside_out(icosphere(1, 1, Vec3::Constant(20 * extent(soup)))));
     const Triangle& t = soup.facets[first];
     return {soup, {{DefectKind::inverted_shell, Severity::repaired, {first}, {t.begin(), t.end()}}}};
 }
@@ -268,13 +268,15 @@ Damaged overlapping_bodies(Soup soup, std::mt19937& random) {
     return {soup, intersecting_pairs(soup)};
 }
 
-Damaged pushed_through_vertex(const Soup soup, std::mt19937& random) {
+Damaged pushed_through_vertex(Soup soup, std::mt19937& random) {
+    const double size = extent(soup);
     while (true) {
-        Damaged damaged{soup, {}};
-        Vec3& p = damaged.soup.vertices[below(random, soup.vertices.size())];
-        p += 0.8 * extent(soup) * random_direction(random);
-        damaged.expected = intersecting_pairs(damaged.soup);
-        if (!damaged.expected.empty()) return damaged;
+        Vec3& p = soup.vertices[below(random, soup.vertices.size())];
+        const Vec3 place = p;
+        p += 0.8 * size * random_direction(random);
+        const std::vector<ExpectedDefect> pairs = intersecting_pairs(soup);
+        if (!pairs.empty()) return {soup, pairs};
+        p = place;
     }
 }
 

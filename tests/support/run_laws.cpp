@@ -194,15 +194,21 @@ void RunLaws::check_boundary() {
     add(doubled, "interface faces that are there twice");
 }
 
-}  // namespace
-
-std::vector<PartFile> read_parts(const std::string& folder) {
+std::vector<PartFile> read_files(const std::string& folder, bool surfaces) {
     std::vector<PartFile> parts;
-    for (const auto& entry : std::filesystem::directory_iterator(folder + "/parts"))
-        if (entry.path().string().find(".surface.") == std::string::npos) parts.push_back(read_part(entry.path()));
+    for (const auto& entry : std::filesystem::directory_iterator(folder + "/parts")) {
+        const bool is_surface = entry.path().string().ends_with(".surface.vtu");
+        if (is_surface == surfaces) parts.push_back(read_part(entry.path()));
+    }
     std::sort(parts.begin(), parts.end(), [](const PartFile& a, const PartFile& b) { return a.part < b.part; });
     return parts;
 }
+
+}  // namespace
+
+std::vector<PartFile> read_parts(const std::string& folder) { return read_files(folder, false); }
+
+std::vector<PartFile> read_part_surfaces(const std::string& folder) { return read_files(folder, true); }
 
 std::string broken_laws(const std::vector<PartFile>& parts, const SurfaceArrays& input) {
     return RunLaws(parts, input).broken();

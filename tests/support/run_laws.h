@@ -12,6 +12,9 @@ namespace kerf::test {
 /// The part files of a run folder, ascending by leaf number.
 std::vector<PartFile> read_parts(const std::string& folder);
 
+/// The surfaces of the parts of a run that stopped at them, as meshes without tetrahedra; ascending by leaf number.
+std::vector<PartFile> read_part_surfaces(const std::string& folder);
+
 /// The laws that the parts break, each with a count; empty if all hold.
 ///
 /// Volumes add up to the enclosed one; every facet of `input` is a boundary face of exactly one part, with its

@@ -1,7 +1,9 @@
 #include "surface/diagnosis.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <utility>
 
@@ -160,7 +162,7 @@ TEST(Diagnose, MoebiusStripIsOneSidedAndOpen) {
     }
 }
 
-// A tube whose end goes through its side to meet its beginning from inside: closed, and one-sided.
+// A figure of eight that makes half a turn on its way around the axis: closed, and one-sided.
 TEST(Diagnose, KleinBottleIsOneSidedAndMeetsItself) {
     constexpr int n = 24, m = 12;
     Soup soup;

@@ -67,6 +67,13 @@ TEST(RunOptions, ValuesOutOfRangeAreNamed) {
     expect_refused("timeout", [&](RunOptions& o) { o.timeout_seconds = nan; });
     expect_refused("memory", [](RunOptions& o) { o.memory_mb = -1; });
     expect_refused("attempts", [](RunOptions& o) { o.attempts = 0; });
+    for (const double bad : {-1.0, nan, std::numeric_limits<double>::infinity()}) {
+        expect_refused("weld", [&](RunOptions& o) { o.input_options.weld_tolerance = bad; });
+        expect_refused("feature-angle", [&](RunOptions& o) { o.input_options.feature_angle_deg = bad; });
+    }
+    expect_refused("feature-angle", [](RunOptions& o) { o.input_options.feature_angle_deg = 180; });
+    expect_refused("fill-holes", [](RunOptions& o) { o.input_options.fill_hole_edges = -1; });
+    expect_refused("optimise-surface", [](RunOptions& o) { o.input_options.optimisation_sweeps = -1; });
 }
 
 TEST(OptionFields, HaveDistinctNamesAndAHelp) {
@@ -96,6 +103,7 @@ TEST(OptionFields, ChoicesReachTheirValues) {
     EXPECT_EQ(options.decompose.cut.criterion, Criterion::equidistant);
     EXPECT_EQ(options.decompose.cut.load.balance, Balance::work);
     EXPECT_EQ(options.decompose.cut.contour, ContourMethod::straight);
+    EXPECT_EQ(options.input_options.voids, Voids::parity);
 }
 
 TEST(OptionFields, TextGivesTheValueBack) {

@@ -1,5 +1,7 @@
 // Rims, copies, welding with a tolerance, filled holes, regions.
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <random>
 #include <set>
 
@@ -184,6 +186,26 @@ TEST(WeldWithin, KeepsTheFirstOfEveryGroupAndNothingCloseToIt) {
             for (std::size_t b = 0; b < a; ++b)
                 EXPECT_GT((soup.vertices[a] - soup.vertices[b]).norm(), tolerance) << a << ' ' << b;
         EXPECT_EQ(weld_within(soup, tolerance), 0);
+    }
+}
+
+// Coordinates that differ in their last bits only, where sums round.
+TEST(WeldWithin, ObeysToleranceOfAFewUnitsInTheLastPlace) {
+    constexpr double unit = 0x1p-50;
+    for (unsigned seed = 1; seed <= 200; ++seed) {
+        SCOPED_TRACE(seed);
+        std::mt19937 random(seed);
+        Soup soup;
+        for (std::int32_t v = 0; v < 20; ++v) {
+            soup.vertices.emplace_back(1 + unit * static_cast<double>(random() % 64), 1, -1);
+            soup.facets.push_back({v, v, v});
+        }
+        soup.patch.assign(soup.facets.size(), 0);
+        const double tolerance = unit * std::uniform_real_distribution<double>(1, 4)(random);
+        const Numbers first = first_within(soup.vertices, tolerance);
+        weld_within(soup, tolerance);
+        for (std::size_t v = 0; v < first.size(); ++v)
+            EXPECT_EQ(soup.file_vertices({soup.facets[v][0]}), Numbers{first[v]});
     }
 }
 
