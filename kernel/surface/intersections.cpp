@@ -153,6 +153,10 @@ Sharing find_sharing(const Triangle& p, const Triangle& q) {
     return sharing;
 }
 
+// A soup with so many intersections is no surface; finding them all may take minutes.
+constexpr std::size_t hopeless_factor = 20;
+struct Hopeless {};
+
 Corners rotated(const Corners& p, int first) { return {p[first], p[(first + 1) % 3], p[(first + 2) % 3]}; }
 
 }  // namespace
@@ -196,17 +200,24 @@ std::vector<std::pair<std::int32_t, std::int32_t>> find_self_intersections(const
     }
 
     std::vector<Pair> pairs;
+    std::size_t found = 0;
     const auto keep_first = [&] {
         std::sort(pairs.begin(), pairs.end());
         if (pairs.size() > limit) pairs.resize(limit);
     };
-    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+    const auto test_pair = [&](const Box& a, const Box& b) {
         const Triangle &s = *a.handle(), &t = *b.handle();
         if (!triangles_intersect(corners(s), s, corners(t), t)) return;
         pairs.push_back(
             std::minmax(static_cast<std::int32_t>(&s - facets.data()), static_cast<std::int32_t>(&t - facets.data())));
         if (pairs.size() > 2 * limit + 1000) keep_first();  // the boxes come in no particular order
-    });
+        if (++found == hopeless_factor * limit) throw Hopeless();
+    };
+    try {
+        CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), test_pair);
+    } catch (const Hopeless&) {
+        // there are enough of them
+    }
     keep_first();
     return pairs;
 }

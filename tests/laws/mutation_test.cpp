@@ -88,7 +88,7 @@ std::vector<SurfaceFile> small_files() {
 TEST(Mutation, MutationsOfFilesOfEveryFormatNeverDoHarm) {
     Outcomes outcomes;
     const std::vector<SurfaceFile> files = small_files();
-    EXPECT_GE(check_mutations(files, 500, false, outcomes), 10'000u);
+    EXPECT_GE(check_mutations(files, 300, false, outcomes), 10'000u);
     EXPECT_GT(outcomes.refused, 1000);
     EXPECT_GT(outcomes.defective, 1000);
     EXPECT_GT(outcomes.clean, 100);

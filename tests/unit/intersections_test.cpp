@@ -217,6 +217,26 @@ TEST(FindSelfIntersections, FindsNoneOnEmbeddedSurfaces) {
     }
 }
 
+// With a small limit the search may end before all pairs are found; what it returns is true and the same every time.
+TEST(FindSelfIntersections, KeepsToItsLimitInASoupThatIsNoSurface) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> coordinate(0, 1);
+    std::vector<Vec3> vertices;
+    for (int i = 0; i < 600; ++i) vertices.emplace_back(coordinate(random), coordinate(random), coordinate(random));
+    std::vector<Triangle> facets;
+    for (int i = 0; i < 600; i += 3) facets.push_back({i, i + 1, i + 2});
+    const auto all = find_self_intersections(vertices, facets, facets.size() * facets.size());
+    ASSERT_GT(all.size(), 400u);
+    for (const std::size_t limit : {1, 5, 1000, 100'000}) {
+        SCOPED_TRACE(limit);
+        const auto some = find_self_intersections(vertices, facets, limit);
+        EXPECT_EQ(some.size(), std::min(limit, all.size()));
+        EXPECT_TRUE(std::includes(all.begin(), all.end(), some.begin(), some.end()));
+        EXPECT_EQ(some, find_self_intersections(vertices, facets, limit));
+        if (20 * limit > all.size()) EXPECT_TRUE(std::equal(some.begin(), some.end(), all.begin()));
+    }
+}
+
 TEST(ExactPredicates, FollowTheSignOfTheDeterminant) {
     RandomTriangles random(23, 2);
     for (int i = 0; i < 2000; ++i) {
