@@ -22,7 +22,10 @@ class CheckedFile {
         check(file_ != nullptr, "open");
     }
 
-    void write(const void* data, std::size_t size) { check(std::fwrite(data, 1, size, file_.get()) == size, "write"); }
+    void write(const void* data, std::size_t size) {
+        // No data may be a null pointer, which fwrite must not get.
+        check(size == 0 || std::fwrite(data, 1, size, file_.get()) == size, "write");
+    }
     void write(std::string_view text) { write(text.data(), text.size()); }
 
     /// Reads up to `size` bytes, less at the end of the file.
