@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "core/error.h"
+#include "run/saved_run.h"
 #include "run/version.h"
 
 namespace kerf {
@@ -49,13 +50,14 @@ CLI::App* add_run_command(CLI::App& app, const char* name, const char* text, Com
     command
         ->add_option("input", line.options.input,
                      "Closed surface: STL, OBJ, PLY, OFF, .msh, .mesh, .smesh or .poly; also as .gz or .zst.")
-        ->required()
         ->type_name("INPUT")
         ->configurable(false);
     command->add_option("-o,--output", line.options.output, "Folder of the result; an older run there is replaced.")
-        ->required()
         ->type_name("DIR");
     for (const OptionField& field : option_fields(line.options)) add_field(*command, field);
+    command->add_option("--events", line.events, "Write progress as one JSON object per line to a file, or to fd:N.")
+        ->type_name("FILE")
+        ->configurable(false);
     command->add_flag("-q,--quiet", line.quiet, "Print nothing but errors.");
     command->add_flag("-v,--verbose", line.verbose, "Print the tree of cuts with every node of it.");
     command->add_flag("--print-config", line.print_config, "Print the options as a config file and end.")
@@ -76,6 +78,30 @@ void read_config(CLI::App& command, const std::string& path) {
         option->add_result(item.inputs);
         option->run_callback();
     }
+}
+
+void require_input_and_output(CLI::App& command, const CommandLine& line) {
+    if (!line.resume.empty()) return;
+    for (const char* name : {"input", "--output"}) {
+        if (line.options.dry_run && command.get_option(name) == command.get_option("--output")) continue;
+        if (command.get_option(name)->count() == 0) throw CLI::RequiredError(name);
+    }
+}
+
+// The interrupted run's options, and those of this command line that change nothing of the result. Throws Error.
+RunOptions resumed_options(const CLI::App& command, CommandLine& line) {
+    RunOptions options = load_interrupted_run(line.resume);
+    const std::vector<OptionField> saved = option_fields(options), given = option_fields(line.options);
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        if (command.get_option("--" + given[i].name)->count() == 0) continue;
+        if (given[i].shapes_parts)
+            throw Error(ErrorCode::usage,
+                        fmt::format("--{} would change the parts that are finished. Leave it out with --resume, or "
+                                    "start anew: kerf mesh {} -o {}.",
+                                    given[i].name, options.input, options.output));
+        saved[i].set_text(given[i].text());
+    }
+    return options;
 }
 
 // CLI11 only says that a subcommand is missing.
@@ -99,6 +125,13 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     CLI::App* mesh = add_run_command(app, "mesh", "Decompose, mesh every part, verify, write, report.", line);
     CLI::App* decompose =
         add_run_command(app, "decompose", "The same, up to the closed surfaces of the parts; print the tree.", line);
+    CLI::Option* resume = mesh->add_option("--resume", line.resume,
+                                           "Finish the run into this folder that was interrupted, with its options.")
+                              ->type_name("DIR")
+                              ->configurable(false);
+    for (const char* name : {"input", "--output"}) resume->excludes(mesh->get_option(name));
+    mesh->add_flag("--dry-run", line.options.dry_run, "Cut, print what every part will take, and end; write nothing.")
+        ->configurable(false);
     CLI::App* check = app.add_subcommand("check", "Diagnose a surface without meshing it.");
     check->add_option("input", line.check.path, "Surface file.")->required()->type_name("INPUT");
     check->add_flag("--json", line.check.json, "Print every defect as JSON.");
@@ -114,7 +147,10 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     try {
         app.parse(argc, argv);
         for (CLI::App* command : {mesh, decompose})
-            if (command->parsed()) read_config(*command, line.config_file);
+            if (command->parsed()) {
+                read_config(*command, line.config_file);
+                require_input_and_output(*command, line);
+            }
     } catch (const CLI::ParseError& e) {
         std::ostringstream out, err;
         line.finished = true;
@@ -124,6 +160,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     }
     if (mesh->parsed() || decompose->parsed()) {
         line.command = mesh->parsed() ? Command::mesh : Command::decompose;
+        if (!line.resume.empty()) line.options = resumed_options(*mesh, line);
         line.options.volume = mesh->parsed();
         const CLI::Option* parts = (mesh->parsed() ? mesh : decompose)->get_option("--parts");
         if (parts->count() > 0 && line.options.decompose.parts < 1) {

@@ -16,6 +16,8 @@ struct CommandLine {
     RunOptions options;
     bool quiet = false;
     bool verbose = false;  ///< print every node of the tree of cuts
+    std::string events;    ///< where the events of the run go: a file or fd:N; empty: nowhere
+    std::string resume;    ///< output folder of an interrupted run that is to be continued; empty: a new run
     CheckRequest check;
     bool print_config = false;  ///< print the effective options and end
     std::string config_file;    ///< options that the command line does not give
@@ -25,7 +27,8 @@ struct CommandLine {
     std::string output;  ///< to print to standard output (exit_code 0) or standard error
 };
 
-/// Parses without side effects and within milliseconds.
+/// Throws Error for an interrupted run that cannot be read. Parses within milliseconds; reads what --config and
+/// --resume name, and changes nothing.
 CommandLine parse_command_line(int argc, const char* const* argv);
 
 }  // namespace kerf

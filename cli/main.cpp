@@ -1,7 +1,9 @@
 // kerf: the headless program. Root rank prints; data goes to files, except for --json and --print-config.
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -10,6 +12,7 @@
 #include "cli/progress.h"
 #include "cli/ranks.h"
 #include "cli/verify.h"
+#include "run/pipeline.h"
 #include "run/tree_text.h"
 
 namespace kerf {
@@ -21,10 +24,25 @@ std::string worker_beside_this_program() {
 }
 
 void report_failed_parts(const RunReport& report) {
-    for (const PartReport& part : report.parts)
-        if (part.result.code)
-            fmt::print(stderr, "kerf: part {} could not be meshed: {} Its surface is kept in {}/failed.\n", part.id,
-                       part.result.message, report.options.output);
+    for (const PartReport& part : report.parts) {
+        if (!part.result.code) continue;
+        const auto node = std::find_if(report.nodes.begin(), report.nodes.end(),
+                                       [&](const TreeNode& candidate) { return candidate.id == part.id; });
+        const Vec3& place = node->mass.centroid;
+        fmt::print(stderr,
+                   "kerf: part {} around ({:.6g}, {:.6g}, {:.6g}) could not be meshed: {} How to repeat and to look at "
+                   "it: {}/failed/part_{:04}.txt.\n",
+                   part.id, place.x(), place.y(), place.z(), part.result.message, report.options.output, part.id);
+    }
+}
+
+// The log of events, if there is one and this is the rank that writes it.
+std::unique_ptr<EventLog> open_event_log(const CommandLine& line, Communicator& ranks) {
+    std::unique_ptr<EventLog> log;
+    in_agreement(ranks, [&] {
+        if (ranks.rank() == 0 && !line.events.empty()) log = std::make_unique<EventLog>(line.events);
+    });
+    return log;
 }
 
 int run_command(const CommandLine& line) {
@@ -32,20 +50,25 @@ int run_command(const CommandLine& line) {
     const bool root = ranks.communicator->rank() == 0;
     RunOptions options = line.options;
     options.worker_program = worker_beside_this_program();
-    Input input;
+    std::unique_ptr<EventLog> events;
     try {
+        events = open_event_log(line, *ranks.communicator);
+        Input input;
         RunReport report;
         {
-            ProgressLine progress(line.quiet || !root);
+            ProgressLine progress(line.quiet || !root, events.get());
             report = run(options, ranks.cores_of_rank, *ranks.communicator, input, &progress);
         }
+        if (options.dry_run) return 0;
         if (root && !line.quiet && (line.verbose || !options.volume))
             fmt::print(stderr, "{}\n", tree_text(report.nodes, line.verbose));
         if (root && !line.quiet) fmt::print(stderr, "{}", to_text(report));
         if (root) report_failed_parts(report);
+        if (events) events->on_end(report.exit_code, "");
         return report.exit_code;
     } catch (const Error& e) {
         if (root) fmt::print(stderr, "kerf: {}\n", e.what());
+        if (events) events->on_end(static_cast<int>(e.code()), e.what());
         return static_cast<int>(e.code());
     }
 }
@@ -78,7 +101,7 @@ int main(int argc, char** argv) {
     try {
         return kerf::run_program(argc, argv);
     } catch (const kerf::Error& e) {
-        fmt::print(stderr, "kerf: {}\n", e.what());
+        if (kerf::is_first_rank()) fmt::print(stderr, "kerf: {}\n", e.what());  // all ranks meet it
         return static_cast<int>(e.code());
     } catch (const std::bad_alloc&) {
         fmt::print(stderr, "kerf: Out of memory.\n");

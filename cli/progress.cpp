@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "run/number_text.h"
+
 namespace kerf {
 
 namespace {
@@ -16,15 +18,17 @@ volatile std::sig_atomic_t stop_signal = 0;
 
 void note_signal(int signal) { stop_signal = signal; }
 
-std::string time_left(double elapsed, std::size_t done, std::size_t total) {
-    if (done == 0) return "--:--";
-    const long seconds = std::lround(elapsed * static_cast<double>(total - done) / static_cast<double>(done));
-    return fmt::format("{:02}:{:02}", seconds / 60, seconds % 60);
+std::string time_left(double elapsed, double done) {
+    if (done <= 0) return "--:--";
+    const long seconds = std::lround(elapsed * (1 - done) / done);
+    return seconds < 3600 ? fmt::format("{:02}:{:02}", seconds / 60, seconds % 60)
+                          : fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
 }
 
 }  // namespace
 
-ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {
+ProgressLine::ProgressLine(bool quiet, EventLog* events)
+    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), events_(events) {
     stop_signal = 0;
     std::signal(SIGINT, note_signal);
     std::signal(SIGTERM, note_signal);
@@ -33,28 +37,51 @@ ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_
 ProgressLine::~ProgressLine() {
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
+    clear();
+}
+
+void ProgressLine::clear() {
     if (line_open_) std::fputs("\r\033[K", stderr);
+    line_open_ = false;
 }
 
 bool ProgressLine::cancelled() const { return stop_signal != 0; }
 
 void ProgressLine::on_progress(const char* stage, std::size_t done, std::size_t total) {
-    if (quiet_ || total == 0) return;
-    if (stage_ != stage) {
-        stage_ = stage;
-        last_tenth_ = 0;
-        stage_start_ = std::chrono::steady_clock::now();
+    if (events_) events_->on_progress(stage, done, total);
+    if (stage_ == stage) return;
+    stage_ = stage;
+    stage_start_ = std::chrono::steady_clock::now();
+    if (!quiet_ && terminal_) print(stage_);
+}
+
+void ProgressLine::on_parts(const std::vector<PartReport>& parts, const std::string& plan) {
+    if (events_) events_->on_parts(parts, plan);
+    if (!quiet_) {
+        clear();
+        std::fputs(plan.c_str(), stderr);
     }
-    const std::size_t tenth = 10 * done / total;
-    if (!terminal_ && (tenth == last_tenth_ || total == 1)) return;
+    double all = 0;
+    for (const PartReport& part : parts) {
+        all += part.load;
+        if (!part.resumed) continue;
+        load_at_start_ += part.load;
+        tets_at_start_ += part.result.tets;
+    }
+    if (all > 0) load_at_start_ /= all;
+}
+
+void ProgressLine::on_part(const PartEvent& event) {
+    if (events_) events_->on_part(event);
+    const int tenth = static_cast<int>(10 * event.load_done + 1e-9);
+    if (quiet_ || (!terminal_ && tenth == last_tenth_)) return;
     last_tenth_ = tenth;
-    if (total == 1) {
-        print(stage_);
-        return;
-    }
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - stage_start_).count();
-    print(fmt::format("{}  {}/{} parts  {} %  ETA {}", stage_, done, total, 100 * done / total,
-                      time_left(elapsed, done, total)));
+    const double own = load_at_start_ < 1 ? (event.load_done - load_at_start_) / (1 - load_at_start_) : 1;
+    const auto tets = static_cast<double>(event.tets);
+    const double rate = elapsed > 0 ? (tets - static_cast<double>(tets_at_start_)) / elapsed : 0;
+    print(fmt::format("volume  {}/{} parts  {:.0f} %  {} tets  {}/s  ETA {}", event.done, event.total,
+                      100 * event.load_done, short_number(tets), short_number(rate), time_left(elapsed, own)));
 }
 
 void ProgressLine::print(const std::string& text) {

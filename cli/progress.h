@@ -4,7 +4,7 @@
 #include <chrono>
 #include <string>
 
-#include "run/pipeline.h"
+#include "run/event_log.h"
 
 namespace kerf {
 
@@ -12,17 +12,24 @@ namespace kerf {
 /// SIGINT and SIGTERM cancel the run.
 class ProgressLine : public RunListener {
  public:
-    explicit ProgressLine(bool quiet);
+    /// `events`, unless null, is told of everything, too.
+    ProgressLine(bool quiet, EventLog* events);
     ~ProgressLine() override;
     void on_progress(const char* stage, std::size_t done, std::size_t total) override;
+    void on_parts(const std::vector<PartReport>& parts, const std::string& plan) override;
+    void on_part(const PartEvent& event) override;
     bool cancelled() const override;
 
  private:
     void print(const std::string& text);
+    void clear();
 
     bool quiet_, terminal_, line_open_ = false;
+    EventLog* events_;
     std::string stage_;
-    std::size_t last_tenth_ = 0;
+    int last_tenth_ = 0;
+    double load_at_start_ = 0;  // done by an interrupted run
+    std::int64_t tets_at_start_ = 0;
     std::chrono::steady_clock::time_point stage_start_;
 };
 

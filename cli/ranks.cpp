@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <list>
 #include <thread>
 
 #ifdef KERF_WITH_MPI
@@ -18,7 +19,10 @@ int host_cores() { return std::max(1, static_cast<int>(std::thread::hardware_con
 
 class MpiRanks : public Communicator {
  public:
-    MpiRanks() { MPI_Init(nullptr, nullptr); }
+    MpiRanks() {
+        MPI_Init(nullptr, nullptr);
+        sent_to_.assign(static_cast<std::size_t>(size()), 0);
+    }
     ~MpiRanks() override { MPI_Finalize(); }
     MpiRanks(const MpiRanks&) = delete;
     MpiRanks& operator=(const MpiRanks&) = delete;
@@ -34,10 +38,23 @@ class MpiRanks : public Communicator {
         return size;
     }
     std::vector<Bytes> all_gather(const Bytes& contribution) override;
+    void post(int rank, const Bytes& message) override;
+    std::optional<Bytes> poll() override;
+    void drop_messages() override;
     int ranks_on_host() const;
 
  private:
     static void broadcast(Bytes& bytes, int root);
+    static Bytes receive(const MPI_Status& announced);
+
+    // A message on its way, which MPI reads until it has left.
+    struct Posted {
+        Bytes message;
+        MPI_Request request = MPI_REQUEST_NULL;
+    };
+    std::list<Posted> posted_;
+    std::vector<int> sent_to_;  // messages to each rank since drop_messages()
+    int received_ = 0;
 };
 
 // One broadcast per rank, in pieces, because MPI counts are 32-bit.
@@ -58,6 +75,49 @@ void MpiRanks::broadcast(Bytes& bytes, int root) {
     for (std::size_t begin = 0; begin < bytes.size(); begin += piece)
         MPI_Bcast(bytes.data() + begin, static_cast<int>(std::min(piece, bytes.size() - begin)), MPI_BYTE, root,
                   MPI_COMM_WORLD);
+}
+
+void MpiRanks::post(int rank, const Bytes& message) {
+    posted_.remove_if([](Posted& posted) {
+        int left = 0;
+        MPI_Test(&posted.request, &left, MPI_STATUS_IGNORE);
+        return left != 0;
+    });
+    Posted& posted = posted_.emplace_back(Posted{message});
+    MPI_Isend(posted.message.data(), static_cast<int>(message.size()), MPI_BYTE, rank, 0, MPI_COMM_WORLD,
+              &posted.request);
+    ++sent_to_[static_cast<std::size_t>(rank)];
+}
+
+Bytes MpiRanks::receive(const MPI_Status& announced) {
+    int size = 0;
+    MPI_Get_count(&announced, MPI_BYTE, &size);
+    Bytes message(static_cast<std::size_t>(size));
+    MPI_Recv(message.data(), size, MPI_BYTE, announced.MPI_SOURCE, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    return message;
+}
+
+std::optional<Bytes> MpiRanks::poll() {
+    int arrived = 0;
+    MPI_Status status;
+    MPI_Iprobe(MPI_ANY_SOURCE, 0, MPI_COMM_WORLD, &arrived, &status);
+    if (!arrived) return {};
+    ++received_;
+    return receive(status);
+}
+
+void MpiRanks::drop_messages() {
+    int expected = 0;
+    MPI_Reduce_scatter_block(sent_to_.data(), &expected, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+    for (; received_ < expected; ++received_) {
+        MPI_Status status;
+        MPI_Probe(MPI_ANY_SOURCE, 0, MPI_COMM_WORLD, &status);
+        receive(status);
+    }
+    for (Posted& posted : posted_) MPI_Wait(&posted.request, MPI_STATUS_IGNORE);
+    posted_.clear();
+    sent_to_.assign(sent_to_.size(), 0);
+    received_ = 0;
 }
 
 int MpiRanks::ranks_on_host() const {

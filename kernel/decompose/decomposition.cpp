@@ -5,6 +5,8 @@
 #include <future>
 #include <mutex>
 
+#include "core/error.h"
+
 namespace kerf {
 
 namespace {
@@ -18,7 +20,7 @@ struct Branch {
 class Decomposer {
  public:
     Decomposer(const DecomposeOptions& options, LeafRange range, CutListener* listener)
-        : options_(options), range_(range), listener_(listener) {}
+        : options_(options), range_(range), listener_(listener), records_(listener && listener->wants_cuts()) {}
 
     Decomposition descend(Surface surface, const Branch& branch, std::int32_t threads);
 
@@ -34,6 +36,7 @@ class Decomposer {
     const DecomposeOptions& options_;
     LeafRange range_;
     CutListener* listener_;
+    bool records_;
     std::mutex listener_mutex_;
 };
 
@@ -58,12 +61,13 @@ std::array<double, 2> Decomposer::loads(const Halves& halves) const {
 }
 
 void Decomposer::tell_listener(const Surface& surface, const Cut& cut) {
-    if (!listener_) return;
+    if (!records_) return;
     const std::lock_guard lock(listener_mutex_);
     listener_->on_cut(surface, cut);
 }
 
 Decomposition Decomposer::descend(Surface surface, const Branch& branch, std::int32_t threads) {
+    if (listener_ && listener_->cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
     const auto [id, first_leaf, leaves] = branch;
     const MassProperties mass = mass_properties(surface);
     Decomposition result;
@@ -74,7 +78,7 @@ Decomposition Decomposer::descend(Surface surface, const Branch& branch, std::in
         return result;
     }
     const CutPlace place = choose_place(surface, mass, leaves, options_.cut);
-    Bisection bisection = bisect(surface, mass, id, place, options_.cut, listener_ != nullptr);
+    Bisection bisection = bisect(surface, mass, id, place, options_.cut, records_);
     tell_listener(surface, bisection.cut);
     describe_cut(bisection.cut, node);
     if (!bisection.cut.made()) {

@@ -52,6 +52,10 @@ class CutListener {
     /// A node where no contour of edges was found may be told of twice: then by a straight cut, whose parent comes with
     /// its facets split.
     virtual void on_cut(const Surface& parent, const Cut& cut) = 0;
+    /// Whether on_cut() is wanted: recording the stages of every cut costs memory.
+    virtual bool wants_cuts() const { return true; }
+    /// Asked before every cut, from any thread. Once true, decompose() ends with Error(cancelled).
+    virtual bool cancelled() const { return false; }
 };
 
 /// A range [first, last) of leaves in the order of the tree.

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <map>
 
+#include "core/error.h"
 #include "decompose/cap_quality.h"
 #include "decompose/cap_triangulation.h"
 #include "decompose/face_complex.h"
@@ -69,7 +70,7 @@ bool StraightDivision::cut(TreeNode& node) {
     describe_cut(made->cut, node);
     node.tries += tries_by_edges;
     node.seconds += seconds_by_edges;
-    if (listener_) {
+    if (listener_ && listener_->wants_cuts()) {
         made->cut.side = made->split.side;
         made->cut.split_parent = made->split.arrays;
         listener_->on_cut(made->parent, made->cut);
@@ -78,6 +79,7 @@ bool StraightDivision::cut(TreeNode& node) {
 }
 
 void StraightDivision::divide(NodeId id) {
+    if (listener_ && listener_->cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
     TreeNode& node = nodes_.at(id);
     if (node.leaves == 1 || !cut(node)) {
         leaves_.push_back(id);

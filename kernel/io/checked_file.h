@@ -10,8 +10,10 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "core/error.h"
+#include "core/hash.h"
 
 namespace kerf {
 
@@ -25,6 +27,7 @@ class CheckedFile {
     void write(const void* data, std::size_t size) {
         // No data may be a null pointer, which fwrite must not get.
         check(size == 0 || std::fwrite(data, 1, size, file_.get()) == size, "write");
+        if (hasher_) hasher_->add_bytes(data, size);
     }
     void write(std::string_view text) { write(text.data(), text.size()); }
 
@@ -36,6 +39,14 @@ class CheckedFile {
         return data;
     }
     void seek(std::int64_t position) { check(::fseeko(file_.get(), position, SEEK_SET) == 0, "read"); }
+
+    /// What is written from now on is added to `hasher`, too.
+    void hash_into(Hasher& hasher) { hasher_ = &hasher; }
+
+    void flush() { check(std::fflush(file_.get()) == 0, "write"); }
+
+    /// Returns when what was written would outlive a power cut.
+    void sync() { check(std::fflush(file_.get()) == 0 && ::fsync(::fileno(file_.get())) == 0, "write"); }
 
     /// Buffered bytes may meet a full disk only here.
     void close() { check(std::fclose(file_.release()) == 0, "write"); }
@@ -54,6 +65,7 @@ class CheckedFile {
     };
     std::string path_;
     std::unique_ptr<std::FILE, Close> file_;
+    Hasher* hasher_ = nullptr;
 };
 
 }  // namespace kerf

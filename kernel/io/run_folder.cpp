@@ -1,15 +1,26 @@
+// The lock belongs to the open file, so it ends with the process however that ends. A folder that was moved away under
+// a waiting run is no longer the one of its name; so the lock counts only if the name still leads to it.
+//
 // A rename is atomic, but a directory that holds files is not replaced by one. So commit() moves the older run aside,
 // moves the new one in, and only then removes the older; should another run move in between, it does the same again.
 #include "io/run_folder.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <filesystem>
+#include <fstream>
+#include <set>
 #include <system_error>
 #include <utility>
 
 #include "core/error.h"
+#include "io/durable_file.h"
 
 namespace kerf {
 
@@ -50,67 +61,152 @@ void refuse_foreign(const std::string& path) {
                                                path));
 }
 
-// The process number keeps runs on one host apart, the counter those on hosts that share the disk: creating a directory
-// succeeds for one of them only.
-std::string create_sibling(const std::string& path) {
-    const std::string stem = fmt::format("{}.kerf-tmp-{}", path, ::getpid());
-    std::string name = stem;
-    for (int i = 2;; ++i) {
-        std::error_code error;
-        if (fs::create_directory(name, error)) return name;
-        if (error) fail("create the folder", name, error);
-        name = fmt::format("{}-{}", stem, i);
+std::error_code last_error() { return {errno, std::generic_category()}; }
+
+void create_folder(const std::string& path) {
+    std::error_code error;
+    fs::create_directories(path, error);
+    if (error) fail("create the folder", path, error);
+}
+
+std::string host_name() {
+    char name[256] = "";
+    ::gethostname(name, sizeof name - 1);
+    return name;
+}
+
+bool is_same_file(int fd, const std::string& path) {
+    struct stat open_file, named_file;
+    return ::fstat(fd, &open_file) == 0 && ::stat(path.c_str(), &named_file) == 0 &&
+           open_file.st_ino == named_file.st_ino && open_file.st_dev == named_file.st_dev;
+}
+
+constexpr const char* lock_file = "work/lock";
+
+std::string partial_path_of(const std::string& final_path) { return final_path + ".kerf-partial"; }
+
+// Removes the entries of a folder whose name is none of `kept`. A folder that is not there has none.
+void clear_folder(const std::string& folder, const std::set<std::string>& kept) {
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+        if (kept.contains(entry.path().filename())) continue;
+        fs::remove_all(entry.path(), error);
+        if (error) fail("remove what an interrupted run left,", entry.path().string(), error);
     }
+    if (error && error != std::errc::no_such_file_or_directory) fail("read the folder", folder, error);
 }
 
 }  // namespace
 
-RunFolder::RunFolder(std::string final_path, std::string temporary, bool owner)
-    : final_(std::move(final_path)), temporary_(std::move(temporary)), owner_(owner) {}
+RunFolder::RunFolder(std::string final_path, std::string partial, bool owner)
+    : final_(std::move(final_path)), partial_(std::move(partial)), owner_(owner) {}
 
 RunFolder::RunFolder(RunFolder&& other) noexcept
     : final_(std::move(other.final_)),
-      temporary_(std::move(other.temporary_)),
-      owner_(std::exchange(other.owner_, false)) {}
+      partial_(std::move(other.partial_)),
+      owner_(std::exchange(other.owner_, false)),
+      keep_(other.keep_),
+      lock_(std::exchange(other.lock_, -1)) {}
 
 RunFolder::~RunFolder() {
     std::error_code ignored;
-    if (owner_) fs::remove_all(temporary_, ignored);
+    if (owner_ && !keep_) fs::remove_all(partial_, ignored);
+    if (lock_ >= 0) ::close(lock_);
+}
+
+std::string RunFolder::saved_run_file(const std::string& path) {
+    return RunFolder("", partial_path_of(normal_path(path)), false).saved_run_file();
 }
 
 RunFolder RunFolder::create(const std::string& path) {
     const std::string final_path = normal_path(path);
     refuse_foreign(final_path);
-    std::error_code error;
-    const fs::path parent = fs::path(final_path).parent_path();
-    fs::create_directories(parent, error);
-    if (error) fail("create the folder", parent.string(), error);
-    RunFolder folder(final_path, create_sibling(final_path), true);
-    const std::string parts = folder.file("parts");
-    fs::create_directory(parts, error);
-    if (error) fail("create the folder", parts, error);
+    RunFolder folder(final_path, partial_path_of(final_path), false);
+    create_folder(folder.file("work"));
+    folder.lock();
+    folder.owner_ = true;
+    folder.keep_ = folder.finished_parts() > 0;  // what an interrupted run left is lost only to its heir
+    folder.clear_all_but_parts();
+    for (const char* name : {"parts", "work/journal", "work/jobs", "work/taken"}) create_folder(folder.file(name));
     return folder;
 }
 
-RunFolder RunFolder::join(const std::string& temporary_path) {
-    std::error_code error;
-    if (!fs::is_directory(fs::path(temporary_path) / "parts", error))
-        throw Error(ErrorCode::io, fmt::format("The output folder {} is not visible here. All hosts of a run need the "
-                                               "output folder on a shared disk under the same path.",
-                                               temporary_path));
-    return {"", temporary_path, false};
+// Until the lock is held, nothing in the folder is this run's.
+void RunFolder::lock() {
+    const std::string name = file(lock_file);
+    for (;;) {
+        lock_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (lock_ < 0) fail("write the output folder", partial_, last_error());
+        const bool locked = ::flock(lock_, LOCK_EX | LOCK_NB) == 0;
+        if (!locked && errno == EWOULDBLOCK) {
+            std::string who;
+            std::getline(std::ifstream(name), who);
+            throw Error(ErrorCode::io, fmt::format("Another run{} is writing {}. Wait for it, stop it, or choose "
+                                                   "another output folder.",
+                                                   who.empty() ? "" : " (" + who + ")", final_));
+        }
+        if (is_same_file(lock_, name)) break;
+        ::close(std::exchange(lock_, -1));
+        create_folder(file("work"));
+    }
+    const std::string who = fmt::format("process {} on {}\n", ::getpid(), host_name());
+    if (::ftruncate(lock_, 0) != 0 || ::pwrite(lock_, who.data(), who.size(), 0) != static_cast<ssize_t>(who.size()))
+        fail("write the output folder", partial_, last_error());
 }
 
-std::string RunFolder::file(const std::string& name) const { return (fs::path(temporary_) / name).string(); }
+void RunFolder::clear_all_but_parts() const {
+    clear_folder(partial_, {"parts", "work"});
+    clear_folder(file("work"), {"journal", "lock", "run.json"});
+}
+
+void RunFolder::keep_only(const std::vector<int>& leaves) const {
+    std::set<std::string> entries, parts;
+    for (const int leaf : leaves) {
+        entries.insert(fs::path(journal_file(leaf)).filename());
+        parts.insert(part_file_name(leaf));
+    }
+    clear_folder(file("work/journal"), entries);
+    clear_folder(file("parts"), parts);
+}
+
+RunFolder RunFolder::join(const std::string& partial_path) {
+    std::error_code error;
+    if (!fs::is_directory(fs::path(partial_path) / "parts", error))
+        throw Error(ErrorCode::io, fmt::format("The output folder {} is not visible here. All hosts of a run need the "
+                                               "output folder on a shared disk under the same path.",
+                                               partial_path));
+    return {"", partial_path, false};
+}
+
+std::string RunFolder::file(const std::string& name) const { return (fs::path(partial_) / name).string(); }
 std::string RunFolder::part_file(int leaf) const { return file("parts/" + part_file_name(leaf)); }
 std::string RunFolder::part_surface_file(int leaf) const { return file("parts/" + part_surface_file_name(leaf)); }
 std::string RunFolder::part_stl_file(int leaf) const { return file("parts/" + part_stl_file_name(leaf)); }
+std::string RunFolder::saved_run_file() const { return file("work/run.json"); }
+std::string RunFolder::job_file(int leaf) const { return file(fmt::format("work/jobs/{}", leaf)); }
+std::string RunFolder::journal_file(int leaf) const { return file(fmt::format("work/journal/{}", leaf)); }
+
+std::size_t RunFolder::finished_parts() const {
+    std::error_code ignored;
+    const auto is_entry = [](const fs::directory_entry& entry) { return entry.path().extension().empty(); };
+    return static_cast<std::size_t>(
+        std::count_if(fs::directory_iterator(file("work/journal"), ignored), fs::directory_iterator(), is_entry));
+}
+
+bool RunFolder::take(int leaf) const {
+    const std::string name = file(fmt::format("work/taken/{}", leaf));
+    const int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (fd < 0 && errno != EEXIST) fail("write", name, last_error());
+    if (fd >= 0) ::close(fd);
+    return fd >= 0;
+}
 
 void RunFolder::commit() {
     if (!owner_) throw Error(ErrorCode::internal, "A run folder is committed once, and by its creator.");
-    const std::string older = temporary_ + "-older";
+    sync_file_system(partial_);
+    const std::string older = partial_ + "-older";
     std::error_code error;
-    while (fs::rename(temporary_, final_, error), error) {
+    while (fs::rename(partial_, final_, error), error) {
         if (error != std::errc::directory_not_empty && error != std::errc::file_exists) break;
         refuse_foreign(final_);
         fs::remove_all(older, error);
@@ -123,8 +219,11 @@ void RunFolder::commit() {
         fail("write the output folder", final_, error);
     }
     owner_ = false;
-    fs::remove_all(older, error);
-    if (error) fail("remove the older run", older, error);
+    sync_folder(fs::path(final_).parent_path().string());
+    for (const std::string& leftover : {older, (fs::path(final_) / "work").string()}) {
+        fs::remove_all(leftover, error);
+        if (error) fail("remove", leftover, error);
+    }
 }
 
 std::string part_file_name(int leaf) { return fmt::format("part_{:04}.vtu", leaf); }

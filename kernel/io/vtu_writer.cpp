@@ -220,14 +220,12 @@ void write_values(CheckedFile& file, const Section& section) {
     }
 }
 
-void write_grid(const std::string& path, const Grid& grid) {
-    CheckedFile file(path, "wb");
+void write_grid(CheckedFile& file, const Grid& grid) {
     file.write(xml_header(grid));
     file.write(data_begin);
     write_values(file, grid.field_data);
     for (const Section& section : grid.piece) write_values(file, section);
     file.write(file_end);
-    file.close();
 }
 
 // The names and types of a section's arrays, as each piece of a PVTU has them.
@@ -312,21 +310,44 @@ class HeaderParser {
     const std::string& path_;
 };
 
+// Where a part file has the numbers of its interior vertices.
+struct InteriorIds {
+    std::int64_t position, count;
+};
+
+InteriorIds find_interior_ids(CheckedFile& file, const std::string& path) {
+    const VtuHeader header = parse_vtu_header(file.read(vtu_header_limit), path);
+    const VtuHeader::Array* id = header.find("GlobalVertexId");
+    if (!id || id->type != vtk_type<std::int64_t> || id->tuples != header.point_count)
+        fail_damaged_vtu(path, "it has no GlobalVertexId for every vertex");
+    constexpr std::int64_t item_size = sizeof(std::int64_t);
+    return {id->position + item_size + header.boundary_vertex_count * item_size,  // behind the size of the array
+            header.point_count - header.boundary_vertex_count};
+}
+
 }  // namespace
 
-void write_part(const std::string& path, const TetMesh& mesh, const SurfaceArrays& surface,
-                std::span<const TetQuality> quality, std::span<const std::int32_t> tet_at_facet,
-                const PartArrays& arrays) {
+FileHash write_part(const std::string& path, const TetMesh& mesh, const SurfaceArrays& surface,
+                    std::span<const TetQuality> quality, std::span<const std::int32_t> tet_at_facet,
+                    const PartArrays& arrays) {
     require_sizes(quality.size() == mesh.tets.size() && tet_at_facet.size() == surface.facets.size() &&
                   static_cast<std::size_t>(mesh.boundary_vertex_count) == surface.vertices.size());
     Grid grid = make_grid(mesh.vertices, mesh.tets, surface, arrays);
     add_quality(grid, quality, tet_at_facet);
-    write_grid(path, grid);
+    Hasher hasher;
+    CheckedFile file(path, "wb");
+    file.hash_into(hasher);
+    write_grid(file, grid);
+    file.sync();
+    file.close();
+    return hasher.digest();
 }
 
 void write_part_surface(const std::string& path, const SurfaceArrays& surface, const PartArrays& arrays) {
     const std::vector<Tetrahedron> no_tets;
-    write_grid(path, make_grid(surface.vertices, no_tets, surface, arrays));
+    CheckedFile file(path, "wb");
+    write_grid(file, make_grid(surface.vertices, no_tets, surface, arrays));
+    file.close();
 }
 
 void write_pvtu(const std::string& path, const std::vector<std::string>& pieces) {
@@ -366,18 +387,34 @@ VtuHeader parse_vtu_header(std::string_view begin_of_file, const std::string& pa
     return HeaderParser(begin_of_file.substr(0, end), path).parse(static_cast<std::int64_t>(end + data_begin.size()));
 }
 
+FileHash hash_of_part_file(const std::string& path) {
+    CheckedFile file(path, "rb");
+    const InteriorIds ids = find_interior_ids(file, path);
+    Hasher hasher;
+    const auto add_until = [&](std::int64_t position, std::int64_t end) {
+        constexpr std::int64_t chunk_size = std::int64_t{1} << 20;
+        file.seek(position);
+        for (bool more = true; more && position < end;) {
+            const std::string chunk = file.read(static_cast<std::size_t>(std::min(chunk_size, end - position)));
+            hasher.add_bytes(chunk.data(), chunk.size());
+            position += static_cast<std::int64_t>(chunk.size());
+            more = !chunk.empty();
+        }
+    };
+    add_until(0, ids.position);
+    for (std::int64_t i = 0; i < ids.count; ++i) hasher.add_bytes(&i, sizeof i);
+    add_until(ids.position + ids.count * static_cast<std::int64_t>(sizeof(std::int64_t)),
+              std::numeric_limits<std::int64_t>::max());
+    return hasher.digest();
+}
+
 void number_interior_vertices(const std::string& path, std::int64_t first) {
     CheckedFile file(path, "r+b");
-    const VtuHeader header = parse_vtu_header(file.read(vtu_header_limit), path);
-    const VtuHeader::Array* id = header.find("GlobalVertexId");
-    if (!id || id->type != vtk_type<std::int64_t> || id->tuples != header.point_count)
-        fail_damaged_vtu(path, "it has no GlobalVertexId for every vertex");
-
-    const std::int64_t interior_count = header.point_count - header.boundary_vertex_count;
-    const Array ids = computed_array<std::int64_t>(
-        id->name, interior_count, [first](std::size_t i) { return first + static_cast<std::int64_t>(i); });
-    file.seek(id->position + static_cast<std::int64_t>(sizeof(std::uint64_t)) +
-              header.boundary_vertex_count * static_cast<std::int64_t>(sizeof(std::int64_t)));
+    const InteriorIds place = find_interior_ids(file, path);
+    const Array ids =
+        computed_array<std::int64_t>("GlobalVertexId", static_cast<std::size_t>(place.count),
+                                     [first](std::size_t i) { return first + static_cast<std::int64_t>(i); });
+    file.seek(place.position);
     ids.write_values(file);
     file.close();
 }

@@ -1,6 +1,8 @@
 // VTK XML unstructured grids (VTU, PVTU): raw appended data, UInt64 headers, little endian.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,6 +13,8 @@
 #include "surface/surface.h"
 
 namespace kerf {
+
+using FileHash = std::array<std::uint64_t, 2>;  ///< as of Hasher::digest()
 
 /// What a part file holds beyond mesh and surface.
 struct PartArrays {
@@ -27,10 +31,15 @@ struct PartArrays {
 /// quality of the tetrahedron behind it, NaN if there is none; a tetrahedron has Patch, Facet and Neighbour -1. Field
 /// data PatchNames (String) and BoundaryVertexCount (Int32). Interior vertices are numbered from 0 until
 /// number_interior_vertices() is called, because their numbers depend on the other parts. `quality`: see
-/// tet_qualities(); `tet_at_facet`: see tets_at_facets(). The bytes depend on the arguments alone. Throws Error(io).
-void write_part(const std::string& path, const TetMesh& mesh, const SurfaceArrays& surface,
-                std::span<const TetQuality> quality, std::span<const std::int32_t> tet_at_facet,
-                const PartArrays& arrays);
+/// tet_qualities(); `tet_at_facet`: see tets_at_facets(). The bytes depend on the arguments alone; their hash is
+/// returned. The file outlives a power cut after the return. Throws Error(io).
+FileHash write_part(const std::string& path, const TetMesh& mesh, const SurfaceArrays& surface,
+                    std::span<const TetQuality> quality, std::span<const std::int32_t> tet_at_facet,
+                    const PartArrays& arrays);
+
+/// What write_part() returned for the file, if that has kept its bytes; a call of number_interior_vertices() since
+/// then changes nothing. Throws Error(io) if it cannot be read or has no header of write_part().
+FileHash hash_of_part_file(const std::string& path);
 
 /// Rewrites the GlobalVertexId of the interior vertices of a file of write_part() in place: they become `first`,
 /// `first` + 1, ... Everything else keeps its bytes. Throws Error(io).

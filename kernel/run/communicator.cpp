@@ -1,10 +1,17 @@
 #include "run/communicator.h"
 
+#include <algorithm>
+
 namespace kerf {
 
 void throw_first_error(Communicator& ranks, const StageStatus& own) {
-    for (const StageStatus& status : all_gather(ranks, own))
-        if (status.code) throw Error(static_cast<ErrorCode>(status.code), status.message);
+    constexpr int cancelled = static_cast<int>(ErrorCode::cancelled);
+    const std::vector<StageStatus> all = all_gather(ranks, own);
+    const auto failed = [](const StageStatus& status) { return status.code != 0 && status.code != cancelled; };
+    auto first = std::find_if(all.begin(), all.end(), failed);
+    if (first == all.end())
+        first = std::find_if(all.begin(), all.end(), [](const StageStatus& status) { return status.code != 0; });
+    if (first != all.end()) throw Error(static_cast<ErrorCode>(first->code), first->message);
 }
 
 }  // namespace kerf

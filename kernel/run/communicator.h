@@ -3,6 +3,7 @@
 
 #include <exception>
 #include <new>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -12,14 +13,21 @@
 
 namespace kerf {
 
-/// Ranks that run the same stages in the same order. Every function is collective.
+/// Ranks that run the same stages in the same order.
 class Communicator {
  public:
     virtual ~Communicator() = default;
     virtual int rank() const = 0;
     virtual int size() const = 0;
-    /// The contributions of all ranks in the order of ranks, on every rank.
+    /// Collective: the contributions of all ranks in the order of ranks, on every rank.
     virtual std::vector<Bytes> all_gather(const Bytes& contribution) = 0;
+
+    /// Sends a message of a few kilobytes to another rank and does not wait for it to arrive.
+    virtual void post(int rank, const Bytes& message) = 0;
+    /// A message that was posted to this rank, those of one sender in their order; nothing if none has arrived yet.
+    virtual std::optional<Bytes> poll() = 0;
+    /// Collective: takes all messages that were posted before and not polled out of the way.
+    virtual void drop_messages() = 0;
 };
 
 /// One rank alone.
@@ -28,6 +36,9 @@ class SingleRank : public Communicator {
     int rank() const override { return 0; }
     int size() const override { return 1; }
     std::vector<Bytes> all_gather(const Bytes& contribution) override { return {contribution}; }
+    void post(int, const Bytes&) override {}  // there is no other rank
+    std::optional<Bytes> poll() override { return {}; }
+    void drop_messages() override {}
 };
 
 /// Gathers one value of every rank, in the order of ranks.
@@ -49,7 +60,8 @@ struct StageStatus {
     }
 };
 
-/// Throws the error of the first rank that has one, on every rank.
+/// Throws the error of the first rank that has one, on every rank. That a rank was stopped counts only where there is
+/// no other error: it may be the consequence.
 void throw_first_error(Communicator& ranks, const StageStatus& own);
 
 /// Runs a stage on every rank and returns its value; if it fails on any rank, the error of the first such rank is

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include "core/error.h"
 #include "io/text_file.h"
@@ -37,8 +38,16 @@ std::string tetgen_switches(const MesherOptions& mesher) {
     std::string switches = "pY";
     if (mesher.radius_edge > 0) switches += fmt::format("q{:g}", mesher.radius_edge);
     if (mesher.tolerance > 0) switches += fmt::format("T{:g}", mesher.tolerance);
-    if (mesher.max_volume > 0) switches += fmt::format("a{:f}", mesher.max_volume);
+    if (mesher.max_volume > 0) switches += fmt::format("a{:g}", mesher.max_volume);
     return switches;
+}
+
+// The bounding box.
+std::string place_of(const SurfaceArrays& surface) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : surface.vertices) box.extend(p);
+    return fmt::format("between ({:.6g}, {:.6g}, {:.6g}) and ({:.6g}, {:.6g}, {:.6g})", box.min().x(), box.min().y(),
+                       box.min().z(), box.max().x(), box.max().y(), box.max().z());
 }
 
 }  // namespace
@@ -51,7 +60,9 @@ void write_failed_part(const std::string& folder, int leaf, const SurfaceArrays&
     const std::string name = fmt::format("part_{:04}", leaf);
     write_text_file(folder + "/" + name + ".smesh", smesh_text(surface, hole_points_if_any(surface)));
     write_text_file(folder + "/" + name + ".txt",
-                    fmt::format("{}\nTo repeat: tetgen -{} {}.smesh\n", reason, tetgen_switches(mesher), name));
+                    fmt::format("{}\nIt lies {}.\nTo repeat: tetgen -{} {}.smesh\nTo look at it: "
+                                "paraview ../parts/{}.surface.vtu\n",
+                                reason, place_of(surface), tetgen_switches(mesher), name, name));
 }
 
 }  // namespace kerf

@@ -9,7 +9,8 @@
 namespace kerf {
 
 /// Writes FOLDER/part_0011.smesh (TetGen surface format, 17 digits, hole points included) and part_0011.txt with the
-/// reason and the command line that repeats the call. Creates the folder. Throws Error(io).
+/// reason, the place, the command line that repeats the call and the one that shows the part. Creates the folder.
+/// Throws Error(io).
 void write_failed_part(const std::string& folder, int leaf, const SurfaceArrays& surface, const MesherOptions& mesher,
                        const std::string& reason);
 

@@ -2,32 +2,9 @@
 
 #include <fmt/format.h>
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
+#include "core/hash.h"
 
 namespace kerf {
-
-namespace {
-
-class Hasher {
- public:
-    Hasher() { XXH3_128bits_reset(&state_); }
-    template <class T>
-    void add(std::span<const T> items) {
-        const std::uint64_t count = items.size();
-        XXH3_128bits_update(&state_, &count, sizeof count);
-        XXH3_128bits_update(&state_, items.data(), items.size_bytes());
-    }
-    std::array<std::uint64_t, 2> digest() const {
-        const XXH128_hash_t hash = XXH3_128bits_digest(&state_);
-        return {hash.high64, hash.low64};
-    }
-
- private:
-    XXH3_state_t state_;
-};
-
-}  // namespace
 
 std::array<std::uint64_t, 2> hash_part(const TetMesh& mesh, const SurfaceArrays& surface) {
     Hasher hasher;
@@ -46,7 +23,5 @@ std::string hash_of_parts(std::span<const PartHash> parts) {
     const auto [high, low] = hasher.digest();
     return fmt::format("{:016x}{:016x}", high, low);
 }
-
-std::uint64_t hash_bytes(std::span<const char> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
 
 }  // namespace kerf

@@ -1,4 +1,4 @@
-// Fingerprints: of meshes, that two runs can be compared by, and of the bytes of a file.
+// Fingerprints of meshes, by which runs can be compared.
 #pragma once
 
 #include <array>
@@ -20,8 +20,5 @@ struct PartHash {
     std::array<std::uint64_t, 2> hash = {0, 0};
 };
 std::string hash_of_parts(std::span<const PartHash> parts);
-
-/// 64-bit hash (XXH3): tells damaged bytes from good ones.
-std::uint64_t hash_bytes(std::span<const char> bytes);
 
 }  // namespace kerf

@@ -74,12 +74,11 @@ void OptionField::set_text(const std::string& text) const {
         throw Error(ErrorCode::usage, fmt::format("'{}' is no value of --{}. {}", text, name, help));
 }
 
-void RunOptions::resolve(int ranks, int cores_of_rank) {
+void RunOptions::resolve(int cores_of_rank) {
     input_options.check();
     require(workers >= 0, "workers", "0 (share of the cores) or more", workers);
     if (workers == 0) workers = std::max(1, cores_of_rank);
     require(decompose.parts >= 0, "parts", "1 or more", decompose.parts);
-    if (decompose.parts == 0) decompose.parts = ranks * workers;
     decompose.threads = workers;  // they have nothing to do yet
     require(size >= 0 && std::isfinite(size), "size", "positive", size);
     require(mesher.max_volume >= 0 && std::isfinite(mesher.max_volume), "max-volume", "positive", mesher.max_volume);
@@ -90,7 +89,7 @@ void RunOptions::resolve(int ranks, int cores_of_rank) {
     require(attempts >= 1, "attempts", "1 or more", attempts);
     if (decompose.facets == FacetPolicy::keep && decompose.cut.contour == ContourMethod::straight)
         throw Error(ErrorCode::usage, "--contour straight splits facets, and --surface keep forbids it. Drop one.");
-    if (!trace_file.empty() && lies_inside(trace_file, output))
+    if (!trace_file.empty() && !output.empty() && lies_inside(trace_file, output))
         throw Error(ErrorCode::usage, fmt::format("--trace is {}, which lies in the output folder {}. That is replaced "
                                                   "as a whole when the run ends, so choose a place outside of it.",
                                                   trace_file, output));
@@ -127,7 +126,8 @@ std::vector<OptionField> input_option_fields(InputOptions& o) {
 std::vector<OptionField> option_fields(RunOptions& o) {
     CutOptions& cut = o.decompose.cut;
     std::vector<OptionField> fields = {
-        {"parts", "n", "Number of parts K >= 1. Default: ranks x workers.", &o.decompose.parts},
+        {"parts", "n", "Number of parts K >= 1. Default: 4 for each worker, or what --memory asks for.",
+         &o.decompose.parts},
         {"size", "", "Wanted edge length inside, in units of the input. Default: as the surface.", &o.size},
         {"max-volume", "", "Largest volume of a tetrahedron, instead of --size.", &o.mesher.max_volume},
         {"radius-edge", "", "Bound of circumradius over shortest edge; 0: no refinement. Default 1.4.",
@@ -145,8 +145,9 @@ std::vector<OptionField> option_fields(RunOptions& o) {
         {"mesher", "", "What fills the parts. Default tetgen.", choice(o.mesher.kind, {"tetgen"})},
         {"workers", "", "Mesher processes of each rank. Default: its share of the cores.", &o.workers, false},
         {"timeout", "", "Seconds for one attempt at one part; 0: none. Default 600.", &o.timeout_seconds, false},
-        {"memory", "", "Memory of one worker in MB; 0: unlimited. Default 0.", &o.memory_mb, false},
-        {"attempts", "", "Attempts at a part, at most: with other orders, tolerances, weaker bounds. Default 8.",
+        {"memory", "", "Memory of one worker in MB, by which K is chosen, too; 0: unlimited. Default 0.", &o.memory_mb,
+         false},
+        {"attempts", "", "Attempts at a part, at most: with other orders, tolerances, weaker bounds. Default 10.",
          &o.attempts},
         {"tetgen", "", "Expert: TetGen switches instead of q and a (p, Y are always on).", &o.mesher.tetgen_switches},
         {"stl", "", "Write the closed surface of every part as binary STL, too.", &o.stl, false},
@@ -156,6 +157,26 @@ std::vector<OptionField> option_fields(RunOptions& o) {
     const std::vector<OptionField> of_input = input_option_fields(o.input_options);
     fields.insert(fields.end(), of_input.begin(), of_input.end());
     return fields;
+}
+
+std::vector<OptionText> option_texts(RunOptions options, bool shapes_parts_only) {
+    std::vector<OptionText> texts;
+    for (const OptionField& field : option_fields(options))
+        if (field.shapes_parts || !shapes_parts_only) texts.push_back({field.name, field.text()});
+    return texts;
+}
+
+void set_options(RunOptions& options, const std::vector<OptionText>& texts, const std::string& source) {
+    const std::vector<OptionField> fields = option_fields(options);
+    for (const OptionText& option : texts) {
+        const auto field =
+            std::find_if(fields.begin(), fields.end(), [&](const OptionField& f) { return f.name == option.name; });
+        if (field == fields.end())
+            throw Error(ErrorCode::usage, fmt::format("{} has the option --{}, which this version of Kerf does not "
+                                                      "know. Use the version that wrote it.",
+                                                      source, option.name));
+        field->set_text(option.text);
+    }
 }
 
 }  // namespace kerf

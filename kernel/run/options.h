@@ -12,26 +12,31 @@
 
 namespace kerf {
 
+/// Enough that the last part of a worker is short against all of them.
+inline constexpr std::int32_t parts_per_worker = 4;
+
 struct RunOptions {
     std::string input;
     std::string output;
     std::string worker_program;  ///< path of kerf-worker
     DecomposeOptions decompose = {
-        .parts = 0, .facets = FacetPolicy::split, .cut = {}};  ///< parts 0: ranks times workers
+        .parts = 0, .facets = FacetPolicy::split, .cut = {}};  ///< parts 0: see choose_parts()
     MesherOptions mesher;
     double size = 0;               ///< wanted edge length; sets mesher.max_volume unless that is given; 0: none
     InputOptions input_options;    ///< of the surface before all else
     std::int32_t workers = 0;      ///< processes on this rank's host; 0: its share of the cores
     double timeout_seconds = 600;  ///< of one attempt at one part; 0: none
     std::int64_t memory_mb = 0;    ///< address space of one worker; 0: unlimited
-    std::int32_t attempts = 8;     ///< at one part, at most (volume/retries.h)
+    std::int32_t attempts = 10;    ///< at one part, at most (volume/retries.h)
     std::string report_file;       ///< a copy of the report; empty: only DIR/report.json
     std::string trace_file;        ///< all cuts with their stages (run/trace.h); empty: none. Not inside of `output`
     bool stl = false;              ///< the surfaces of the parts as STL, too
     bool volume = true;            ///< false: stop at the closed surfaces of the parts
+    bool dry_run = false;          ///< stop at the plan, and write nothing
 
-    /// Fills what follows from other choices and checks ranges. Throws Error(usage) naming option, value and range.
-    void resolve(int ranks, int cores_of_rank);
+    /// Fills what follows from other choices, K excepted, and checks ranges. Throws Error(usage) naming option, value
+    /// and range.
+    void resolve(int cores_of_rank);
 };
 
 /// One option: its name on the command line and in the config file, and where its value lives.
@@ -54,10 +59,26 @@ struct OptionField {
     void set_text(const std::string& text) const;
 };
 
+/// An option as text, as OptionField has it.
+struct OptionText {
+    std::string name, text;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(name, text);
+    }
+};
+
 /// The fields that say what is done to the input.
 std::vector<OptionField> input_option_fields(InputOptions& options);
 
 /// The table: command line, config file, report and viewer show the same options in this order.
 std::vector<OptionField> option_fields(RunOptions& options);
+
+/// The values of the table, or only those that shape the parts.
+std::vector<OptionText> option_texts(RunOptions options, bool shapes_parts_only);
+/// Sets what option_texts() has said. Throws Error(usage) for a name or value that this version does not know, naming
+/// `source`.
+void set_options(RunOptions& options, const std::vector<OptionText>& texts, const std::string& source);
 
 }  // namespace kerf

@@ -2,8 +2,12 @@
 
 #include <chrono>
 
+#include "core/bytes.h"
 #include "core/error.h"
+#include "io/checked_file.h"
+#include "io/file_bytes.h"
 #include "run/mesh_hash.h"
+#include "run/mesh_in_two.h"
 
 namespace kerf {
 
@@ -59,9 +63,11 @@ std::string broken_laws(const MeshLaws& laws) {
     return text + " volume " + std::to_string(laws.volume) + " of " + std::to_string(laws.surface_volume) + ".";
 }
 
-void fill_result(const PartJob& job, PartResult& result) {
-    const TetMesh mesh =
-        timed(result.mesh_seconds, [&] { return mesh_volume(job.surface, job.mesher, job.vertex_order_seed); });
+void fill_result(const PartJob& job, const MesherCall& call, const std::string& part_file, PartResult& result) {
+    const TetMesh mesh = timed(result.mesh_seconds, [&] {
+        return call.cut_first ? mesh_in_two(job.surface, call.options)
+                              : mesh_volume(job.surface, call.options, call.vertex_order_seed);
+    });
     timed(result.verify_seconds, [&] { result.laws = verify_mesh(mesh, job.surface); });
     if (!result.laws.hold()) throw Error(ErrorCode::subdomain, broken_laws(result.laws));
     result.vertices = static_cast<std::int64_t>(mesh.vertices.size());
@@ -71,16 +77,26 @@ void fill_result(const PartJob& job, PartResult& result) {
     timed(result.write_seconds, [&] {
         const std::vector<TetQuality> quality = tet_qualities(mesh);
         result.quality = measure_quality(mesh, job.surface, quality, job.length_scale);
-        write_part(job.part_file, mesh, job.surface, quality, tets_at_facets(mesh, job.surface), job.arrays);
+        result.file_hash =
+            write_part(part_file, mesh, job.surface, quality, tets_at_facets(mesh, job.surface), job.arrays);
     });
 }
 
 }  // namespace
 
-PartResult run_part_job(const PartJob& job) {
+void write_job(const std::string& path, const PartJob& job) {
+    const Bytes bytes = to_bytes(job);
+    CheckedFile file(path, "wb");
+    file.write(bytes.data(), bytes.size());
+    file.close();
+}
+
+PartJob read_job(const std::string& path) { return from_bytes<PartJob>(read_file(path)); }
+
+PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::string& part_file) {
     PartResult result;
     try {
-        fill_result(job, result);
+        fill_result(job, call, part_file, result);
     } catch (const Error& e) {
         result.code = static_cast<int>(e.code());
         result.message = e.what();

@@ -6,22 +6,31 @@
 #include "io/vtu_writer.h"
 #include "mesh/quality.h"
 #include "mesh/verification.h"
-#include "volume/mesher.h"
+#include "volume/retries.h"
 
 namespace kerf {
 
+/// What is known of a part before it is meshed. The mesh depends on this alone.
 struct PartJob {
     SurfaceArrays surface;
     PartArrays arrays;
-    MesherOptions mesher;
-    std::string part_file;    ///< is written
     double length_scale = 1;  ///< diagonal of the whole input, for the bins of the distributions
-    std::uint32_t vertex_order_seed = 0;
 
     template <class Archive>
     void archive(Archive& a) {
-        a(surface, arrays.part, arrays.boundary_id, arrays.neighbour, arrays.patch_names, mesher, part_file,
-          length_scale, vertex_order_seed);
+        a(surface, arrays.part, arrays.boundary_id, arrays.neighbour, arrays.patch_names, length_scale);
+    }
+};
+
+/// One attempt at a part: what a worker is told.
+struct PartAttempt {
+    std::string job_file;   ///< of write_job()
+    std::string part_file;  ///< is written
+    MesherCall call;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(job_file, part_file, call.remedy, call.options, call.vertex_order_seed, call.cut_first);
     }
 };
 
@@ -33,21 +42,28 @@ struct PartResult {
     MeshLaws laws;
     PartQuality quality;
     std::array<std::uint64_t, 2> hash = {0, 0};  ///< of surface, keys and mesh
-    double mesh_seconds = 0, verify_seconds = 0, write_seconds = 0;
+    FileHash file_hash = {0, 0};                 ///< of the part's file, see hash_of_part_file()
+    double load_seconds = 0, mesh_seconds = 0, verify_seconds = 0, write_seconds = 0;
     std::int64_t peak_rss_bytes = 0;
 
     template <class Archive>
     void archive(Archive& a) {
-        a(code, message, vertices, interior_vertices, tets, laws, quality, hash, mesh_seconds, verify_seconds,
-          write_seconds, peak_rss_bytes);
+        a(code, message, vertices, interior_vertices, tets, laws, quality, hash, file_hash, load_seconds, mesh_seconds,
+          verify_seconds, write_seconds, peak_rss_bytes);
     }
 };
 
-/// Never throws kerf::Error: it comes back as the result's code and message. A part whose laws do not hold is not
-/// written and has code `subdomain`. Deterministic but for seconds and memory.
-PartResult run_part_job(const PartJob& job);
+/// Keeps the bytes of a job in a file, from which any worker can take it. Throws Error(io).
+void write_job(const std::string& path, const PartJob& job);
+/// Throws Error(io) if the file cannot be read, Error(internal) if it is damaged.
+PartJob read_job(const std::string& path);
 
-/// Serves one job: reads it from standard input, answers on standard output, keeps whatever libraries print apart.
+/// Meshes, verifies, measures and writes a part. Never throws kerf::Error: it comes back as the result's code and
+/// message. A part whose laws do not hold is not written and has code `subdomain`. Deterministic but for seconds and
+/// memory.
+PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::string& part_file);
+
+/// Serves one attempt: reads it from standard input, answers on standard output, keeps whatever libraries print apart.
 /// `memory_mb` limits the address space (0: not at all). The process ends with its parent. Returns the exit code.
 int serve_part_job(std::int64_t memory_mb);
 

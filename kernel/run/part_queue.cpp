@@ -1,18 +1,16 @@
 #include "run/part_queue.h"
 
-#include <algorithm>
+#include <chrono>
 #include <csignal>
+#include <filesystem>
+#include <thread>
 
 #include "core/bytes.h"
 #include "core/error.h"
-#include "volume/child_process.h"
-#include "volume/retries.h"
 
 namespace kerf {
 
 namespace {
-
-constexpr double cancel_interval_seconds = 0.2;
 
 bool died_by_itself(const ChildResult& child) {
     const bool fatal_signal = child.signal == SIGABRT || child.signal == SIGSEGV || child.signal == SIGBUS ||
@@ -37,84 +35,66 @@ PartResult result_of_silence(const ChildResult& child) {
     return result;
 }
 
-class Queue {
- public:
-    Queue(std::vector<PartJob> jobs, const QueueOptions& options,
-          const std::function<void(std::size_t, const PartOutcome&)>& finished)
-        : jobs_(std::move(jobs)),
-          options_(options),
-          finished_(finished),
-          outcomes_(jobs_.size()),
-          call_(jobs_.size(), 0) {
-        for (const PartJob& job : jobs_) calls_.push_back(mesher_calls(job.mesher));
-        for (std::int32_t i = options_.workers; i-- > 0;) idle_.push_back(i);
-    }
-
-    std::vector<PartOutcome> run() {
-        while (next_ < jobs_.size() || pool_.running() > 0) {
-            while (next_ < jobs_.size() && !idle_.empty()) {
-                outcomes_[next_].worker = idle_.back();
-                idle_.pop_back();
-                start(next_++);
-            }
-            if (options_.cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
-            if (const auto ended = pool_.wait_any(cancel_interval_seconds))
-                take(static_cast<std::size_t>(ended->tag), ended->result);
-        }
-        return std::move(outcomes_);
-    }
-
- private:
-    void start(std::size_t index) {
-        PartJob& job = jobs_[index];
-        const MesherCall& call = calls_[index][call_[index]];
-        job.mesher = call.options;
-        job.vertex_order_seed = call.vertex_order_seed;
-        outcomes_[index].remedy = call.remedy;
-        ++outcomes_[index].attempts;
-        pool_.start(static_cast<int>(index), options_.worker_program, {"--memory", std::to_string(options_.memory_mb)},
-                    to_bytes(job), options_.timeout_seconds);
-    }
-
-    void take(std::size_t index, const ChildResult& child) {
-        PartOutcome& outcome = outcomes_[index];
-        outcome.seconds += child.seconds;
-        const bool answered = child.end == ChildResult::End::exited && child.exit_code == 0 && !child.output.empty();
-        outcome.result = answered ? from_bytes<PartResult>(child.output) : result_of_silence(child);
-        const bool timed_out = child.end == ChildResult::End::timed_out;
-        const bool mesher_failed = outcome.result.code == static_cast<int>(ErrorCode::subdomain) &&
-                                   (answered || timed_out || died_by_itself(child));
-        if (mesher_failed && outcome.attempts < options_.attempts) {
-            const auto next =
-                next_call(calls_[index], call_[index], timed_out ? MesherFailure::timed_out : MesherFailure::failed);
-            if (next) {
-                outcome.failures.push_back(outcome.result.message);
-                call_[index] = *next;
-                start(index);
-                return;
-            }
-        }
-        idle_.push_back(outcome.worker);
-        jobs_[index] = PartJob();
-        finished_(index, outcome);
-    }
-
-    std::vector<PartJob> jobs_;
-    const QueueOptions& options_;
-    const std::function<void(std::size_t, const PartOutcome&)>& finished_;
-    std::vector<PartOutcome> outcomes_;
-    std::vector<std::vector<MesherCall>> calls_;
-    std::vector<std::size_t> call_;  // that runs or ran last, of each job
-    std::vector<std::int32_t> idle_;
-    std::size_t next_ = 0;
-    ChildPool pool_;
-};
-
 }  // namespace
 
-std::vector<PartOutcome> run_part_jobs(std::vector<PartJob> jobs, const QueueOptions& options,
-                                       const std::function<void(std::size_t index, const PartOutcome&)>& finished) {
-    return Queue(std::move(jobs), options, finished).run();
+PartQueue::PartQueue(std::vector<QueuedPart> parts, QueueOptions options, std::function<bool(std::size_t part)> take)
+    : parts_(std::move(parts)),
+      options_(std::move(options)),
+      take_(std::move(take)),
+      calls_(mesher_calls(options_.mesher)),
+      progress_(parts_.size()) {
+    for (std::int32_t worker = options_.workers; worker-- > 0;) idle_.push_back(worker);
+}
+
+std::optional<PartQueue::Finished> PartQueue::step(double wait_seconds) {
+    for (; next_ < parts_.size() && !idle_.empty(); ++next_) {
+        if (!take_(next_)) continue;
+        progress_[next_].outcome.worker = idle_.back();
+        idle_.pop_back();
+        start(next_);
+    }
+    if (pool_.running() == 0) {
+        std::this_thread::sleep_for(std::chrono::duration<double>(wait_seconds));
+        return {};
+    }
+    const auto ended = pool_.wait_any(wait_seconds);
+    if (!ended) return {};
+    return take_result(static_cast<std::size_t>(ended->tag), ended->result);
+}
+
+void PartQueue::start(std::size_t part) {
+    const MesherCall& call = calls_[progress_[part].call];
+    PartOutcome& outcome = progress_[part].outcome;
+    outcome.remedy = call.remedy;
+    ++outcome.attempts;
+    pool_.start(static_cast<int>(part), options_.worker_program, {"--memory", std::to_string(options_.memory_mb)},
+                to_bytes(PartAttempt{parts_[part].job_file, parts_[part].part_file, call}), options_.timeout_seconds);
+}
+
+std::optional<PartQueue::Finished> PartQueue::take_result(std::size_t part, const ChildResult& child) {
+    PartOutcome& outcome = progress_[part].outcome;
+    outcome.seconds += child.seconds;
+    const bool answered = child.end == ChildResult::End::exited && child.exit_code == 0 && !child.output.empty();
+    outcome.result = answered ? from_bytes<PartResult>(child.output) : result_of_silence(child);
+    const bool timed_out = child.end == ChildResult::End::timed_out;
+    const bool mesher_failed = outcome.result.code == static_cast<int>(ErrorCode::subdomain) &&
+                               (answered || timed_out || died_by_itself(child));
+    if (mesher_failed && outcome.attempts < options_.attempts) {
+        const auto next =
+            next_call(calls_, progress_[part].call, timed_out ? MesherFailure::timed_out : MesherFailure::failed);
+        if (next) {
+            outcome.failures.push_back(outcome.result.message);
+            progress_[part].call = *next;
+            start(part);
+            return {};
+        }
+    }
+    idle_.push_back(outcome.worker);
+    if (outcome.result.code) {
+        std::error_code ignored;
+        std::filesystem::remove(parts_[part].part_file, ignored);  // the worker may have ended while it wrote
+    }
+    return Finished{part, std::exchange(outcome, {})};
 }
 
 }  // namespace kerf

@@ -2,12 +2,20 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "run/part_job.h"
+#include "volume/child_process.h"
 
 namespace kerf {
+
+/// A part that waits for a worker.
+struct QueuedPart {
+    std::string job_file;  ///< of write_job()
+    std::string part_file;
+};
 
 /// How one part fared over all of its attempts.
 struct PartOutcome {
@@ -17,23 +25,59 @@ struct PartOutcome {
     double seconds = 0;                 ///< wall clock over all attempts, starting the processes included
     std::vector<std::string> failures;  ///< why earlier attempts failed
     std::string remedy;                 ///< of the last attempt (volume/retries.h); empty: none was needed
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(result, attempts, worker, seconds, failures, remedy);
+    }
 };
 
 struct QueueOptions {
     std::string worker_program;
+    MesherOptions mesher;
     std::int32_t workers = 1;
     double timeout_seconds = 0;  ///< of one attempt; 0: none
     std::int64_t memory_mb = 0;
-    std::int32_t attempts = 8;
-    std::function<bool()> cancelled = [] { return false; };  ///< asked a few times a second
+    std::int32_t attempts = 10;
 };
 
-/// Runs every job in a process of its own, `workers` at a time, in the given order; outcomes come back in the same
-/// order. An attempt that fails for the mesher's reasons (it aborts, crashes, hangs, or returns a mesh that breaks a
-/// law) is repeated with the remedies of volume/retries.h. A worker that was killed from outside or ran out of memory
-/// is not: the part has failed. `finished` is called after every part. Throws Error(cancelled), with all workers ended,
-/// once `cancelled` says so.
-std::vector<PartOutcome> run_part_jobs(std::vector<PartJob> jobs, const QueueOptions& options,
-                                       const std::function<void(std::size_t index, const PartOutcome&)>& finished);
+/// Meshes parts in processes of their own, up to options.workers at a time.
+///
+/// Parts are asked for in the given order whenever a worker is free, and those meshed for which `take` says true: so
+/// several queues, of the same or of other ranks, can share one list. An attempt that fails for the mesher's reasons
+/// (it aborts, crashes, hangs, or returns a mesh that breaks a law) is repeated with the remedies of volume/retries.h.
+/// A worker that was killed from outside or ran out of memory is not: the part has failed, and its file is removed.
+class PartQueue {
+ public:
+    PartQueue(std::vector<QueuedPart> parts, QueueOptions options, std::function<bool(std::size_t part)> take);
+
+    struct Finished {
+        std::size_t part;
+        PartOutcome outcome;
+    };
+    /// Starts what can be started, and waits until a part is finished, at most `wait_seconds`: nothing then. Sleeps
+    /// while it waits. Throws Error(io) if a worker cannot be started. The destructor ends all workers.
+    std::optional<Finished> step(double wait_seconds);
+
+    /// Whether this queue has neither workers under way nor parts to ask for.
+    bool empty() const { return next_ == parts_.size() && pool_.running() == 0; }
+
+ private:
+    struct Progress {
+        PartOutcome outcome;
+        std::size_t call = 0;  // of calls_, the one under way
+    };
+    void start(std::size_t part);
+    std::optional<Finished> take_result(std::size_t part, const ChildResult& child);
+
+    std::vector<QueuedPart> parts_;
+    QueueOptions options_;
+    std::function<bool(std::size_t)> take_;
+    std::vector<MesherCall> calls_;
+    std::vector<Progress> progress_;
+    std::vector<std::int32_t> idle_;  // workers, the next one last
+    std::size_t next_ = 0;            // part that is asked for next
+    ChildPool pool_;
+};
 
 }  // namespace kerf

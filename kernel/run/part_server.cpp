@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 
@@ -66,7 +67,12 @@ int serve_part_job(std::int64_t memory_mb) {
     if (answer < 0 || dup2(STDERR_FILENO, STDOUT_FILENO) < 0) return static_cast<int>(ErrorCode::io);
     PartResult result;
     try {
-        result = run_part_job(from_bytes<PartJob>(read_all(STDIN_FILENO)));
+        const auto start = std::chrono::steady_clock::now();
+        const auto attempt = from_bytes<PartAttempt>(read_all(STDIN_FILENO));
+        const PartJob job = read_job(attempt.job_file);
+        const std::chrono::duration<double> load_time = std::chrono::steady_clock::now() - start;
+        result = run_part_job(job, attempt.call, attempt.part_file);
+        result.load_seconds = load_time.count();
     } catch (const Error& e) {
         result.code = static_cast<int>(e.code());
         result.message = e.what();

@@ -1,6 +1,6 @@
-// Every rank reads the input and descends its own branches of the tree. The ranks talk three times: to bring both sides
-// of the interfaces together, to number the vertices, and to report. Meshes never travel: a part goes from its worker
-// to its file.
+// Every rank reads the input and descends its own branches of the tree. The ranks talk to bring both sides of the
+// interfaces together, to share the parts out, to number the vertices, and to report. Surfaces and meshes travel as
+// files only: a part goes from the rank that cut it to the worker that takes it, and from there to its place.
 #include "run/pipeline.h"
 
 #include <sys/resource.h>
@@ -19,12 +19,14 @@
 #include "io/run_folder.h"
 #include "io/stl_writer.h"
 #include "io/text_file.h"
-#include "run/failed_part.h"
+#include "run/forecast.h"
 #include "run/input_cover.h"
 #include "run/interface_match.h"
 #include "run/mesh_hash.h"
 #include "run/numbering.h"
+#include "run/saved_run.h"
 #include "run/trace.h"
+#include "run/volume_stage.h"
 
 namespace kerf {
 
@@ -57,7 +59,7 @@ RunFolder open_run_folder(const std::string& path, Communicator& ranks) {
     const std::string temporary = in_agreement(ranks, [&] {
         if (ranks.rank() != 0) return std::string();
         folder.emplace(RunFolder::create(path));
-        return folder->temporary_path();
+        return folder->partial_path();
     });
     const std::string shared = all_gather(ranks, temporary).front();
     if (!folder) folder.emplace(RunFolder::join(shared));
@@ -75,7 +77,7 @@ std::vector<TreeNode> gather_nodes(Communicator& ranks, const std::vector<TreeNo
 }
 
 // What is known of a part before it is meshed.
-PartReport describe_part(const Leaf& leaf, const std::vector<NodeId>& neighbours, int rank) {
+PartReport describe_part(const Leaf& leaf, const std::vector<NodeId>& neighbours, int rank, const LoadModel& model) {
     PartReport part;
     part.id = leaf.id;
     part.rank = rank;
@@ -89,6 +91,8 @@ PartReport describe_part(const Leaf& leaf, const std::vector<NodeId>& neighbours
         part.interface_area += (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / 2;
         part.neighbours.push_back(neighbours[f]);
     }
+    part.load = model.load(static_cast<double>(part.surface_vertices), static_cast<double>(part.surface_facets),
+                           part.surface_volume);
     std::sort(part.neighbours.begin(), part.neighbours.end());
     part.neighbours.erase(std::unique(part.neighbours.begin(), part.neighbours.end()), part.neighbours.end());
     return part;
@@ -99,19 +103,25 @@ std::int64_t least_facets(const DecomposeOptions& options) {
     return options.facets == FacetPolicy::keep ? min_facets_per_part : 4;
 }
 
-void check_part_count(const Input& input, const DecomposeOptions& options) {
-    const std::int64_t most = std::max<std::int64_t>(1, input.facets / least_facets(options));
-    if (options.parts > most)
+// K as given, if the surface allows it, or as it follows from the surface, the machine and its memory.
+std::int32_t part_count(const Input& input, const RunOptions& options, int ranks) {
+    const auto most =
+        static_cast<std::int32_t>(std::max<std::int64_t>(1, input.facets / least_facets(options.decompose)));
+    const std::int32_t wanted = options.decompose.parts;
+    if (wanted == 0) return choose_parts(options, static_cast<double>(input.facets), input.volume, ranks, most);
+    if (wanted > most)
         throw Error(ErrorCode::usage, fmt::format("{} has {} facets, too few for {} parts. Use -n {} or fewer, or a "
                                                   "finer surface.",
-                                                  input.path, input.facets, options.parts, most));
+                                                  input.path, input.facets, wanted, most));
+    return wanted;
 }
 
 // One rank's share of the run.
 class Run {
  public:
     Run(RunOptions options, Communicator& ranks, Input& input, RunListener* listener)
-        : ranks_(ranks), input_(input), listener_(listener), folder_(open_run_folder(options.output, ranks)) {
+        : ranks_(ranks), input_(input), listener_(listener) {
+        if (!options.dry_run) folder_.emplace(open_run_folder(options.output, ranks));
         report_.options = std::move(options);
         report_.ranks = ranks.size();
         report_.input = &input;
@@ -120,10 +130,13 @@ class Run {
     void decompose_surface();
     void divide_unfinished(CutListener* cuts);
     void join_interfaces();
+    void gather_parts();
+    void announce_parts() const;
+    void hand_over_parts();
     void mesh_parts();
     void number_interiors();
-    void gather_results();
     RunReport finish(const Stopwatch& whole, double read_seconds);
+    const RunReport& report() const { return report_; }
 
  private:
     bool is_root() const { return ranks_.rank() == 0; }
@@ -132,15 +145,13 @@ class Run {
         if (listener_->cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
         listener_->on_progress(stage, done, total);
     }
-    PartJob make_job(std::size_t leaf) const;
-    void keep_reproducer(const Leaf& leaf, const PartReport& part) const;
     void verify();
     void measure_workers();
 
     Communicator& ranks_;
     Input& input_;
     RunListener* listener_;
-    RunFolder folder_;
+    std::optional<RunFolder> folder_;  // none for a dry run
     RunReport report_;
     Decomposition own_;
     std::vector<PartReport> own_parts_;
@@ -152,7 +163,7 @@ void Run::decompose_surface() {
     const Stopwatch stopwatch;
     const DecomposeOptions& options = report_.options.decompose;
     const LeafRange range = range_of_rank(options.parts, ranks_);
-    CutListener* cuts = listener_ && listener_->wants_cuts() ? listener_ : nullptr;
+    CutListener* cuts = listener_;
     std::optional<TraceRecorder> trace;
     if (!report_.options.trace_file.empty()) cuts = &trace.emplace(report_.options, input_, cuts);
     own_ = in_agreement(ranks_, [&] {
@@ -181,6 +192,7 @@ void Run::divide_unfinished(CutListener* cuts) {
 }
 
 void Run::join_interfaces() {
+    const Stopwatch stopwatch;
     report_.nodes = gather_nodes(ranks_, own_.nodes);
     const InterfaceTable table(ranks_, own_.leaves);
     report_.verification.unmatched_interface_faces = table.unmatched();
@@ -193,74 +205,68 @@ void Run::join_interfaces() {
         arrays.boundary_id = numbering.global_ids(leaf.surface.vertex_key);
         arrays.neighbour = table.neighbours(leaf);
         arrays.patch_names = input_.patch_names;
-        own_parts_.push_back(describe_part(leaf, arrays.neighbour, ranks_.rank()));
+        own_parts_.push_back(describe_part(leaf, arrays.neighbour, ranks_.rank(), report_.options.decompose.cut.load));
         own_arrays_.push_back(std::move(arrays));
     }
-    in_agreement(ranks_, [&] {
-        for (std::size_t i = 0; i < own_.leaves.size(); ++i) {
-            const Leaf& leaf = own_.leaves[i];
-            write_part_surface(folder_.part_surface_file(leaf.id), leaf.surface, own_arrays_[i]);
-            if (report_.options.stl)
-                write_stl(folder_.part_stl_file(leaf.id), leaf.surface.vertices, leaf.surface.facets);
-        }
-    });
+    gather_parts();
+    report_.seconds.prepare = longest(ranks_, stopwatch.seconds());
 }
 
-PartJob Run::make_job(std::size_t leaf) const {
-    PartJob job;
-    job.surface = own_.leaves[leaf].surface;
-    job.arrays = own_arrays_[leaf];
-    job.mesher = report_.options.mesher;
-    job.part_file = folder_.part_file(own_.leaves[leaf].id);
-    job.length_scale = input_.diagonal;
-    return job;
+// What is ahead.
+void Run::announce_parts() const {
+    if (!listener_ || !is_root() || !report_.options.volume) return;
+    listener_->on_parts(report_.parts,
+                        plan_text(report_.parts, report_.options, ranks_.size(), report_.options.dry_run));
 }
 
-void Run::keep_reproducer(const Leaf& leaf, const PartReport& part) const {
-    write_failed_part(folder_.file("failed"), leaf.id, leaf.surface, report_.options.mesher, part.result.message);
-}
-
-void Run::mesh_parts() {
-    const Stopwatch stopwatch;
-    const RunOptions& options = report_.options;
-    in_agreement(ranks_, [&] {
-        std::vector<std::size_t> order(own_.leaves.size());  // longest first
-        for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-        const auto load = [&](std::size_t i) {
-            const SurfaceArrays& surface = own_.leaves[i].surface;
-            return options.decompose.cut.load.load(static_cast<double>(surface.vertices.size()),
-                                                   static_cast<double>(surface.facets.size()), own_.leaves[i].volume);
-        };
-        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return load(a) > load(b); });
-        std::vector<PartJob> jobs;
-        for (const std::size_t i : order) jobs.push_back(make_job(i));
-        std::size_t done = 0;
-        progress("volume", 0, jobs.size());
-        QueueOptions queue = {options.worker_program, options.workers, options.timeout_seconds, options.memory_mb,
-                              options.attempts};
-        if (listener_) queue.cancelled = [this] { return listener_->cancelled(); };
-        run_part_jobs(std::move(jobs), queue, [&](std::size_t index, const PartOutcome& outcome) {
-            PartReport& part = own_parts_[order[index]];
-            part.worker = outcome.worker;
-            part.attempts = outcome.attempts;
-            part.seconds = outcome.seconds;
-            part.failures = outcome.failures;
-            part.remedy = outcome.remedy;
-            part.result = outcome.result;
-            if (part.result.code == static_cast<int>(ErrorCode::io)) throw Error(ErrorCode::io, part.result.message);
-            if (part.result.code) keep_reproducer(own_.leaves[order[index]], part);
-            progress("volume", ++done, order.size());
-        });
-    });
-    report_.seconds.mesh = longest(ranks_, stopwatch.seconds());
-}
-
-void Run::gather_results() {
+void Run::gather_parts() {
+    report_.parts.clear();
     for (const auto& parts : all_gather(ranks_, own_parts_))
         report_.parts.insert(report_.parts.end(), parts.begin(), parts.end());
 }
 
+// Surfaces leave the memory of the rank: what remains to be done is written in files.
+void Run::hand_over_parts() {
+    const Stopwatch stopwatch;
+    const bool volume = report_.options.volume;
+    in_agreement(ranks_, [&] {
+        if (!is_root()) return;
+        std::vector<int> leaves;
+        for (const PartReport& part : report_.parts) leaves.push_back(part.id);
+        folder_->keep_only(volume ? leaves : std::vector<int>());
+        if (!volume) return;
+        save_run(folder_->saved_run_file(), report_.options);
+        folder_->keep();
+    });
+    VolumeStage stage(ranks_, *folder_, report_.options, listener_);
+    in_agreement(ranks_, [&] {
+        for (std::size_t i = 0; i < own_.leaves.size(); ++i) {
+            const Leaf leaf = std::exchange(own_.leaves[i], {});
+            PartJob job{leaf.surface, std::exchange(own_arrays_[i], {}), input_.diagonal};
+            write_part_surface(folder_->part_surface_file(leaf.id), job.surface, job.arrays);
+            if (report_.options.stl)
+                write_stl(folder_->part_stl_file(leaf.id), job.surface.vertices, job.surface.facets);
+            if (volume) stage.hand_over(job, own_parts_[i]);
+        }
+    });
+    gather_parts();
+    report_.seconds.prepare += longest(ranks_, stopwatch.seconds());
+}
+
+void Run::mesh_parts() {
+    const Stopwatch stopwatch;
+    try {
+        VolumeStage(ranks_, *folder_, report_.options, listener_).mesh(report_.parts);
+    } catch (const Error& e) {
+        throw Error(e.code(),
+                    fmt::format("{} {} of {} parts are finished; kerf mesh --resume {} does the others.", e.what(),
+                                folder_->finished_parts(), report_.parts.size(), report_.options.output));
+    }
+    report_.seconds.mesh = longest(ranks_, stopwatch.seconds());
+}
+
 void Run::number_interiors() {
+    const Stopwatch stopwatch;
     std::int64_t first = surface_vertices_;
     std::map<NodeId, std::int64_t> first_of;
     for (const PartReport& part : report_.parts) {
@@ -268,10 +274,15 @@ void Run::number_interiors() {
         first += part.result.interior_vertices;
     }
     report_.vertices = first;
+    const LeafRange share = range_of_rank(static_cast<std::int32_t>(report_.parts.size()), ranks_);
     in_agreement(ranks_, [&] {
-        for (const PartReport& part : own_parts_)
-            if (part.result.code == 0) number_interior_vertices(folder_.part_file(part.id), first_of[part.id]);
+        progress("number", 0, 1);
+        for (std::int32_t i = share.first; i < share.last; ++i) {
+            const PartReport& part = report_.parts[static_cast<std::size_t>(i)];
+            if (part.result.code == 0) number_interior_vertices(folder_->part_file(part.id), first_of[part.id]);
+        }
     });
+    report_.seconds.number = longest(ranks_, stopwatch.seconds());
 }
 
 void Run::verify() {
@@ -292,26 +303,23 @@ void Run::verify() {
     v.passed = parts_hold && v.all_hold();
 }
 
-// Sums of a measure over the parts of each worker of each rank.
-template <class Measure>
-std::vector<double> per_worker(const RunReport& report, Measure measure) {
-    std::vector<double> sums(static_cast<std::size_t>(report.ranks * report.options.workers), 0);
-    for (const PartReport& part : report.parts)
-        sums[static_cast<std::size_t>(part.rank * report.options.workers + part.worker)] += measure(part);
-    return sums;
-}
-
+// Where the time of the workers went in the meshing stage, as means over all of them.
 void Run::measure_workers() {
-    const auto longest_sum = [&](double PartResult::*seconds) {
-        const auto sums = per_worker(report_, [&](const PartReport& part) { return part.result.*seconds; });
-        return *std::max_element(sums.begin(), sums.end());
-    };
-    report_.seconds.verify = longest_sum(&PartResult::verify_seconds);
-    report_.seconds.write = longest_sum(&PartResult::write_seconds);
-    const auto busy = per_worker(report_, [](const PartReport& part) { return part.seconds; });
+    const auto workers = static_cast<std::size_t>(report_.ranks * report_.options.workers);
+    std::vector<double> busy(workers, 0);
+    WorkerSeconds& mean = report_.worker_seconds;
+    for (const PartReport& part : report_.parts) {
+        if (part.resumed) continue;
+        busy[static_cast<std::size_t>(part.rank * report_.options.workers + part.worker)] += part.seconds;
+        mean.mesher += part.result.mesh_seconds;
+        mean.verify += part.result.verify_seconds;
+        mean.write += part.result.write_seconds;
+    }
     const double sum = std::accumulate(busy.begin(), busy.end(), 0.0);
-    if (sum > 0)
-        report_.imbalance = *std::max_element(busy.begin(), busy.end()) * static_cast<double>(busy.size()) / sum;
+    if (sum > 0) report_.imbalance = *std::max_element(busy.begin(), busy.end()) * static_cast<double>(workers) / sum;
+    for (double* seconds : {&mean.mesher, &mean.verify, &mean.write}) *seconds /= static_cast<double>(workers);
+    mean.start = sum / static_cast<double>(workers) - mean.mesher - mean.verify - mean.write;
+    mean.idle = std::max(0.0, report_.seconds.mesh - sum / static_cast<double>(workers));
 }
 
 // 0 if every part was meshed; `memory` if all that failed ran out of it, else `subdomain`.
@@ -358,11 +366,11 @@ RunReport Run::finish(const Stopwatch& whole, double read_seconds) {
             std::vector<std::string> pieces;
             for (const PartReport& part : report_.parts)
                 if (part.result.code == 0) pieces.push_back("parts/" + part_file_name(part.id));
-            write_pvtu(folder_.file("mesh.pvtu"), pieces);
+            write_pvtu(folder_->file("mesh.pvtu"), pieces);
         }
         const std::string json = to_json(report_);
-        write_text_file(folder_.file("report.json"), json);
-        folder_.commit();
+        write_text_file(folder_->file("report.json"), json);
+        folder_->commit();
         if (!report_.options.report_file.empty()) write_text_file(report_.options.report_file, json);
     });
     return std::move(report_);
@@ -375,19 +383,26 @@ RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input&
     // Hosts may differ, but the defaults of K and workers must not.
     for (const int cores : all_gather(ranks, cores_of_rank)) cores_of_rank = std::min(cores_of_rank, cores);
     in_agreement(ranks, [&] {
-        options.resolve(ranks.size(), cores_of_rank);
+        options.resolve(cores_of_rank);
         if (listener) listener->on_progress("read", 0, 1);
         input = read_input(options.input, options.input_options);
-        check_part_count(input, options.decompose);
+        options.decompose.parts = part_count(input, options, ranks.size());
     });
     const double read_seconds = longest(ranks, whole.seconds());
-    const bool volume = options.volume;
+    const bool volume = options.volume, dry_run = options.dry_run;
     Run run(std::move(options), ranks, input, listener);
     run.decompose_surface();
     run.join_interfaces();
-    if (volume) run.mesh_parts();
-    run.gather_results();
-    if (volume) run.number_interiors();
+    if (dry_run) {
+        run.announce_parts();
+        return run.report();
+    }
+    run.hand_over_parts();
+    run.announce_parts();
+    if (volume) {
+        run.mesh_parts();
+        run.number_interiors();
+    }
     return run.finish(whole, read_seconds);
 }
 

@@ -2,28 +2,19 @@
 #pragma once
 
 #include "run/communicator.h"
+#include "run/listener.h"
 #include "run/report.h"
 
 namespace kerf {
-
-/// Is told of the progress on this rank. Without one nothing is copied, and the result is the same.
-class RunListener : public CutListener {
- public:
-    /// `done` of `total` steps of a stage: "read", "decompose", "volume", "write". Root-rank numbers are its own.
-    virtual void on_progress(const char* stage, std::size_t done, std::size_t total) = 0;
-    /// Whether on_cut() is wanted: recording the stages of every cut costs memory.
-    virtual bool wants_cuts() const { return false; }
-    void on_cut(const Surface&, const Cut&) override {}
-    /// Asked between stages and while workers run. Once true, the run ends with Error(cancelled) and leaves no result.
-    virtual bool cancelled() const { return false; }
-};
 
 /// Reads, decomposes, meshes every subdomain in worker processes, verifies and writes the run folder.
 ///
 /// Collective. The part files depend on input, options and K alone. Parts that could not be meshed leave a reproducer
 /// in DIR/failed and exit_code 4 in the report, 5 if all of them ran out of memory; a law that does not hold leaves
 /// exit_code 8. Throws Error on every rank alike for what leaves no result, a full disk among them; the run folder then
-/// does not exist.
+/// does not exist, but what is finished waits beside it for the next run into it (io/run_folder.h), which has only the
+/// other parts to do.
+/// With options.dry_run it ends after on_parts() of the listener, and nothing is written but the trace.
 /// `input` receives the surface that the report refers to.
 RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input& input,
               RunListener* listener = nullptr);

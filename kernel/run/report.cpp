@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "run/number_text.h"
 #include "run/version.h"
 
 namespace kerf {
@@ -131,17 +133,20 @@ Json part_json(const PartReport& part) {
                  {"surface_vertices", part.surface_vertices},
                  {"surface_faces", part.surface_facets},
                  {"surface_volume", part.surface_volume},
+                 {"load", part.load},
                  {"interface_area", part.interface_area},
                  {"neighbours", part.neighbours},
                  {"mesher", "tetgen"},
                  {"attempts", part.attempts},
                  {"seconds", part.seconds},
+                 {"load_seconds", part.result.load_seconds},
                  {"mesh_seconds", part.result.mesh_seconds},
                  {"verify_seconds", part.result.verify_seconds},
                  {"write_seconds", part.result.write_seconds},
                  {"peak_rss_bytes", part.result.peak_rss_bytes}};
     if (!part.failures.empty()) json["failures"] = part.failures;
     if (!part.remedy.empty()) json["remedy"] = part.remedy;
+    if (part.resumed) json["resumed"] = true;
     if (part.result.code) json["error"] = part.result.message;
     return json;
 }
@@ -159,9 +164,14 @@ Json totals_json(const RunReport& report) {
             {"split_facets", report.split_facets},
             {"read_seconds", report.seconds.read},
             {"decompose_seconds", report.seconds.decompose},
+            {"prepare_seconds", report.seconds.prepare},
             {"mesh_seconds", report.seconds.mesh},
-            {"write_seconds", report.seconds.write},
-            {"verify_seconds", report.seconds.verify},
+            {"mesher_seconds", report.worker_seconds.mesher},
+            {"verify_seconds", report.worker_seconds.verify},
+            {"write_seconds", report.worker_seconds.write},
+            {"start_seconds", report.worker_seconds.start},
+            {"idle_seconds", report.worker_seconds.idle},
+            {"number_seconds", report.seconds.number},
             {"wall_seconds", report.seconds.wall},
             {"imbalance", report.imbalance},
             {"peak_rss_bytes", report.peak_rss_bytes}};
@@ -172,14 +182,6 @@ Json array_of(const std::vector<T>& items, Json (*convert)(const T&)) {
     Json json = Json::array();
     for (const T& item : items) json.push_back(convert(item));
     return json;
-}
-
-// 1234567 as 1,234,567.
-std::string grouped(std::int64_t n) {
-    std::string digits = std::to_string(n);
-    for (auto i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3)
-        digits.insert(static_cast<std::size_t>(i), ",");
-    return digits;
 }
 
 std::string rungs_text(const std::vector<TreeNode>& nodes) {
@@ -257,9 +259,20 @@ std::string remedies_text(const RunReport& report) {
     return fmt::format("{}{}", fmt::join(all.begin(), end, "; "), more);
 }
 
+// Where the seconds went.
+std::string time_text(const RunReport& report) {
+    const StageSeconds& s = report.seconds;
+    std::string text = fmt::format("{:.2f} s: read {:.2f}, decompose {:.2f}", s.wall, s.read, s.decompose);
+    if (!report.options.volume) return text;
+    const WorkerSeconds& w = report.worker_seconds;
+    return text + fmt::format(
+                      ", prepare {:.2f}, mesh {:.2f} (mesher {:.2f}, verify {:.2f}, write {:.2f}, start {:.2f}, "
+                      "idle {:.2f}), number {:.2f}",
+                      s.prepare, s.mesh, w.mesher, w.verify, w.write, w.start, w.idle, s.number);
+}
+
 std::string to_text(const RunReport& report) {
     const Input& input = *report.input;
-    const StageSeconds& s = report.seconds;
     double section = 0, interface = 0, angle = 180;
     for (const TreeNode& node : report.nodes) {
         section += node.section_area;
@@ -286,6 +299,8 @@ std::string to_text(const RunReport& report) {
         line("interfaces", fmt::format("area {:.6g}, {:.3f} of the plane sections; smallest angle {:.1f} deg",
                                        interface, interface / section, angle));
     if (const std::string remedies = remedies_text(report); !remedies.empty()) line("retried", remedies);
+    const auto resumed = std::count_if(report.parts.begin(), report.parts.end(), std::mem_fn(&PartReport::resumed));
+    if (resumed > 0) line("continued", fmt::format("{} parts were finished by an interrupted run", resumed));
     if (report.options.volume) {
         line("mesh", fmt::format("{} tetrahedra, {} vertices", grouped(report.tets), grouped(report.vertices)));
         const Distribution& dihedral = report.quality.all.measures[0];
@@ -293,8 +308,7 @@ std::string to_text(const RunReport& report) {
         line("quality", fmt::format("dihedral min {:.1f}, 1 % {:.1f}, median {:.1f} deg; radius-edge max {:.2f}",
                                     dihedral.min(), dihedral.percentile(0.01), dihedral.percentile(0.5), ratio.max()));
     }
-    line("time", fmt::format("{:.2f} s: read {:.2f}, decompose {:.2f}, mesh {:.2f} (verify {:.2f}, write {:.2f} of it)",
-                             s.wall, s.read, s.decompose, s.mesh, s.verify, s.write));
+    line("time", time_text(report));
     line("processes",
          fmt::format("{} rank{} x {} worker{}, imbalance {:.2f}, peak memory {} MB", report.ranks,
                      report.ranks == 1 ? "" : "s", report.options.workers, report.options.workers == 1 ? "" : "s",

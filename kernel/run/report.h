@@ -10,25 +10,23 @@
 
 namespace kerf {
 
-/// One leaf of the finished run.
-struct PartReport {
+/// One leaf of the run: what it is, and how it fared.
+struct PartReport : PartOutcome {
     NodeId id = 1;
-    std::int32_t rank = 0;
-    std::int32_t worker = 0;
+    std::int32_t rank = 0;  ///< that meshed it, before that the one that cut it
+    bool resumed = false;   ///< an interrupted run had finished it
+    double load = 0;        ///< predicted work, as LoadModel has it
+    FileHash job_hash = {0, 0};
     double surface_volume = 0;
     std::int64_t surface_vertices = 0, surface_facets = 0;
     double interface_area = 0;
     std::vector<NodeId> neighbours;  ///< ascending
-    std::int32_t attempts = 0;
-    double seconds = 0;                 ///< wall clock of all attempts
-    std::vector<std::string> failures;  ///< why earlier attempts failed
-    std::string remedy;                 ///< of the last attempt; empty: none was needed
-    PartResult result;
 
     template <class Archive>
     void archive(Archive& a) {
-        a(id, rank, worker, surface_volume, surface_vertices, surface_facets, interface_area, neighbours, attempts,
-          seconds, failures, remedy, result);
+        PartOutcome::archive(a);
+        a(id, rank, resumed, load, job_hash, surface_volume, surface_vertices, surface_facets, interface_area,
+          neighbours);
     }
 };
 
@@ -46,9 +44,21 @@ struct RunVerification {
     bool all_hold() const;
 };
 
+/// Wall clock, the longest over the ranks.
 struct StageSeconds {
-    double read = 0, decompose = 0, mesh = 0, wall = 0;  ///< longest over the ranks
-    double verify = 0, write = 0;                        ///< within mesh; longest sum over the parts of a worker
+    double read = 0, decompose = 0;
+    double prepare = 0;  ///< both sides of interfaces brought together, surfaces and jobs written
+    double mesh = 0;     ///< of the stage
+    double number = 0;   ///< global numbers of interior vertices
+    double wall = 0;     ///< of the run
+};
+
+/// How the workers spent the meshing stage, each a mean over all of them: the terms add up to StageSeconds::mesh.
+struct WorkerSeconds {
+    double mesher = 0;  ///< calls of the mesher
+    double verify = 0, write = 0;
+    double start = 0;  ///< starting processes, handing over jobs and answers, attempts that failed
+    double idle = 0;   ///< nothing left to do
 };
 
 struct RunReport {
@@ -60,6 +70,7 @@ struct RunReport {
     RunVerification verification;
     std::int64_t split_facets = 0;  ///< facets of the input that straight cuts have split
     StageSeconds seconds;
+    WorkerSeconds worker_seconds;
     std::int64_t vertices = 0;  ///< distinct, of the whole mesh
     std::int64_t tets = 0;
     double imbalance = 1;             ///< max over mean of the part seconds summed per worker

@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "core/hash.h"
 #include "cut/split.h"
 #include "io/checked_file.h"
 #include "io/file_bytes.h"
-#include "run/mesh_hash.h"
 
 namespace kerf {
 
@@ -76,18 +76,9 @@ Surface replay(const Trace& trace, NodeId node) {
 
 RunOptions options_of(const Trace& trace) {
     RunOptions options;
-    const std::vector<OptionField> fields = option_fields(options);
-    for (const OptionText& option : trace.options) {
-        const auto field =
-            std::find_if(fields.begin(), fields.end(), [&](const OptionField& f) { return f.name == option.name; });
-        if (field == fields.end())
-            throw Error(ErrorCode::usage, fmt::format("The trace of {} has the option --{}, which this version of Kerf "
-                                                      "does not know. Read it with the version that wrote it.",
-                                                      trace.input, option.name));
-        field->set_text(option.text);
-    }
+    set_options(options, trace.options, "The trace of " + trace.input);
     options.input = trace.input;
-    options.resolve(1, 1);
+    options.resolve(1);
     return options;
 }
 
@@ -119,9 +110,7 @@ TraceRecorder::TraceRecorder(const RunOptions& options, const Input& input, CutL
     trace_.input = input.path;
     trace_.surface = input.surface.arrays();
     trace_.patch_names = input.patch_names;
-    RunOptions copy = options;  // the table reads and writes
-    for (const OptionField& field : option_fields(copy))
-        if (field.shapes_parts) trace_.options.push_back({field.name, field.text()});
+    trace_.options = option_texts(options, true);
 }
 
 void TraceRecorder::on_cut(const Surface& parent, const Cut& cut) {
@@ -136,7 +125,7 @@ void TraceRecorder::on_cut(const Surface& parent, const Cut& cut) {
         earlier->seconds = 0;
         earlier->tries.insert(earlier->tries.begin(), tries.begin(), tries.end());
     }
-    if (next_) next_->on_cut(parent, cut);
+    if (next_ && next_->wants_cuts()) next_->on_cut(parent, cut);
 }
 
 void TraceRecorder::write(const std::string& path, Communicator& ranks, const Decomposition& own, LeafRange range) {

@@ -10,16 +10,6 @@
 
 namespace kerf {
 
-/// One option of the table in run/options.h by its name, and its value as OptionField::text() gives it.
-struct OptionText {
-    std::string name, text;
-
-    template <class Archive>
-    void archive(Archive& a) {
-        a(name, text);
-    }
-};
-
 /// What --trace writes. It depends on input, options and K alone: not on ranks, workers or time.
 struct Trace {
     std::string input;                     ///< path of the surface file, as it was given
@@ -59,6 +49,7 @@ class TraceRecorder : public CutListener {
     /// `next`, unless null, is told of every cut, too.
     TraceRecorder(const RunOptions& options, const Input& input, CutListener* next);
     void on_cut(const Surface& parent, const Cut& cut) override;
+    bool cancelled() const override { return next_ && next_->cancelled(); }
 
     /// Collective. Brings the cuts of all ranks together and writes them on the root rank. `own`: what decompose() has
     /// returned for `range` on this rank; of the ranks that made the same cut, the one with its first leaf gives it.

@@ -8,33 +8,51 @@ namespace {
 
 constexpr std::uint32_t other_orders = 2;             // cured 10 of 10 failures in a trial
 constexpr double tolerances[] = {1e-6, 1e-5, 1e-12};  // relative; TetGen's own is 1e-8
+constexpr double coarser_factor = 8;                  // twice the edge length
 constexpr double weaker_radius_edge = 2;              // Delaunay refinement ends for it in theory
 
 }  // namespace
 
 std::vector<MesherCall> mesher_calls(const MesherOptions& wanted) {
-    std::vector<MesherCall> calls = {{"", wanted, 0}};
+    std::vector<MesherCall> calls = {{.remedy = "", .options = wanted}};
     for (std::uint32_t seed = 1; seed <= other_orders; ++seed)
-        calls.push_back({"another order of the vertices", wanted, seed});
-    if (!wanted.tetgen_switches.empty()) return calls;
+        calls.push_back({.remedy = "another order of the vertices", .options = wanted, .vertex_order_seed = seed});
+    const auto cut_in_two = [&] {
+        calls.push_back({.remedy = "cut in two and joined", .options = wanted, .cut_first = true, .easier = true});
+    };
+    if (!wanted.tetgen_switches.empty()) {
+        cut_in_two();
+        return calls;
+    }
     for (const double tolerance : tolerances) {
-        MesherCall& call = calls.emplace_back(MesherCall{fmt::format("tolerance {:g}", tolerance), wanted, 0});
-        call.options.tolerance = tolerance;
+        calls.push_back({.remedy = fmt::format("tolerance {:g}", tolerance), .options = wanted});
+        calls.back().options.tolerance = tolerance;
     }
-    if (wanted.radius_edge == 0) return calls;
-    if (wanted.radius_edge < weaker_radius_edge) {
-        MesherCall& call =
-            calls.emplace_back(MesherCall{fmt::format("radius-edge ratio {:g}", weaker_radius_edge), wanted, 1});
-        call.options.radius_edge = weaker_radius_edge;
+    if (wanted.radius_edge > 0 && wanted.radius_edge < weaker_radius_edge) {
+        calls.push_back({.remedy = fmt::format("radius-edge ratio {:g}", weaker_radius_edge),
+                         .options = wanted,
+                         .vertex_order_seed = 1});
+        calls.back().options.radius_edge = weaker_radius_edge;
     }
-    MesherCall& call = calls.emplace_back(MesherCall{"no bound of the radius-edge ratio", wanted, 0});
-    call.options.radius_edge = 0;
+    if (wanted.radius_edge > 0) {
+        calls.push_back({.remedy = "no bound of the radius-edge ratio", .options = wanted, .easier = true});
+        calls.back().options.radius_edge = 0;
+    }
+    cut_in_two();
+    if (wanted.max_volume > 0) {
+        calls.push_back({.remedy = fmt::format("tetrahedra {:g} times as large", coarser_factor),
+                         .options = wanted,
+                         .easier = true});
+        calls.back().options.max_volume *= coarser_factor;
+    }
     return calls;
 }
 
 std::optional<std::size_t> next_call(const std::vector<MesherCall>& calls, std::size_t call, MesherFailure failure) {
-    if (call + 1 >= calls.size()) return std::nullopt;
-    return failure == MesherFailure::timed_out && call > 0 ? calls.size() - 1 : call + 1;
+    const bool any = failure == MesherFailure::failed || call == 0;
+    for (std::size_t next = call + 1; next < calls.size(); ++next)
+        if (any || calls[next].easier) return next;
+    return std::nullopt;
 }
 
 }  // namespace kerf

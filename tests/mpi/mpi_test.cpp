@@ -8,17 +8,21 @@
 #include "support/file_contents.h"
 #include "support/program.h"
 #include "support/shapes.h"
+#include "support/started_run.h"
 #include "support/temporary_folder.h"
 #include "support/write_off.h"
 
 namespace kerf {
 namespace {
 
+// Of env. mpirun refuses the root user, as whom containers test, unless it is told twice.
+std::vector<std::string> mpirun_arguments(int ranks) {
+    return {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1", KERF_MPIRUN, "--oversubscribe", "-n",
+            std::to_string(ranks)};
+}
+
 ChildResult run_ranks(int ranks, const std::vector<std::string>& command) {
-    // mpirun refuses the root user, as whom containers test, unless it is told twice.
-    std::vector<std::string> arguments = {
-        "OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1", KERF_MPIRUN, "--oversubscribe", "-n",
-        std::to_string(ranks)};
+    std::vector<std::string> arguments = mpirun_arguments(ranks);
     arguments.insert(arguments.end(), command.begin(), command.end());
     return test::run_program("/usr/bin/env", arguments);
 }
@@ -45,7 +49,7 @@ TEST_P(MpiRuns, PartFilesAreTheSameForAnyRanksAndWorkers) {
     ASSERT_EQ(test::run_kerf(arguments("alone", 1)).exit_code, 0);
     const auto expected = test::contents(folder.file("alone/parts"));
     EXPECT_EQ(expected.size(), 2 * static_cast<std::size_t>(parts));
-    for (int ranks = 1; ranks <= 4; ++ranks)
+    for (const int ranks : {1, 2, 3, 4, 7})
         for (const int workers : {1, 2}) {
             SCOPED_TRACE(testing::Message() << ranks << " ranks, " << workers << " workers");
             std::vector<std::string> command = arguments("ranks", workers);
@@ -109,6 +113,57 @@ TEST_F(MpiStraightCuts, PartFilesAreTheSameForAnyRanks) {
 
 TEST_F(MpiStraightCuts, PartFilesAreTheSameWhereCutsAlongEdgesCameBefore) {
     expect_same_for_any_ranks("decompose", test::asset_path("hollow_box"), 200);
+}
+
+class MpiInterruptions : public testing::Test {
+ protected:
+    std::vector<std::string> command(const std::string& output) const {
+        return {"mesh", test::asset_path("cube"), "-o",   folder_.file(output), "-n",
+                "9",    "--max-volume",           "3e-6", "--workers",          "1"};
+    }
+    void expect_same_when_resumed(int ranks) const {
+        EXPECT_FALSE(std::filesystem::exists(folder_.file("out")));
+        const ChildResult result = run_ranks(ranks, {KERF_PROGRAM, "mesh", "--resume", folder_.file("out")});
+        EXPECT_EQ(result.exit_code, 0) << result.log;
+        EXPECT_NE(result.log.find("were finished by an interrupted run"), std::string::npos) << result.log;
+        ASSERT_EQ(test::run_kerf(command("alone")).exit_code, 0);
+        EXPECT_TRUE(test::contents(folder_.file("out/parts")) == test::contents(folder_.file("alone/parts")));
+    }
+    // Sends the signal to the last of three ranks when parts are finished and under way. `code`: of mpirun.
+    void interrupt(int signal, bool ranks_end_by_themselves) const {
+        std::vector<std::string> arguments = mpirun_arguments(3);
+        arguments.push_back(KERF_PROGRAM);
+        for (const std::string& argument : command("out")) arguments.push_back(argument);
+        test::StartedRun run("/usr/bin/env", arguments);
+        ASSERT_TRUE(
+            test::await([&] { return test::finished_parts(folder_.file("out")) >= 2 && !run.workers().empty(); }));
+        const std::vector<pid_t> ranks = test::descendants_of(run.process(), "kerf"), workers = run.workers();
+        ASSERT_EQ(ranks.size(), 3u);
+        ASSERT_EQ(::kill(ranks.back(), signal), 0);
+        const auto start = std::chrono::steady_clock::now();
+        for (const pid_t worker : workers) EXPECT_TRUE(test::await([&] { return test::has_ended(worker); }));
+        if (ranks_end_by_themselves) {
+            EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+        }
+        const ChildResult result = run.wait();
+        EXPECT_NE(result.exit_code, 0);
+        if (ranks_end_by_themselves) {
+            EXPECT_EQ(result.exit_code, 130) << result.log;
+            EXPECT_EQ(count(result.log, "kerf: "), 1) << result.log;
+        }
+        for (const pid_t rank : ranks) EXPECT_TRUE(test::await([&] { return test::has_ended(rank); }));
+    }
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(MpiInterruptions, ASignalToAnyRankEndsAll) {
+    interrupt(SIGTERM, true);
+    expect_same_when_resumed(2);
+}
+
+TEST_F(MpiInterruptions, AKilledRankLeavesNoProcessAndLosesOnlyItsParts) {
+    interrupt(SIGKILL, false);
+    expect_same_when_resumed(4);
 }
 
 struct Failure {

@@ -49,9 +49,7 @@ PartJob job() {
     job.arrays.part = 9;
     job.arrays.neighbour.assign(job.surface.facets.size(), -1);
     job.arrays.patch_names = {"sphere"};
-    job.mesher.max_volume = 0.25;
-    job.part_file = "part.vtu";
-    job.vertex_order_seed = 3;
+    job.length_scale = 0.25;
     return job;
 }
 

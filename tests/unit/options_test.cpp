@@ -11,8 +11,8 @@
 namespace kerf {
 namespace {
 
-RunOptions resolved(RunOptions options, int ranks = 1, int cores = 1) {
-    options.resolve(ranks, cores);
+RunOptions resolved(RunOptions options, int cores = 1) {
+    options.resolve(cores);
     return options;
 }
 
@@ -22,7 +22,7 @@ void expect_refused(const std::string& name, Change change) {
     RunOptions options;
     change(options);
     try {
-        options.resolve(1, 1);
+        options.resolve(1);
         ADD_FAILURE() << "no error";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::usage);
@@ -30,17 +30,12 @@ void expect_refused(const std::string& name, Change change) {
     }
 }
 
-TEST(RunOptions, PartsDefaultToRanksTimesWorkers) {
+TEST(RunOptions, WorkersDefaultToTheCores) {
     RunOptions options;
-    options.decompose.parts = 0;
-    EXPECT_EQ(resolved(options, 3, 4).workers, 4);
-    EXPECT_EQ(resolved(options, 3, 4).decompose.parts, 12);
+    EXPECT_EQ(resolved(options, 4).workers, 4);
+    EXPECT_EQ(resolved(options, 0).workers, 1);
     options.workers = 2;
-    EXPECT_EQ(resolved(options, 3, 4).decompose.parts, 6);
-    options.decompose.parts = 7;
-    EXPECT_EQ(resolved(options, 3, 4).decompose.parts, 7);
-    options.workers = 0;
-    EXPECT_EQ(resolved(options, 1, 0).workers, 1);
+    EXPECT_EQ(resolved(options, 4).workers, 2);
 }
 
 TEST(RunOptions, SizeIsTheVolumeOfARegularTetrahedron) {
@@ -152,7 +147,7 @@ TEST(RunOptions, TraceMustLieOutsideOfTheOutputFolder) {
         options.trace_file = trace;
         options.output = output;
         try {
-            options.resolve(1, 1);
+            options.resolve(1);
             return false;
         } catch (const Error& error) {
             return error.code() == ErrorCode::usage;

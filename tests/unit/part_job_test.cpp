@@ -9,22 +9,41 @@
 namespace kerf {
 namespace {
 
-PartJob job_of(const Soup& soup, const std::string& part_file) {
+PartJob job_of(const Soup& soup) {
     PartJob job;
     job.surface = test::to_arrays(soup);
     job.arrays.boundary_id.assign(job.surface.vertices.size(), 0);
     job.arrays.neighbour.assign(job.surface.facets.size(), -1);
-    job.part_file = part_file;
     job.length_scale = 1;
     return job;
 }
 
 TEST(PartJob, CountsAndHasAQualityWhenDone) {
     const test::TemporaryFolder folder;
-    const PartResult result = run_part_job(job_of(test::box(), folder.file("part.vtu")));
+    const PartResult result = run_part_job(job_of(test::box()), {}, folder.file("part.vtu"));
     EXPECT_EQ(result.code, 0) << result.message;
     EXPECT_GT(result.tets, 0);
     EXPECT_EQ(result.quality.all.measures.size(), quality_measures.size());
+}
+
+// The remedy that fills two halves: what others see of the part is the same, and the vertices of the cut are inside.
+TEST(PartJob, IsTheSameFromOutsideWhenCutInTwo) {
+    const test::TemporaryFolder folder;
+    MesherCall whole, in_two;
+    whole.options.max_volume = in_two.options.max_volume = 1e-2;
+    in_two.cut_first = true;
+    for (const Soup& soup : {test::icosphere(3), test::torus(3, 1, 30, 20), test::nested_boxes(2, 5)}) {
+        SCOPED_TRACE(soup.patch_names.front());
+        const PartJob job = job_of(soup);
+        const PartResult a = run_part_job(job, whole, folder.file("whole.vtu"));
+        const PartResult b = run_part_job(job, in_two, folder.file("halves.vtu"));
+        ASSERT_EQ(b.code, 0) << b.message;
+        EXPECT_TRUE(b.laws.hold());
+        EXPECT_EQ(b.vertices - b.interior_vertices, a.vertices - a.interior_vertices);
+        EXPECT_NEAR(b.laws.volume, a.laws.volume, 1e-12 * a.laws.volume);
+        EXPECT_NE(b.hash, a.hash);
+        EXPECT_EQ(hash_of_part_file(folder.file("halves.vtu")), b.file_hash);
+    }
 }
 
 // Boxes that touch in a point: TetGen returns tetrahedra, but not with these facets. A mesh that is thrown away must
@@ -32,7 +51,7 @@ TEST(PartJob, CountsAndHasAQualityWhenDone) {
 TEST(PartJob, HasNoTetrahedraWhenTheLawsAreBroken) {
     const test::TemporaryFolder folder;
     const Soup touching = test::join(test::box(), test::translated(test::box(), Vec3::Ones()));
-    const PartResult result = run_part_job(job_of(touching, folder.file("part.vtu")));
+    const PartResult result = run_part_job(job_of(touching), {}, folder.file("part.vtu"));
     EXPECT_EQ(result.code, static_cast<int>(ErrorCode::subdomain));
     EXPECT_FALSE(result.laws.hold());
     EXPECT_EQ(result.tets, 0);

@@ -48,6 +48,9 @@ class ThreadRank : public Communicator {
     int rank() const override { return rank_; }
     int size() const override { return meeting_.size(); }
     std::vector<Bytes> all_gather(const Bytes& contribution) override { return meeting_.meet(rank_, contribution); }
+    void post(int, const Bytes&) override { FAIL() << "no stage under test posts messages"; }
+    std::optional<Bytes> poll() override { return {}; }
+    void drop_messages() override {}
 
  private:
     MeetingPoint& meeting_;
@@ -102,6 +105,16 @@ TEST(InAgreement, FirstRankWins) {
         throw Error(rank ? ErrorCode::io : ErrorCode::input, "rank " + std::to_string(rank));
     };
     EXPECT_EQ(errors_of(3, on_all, ErrorCode::input), std::vector<std::string>(3, "rank 0"));
+}
+
+// The rank that was stopped because of another's error must not hide it.
+TEST(InAgreement, BeingStoppedGivesWayToErrors) {
+    const auto rank_1_fails = [](int rank) {
+        throw Error(rank == 1 ? ErrorCode::io : ErrorCode::cancelled, "rank " + std::to_string(rank));
+    };
+    const auto all_stop = [](int rank) { throw Error(ErrorCode::cancelled, "rank " + std::to_string(rank)); };
+    EXPECT_EQ(errors_of(3, rank_1_fails, ErrorCode::io), std::vector<std::string>(3, "rank 1"));
+    EXPECT_EQ(errors_of(2, all_stop, ErrorCode::cancelled), std::vector<std::string>(2, "rank 0"));
 }
 
 TEST(InAgreement, OtherExceptionsGetTheirCodes) {

@@ -1,6 +1,7 @@
 #include "volume/retries.h"
 
 #include <algorithm>
+#include <functional>
 #include <set>
 #include <tuple>
 
@@ -27,11 +28,11 @@ TEST(MesherCalls, BeginAsAskedForAndAllDiffer) {
         const std::vector<MesherCall> calls = mesher_calls(wanted);
         EXPECT_TRUE(calls[0].remedy.empty());
         EXPECT_EQ(calls[0].vertex_order_seed, 0u);
-        std::set<std::tuple<double, double, double, std::uint32_t>> different;
+        std::set<std::tuple<double, double, double, std::uint32_t, bool>> different;
         for (const MesherCall& call : calls) {
             different.emplace(call.options.radius_edge, call.options.max_volume, call.options.tolerance,
-                              call.vertex_order_seed);
-            EXPECT_EQ(call.options.max_volume, wanted.max_volume);
+                              call.vertex_order_seed, call.cut_first);
+            EXPECT_TRUE(call.options.max_volume == wanted.max_volume || call.remedy == calls.back().remedy);
             EXPECT_EQ(call.options.tetgen_switches, wanted.tetgen_switches);
             EXPECT_TRUE(call.options.radius_edge == 0 || call.options.radius_edge >= wanted.radius_edge);
         }
@@ -50,7 +51,8 @@ TEST(MesherCalls, EndWhateverFails) {
                 ++count;
             }
             EXPECT_EQ(call, calls.size() - 1);
-            EXPECT_EQ(count, failure == MesherFailure::failed ? calls.size() : std::min<std::size_t>(3, calls.size()));
+            const auto easier = std::count_if(calls.begin(), calls.end(), std::mem_fn(&MesherCall::easier));
+            EXPECT_EQ(count, failure == MesherFailure::failed ? calls.size() : 2 + static_cast<std::size_t>(easier));
         }
 }
 

@@ -68,7 +68,7 @@ std::string io_error(Action action) {
 TEST_F(RunFolderTest, AppearsUnderItsNameOnlyWhenCommitted) {
     std::optional<RunFolder> folder = RunFolder::create(path("run"));
     EXPECT_TRUE(fs::is_directory(folder->file("parts")));
-    EXPECT_EQ(fs::path(folder->temporary_path()).parent_path(), fs::path(path("run")).parent_path());
+    EXPECT_EQ(fs::path(folder->partial_path()).parent_path(), fs::path(path("run")).parent_path());
     fill(*folder, "a");
     EXPECT_FALSE(fs::exists(path("run")));
     folder->commit();
@@ -133,18 +133,58 @@ TEST_F(RunFolderTest, KeepsWhatOthersPutThereDuringTheRun) {
     EXPECT_EQ(entries(), 2u);
 }
 
-TEST_F(RunFolderTest, LastCommitOfSeveralRunsWins) {
+TEST_F(RunFolderTest, OneRunAtATimeWrites) {
     run(path("run"), "old");
-    std::vector<RunFolder> folders;
-    for (const std::string mark : {"a", "b", "c"}) {
-        folders.push_back(RunFolder::create(path("run")));
-        fill(folders.back(), mark);
+    {
+        RunFolder first = RunFolder::create(path("run"));
+        fill(first, "first");
+        const std::string message = io_error([&] { RunFolder::create(path("run")); });
+        EXPECT_NE(message.find("Another run (process " + std::to_string(::getpid())), message.npos) << message;
+        run(path("other"), "a");
+        EXPECT_EQ(get(first.part_file(8)), "first") << "the refused run has changed nothing";
     }
-    EXPECT_NE(folders[0].temporary_path(), folders[1].temporary_path());
-    for (const std::size_t i : {1, 2, 0}) folders[i].commit();
-    folders.clear();
-    expect_run(path("run"), "a");
+    run(path("run"), "new");
+    expect_run(path("run"), "new");
+    EXPECT_EQ(entries(), 2u);
+}
+
+TEST_F(RunFolderTest, PartsAndJournalOfAnInterruptedRunWaitForTheNext) {
+    {
+        RunFolder folder = RunFolder::create(path("run"));
+        fill(folder, "a");
+        for (const int leaf : {8, 9}) put(folder.journal_file(leaf), "finished");
+        put(folder.part_file(9), "part 9");
+        put(folder.part_surface_file(8), "surface");
+        put(folder.job_file(10), "waits");
+        EXPECT_TRUE(folder.take(10));
+        folder.keep();
+    }
+    EXPECT_FALSE(fs::exists(path("run")));
+    { RunFolder::create(path("run")); }  // a run that ends before it begins loses nothing
+    RunFolder folder = RunFolder::create(path("run"));
+    EXPECT_EQ(folder.finished_parts(), 2u);
+    EXPECT_TRUE(folder.take(10)) << "who was to mesh it is gone";
+    EXPECT_FALSE(fs::exists(folder.job_file(10)));
+    EXPECT_FALSE(fs::exists(folder.file("report.json")));
+    folder.keep_only({8, 10});
+    EXPECT_EQ(get(folder.part_file(8)), "a");
+    EXPECT_EQ(get(folder.journal_file(8)), "finished");
+    for (const std::string& stale : {folder.part_file(9), folder.journal_file(9), folder.part_surface_file(8)})
+        EXPECT_FALSE(fs::exists(stale)) << stale;
+    fill(folder, "b");
+    folder.commit();
+    expect_run(path("run"), "b");
     EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(RunFolderTest, APartIsTakenOnce) {
+    const RunFolder root = RunFolder::create(path("run"));
+    const RunFolder other = RunFolder::join(root.partial_path());
+    EXPECT_TRUE(root.take(8));
+    EXPECT_FALSE(root.take(8));
+    EXPECT_FALSE(other.take(8));
+    EXPECT_TRUE(other.take(9));
+    EXPECT_FALSE(root.take(9));
 }
 
 TEST_F(RunFolderTest, FollowsALinkToAnOlderRun) {
@@ -159,7 +199,7 @@ TEST_F(RunFolderTest, OtherRanksWriteIntoTheSameFolder) {
     RunFolder root = RunFolder::create(path("run"));
     fill(root, "a");
     {
-        RunFolder other = RunFolder::join(root.temporary_path());
+        RunFolder other = RunFolder::join(root.partial_path());
         EXPECT_EQ(other.part_file(9), root.part_file(9));
         put(other.part_file(9), "from another rank");
         EXPECT_THROW(other.commit(), Error);

@@ -1,0 +1,39 @@
+// Fingerprints (XXH3) of bytes that come piece by piece.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+namespace kerf {
+
+/// Hashes what is added, in its order. The pieces do not matter, only the bytes.
+class Hasher {
+ public:
+    Hasher() { XXH3_128bits_reset(&state_); }
+
+    void add_bytes(const void* data, std::size_t size) { XXH3_128bits_update(&state_, data, size); }
+    /// The number of items, then their bytes.
+    template <class T>
+    void add(std::span<const T> items) {
+        const std::uint64_t count = items.size();
+        add_bytes(&count, sizeof count);
+        add_bytes(items.data(), items.size_bytes());
+    }
+    /// Of all that was added so far: 128 bits, the higher ones first.
+    std::array<std::uint64_t, 2> digest() const {
+        const XXH128_hash_t hash = XXH3_128bits_digest(&state_);
+        return {hash.high64, hash.low64};
+    }
+
+ private:
+    XXH3_state_t state_;
+};
+
+/// 64 bits: tells damaged bytes from good ones.
+inline std::uint64_t hash_bytes(std::span<const char> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
+
+}  // namespace kerf

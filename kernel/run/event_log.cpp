@@ -1,0 +1,74 @@
+#include "run/event_log.h"
+
+#include <nlohmann/json.hpp>
+
+#include "io/checked_file.h"
+
+namespace kerf {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A descriptor that this process has open can be opened again by its name.
+std::string path_of(const std::string& target) {
+    return target.starts_with("fd:") ? "/proc/self/fd/" + target.substr(3) : target;
+}
+
+}  // namespace
+
+EventLog::EventLog(const std::string& target) : file_(std::make_unique<CheckedFile>(path_of(target), "w")) {}
+
+EventLog::~EventLog() = default;
+
+template <class Object>
+void EventLog::write(Object json) {
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
+    json["seconds"] = seconds.count();
+    file_->write(json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+    file_->flush();
+}
+
+void EventLog::on_progress(const char* stage, std::size_t, std::size_t) {
+    if (stage_ == stage) return;
+    stage_ = stage;
+    write(Json{{"event", "stage"}, {"stage", stage}});
+}
+
+void EventLog::on_parts(const std::vector<PartReport>& parts, const std::string&) {
+    Json list = Json::array();
+    for (const PartReport& part : parts)
+        list.push_back({{"id", part.id},
+                        {"load", part.load},
+                        {"facets", part.surface_facets},
+                        {"volume", part.surface_volume},
+                        {"resumed", part.resumed}});
+    write(Json{{"event", "parts"}, {"parts", list}});
+}
+
+void EventLog::on_part(const PartEvent& event) {
+    const PartReport& part = *event.part;
+    Json json = {{"event", "part"},
+                 {"id", part.id},
+                 {"state", part.result.code ? "failed" : "done"},
+                 {"rank", part.rank},
+                 {"worker", part.worker},
+                 {"attempts", part.attempts},
+                 {"tets", part.result.tets},
+                 {"part_seconds", part.seconds},
+                 {"parts_done", event.done},
+                 {"parts", event.total},
+                 {"load_done", event.load_done},
+                 {"tets_done", event.tets}};
+    if (part.result.code) json["message"] = part.result.message;
+    if (!part.remedy.empty()) json["remedy"] = part.remedy;
+    write(std::move(json));
+}
+
+void EventLog::on_end(int exit_code, const std::string& message) {
+    Json json = {{"event", "end"}, {"exit_code", exit_code}};
+    if (!message.empty()) json["message"] = message;
+    write(std::move(json));
+}
+
+}  // namespace kerf

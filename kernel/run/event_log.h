@@ -1,0 +1,42 @@
+// The progress of a run for other programs: one JSON object per line.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "run/listener.h"
+
+namespace kerf {
+
+class CheckedFile;
+
+/// Writes each event when it happens. All objects have "event" and "seconds" since the start:
+///
+///     {"event": "stage", "stage": "read" | "decompose" | "volume" | "number"}
+///     {"event": "parts", "parts": [{"id", "load", "facets", "volume", "resumed"}]}
+///     {"event": "part", "id", "state": "done" | "failed", "rank", "worker", "attempts", "tets", "part_seconds",
+///                       "parts_done", "parts", "load_done", "tets_done"}
+///     {"event": "end", "exit_code", "message"}
+class EventLog : public RunListener {
+ public:
+    /// `target`: the path of a file, which is replaced, or fd:N, an open file descriptor. Throws Error(io).
+    explicit EventLog(const std::string& target);
+    ~EventLog() override;
+
+    void on_progress(const char* stage, std::size_t done, std::size_t total) override;
+    void on_parts(const std::vector<PartReport>& parts, const std::string& plan) override;
+    void on_part(const PartEvent& event) override;
+    /// The last event. `message`: the error, or empty.
+    void on_end(int exit_code, const std::string& message);
+
+ private:
+    template <class Object>
+    void write(Object json);
+
+    std::unique_ptr<CheckedFile> file_;
+    std::string stage_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace kerf

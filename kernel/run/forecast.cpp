@@ -1,0 +1,67 @@
+#include "run/forecast.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "run/number_text.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr double tets_per_facet = 1.9, tets_per_volume_bound = 1.4;
+constexpr double bytes_per_tet = 220, bytes_of_worker = 14e6, seconds_per_tet = 5e-6;
+// The limit of a worker is one of its address space, of which libraries take a share; and a forecast may be low.
+constexpr double reserved_bytes = 100e6, safety = 1.5;
+constexpr double least_tets_per_part = 1000;
+
+Forecast forecast_of(const PartReport& part, const RunOptions& options) {
+    return forecast(static_cast<double>(part.surface_facets), part.surface_volume, options.mesher.max_volume);
+}
+
+}  // namespace
+
+Forecast forecast(double facets, double volume, double max_volume) {
+    const double tets = tets_per_facet * facets + (max_volume > 0 ? tets_per_volume_bound * volume / max_volume : 0);
+    return {tets, seconds_per_tet * tets, bytes_of_worker + bytes_per_tet * tets};
+}
+
+std::int32_t choose_parts(const RunOptions& options, double facets, double volume, int ranks, std::int32_t most) {
+    const double tets = forecast(facets, volume, options.mesher.max_volume).tets;
+    double parts = std::min<double>(parts_per_worker * ranks * options.workers, tets / least_tets_per_part);
+    if (options.memory_mb > 0) {
+        const double available = static_cast<double>(options.memory_mb) * (1 << 20) - reserved_bytes;
+        if (available <= 0)
+            throw Error(ErrorCode::usage, fmt::format("--memory is {}, but a worker needs {:.0f} MB before it begins.",
+                                                      options.memory_mb, reserved_bytes / (1 << 20)));
+        parts = std::max(parts, std::ceil(safety * bytes_per_tet * tets / available));
+    }
+    return static_cast<std::int32_t>(std::clamp<double>(parts, 1, most));
+}
+
+std::string plan_text(const std::vector<PartReport>& parts, const RunOptions& options, int ranks, bool every_part) {
+    Forecast all, largest;
+    std::string table;
+    if (every_part) table = fmt::format("{:>10} {:>10} {:>12} {:>10} {:>9}\n", "part", "facets", "tets", "MB", "s");
+    for (const PartReport& part : parts) {
+        const Forecast f = forecast_of(part, options);
+        all.tets += f.tets;
+        all.seconds += f.seconds;
+        if (f.tets > largest.tets) largest = f;
+        if (every_part)
+            table += fmt::format("{:>10} {:>10} {:>12.0f} {:>10.0f} {:>9.1f}\n", part.id, part.surface_facets, f.tets,
+                                 f.memory_bytes / (1 << 20), f.seconds);
+    }
+    const int workers = ranks * options.workers;
+    return fmt::format(
+               "{:<11} {} parts for {} worker{}, about {} tetrahedra in {:.0f} s; the largest part {}, {:.0f} MB\n",
+               "plan", parts.size(), workers, workers == 1 ? "" : "s", short_number(all.tets),
+               std::max(largest.seconds, all.seconds / workers), short_number(largest.tets),
+               largest.memory_bytes / (1 << 20)) +
+           table;
+}
+
+}  // namespace kerf

@@ -1,0 +1,32 @@
+// How a run tells of its progress.
+#pragma once
+
+#include "run/report.h"
+
+namespace kerf {
+
+/// A part has ended, well or not; all numbers are those of the whole run, over all ranks.
+struct PartEvent {
+    const PartReport* part = nullptr;  ///< with the sums of its result, but without the distributions of its quality
+    std::size_t done = 0, total = 0;   ///< parts, this one included
+    double load_done = 0;              ///< share of the predicted work, in [0, 1]
+    std::int64_t tets = 0;             ///< of the parts that are done
+};
+
+/// Is told of the progress, on the root rank of that of all ranks. Without one nothing is copied, and the result is the
+/// same. Once cancelled() is true, on any rank, the run ends with Error(cancelled) and leaves no result; it is asked
+/// between stages, before cuts and while workers run.
+class RunListener : public CutListener {
+ public:
+    /// `done` of `total` steps of a stage: "read", "decompose", "volume", "number".
+    virtual void on_progress(const char* stage, std::size_t done, std::size_t total) = 0;
+    /// The parts before they are meshed, those among them that need not be included, and what is expected of them, as
+    /// plan_text() says it: only on the root rank.
+    virtual void on_parts(const std::vector<PartReport>&, const std::string& /*plan*/) {}
+    /// After every part: only on the root rank.
+    virtual void on_part(const PartEvent&) {}
+    bool wants_cuts() const override { return false; }
+    void on_cut(const Surface&, const Cut&) override {}
+};
+
+}  // namespace kerf

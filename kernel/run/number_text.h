@@ -1,0 +1,24 @@
+// Numbers as people read them.
+#pragma once
+
+#include <string>
+
+#include <fmt/format.h>
+
+namespace kerf {
+
+/// 1234567 as 1,234,567.
+inline std::string grouped(std::int64_t n) {
+    std::string digits = std::to_string(n);
+    for (auto i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3)
+        digits.insert(static_cast<std::size_t>(i), ",");
+    return digits;
+}
+
+/// 12345678 as "12.3 M", 12345 as "12 k".
+inline std::string short_number(double n) {
+    if (n >= 1e6) return fmt::format("{:.1f} M", n / 1e6);
+    return n >= 1e3 ? fmt::format("{:.0f} k", n / 1e3) : fmt::format("{:.0f}", n);
+}
+
+}  // namespace kerf

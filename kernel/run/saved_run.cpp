@@ -1,0 +1,48 @@
+#include "run/saved_run.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "io/durable_file.h"
+#include "io/file_bytes.h"
+#include "io/run_folder.h"
+
+namespace kerf {
+
+void save_run(const std::string& path, const RunOptions& options) {
+    nlohmann::ordered_json json = {{"input", std::filesystem::absolute(options.input).string()},
+                                   {"output", std::filesystem::absolute(options.output).string()}};
+    RunOptions saved = options;
+    saved.workers = 0;  // the machine that continues may have other cores
+    for (const OptionText& option : option_texts(saved, false)) json["options"][option.name] = option.text;
+    write_durable_file(path, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+RunOptions load_interrupted_run(const std::string& output) {
+    const std::string file = RunFolder::saved_run_file(output);
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored))
+        throw Error(ErrorCode::io, fmt::format("No interrupted run waits for {}: {} does not exist. Start one with "
+                                               "kerf mesh INPUT -o {}.",
+                                               output, file, output));
+    RunOptions options;
+    try {
+        const auto json = nlohmann::json::parse(read_file(file));
+        options.input = json.at("input").get<std::string>();
+        options.output = json.at("output").get<std::string>();
+        std::vector<OptionText> texts;
+        for (const auto& [name, text] : json.at("options").items()) texts.push_back({name, text.get<std::string>()});
+        set_options(options, texts, file);
+    } catch (const nlohmann::json::exception&) {
+        throw Error(ErrorCode::io,
+                    fmt::format("{} is damaged. Run kerf mesh with the input and the options again: what "
+                                "is finished is found there, too.",
+                                file));
+    }
+    return options;
+}
+
+}  // namespace kerf

@@ -1,0 +1,17 @@
+// What an interrupted run needs to be continued by its folder's name alone.
+#pragma once
+
+#include <string>
+
+#include "run/options.h"
+
+namespace kerf {
+
+/// Writes input, options and K of a run. Durable. Throws Error(io).
+void save_run(const std::string& path, const RunOptions& options);
+
+/// The options of the run that was interrupted while it wrote to the folder `output`, with absolute paths. Throws
+/// Error(io) if there is none or what it left is damaged, naming the way out.
+RunOptions load_interrupted_run(const std::string& output);
+
+}  // namespace kerf

@@ -1,0 +1,167 @@
+#include "run/volume_stage.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <numeric>
+
+#include "run/failed_part.h"
+#include "run/journal.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr int root = 0;
+// How long a rank sleeps before it looks for messages and signals. Those with workers wake when one ends.
+constexpr double busy_seconds = 0.1, idle_seconds = 0.01;
+
+// What others are told of a part.
+PartReport without_quality(PartReport part) {
+    part.result.quality = PartQuality();
+    part.failures.clear();
+    return part;
+}
+
+}  // namespace
+
+// What ranks tell each other while they mesh.
+struct VolumeStage::Message {
+    enum class Kind : char { part_done, all_done, stop };
+    Kind kind = Kind::stop;
+    std::vector<PartReport> part;  // the one that is done
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(kind, part);
+    }
+};
+
+// What the root rank knows about all parts.
+class VolumeStage::Tally {
+ public:
+    Tally(const std::vector<PartReport>& parts, RunListener* listener) : listener_(listener), total_(parts.size()) {
+        for (const PartReport& part : parts) load_ += part.load;
+        if (listener_) listener_->on_progress("volume", 0, total_);
+        for (const PartReport& part : parts)
+            if (part.resumed) add(part);
+    }
+    void add(const PartReport& part) {
+        ++done_;
+        load_done_ += part.load;
+        tets_ += part.result.tets;
+        if (!listener_) return;
+        listener_->on_part({&part, done_, total_, load_ > 0 ? std::min(1.0, load_done_ / load_) : 1, tets_});
+        listener_->on_progress("volume", done_, total_);
+    }
+    bool all_done() const { return done_ == total_; }
+
+ private:
+    RunListener* listener_;
+    std::size_t done_ = 0, total_ = 0;
+    double load_ = 0, load_done_ = 0;
+    std::int64_t tets_ = 0;
+};
+
+void VolumeStage::hand_over(const PartJob& job, PartReport& part) {
+    const std::string journal = folder_.journal_file(part.id), file = folder_.part_file(part.id);
+    part.job_hash = hash_of_job(job, options_.mesher, options_.attempts);
+    if (const auto outcome = find_finished_part(journal, file, part.job_hash)) {
+        static_cast<PartOutcome&>(part) = *outcome;
+        part.resumed = true;
+        return;
+    }
+    for (const std::string& stale : {journal, file}) std::filesystem::remove(stale);
+    write_job(folder_.job_file(part.id), job);
+}
+
+std::vector<std::size_t> VolumeStage::waiting_parts(const std::vector<PartReport>& parts) const {
+    std::vector<std::size_t> order(parts.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::erase_if(order, [&](std::size_t i) { return parts[i].resumed; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return parts[a].load > parts[b].load; });
+    return order;
+}
+
+void VolumeStage::keep_outcome(const PartReport& part) const {
+    const auto code = static_cast<ErrorCode>(part.result.code);
+    if (code == ErrorCode::io) throw Error(code, part.result.message);
+    const std::string job_file = folder_.job_file(part.id);
+    if (part.result.code)
+        write_failed_part(folder_.file("failed"), part.id, read_job(job_file).surface, options_.mesher,
+                          part.result.message);
+    else
+        write_journal_entry(folder_.journal_file(part.id), {part.job_hash, part});
+    std::filesystem::remove(job_file);
+}
+
+void VolumeStage::post_to_others(const Message& message) {
+    const Bytes bytes = to_bytes(message);
+    for (int rank = 0; rank < ranks_.size(); ++rank)
+        if (rank != ranks_.rank()) ranks_.post(rank, bytes);
+}
+
+// Returns the parts that this rank has meshed.
+std::vector<PartReport> VolumeStage::mesh_share(const std::vector<PartReport>& parts) {
+    std::optional<Tally> tally;  // on the root rank
+    if (ranks_.rank() == root) tally.emplace(parts, listener_);
+    const std::vector<std::size_t> order = waiting_parts(parts);
+    std::vector<QueuedPart> queued;
+    for (const std::size_t i : order) queued.push_back({folder_.job_file(parts[i].id), folder_.part_file(parts[i].id)});
+    PartQueue queue(std::move(queued),
+                    {options_.worker_program, options_.mesher, options_.workers, options_.timeout_seconds,
+                     options_.memory_mb, options_.attempts},
+                    [&](std::size_t i) { return folder_.take(parts[order[i]].id); });
+    std::vector<PartReport> meshed;
+    for (;;) {
+        if (listener_ && listener_->cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
+        while (const std::optional<Bytes> bytes = ranks_.poll()) {
+            const auto message = from_bytes<Message>(*bytes);
+            if (message.kind == Message::Kind::stop)
+                throw Error(ErrorCode::cancelled, "Another rank was cancelled or has failed.");
+            if (message.kind == Message::Kind::all_done) return meshed;
+            tally->add(message.part.front());
+        }
+        if (tally && tally->all_done()) {
+            post_to_others({Message::Kind::all_done, {}});
+            return meshed;
+        }
+        const auto finished = queue.step(queue.empty() ? idle_seconds : busy_seconds);
+        if (!finished) continue;
+        PartReport part = parts[order[finished->part]];
+        static_cast<PartOutcome&>(part) = finished->outcome;
+        part.rank = ranks_.rank();
+        keep_outcome(part);
+        if (tally)
+            tally->add(part);
+        else
+            ranks_.post(root, to_bytes(Message{Message::Kind::part_done, {without_quality(part)}}));
+        meshed.push_back(std::move(part));
+    }
+}
+
+void VolumeStage::mesh(std::vector<PartReport>& parts) {
+    std::vector<PartReport> meshed;
+    const auto mesh_or_stop_all = [&] {
+        try {
+            meshed = mesh_share(parts);
+        } catch (...) {
+            post_to_others({Message::Kind::stop, {}});
+            throw;
+        }
+    };
+    try {
+        in_agreement(ranks_, mesh_or_stop_all);
+    } catch (const Error&) {
+        ranks_.drop_messages();
+        throw;
+    }
+    ranks_.drop_messages();
+    std::map<NodeId, PartReport*> by_id;
+    for (PartReport& part : parts) by_id[part.id] = &part;
+    for (std::vector<PartReport>& of_rank : all_gather(ranks_, meshed))
+        for (PartReport& part : of_rank) *by_id[part.id] = std::move(part);
+}
+
+}  // namespace kerf

@@ -1,0 +1,42 @@
+// The parts of a run are meshed by the workers of all ranks.
+#pragma once
+
+#include "io/run_folder.h"
+#include "run/communicator.h"
+#include "run/listener.h"
+
+namespace kerf {
+
+/// Every rank hands over the parts that it has cut; then the workers of all ranks take them, longest first, from one
+/// list. A part goes by files, from the rank that cut it to the worker that takes it, and from the worker to its place:
+/// no rank holds more than numbers. Who takes a part is settled by the run folder alone (RunFolder::take), so that no
+/// rank waits for another. Ranks post what they have finished to the root rank, which tells all when nothing is left.
+class VolumeStage {
+ public:
+    VolumeStage(Communicator& ranks, RunFolder& folder, const RunOptions& options, RunListener* listener)
+        : ranks_(ranks), folder_(folder), options_(options), listener_(listener) {}
+
+    /// The job of `part` waits in the folder when this returns, unless an interrupted run has finished it: then
+    /// `part` gets its outcome. Throws Error(io).
+    void hand_over(const PartJob& job, PartReport& part);
+
+    /// Collective. `parts`: all parts of the run, the same on every rank, after they were handed over. On return they
+    /// have their outcomes on every rank. Throws Error on every rank alike: `cancelled` if any was cancelled, `io` if
+    /// a part could not be written, with all workers ended.
+    void mesh(std::vector<PartReport>& parts);
+
+ private:
+    struct Message;
+    class Tally;
+    std::vector<std::size_t> waiting_parts(const std::vector<PartReport>& parts) const;
+    std::vector<PartReport> mesh_share(const std::vector<PartReport>& parts);
+    void keep_outcome(const PartReport& part) const;
+    void post_to_others(const Message& message);
+
+    Communicator& ranks_;
+    RunFolder& folder_;
+    const RunOptions& options_;
+    RunListener* listener_;
+};
+
+}  // namespace kerf

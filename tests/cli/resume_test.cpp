@@ -1,0 +1,178 @@
+// An interrupted run loses no more than the parts under way, and its end is that of an undisturbed run, to the byte.
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "support/assets.h"
+#include "support/file_contents.h"
+#include "support/program.h"
+#include "support/started_run.h"
+#include "support/temporary_folder.h"
+
+namespace kerf {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Resume : public testing::Test {
+ protected:
+    // About a third of a second for each of six parts.
+    std::vector<std::string> command(const std::string& output) const {
+        return {"mesh", input_, "-o", folder_.file(output), "-n", "6", "--max-volume", "6e-6", "--workers", "1"};
+    }
+    std::map<std::string, std::string> undisturbed() const {
+        EXPECT_EQ(test::run_kerf(command("undisturbed")).exit_code, 0);
+        return parts_of("undisturbed");
+    }
+    std::map<std::string, std::string> parts_of(const std::string& output) const {
+        return test::contents(folder_.file(output + "/parts"));
+    }
+
+    // Starts a run and ends it by the signal when two parts are finished and a third is under way.
+    ChildResult interrupt(int signal, const std::string& output = "out") const {
+        test::StartedRun run(KERF_PROGRAM, command(output));
+        std::vector<pid_t> workers;
+        EXPECT_TRUE(test::await([&] {
+            workers = run.workers();
+            return test::finished_parts(folder_.file(output)) >= 2 && !workers.empty();
+        }));
+        EXPECT_EQ(::kill(run.process(), signal), 0);
+        const auto start = std::chrono::steady_clock::now();
+        ChildResult result = run.wait();
+        for (const pid_t worker : workers) EXPECT_TRUE(test::await([&] { return test::has_ended(worker); }));
+        EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+        EXPECT_FALSE(fs::exists(folder_.file(output)));
+        return result;
+    }
+    ChildResult resume(const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> arguments = {"mesh", "--resume", folder_.file("out")};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return test::run_kerf(arguments);
+    }
+    std::size_t resumed_parts() const {
+        std::size_t count = 0;
+        const auto report = nlohmann::json::parse(test::bytes_of_file(folder_.file("out/report.json")));
+        for (const auto& part : report["parts"]) count += part.contains("resumed") ? 1 : 0;
+        return count;
+    }
+    // The files of the journal or the parts of the interrupted run.
+    std::vector<fs::path> left_behind(const std::string& sub_folder) const {
+        std::vector<fs::path> files;
+        for (const auto& entry : fs::directory_iterator(folder_.file("out.kerf-partial/" + sub_folder)))
+            files.push_back(entry.path());
+        std::sort(files.begin(), files.end());
+        return files;
+    }
+    static void damage_middle(const fs::path& file) {
+        std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+        stream.seekg(static_cast<std::streamoff>(fs::file_size(file) / 2));
+        const char byte = static_cast<char>(stream.peek() ^ 0x10);
+        stream.seekp(stream.tellg());
+        stream.put(byte);
+    }
+
+    test::TemporaryFolder folder_;
+    std::string input_ = test::asset_path("cube");
+};
+
+TEST_F(Resume, GivesTheBytesOfAnUndisturbedRun) {
+    const auto expected = undisturbed();
+    for (const auto& [signal, workers] : {std::pair(SIGINT, "1"), {SIGTERM, "2"}, {SIGKILL, "2"}}) {
+        SCOPED_TRACE(signal);
+        const ChildResult interrupted = interrupt(signal);
+        if (signal != SIGKILL) {
+            EXPECT_EQ(interrupted.exit_code, 130) << interrupted.log;
+            EXPECT_NE(interrupted.log.find("of 6 parts are finished; kerf mesh --resume " + folder_.file("out")),
+                      std::string::npos)
+                << interrupted.log;
+        }
+        const ChildResult result = resume({"--workers", workers});
+        EXPECT_EQ(result.exit_code, 0) << result.log;
+        EXPECT_GE(resumed_parts(), 2u);
+        EXPECT_TRUE(parts_of("out") == expected);
+        EXPECT_EQ(folder_.names(), (std::vector<std::string>{"out", "undisturbed"}));
+        EXPECT_FALSE(fs::exists(folder_.file("out/work")));
+        EXPECT_EQ(test::run_kerf({"verify", folder_.file("out")}).exit_code, 0);
+        fs::remove_all(folder_.file("out"));
+    }
+}
+
+TEST_F(Resume, TheSameCommandFindsWhatIsFinishedToo) {
+    const auto expected = undisturbed();
+    interrupt(SIGKILL);
+    const ChildResult result = test::run_kerf(command("out"));
+    EXPECT_EQ(result.exit_code, 0) << result.log;
+    EXPECT_NE(result.log.find("were finished by an interrupted run"), std::string::npos) << result.log;
+    EXPECT_GE(resumed_parts(), 2u);
+    EXPECT_TRUE(parts_of("out") == expected);
+}
+
+TEST_F(Resume, NothingOfARunWithOtherOptionsSurvives) {
+    const auto coarse = [&](const std::string& output) {
+        return std::vector<std::string>{"mesh", input_, "-o", folder_.file(output), "-n", "4"};
+    };
+    ASSERT_EQ(test::run_kerf(coarse("coarse")).exit_code, 0);
+    interrupt(SIGKILL);
+    const ChildResult result = test::run_kerf(coarse("out"));
+    EXPECT_EQ(result.exit_code, 0) << result.log;
+    EXPECT_EQ(resumed_parts(), 0u);
+    EXPECT_TRUE(parts_of("out") == parts_of("coarse"));
+    EXPECT_FALSE(fs::exists(folder_.file("out/work")));
+}
+
+TEST_F(Resume, DamagedJournalsAndPartsAreMeshedAgain) {
+    const auto expected = undisturbed();
+    const std::vector<std::pair<std::string, void (*)(const fs::path&)>> damages = {
+        {"work/journal", damage_middle},
+        {"work/journal", [](const fs::path& file) { fs::resize_file(file, fs::file_size(file) / 2); }},
+        {"work/journal", [](const fs::path& file) { fs::resize_file(file, 0); }},
+        {"parts", damage_middle},
+        {"parts", [](const fs::path& file) { fs::remove(file); }}};
+    for (const auto& [sub_folder, damage] : damages) {
+        SCOPED_TRACE(sub_folder);
+        interrupt(SIGKILL);
+        const std::size_t finished = test::finished_parts(folder_.file("out"));
+        const std::string leaf = left_behind("work/journal").front().filename();
+        const std::string part = (leaf.size() < 2 ? "part_000" : "part_00") + leaf + ".vtu";
+        damage(folder_.file("out.kerf-partial/" + sub_folder + "/" + (sub_folder == "parts" ? part : leaf)));
+        EXPECT_EQ(resume().exit_code, 0);
+        EXPECT_EQ(resumed_parts(), finished - 1);
+        EXPECT_TRUE(parts_of("out") == expected);
+        fs::remove_all(folder_.file("out"));
+    }
+}
+
+TEST_F(Resume, SaysWhatIsMissing) {
+    const ChildResult nothing = resume();
+    EXPECT_EQ(nothing.exit_code, 7);
+    EXPECT_NE(nothing.log.find("No interrupted run waits for"), std::string::npos) << nothing.log;
+    EXPECT_TRUE(folder_.names().empty());
+
+    fs::copy_file(input_, folder_.file("cube.stl"));
+    input_ = folder_.file("cube.stl");
+    interrupt(SIGTERM);
+    fs::rename(input_, folder_.file("elsewhere.stl"));
+    const ChildResult removed = resume();
+    EXPECT_EQ(removed.exit_code, 7);
+    EXPECT_NE(removed.log.find("cube.stl: the file cannot be read"), std::string::npos) << removed.log;
+    EXPECT_GE(test::finished_parts(folder_.file("out")), 2u) << "what is finished still waits";
+    fs::rename(folder_.file("elsewhere.stl"), input_);
+
+    const ChildResult other = resume({"--max-volume", "1e-3"});
+    EXPECT_EQ(other.exit_code, 2);
+    EXPECT_NE(other.log.find("--max-volume would change the parts"), std::string::npos) << other.log;
+    const ChildResult both = resume({"-o", folder_.file("new")});
+    EXPECT_EQ(both.exit_code, 2);
+
+    fs::resize_file(folder_.file("out.kerf-partial/work/run.json"), 10);
+    const ChildResult damaged = resume();
+    EXPECT_EQ(damaged.exit_code, 7);
+    EXPECT_NE(damaged.log.find("run.json is damaged"), std::string::npos) << damaged.log;
+    EXPECT_EQ(test::run_kerf(command("out")).exit_code, 0);
+    EXPECT_GE(resumed_parts(), 2u);
+}
+
+}  // namespace
+}  // namespace kerf
