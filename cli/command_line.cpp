@@ -55,9 +55,6 @@ CLI::App* add_run_command(CLI::App& app, const char* name, const char* text, Com
     command->add_option("-o,--output", line.options.output, "Folder of the result; an older run there is replaced.")
         ->type_name("DIR");
     for (const OptionField& field : option_fields(line.options)) add_field(*command, field);
-    command->add_option("--events", line.events, "Write progress as one JSON object per line to a file, or to fd:N.")
-        ->type_name("FILE")
-        ->configurable(false);
     command->add_flag("-q,--quiet", line.quiet, "Print nothing but errors.");
     command->add_flag("-v,--verbose", line.verbose, "Print the tree of cuts with every node of it.");
     command->add_flag("--print-config", line.print_config, "Print the options as a config file and end.")
@@ -101,6 +98,7 @@ RunOptions resumed_options(const CLI::App& command, CommandLine& line) {
                                     given[i].name, options.input, options.output));
         saved[i].set_text(given[i].text());
     }
+    options.dry_run = line.options.dry_run;
     return options;
 }
 

@@ -16,7 +16,6 @@ struct CommandLine {
     RunOptions options;
     bool quiet = false;
     bool verbose = false;  ///< print every node of the tree of cuts
-    std::string events;    ///< where the events of the run go: a file or fd:N; empty: nowhere
     std::string resume;    ///< output folder of an interrupted run that is to be continued; empty: a new run
     CheckRequest check;
     bool print_config = false;  ///< print the effective options and end

@@ -1,5 +1,6 @@
 // kerf: the headless program. Root rank prints; data goes to files, except for --json and --print-config.
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -40,7 +41,8 @@ void report_failed_parts(const RunReport& report) {
 std::unique_ptr<EventLog> open_event_log(const CommandLine& line, Communicator& ranks) {
     std::unique_ptr<EventLog> log;
     in_agreement(ranks, [&] {
-        if (ranks.rank() == 0 && !line.events.empty()) log = std::make_unique<EventLog>(line.events);
+        if (ranks.rank() == 0 && !line.options.events_file.empty())
+            log = std::make_unique<EventLog>(line.options.events_file);
     });
     return log;
 }
@@ -59,12 +61,12 @@ int run_command(const CommandLine& line) {
             ProgressLine progress(line.quiet || !root, events.get());
             report = run(options, ranks.cores_of_rank, *ranks.communicator, input, &progress);
         }
+        if (events) events->on_end(report.exit_code, "");
         if (options.dry_run) return 0;
         if (root && !line.quiet && (line.verbose || !options.volume))
             fmt::print(stderr, "{}\n", tree_text(report.nodes, line.verbose));
         if (root && !line.quiet) fmt::print(stderr, "{}", to_text(report));
         if (root) report_failed_parts(report);
-        if (events) events->on_end(report.exit_code, "");
         return report.exit_code;
     } catch (const Error& e) {
         if (root) fmt::print(stderr, "kerf: {}\n", e.what());
@@ -98,6 +100,7 @@ int run_program(int argc, char** argv) {
 }  // namespace kerf
 
 int main(int argc, char** argv) {
+    std::signal(SIGPIPE, SIG_IGN);  // who reads the events may leave: that is an error of writing
     try {
         return kerf::run_program(argc, argv);
     } catch (const kerf::Error& e) {

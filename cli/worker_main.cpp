@@ -5,7 +5,10 @@
 #include "run/part_job.h"
 
 int main(int argc, char** argv) {
-    std::int64_t memory_mb = 0;
-    if (argc == 3 && std::strcmp(argv[1], "--memory") == 0) memory_mb = std::strtoll(argv[2], nullptr, 10);
-    return kerf::serve_part_job(memory_mb);
+    const auto number_behind = [&](const char* option) -> std::int64_t {
+        for (int i = 1; i + 1 < argc; i += 2)
+            if (std::strcmp(argv[i], option) == 0) return std::strtoll(argv[i + 1], nullptr, 10);
+        return 0;
+    };
+    return kerf::serve_part_job(number_behind("--memory"), number_behind("--parent"));
 }

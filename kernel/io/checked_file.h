@@ -24,6 +24,11 @@ class CheckedFile {
         check(file_ != nullptr, "open");
     }
 
+    /// Takes over a file that is open, or null with errno for one that could not be opened; `name` is for messages.
+    CheckedFile(std::FILE* file, const std::string& name) : path_(name), file_(file) {
+        check(file_ != nullptr, "open");
+    }
+
     void write(const void* data, std::size_t size) {
         // No data may be a null pointer, which fwrite must not get.
         check(size == 0 || std::fwrite(data, 1, size, file_.get()) == size, "write");

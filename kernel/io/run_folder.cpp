@@ -1,4 +1,4 @@
-// The lock belongs to the open file, so it ends with the process however that ends. A folder that was moved away under
+// A lock belongs to the open file, so it ends with the process however that ends. A folder that was moved away under
 // a waiting run is no longer the one of its name; so the lock counts only if the name still leads to it.
 //
 // A rename is atomic, but a directory that holds files is not replaced by one. So commit() moves the older run aside,
@@ -81,19 +81,30 @@ bool is_same_file(int fd, const std::string& path) {
            open_file.st_ino == named_file.st_ino && open_file.st_dev == named_file.st_dev;
 }
 
-constexpr const char* lock_file = "work/lock";
+constexpr const char* lock_file = "work/lock";    // held by the creator
+constexpr const char* ranks_file = "work/ranks";  // shared by the others
 
 std::string partial_path_of(const std::string& final_path) { return final_path + ".kerf-partial"; }
 
-// Removes the entries of a folder whose name is none of `kept`. A folder that is not there has none.
-void clear_folder(const std::string& folder, const std::set<std::string>& kept) {
+// A folder that is not there has none.
+std::vector<std::string> names_in(const std::string& folder) {
     std::error_code error;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-        if (kept.contains(entry.path().filename())) continue;
-        fs::remove_all(entry.path(), error);
-        if (error) fail("remove what an interrupted run left,", entry.path().string(), error);
-    }
+    std::vector<std::string> names;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+        names.push_back(entry->path().filename());
     if (error && error != std::errc::no_such_file_or_directory) fail("read the folder", folder, error);
+    return names;
+}
+
+// Removes the entries of a folder whose name is none of `kept`.
+void clear_folder(const std::string& folder, const std::set<std::string>& kept) {
+    for (const std::string& name : names_in(folder)) {
+        if (kept.contains(name)) continue;
+        std::error_code error;
+        const std::string path = (fs::path(folder) / name).string();
+        fs::remove_all(path, error);
+        if (error) fail("remove what an interrupted run left,", path, error);
+    }
 }
 
 }  // namespace
@@ -106,12 +117,26 @@ RunFolder::RunFolder(RunFolder&& other) noexcept
       partial_(std::move(other.partial_)),
       owner_(std::exchange(other.owner_, false)),
       keep_(other.keep_),
-      lock_(std::exchange(other.lock_, -1)) {}
+      lock_(std::exchange(other.lock_, -1)),
+      ranks_lock_(std::exchange(other.ranks_lock_, -1)) {}
 
+// Files that are open leave traces on network disks when they are removed, so locks go first; what they protected is
+// moved out of the way of other runs before.
 RunFolder::~RunFolder() {
     std::error_code ignored;
-    if (owner_ && !keep_) fs::remove_all(partial_, ignored);
-    if (lock_ >= 0) ::close(lock_);
+    const std::string removed = partial_ + "-removed";
+    const bool removes = owner_ && !keep_;
+    if (removes) {
+        fs::remove_all(removed, ignored);
+        fs::rename(partial_, removed, ignored);
+    }
+    release_locks();
+    if (removes) fs::remove_all(removed, ignored);
+}
+
+void RunFolder::release_locks() {
+    for (int* fd : {&lock_, &ranks_lock_})
+        if (*fd >= 0) ::close(std::exchange(*fd, -1));
 }
 
 std::string RunFolder::saved_run_file(const std::string& path) {
@@ -128,27 +153,41 @@ RunFolder RunFolder::create(const std::string& path) {
     folder.keep_ = folder.finished_parts() > 0;  // what an interrupted run left is lost only to its heir
     folder.clear_all_but_parts();
     for (const char* name : {"parts", "work/journal", "work/jobs", "work/taken"}) create_folder(folder.file(name));
+    for (const std::string& parent :
+         {fs::path(final_path).parent_path().string(), folder.partial_, folder.file("work")})
+        sync_folder(parent);
     return folder;
 }
 
-// Until the lock is held, nothing in the folder is this run's.
+// Opens the file and locks it without waiting: false if others hold a lock that excludes this one. A file system that
+// knows no locks excludes nobody.
+bool RunFolder::try_lock(const std::string& name, int& fd, int operation) const {
+    fd = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (fd < 0) fail("write the output folder", partial_, last_error());
+    return ::flock(fd, operation | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+}
+
+// Until both locks are held, nothing in the folder is this run's.
 void RunFolder::lock() {
     const std::string name = file(lock_file);
-    for (;;) {
-        lock_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-        if (lock_ < 0) fail("write the output folder", partial_, last_error());
-        const bool locked = ::flock(lock_, LOCK_EX | LOCK_NB) == 0;
-        if (!locked && errno == EWOULDBLOCK) {
+    while (true) {
+        if (!try_lock(name, lock_, LOCK_EX)) {
             std::string who;
-            std::getline(std::ifstream(name), who);
+            std::ifstream in(name);
+            std::getline(in, who);
             throw Error(ErrorCode::io, fmt::format("Another run{} is writing {}. Wait for it, stop it, or choose "
                                                    "another output folder.",
                                                    who.empty() ? "" : " (" + who + ")", final_));
         }
         if (is_same_file(lock_, name)) break;
-        ::close(std::exchange(lock_, -1));
+        release_locks();
         create_folder(file("work"));
     }
+    if (!try_lock(file(ranks_file), ranks_lock_, LOCK_EX))
+        throw Error(ErrorCode::io, fmt::format("Ranks of an interrupted run into {} have not ended yet. Try again in a "
+                                               "moment, or stop them.",
+                                               final_));
+    ::close(std::exchange(ranks_lock_, -1));  // now those of this run may hold it
     const std::string who = fmt::format("process {} on {}\n", ::getpid(), host_name());
     if (::ftruncate(lock_, 0) != 0 || ::pwrite(lock_, who.data(), who.size(), 0) != static_cast<ssize_t>(who.size()))
         fail("write the output folder", partial_, last_error());
@@ -156,7 +195,7 @@ void RunFolder::lock() {
 
 void RunFolder::clear_all_but_parts() const {
     clear_folder(partial_, {"parts", "work"});
-    clear_folder(file("work"), {"journal", "lock", "run.json"});
+    clear_folder(file("work"), {"journal", "lock", "ranks", "run.json"});
 }
 
 void RunFolder::keep_only(const std::vector<int>& leaves) const {
@@ -175,7 +214,10 @@ RunFolder RunFolder::join(const std::string& partial_path) {
         throw Error(ErrorCode::io, fmt::format("The output folder {} is not visible here. All hosts of a run need the "
                                                "output folder on a shared disk under the same path.",
                                                partial_path));
-    return {"", partial_path, false};
+    RunFolder folder("", partial_path, false);
+    if (!folder.try_lock(folder.file(ranks_file), folder.ranks_lock_, LOCK_SH))
+        throw Error(ErrorCode::io, fmt::format("Another run is taking {} over.", partial_path));
+    return folder;
 }
 
 std::string RunFolder::file(const std::string& name) const { return (fs::path(partial_) / name).string(); }
@@ -187,10 +229,9 @@ std::string RunFolder::job_file(int leaf) const { return file(fmt::format("work/
 std::string RunFolder::journal_file(int leaf) const { return file(fmt::format("work/journal/{}", leaf)); }
 
 std::size_t RunFolder::finished_parts() const {
-    std::error_code ignored;
-    const auto is_entry = [](const fs::directory_entry& entry) { return entry.path().extension().empty(); };
-    return static_cast<std::size_t>(
-        std::count_if(fs::directory_iterator(file("work/journal"), ignored), fs::directory_iterator(), is_entry));
+    std::size_t count = 0;
+    for (const std::string& name : names_in(file("work/journal"))) count += name.find('.') == std::string::npos;
+    return count;
 }
 
 bool RunFolder::take(int leaf) const {
@@ -219,11 +260,10 @@ void RunFolder::commit() {
         fail("write the output folder", final_, error);
     }
     owner_ = false;
+    release_locks();
     sync_folder(fs::path(final_).parent_path().string());
-    for (const std::string& leftover : {older, (fs::path(final_) / "work").string()}) {
-        fs::remove_all(leftover, error);
-        if (error) fail("remove", leftover, error);
-    }
+    for (const std::string& leftover : {older, (fs::path(final_) / "work").string()})
+        fs::remove_all(leftover, error);  // the result is complete with and without them
 }
 
 std::string part_file_name(int leaf) { return fmt::format("part_{:04}.vtu", leaf); }

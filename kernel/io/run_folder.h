@@ -18,8 +18,8 @@ namespace kerf {
 class RunFolder {
  public:
     /// Checks `path`, makes its partial folder or takes over that of an interrupted run, and makes the folders above
-    /// where they are missing. Throws Error(io) if it cannot be written or if another run is writing it, naming the
-    /// folder and the reason. A file system without locks keeps nobody out.
+    /// where they are missing. Throws Error(io) if it cannot be written, or if another run is writing it or ranks of an
+    /// interrupted one still live, naming the folder and the reason. A file system without locks keeps nobody out.
     static RunFolder create(const std::string& path);
     /// Opens the partial folder that another rank has created. Throws Error(io) if this host does not see it.
     static RunFolder join(const std::string& partial_path);
@@ -54,18 +54,20 @@ class RunFolder {
     /// From now on the destructor leaves the folder for the next run.
     void keep() { keep_ = true; }
 
-    /// Waits for the disk, renames the folder to its final name, and removes `work` and an older run there. Only for
-    /// the creator. Throws Error(io) if what lies under the final name is not a run.
+    /// Waits for the disk, renames the folder to its final name, and removes `work` and an older run there, as far as
+    /// they can be removed. Only for the creator. Throws Error(io) if what lies under the final name is not a run.
     void commit();
 
  private:
     RunFolder(std::string final_path, std::string partial, bool owner);
+    bool try_lock(const std::string& name, int& fd, int operation) const;
     void lock();
+    void release_locks();
     void clear_all_but_parts() const;
 
     std::string final_, partial_;
     bool owner_ = false, keep_ = false;
-    int lock_ = -1;
+    int lock_ = -1, ranks_lock_ = -1;  // open files
 };
 
 /// part_0008.vtu, part_0008.surface.vtu, part_0008.stl: names relative to the folder `parts`.

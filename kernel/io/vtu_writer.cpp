@@ -347,6 +347,7 @@ void write_part_surface(const std::string& path, const SurfaceArrays& surface, c
     const std::vector<Tetrahedron> no_tets;
     CheckedFile file(path, "wb");
     write_grid(file, make_grid(surface.vertices, no_tets, surface, arrays));
+    file.sync();
     file.close();
 }
 
@@ -416,6 +417,7 @@ void number_interior_vertices(const std::string& path, std::int64_t first) {
                                      [first](std::size_t i) { return first + static_cast<std::int64_t>(i); });
     file.seek(place.position);
     ids.write_values(file);
+    file.sync();
     file.close();
 }
 

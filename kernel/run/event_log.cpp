@@ -1,5 +1,9 @@
 #include "run/event_log.h"
 
+#include <unistd.h>
+
+#include <charconv>
+
 #include <nlohmann/json.hpp>
 
 #include "io/checked_file.h"
@@ -10,14 +14,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A descriptor that this process has open can be opened again by its name.
-std::string path_of(const std::string& target) {
-    return target.starts_with("fd:") ? "/proc/self/fd/" + target.substr(3) : target;
+std::unique_ptr<CheckedFile> open_target(const std::string& target) {
+    if (!target.starts_with("fd:")) return std::make_unique<CheckedFile>(target, "w");
+    int number = -1;
+    const char* end = target.data() + target.size();
+    const auto [stop, error] = std::from_chars(target.data() + 3, end, number);
+    const int copy = error == std::errc() && stop == end ? ::dup(number) : -1;
+    return std::make_unique<CheckedFile>(copy < 0 ? nullptr : ::fdopen(copy, "w"), target);
 }
 
 }  // namespace
 
-EventLog::EventLog(const std::string& target) : file_(std::make_unique<CheckedFile>(path_of(target), "w")) {}
+EventLog::EventLog(const std::string& target) : file_(open_target(target)) {}
 
 EventLog::~EventLog() = default;
 
@@ -50,7 +58,9 @@ void EventLog::on_part(const PartEvent& event) {
     const PartReport& part = *event.part;
     Json json = {{"event", "part"},
                  {"id", part.id},
-                 {"state", part.result.code ? "failed" : "done"},
+                 {"state", part.result.code ? "failed"
+                           : part.resumed   ? "resumed"
+                                            : "done"},
                  {"rank", part.rank},
                  {"worker", part.worker},
                  {"attempts", part.attempts},
@@ -68,7 +78,10 @@ void EventLog::on_part(const PartEvent& event) {
 void EventLog::on_end(int exit_code, const std::string& message) {
     Json json = {{"event", "end"}, {"exit_code", exit_code}};
     if (!message.empty()) json["message"] = message;
-    write(std::move(json));
+    try {
+        write(std::move(json));
+    } catch (const Error&) {
+    }
 }
 
 }  // namespace kerf

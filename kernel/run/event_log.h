@@ -13,21 +13,24 @@ class CheckedFile;
 
 /// Writes each event when it happens. All objects have "event" and "seconds" since the start:
 ///
-///     {"event": "stage", "stage": "read" | "decompose" | "volume" | "number"}
+///     {"event": "stage", "stage": "read" | "decompose" | "prepare" | "volume" | "number"}
 ///     {"event": "parts", "parts": [{"id", "load", "facets", "volume", "resumed"}]}
-///     {"event": "part", "id", "state": "done" | "failed", "rank", "worker", "attempts", "tets", "part_seconds",
-///                       "parts_done", "parts", "load_done", "tets_done"}
+///     {"event": "part", "id", "state": "done" | "resumed" | "failed", "rank", "worker", "attempts", "tets",
+///                       "part_seconds", "parts_done", "parts", "load_done", "tets_done", "message", "remedy"}
 ///     {"event": "end", "exit_code", "message"}
+///
+/// "message" is there where something failed, "remedy" where the first attempt did.
 class EventLog : public RunListener {
  public:
-    /// `target`: the path of a file, which is replaced, or fd:N, an open file descriptor. Throws Error(io).
+    /// `target`: the path of a file, which is replaced, or fd:N, an open file descriptor, which stays open. Throws
+    /// Error(io).
     explicit EventLog(const std::string& target);
     ~EventLog() override;
 
     void on_progress(const char* stage, std::size_t done, std::size_t total) override;
     void on_parts(const std::vector<PartReport>& parts, const std::string& plan) override;
     void on_part(const PartEvent& event) override;
-    /// The last event. `message`: the error, or empty.
+    /// The last event. `message`: the error, or empty. What cannot be written is lost: the run has ended anyway.
     void on_end(int exit_code, const std::string& message);
 
  private:

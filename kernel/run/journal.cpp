@@ -54,9 +54,10 @@ std::optional<JournalEntry> read_journal_entry(const std::string& path) {
 }
 
 std::optional<PartOutcome> find_finished_part(const std::string& journal_file, const std::string& part_file,
-                                              const FileHash& job_hash) {
+                                              const FileHash& job_hash, double timeout_seconds) {
     const std::optional<JournalEntry> entry = read_journal_entry(journal_file);
     if (!entry || entry->job_hash != job_hash) return {};
+    if (entry->timeout_seconds > 0 && entry->timeout_seconds != timeout_seconds) return {};
     try {
         if (hash_of_part_file(part_file) == entry->outcome.result.file_hash) return entry->outcome;
     } catch (const Error&) {  // missing or damaged

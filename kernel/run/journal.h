@@ -11,11 +11,12 @@ namespace kerf {
 /// A finished part. It is valid for whoever wants the same job done and finds the part's file as it was.
 struct JournalEntry {
     FileHash job_hash = {0, 0};  ///< of the job's bytes and the options that shape the mesh, see hash_of_job()
+    double timeout_seconds = 0;  ///< if an attempt has exceeded it: with another limit the part might be another
     PartOutcome outcome;
 
     template <class Archive>
     void archive(Archive& a) {
-        a(job_hash, outcome);
+        a(job_hash, timeout_seconds, outcome);
     }
 };
 
@@ -29,8 +30,9 @@ void write_journal_entry(const std::string& path, const JournalEntry& entry);
 /// The entry, if the file exists and is whole. What is damaged counts as missing: its part is then meshed again.
 std::optional<JournalEntry> read_journal_entry(const std::string& path);
 
-/// The outcome in the journal, if it is that of this job and the part's file is still what it was.
+/// The outcome in the journal, if it is that of this job, no other limit of time has shaped it, and the part's file is
+/// still what it was.
 std::optional<PartOutcome> find_finished_part(const std::string& journal_file, const std::string& part_file,
-                                              const FileHash& job_hash);
+                                              const FileHash& job_hash, double timeout_seconds);
 
 }  // namespace kerf

@@ -89,10 +89,12 @@ void RunOptions::resolve(int cores_of_rank) {
     require(attempts >= 1, "attempts", "1 or more", attempts);
     if (decompose.facets == FacetPolicy::keep && decompose.cut.contour == ContourMethod::straight)
         throw Error(ErrorCode::usage, "--contour straight splits facets, and --surface keep forbids it. Drop one.");
-    if (!trace_file.empty() && !output.empty() && lies_inside(trace_file, output))
-        throw Error(ErrorCode::usage, fmt::format("--trace is {}, which lies in the output folder {}. That is replaced "
-                                                  "as a whole when the run ends, so choose a place outside of it.",
-                                                  trace_file, output));
+    for (const auto& [option, file] : {std::pair("trace", &trace_file), std::pair("events", &events_file)})
+        if (!file->empty() && !output.empty() && lies_inside(*file, output))
+            throw Error(ErrorCode::usage,
+                        fmt::format("--{} is {}, which lies in the output folder {}. That is replaced "
+                                    "as a whole when the run ends, so choose a place outside of it.",
+                                    option, *file, output));
     if (mesher.max_volume == 0 && size > 0) mesher.max_volume = regular_tet_volume(size);
     decompose.cut.max_volume = decompose.cut.load.max_volume = mesher.max_volume;
 }
@@ -152,6 +154,7 @@ std::vector<OptionField> option_fields(RunOptions& o) {
         {"tetgen", "", "Expert: TetGen switches instead of q and a (p, Y are always on).", &o.mesher.tetgen_switches},
         {"stl", "", "Write the closed surface of every part as binary STL, too.", &o.stl, false},
         {"report", "", "Write the report to this file too.", &o.report_file, false},
+        {"events", "", "Write progress as one JSON object per line to this file, or to fd:N.", &o.events_file, false},
         {"trace", "", "Write every cut with its stages and refused tries to this file.", &o.trace_file, false},
     };
     const std::vector<OptionField> of_input = input_option_fields(o.input_options);

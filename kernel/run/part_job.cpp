@@ -93,6 +93,13 @@ void write_job(const std::string& path, const PartJob& job) {
 
 PartJob read_job(const std::string& path) { return from_bytes<PartJob>(read_file(path)); }
 
+PartResult out_of_memory() {
+    PartResult result;
+    result.code = static_cast<int>(ErrorCode::memory);
+    result.message = "Out of memory in the worker. Use more parts, fewer workers or a larger --memory.";
+    return result;
+}
+
 PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::string& part_file) {
     PartResult result;
     try {
@@ -101,8 +108,7 @@ PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::s
         result.code = static_cast<int>(e.code());
         result.message = e.what();
     } catch (const std::bad_alloc&) {
-        result.code = static_cast<int>(ErrorCode::memory);
-        result.message = "Out of memory in the worker. Use more parts, fewer workers or a larger --memory.";
+        return out_of_memory();
     }
     return result;
 }

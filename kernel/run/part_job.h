@@ -53,6 +53,9 @@ struct PartResult {
     }
 };
 
+/// Of a part that did not fit into the memory of its worker.
+PartResult out_of_memory();
+
 /// Keeps the bytes of a job in a file, from which any worker can take it. Throws Error(io).
 void write_job(const std::string& path, const PartJob& job);
 /// Throws Error(io) if the file cannot be read, Error(internal) if it is damaged.
@@ -64,7 +67,8 @@ PartJob read_job(const std::string& path);
 PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::string& part_file);
 
 /// Serves one attempt: reads it from standard input, answers on standard output, keeps whatever libraries print apart.
-/// `memory_mb` limits the address space (0: not at all). The process ends with its parent. Returns the exit code.
-int serve_part_job(std::int64_t memory_mb);
+/// `memory_mb` limits the address space (0: not at all). The process ends with `parent` (0: its own) and not by Ctrl-C,
+/// which reaches all processes of a terminal but is the parent's to answer. Returns the exit code.
+int serve_part_job(std::int64_t memory_mb, std::int64_t parent);
 
 }  // namespace kerf

@@ -1,5 +1,7 @@
 #include "run/part_queue.h"
 
+#include <unistd.h>
+
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -67,7 +69,8 @@ void PartQueue::start(std::size_t part) {
     PartOutcome& outcome = progress_[part].outcome;
     outcome.remedy = call.remedy;
     ++outcome.attempts;
-    pool_.start(static_cast<int>(part), options_.worker_program, {"--memory", std::to_string(options_.memory_mb)},
+    pool_.start(static_cast<int>(part), options_.worker_program,
+                {"--memory", std::to_string(options_.memory_mb), "--parent", std::to_string(::getpid())},
                 to_bytes(PartAttempt{parts_[part].job_file, parts_[part].part_file, call}), options_.timeout_seconds);
 }
 
@@ -77,6 +80,7 @@ std::optional<PartQueue::Finished> PartQueue::take_result(std::size_t part, cons
     const bool answered = child.end == ChildResult::End::exited && child.exit_code == 0 && !child.output.empty();
     outcome.result = answered ? from_bytes<PartResult>(child.output) : result_of_silence(child);
     const bool timed_out = child.end == ChildResult::End::timed_out;
+    outcome.timed_out |= timed_out;
     const bool mesher_failed = outcome.result.code == static_cast<int>(ErrorCode::subdomain) &&
                                (answered || timed_out || died_by_itself(child));
     if (mesher_failed && outcome.attempts < options_.attempts) {

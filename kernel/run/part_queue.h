@@ -25,10 +25,11 @@ struct PartOutcome {
     double seconds = 0;                 ///< wall clock over all attempts, starting the processes included
     std::vector<std::string> failures;  ///< why earlier attempts failed
     std::string remedy;                 ///< of the last attempt (volume/retries.h); empty: none was needed
+    bool timed_out = false;             ///< an attempt has exceeded the limit of time
 
     template <class Archive>
     void archive(Archive& a) {
-        a(result, attempts, worker, seconds, failures, remedy);
+        a(result, attempts, worker, seconds, failures, remedy, timed_out);
     }
 };
 

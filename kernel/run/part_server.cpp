@@ -60,8 +60,10 @@ std::int64_t own_peak_rss_bytes() {
 
 }  // namespace
 
-int serve_part_job(std::int64_t memory_mb) {
+int serve_part_job(std::int64_t memory_mb, std::int64_t parent) {
+    std::signal(SIGINT, SIG_IGN);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (parent > 0 && getppid() != parent) return static_cast<int>(ErrorCode::internal);  // it has ended before that
     limit_address_space(memory_mb);
     const int answer = dup(STDOUT_FILENO);
     if (answer < 0 || dup2(STDERR_FILENO, STDOUT_FILENO) < 0) return static_cast<int>(ErrorCode::io);
@@ -76,6 +78,8 @@ int serve_part_job(std::int64_t memory_mb) {
     } catch (const Error& e) {
         result.code = static_cast<int>(e.code());
         result.message = e.what();
+    } catch (const std::bad_alloc&) {
+        result = out_of_memory();
     }
     result.peak_rss_bytes = own_peak_rss_bytes();
     return write_all(answer, to_bytes(result)) ? 0 : static_cast<int>(ErrorCode::io);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -62,7 +63,9 @@ RunFolder open_run_folder(const std::string& path, Communicator& ranks) {
         return folder->partial_path();
     });
     const std::string shared = all_gather(ranks, temporary).front();
-    if (!folder) folder.emplace(RunFolder::join(shared));
+    in_agreement(ranks, [&] {
+        if (!folder) folder.emplace(RunFolder::join(shared));
+    });
     return std::move(*folder);
 }
 
@@ -103,12 +106,17 @@ std::int64_t least_facets(const DecomposeOptions& options) {
     return options.facets == FacetPolicy::keep ? min_facets_per_part : 4;
 }
 
-// K as given, if the surface allows it, or as it follows from the surface, the machine and its memory.
+// K as given, if the surface allows it; else that of a run into the same folder that was interrupted, perhaps on
+// another machine; else as it follows from the surface, the machine and its memory.
 std::int32_t part_count(const Input& input, const RunOptions& options, int ranks) {
     const auto most =
         static_cast<std::int32_t>(std::max<std::int64_t>(1, input.facets / least_facets(options.decompose)));
     const std::int32_t wanted = options.decompose.parts;
-    if (wanted == 0) return choose_parts(options, static_cast<double>(input.facets), input.volume, ranks, most);
+    if (wanted == 0) {
+        const std::int32_t interrupted = options.dry_run ? 0 : interrupted_part_count(options.output);
+        if (interrupted > 0 && interrupted <= most) return interrupted;
+        return choose_parts(options, static_cast<double>(input.facets), input.volume, ranks, most);
+    }
     if (wanted > most)
         throw Error(ErrorCode::usage, fmt::format("{} has {} facets, too few for {} parts. Use -n {} or fewer, or a "
                                                   "finer surface.",
@@ -123,6 +131,7 @@ class Run {
         : ranks_(ranks), input_(input), listener_(listener) {
         if (!options.dry_run) folder_.emplace(open_run_folder(options.output, ranks));
         report_.options = std::move(options);
+        report_.quality = PartQuality(input.diagonal);
         report_.ranks = ranks.size();
         report_.input = &input;
     }
@@ -131,12 +140,13 @@ class Run {
     void divide_unfinished(CutListener* cuts);
     void join_interfaces();
     void gather_parts();
-    void announce_parts() const;
+    void announce_parts();
     void hand_over_parts();
     void mesh_parts();
     void number_interiors();
     RunReport finish(const Stopwatch& whole, double read_seconds);
     const RunReport& report() const { return report_; }
+    Error with_way_to_go_on(const Error& error);
 
  private:
     bool is_root() const { return ranks_.rank() == 0; }
@@ -145,6 +155,7 @@ class Run {
         if (listener_->cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
         listener_->on_progress(stage, done, total);
     }
+    void keep_folder();
     void verify();
     void measure_workers();
 
@@ -156,6 +167,7 @@ class Run {
     Decomposition own_;
     std::vector<PartReport> own_parts_;
     std::vector<PartArrays> own_arrays_;
+    std::optional<VolumeStage> volume_;
     std::int64_t surface_vertices_ = 0;
 };
 
@@ -213,10 +225,12 @@ void Run::join_interfaces() {
 }
 
 // What is ahead.
-void Run::announce_parts() const {
-    if (!listener_ || !is_root() || !report_.options.volume) return;
-    listener_->on_parts(report_.parts,
-                        plan_text(report_.parts, report_.options, ranks_.size(), report_.options.dry_run));
+void Run::announce_parts() {
+    const RunOptions& options = report_.options;
+    in_agreement(ranks_, [&] {
+        if (listener_ && is_root() && options.volume)
+            listener_->on_parts(report_.parts, plan_text(report_.parts, options, ranks_.size(), options.dry_run));
+    });
 }
 
 void Run::gather_parts() {
@@ -229,40 +243,55 @@ void Run::gather_parts() {
 void Run::hand_over_parts() {
     const Stopwatch stopwatch;
     const bool volume = report_.options.volume;
+    const std::size_t finished_before = folder_->finished_parts();
     in_agreement(ranks_, [&] {
         if (!is_root()) return;
         std::vector<int> leaves;
         for (const PartReport& part : report_.parts) leaves.push_back(part.id);
         folder_->keep_only(volume ? leaves : std::vector<int>());
-        if (!volume) return;
-        save_run(folder_->saved_run_file(), report_.options);
-        folder_->keep();
+        if (volume) keep_folder();
     });
-    VolumeStage stage(ranks_, *folder_, report_.options, listener_);
+    if (volume) volume_.emplace(ranks_, *folder_, report_.options, input_.diagonal, listener_);
     in_agreement(ranks_, [&] {
         for (std::size_t i = 0; i < own_.leaves.size(); ++i) {
+            progress("prepare", i, own_.leaves.size());
             const Leaf leaf = std::exchange(own_.leaves[i], {});
             PartJob job{leaf.surface, std::exchange(own_arrays_[i], {}), input_.diagonal};
             write_part_surface(folder_->part_surface_file(leaf.id), job.surface, job.arrays);
             if (report_.options.stl)
                 write_stl(folder_->part_stl_file(leaf.id), job.surface.vertices, job.surface.facets);
-            if (volume) stage.hand_over(job, own_parts_[i]);
+            if (volume) volume_->hand_over(job, own_parts_[i]);
         }
     });
     gather_parts();
+    const auto resumed = static_cast<std::size_t>(
+        std::count_if(report_.parts.begin(), report_.parts.end(), std::mem_fn(&PartReport::resumed)));
+    if (resumed < finished_before)
+        input_.notes.push_back(fmt::format("{} parts of an interrupted run were no longer of use and are removed",
+                                           finished_before - resumed));
     report_.seconds.prepare += longest(ranks_, stopwatch.seconds());
 }
 
 void Run::mesh_parts() {
     const Stopwatch stopwatch;
-    try {
-        VolumeStage(ranks_, *folder_, report_.options, listener_).mesh(report_.parts);
-    } catch (const Error& e) {
-        throw Error(e.code(),
-                    fmt::format("{} {} of {} parts are finished; kerf mesh --resume {} does the others.", e.what(),
-                                folder_->finished_parts(), report_.parts.size(), report_.options.output));
-    }
+    volume_->mesh(report_.parts, report_.quality);
     report_.seconds.mesh = longest(ranks_, stopwatch.seconds());
+}
+
+// Only on the root rank.
+void Run::keep_folder() {
+    save_run(folder_->saved_run_file(), report_.options);
+    folder_->keep();
+}
+
+// What ends a run says how to continue it. A run that the user has stopped can always be continued.
+Error Run::with_way_to_go_on(const Error& error) {
+    if (!folder_ || !report_.options.volume) return error;
+    if (error.code() == ErrorCode::cancelled && is_root()) keep_folder();
+    const std::size_t finished = folder_->finished_parts();
+    if (finished == 0 && error.code() != ErrorCode::cancelled) return error;
+    return {error.code(), fmt::format("{} {} parts are finished; kerf mesh --resume {} does the others.", error.what(),
+                                      finished, report_.options.output)};
 }
 
 void Run::number_interiors() {
@@ -276,8 +305,8 @@ void Run::number_interiors() {
     report_.vertices = first;
     const LeafRange share = range_of_rank(static_cast<std::int32_t>(report_.parts.size()), ranks_);
     in_agreement(ranks_, [&] {
-        progress("number", 0, 1);
         for (std::int32_t i = share.first; i < share.last; ++i) {
+            progress("number", static_cast<std::size_t>(i - share.first), static_cast<std::size_t>(share.last));
             const PartReport& part = report_.parts[static_cast<std::size_t>(i)];
             if (part.result.code == 0) number_interior_vertices(folder_->part_file(part.id), first_of[part.id]);
         }
@@ -341,12 +370,10 @@ std::int64_t own_peak_rss_bytes() {
 }
 
 RunReport Run::finish(const Stopwatch& whole, double read_seconds) {
-    report_.quality = PartQuality(input_.diagonal);
     std::vector<PartHash> hashes;
     std::int64_t largest_worker = 0;
     for (const PartReport& part : report_.parts) {
         report_.tets += part.result.tets;
-        if (part.result.tets) report_.quality.add(part.result.quality);
         largest_worker = std::max(largest_worker, part.result.peak_rss_bytes);
         hashes.push_back({part.id, part.result.hash});
     }
@@ -359,6 +386,7 @@ RunReport Run::finish(const Stopwatch& whole, double read_seconds) {
     if (report_.exit_code == 0 && !report_.verification.passed)
         report_.exit_code = static_cast<int>(ErrorCode::verification);
     report_.seconds.read = read_seconds;
+    if (!is_root()) folder_.reset();  // nobody uses it when it moves
     report_.seconds.wall = longest(ranks_, whole.seconds());
     in_agreement(ranks_, [&] {
         if (!is_root()) return;
@@ -386,24 +414,29 @@ RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input&
         options.resolve(cores_of_rank);
         if (listener) listener->on_progress("read", 0, 1);
         input = read_input(options.input, options.input_options);
-        options.decompose.parts = part_count(input, options, ranks.size());
+        if (ranks.rank() == 0) options.decompose.parts = part_count(input, options, ranks.size());
     });
+    options.decompose.parts = all_gather(ranks, options.decompose.parts).front();
     const double read_seconds = longest(ranks, whole.seconds());
     const bool volume = options.volume, dry_run = options.dry_run;
     Run run(std::move(options), ranks, input, listener);
-    run.decompose_surface();
-    run.join_interfaces();
-    if (dry_run) {
+    try {
+        run.decompose_surface();
+        run.join_interfaces();
+        if (dry_run) {
+            run.announce_parts();
+            return run.report();
+        }
+        run.hand_over_parts();
         run.announce_parts();
-        return run.report();
+        if (volume) {
+            run.mesh_parts();
+            run.number_interiors();
+        }
+        return run.finish(whole, read_seconds);
+    } catch (const Error& error) {
+        throw run.with_way_to_go_on(error);
     }
-    run.hand_over_parts();
-    run.announce_parts();
-    if (volume) {
-        run.mesh_parts();
-        run.number_interiors();
-    }
-    return run.finish(whole, read_seconds);
 }
 
 }  // namespace kerf

@@ -13,10 +13,12 @@
 namespace kerf {
 
 void save_run(const std::string& path, const RunOptions& options) {
-    nlohmann::ordered_json json = {{"input", std::filesystem::absolute(options.input).string()},
-                                   {"output", std::filesystem::absolute(options.output).string()}};
     RunOptions saved = options;
-    saved.workers = 0;  // the machine that continues may have other cores
+    saved.workers = 0;          // the machine that continues may have other cores
+    saved.events_file.clear();  // who follows the run that continues will say where
+    for (std::string* file : {&saved.report_file, &saved.trace_file})
+        if (!file->empty()) *file = std::filesystem::absolute(*file).string();
+    nlohmann::ordered_json json = {{"input", std::filesystem::absolute(options.input).string()}};
     for (const OptionText& option : option_texts(saved, false)) json["options"][option.name] = option.text;
     write_durable_file(path, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
@@ -32,7 +34,6 @@ RunOptions load_interrupted_run(const std::string& output) {
     try {
         const auto json = nlohmann::json::parse(read_file(file));
         options.input = json.at("input").get<std::string>();
-        options.output = json.at("output").get<std::string>();
         std::vector<OptionText> texts;
         for (const auto& [name, text] : json.at("options").items()) texts.push_back({name, text.get<std::string>()});
         set_options(options, texts, file);
@@ -42,7 +43,16 @@ RunOptions load_interrupted_run(const std::string& output) {
                                 "is finished is found there, too.",
                                 file));
     }
+    options.output = std::filesystem::absolute(output).string();
     return options;
+}
+
+std::int32_t interrupted_part_count(const std::string& output) {
+    try {
+        return load_interrupted_run(output).decompose.parts;
+    } catch (const Error&) {
+        return 0;
+    }
 }
 
 }  // namespace kerf

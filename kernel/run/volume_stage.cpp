@@ -5,6 +5,8 @@
 #include <map>
 #include <numeric>
 
+#include <fmt/format.h>
+
 #include "run/failed_part.h"
 #include "run/journal.h"
 
@@ -16,10 +18,17 @@ constexpr int root = 0;
 // How long a rank sleeps before it looks for messages and signals. Those with workers wake when one ends.
 constexpr double busy_seconds = 0.1, idle_seconds = 0.01;
 
+void remove_file(const std::string& path) {
+    std::error_code error;
+    std::filesystem::remove(path, error);
+    if (error)
+        throw Error(ErrorCode::io, fmt::format("Cannot remove {}: {}. Check the permissions of the output folder.",
+                                               path, error.message()));
+}
+
 // What others are told of a part.
 PartReport without_quality(PartReport part) {
     part.result.quality = PartQuality();
-    part.failures.clear();
     return part;
 }
 
@@ -66,12 +75,14 @@ class VolumeStage::Tally {
 void VolumeStage::hand_over(const PartJob& job, PartReport& part) {
     const std::string journal = folder_.journal_file(part.id), file = folder_.part_file(part.id);
     part.job_hash = hash_of_job(job, options_.mesher, options_.attempts);
-    if (const auto outcome = find_finished_part(journal, file, part.job_hash)) {
+    if (const auto outcome = find_finished_part(journal, file, part.job_hash, options_.timeout_seconds)) {
         static_cast<PartOutcome&>(part) = *outcome;
         part.resumed = true;
+        quality_.add(part.result.quality);
+        part = without_quality(std::move(part));
         return;
     }
-    for (const std::string& stale : {journal, file}) std::filesystem::remove(stale);
+    for (const std::string& stale : {journal, file}) remove_file(stale);
     write_job(folder_.job_file(part.id), job);
 }
 
@@ -92,8 +103,9 @@ void VolumeStage::keep_outcome(const PartReport& part) const {
         write_failed_part(folder_.file("failed"), part.id, read_job(job_file).surface, options_.mesher,
                           part.result.message);
     else
-        write_journal_entry(folder_.journal_file(part.id), {part.job_hash, part});
-    std::filesystem::remove(job_file);
+        write_journal_entry(folder_.journal_file(part.id),
+                            {part.job_hash, part.timed_out ? options_.timeout_seconds : 0, part});
+    remove_file(job_file);
 }
 
 void VolumeStage::post_to_others(const Message& message) {
@@ -119,7 +131,7 @@ std::vector<PartReport> VolumeStage::mesh_share(const std::vector<PartReport>& p
         while (const std::optional<Bytes> bytes = ranks_.poll()) {
             const auto message = from_bytes<Message>(*bytes);
             if (message.kind == Message::Kind::stop)
-                throw Error(ErrorCode::cancelled, "Another rank was cancelled or has failed.");
+                throw Error(ErrorCode::cancelled, "The run was cancelled.");  // or an error of the sender says why
             if (message.kind == Message::Kind::all_done) return meshed;
             tally->add(message.part.front());
         }
@@ -128,7 +140,8 @@ std::vector<PartReport> VolumeStage::mesh_share(const std::vector<PartReport>& p
             return meshed;
         }
         const auto finished = queue.step(queue.empty() ? idle_seconds : busy_seconds);
-        if (!finished) continue;
+        // A signal to all processes of a terminal or a job ends workers, too: that is no failure of their parts.
+        if (!finished || (listener_ && listener_->cancelled())) continue;
         PartReport part = parts[order[finished->part]];
         static_cast<PartOutcome&>(part) = finished->outcome;
         part.rank = ranks_.rank();
@@ -137,11 +150,12 @@ std::vector<PartReport> VolumeStage::mesh_share(const std::vector<PartReport>& p
             tally->add(part);
         else
             ranks_.post(root, to_bytes(Message{Message::Kind::part_done, {without_quality(part)}}));
-        meshed.push_back(std::move(part));
+        if (part.result.tets > 0) quality_.add(part.result.quality);
+        meshed.push_back(without_quality(std::move(part)));
     }
 }
 
-void VolumeStage::mesh(std::vector<PartReport>& parts) {
+void VolumeStage::mesh(std::vector<PartReport>& parts, PartQuality& quality) {
     std::vector<PartReport> meshed;
     const auto mesh_or_stop_all = [&] {
         try {
@@ -162,6 +176,7 @@ void VolumeStage::mesh(std::vector<PartReport>& parts) {
     for (PartReport& part : parts) by_id[part.id] = &part;
     for (std::vector<PartReport>& of_rank : all_gather(ranks_, meshed))
         for (PartReport& part : of_rank) *by_id[part.id] = std::move(part);
+    for (const PartQuality& of_rank : all_gather(ranks_, quality_)) quality.add(of_rank);
 }
 
 }  // namespace kerf

@@ -13,17 +13,20 @@ namespace kerf {
 /// rank waits for another. Ranks post what they have finished to the root rank, which tells all when nothing is left.
 class VolumeStage {
  public:
-    VolumeStage(Communicator& ranks, RunFolder& folder, const RunOptions& options, RunListener* listener)
-        : ranks_(ranks), folder_(folder), options_(options), listener_(listener) {}
+    /// `length_scale`: of the distributions of the quality.
+    VolumeStage(Communicator& ranks, RunFolder& folder, const RunOptions& options, double length_scale,
+                RunListener* listener)
+        : ranks_(ranks), folder_(folder), options_(options), listener_(listener), quality_(length_scale) {}
 
     /// The job of `part` waits in the folder when this returns, unless an interrupted run has finished it: then
     /// `part` gets its outcome. Throws Error(io).
     void hand_over(const PartJob& job, PartReport& part);
 
     /// Collective. `parts`: all parts of the run, the same on every rank, after they were handed over. On return they
-    /// have their outcomes on every rank. Throws Error on every rank alike: `cancelled` if any was cancelled, `io` if
-    /// a part could not be written, with all workers ended.
-    void mesh(std::vector<PartReport>& parts);
+    /// have their outcomes on every rank, but for the distributions of their quality, which are added to `quality`.
+    /// Throws Error on every rank alike: `cancelled` if any was cancelled, `io` if a part could not be written, with
+    /// all workers ended.
+    void mesh(std::vector<PartReport>& parts, PartQuality& quality);
 
  private:
     struct Message;
@@ -37,6 +40,7 @@ class VolumeStage {
     RunFolder& folder_;
     const RunOptions& options_;
     RunListener* listener_;
+    PartQuality quality_;  // of the parts that this rank has meshed, or found finished
 };
 
 }  // namespace kerf

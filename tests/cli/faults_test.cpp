@@ -73,14 +73,14 @@ TEST(MemoryLimit, IsReportedWithItsOwnCode) {
 TEST(HangingWorker, IsStoppedAndItsPartTriedAgain) {
     const test::TemporaryFolder folder;
     std::vector<std::string> arguments = four_parts(folder.file("out"));
-    arguments.insert(arguments.end(), {"--timeout", "10"});
+    arguments.insert(arguments.end(), {"--timeout", "15"});
     test::StartedRun run(KERF_PROGRAM, arguments);
     ASSERT_TRUE(test::await([&] { return !run.workers().empty(); }));
     ASSERT_EQ(::kill(run.workers().front(), SIGSTOP), 0);
     const ChildResult result = run.wait();
     EXPECT_EQ(result.exit_code, 0) << result.log;
     EXPECT_NE(result.log.find("another order of the vertices"), std::string::npos) << result.log;
-    EXPECT_NE(test::read_text(folder.file("out/report.json")).find("ran longer than its 10 s"), std::string::npos);
+    EXPECT_NE(test::read_text(folder.file("out/report.json")).find("ran longer than its 15 s"), std::string::npos);
 }
 
 TEST(SecondRun, IntoTheSameFolderIsRefused) {
@@ -145,14 +145,29 @@ TEST(EventsFile, TellsOfEveryPartAndTheEnd) {
             EXPECT_EQ(event["tets_done"], tets);
         }
     }
-    EXPECT_EQ(kinds, (std::vector<std::string>{"read", "decompose", "parts", "volume", "part", "part", "part", "number",
-                                               "end"}));
+    EXPECT_EQ(kinds, (std::vector<std::string>{"read", "decompose", "prepare", "parts", "volume", "part", "part",
+                                               "part", "number", "end"}));
     const auto report = nlohmann::json::parse(test::read_text(folder.file("out/report.json")));
     EXPECT_EQ(report["totals"]["tets"], tets);
     const ChildResult unwritable = test::run_kerf(
         {"mesh", test::asset_path("hollow_box"), "-o", folder.file("out"), "--events", folder.file("no/events")});
     EXPECT_EQ(unwritable.exit_code, 7);
     EXPECT_NE(unwritable.log.find("no/events"), std::string::npos) << unwritable.log;
+    const ChildResult full =
+        test::run_kerf({"mesh", test::asset_path("hollow_box"), "-o", folder.file("out"), "--events", "/dev/full"});
+    EXPECT_EQ(full.exit_code, 7);
+    EXPECT_NE(full.log.find("/dev/full: No space left"), std::string::npos) << full.log;
+    EXPECT_EQ(test::run_kerf({"mesh", test::asset_path("hollow_box"), "-o", folder.file("out"), "--events", "fd:99"})
+                  .exit_code,
+              7);
+    const ChildResult inside = test::run_kerf(
+        {"mesh", test::asset_path("hollow_box"), "-o", folder.file("out"), "--events", folder.file("out/events")});
+    EXPECT_EQ(inside.exit_code, 2) << inside.log;
+    const std::string to_descriptor = "'" KERF_PROGRAM "' mesh '" + test::asset_path("hollow_box") + "' -q -o '" +
+                                      folder.file("out") + "' --events fd:5 5>&1";
+    const ChildResult descriptor = test::run_program("/bin/sh", {"-c", to_descriptor});
+    EXPECT_EQ(descriptor.exit_code, 0) << descriptor.log;
+    EXPECT_NE(test::output_of(descriptor).find("\"event\":\"end\""), std::string::npos);
 }
 
 }  // namespace

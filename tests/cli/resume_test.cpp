@@ -84,7 +84,7 @@ TEST_F(Resume, GivesTheBytesOfAnUndisturbedRun) {
         const ChildResult interrupted = interrupt(signal);
         if (signal != SIGKILL) {
             EXPECT_EQ(interrupted.exit_code, 130) << interrupted.log;
-            EXPECT_NE(interrupted.log.find("of 6 parts are finished; kerf mesh --resume " + folder_.file("out")),
+            EXPECT_NE(interrupted.log.find("parts are finished; kerf mesh --resume " + folder_.file("out")),
                       std::string::npos)
                 << interrupted.log;
         }
@@ -109,6 +109,40 @@ TEST_F(Resume, TheSameCommandFindsWhatIsFinishedToo) {
     EXPECT_TRUE(parts_of("out") == expected);
 }
 
+// Without -n K follows from the machine, but not where parts of an interrupted run wait.
+TEST_F(Resume, TheSameCommandOnAnotherMachineHasTheSameParts) {
+    interrupt(SIGKILL);
+    const ChildResult result =
+        test::run_kerf({"mesh", input_, "-o", folder_.file("out"), "--max-volume", "6e-6", "--workers", "3"});
+    EXPECT_EQ(result.exit_code, 0) << result.log;
+    EXPECT_GE(resumed_parts(), 2u);
+}
+
+TEST_F(Resume, AnInterruptedRunMayBeMoved) {
+    const auto expected = undisturbed();
+    interrupt(SIGTERM, "before");
+    fs::rename(folder_.file("before.kerf-partial"), folder_.file("out.kerf-partial"));
+    EXPECT_EQ(resume().exit_code, 0);
+    EXPECT_GE(resumed_parts(), 2u);
+    EXPECT_TRUE(parts_of("out") == expected);
+    EXPECT_EQ(folder_.names(), (std::vector<std::string>{"out", "undisturbed"}));
+}
+
+// As Ctrl-C in a terminal: the workers get the signal, too.
+TEST_F(Resume, ASignalToAllProcessesFailsNoPart) {
+    test::StartedRun run(
+        "/bin/sh", {"-c", "setsid --wait '" KERF_PROGRAM "' \"$@\"", "sh", "mesh", input_, "-o", folder_.file("out"),
+                    "-n", "6", "--max-volume", "6e-6", "--workers", "1", "--events", folder_.file("events")});
+    ASSERT_TRUE(test::await([&] { return test::finished_parts(folder_.file("out")) >= 2 && !run.workers().empty(); }));
+    const std::vector<pid_t> programs = test::descendants_of(run.process(), "kerf");
+    ASSERT_EQ(programs.size(), 1u);
+    ASSERT_EQ(::kill(-programs.front(), SIGINT), 0) << "to the group";
+    EXPECT_EQ(run.wait().exit_code, 130);
+    EXPECT_EQ(test::bytes_of_file(folder_.file("events")).find("failed"), std::string::npos);
+    EXPECT_FALSE(fs::exists(folder_.file("out.kerf-partial/failed")));
+    EXPECT_EQ(resume().exit_code, 0);
+}
+
 TEST_F(Resume, NothingOfARunWithOtherOptionsSurvives) {
     const auto coarse = [&](const std::string& output) {
         return std::vector<std::string>{"mesh", input_, "-o", folder_.file(output), "-n", "4"};
@@ -118,6 +152,7 @@ TEST_F(Resume, NothingOfARunWithOtherOptionsSurvives) {
     const ChildResult result = test::run_kerf(coarse("out"));
     EXPECT_EQ(result.exit_code, 0) << result.log;
     EXPECT_EQ(resumed_parts(), 0u);
+    EXPECT_NE(result.log.find("parts of an interrupted run were no longer of use"), std::string::npos) << result.log;
     EXPECT_TRUE(parts_of("out") == parts_of("coarse"));
     EXPECT_FALSE(fs::exists(folder_.file("out/work")));
 }
@@ -163,8 +198,9 @@ TEST_F(Resume, SaysWhatIsMissing) {
     const ChildResult other = resume({"--max-volume", "1e-3"});
     EXPECT_EQ(other.exit_code, 2);
     EXPECT_NE(other.log.find("--max-volume would change the parts"), std::string::npos) << other.log;
-    const ChildResult both = resume({"-o", folder_.file("new")});
-    EXPECT_EQ(both.exit_code, 2);
+    EXPECT_EQ(resume({"-o", folder_.file("new")}).exit_code, 2);
+    EXPECT_EQ(resume({"--dry-run"}).exit_code, 0);
+    EXPECT_FALSE(fs::exists(folder_.file("out")));
 
     fs::resize_file(folder_.file("out.kerf-partial/work/run.json"), 10);
     const ChildResult damaged = resume();

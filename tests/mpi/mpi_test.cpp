@@ -36,8 +36,9 @@ std::int64_t count(const std::string& text, const std::string& word) {
 class MpiRuns : public testing::TestWithParam<std::pair<std::string, int>> {};
 INSTANTIATE_TEST_SUITE_P(Assets, MpiRuns,
                          testing::Values(std::pair("hollow_box", 5), std::pair("pipe_with_holes", 8),
-                                         std::pair("cube", 2)),  // fewer parts than ranks
-                         [](const auto& param) { return param.param.first; });
+                                         std::pair("cube", 2),  // fewer parts than ranks
+                                         std::pair("cube", 1)),
+                         [](const auto& param) { return param.param.first + std::to_string(param.param.second); });
 
 TEST_P(MpiRuns, PartFilesAreTheSameForAnyRanksAndWorkers) {
     const auto& [asset, parts] = GetParam();
@@ -115,6 +116,32 @@ TEST_F(MpiStraightCuts, PartFilesAreTheSameWhereCutsAlongEdgesCameBefore) {
     expect_same_for_any_ranks("decompose", test::asset_path("hollow_box"), 200);
 }
 
+// Ranks that share nothing but the output folder: each pair has temporary files and a working directory of its own.
+TEST(MpiHosts, ShareTheOutputFolderOnly) {
+    const test::TemporaryFolder folder;
+    const std::vector<std::string> command = {"mesh", test::asset_path("hollow_box"), "-o", folder.file("out"), "-n",
+                                              "5"};
+    ASSERT_EQ(test::run_kerf(command).exit_code, 0);
+    const auto expected = test::contents(folder.file("out/parts"));
+    std::ofstream(folder.file("hosts")) << "localhost slots=4\n";
+    std::vector<std::string> arguments = {
+        "OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1", KERF_MPIRUN, "--oversubscribe", "--hostfile",
+        folder.file("hosts")};
+    for (const std::string host : {"one", "two"}) {
+        std::filesystem::create_directory(folder.file(host));
+        for (const std::string& argument :
+             {std::string("-n"), std::string("2"), std::string("-wdir"), folder.file(host), std::string("/usr/bin/env"),
+              "TMPDIR=" + folder.file(host), std::string(KERF_PROGRAM)})
+            arguments.push_back(argument);
+        arguments.insert(arguments.end(), command.begin(), command.end());
+        if (host == "one") arguments.push_back(":");
+    }
+    const ChildResult result = test::run_program("/usr/bin/env", arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.log;
+    EXPECT_NE(result.log.find("4 ranks"), std::string::npos) << result.log;
+    EXPECT_TRUE(test::contents(folder.file("out/parts")) == expected);
+}
+
 class MpiInterruptions : public testing::Test {
  protected:
     std::vector<std::string> command(const std::string& output) const {
@@ -157,12 +184,12 @@ class MpiInterruptions : public testing::Test {
 };
 
 TEST_F(MpiInterruptions, ASignalToAnyRankEndsAll) {
-    interrupt(SIGTERM, true);
+    ASSERT_NO_FATAL_FAILURE(interrupt(SIGTERM, true));
     expect_same_when_resumed(2);
 }
 
 TEST_F(MpiInterruptions, AKilledRankLeavesNoProcessAndLosesOnlyItsParts) {
-    interrupt(SIGKILL, false);
+    ASSERT_NO_FATAL_FAILURE(interrupt(SIGKILL, false));
     expect_same_when_resumed(4);
 }
 
@@ -193,6 +220,14 @@ TEST(MpiErrors, EveryRankEndsWithTheSameCodeAndOneSpeaks) {
         EXPECT_NE(result.log.find(failure.words), std::string::npos) << result.log;
         EXPECT_EQ(folder.names(), std::vector<std::string>{"empty.stl"});
     }
+}
+
+TEST(MpiErrors, EventsThatCannotBeWrittenEndEveryRank) {
+    const test::TemporaryFolder folder;
+    const ChildResult result = run_ranks(3, {KERF_PROGRAM, "mesh", test::asset_path("cube"), "-o", folder.file("out"),
+                                             "-n", "3", "--events", "/dev/full"});
+    EXPECT_EQ(result.exit_code, 7) << result.log;
+    EXPECT_EQ(count(result.log, "kerf: "), 1) << result.log;
 }
 
 TEST(MpiErrors, TraceThatCannotBeWrittenEndsEveryRank) {
