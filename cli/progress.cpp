@@ -74,7 +74,7 @@ void ProgressLine::on_parts(const std::vector<PartReport>& parts, const std::str
 void ProgressLine::on_part(const PartEvent& event) {
     if (events_) events_->on_part(event);
     const int tenth = static_cast<int>(10 * event.load_done + 1e-9);
-    if (quiet_ || (!terminal_ && tenth == last_tenth_)) return;
+    if (quiet_ || event.part->resumed || (!terminal_ && tenth == last_tenth_)) return;
     last_tenth_ = tenth;
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - stage_start_).count();
     const double own = load_at_start_ < 1 ? (event.load_done - load_at_start_) / (1 - load_at_start_) : 1;
