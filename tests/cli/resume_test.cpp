@@ -40,9 +40,9 @@ class Resume : public testing::Test {
         }));
         EXPECT_EQ(::kill(run.process(), signal), 0);
         const auto start = std::chrono::steady_clock::now();
-        ChildResult result = run.wait();
         for (const pid_t worker : workers) EXPECT_TRUE(test::await([&] { return test::has_ended(worker); }));
         EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+        ChildResult result = run.wait();
         EXPECT_FALSE(fs::exists(folder_.file(output)));
         return result;
     }
