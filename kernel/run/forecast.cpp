@@ -17,6 +17,7 @@ constexpr double bytes_per_tet = 220, bytes_of_worker = 14e6, seconds_per_tet = 
 // The limit of a worker is one of its address space, of which libraries take a share; and a forecast may be low.
 constexpr double reserved_bytes = 100e6, safety = 1.5;
 constexpr double least_tets_per_part = 1000;
+constexpr std::int32_t parts_per_worker = 4;  // so that the last one is short against all of them
 
 Forecast forecast_of(const PartReport& part, const RunOptions& options) {
     return forecast(static_cast<double>(part.surface_facets), part.surface_volume, options.mesher.max_volume);

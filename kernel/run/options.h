@@ -12,9 +12,6 @@
 
 namespace kerf {
 
-/// Enough that the last part of a worker is short against all of them.
-inline constexpr std::int32_t parts_per_worker = 4;
-
 struct RunOptions {
     std::string input;
     std::string output;

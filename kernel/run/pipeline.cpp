@@ -57,12 +57,12 @@ LeafRange range_of_rank(std::int32_t parts, const Communicator& ranks) {
 
 RunFolder open_run_folder(const std::string& path, Communicator& ranks) {
     std::optional<RunFolder> folder;
-    const std::string temporary = in_agreement(ranks, [&] {
+    const std::string partial = in_agreement(ranks, [&] {
         if (ranks.rank() != 0) return std::string();
         folder.emplace(RunFolder::create(path));
         return folder->partial_path();
     });
-    const std::string shared = all_gather(ranks, temporary).front();
+    const std::string shared = all_gather(ranks, partial).front();
     in_agreement(ranks, [&] {
         if (!folder) folder.emplace(RunFolder::join(shared));
     });

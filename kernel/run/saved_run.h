@@ -11,8 +11,8 @@ namespace kerf {
 void save_run(const std::string& path, const RunOptions& options);
 
 /// The options of the run that was interrupted while it wrote to the folder `output`. All paths are absolute, that of
-/// the output is the given one, in case it was moved. Throws
-/// Error(io) if there is none or what it left is damaged, naming the way out.
+/// the output is the given one, in case it was moved. Throws Error(io) if there is none or what it left is damaged,
+/// naming the way out.
 RunOptions load_interrupted_run(const std::string& output);
 
 /// K of the run that was interrupted while it wrote to the folder `output`; 0 if there is none that can be read.

@@ -62,21 +62,6 @@ Soup without_fan(Soup soup, std::int32_t vertex) {
     return soup;
 }
 
-// Each facet with vertices of its own, which differ from its neighbours' by up to 1e-9.
-Soup cracked(const Soup& whole, unsigned seed) {
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<double> jitter(-5e-10, 5e-10);
-    Soup soup = whole;
-    soup.vertices.clear();
-    for (Triangle& t : soup.facets)
-        for (std::int32_t& v : t) {
-            const double x = jitter(random), y = jitter(random), z = jitter(random);
-            soup.vertices.push_back(whole.vertices[v] + Vec3(x, y, z));
-            v = static_cast<std::int32_t>(soup.vertices.size()) - 1;
-        }
-    return soup;
-}
-
 TEST_F(Check, CleanSurfacesEndWithZeroAndSayThatTheyCanBeMeshed) {
     const ChildResult result = check(test::asset_path("cube"));
     EXPECT_EQ(result.exit_code, 0);
@@ -202,7 +187,7 @@ TEST_F(Check, OptionsOutOfRangeAreRefused) {
 
 TEST_F(Check, WeldMendsCracks) {
     const Soup whole = hollow_box();
-    const Json input = expect_mended(cracked(whole, 1), {"--weld", "1e-6"})["input"];
+    const Json input = expect_mended(test::cracked(whole, 5e-10, 1), {"--weld", "1e-6"})["input"];
     EXPECT_EQ(input["vertices"], whole.vertices.size());
     EXPECT_EQ(input["repairs"]["vertices_merged"], 3 * whole.facets.size() - whole.vertices.size());
     EXPECT_NEAR(input["volume"], 22, 1e-6);

@@ -33,7 +33,7 @@ TEST(KilledWorker, IsReportedAndTheOtherPartsAreWritten) {
     EXPECT_EQ(result.exit_code, 4) << result.log;
     EXPECT_NE(result.log.find("killed by signal 9"), std::string::npos) << result.log;
 
-    const auto report = nlohmann::json::parse(test::read_text(folder.file("out/report.json")));
+    const auto report = nlohmann::json::parse(test::bytes_of_file(folder.file("out/report.json")));
     EXPECT_EQ(report["exit_code"], 4);
     EXPECT_FALSE(report["verification"]["passed"]);
     int failed = 0;
@@ -46,7 +46,7 @@ TEST(KilledWorker, IsReportedAndTheOtherPartsAreWritten) {
         if (!kept) continue;
         ++failed;
         EXPECT_NE(part.dump().find("killed by signal 9"), std::string::npos) << part.dump();
-        EXPECT_NE(test::read_text(folder.file("out/failed/" + name.str() + ".txt")).find("killed by signal 9"),
+        EXPECT_NE(test::bytes_of_file(folder.file("out/failed/" + name.str() + ".txt")).find("killed by signal 9"),
                   std::string::npos);
     }
     EXPECT_EQ(failed, 1);
@@ -80,7 +80,7 @@ TEST(HangingWorker, IsStoppedAndItsPartTriedAgain) {
     const ChildResult result = run.wait();
     EXPECT_EQ(result.exit_code, 0) << result.log;
     EXPECT_NE(result.log.find("another order of the vertices"), std::string::npos) << result.log;
-    EXPECT_NE(test::read_text(folder.file("out/report.json")).find("ran longer than its 15 s"), std::string::npos);
+    EXPECT_NE(test::bytes_of_file(folder.file("out/report.json")).find("ran longer than its 15 s"), std::string::npos);
 }
 
 TEST(SecondRun, IntoTheSameFolderIsRefused) {
@@ -147,7 +147,7 @@ TEST(EventsFile, TellsOfEveryPartAndTheEnd) {
     }
     EXPECT_EQ(kinds, (std::vector<std::string>{"read", "decompose", "prepare", "parts", "volume", "part", "part",
                                                "part", "number", "end"}));
-    const auto report = nlohmann::json::parse(test::read_text(folder.file("out/report.json")));
+    const auto report = nlohmann::json::parse(test::bytes_of_file(folder.file("out/report.json")));
     EXPECT_EQ(report["totals"]["tets"], tets);
     const ChildResult unwritable = test::run_kerf(
         {"mesh", test::asset_path("hollow_box"), "-o", folder.file("out"), "--events", folder.file("no/events")});

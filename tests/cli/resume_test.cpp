@@ -1,10 +1,12 @@
 // An interrupted run loses no more than the parts under way, and its end is that of an undisturbed run, to the byte.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "io/run_folder.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/program.h"
@@ -57,13 +59,12 @@ class Resume : public testing::Test {
         for (const auto& part : report["parts"]) count += part.contains("resumed") ? 1 : 0;
         return count;
     }
-    // The files of the journal or the parts of the interrupted run.
-    std::vector<fs::path> left_behind(const std::string& sub_folder) const {
-        std::vector<fs::path> files;
-        for (const auto& entry : fs::directory_iterator(folder_.file("out.kerf-partial/" + sub_folder)))
-            files.push_back(entry.path());
-        std::sort(files.begin(), files.end());
-        return files;
+    // As the journal of the interrupted run names it.
+    std::string some_finished_leaf() const {
+        std::vector<std::string> leaves;
+        for (const auto& entry : fs::directory_iterator(folder_.file("out.kerf-partial/work/journal")))
+            leaves.push_back(entry.path().filename());
+        return *std::min_element(leaves.begin(), leaves.end());
     }
     static void damage_middle(const fs::path& file) {
         std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
@@ -169,9 +170,9 @@ TEST_F(Resume, DamagedJournalsAndPartsAreMeshedAgain) {
         SCOPED_TRACE(sub_folder);
         interrupt(SIGKILL);
         const std::size_t finished = test::finished_parts(folder_.file("out"));
-        const std::string leaf = left_behind("work/journal").front().filename();
-        const std::string part = (leaf.size() < 2 ? "part_000" : "part_00") + leaf + ".vtu";
-        damage(folder_.file("out.kerf-partial/" + sub_folder + "/" + (sub_folder == "parts" ? part : leaf)));
+        const std::string leaf = some_finished_leaf();
+        damage(folder_.file("out.kerf-partial/" + sub_folder + "/" +
+                            (sub_folder == "parts" ? part_file_name(std::stoi(leaf)) : leaf)));
         EXPECT_EQ(resume().exit_code, 0);
         EXPECT_EQ(resumed_parts(), finished - 1);
         EXPECT_TRUE(parts_of("out") == expected);

@@ -384,6 +384,20 @@ Soup on_a_grid(Soup soup) {
     return soup;
 }
 
+Soup cracked(const Soup& whole, double jitter, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> offset(-jitter, jitter);
+    Soup soup = whole;
+    soup.vertices.clear();
+    for (Triangle& t : soup.facets)
+        for (std::int32_t& v : t) {
+            const double x = offset(random), y = offset(random), z = offset(random);
+            soup.vertices.push_back(whole.vertices[v] + Vec3(x, y, z));
+            v = static_cast<std::int32_t>(soup.vertices.size()) - 1;
+        }
+    return soup;
+}
+
 std::vector<std::int32_t> facets_with(const Soup& soup, const std::vector<std::int32_t>& vertices) {
     std::vector<std::int32_t> facets;
     for (std::size_t f = 0; f < soup.facets.size(); ++f) {

@@ -44,6 +44,9 @@ std::vector<ExpectedDefect> intersecting_pairs(const Soup& soup);
 /// The soup with coordinates that are multiples of 2^-20, so that the middle of two vertices is exact.
 Soup on_a_grid(Soup soup);
 
+/// Each facet with vertices of its own, whose coordinates differ from its neighbours' by less than twice `jitter`.
+Soup cracked(const Soup& whole, double jitter, unsigned seed);
+
 /// Facets with all of these vertices, ascending.
 std::vector<std::int32_t> facets_with(const Soup& soup, const std::vector<std::int32_t>& vertices);
 

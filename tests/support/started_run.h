@@ -3,10 +3,10 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <sstream>
 #include <string>
@@ -15,14 +15,10 @@
 
 #include <gtest/gtest.h>
 
+#include "support/file_contents.h"
 #include "volume/child_process.h"
 
 namespace kerf::test {
-
-inline std::string read_text(const std::string& path) {
-    std::ifstream file(path);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// Polls until the condition holds, at most 60 s; false if it never does.
 template <class Condition>
@@ -36,7 +32,7 @@ bool await(Condition condition) {
 
 inline std::vector<pid_t> children_of(pid_t process) {
     const std::string id = std::to_string(process);
-    std::istringstream list(read_text("/proc/" + id + "/task/" + id + "/children"));
+    std::istringstream list(bytes_of_file("/proc/" + id + "/task/" + id + "/children"));
     return {std::istream_iterator<pid_t>(list), {}};
 }
 
@@ -44,7 +40,7 @@ inline std::vector<pid_t> children_of(pid_t process) {
 inline std::vector<pid_t> descendants_of(pid_t process, const std::string& name) {
     std::vector<pid_t> found;
     for (const pid_t child : children_of(process)) {
-        if (read_text("/proc/" + std::to_string(child) + "/comm") == name + "\n") found.push_back(child);
+        if (bytes_of_file("/proc/" + std::to_string(child) + "/comm") == name + "\n") found.push_back(child);
         for (const pid_t grandchild : descendants_of(child, name)) found.push_back(grandchild);
     }
     return found;
@@ -52,7 +48,7 @@ inline std::vector<pid_t> descendants_of(pid_t process, const std::string& name)
 
 /// Ended, or waiting for its parent to notice.
 inline bool has_ended(pid_t process) {
-    const std::string stat = read_text("/proc/" + std::to_string(process) + "/stat");
+    const std::string stat = bytes_of_file("/proc/" + std::to_string(process) + "/stat");
     const std::size_t name_end = stat.rfind(')');
     return name_end == std::string::npos || stat.substr(name_end + 2, 1) == "Z";
 }

@@ -221,16 +221,7 @@ TEST(WeldWithin, MendsSurfacesWhoseFacetsHaveVerticesThatAreNearlyEqual) {
     for (const Soup& shape : shapes())
         for (unsigned seed = 1; seed <= 5; ++seed) {
             SCOPED_TRACE(shape.patch_names.front() + ", seed " + std::to_string(seed));
-            std::mt19937 random(seed);
-            std::uniform_real_distribution<double> jitter(-1e-9, 1e-9);
-            Soup cracked = shape;
-            cracked.vertices.clear();
-            for (Triangle& t : cracked.facets)
-                for (std::int32_t& v : t) {
-                    const double x = jitter(random), y = jitter(random), z = jitter(random);
-                    cracked.vertices.push_back(shape.vertices[v] + Vec3(x, y, z));
-                    v = static_cast<std::int32_t>(cracked.vertices.size()) - 1;
-                }
+            const Soup cracked = test::cracked(shape, 1e-9, seed);
             EXPECT_FALSE(check_soup(cracked).diagnosis.clean());
             InputOptions options;
             options.weld_tolerance = 1e-6;
