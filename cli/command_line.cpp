@@ -140,6 +140,9 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     for (const OptionField& field : input_option_fields(line.check.options)) add_field(*check, field);
     CLI::App* verify = app.add_subcommand("verify", "Check every law of a finished run again, from its files.");
     verify->add_option("folder", line.options.output, "Folder of the run.")->required()->type_name("DIR");
+    // Only for the list of commands: main() has passed these on to kerf-view.
+    app.add_subcommand("view", "Open the viewer: every cut step by step, every cell.");
+    app.add_subcommand("screenshot", "The same as a picture, without a display.");
 
     // The table binds every option to one place, so the values of `mesh` and `decompose` share it.
     try {

@@ -13,6 +13,7 @@
 #include "cli/progress.h"
 #include "cli/ranks.h"
 #include "cli/verify.h"
+#include "cli/viewer.h"
 #include "run/pipeline.h"
 #include "run/tree_text.h"
 
@@ -41,8 +42,9 @@ void report_failed_parts(const RunReport& report) {
 std::unique_ptr<EventLog> open_event_log(const CommandLine& line, Communicator& ranks) {
     std::unique_ptr<EventLog> log;
     in_agreement(ranks, [&] {
-        if (ranks.rank() == 0 && !line.options.events_file.empty())
-            log = std::make_unique<EventLog>(line.options.events_file);
+        if (ranks.rank() != 0 || line.options.events_file.empty()) return;
+        log = std::make_unique<EventLog>(line.options.events_file);
+        log->on_start(line.options);
     });
     return log;
 }
@@ -76,6 +78,7 @@ int run_command(const CommandLine& line) {
 }
 
 int run_program(int argc, char** argv) {
+    if (argc > 1 && is_viewer_command(argv[1])) become_viewer(argv);
     const CommandLine line = parse_command_line(argc, argv);
     if (line.finished) {
         if (is_first_rank()) std::fputs(line.output.c_str(), line.exit_code == 0 ? stdout : stderr);

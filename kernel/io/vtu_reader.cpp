@@ -9,6 +9,7 @@
 #include <span>
 #include <string_view>
 
+#include "io/checked_file.h"
 #include "io/file_bytes.h"
 #include "io/vtu_writer.h"
 
@@ -143,6 +144,35 @@ PartFile read_part(const std::string& path) {
     part.global_id = file.values<std::int64_t>("GlobalVertexId", header.point_count);
     part.patch_names = read_names(file);
     return part;
+}
+
+PartCellCounts read_cell_counts(const std::string& path) {
+    CheckedFile file(path, "rb");
+    const VtuHeader header = parse_vtu_header(file.read(vtu_header_limit), path);
+    const VtuHeader::Array* corners = header.find("connectivity");
+    const std::int64_t tets = corners ? corners->tuples - 3 * header.cell_count : -1;
+    if (tets < 0 || tets > header.cell_count) fail_damaged_vtu(path, "its cells are not tetrahedra and then triangles");
+    return {tets, header.cell_count - tets};
+}
+
+std::vector<float> read_cell_values(const std::string& path, const std::string& name, std::int64_t first,
+                                    std::int64_t count) {
+    CheckedFile file(path, "rb");
+    const VtuHeader header = parse_vtu_header(file.read(vtu_header_limit), path);
+    const VtuHeader::Array* array = header.find(name);
+    if (!array || array->type != "Float32" || array->components != 1 || array->tuples != header.cell_count)
+        fail_damaged_vtu(path, fmt::format("it has no array {} with a number for every cell", name));
+    if (first < 0 || count < 0 || first > header.cell_count - count)
+        fail_damaged_vtu(path, fmt::format("it has {} cells, and not those from {} to {}", header.cell_count, first,
+                                           first + count - 1));
+    std::vector<float> values(static_cast<std::size_t>(count));
+    constexpr std::int64_t item_size = sizeof(float), size_of_array = sizeof(std::uint64_t);
+    file.seek(array->position + size_of_array + first * item_size);
+    const std::string bytes = file.read(values.size() * sizeof(float));
+    if (bytes.size() != values.size() * sizeof(float))
+        fail_damaged_vtu(path, fmt::format("it ends within the array {}", name));
+    if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+    return values;
 }
 
 }  // namespace kerf

@@ -26,4 +26,17 @@ struct PartFile {
 /// mesh obeys its laws is verify_mesh()'s question. Throws Error(io) naming the file and what is wrong with it.
 PartFile read_part(const std::string& path);
 
+/// The numbers of cells of a part file, of which its facets come last.
+struct PartCellCounts {
+    std::int64_t tets = 0, facets = 0;
+};
+
+/// Reads the file's header alone. Throws Error(io).
+PartCellCounts read_cell_counts(const std::string& path);
+
+/// The values `first` to `first + count - 1` of a Float32 array over the cells of a part file, of which nothing else
+/// but the header is read. Throws Error(io), also if the file has no such array or not so many values.
+std::vector<float> read_cell_values(const std::string& path, const std::string& array, std::int64_t first,
+                                    std::int64_t count);
+
 }  // namespace kerf

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <charconv>
+#include <filesystem>
 
 #include <nlohmann/json.hpp>
 
@@ -23,6 +24,10 @@ std::unique_ptr<CheckedFile> open_target(const std::string& target) {
     return std::make_unique<CheckedFile>(copy < 0 ? nullptr : ::fdopen(copy, "w"), target);
 }
 
+std::string absolute(const std::string& path) {
+    return path.empty() ? path : std::filesystem::absolute(path).lexically_normal().string();
+}
+
 }  // namespace
 
 EventLog::EventLog(const std::string& target) : file_(open_target(target)) {}
@@ -35,6 +40,14 @@ void EventLog::write(Object json) {
     json["seconds"] = seconds.count();
     file_->write(json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
     file_->flush();
+}
+
+void EventLog::on_start(const RunOptions& options) {
+    write(Json{{"event", "run"},
+               {"input", absolute(options.input)},
+               {"output", options.dry_run ? "" : absolute(options.output)},
+               {"trace", absolute(options.trace_file)},
+               {"parts", options.decompose.parts}});
 }
 
 void EventLog::on_progress(const char* stage, std::size_t, std::size_t) {

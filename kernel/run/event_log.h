@@ -13,12 +13,14 @@ class CheckedFile;
 
 /// Writes each event when it happens. All objects have "event" and "seconds" since the start:
 ///
+///     {"event": "run", "input", "output", "trace", "parts"}
 ///     {"event": "stage", "stage": "read" | "decompose" | "prepare" | "volume" | "number"}
 ///     {"event": "parts", "parts": [{"id", "load", "facets", "volume", "resumed"}]}
 ///     {"event": "part", "id", "state": "done" | "resumed" | "failed", "rank", "worker", "attempts", "tets",
 ///                       "part_seconds", "parts_done", "parts", "load_done", "tets_done", "message", "remedy"}
 ///     {"event": "end", "exit_code", "message"}
 ///
+/// The first one says what runs: absolute paths, "" for one that is not written, and K, 0 if the run chooses it.
 /// "message" is there where something failed, "remedy" where the first attempt did.
 class EventLog : public RunListener {
  public:
@@ -27,6 +29,8 @@ class EventLog : public RunListener {
     explicit EventLog(const std::string& target);
     ~EventLog() override;
 
+    /// The first event. Throws Error(io).
+    void on_start(const RunOptions& options);
     void on_progress(const char* stage, std::size_t done, std::size_t total) override;
     void on_parts(const std::vector<PartReport>& parts, const std::string& plan) override;
     void on_part(const PartEvent& event) override;

@@ -253,6 +253,12 @@ ChildPool::~ChildPool() {
 
 std::size_t ChildPool::running() const { return children_.size(); }
 
+// A child in the list is not reaped, so its number is still its own.
+void ChildPool::interrupt(int tag) {
+    for (const Child& child : children_)
+        if (child.tag == tag) kill(child.pid, SIGINT);
+}
+
 void ChildPool::start(int tag, const std::string& program, const std::vector<std::string>& arguments, Bytes input,
                       double timeout_seconds) {
     children_.reserve(children_.size() +

@@ -42,6 +42,8 @@ class ChildPool {
     void start(int tag, const std::string& program, const std::vector<std::string>& arguments, Bytes input,
                double timeout_seconds);
     std::size_t running() const;
+    /// Asks the running children with this tag to end, by SIGINT as Ctrl-C does; wait_any() tells when one has.
+    void interrupt(int tag);
 
     struct Finished {
         int tag;

@@ -137,6 +137,12 @@ TEST(EventsFile, TellsOfEveryPartAndTheEnd) {
     double seconds = 0;
     for (std::string line; std::getline(file, line);) {
         const auto event = nlohmann::json::parse(line);
+        if (kinds.empty()) {
+            EXPECT_EQ(event["input"], test::asset_path("hollow_box"));
+            EXPECT_EQ(event["output"], folder.file("out"));
+            EXPECT_EQ(event["trace"], "");
+            EXPECT_EQ(event["parts"], 3);
+        }
         kinds.push_back(event["event"] == "stage" ? event["stage"] : event["event"]);
         EXPECT_GE(event["seconds"].get<double>(), seconds);
         seconds = event["seconds"];
@@ -145,7 +151,7 @@ TEST(EventsFile, TellsOfEveryPartAndTheEnd) {
             EXPECT_EQ(event["tets_done"], tets);
         }
     }
-    EXPECT_EQ(kinds, (std::vector<std::string>{"read", "decompose", "prepare", "parts", "volume", "part", "part",
+    EXPECT_EQ(kinds, (std::vector<std::string>{"run", "read", "decompose", "prepare", "parts", "volume", "part", "part",
                                                "part", "number", "end"}));
     const auto report = nlohmann::json::parse(test::bytes_of_file(folder.file("out/report.json")));
     EXPECT_EQ(report["totals"]["tets"], tets);

@@ -177,6 +177,19 @@ TEST(ChildProcess, MissingProgramIsAnError) {
     EXPECT_EQ(pool.running(), 0u);
 }
 
+TEST(ChildProcess, InterruptsOneOfThem) {
+    ChildPool pool;
+    start_shell(pool, 1, "exec sleep 30");
+    start_shell(pool, 2, "exec sleep 30");
+    pool.interrupt(3);  // there is none
+    pool.interrupt(2);
+    const auto finished = pool.wait_any();
+    EXPECT_EQ(finished->tag, 2);
+    EXPECT_EQ(finished->result.end, End::signalled);
+    EXPECT_EQ(finished->result.signal, SIGINT);
+    EXPECT_EQ(pool.running(), 1u);
+}
+
 TEST(ChildProcess, DestructorKillsWhatStillRuns) {
     const std::string path = testing::TempDir() + "kerf_child_pid_" + std::to_string(getpid());
     {

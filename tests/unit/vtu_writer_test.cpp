@@ -138,6 +138,42 @@ TEST_F(VtuWriter, SurfacesComeBackAsTheyWere) {
     }
 }
 
+TEST_F(VtuWriter, SomeValuesOfACellArrayAreThoseOfTheWhole) {
+    for (unsigned seed = 1; seed <= 60; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const Part part = random_part(seed);
+        const std::string file = path("part.vtu");
+        write(file, part);
+        const PartCellCounts counts = read_cell_counts(file);
+        EXPECT_EQ(counts.tets, static_cast<std::int64_t>(part.mesh.tets.size()));
+        EXPECT_EQ(counts.facets, static_cast<std::int64_t>(part.surface.facets.size()));
+        const std::int64_t cells = counts.tets + counts.facets;
+        for (const char* array : {"MinDihedralAngle", "RadiusEdgeRatio", "AspectRatio", "Shape"}) {
+            const std::vector<float> all = array_values<float>(file, read_file(file), array);
+            ASSERT_EQ(static_cast<std::int64_t>(all.size()), cells);
+            for (const auto& [first, count] : {std::pair{std::int64_t{0}, cells},
+                                               {counts.tets, counts.facets},
+                                               {cells / 3, cells / 2},
+                                               {cells, std::int64_t{0}}}) {
+                const std::vector<float> some = read_cell_values(file, array, first, count);
+                ASSERT_EQ(static_cast<std::int64_t>(some.size()), count);
+                EXPECT_TRUE(count == 0 || std::memcmp(some.data(), all.data() + first, count * sizeof(float)) == 0);
+            }
+        }
+        for (const auto& [first, count] : {std::pair{std::int64_t{-1}, std::int64_t{1}},
+                                           {cells, std::int64_t{1}},
+                                           {std::int64_t{0}, cells + 1},
+                                           {std::int64_t{1}, std::int64_t{-1}},
+                                           {std::int64_t{1} << 60, std::int64_t{1} << 60}})
+            EXPECT_NE(io_error([&, begin = first, n = count] { read_cell_values(file, "Shape", begin, n); }), "");
+        for (const char* array : {"Part", "GlobalVertexId", "Points", "Nothing"})
+            EXPECT_NE(io_error([&] { read_cell_values(file, array, 0, 1); }), "") << array;
+        fs::resize_file(file, array_values<char>(file, read_file(file), "Part").size());
+        EXPECT_NE(io_error([&] { read_cell_values(file, "Shape", counts.tets, counts.facets); }), "");
+    }
+    EXPECT_NE(io_error([&] { read_cell_counts(path("missing.vtu")); }), "");
+}
+
 TEST_F(VtuWriter, NumberingTouchesTheInteriorIdsAlone) {
     for (unsigned seed = 1; seed <= 60; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));

@@ -1,0 +1,188 @@
+#include "viewer/driver.h"
+
+#include <chrono>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "viewer/app/keys.h"
+
+namespace kerf::test {
+
+namespace {
+
+constexpr auto patience = std::chrono::seconds(60);
+
+view::AppOptions app_options(const Driver::Options& options) {
+    view::AppOptions app;
+    app.shader_folder = KERF_SHADERS;
+    app.kerf_program = KERF_PROGRAM;
+    app.config_folder = options.config_folder;
+    app.screenshot_folder = options.screenshot_folder;
+    app.auto_run = options.auto_run;
+    app.volume = options.volume;
+    app.run.decompose.parts = options.parts;
+    app.run.workers = 2;
+    return app;
+}
+
+}  // namespace
+
+Driver::Driver(const Options& options) : options_(options) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = {-1000, -1000};
+    // The clipboard is the test's own.
+    static std::string clipboard;
+    clipboard.clear();
+    io.SetClipboardTextFn = [](void*, const char* text) { clipboard = text; };
+    io.GetClipboardTextFn = [](void*) { return clipboard.c_str(); };
+    app_ = std::make_unique<view::App>(context_.gl(), app_options(options));
+}
+
+void Driver::frame(float seconds) {
+    ImGui::GetIO().DeltaTime = seconds;
+    app_->frame(options_.width, options_.height, 1, panels_);
+}
+
+void Driver::frames(int count) {
+    for (int i = 0; i < count; ++i) frame();
+}
+
+void Driver::await(const std::string& what, const std::function<bool()>& condition) {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (!condition()) {
+        if (std::chrono::steady_clock::now() > end) throw std::runtime_error("waited in vain for " + what);
+        app_->wait(0.01);
+        app_->wake();
+        frame();
+    }
+}
+
+void Driver::settle() {
+    app_->wake();
+    const auto end = std::chrono::steady_clock::now() + patience;
+    do {
+        frame();
+        if (std::chrono::steady_clock::now() > end) throw std::runtime_error("the picture does not settle");
+    } while (!app_->settled());
+}
+
+void Driver::open(const std::string& path) {
+    app_->open(path);
+    await("the run of " + path, [&] {
+        const view::Document& d = document();
+        if (!d.error.empty()) return true;
+        if (d.kind == view::Document::Kind::surface && (!d.checked || app_->session().busy())) return false;
+        const bool needs_run = d.kind == view::Document::Kind::surface && options_.auto_run && !d.has_problems();
+        const bool has_run = d.trace || !d.progress.message.empty();
+        return !app_->session().pending() && (!needs_run || (has_run && !app_->session().busy()));
+    });
+    settle();
+}
+
+void Driver::move_to(float x, float y) {
+    ImGui::GetIO().MousePos = {x, y};
+    frame();
+}
+
+void Driver::press(int button) {
+    ImGui::GetIO().MouseDown[button] = true;
+    frame();
+}
+
+void Driver::release(int button) {
+    ImGui::GetIO().MouseDown[button] = false;
+    frame();
+}
+
+// Two clicks at one place must not become a double click: the time between them is longer than that.
+void Driver::click_at(float x, float y, int button) {
+    move_to(x, y);
+    press(button);
+    release(button);
+    frame(1);
+}
+
+void Driver::drag(float from_x, float from_y, float to_x, float to_y, int button) {
+    move_to(from_x, from_y);
+    press(button);
+    constexpr int steps = 5;
+    for (int i = 1; i <= steps; ++i) {
+        const float s = static_cast<float>(i) / steps;
+        move_to(from_x + s * (to_x - from_x), from_y + s * (to_y - from_y));
+    }
+    release(button);
+    frames(2);
+}
+
+void Driver::wheel(float x, float y, float notches) {
+    move_to(x, y);
+    ImGui::GetIO().MouseWheel = notches;
+    frame();
+    ImGui::GetIO().MouseWheel = 0;
+    frame();
+}
+
+view::ItemRect Driver::item(const std::string& label) {
+    frames(2);
+    const auto found = app_->widgets().find(label);
+    if (found) return *found;
+    std::string all;
+    for (const auto& [name, rect] : app_->widgets().items()) all += "'" + name + "' ";
+    throw std::runtime_error(fmt::format("there is no '{}', but {}", label, all));
+}
+
+void Driver::click(const std::string& label) {
+    view::ItemRect rect = item(label);
+    for (int i = 0; i < 200 && !rect.visible; ++i) {
+        // The wheel scrolls the panel that the item belongs to; its column is where the item would be.
+        const bool is_below = rect.bottom > static_cast<float>(options_.height) / 2;
+        wheel((rect.left + rect.right) / 2, static_cast<float>(options_.height) / 2, is_below ? -1.f : 1.f);
+        rect = item(label);
+    }
+    if (!rect.visible || !rect.enabled)
+        throw std::runtime_error(fmt::format("'{}' is {}", label, rect.visible ? "disabled" : "not to be seen"));
+    click_at((rect.left + rect.right) / 2, (rect.top + rect.bottom) / 2);
+}
+
+void Driver::key(int key, bool control) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.KeyCtrl = control;
+    io.KeysDown[key] = true;
+    frame();
+    io.KeysDown[key] = false;
+    io.KeyCtrl = false;
+    frames(2);
+}
+
+void Driver::type(const std::string& text) {
+    for (const char c : text) {
+        ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(c));
+        frame();
+    }
+    frames(2);
+}
+
+void Driver::drop(const std::string& path) {
+    app_->open(path);
+    frames(2);
+}
+
+view::Image Driver::picture() {
+    settle();
+    return app_->picture();
+}
+
+view::DrawnLayer Driver::drawn(const std::string& begin_of_name) {
+    view::DrawnLayer sum;
+    for (const view::DrawnLayer& layer : app_->drawn())
+        if (layer.name.starts_with(begin_of_name)) {
+            sum.triangles += layer.triangles;
+            sum.segments += layer.segments;
+            sum.points += layer.points;
+        }
+    return sum;
+}
+
+}  // namespace kerf::test

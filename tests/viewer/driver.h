@@ -1,0 +1,70 @@
+// The viewer without a display, with a hand on its mouse and keys.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "viewer/app/app.h"
+#include "viewer/render/offscreen.h"
+
+namespace kerf::test {
+
+/// Drives the same App as the window does. Every change of input is followed by frames, as fast as they can be drawn;
+/// the time that the viewer sees goes on by 1/60 s a frame. What does not come within 60 s fails the test.
+class Driver {
+ public:
+    struct Options {
+        int width = 1280, height = 800;
+        bool auto_run = true, volume = true;
+        std::int32_t parts = 4;
+        std::string config_folder, screenshot_folder = ".";
+    };
+    explicit Driver(const Options& options);
+    Driver() : Driver(Options()) {}
+
+    view::App& app() { return *app_; }
+    view::ViewState& state() { return app_->state(); }
+    const view::Document& document() { return app_->session().document(); }
+
+    /// Opens a file and waits until it, and the run that it starts, are there.
+    void open(const std::string& path);
+    /// One frame, for the viewer so much later than the last.
+    void frame(float seconds = 1.f / 60);
+    /// Frames until nothing changes any more.
+    void settle();
+    /// Frames until the condition holds.
+    void await(const std::string& what, const std::function<bool()>& condition);
+    /// Without panels: only the scene and its legend.
+    void show_panels(bool shown) { panels_ = shown; }
+
+    void move_to(float x, float y);
+    void press(int button = 0);
+    void release(int button = 0);
+    void click_at(float x, float y, int button = 0);
+    void drag(float from_x, float from_y, float to_x, float to_y, int button = 0);
+    void wheel(float x, float y, float notches);
+    /// Clicks an item by its label. Scrolls to it if it is out of sight.
+    void click(const std::string& label);
+    void key(int key, bool control = false);
+    void type(const std::string& text);
+    /// What the window does with a dropped file.
+    void drop(const std::string& path);
+
+    /// The picture as it is after settle().
+    view::Image picture();
+    /// Numbers drawn, summed over the layers whose names begin so.
+    view::DrawnLayer drawn(const std::string& begin_of_name);
+
+ private:
+    view::ItemRect item(const std::string& label);
+    void frames(int count);
+
+    Options options_;
+    view::OffscreenContext context_;
+    view::ImGuiOwner imgui_;
+    std::unique_ptr<view::App> app_;
+    bool panels_ = true;
+};
+
+}  // namespace kerf::test

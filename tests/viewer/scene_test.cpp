@@ -1,0 +1,226 @@
+// What is drawn, without pixels: cells and facets as triangles, offsets, caches.
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "mesh/adjacency.h"
+#include "mesh/quality.h"
+#include "support/assets.h"
+#include "viewer/driver.h"
+#include "viewer/scene/shapes.h"
+
+namespace kerf::test {
+namespace {
+
+using namespace view;
+
+// A cube of n^3 small cubes, each of six tetrahedra.
+PartCells grid(int n) {
+    PartCells cells;
+    const auto number = [&](int x, int y, int z) { return (x * (n + 1) + y) * (n + 1) + z; };
+    for (int x = 0; x <= n; ++x)
+        for (int y = 0; y <= n; ++y)
+            for (int z = 0; z <= n; ++z) cells.vertices.emplace_back(x, y, z);
+    constexpr std::array<std::array<int, 3>, 6> orders = {
+        {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {1, 0, 2}, {2, 1, 0}}};
+    for (int x = 0; x < n; ++x)
+        for (int y = 0; y < n; ++y)
+            for (int z = 0; z < n; ++z)
+                for (std::size_t o = 0; o < orders.size(); ++o) {
+                    std::array<int, 3> p = {x, y, z};
+                    Tetrahedron tet = {number(p[0], p[1], p[2])};
+                    for (std::size_t k = 0; k < 3; ++k) {
+                        ++p[static_cast<std::size_t>(orders[o][k])];
+                        tet[k + 1] = number(p[0], p[1], p[2]);
+                    }
+                    if (o >= 3) std::swap(tet[1], tet[2]);
+                    cells.tets.push_back(tet);
+                }
+    TetMesh mesh;
+    mesh.vertices = cells.vertices;
+    mesh.tets = cells.tets;
+    connect_tets(mesh);
+    cells.neighbours = mesh.neighbours;
+    return cells;
+}
+
+double area(const Geometry& geometry) {
+    double sum = 0;
+    for (std::size_t i = 0; i < geometry.corners.size(); i += 3) {
+        const auto p = [&](std::size_t k) {
+            const auto& q = geometry.corners[i + k].position;
+            return Vec3(q[0], q[1], q[2]);
+        };
+        sum += (p(1) - p(0)).cross(p(2) - p(0)).norm() / 2;
+    }
+    return sum;
+}
+
+// Six times the volume that triangles enclose, if they close.
+double enclosed(const Geometry& geometry) {
+    double sum = 0;
+    for (std::size_t i = 0; i < geometry.corners.size(); i += 3) {
+        const auto p = [&](std::size_t k) {
+            const auto& q = geometry.corners[i + k].position;
+            return Vec3(q[0], q[1], q[2]);
+        };
+        sum += p(0).dot(p(1).cross(p(2)));
+    }
+    return sum;
+}
+
+const Frame plain_frame = {Vec3::Zero(), 1};
+
+TEST(Cells, WithoutAChoiceTheyShowTheirBoundary) {
+    const auto faces = cell_faces(grid(4), plain_frame, {});
+    EXPECT_EQ(faces->triangle_count(), 6u * 16 * 2);
+    EXPECT_NEAR(area(*faces), 96, 1e-4);
+    EXPECT_NEAR(enclosed(*faces) / 6, 64, 1e-3);
+}
+
+// Faces of chosen cells enclose as much as the cells fill.
+TEST(Cells, WhateverIsChosenIsClosed) {
+    const PartCells cells = grid(4);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> number(-1, 1);
+    for (int i = 0; i < 60; ++i) {
+        const Vec3 normal = Vec3(number(random), number(random), number(random)).normalized();
+        const ShownSide side{normal, normal.dot(Vec3(2, 2, 2)) + number(random)};
+        std::vector<float> value;
+        for (std::size_t t = 0; t < cells.tets.size(); ++t) value.push_back(static_cast<float>(number(random)));
+        for (const ClipStyle style : {ClipStyle::cells, ClipStyle::layer}) {
+            CellChoice choice;
+            choice.side = &side;
+            choice.style = style;
+            choice.value = value;
+            if (i % 2) choice.filter = ValueRange{-0.5, 0.7};
+            const std::vector<char> chosen = chosen_cells(cells, choice);
+            const auto count = std::count(chosen.begin(), chosen.end(), 1);
+            EXPECT_NEAR(enclosed(*cell_faces(cells, plain_frame, choice)), static_cast<double>(count), 1e-3);
+        }
+    }
+}
+
+// The section of the whole cube has the area that the cube's section has.
+TEST(Cells, SmoothSectionsCoverThePlane) {
+    const PartCells cells = grid(4);
+    const auto section_area = [&](const Vec3& normal, double offset) {
+        const ShownSide side{normal.normalized(), offset / normal.norm()};
+        CellChoice choice;
+        choice.side = &side;
+        choice.style = ClipStyle::smooth;
+        return area(*cell_sections(cells, plain_frame, choice));
+    };
+    EXPECT_NEAR(section_area({1, 0, 0}, 1.3), 16, 1e-4);
+    EXPECT_NEAR(section_area({0, 0, 1}, 2), 16, 1e-4) << "through vertices";
+    EXPECT_NEAR(section_area({1, 1, 0}, 4), 16 * std::sqrt(2), 1e-4);
+    EXPECT_NEAR(section_area({1, 1, 1}, 6), 3 * std::sqrt(3) / 4 * 16, 1e-3) << "a regular hexagon of side sqrt 8";
+    EXPECT_EQ(section_area({1, 0, 0}, 9), 0);
+}
+
+TEST(Cells, SectionsFaceTheSideThatWasCutAway) {
+    const PartCells cells = grid(2);
+    const ShownSide side{Vec3(1, 2, 3).normalized(), 1.5};
+    CellChoice choice;
+    choice.side = &side;
+    choice.style = ClipStyle::smooth;
+    const auto sections = cell_sections(cells, plain_frame, choice);
+    ASSERT_GT(sections->triangle_count(), 10u);
+    for (std::size_t i = 0; i < sections->corners.size(); i += 3) {
+        const auto p = [&](std::size_t k) {
+            const auto& q = sections->corners[i + k].position;
+            return Vec3(q[0], q[1], q[2]);
+        };
+        EXPECT_GT((p(1) - p(0)).cross(p(2) - p(0)).dot(side.normal), -1e-6);
+    }
+}
+
+TEST(Cells, ShrunkOnesAreComplete) {
+    const PartCells cells = grid(3);
+    CellChoice choice;
+    choice.shrink = 0.5;
+    const auto faces = cell_faces(cells, plain_frame, choice);
+    EXPECT_EQ(faces->triangle_count() % 4, 0u);
+    const double cells_drawn = static_cast<double>(faces->triangle_count()) / 4;
+    EXPECT_NEAR(enclosed(*faces), cells_drawn / 8, 1e-3) << "each an eighth of its volume";
+}
+
+TEST(Explosion, SistersPartByTheirCut) {
+    Tree tree;
+    for (NodeId id = 1; id < 8; ++id) {
+        TreeRow& row = tree.at(id);
+        row.state = id < 4 ? NodeState::divided : NodeState::done;
+        row.volume = 8;
+        if (id < 4) row.plane = Plane(Vec3::Zero(), id == 1 ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitY()));
+    }
+    EXPECT_EQ(explosion_offset(tree, 6, 1, 0, 1), Vec3::Zero());
+    EXPECT_EQ(explosion_offset(tree, 4, 1, 1, 1), Vec3(-1, -1, 0));
+    EXPECT_EQ(explosion_offset(tree, 7, 1, 1, 1), Vec3(1, 1, 0));
+    EXPECT_EQ(explosion_offset(tree, 7, 3, 1, 1), Vec3(0, 1, 0)) << "only cuts below the root that is shown";
+}
+
+// What each layer draws at every stage of every node, against the numbers of the cut.
+TEST(Layers, HaveTheNumbersOfTheCut) {
+    Driver driver;
+    driver.show_panels(false);
+    driver.open(asset_path("hollow_box"));
+    const Document& document = driver.document();
+    std::int64_t part_facets = 0;
+    for (const NodeId part : document.tree.parts_below(1)) part_facets += document.tree.find(part)->facets;
+    for (const TreeRow& row : document.tree.rows) {
+        driver.state().node = row.id;
+        driver.state().step = {};
+        driver.settle();
+        EXPECT_EQ(driver.drawn("surface").triangles, row.facets);
+        const Cut* cut = document.trace->find(row.id);
+        if (!cut) continue;
+        for (const Step& step : steps_of(document, row.id)) {
+            driver.state().step = step;
+            driver.settle();
+            const std::string where = std::to_string(row.id) + " " + name(step);
+            const auto interface = static_cast<std::int64_t>(cut->interface.triangles.size());
+            switch (step.stage) {
+                case Stage::crossed_edges:
+                    EXPECT_EQ(driver.drawn("crossed").segments, std::ssize(cut->stages.crossed_edges)) << where;
+                    break;
+                case Stage::hanging_removed:
+                    EXPECT_EQ(driver.drawn("contour").segments, std::ssize(cut->stages.hanging_edges_removed)) << where;
+                    break;
+                case Stage::contour: EXPECT_EQ(driver.drawn("contour").segments, cut->contour_edges) << where; break;
+                case Stage::projected: EXPECT_EQ(driver.drawn("projected").segments, cut->contour_edges) << where; break;
+                case Stage::triangulation:
+                    EXPECT_EQ(driver.drawn("triangulation").triangles, interface) << where;
+                    break;
+                case Stage::interface: EXPECT_EQ(driver.drawn("interface").triangles, interface) << where; break;
+                case Stage::split:
+                    EXPECT_EQ(driver.drawn("half").triangles, row.facets + 2 * interface) << where;
+                    break;
+                default: break;
+            }
+        }
+    }
+    driver.state().node = 1;
+    driver.state().step = {Stage::tetrahedra, -1};
+    driver.settle();
+    EXPECT_EQ(driver.drawn("part").triangles, part_facets);
+}
+
+TEST(Layers, GoingBackMakesNothingAgain) {
+    Driver driver;
+    driver.open(asset_path("cylinder"));
+    const std::vector<Step> steps = driver.app().steps();
+    const auto visit = [&] {
+        for (const Step& step : steps) {
+            driver.state().step = step;
+            driver.settle();
+        }
+    };
+    visit();
+    const std::int64_t made = driver.app().geometry_made();
+    visit();
+    EXPECT_EQ(driver.app().geometry_made(), made);
+}
+
+}  // namespace
+}  // namespace kerf::test

@@ -1,0 +1,88 @@
+// kerf screenshot and kerf view as a user starts them.
+#include <gtest/gtest.h>
+
+#include "support/assets.h"
+#include "support/file_contents.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
+#include "support/write_off.h"
+#include "viewer/golden_image.h"
+
+namespace kerf::test {
+namespace {
+
+const TemporaryFolder& folder() {
+    static const TemporaryFolder all;
+    return all;
+}
+
+ChildResult screenshot(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "screenshot");
+    for (const char* more : {"-o", "--size"}) arguments.emplace_back(more), arguments.emplace_back(more[1] == 'o' ? folder().file("a.png") : "320x240");
+    std::filesystem::remove(folder().file("a.png"));
+    return run_kerf(arguments);
+}
+
+TEST(Screenshot, OfASurfaceARunAndATraceShowTheSameCut) {
+    const std::string run = folder().file("run"), trace = folder().file("cuts.trace");
+    ASSERT_EQ(run_kerf({"mesh", asset_path("cylinder"), "-o", run, "-n", "4", "-q", "--trace", trace}).exit_code, 0);
+    const std::vector<std::string> view = {"--node", "1", "--stage", "contour", "-n", "4"};
+    std::vector<view::Image> pictures;
+    for (const std::string& input : {asset_path("cylinder"), trace}) {
+        std::vector<std::string> arguments = {input};
+        arguments.insert(arguments.end(), view.begin(), view.end());
+        const ChildResult result = screenshot(arguments);
+        ASSERT_EQ(result.exit_code, 0) << result.log;
+        EXPECT_EQ(output_of(result), "");
+        pictures.push_back(view::read_png(folder().file("a.png")));
+    }
+    EXPECT_EQ(pictures[0].rgb, pictures[1].rgb);
+    EXPECT_EQ(pictures[0].width, 320);
+    ASSERT_EQ(screenshot({run, "--stage", "tetrahedra", "--clip", "x=0.4", "--explode", "0.4", "--color",
+                          "min-dihedral", "--ui"}).exit_code, 0);
+}
+
+TEST(Screenshot, IsTheSameEveryTime) {
+    std::string bytes;
+    for (int i = 0; i < 2; ++i) {
+        ASSERT_EQ(screenshot({asset_path("cube")}).exit_code, 0);
+        const std::string now = bytes_of_file(folder().file("a.png"));
+        EXPECT_TRUE(bytes.empty() || bytes == now);
+        bytes = now;
+    }
+}
+
+TEST(Screenshot, ShowsABadSurfaceWithItsProblems) {
+    write_off(folder().file("open.off"), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}});
+    const ChildResult shown = screenshot({folder().file("open.off"), "--ui"});
+    EXPECT_EQ(shown.exit_code, 0) << shown.log;
+    const ChildResult cut = screenshot({folder().file("open.off"), "--stage", "contour"});
+    EXPECT_EQ(cut.exit_code, 3);
+    EXPECT_NE(cut.log.find("kerf check"), std::string::npos) << cut.log;
+}
+
+TEST(Screenshot, SaysWhatIsWrong) {
+    const auto expect = [](const std::vector<std::string>& arguments, int code, const std::string& word) {
+        const ChildResult result = screenshot(arguments);
+        EXPECT_EQ(result.exit_code, code) << result.log;
+        EXPECT_NE(result.log.find(word), std::string::npos) << result.log;
+        EXPECT_FALSE(std::filesystem::exists(folder().file("a.png")));
+    };
+    expect({folder().file("nowhere.stl")}, 7, "nowhere.stl");
+    expect({asset_path("cube"), "--node", "9", "--stage", "contour", "-n", "2"}, 2, "no node 9");
+    expect({asset_path("cube"), "--node", "2", "--stage", "contour", "-n", "2"}, 2, "input");
+    expect({asset_path("cube"), "--clip", "node=2", "-n", "2"}, 2, "not cut");
+    expect({asset_path("cube"), "--stage", "sawing"}, 2, "sawing");
+    const ChildResult unwritable = run_kerf({"screenshot", asset_path("cube"), "-o", "/proc/a.png"});
+    EXPECT_EQ(unwritable.exit_code, 7) << unwritable.log;
+}
+
+TEST(Help, NamesTheViewersCommands) {
+    EXPECT_NE(output_of(run_kerf({"--help"})).find("screenshot"), std::string::npos);
+    const ChildResult help = run_kerf({"screenshot", "--help"});
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_NE(output_of(help).find("--clip"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace kerf::test

@@ -1,0 +1,869 @@
+// What the session says of surfaces, traces and runs, against what the kernel says.
+#include "viewer/model/session.h"
+
+#include <cmath>
+#include <cstring>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "mesh/quality.h"
+#include "run/event_log.h"
+#include "support/assets.h"
+#include "support/program.h"
+#include "support/shapes.h"
+#include "support/started_run.h"
+#include "support/temporary_folder.h"
+#include "support/write_off.h"
+#include "surface/mass_properties.h"
+#include "viewer/model/loader.h"
+#include "viewer/model/node_surface.h"
+#include "viewer/model/part_files.h"
+#include "viewer/model/replayer.h"
+#include "viewer/model/run_events.h"
+#include "viewer/model/run_process.h"
+#include "viewer/model/store.h"
+
+namespace kerf::view {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Polls until the condition holds, at most 60 s.
+template <class Condition>
+bool reach(Session& session, Condition condition) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!condition()) {
+        if (std::chrono::steady_clock::now() > end) return false;
+        session.wait(0.1);
+    }
+    return true;
+}
+
+bool settle(Session& session) {
+    return reach(session, [&] { return !session.busy() && !session.pending(); });
+}
+
+// Asks until it is there.
+template <class Ask>
+auto get(Session& session, Ask ask) {
+    auto result = ask();
+    reach(session, [&] {
+        result = ask();
+        return result || (!session.pending() && !session.busy());
+    });
+    return result;
+}
+
+std::string failures_of(const Session& session) {
+    std::string all;
+    for (const std::string& failure : session.failures()) all += failure + "\n";
+    return all;
+}
+
+double volume_of(const NodeSurface& surface) { return enclosed_volume(surface.vertices, surface.facets); }
+
+// Each edge once in either direction.
+bool is_closed(const NodeSurface& surface) {
+    return find_manifold_defects(surface.vertices.size(), surface.facets).empty();
+}
+
+std::vector<std::string> scratch_folders() {
+    std::vector<std::string> names;
+    const std::string prefix = "kerf-view-" + std::to_string(::getpid()) + "-";
+    for (const auto& entry : fs::directory_iterator(fs::temp_directory_path()))
+        if (entry.path().filename().string().starts_with(prefix)) names.push_back(entry.path());
+    return names;
+}
+
+class SessionTest : public testing::Test {
+ protected:
+    void open(const std::string& path) {
+        session_.open(path);
+        ASSERT_TRUE(settle(session_));
+    }
+    const Document& document() const { return session_.document(); }
+    RunOptions options(std::int32_t parts) const {
+        RunOptions options;
+        options.decompose.parts = parts;
+        options.workers = 2;
+        return options;
+    }
+    // Runs kerf to its end.
+    void run(const std::string& asset, std::vector<std::string> more) const {
+        std::vector<std::string> arguments = {
+            "mesh", test::asset_path(asset), "-o", folder_.file("run"), "--workers", "2", "-q"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ChildResult result = test::run_kerf(arguments);
+        ASSERT_EQ(result.exit_code, 0) << result.log;
+    }
+
+    test::TemporaryFolder folder_;
+    Session session_{KERF_PROGRAM};
+};
+
+// --- surfaces ---
+
+TEST_F(SessionTest, OpensASurfaceAndChecksIt) {
+    session_.open(test::asset_path("cube"));
+    EXPECT_TRUE(session_.busy());
+    EXPECT_TRUE(session_.pending());
+    EXPECT_EQ(document().title, "cube.stl");
+    ASSERT_TRUE(reach(session_, [&] { return document().soup != nullptr; }));
+    EXPECT_TRUE(session_.surface(1)) << "the first picture does not wait for the check";
+    EXPECT_EQ(document().kind, Document::Kind::surface);
+    EXPECT_EQ(document().error, "");
+    EXPECT_NEAR(document().box.diagonal().norm(), std::sqrt(3.0), 1e-6);
+    EXPECT_EQ(document().input_facets, 4660);
+    ASSERT_TRUE(settle(session_));
+    ASSERT_TRUE(document().checked);
+    EXPECT_TRUE(document().checked->diagnosis.clean());
+    EXPECT_FALSE(document().has_problems());
+    EXPECT_NEAR(document().volume, 1, 1e-6);
+    ASSERT_EQ(document().tree.rows.size(), 1u);
+    ASSERT_TRUE(document().tree.rows[0].centroid);
+    EXPECT_LT((*document().tree.rows[0].centroid - document().box.center()).norm(), 0.1);
+
+    const auto surface = get(session_, [&] { return session_.surface(1); });
+    ASSERT_TRUE(surface);
+    EXPECT_EQ(surface->facets, document().soup->facets);
+    EXPECT_EQ(surface->vertices, document().soup->vertices);
+    EXPECT_EQ(session_.surface(2), nullptr);
+    EXPECT_EQ(session_.cells(1), nullptr);
+    EXPECT_EQ(failures_of(session_), "");
+    EXPECT_FALSE(session_.poll());
+}
+
+TEST_F(SessionTest, SaysWhyAFileCannotBeOpened) {
+    const std::string bad = folder_.file("bad.stl");
+    std::ofstream(bad) << "this is no surface";
+    for (const std::string& path : {bad, folder_.file("missing.stl"), folder_.file("."), std::string()}) {
+        SCOPED_TRACE(path);
+        open(path);
+        EXPECT_EQ(document().kind, Document::Kind::none);
+        EXPECT_NE(document().error, "");
+        EXPECT_TRUE(document().has_problems());
+        EXPECT_FALSE(document().soup);
+        session_.start_run({}, true);
+        EXPECT_FALSE(document().progress.running);
+        EXPECT_NE(document().progress.message, "");
+    }
+    open(test::asset_path("cube"));
+    EXPECT_EQ(document().error, "");
+    session_.close();
+    EXPECT_EQ(document().kind, Document::Kind::none);
+    EXPECT_EQ(session_.surface(1), nullptr);
+}
+
+TEST_F(SessionTest, ShowsASurfaceWithDefects) {
+    Soup soup = test::box();
+    soup.facets.pop_back();
+    test::write_off(folder_.file("open.off"), soup.vertices, soup.facets);
+    open(folder_.file("open.off"));
+    EXPECT_TRUE(document().soup);
+    ASSERT_TRUE(document().checked);
+    EXPECT_FALSE(document().checked->diagnosis.clean());
+    EXPECT_TRUE(document().has_problems());
+    EXPECT_EQ(document().error, "");
+    EXPECT_TRUE(get(session_, [&] { return session_.surface(1); }));
+
+    session_.start_run(options(2), true);
+    ASSERT_TRUE(settle(session_));
+    EXPECT_NE(document().progress.message.find("open"), std::string::npos) << document().progress.message;
+    EXPECT_TRUE(document().folder.empty());
+}
+
+TEST_F(SessionTest, OpeningAnotherFileForgetsTheFirst) {
+    for (int i = 0; i < 5; ++i) {
+        session_.open(test::asset_path("knee_femoral"));
+        session_.wait(0.02 * i);
+        session_.open(test::asset_path("hollow_box"));
+        ASSERT_TRUE(settle(session_));
+        EXPECT_EQ(document().input_facets, 3786);
+        EXPECT_EQ(document().checked->soup.facets.size(), 3786u);
+        session_.reload();
+        ASSERT_TRUE(settle(session_));
+        EXPECT_EQ(document().title, "hollow_box.stl");
+    }
+    EXPECT_EQ(failures_of(session_), "");
+}
+
+// --- runs of its own ---
+
+class OwnRun : public SessionTest {
+ protected:
+    void start(const std::string& asset, const RunOptions& options, bool volume) {
+        open(test::asset_path(asset));
+        session_.start_run(options, volume);
+        ASSERT_TRUE(document().progress.running) << document().progress.message;
+        EXPECT_TRUE(document().progress.ours);
+        EXPECT_TRUE(session_.busy());
+    }
+    void finish() {
+        ASSERT_TRUE(settle(session_));
+        EXPECT_EQ(document().progress.message, "");
+        EXPECT_FALSE(document().progress.running);
+        EXPECT_EQ(failures_of(session_), "");
+    }
+};
+
+TEST_F(OwnRun, FillsTheDocumentAsItGoes) {
+    start("hollow_box", options(4), true);
+    ASSERT_TRUE(reach(session_, [&] { return document().trace != nullptr; }));
+    EXPECT_EQ(document().tree.rows.size(), 7u);
+    EXPECT_EQ(document().tree.parts_below(1), (std::vector<NodeId>{4, 5, 6, 7}));
+    finish();
+    const Document& d = document();
+    EXPECT_EQ(d.kind, Document::Kind::surface);
+    ASSERT_TRUE(d.trace);
+    EXPECT_TRUE(fs::exists(d.folder + "/report.json"));
+    EXPECT_EQ(d.tree.rows.size(), 7u);
+    EXPECT_EQ(d.tree.levels(), 3);
+    EXPECT_EQ(d.options.decompose.parts, 4);
+    EXPECT_TRUE(d.options.output.empty());
+    EXPECT_EQ(d.progress.parts_done, 4);
+    for (const TreeRow& row : d.tree.rows) {
+        SCOPED_TRACE(row.id);
+        EXPECT_EQ(row.state, row.id < 4 ? NodeState::divided : NodeState::done);
+        EXPECT_EQ(row.plane.has_value(), row.id < 4);
+        EXPECT_EQ(row.tets > 0, row.id >= 4);
+        EXPECT_GT(row.facets, 0);
+        EXPECT_GT(row.volume, 0);
+        EXPECT_TRUE(row.centroid);
+        EXPECT_EQ(row.leaves, row.id == 1 ? 4 : row.id < 4 ? 2 : 1);
+    }
+    for (const auto& histogram : d.histograms) {
+        ASSERT_TRUE(histogram);
+        EXPECT_EQ(histogram->edges.size(), histogram->all.size() + 1);
+        std::int64_t all = 0, both = 0, tets = 0;
+        for (std::size_t i = 0; i < histogram->all.size(); ++i) {
+            all += histogram->all[i];
+            both += histogram->interface[i] + histogram->interior[i];
+        }
+        for (const NodeId part : d.tree.parts_below(1)) tets += d.tree.find(part)->tets;
+        EXPECT_EQ(all, tets);
+        EXPECT_EQ(both, tets);
+    }
+    EXPECT_TRUE(session_.tree_before().rows.empty());
+    EXPECT_EQ(scratch_folders().size(), 1u);
+    session_.close();
+    EXPECT_TRUE(scratch_folders().empty());
+}
+
+TEST_F(OwnRun, TheRunBeforeIsKeptForComparison) {
+    start("hollow_box", options(4), true);
+    finish();
+    session_.start_run(options(3), true);
+    finish();
+    EXPECT_EQ(session_.tree_before().parts_below(1).size(), 4u);
+    EXPECT_EQ(document().tree.parts_below(1).size(), 3u);
+    EXPECT_EQ(scratch_folders().size(), 1u);
+    session_.start_run(options(1000000), true);  // too many
+    ASSERT_TRUE(settle(session_));
+    EXPECT_NE(document().progress.message.find("too few"), std::string::npos) << document().progress.message;
+    EXPECT_EQ(document().tree.parts_below(1).size(), 3u);
+    for (const NodeId part : document().tree.parts_below(1))
+        EXPECT_TRUE(get(session_, [&] { return session_.cells(part); }));
+}
+
+TEST_F(OwnRun, WithoutTetrahedra) {
+    RunOptions given = options(5);
+    given.output = folder_.file("surfaces");
+    start("pipe_with_holes", given, false);
+    finish();
+    EXPECT_EQ(document().folder, folder_.file("surfaces"));
+    EXPECT_EQ(document().tree.parts_below(1).size(), 5u);
+    for (const NodeId part : document().tree.parts_below(1)) {
+        EXPECT_EQ(document().tree.find(part)->state, NodeState::waiting);
+        EXPECT_TRUE(get(session_, [&] { return session_.part_surface(part); }));
+        EXPECT_EQ(session_.cells(part), nullptr);
+    }
+    EXPECT_EQ(session_.worst_cells(ColorBy::shape, 3), nullptr);
+    EXPECT_FALSE(document().histograms[0]);
+}
+
+TEST_F(OwnRun, CanBeCancelled) {
+    RunOptions fine = options(6);
+    fine.size = 0.8;
+    fine.workers = 1;
+    fine.output = folder_.file("fine");
+    start("bearing_cap_52k", fine, true);
+    ASSERT_TRUE(reach(session_, [&] { return document().progress.stage == "volume"; }));
+    ASSERT_TRUE(reach(session_, [&] {
+        for (const TreeRow& row : document().tree.rows)
+            if (row.state == NodeState::meshing) return true;
+        return false;
+    }));
+    session_.cancel_run();
+    ASSERT_TRUE(settle(session_));
+    EXPECT_FALSE(document().progress.running);
+    EXPECT_FALSE(document().progress.ours);
+    EXPECT_NE(document().progress.message.find("cancelled"), std::string::npos) << document().progress.message;
+    EXPECT_FALSE(fs::exists(folder_.file("fine")));
+    EXPECT_TRUE(document().trace);
+    for (const TreeRow& row : document().tree.rows) EXPECT_NE(row.state, NodeState::meshing);
+    EXPECT_TRUE(get(session_, [&] { return session_.surface(2); }));
+    session_.cancel_run();  // there is none
+}
+
+TEST_F(OwnRun, EndsWithTheSession) {
+    {
+        Session session{KERF_PROGRAM};
+        session.open(test::asset_path("bearing_cap_52k"));
+        ASSERT_TRUE(settle(session));
+        RunOptions fine = options(6);
+        fine.size = 0.8;
+        session.start_run(fine, true);
+        ASSERT_TRUE(reach(session, [&] { return session.document().progress.stage == "volume"; }));
+        EXPECT_EQ(scratch_folders().size(), 1u);
+    }
+    EXPECT_TRUE(scratch_folders().empty());
+    EXPECT_TRUE(test::descendants_of(::getpid(), "kerf").empty());
+}
+
+TEST_F(OwnRun, OfATraceWhoseSurfaceIsGone) {
+    const std::string copy = folder_.file("copy.stl"), trace = folder_.file("run.trace");
+    fs::copy_file(test::asset_path("hollow_box"), copy);
+    ASSERT_EQ(
+        test::run_kerf({"decompose", copy, "-q", "-o", folder_.file("run"), "-n", "3", "--trace", trace}).exit_code, 0);
+    fs::remove(copy);
+    open(trace);
+    EXPECT_EQ(document().kind, Document::Kind::trace);
+    const std::shared_ptr<const Trace> before = document().trace;
+    session_.start_run(options(4), true);
+    finish();
+    EXPECT_EQ(document().tree.parts_below(1).size(), 4u);
+    EXPECT_TRUE(to_bytes(document().trace->surface) == to_bytes(before->surface));
+    EXPECT_NEAR(document().volume, 22, 1e-6);
+}
+
+// --- data ---
+
+// A run folder and its trace, opened in three ways.
+class Data : public SessionTest {
+ protected:
+    void SetUp() override { run("knee_femoral", {"-n", "5", "--trace", folder_.file("trace")}); }
+    Session by_trace_{KERF_PROGRAM};
+    Session by_folder_{KERF_PROGRAM};
+
+    void open_apart() {
+        by_trace_.open(folder_.file("trace"));
+        ASSERT_TRUE(settle(by_trace_));
+        fs::rename(folder_.file("trace"), folder_.file("moved"));
+        by_folder_.open(folder_.file("run"));
+        ASSERT_TRUE(settle(by_folder_));
+        ASSERT_FALSE(by_folder_.document().trace);
+        ASSERT_TRUE(by_trace_.document().folder.empty());
+    }
+};
+
+TEST_F(Data, SurfacesOfTraceAndFolderAgree) {
+    open_apart();
+    const Tree& tree = by_folder_.document().tree;
+    ASSERT_EQ(tree.rows.size(), 9u);
+    ASSERT_EQ(by_trace_.document().tree.rows.size(), 9u);
+    EXPECT_TRUE(by_trace_.document().box.isApprox(by_folder_.document().box));
+    for (const TreeRow& row : tree.rows) {
+        SCOPED_TRACE(row.id);
+        const auto a = get(by_trace_, [&] { return by_trace_.surface(row.id); });
+        const auto b = get(by_folder_, [&] { return by_folder_.surface(row.id); });
+        ASSERT_TRUE(a) << failures_of(by_trace_);
+        ASSERT_TRUE(b) << failures_of(by_folder_);
+        EXPECT_EQ(a->facets.size(), b->facets.size());
+        EXPECT_EQ(a->vertices.size(), b->vertices.size());
+        EXPECT_EQ(static_cast<std::int64_t>(a->facets.size()), row.facets);
+        EXPECT_EQ(static_cast<std::int64_t>(a->vertices.size()), row.vertices);
+        EXPECT_NEAR(volume_of(*a), row.volume, 1e-9 * row.volume);
+        EXPECT_NEAR(volume_of(*b), row.volume, 1e-9 * row.volume);
+        EXPECT_TRUE(is_closed(*a));
+        EXPECT_TRUE(is_closed(*b));
+        std::map<NodeId, int> of_a, of_b;
+        for (const NodeId id : a->interface_of) ++of_a[id];
+        for (const NodeId id : b->interface_of) ++of_b[id];
+        EXPECT_EQ(of_a, of_b);
+        std::vector<std::int32_t> numbers_a = a->facet_number, numbers_b = b->facet_number;
+        std::sort(numbers_a.begin(), numbers_a.end());
+        std::sort(numbers_b.begin(), numbers_b.end());
+        EXPECT_EQ(numbers_a, numbers_b);
+        // The rows of the trace get what the report says.
+        const TreeRow* other = by_trace_.document().tree.find(row.id);
+        ASSERT_TRUE(other && other->centroid && row.centroid);
+        EXPECT_EQ(other->facets, row.facets);
+        EXPECT_LT((*other->centroid - *row.centroid).norm(), 1e-9);
+        EXPECT_LT((other->axes - row.axes).norm(), 1e-9);
+        EXPECT_EQ(other->plane.has_value(), row.plane.has_value());
+        EXPECT_EQ(other->rung, row.rung);
+        EXPECT_EQ(other->interface_faces, row.interface_faces);
+        EXPECT_EQ(other->leaves, row.leaves);
+    }
+    // The facets of the input are shared out; each interface is there twice.
+    std::int64_t facets = 0, interfaces = 0;
+    for (const NodeId part : tree.parts_below(1)) facets += tree.find(part)->facets;
+    for (const TreeRow& row : tree.rows) interfaces += row.leaf() ? 0 : row.interface_faces;
+    EXPECT_EQ(facets, by_folder_.document().input_facets + 2 * interfaces);
+}
+
+// Interfaces of straight cuts are triangulated anew after the last cut, and facets of neighbours are split then.
+TEST_F(SessionTest, SurfacesOfStraightCutsAreClosed) {
+    const Soup soup = test::prism(7, 1, 5);
+    test::write_off(folder_.file("prism.off"), soup.vertices, soup.facets);
+    open(folder_.file("prism.off"));
+    session_.start_run(options(6), true);
+    ASSERT_TRUE(settle(session_));
+    ASSERT_TRUE(document().trace) << document().progress.message;
+    ASSERT_EQ(document().tree.parts_below(1).size(), 6u);
+    EXPECT_EQ(document().tree.find(1)->rung, name(Rung::straight));
+    Session folder{KERF_PROGRAM};
+    folder.open(document().folder);
+    ASSERT_TRUE(settle(folder));
+    for (const TreeRow& row : document().tree.rows) {
+        SCOPED_TRACE(row.id);
+        for (Session* session : {&session_, &folder}) {
+            const auto surface = get(*session, [&] { return session->surface(row.id); });
+            ASSERT_TRUE(surface) << failures_of(*session);
+            EXPECT_TRUE(is_closed(*surface));
+            EXPECT_NEAR(volume_of(*surface), row.volume, 1e-9 * document().volume);
+        }
+    }
+}
+
+TEST_F(Data, ATraceGivesTheNumbersThatItsCutsReferTo) {
+    open_apart();
+    const Trace& trace = *by_trace_.document().trace;
+    Replayer replayer(by_trace_.document().trace, 0);
+    for (const TreeRow& row : by_trace_.document().tree.rows) {
+        const Surface expected = replay(trace, row.id);
+        EXPECT_TRUE(to_bytes(replayer.surface(row.id)->arrays()) == to_bytes(expected.arrays())) << row.id;
+        const auto surface = get(by_trace_, [&] { return by_trace_.surface(row.id); });
+        EXPECT_EQ(surface->vertices, expected.arrays().vertices);
+        EXPECT_EQ(surface->facets, expected.arrays().facets);
+    }
+}
+
+TEST_F(Data, PartsHaveTheirSurfacesAndCells) {
+    open_apart();
+    for (const NodeId part : by_folder_.document().tree.parts_below(1)) {
+        SCOPED_TRACE(part);
+        const TreeRow& row = *by_folder_.document().tree.find(part);
+        const auto surface = get(by_folder_, [&] { return by_folder_.part_surface(part); });
+        const auto cells = get(by_folder_, [&] { return by_folder_.cells(part); });
+        ASSERT_TRUE(surface && cells) << failures_of(by_folder_);
+        EXPECT_EQ(static_cast<std::int64_t>(surface->facets.size()), row.facets);
+        EXPECT_EQ(static_cast<std::int64_t>(cells->tets.size()), row.tets);
+        EXPECT_EQ(cells->part, part);
+        EXPECT_EQ(static_cast<std::size_t>(cells->boundary_vertex_count), surface->vertices.size());
+        EXPECT_EQ(cells->tet_at_facet.size(), surface->facets.size());
+        EXPECT_TRUE(std::equal(surface->vertices.begin(), surface->vertices.end(), cells->vertices.begin()));
+        EXPECT_TRUE(
+            std::equal(surface->vertex_number.begin(), surface->vertex_number.end(), cells->vertex_number.begin()));
+        double volume = 0;
+        for (const auto& [a, b, c, d] : cells->tets)
+            volume +=
+                tet_quality(cells->vertices[a], cells->vertices[b], cells->vertices[c], cells->vertices[d]).volume;
+        EXPECT_NEAR(volume, row.volume, 1e-9 * row.volume);
+        for (std::size_t f = 0; f < surface->facets.size(); ++f) {
+            EXPECT_EQ(surface->neighbour[f] < 0, surface->interface_of[f] == 0);
+            const auto& tet = cells->tets.at(static_cast<std::size_t>(cells->tet_at_facet[f]));
+            for (const std::int32_t v : surface->facets[f])
+                EXPECT_TRUE(std::find(tet.begin(), tet.end(), v) != tet.end());
+            if (surface->neighbour[f] >= 0) {
+                EXPECT_TRUE(cells->at_interface[static_cast<std::size_t>(cells->tet_at_facet[f])]);
+                EXPECT_TRUE(lies_below(part, surface->interface_of[f]));
+                EXPECT_TRUE(lies_below(surface->neighbour[f], surface->interface_of[f]));
+            }
+        }
+    }
+    EXPECT_EQ(by_folder_.cells(1), nullptr);
+    EXPECT_EQ(by_folder_.part_surface(2), nullptr);
+    EXPECT_FALSE(by_folder_.pending());
+}
+
+float measured(const PartCells& cells, std::size_t i, ColorBy color) {
+    const auto& [a, b, c, d] = cells.tets[i];
+    const TetQuality q = tet_quality(cells.vertices[a], cells.vertices[b], cells.vertices[c], cells.vertices[d]);
+    switch (color) {
+        case ColorBy::min_dihedral:
+            return static_cast<float>(q.min_dihedral_deg);
+        case ColorBy::radius_edge:
+            return static_cast<float>(q.radius_edge);
+        case ColorBy::aspect:
+            return static_cast<float>(q.aspect);
+        case ColorBy::shape:
+            return static_cast<float>(q.shape);
+        case ColorBy::volume:
+            return static_cast<float>(q.volume);
+        case ColorBy::edge_length:
+            return static_cast<float>(q.max_edge);
+        default:
+            return static_cast<float>(cells.at_interface[i]);
+    }
+}
+
+TEST_F(Data, ValuesAreThoseOfTheCells) {
+    by_folder_.open(folder_.file("run"));
+    ASSERT_TRUE(settle(by_folder_));
+    ASSERT_TRUE(by_folder_.document().trace) << "the report says where the trace is";
+    const std::vector<NodeId> parts = by_folder_.document().tree.parts_below(1);
+    for (const ColorBy color : {ColorBy::kind, ColorBy::min_dihedral, ColorBy::radius_edge, ColorBy::aspect,
+                                ColorBy::shape, ColorBy::volume, ColorBy::edge_length}) {
+        SCOPED_TRACE(name(color));
+        std::vector<WorstCell> all;
+        for (const NodeId part : parts) {
+            const auto values = get(by_folder_, [&] { return by_folder_.cell_values(part, color); });
+            const auto at_facets = get(by_folder_, [&] { return by_folder_.facet_values(part, color); });
+            const auto cells = get(by_folder_, [&] { return by_folder_.cells(part); });
+            ASSERT_TRUE(values && at_facets && cells) << failures_of(by_folder_);
+            ASSERT_EQ(values->size(), cells->tets.size());
+            for (std::size_t i = 0; i < values->size(); ++i) {
+                ASSERT_EQ((*values)[i], measured(*cells, i, color)) << i;
+                const auto& p = cells->vertices;
+                const auto& [a, b, c, d] = cells->tets[i];
+                all.push_back({part, static_cast<std::int32_t>(i), (*values)[i], (p[a] + p[b] + p[c] + p[d]) / 4});
+            }
+            ASSERT_EQ(at_facets->size(), cells->tet_at_facet.size());
+            for (std::size_t f = 0; f < at_facets->size(); ++f)
+                ASSERT_EQ((*at_facets)[f], (*values)[static_cast<std::size_t>(cells->tet_at_facet[f])]);
+        }
+        if (color == ColorBy::kind) {
+            EXPECT_EQ(by_folder_.worst_cells(color, 10), nullptr);
+            continue;
+        }
+        const bool small = color == ColorBy::min_dihedral || color == ColorBy::shape;
+        std::stable_sort(all.begin(), all.end(), [&](const WorstCell& a, const WorstCell& b) {
+            return small ? a.value < b.value : a.value > b.value;
+        });
+        for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{100}, all.size() + 1}) {
+            const auto worst = get(by_folder_, [&] { return by_folder_.worst_cells(color, count); });
+            ASSERT_TRUE(worst) << failures_of(by_folder_);
+            ASSERT_EQ(worst->size(), std::min(count, all.size()));
+            for (std::size_t i = 0; i < worst->size(); ++i) {
+                ASSERT_EQ((*worst)[i].value, all[i].value);
+                ASSERT_EQ((*worst)[i].part, all[i].part);
+                ASSERT_EQ((*worst)[i].cell, all[i].cell);
+                ASSERT_LT(((*worst)[i].center - all[i].center).norm(), 1e-9);
+            }
+        }
+    }
+}
+
+TEST_F(Data, WhatCannotBeReadIsSaidOnce) {
+    open_apart();
+    const NodeId part = by_folder_.document().tree.parts_below(1).front();
+    fs::resize_file(part_file_of(folder_.file("run"), part), 1000);
+    EXPECT_EQ(get(by_folder_, [&] { return by_folder_.cells(part); }), nullptr);
+    EXPECT_EQ(get(by_folder_, [&] { return by_folder_.cells(part); }), nullptr);
+    ASSERT_EQ(by_folder_.failures().size(), 1u);
+    EXPECT_NE(by_folder_.failures()[0].find("part_"), std::string::npos);
+    EXPECT_TRUE(get(by_folder_, [&] { return by_folder_.part_surface(part); }));
+}
+
+TEST_F(Data, AnotherTraceInThePlaceOfItsOwnIsNotTaken) {
+    ASSERT_EQ(test::run_kerf({"decompose", test::asset_path("knee_femoral"), "-q", "-o", folder_.file("other"), "-n",
+                              "5", "--cut", "volume", "--trace", folder_.file("trace")})
+                  .exit_code,
+              0);
+    open(folder_.file("run"));
+    EXPECT_FALSE(document().trace);
+    EXPECT_EQ(document().tree.rows.size(), 9u);
+}
+
+// --- cuts made again ---
+
+Bytes without_time(Cut cut) {
+    cut.seconds = 0;
+    return to_bytes(cut);
+}
+
+TEST_F(Data, ACutMadeAgainWithTheSameOptionsIsTheSame) {
+    by_folder_.open(folder_.file("run"));
+    ASSERT_TRUE(settle(by_folder_));
+    const std::shared_ptr<const Trace> old = by_folder_.document().trace;
+    ASSERT_TRUE(old);
+    EXPECT_EQ(by_folder_.cut_before(2), nullptr);
+    by_folder_.redo_cut(2, options_of(*old));
+    by_folder_.redo_cut(1, options_of(*old));
+    ASSERT_TRUE(settle(by_folder_));
+    EXPECT_EQ(failures_of(by_folder_), "");
+    const Document& d = by_folder_.document();
+    EXPECT_NE(d.trace, old);
+    ASSERT_TRUE(d.trace->find(1));
+    EXPECT_TRUE(without_time(*d.trace->find(1)) == without_time(*old->find(1)));
+    EXPECT_EQ(d.trace->cuts.size(), 1u) << "those below are gone";
+    ASSERT_TRUE(by_folder_.cut_before(1));
+    EXPECT_TRUE(to_bytes(*by_folder_.cut_before(1)) == to_bytes(*old->find(1)));
+    EXPECT_EQ(by_folder_.cut_before(2), nullptr) << "it lay below";
+    EXPECT_EQ(d.tree.parts_below(1), (std::vector<NodeId>{2, 3}));
+    EXPECT_EQ(d.tree.find(1)->leaves, 2);
+    EXPECT_EQ(by_folder_.cells(4), nullptr);
+    EXPECT_EQ(by_folder_.cells(2), nullptr);
+    EXPECT_EQ(by_folder_.part_surface(2), nullptr);
+    const auto surface = get(by_folder_, [&] { return by_folder_.surface(3); });
+    ASSERT_TRUE(surface);
+    EXPECT_EQ(surface->facets, replay(*old, 3).arrays().facets);
+}
+
+TEST_F(Data, ACutMadeAgainWithOtherOptionsTakesItsPlace) {
+    by_folder_.open(folder_.file("run"));
+    ASSERT_TRUE(settle(by_folder_));
+    const std::shared_ptr<const Trace> old = by_folder_.document().trace;
+    ASSERT_TRUE(old && old->find(2));
+    const std::size_t nodes = by_folder_.document().tree.rows.size();
+    RunOptions other = options_of(*old);
+    other.decompose.cut.criterion = Criterion::volume;
+    other.decompose.cut.axis = 2;
+    by_folder_.redo_cut(2, other);
+    ASSERT_TRUE(settle(by_folder_));
+    EXPECT_EQ(failures_of(by_folder_), "");
+    const Document& d = by_folder_.document();
+    ASSERT_TRUE(d.trace->find(2) && d.trace->find(2)->made());
+    EXPECT_EQ(d.trace->find(2)->plane.normal.cwiseAbs().z(), 1);
+    EXPECT_NE(d.trace->find(2)->plane.normal, old->find(2)->plane.normal);
+    EXPECT_TRUE(to_bytes(*by_folder_.cut_before(2)) == to_bytes(*old->find(2)));
+    EXPECT_LE(d.tree.rows.size(), nodes);
+    EXPECT_EQ(d.tree.find(2)->plane->normal, d.trace->find(2)->plane.normal);
+    double volume = 0;
+    for (const NodeId half : {4, 5}) {
+        const auto surface = get(by_folder_, [&] { return by_folder_.surface(half); });
+        ASSERT_TRUE(surface);
+        EXPECT_TRUE(is_closed(*surface));
+        EXPECT_EQ(static_cast<std::int64_t>(surface->facets.size()), d.tree.find(half)->facets);
+        volume += volume_of(*surface);
+    }
+    EXPECT_NEAR(volume, d.tree.find(2)->volume, 1e-9 * volume);
+    for (const NodeId part : d.tree.parts_below(3))  // the others are as they were
+        EXPECT_TRUE(get(by_folder_, [&] { return by_folder_.cells(part); }));
+    // A part may be cut, too, also by a straight cut.
+    other.decompose.cut.contour = ContourMethod::straight;
+    by_folder_.redo_cut(4, other);
+    ASSERT_TRUE(settle(by_folder_));
+    EXPECT_EQ(failures_of(by_folder_), "");
+    ASSERT_TRUE(d.trace->find(4));
+    EXPECT_EQ(d.trace->find(4)->rung, Rung::straight);
+    const auto split = get(by_folder_, [&] { return by_folder_.surface(4); });
+    EXPECT_EQ(split->facets, d.trace->find(4)->split_parent.facets);
+    volume = 0;
+    for (const NodeId half : {8, 9}) volume += volume_of(*get(by_folder_, [&] { return by_folder_.surface(half); }));
+    EXPECT_NEAR(volume, volume_of(*split), 1e-9 * volume);
+}
+
+TEST_F(SessionTest, ACutIsMadeAgainOnlyInATrace) {
+    open(test::asset_path("cube"));
+    session_.redo_cut(1, {});
+    ASSERT_TRUE(settle(session_));
+    EXPECT_EQ(session_.failures().size(), 1u);
+}
+
+// --- runs of others ---
+
+TEST_F(SessionTest, FollowsTheFolderOfARunUnderWay) {
+    const std::string output = folder_.file("run");
+    test::StartedRun run(KERF_PROGRAM, {"mesh", test::asset_path("bearing_cap_52k"), "-q", "-o", output, "-n", "6",
+                                        "--size", "1.2", "--workers", "2"});
+    ASSERT_TRUE(test::await([&] { return fs::exists(output + ".kerf-partial/work/run.json"); }));
+    session_.open(output);
+    ASSERT_TRUE(reach(session_, [&] { return document().progress.running; }));
+    EXPECT_FALSE(document().progress.ours);
+    EXPECT_EQ(document().kind, Document::Kind::run);
+    EXPECT_TRUE(document().soup);
+    ASSERT_TRUE(reach(session_, [&] { return document().progress.parts_done > 0; }));
+    if (document().progress.running) {
+        EXPECT_FALSE(document().tree.parts_below(1).empty());
+    }
+    ASSERT_TRUE(reach(session_, [&] { return !document().progress.running; }));
+    EXPECT_EQ(document().progress.message, "");
+    EXPECT_EQ(run.wait().exit_code, 0);
+    EXPECT_EQ(document().folder, output);
+    EXPECT_EQ(document().tree.parts_below(1).size(), 6u);
+    for (const NodeId part : document().tree.parts_below(1))
+        EXPECT_TRUE(get(session_, [&] { return session_.cells(part); })) << failures_of(session_);
+    const auto whole = get(session_, [&] { return session_.surface(1); });
+    ASSERT_TRUE(whole);
+    EXPECT_EQ(whole->facets.size(), 51840u);
+}
+
+TEST_F(SessionTest, ShowsAnInterruptedRun) {
+    const std::string output = folder_.file("run");
+    const std::vector<std::string> arguments = {"mesh",
+                                                test::asset_path("bearing_cap_52k"),
+                                                "-q",
+                                                "-o",
+                                                output,
+                                                "-n",
+                                                "12",
+                                                "--size",
+                                                "1.2",
+                                                "--trace",
+                                                folder_.file("trace"),
+                                                "--workers",
+                                                "1"};
+    test::StartedRun run(KERF_PROGRAM, arguments);
+    ASSERT_TRUE(test::await([&] { return test::finished_parts(output) >= 2; }));
+    ::kill(run.process(), SIGINT);
+    EXPECT_EQ(run.wait().exit_code, 130);
+    open(output + ".kerf-partial");
+    EXPECT_FALSE(document().progress.running);
+    EXPECT_NE(document().progress.message.find("--resume"), std::string::npos);
+    EXPECT_EQ(document().options.trace_file, "") << "another run shall not write over it";
+    EXPECT_GE(document().progress.parts_done, 2);
+    EXPECT_EQ(document().tree.parts_below(1).size(), 12u);
+    EXPECT_TRUE(document().trace);
+    EXPECT_TRUE(document().tree.find(1)->plane);
+    int done = 0;
+    for (const NodeId part : document().tree.parts_below(1)) {
+        EXPECT_TRUE(get(session_, [&] { return session_.part_surface(part); }));
+        if (document().tree.find(part)->state != NodeState::done) continue;
+        ++done;
+        const auto cells = get(session_, [&] { return session_.cells(part); });
+        ASSERT_TRUE(cells) << failures_of(session_);
+        EXPECT_EQ(static_cast<std::int64_t>(cells->tets.size()), document().tree.find(part)->tets);
+    }
+    EXPECT_EQ(done, document().progress.parts_done);
+}
+
+TEST_F(SessionTest, FollowsAnEventsFile) {
+    const std::string events = folder_.file("events");
+    run("hollow_box", {"-n", "4", "--events", events, "--trace", folder_.file("trace")});
+    // As it was at every moment: what is there so far.
+    const std::string whole = test::bytes_of_file(events);
+    const std::string growing = folder_.file("growing");
+    std::ofstream out(growing, std::ios::binary);
+    const std::size_t first = whole.find('\n') + 1;
+    out << whole.substr(0, first) << std::flush;
+    session_.open(growing);
+    ASSERT_TRUE(reach(session_, [&] { return document().soup != nullptr; })) << document().error;
+    EXPECT_EQ(document().kind, Document::Kind::run);
+    EXPECT_TRUE(document().progress.running);
+    EXPECT_FALSE(document().trace);
+    const std::size_t half = whole.find("\"event\":\"part\"");
+    out << whole.substr(first, half - first) << std::flush;
+    ASSERT_TRUE(reach(session_, [&] { return document().trace != nullptr; }));
+    EXPECT_EQ(document().progress.stage, "volume");
+    EXPECT_EQ(document().progress.parts, 4);
+    EXPECT_EQ(document().tree.parts_below(1).size(), 4u);
+    EXPECT_GT(document().tree.find(4)->load, 0);
+    const std::size_t end = whole.find("{\"event\":\"end\"");
+    out << whole.substr(half, end - half) << std::flush;
+    ASSERT_TRUE(reach(session_, [&] { return document().progress.parts_done == 4; }));
+    EXPECT_TRUE(document().progress.running);
+    for (const NodeId part : document().tree.parts_below(1))
+        EXPECT_EQ(document().tree.find(part)->state, NodeState::done);
+    out << whole.substr(end) << std::flush;
+    ASSERT_TRUE(reach(session_, [&] { return !document().progress.running; }));
+    EXPECT_EQ(document().folder, folder_.file("run"));
+    EXPECT_TRUE(document().trace);
+    EXPECT_TRUE(document().histograms[0]);
+    EXPECT_TRUE(get(session_, [&] { return session_.cells(5); }));
+    EXPECT_EQ(failures_of(session_), "");
+
+    open(events);  // the whole at once
+    ASSERT_TRUE(reach(session_, [&] { return !document().progress.running; }));
+    EXPECT_EQ(document().folder, folder_.file("run"));
+    EXPECT_TRUE(document().trace);
+}
+
+TEST_F(SessionTest, EventsOfAFailedRunSayWhy) {
+    std::ofstream(folder_.file("events")) << R"({"event":"run","input":"/nowhere.stl","output":"/nowhere","trace":""})"
+                                          << "\nno event\n{\"event\":\"stage\",\"stage\":\"read\",\"seconds\":1}\n"
+                                          << R"({"event":"parts","parts":[{"id":2,"load":1},{"id":3,"load":1}]})"
+                                          << "\n{\"event\":\"end\",\"exit_code\":3,\"message\":\"It is open.\"}\n"
+                                          << "{\"event\":\"incom";
+    open(folder_.file("events"));
+    EXPECT_FALSE(document().progress.running);
+    EXPECT_EQ(document().progress.message, "It is open.");
+    EXPECT_EQ(document().tree.parts_below(1), (std::vector<NodeId>{2, 3}));
+    EXPECT_EQ(session_.surface(1), nullptr);
+}
+
+// --- parts of it ---
+
+TEST(StoreTest, KeepsTheLimitButWhatIsInUse) {
+    Store store(100);
+    const auto value = std::make_shared<const int>(7);
+    const auto key = [](NodeId node) { return Store::Key{Store::Kind::cells, node}; };
+    for (NodeId node = 1; node <= 5; ++node) {
+        store.next_frame();
+        store.next_frame();
+        store.insert(key(node), value, 30);
+    }
+    EXPECT_EQ(store.bytes(), 90u);
+    EXPECT_FALSE(store.holds(key(2)));
+    EXPECT_EQ(store.find<int>(key(2)), nullptr);
+    EXPECT_EQ(*store.find<int>(key(3)), 7);
+    store.next_frame();
+    store.next_frame();
+    EXPECT_EQ(*store.find<int>(key(3)), 7);
+    store.insert(key(6), value, 30);
+    EXPECT_TRUE(store.holds(key(3))) << "used since";
+    EXPECT_FALSE(store.holds(key(4)));
+    for (NodeId node = 10; node < 20; ++node) store.insert(key(node), value, 30);  // all in one frame
+    EXPECT_TRUE(store.is_full());
+    EXPECT_TRUE(store.holds(key(10)));
+    EXPECT_GE(store.bytes(), 300u);
+    store.next_frame();
+    store.next_frame();
+    EXPECT_FALSE(store.is_full());
+    store.insert(key(30), value, 30);
+    EXPECT_LE(store.bytes(), 100u);
+    store.insert(key(30), value, 10);  // replaced
+    store.erase_if([](const Store::Key& k) { return k.node != 30; });
+    EXPECT_EQ(store.bytes(), 10u);
+    store.clear();
+    EXPECT_EQ(store.bytes(), 0u);
+}
+
+TEST(LoaderTest, DropsWhatNobodyWants) {
+    Loader loader;
+    const auto wanted = std::make_shared<Scope>(), unwanted = std::make_shared<Scope>();
+    int done = 0, failed = 0;
+    std::string message;
+    loader.post({unwanted, [&]() -> Loader::Completion { return [&] { done += 100; }; }, {}});
+    loader.post({wanted, [&]() -> Loader::Completion { throw Error(ErrorCode::io, "no such file"); },
+                 [&](const std::string& m) { ++failed, message = m; }});
+    for (int i = 0; i < 10; ++i) loader.post({wanted, [&]() -> Loader::Completion { return [&] { ++done; }; }, {}});
+    loader.post_idle({wanted, [] { return Loader::Completion(); }, {}});
+    unwanted->end();
+    for (int i = 0; i < 1000 && done + failed < 11; ++i) {
+        loader.wait(0.05);
+        loader.take_over();
+    }
+    EXPECT_EQ(done, 10);
+    EXPECT_EQ(failed, 1);
+    EXPECT_EQ(message, "no such file");
+}
+
+TEST(CommandLine, HoldsWhatDiffersFromTheDefaults) {
+    RunOptions options;
+    options.input = "/a b.stl";
+    options.output = "/out";
+    EXPECT_EQ(command_line_of(options, true),
+              (std::vector<std::string>{"mesh", "/a b.stl", "--output=/out", "--quiet"}));
+    options.decompose.parts = 8;
+    options.size = 0.1;
+    options.decompose.cut.axis = 2;
+    options.stl = true;
+    options.workers = 3;
+    options.mesher.tetgen_switches = "q1.2";
+    EXPECT_EQ(command_line_of(options, false),
+              (std::vector<std::string>{"decompose", "/a b.stl", "--output=/out", "--quiet", "--parts=8", "--size=0.1",
+                                        "--axis=z", "--workers=3", "--tetgen=q1.2", "--stl"}));
+}
+
+TEST(TreeTest, FindsAndOrders) {
+    Tree tree;
+    for (const NodeId id : {1, 2, 3, 6, 7, 13, 12}) tree.at(id);
+    for (const NodeId id : {1, 3, 6}) tree.find(id)->state = NodeState::divided;
+    EXPECT_EQ(tree.find(5), nullptr);
+    EXPECT_EQ(tree.levels(), 4);
+    EXPECT_EQ(tree.parts_below(1), (std::vector<NodeId>{2, 7, 12, 13}));
+    EXPECT_EQ(tree.parts_below(6), (std::vector<NodeId>{12, 13}));
+    EXPECT_EQ(tree.parts_below(7), (std::vector<NodeId>{7}));
+    std::vector<NodeId> order;
+    for (const TreeRow* row : tree.in_order()) order.push_back(row->id);
+    EXPECT_EQ(order, (std::vector<NodeId>{1, 2, 3, 6, 12, 13, 7}));
+    EXPECT_EQ(common_ancestor(12, 7), 3);
+    EXPECT_EQ(common_ancestor(2, 13), 1);
+    EXPECT_EQ(common_ancestor(6, 13), 6);
+}
+
+}  // namespace
+}  // namespace kerf::view

@@ -1,0 +1,310 @@
+// The user interface as a user works with it: clicks by label, keys, drags, drops. Every step is checked on the state
+// and on what is drawn.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "io/surface_reader.h"
+#include "support/assets.h"
+#include "support/file_contents.h"
+#include "support/temporary_folder.h"
+#include "support/write_off.h"
+#include "viewer/app/keys.h"
+#include "viewer/driver.h"
+#include "viewer/golden_image.h"
+
+namespace kerf::test {
+namespace {
+
+using namespace view;
+
+bool differ(const Image& a, const Image& b) { return compare(a, b).differing > most_differing; }
+
+// The whole session of a user, one after the other.
+TEST(Ui, ASession) {
+    const TemporaryFolder folder;
+    Driver::Options options;
+    options.config_folder = folder.file("config");
+    options.screenshot_folder = folder.file("");
+    Driver driver(options);
+    ViewState& state = driver.state();
+    const Image empty = driver.picture();
+
+    // Opens a model by dropping it; it is cut and meshed.
+    driver.drop(asset_path("hollow_box"));
+    driver.await("the run", [&] { return driver.document().tree.parts_below(1).size() == 4 && !driver.app().session().busy(); });
+    const Image opened = driver.picture();
+    EXPECT_TRUE(differ(empty, opened));
+    EXPECT_EQ(driver.drawn("surface").triangles, 3786);
+    EXPECT_EQ(driver.drawn("axes").segments, 3);
+
+    // Node 3, smoothed contour, by the tree and the timeline.
+    driver.click("node 3");
+    EXPECT_EQ(state.node, 3);
+    driver.click("step contour");
+    EXPECT_EQ(name(state.step), "contour");
+    const Image contour = driver.picture();
+    EXPECT_TRUE(differ(opened, contour));
+    const Cut* cut = driver.document().trace->find(3);
+    ASSERT_TRUE(cut);
+    EXPECT_EQ(driver.drawn("contour").segments, cut->contour_edges);
+    EXPECT_GT(driver.drawn("context").triangles, 0);
+
+    // The same by keys; nothing is made twice.
+    driver.key(key_left);
+    EXPECT_EQ(name(state.step), "paths-removed");
+    driver.settle();
+    const std::int64_t made = driver.app().geometry_made();
+    driver.key(key_right);
+    EXPECT_EQ(name(state.step), "contour");
+    EXPECT_FALSE(differ(contour, driver.picture()));
+    EXPECT_EQ(driver.app().geometry_made(), made);
+    driver.key(key_up);
+    EXPECT_EQ(state.node, 5) << "before 3 in the tree";
+    driver.key(key_down);
+    EXPECT_EQ(state.node, 3);
+
+    // Clips.
+    driver.click("node 1");
+    driver.click("step tetrahedra");
+    const Image tetrahedra = driver.picture();
+    driver.click("Clip plane");
+    EXPECT_TRUE(state.clip.on);
+    const Image clipped = driver.picture();
+    EXPECT_TRUE(differ(tetrahedra, clipped));
+    EXPECT_GT(driver.drawn("cells").triangles, 0);
+    driver.click("Snap to cut of node 1");
+    const TreeRow& root = *driver.document().tree.find(1);
+    EXPECT_LT((state.clip.normal - root.plane->normal).norm(), 1e-12);
+    EXPECT_TRUE(differ(clipped, driver.picture()));
+
+    // Explodes, by dragging the slider.
+    const ItemRect slider = *driver.app().widgets().find("Explode");
+    const float y = (slider.top + slider.bottom) / 2;
+    driver.drag(slider.left + 8, y, (slider.left + slider.right) / 2, y);
+    EXPECT_GT(state.explode, 0.2);
+    EXPECT_LT(state.explode, 0.8);
+    const Image exploded = driver.picture();
+    EXPECT_TRUE(differ(clipped, exploded));
+
+    // Picks a cell; its numbers go to the clipboard.
+    driver.click("Cell");
+    EXPECT_EQ(state.pick, PickMode::cell);
+    const Rectangle scene = driver.app().scene_area();
+    const auto pick_somewhere = [&] {
+        for (int i = 1; i < 16 && state.selection.kind == Selection::Kind::none; ++i)
+            driver.click_at(scene.x + scene.width * static_cast<float>(i) / 16, scene.y + scene.height * 0.5f);
+    };
+    pick_somewhere();
+    ASSERT_EQ(state.selection.kind, Selection::Kind::cell);
+    driver.settle();
+    EXPECT_NE(driver.app().facts().selection.find("cell " + std::to_string(state.selection.index)), std::string::npos);
+    EXPECT_EQ(driver.drawn("selection").segments, 6);
+    EXPECT_TRUE(differ(exploded, driver.picture()));
+    driver.key(key_escape);
+    EXPECT_EQ(state.selection.kind, Selection::Kind::none);
+
+    // A picture.
+    driver.key(key_f12);
+    driver.settle();
+    const Image saved = read_png(folder.file("kerf-001.png"));
+    EXPECT_EQ(saved.width, options.width);
+    const ViewState read = state_from_json(bytes_of_file(folder.file("kerf-001.json")), "kerf-001.json");
+    EXPECT_EQ(read.node, state.node);
+    EXPECT_EQ(read.explode, state.explode);
+    ASSERT_TRUE(read.camera);
+    EXPECT_LT((read.camera->target - driver.app().camera().target).norm(), 1e-12);
+}
+
+TEST(Ui, MouseMovesTheCamera) {
+    Driver::Options options;
+    options.auto_run = false;
+    Driver driver(options);
+    driver.open(asset_path("cube"));
+    const Rectangle scene = driver.app().scene_area();
+    const float x = scene.x + scene.width / 2, y = scene.y + scene.height / 2;
+    const Camera start = driver.app().camera();
+
+    driver.drag(x, y, x + 100, y);
+    const Camera turned = driver.app().camera();
+    EXPECT_GT((turned.back() - start.back()).norm(), 0.1);
+    EXPECT_EQ(turned.target, start.target);
+
+    driver.drag(x, y, x + 60, y, 2);
+    const Camera panned = driver.app().camera();
+    EXPECT_EQ(panned.back(), turned.back());
+    EXPECT_GT((panned.target - turned.target).norm(), 0.01);
+
+    driver.wheel(x, y, 3);
+    EXPECT_LT(driver.app().camera().height, panned.height);
+
+    driver.key(key_of('7'));
+    EXPECT_LT((driver.app().camera().back() - Vec3::UnitZ()).norm(), 1e-9);
+    driver.key(key_of('5'));
+    EXPECT_FALSE(driver.app().camera().perspective);
+    driver.key(key_home);
+    EXPECT_EQ(driver.app().camera().target, start.target);
+    EXPECT_EQ(driver.app().camera().height, start.height);
+    EXPECT_FALSE(driver.state().camera);
+}
+
+// Pixel by pixel the id buffer names the facet that a ray from the eye meets first.
+TEST(Ui, PicksTheFacetThatIsSeen) {
+    Driver::Options options;
+    options.auto_run = false;
+    Driver driver(options);
+    driver.open(asset_path("cylinder"));
+    const auto surface = driver.app().session().surface(1);
+    ASSERT_TRUE(surface);
+    const Rectangle scene = driver.app().scene_area();
+    const Camera camera = driver.app().camera();
+    const Vec3 eye = camera.target + camera.distance() * camera.back();
+    int picked = 0;
+    for (int i = 1; i < 12; ++i)
+        for (int j = 1; j < 12; ++j) {
+            const float x = std::floor(scene.x + scene.width * static_cast<float>(i) / 12);
+            const float y = std::floor(scene.y + scene.height * static_cast<float>(j) / 12);
+            driver.state().selection = {};
+            driver.click_at(x, y);
+            const Selection& s = driver.state().selection;
+            // The ray through the pixel's centre.
+            const double px = (x + 0.5 - scene.x - scene.width / 2) / scene.height;
+            const double py = -(y + 0.5 - scene.y - scene.height / 2) / scene.height;
+            const Vec3 to = camera.target + camera.height * (px * camera.right() + py * camera.up());
+            const Vec3 ray = to - eye;
+            double nearest = 1e300;
+            std::int32_t expected = -1;
+            for (std::size_t f = 0; f < surface->facets.size(); ++f) {
+                const Triangle& t = surface->facets[f];
+                const Vec3& a = surface->vertices[static_cast<std::size_t>(t[0])];
+                Eigen::Matrix3d m;
+                m << surface->vertices[static_cast<std::size_t>(t[1])] - a,
+                    surface->vertices[static_cast<std::size_t>(t[2])] - a, -ray;
+                const Vec3 q = m.fullPivLu().solve(eye - a);
+                if (q.x() >= 0 && q.y() >= 0 && q.x() + q.y() <= 1 && q.z() > 0 && q.z() < nearest) {
+                    nearest = q.z();
+                    expected = static_cast<std::int32_t>(f);
+                }
+            }
+            EXPECT_EQ(s.kind == Selection::Kind::facet ? s.index : -1, expected) << x << ", " << y;
+            picked += expected >= 0;
+        }
+    EXPECT_GT(picked, 10);
+}
+
+TEST(Ui, ChangesOptionsRunsAgainAndCompares) {
+    Driver driver;
+    driver.open(asset_path("cylinder"));
+    EXPECT_EQ(driver.document().tree.parts_below(1).size(), 4u);
+    driver.state().panels.parameters = true;
+    driver.frame();
+    driver.click("parts");
+    driver.key(key_of('A'), true);
+    driver.type("6");
+    driver.key(key_enter);
+    driver.click("Run all");
+    driver.await("six parts", [&] {
+        return driver.document().tree.parts_below(1).size() == 6 && !driver.app().session().busy();
+    });
+    EXPECT_EQ(driver.app().session().tree_before().parts_below(1).size(), 4u);
+}
+
+TEST(Ui, CancelsARun) {
+    Driver::Options options;
+    options.auto_run = false;
+    Driver driver(options);
+    driver.open(asset_path("bearing_cap_52k"));
+    RunOptions run;
+    run.input = asset_path("bearing_cap_52k");
+    run.decompose.parts = 8;
+    run.size = 0.5;
+    driver.app().session().start_run(run, true);
+    driver.await("parts", [&] { return driver.document().progress.running && driver.document().progress.parts > 0; });
+    driver.click("Cancel");
+    driver.await("the end", [&] { return !driver.document().progress.running && !driver.app().session().busy(); });
+    EXPECT_NE(driver.document().progress.message.find("cancel"), std::string::npos) << driver.document().progress.message;
+    driver.settle();
+    EXPECT_GT(driver.drawn("surface").triangles, 0) << "the surface is still there";
+}
+
+TEST(Ui, PlaysThroughTheSteps) {
+    Driver driver;
+    driver.open(asset_path("cube"));
+    driver.key(key_space);
+    EXPECT_TRUE(driver.app().facts().playing);
+    std::set<std::string> seen;
+    for (int i = 0; i < 500 && driver.app().facts().playing; ++i) {
+        driver.frame(0.9f);
+        seen.insert(std::to_string(driver.state().node) + " " + name(driver.state().step));
+    }
+    EXPECT_FALSE(driver.app().facts().playing) << "it comes to an end";
+    EXPECT_TRUE(seen.contains("1 contour") && seen.contains("3 triangulation") && seen.contains("7 tetrahedra"));
+}
+
+TEST(Ui, AClickOnAProblemFliesThere) {
+    const TemporaryFolder folder;
+    Soup soup = read_surface(asset_path("cube"));
+    soup.facets.erase(soup.facets.begin() + 100);
+    write_off(folder.file("open.off"), soup.vertices, soup.facets);
+    Driver driver;
+    driver.open(folder.file("open.off"));
+    ASSERT_TRUE(driver.document().has_problems());
+    const double height = driver.app().camera().height;
+    driver.click("defect 1");
+    EXPECT_LT(driver.app().camera().height, height / 2);
+    EXPECT_LT((driver.app().camera().target - driver.document().checked->diagnosis.defects[0].where).norm(), 1e-9);
+    EXPECT_FALSE(driver.document().trace) << "nothing was run";
+}
+
+TEST(Ui, AFileThatIsNoSurfaceSaysSo) {
+    const TemporaryFolder folder;
+    Driver driver;
+    for (const char* text : {"", "hello", "solid x\nfacet normal 0 0"}) {
+        std::ofstream(folder.file("bad.stl")) << text;
+        driver.open(folder.file("bad.stl"));
+        EXPECT_NE(driver.document().error, "") << text;
+        EXPECT_FALSE(driver.picture().rgb.empty());
+    }
+    driver.open(folder.file("missing.stl"));
+    EXPECT_NE(driver.document().error.find("missing.stl"), std::string::npos);
+}
+
+TEST(Ui, OpensAFileFromTheBrowser) {
+    const TemporaryFolder folder;
+    std::filesystem::copy_file(asset_path("cube"), folder.file("cube.stl"));
+    Driver::Options options;
+    options.auto_run = false;
+    Driver driver(options);
+    driver.key(key_of('O'), true);
+    driver.click("folder path");
+    driver.key(key_of('A'), true);
+    driver.type(folder.file(""));
+    driver.key(key_enter);
+    driver.click("entry cube.stl");
+    driver.click("Open");
+    driver.await("the cube", [&] { return driver.document().input_facets == 4660; });
+    EXPECT_EQ(driver.document().title, "cube.stl");
+}
+
+TEST(Ui, RemembersThemeAndRecentFiles) {
+    const TemporaryFolder folder;
+    Driver::Options options;
+    options.auto_run = false;
+    options.config_folder = folder.file("config");
+    {
+        Driver driver(options);
+        driver.open(asset_path("cube"));
+        driver.state().theme = Theme::dark;
+        driver.settle();
+    }
+    Driver driver(options);
+    EXPECT_EQ(driver.state().theme, Theme::dark);
+    ASSERT_FALSE(driver.app().settings().recent.empty());
+    EXPECT_TRUE(driver.app().settings().recent.front().ends_with("cube.stl"));
+}
+
+}  // namespace
+}  // namespace kerf::test

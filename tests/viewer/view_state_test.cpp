@@ -1,0 +1,234 @@
+// The view state as JSON, the camera, the names of steps, the clip plane of the command line.
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "viewer/app/command_line.h"
+#include "viewer/model/view_state.h"
+#include "viewer/scene/shapes.h"
+
+namespace kerf::view {
+namespace {
+
+ViewState unusual_state() {
+    ViewState s;
+    s.node = 13;
+    s.step = {Stage::plane, 4};
+    s.camera = Camera{{1, 2, 3}, Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), 7, false};
+    s.shading = Shading::smooth;
+    s.edges = s.context = s.plane = s.axes = s.contour = s.surface = s.interfaces = s.legend = s.times = false;
+    s.explode = 0.25;
+    s.shrink = 0.125;
+    s.clip = {true, ClipStyle::layer, Vec3(0.6, 0, 0.8), 0.3, true};
+    s.color = ColorBy::radius_edge;
+    s.color_range = ValueRange{0.5, 3};
+    s.filter = ValueRange{1, 2};
+    s.hidden = {4, 11};
+    s.isolated = 3;
+    s.pick = PickMode::vertex;
+    s.selection = {Selection::Kind::cell, 12, 34, {5, 6, 7}};
+    s.theme = Theme::dark;
+    s.panels.tree = false;
+    s.panels.keys = true;
+    return s;
+}
+
+TEST(ViewState, ReadsBackWhatItHasWritten) {
+    for (const ViewState& state : {ViewState(), unusual_state()}) {
+        const std::string text = to_json(state);
+        EXPECT_EQ(to_json(state_from_json(text, "it")), text);
+    }
+    EXPECT_NE(to_json(unusual_state()), to_json(ViewState()));
+}
+
+TEST(ViewState, MissingFieldsHaveTheirDefaults) {
+    EXPECT_EQ(to_json(state_from_json("{}", "it")), to_json(ViewState()));
+    EXPECT_EQ(state_from_json(R"({"node": 5})", "it").node, 5);
+}
+
+TEST(ViewState, RefusesWhatItDoesNotKnowAndNamesIt) {
+    const auto message = [](const std::string& text) -> std::string {
+        try {
+            state_from_json(text, "view.json");
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::usage);
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_NE(message("{").find("view.json"), std::string::npos);
+    EXPECT_NE(message("[]").find("no JSON object"), std::string::npos);
+    EXPECT_NE(message(R"({"zoom": 1})").find("'zoom'"), std::string::npos);
+    EXPECT_NE(message(R"({"node": "x"})").find("'node'"), std::string::npos);
+    EXPECT_NE(message(R"({"stage": "sawing"})").find("closed-loops"), std::string::npos);
+    EXPECT_NE(message(R"({"shrink": 2})").find("[0, 1]"), std::string::npos);
+    EXPECT_NE(message(R"({"clip": {"normal": [0, 0, 0]}})").find("normal"), std::string::npos);
+    EXPECT_NE(message(R"({"camera": {"back": [0, 0, 1], "up": [0, 0, 2]}})").find("parallel"), std::string::npos);
+    EXPECT_NE(message(R"({"color": "green"})").find("min-dihedral"), std::string::npos);
+}
+
+TEST(ViewState, ANodeIsHiddenWithWhatLiesAboveIt) {
+    ViewState s;
+    s.set_hidden(5, true);
+    s.set_hidden(5, true);
+    EXPECT_TRUE(s.is_hidden(5));
+    EXPECT_TRUE(s.is_hidden(21));
+    EXPECT_FALSE(s.is_hidden(2));
+    EXPECT_FALSE(s.is_hidden(4));
+    s.set_hidden(5, false);
+    EXPECT_TRUE(s.hidden.empty());
+}
+
+TEST(Steps, HaveNamesThatReadBack) {
+    for (int i = 0; i < stage_count; ++i) {
+        const Step step{static_cast<Stage>(i), -1};
+        EXPECT_EQ(step_from_name(name(step)), step);
+    }
+    EXPECT_EQ(step_from_name("try:17"), (Step{Stage::plane, 17}));
+    for (const char* text : {"", "try:", "try:-1", "try:x", "Contour"}) EXPECT_THROW(step_from_name(text), Error) << text;
+}
+
+TEST(Camera, JsonKeepsWhereItLooks) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> number(-1, 1);
+    for (int i = 0; i < 100; ++i) {
+        Camera camera;
+        camera.turn = Eigen::Quaterniond(number(random), number(random), number(random), number(random)).normalized();
+        camera.target = {number(random), number(random), number(random)};
+        const Camera read = camera_from_json(to_json(camera), "it");
+        EXPECT_LT((read.back() - camera.back()).norm() + (read.up() - camera.up()).norm(), 1e-12);
+        EXPECT_EQ(read.target, camera.target);
+        EXPECT_EQ(read.height, camera.height);
+    }
+}
+
+const Eigen::AlignedBox3d box(Vec3(10, 20, 30), Vec3(14, 22, 31));
+
+TEST(Camera, FitsTheWholeBoxWhateverTheDirection) {
+    const Frame frame = Frame::around(box);
+    for (const Direction direction : {Direction::front, Direction::back, Direction::right, Direction::left,
+                                      Direction::top, Direction::bottom, Direction::corner})
+        for (const auto& [width, height] : {std::pair(1280, 800), std::pair(300, 900)})
+            for (const bool perspective : {true, false}) {
+                Camera camera;
+                camera.perspective = perspective;
+                look_from(camera, direction);
+                fit(camera, box, static_cast<double>(width) / height);
+                const Projection projection = project(camera, frame, box, width, height);
+                double largest = 0;
+                for (int i = 0; i < 8; ++i) {
+                    const Vec3 p = to_screen(projection, frame, box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
+                    EXPECT_GE(std::min(p.x(), p.y()), 0);
+                    EXPECT_LE(p.x(), width);
+                    EXPECT_LE(p.y(), height);
+                    EXPECT_LE(std::abs(p.z()), 1);
+                    largest = std::max({largest, std::abs(2 * p.x() / width - 1), std::abs(2 * p.y() / height - 1)});
+                }
+                EXPECT_GT(largest, 0.8) << "too small";
+            }
+}
+
+TEST(Camera, ZoomKeepsWhatIsAtTheCursor) {
+    const Frame frame = Frame::around(box);
+    Camera camera;
+    look_from(camera, Direction::corner);
+    fit(camera, box, 1.5);
+    // A point of the plane through the target.
+    const Vec3 place = camera.target + camera.height * (0.3 * camera.right() - 0.2 * camera.up());
+    const Vec3 before = to_screen(project(camera, frame, box, 900, 600), frame, place);
+    zoom_at(camera, 0.5, 0.3, -0.2);
+    const Vec3 after = to_screen(project(camera, frame, box, 900, 600), frame, place);
+    EXPECT_LT((before - after).head<2>().norm(), 1e-3);
+}
+
+TEST(Camera, PanMovesTheTargetPlaneWithTheCursor) {
+    const Frame frame = Frame::around(box);
+    Camera camera;
+    look_from(camera, Direction::front);
+    fit(camera, box, 1.5);
+    const Vec3 place = camera.target;
+    pan(camera, 0.1, 0.05);
+    const Vec3 p = to_screen(project(camera, frame, box, 900, 600), frame, place);
+    EXPECT_NEAR(p.x(), 450 + 60, 1e-3);
+    EXPECT_NEAR(p.y(), 300 + 30, 1e-3);
+}
+
+TEST(Camera, OrbitKeepsUpUpAndTheTargetInPlace) {
+    Camera camera;
+    look_from(camera, Direction::front);
+    for (int i = 0; i < 50; ++i) orbit(camera, 0.013 * i, 0.0);
+    EXPECT_NEAR(camera.up().z(), 1, 1e-9);
+    orbit(camera, 0, 0.25);
+    EXPECT_GT(camera.back().z(), 0.5) << "the cursor pulls the body down, so one looks from above";
+    EXPECT_EQ(camera.target, Vec3::Zero());
+}
+
+TEST(ClipText, NamesAxesNormalsAndNodes) {
+    Document document;
+    document.box = box;
+    const Clip x = clip_from_text("x=0.3", {}, document);
+    EXPECT_TRUE(x.on);
+    EXPECT_EQ(x.normal, Vec3::UnitX());
+    EXPECT_EQ(x.position, 0.3);
+    EXPECT_FALSE(x.flipped);
+    EXPECT_TRUE(clip_from_text("-z=0.5", {}, document).flipped);
+    EXPECT_LT((clip_from_text("1,1,0=0.5", {}, document).normal - Vec3(1, 1, 0).normalized()).norm(), 1e-15);
+    TreeRow& row = document.tree.at(1);
+    row.plane = Plane(Vec3(11, 21, 30.5), Vec3(0, 0.6, 0.8));
+    const ShownSide side = shown_side(clip_from_text("node=1", {}, document), box);
+    EXPECT_NEAR(side.distance(row.plane->origin), 0, 1e-12);
+    EXPECT_LT((side.normal - row.plane->normal).norm(), 1e-15);
+    for (const char* text : {"", "x", "w=1", "x=", "1,2=0.5", "node=x", "0,0,0=1", "node=3"})
+        EXPECT_THROW(clip_from_text(text, {}, document), Error) << text;
+}
+
+TEST(ClipPlane, DrawCoordinatesAgreeWithThoseOfTheFile) {
+    Clip clip;
+    clip.on = true;
+    clip.normal = Vec3(1, 2, -2) / 3;
+    clip.position = 0.7;
+    const Frame frame = Frame::around(box);
+    for (const bool flipped : {false, true}) {
+        clip.flipped = flipped;
+        const ShownSide side = shown_side(clip, box);
+        const ClipPlane plane = clip_plane(side, frame);
+        for (int i = 0; i < 8; ++i) {
+            const Vec3 p = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
+            const auto q = frame.draw(p);
+            const double value = plane.plane[0] * q[0] + plane.plane[1] * q[1] + plane.plane[2] * q[2] + plane.plane[3];
+            EXPECT_NEAR(value, -side.distance(p) * frame.scale, 1e-6);
+        }
+    }
+}
+
+TEST(ViewCommandLine, RefusesNonsenseWithCodeTwo) {
+    const auto parse = [](std::vector<const char*> arguments) {
+        arguments.insert(arguments.begin(), "kerf");
+        return parse_view_command(static_cast<int>(arguments.size()), arguments.data());
+    };
+    EXPECT_EQ(parse({"screenshot", "a.stl"}).exit_code, 2);
+    EXPECT_EQ(parse({"screenshot", "a.stl", "-o", "b.png", "--size", "10"}).exit_code, 2);
+    EXPECT_EQ(parse({"screenshot", "a.stl", "-o", "b.png", "--size", "1x1"}).exit_code, 2);
+    EXPECT_EQ(parse({"screenshot", "a.stl", "-o", "b.png", "--stage", "sawing"}).exit_code, 2);
+    EXPECT_EQ(parse({"screenshot", "a.stl", "-o", "b.png", "--clip", "q=1"}).exit_code, 2);
+    EXPECT_EQ(parse({"screenshot", "a.stl", "-o", "b.png", "--color", "green"}).exit_code, 2);
+    EXPECT_EQ(parse({"screenshot", "a.stl", "-o", "b.png", "--camera", "/nowhere.json"}).exit_code, 7);
+    EXPECT_EQ(parse({"view", "--wat"}).exit_code, 2);
+    const ViewCommand help = parse({"screenshot", "--help"});
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_NE(help.print.find("--explode"), std::string::npos);
+    const ViewCommand good = parse({"screenshot", "a.stl", "-o", "b.png", "--node", "5", "--stage", "contour", "--clip",
+                                    "x=0.3", "--explode", "0.4", "--color", "min-dihedral", "--size", "1600x1000", "--ui"});
+    EXPECT_EQ(good.print, "");
+    EXPECT_TRUE(good.screenshot && good.panels);
+    EXPECT_EQ(good.width, 1600);
+    EXPECT_EQ(good.height, 1000);
+    EXPECT_EQ(good.state.node, 5);
+    EXPECT_EQ(name(good.state.step), "contour");
+    EXPECT_TRUE(good.state.clip.on);
+    EXPECT_EQ(good.state.color, ColorBy::min_dihedral);
+}
+
+}  // namespace
+}  // namespace kerf::view

@@ -1,0 +1,331 @@
+#include "viewer/app/app.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "core/error.h"
+#include "io/text_file.h"
+#include "viewer/app/keys.h"
+#include "viewer/app/settings.h"
+#include "viewer/scene/selection.h"
+
+namespace kerf::view {
+
+namespace {
+
+constexpr double seconds_per_step = 0.8, seconds_of_notice = 6;
+
+// What the scene depends on.
+std::string scene_key(ViewState state) {
+    state.camera.reset();
+    state.panels = {};
+    return to_json(state);
+}
+
+Eigen::AlignedBox3d framed_box(const std::vector<Vec3>& points, double least) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : points) box.extend(p);
+    const Vec3 more = Vec3::Constant(least) + box.sizes();
+    return {box.min() - more, box.max() + more};
+}
+
+std::string unused_picture(const std::string& folder) {
+    for (int i = 1;; ++i) {
+        const std::string path = fmt::format("{}/kerf-{:03}.png", folder, i);
+        if (!std::filesystem::exists(path)) return path;
+    }
+}
+
+}  // namespace
+
+ImGuiOwner::ImGuiOwner() {
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.LogFilename = nullptr;
+    io.ConfigInputTextCursorBlink = false;
+    io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+    io.KeyMap[ImGuiKey_Tab] = key_tab;
+    io.KeyMap[ImGuiKey_LeftArrow] = key_left;
+    io.KeyMap[ImGuiKey_RightArrow] = key_right;
+    io.KeyMap[ImGuiKey_UpArrow] = key_up;
+    io.KeyMap[ImGuiKey_DownArrow] = key_down;
+    io.KeyMap[ImGuiKey_PageUp] = key_page_up;
+    io.KeyMap[ImGuiKey_PageDown] = key_page_down;
+    io.KeyMap[ImGuiKey_Home] = key_home;
+    io.KeyMap[ImGuiKey_End] = key_end;
+    io.KeyMap[ImGuiKey_Delete] = key_delete;
+    io.KeyMap[ImGuiKey_Backspace] = key_backspace;
+    io.KeyMap[ImGuiKey_Space] = key_space;
+    io.KeyMap[ImGuiKey_Enter] = key_enter;
+    io.KeyMap[ImGuiKey_Escape] = key_escape;
+    io.KeyMap[ImGuiKey_KeyPadEnter] = key_keypad_enter;
+    for (const auto& [name, letter] : {std::pair(ImGuiKey_A, 'A'), std::pair(ImGuiKey_C, 'C'), std::pair(ImGuiKey_V, 'V'),
+                                       std::pair(ImGuiKey_X, 'X'), std::pair(ImGuiKey_Y, 'Y'), std::pair(ImGuiKey_Z, 'Z')})
+        io.KeyMap[name] = key_of(letter);
+}
+
+ImGuiOwner::~ImGuiOwner() { ImGui::DestroyContext(); }
+
+App::App(const Gl& gl, AppOptions options)
+    : options_(std::move(options)),
+      settings_(load_settings(options_.config_folder)),
+      session_(options_.kerf_program),
+      renderer_(gl, options_.shader_folder) {
+    state_.theme = settings_.theme;
+}
+
+App::~App() { save_settings(options_.config_folder, settings_); }
+
+std::string App::window_title() const {
+    const Document& document = session_.document();
+    return document.title.empty() ? "Kerf" : document.title + " - Kerf";
+}
+
+void App::open(const std::string& path) {
+    session_.open(path);
+    remember(settings_, path);
+    opened_.clear();
+    const ViewState before = state_;
+    state_ = {};
+    state_.theme = before.theme;
+    state_.panels = before.panels;
+    state_.shading = before.shading;
+    session_changed_ = true;
+    wake();
+}
+
+void App::reload() {
+    session_.reload();
+    opened_.clear();
+    session_changed_ = true;
+}
+
+void App::frame_selection() {
+    const double diagonal = session_.document().box.diagonal().norm();
+    const std::vector<Vec3> points = selected_points(session_, state_.selection);
+    if (!points.empty()) {
+        camera_.target = framed_box(points, 0.01 * diagonal).center();
+        Camera framed = camera_;
+        fit(framed, framed_box(points, 0.01 * diagonal), area_.width / area_.height);
+        state_.camera = framed;
+    } else if (const auto surface = surface_of(session_, state_.node)) {
+        Camera framed = camera_;
+        fit(framed, framed_box(surface->vertices, 0), 2 * area_.width / area_.height);
+        framed.height /= 2;
+        state_.camera = framed;
+    }
+}
+
+void App::fly_to(const Vec3& point, double radius) {
+    Camera camera = camera_;
+    camera.target = point;
+    camera.height = std::max(6 * radius, 1e-4 * session_.document().box.diagonal().norm());
+    state_.camera = camera;
+    if (state_.selection.kind != Selection::Kind::cell) {
+        state_.selection = {};
+        state_.selection.kind = Selection::Kind::place;
+        state_.selection.owner = state_.node;
+        state_.selection.place = point;
+    }
+}
+
+void App::look(Direction direction) {
+    Camera camera = camera_;
+    look_from(camera, direction);
+    state_.camera = camera;
+}
+
+void App::quit() { quit_ = true; }
+
+void App::toggle_play() {
+    facts_.playing = !facts_.playing;
+    played_until_ = ImGui::GetTime() + seconds_per_step;
+}
+
+void App::copy(const std::string& text) {
+    ImGui::SetClipboardText(text.c_str());
+    notify("copied");
+}
+
+std::string App::clipboard() {
+    const char* text = ImGui::GetClipboardText();
+    return text ? text : "";
+}
+
+void App::start_run(const RunOptions& options, bool volume) { session_.start_run(options, volume); }
+void App::redo_cut(NodeId node, const RunOptions& options) { session_.redo_cut(node, options); }
+
+void App::notify(const std::string& text) {
+    facts_.notice = text;
+    notice_until_ = ImGui::GetTime() + seconds_of_notice;
+}
+
+// A surface that can be cut is cut once, after it was opened.
+void App::begin_auto_run() {
+    const Document& document = session_.document();
+    if (!options_.auto_run || document.kind != Document::Kind::surface || opened_ == document.path) return;
+    if (!document.checked || document.has_problems()) return;
+    opened_ = document.path;
+    RunOptions run = options_.run;
+    run.input = document.path;
+    session_.start_run(run, options_.volume);
+}
+
+void App::follow_session() {
+    if (session_.poll()) {
+        session_changed_ = true;
+        wake();
+    }
+    begin_auto_run();
+    const Document& document = session_.document();
+    if (!document.tree.rows.empty() && !document.tree.find(state_.node)) state_.node = 1;
+    steps_ = steps_of(document, state_.node);
+    facts_.pending = session_.pending();
+}
+
+// Without a camera in the state everything fits, whatever is shown.
+void App::update_camera() {
+    if (state_.camera) {
+        camera_ = *state_.camera;
+        return;
+    }
+    camera_ = {};
+    look_from(camera_, Direction::corner);
+    fit(camera_, built_.box, area_.width / std::max(area_.height, 1.f));
+}
+
+void App::move_step(int direction) {
+    const auto here = static_cast<int>(nearest_step(steps_, state_.step));
+    state_.step = steps_[static_cast<std::size_t>(std::clamp(here + direction, 0, static_cast<int>(steps_.size()) - 1))];
+}
+
+void App::move_node(int direction) {
+    state_.node = next_node(session_.document().tree, state_.node, direction);
+    steps_ = steps_of(session_.document(), state_.node);
+    state_.step.refused_try = -1;
+}
+
+// Through the steps of the node, then on to the next node.
+void App::play() {
+    if (!facts_.playing || ImGui::GetTime() < played_until_) return;
+    played_until_ = ImGui::GetTime() + seconds_per_step;
+    if (nearest_step(steps_, state_.step) + 1 < steps_.size()) {
+        move_step(1);
+        return;
+    }
+    const NodeId before = state_.node;
+    move_node(1);
+    facts_.playing = state_.node != before;
+    if (facts_.playing) state_.step = {};
+}
+
+void App::build_scene() {
+    const std::string key = scene_key(state_);
+    if (!session_changed_ && key == built_for_ && !built_.pending) return;
+    session_changed_ = false;
+    built_for_ = key;
+    built_ = builder_.build(state_, session_);
+    facts_.legend_title = built_.legend.title;
+    facts_.values = built_.legend.values;
+    facts_.categories = built_.legend.categories;
+    facts_.scale = built_.legend.scale;
+    facts_.selection = describe_selection(session_, state_.selection);
+    facts_.pending = session_.pending();
+    facts_.triangles = facts_.lines = 0;
+    for (const Layer& layer : built_.scene.layers) {
+        facts_.triangles += static_cast<std::int64_t>(layer.geometry->triangle_count());
+        facts_.lines += static_cast<std::int64_t>(layer.geometry->segments.size());
+    }
+}
+
+void App::save_picture() {
+    const std::string path = unused_picture(options_.screenshot_folder);
+    try {
+        write_png(path, renderer_.read());
+        ViewState state = state_;
+        state.camera = camera_;
+        write_text_file(path.substr(0, path.size() - 4) + ".json", to_json(state));
+        notify("saved as " + std::filesystem::path(path).lexically_normal().string() + ", its view as .json beside it");
+    } catch (const Error& error) {
+        notify(error.what());
+    }
+}
+
+void App::draw(int width, int height, float scale, bool panels) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
+    const std::string style = fmt::format("{} {}", static_cast<int>(state_.theme), scale);
+    if (style != styled_for_) {
+        ui_.apply(state_.theme, scale);
+        styled_for_ = style;
+        renderer_.draw_ui(nullptr, *io.Fonts);  // its texture has to be there before it is used
+    }
+    ImGui::NewFrame();
+    widgets_.begin_frame();
+    area_ = scene_rectangle(state_, session_.document(), io.DisplaySize.x, io.DisplaySize.y, panels);
+    if (panels) {
+        take_keys();
+        take_mouse();
+    }
+    play();
+    build_scene();
+    update_camera();
+    UiContext context{state_, session_, settings_, facts_, steps_, *this, widgets_, camera_};
+    if (panels)
+        ui_.draw(context, io.DisplaySize.x, io.DisplaySize.y);
+    else
+        ui_.draw_overlays(context, area_);
+    ImGui::Render();
+    settings_.theme = state_.theme;
+    // What the panels have changed is part of this picture.
+    steps_ = steps_of(session_.document(), state_.node);
+    build_scene();
+    update_camera();
+
+    projection_ = project(camera_, built_.frame, built_.box, static_cast<int>(area_.width), static_cast<int>(area_.height));
+    projection_.x = static_cast<int>(area_.x);
+    projection_.y = height - static_cast<int>(area_.y + area_.height);
+    projection_.pixel_ratio = scale;
+    renderer_.resize(width, height);
+    renderer_.clear(built_.scene.background_bottom);
+    if (area_.width >= 1 && area_.height >= 1) renderer_.draw(built_.scene, projection_);
+    renderer_.draw_ui(ImGui::GetDrawData(), *io.Fonts);
+}
+
+void App::frame(int width, int height, float scale, bool panels) {
+    if (frames_wanted_ > 0) --frames_wanted_;
+    follow_session();
+    if (facts_.notice.size() && ImGui::GetTime() > notice_until_) facts_.notice.clear();
+    if (capture_) {
+        capture_ = false;
+        draw(width, height, scale, false);
+        save_picture();
+        wake();
+    }
+    draw(width, height, scale, panels);
+    // What was asked for is mostly there at once: better than a picture without it.
+    if (built_.pending) wait(0.04);
+}
+
+bool App::wait(double seconds) {
+    if (!session_.wait(seconds)) return false;
+    session_changed_ = true;
+    wake();
+    return true;
+}
+
+bool App::wants_frame() {
+    follow_session();
+    return !settled() || session_.document().progress.running;
+}
+
+bool App::settled() const {
+    return frames_wanted_ == 0 && !built_.pending && !session_changed_ && !facts_.playing && !capture_ && !dragging_;
+}
+
+}  // namespace kerf::view

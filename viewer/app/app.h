@@ -1,0 +1,127 @@
+// The viewer without its window: state, session, scene and panels, a frame at a time. The window, the screenshots and
+// the tests run the same one.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "viewer/model/session.h"
+#include "viewer/panels/panels.h"
+#include "viewer/render/renderer.h"
+#include "viewer/scene/scene_builder.h"
+
+namespace kerf::view {
+
+struct Gl;
+
+/// Dear ImGui's global context, for as long as it lives. Keys are numbered as in app/keys.h; nothing is saved.
+class ImGuiOwner {
+ public:
+    ImGuiOwner();
+    ~ImGuiOwner();
+    ImGuiOwner(const ImGuiOwner&) = delete;
+    ImGuiOwner& operator=(const ImGuiOwner&) = delete;
+};
+
+struct AppOptions {
+    std::string shader_folder;
+    std::string kerf_program;
+    std::string config_folder;       ///< of the settings; empty: none are read or kept
+    std::string screenshot_folder = ".";
+    /// Surfaces that are opened are cut, and meshed if `volume`, with these options; `auto_run` false: only shown.
+    bool auto_run = true, volume = true;
+    RunOptions run;
+};
+
+class App : private Actions {
+ public:
+    /// The context of `gl` is current, and an ImGuiOwner lives.
+    App(const Gl& gl, AppOptions options);
+    ~App() override;
+
+    void open(const std::string& path) override;
+    ViewState& state() { return state_; }
+    Session& session() { return session_; }
+    const Settings& settings() const { return settings_; }
+
+    /// Takes ImGui's input and draws the picture: with the panels, or only the scene with its legend. `scale`: of fonts
+    /// and lines, 2 on a HiDPI screen. Requires io.DeltaTime to be set.
+    void frame(int width, int height, float scale, bool panels);
+    Image picture() { return renderer_.read(); }
+    void present() { renderer_.present(); }
+
+    /// The next frame would look like the last: nothing arrives, plays, or is being moved.
+    bool settled() const;
+    /// Waits until something arrives from files or runs, at most `seconds`; false if nothing did.
+    bool wait(double seconds);
+    /// Looks at what has arrived from files and runs. False: the picture on the screen is still right.
+    bool wants_frame();
+    /// Something has happened outside: the next frames are wanted.
+    void wake() { frames_wanted_ = 3; }
+
+    const Widgets& widgets() const { return widgets_; }
+    const BuiltScene& scene() const { return built_; }
+    const std::vector<DrawnLayer>& drawn() const { return renderer_.drawn(); }
+    const SceneFacts& facts() const { return facts_; }
+    const std::vector<Step>& steps() const { return steps_; }
+    Rectangle scene_area() const { return area_; }
+    const Camera& camera() const { return camera_; }
+    std::int64_t geometry_made() const { return builder_.geometry_made(); }
+    std::string window_title() const;
+    bool wants_to_quit() const { return quit_; }
+
+ private:
+    void reload() override;
+    void fit_all() override { state_.camera.reset(); }
+    void frame_selection() override;
+    void fly_to(const Vec3& point, double radius) override;
+    void look(Direction direction) override;
+    void toggle_play() override;
+    void quit() override;
+    void take_screenshot() override { capture_ = true; }
+    void copy(const std::string& text) override;
+    std::string clipboard() override;
+    void start_run(const RunOptions& options, bool volume) override;
+    void redo_cut(NodeId node, const RunOptions& options) override;
+
+    void draw(int width, int height, float scale, bool panels);
+    void follow_session();
+    void begin_auto_run();
+    void update_camera();
+    void take_keys();
+    void take_character_keys();
+    void take_mouse();
+    void take_click(float x, float y, bool center);
+    void move_step(int direction);
+    void move_node(int direction);
+    void play();
+    void build_scene();
+    void save_picture();
+    void notify(const std::string& text);
+
+    AppOptions options_;
+    Settings settings_;
+    ViewState state_;
+    Session session_;
+    SceneBuilder builder_;
+    Renderer renderer_;
+    Ui ui_;
+    Widgets widgets_;
+
+    BuiltScene built_;
+    std::string built_for_;  // the state as JSON, without camera and panels
+    bool session_changed_ = true;
+    SceneFacts facts_;
+    std::vector<Step> steps_;
+    Camera camera_;
+    Projection projection_;
+    Rectangle area_;  // of the scene
+
+    std::string styled_for_;  // theme and scale
+    std::string opened_;      // what auto_run has been decided for
+    bool quit_ = false, capture_ = false, dragging_ = false, pressed_in_scene_ = false;
+    double notice_until_ = 0, played_until_ = 0;
+    int frames_wanted_ = 3;
+};
+
+}  // namespace kerf::view

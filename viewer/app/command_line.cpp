@@ -1,0 +1,201 @@
+#include "viewer/app/command_line.h"
+
+#include <charconv>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "core/error.h"
+#include "io/file_bytes.h"
+
+namespace kerf::view {
+
+namespace {
+
+constexpr const char* description =
+    "The viewer of Kerf: every cut of a decomposition step by step, every cell of its mesh.";
+constexpr const char* footer =
+    "INPUT is a closed surface (it is cut and meshed then), a run folder, one that is under way, a file of --trace or "
+    "of --events.";
+
+template <class Number>
+bool parse_number(std::string_view text, Number& number) {
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc() && stop == text.data() + text.size();
+}
+
+[[noreturn]] void refuse_clip(const std::string& text) {
+    throw Error(ErrorCode::usage, fmt::format("'{}' is no clip plane. Give an axis, a normal or a node, and where along "
+                                              "the body's extent from 0 to 1: x=0.3, -y=0.5, 1,1,0=0.5, node=5.",
+                                              text));
+}
+
+// "x", "-z", "1,1,0".
+bool parse_normal(std::string_view text, Vec3& normal, bool& flipped) {
+    flipped = text.size() == 2 && text[0] == '-';
+    if (flipped) text.remove_prefix(1);
+    if (text.size() == 1 && text[0] >= 'x' && text[0] <= 'z') {
+        normal = Vec3::Unit(text[0] - 'x');
+        return true;
+    }
+    for (int i = 0; i < 3; ++i) {
+        const std::size_t comma = i < 2 ? text.find(',') : text.size();
+        if (comma == text.npos || !parse_number(text.substr(0, comma), normal[i])) return false;
+        text.remove_prefix(std::min(text.size(), comma + 1));
+    }
+    return normal.norm() > 0;
+}
+
+void parse_size(const std::string& text, ViewCommand& command) {
+    const std::size_t x = text.find('x');
+    if (x == text.npos || !parse_number(std::string_view(text).substr(0, x), command.width) ||
+        !parse_number(std::string_view(text).substr(x + 1), command.height) || command.width < 16 ||
+        command.height < 16 || command.width > 16384 || command.height > 16384)
+        throw Error(ErrorCode::usage, fmt::format("--size is '{}', but it must be WIDTHxHEIGHT in pixels, 16 to 16384.",
+                                                  text));
+}
+
+// The texts of options that change the state, in the order in which they are applied.
+struct StateTexts {
+    std::string state_file, camera_file, stage, color, clip_style, size, theme, config;
+    std::vector<NodeId> hidden;
+    NodeId node = 0, isolated = 0;
+    double explode = -1, shrink = -1;
+    bool smooth = false, no_edges = false, no_context = false, no_legend = false;
+    std::vector<double> filter;
+};
+
+void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
+    app.add_option("--state", texts.state_file, "Read the whole view from a JSON file; other options win.")
+        ->type_name("FILE");
+    app.add_option("--node", texts.node, "Node of the tree: the root is 1, the children of i are 2i and 2i+1.")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--stage", texts.stage,
+                   "input, plane, crossed-edges, hanging-removed, closed-loops, paths-removed, contour, projected, "
+                   "triangulation, interface, split, tetrahedra, or try:0 for the first refused try.");
+    app.add_option("--color", texts.color,
+                   "part, rank, level, patch, kind, min-dihedral, radius-edge, aspect, shape, volume or edge-length.");
+    app.add_option("--filter", texts.filter, "Only cells whose value of --color lies in LOW HIGH.")->expected(2);
+    app.add_option("--clip", command.clip,
+                   "Clip plane: x=0.3, -y=0.5 (other side), 1,1,0=0.4 (normal), node=5 (at its cut).");
+    app.add_option("--clip-style", texts.clip_style, "cells (whole ones, default), smooth, or layer (at the plane).");
+    app.add_option("--explode", texts.explode, "Pull the parts apart along the tree; 0 to 1.")
+        ->check(CLI::NonNegativeNumber);
+    app.add_option("--shrink", texts.shrink, "Shrink cells about their centres; 0 to 1.")->check(CLI::Range(0.0, 1.0));
+    app.add_option("--hide", texts.hidden, "Nodes that are not shown.")->delimiter(',');
+    app.add_option("--isolate", texts.isolated, "Only what lies below this node.")->check(CLI::PositiveNumber);
+    app.add_option("--camera", texts.camera_file, "JSON file with the camera, as the viewer copies it.")
+        ->type_name("FILE");
+    app.add_flag("--smooth", texts.smooth, "Smooth shading instead of flat facets.");
+    app.add_flag("--no-edges", texts.no_edges, "Without the edges of triangles.");
+    app.add_flag("--no-context", texts.no_context, "Without the rest of the body.");
+    app.add_flag("--no-legend", texts.no_legend, "Without the legend.");
+    app.add_option("--theme", texts.theme, "light or dark.")->check(CLI::IsMember({"light", "dark"}));
+    app.add_option("-n,--parts", command.run.decompose.parts, "Number of parts, if INPUT is a surface.")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--config", texts.config, "Other options of that run: a file of kerf mesh --print-config.")
+        ->type_name("FILE");
+}
+
+void apply(const StateTexts& texts, ViewCommand& command) {
+    ViewState& state = command.state;
+    if (!texts.state_file.empty()) state = state_from_json(read_file(texts.state_file), texts.state_file);
+    if (!texts.camera_file.empty()) state.camera = camera_from_json(read_file(texts.camera_file), texts.camera_file);
+    if (texts.node > 0) state.node = texts.node;
+    if (!texts.stage.empty()) state.step = step_from_name(texts.stage);
+    if (!texts.color.empty()) state.color = color_by_from_name(texts.color);
+    if (!texts.clip_style.empty()) state.clip.style = clip_style_from_name(texts.clip_style);
+    if (!texts.filter.empty()) state.filter = ValueRange{texts.filter[0], texts.filter[1]};
+    if (texts.explode >= 0) state.explode = texts.explode;
+    if (texts.shrink >= 0) state.shrink = texts.shrink;
+    for (const NodeId node : texts.hidden) state.set_hidden(node, true);
+    if (texts.isolated > 0) state.isolated = texts.isolated;
+    if (texts.smooth) state.shading = Shading::smooth;
+    if (texts.no_edges) state.edges = false;
+    if (texts.no_context) state.context = false;
+    if (texts.no_legend) state.legend = false;
+    if (!texts.theme.empty()) state.theme = texts.theme == "dark" ? Theme::dark : Theme::light;
+    if (!texts.size.empty()) parse_size(texts.size, command);
+    if (!command.clip.empty() && !command.clip.starts_with("node="))
+        state.clip = clip_from_text(command.clip, state.clip, {});
+}
+
+void read_run_config(const std::string& path, RunOptions& run) {
+    if (path.empty()) return;
+    std::vector<OptionText> given;
+    for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_file(path))
+        if (!item.inputs.empty()) given.push_back({item.name, item.inputs.front()});
+    std::erase_if(given, [](const OptionText& o) { return o.name == "output" || o.name == "quiet" || o.name == "verbose"; });
+    const std::int32_t parts = run.decompose.parts;
+    set_options(run, given, path);
+    if (parts > 0) run.decompose.parts = parts;
+}
+
+}  // namespace
+
+void snap_to_cut(Clip& clip, const Document& document, NodeId node) {
+    const TreeRow* row = document.tree.find(node);
+    if (!row || !row->plane)
+        throw Error(ErrorCode::usage, fmt::format("Node {} was not cut, so that there is no plane to clip at.", node));
+    clip.on = true;
+    clip.normal = row->plane->normal;
+    const double half = clip.normal.cwiseAbs().dot(document.box.sizes()) / 2;
+    const double middle = clip.normal.dot(document.box.center());
+    clip.position = half > 0 ? (clip.normal.dot(row->plane->origin) - middle) / (2 * half) + 0.5 : 0.5;
+}
+
+Clip clip_from_text(const std::string& text, const Clip& before, const Document& document) {
+    Clip clip = before;
+    clip.on = true;
+    const std::size_t equals = text.find('=');
+    if (equals == text.npos) refuse_clip(text);
+    const std::string_view place = std::string_view(text).substr(0, equals);
+    const std::string_view value = std::string_view(text).substr(equals + 1);
+    if (place == "node") {
+        NodeId node = 0;
+        if (!parse_number(value, node) || node < 1) refuse_clip(text);
+        snap_to_cut(clip, document, node);
+        return clip;
+    }
+    if (!parse_normal(place, clip.normal, clip.flipped) || !parse_number(value, clip.position)) refuse_clip(text);
+    clip.normal.normalize();
+    return clip;
+}
+
+ViewCommand parse_view_command(int argc, const char* const* argv) {
+    ViewCommand command;
+    StateTexts texts;
+    CLI::App app(description, "kerf");
+    app.footer(footer);
+    app.require_subcommand(1);
+    CLI::App* view = app.add_subcommand("view", "Open the viewer.");
+    view->add_option("input", command.input, "What to open.")->type_name("INPUT");
+    CLI::App* screenshot = app.add_subcommand("screenshot", "Draw a picture without a display.");
+    screenshot->add_option("input", command.input, "What to open.")->type_name("INPUT")->required();
+    screenshot->add_option("-o,--output", command.output, "PNG file.")->type_name("FILE")->required();
+    screenshot->add_option("--size", texts.size, "Pixels of the picture. Default 1280x800.")->type_name("WxH");
+    screenshot->add_flag("--ui", command.panels, "With all panels, as in the window.");
+    screenshot->add_option("--timeout", command.timeout_seconds, "Seconds after which to give up. Default 600.")
+        ->check(CLI::PositiveNumber);
+    for (CLI::App* each : {view, screenshot}) {
+        each->get_formatter()->column_width(30);
+        add_scene_options(*each, command, texts);
+    }
+    try {
+        app.parse(argc, argv);
+        command.screenshot = screenshot->parsed();
+        apply(texts, command);
+        read_run_config(texts.config, command.run);
+    } catch (const CLI::ParseError& e) {
+        std::ostringstream out, err;
+        command.exit_code = app.exit(e, out, err) == 0 ? 0 : static_cast<int>(ErrorCode::usage);
+        command.print = command.exit_code == 0 ? out.str() : "kerf: " + err.str();
+    } catch (const Error& error) {
+        command.exit_code = static_cast<int>(error.code());
+        command.print = fmt::format("kerf: {}\n", error.what());
+    }
+    return command;
+}
+
+}  // namespace kerf::view

@@ -1,0 +1,33 @@
+// The command line of kerf-view: `kerf view` and `kerf screenshot` pass theirs on to it.
+#pragma once
+
+#include <string>
+
+#include "viewer/app/app.h"
+
+namespace kerf::view {
+
+struct ViewCommand {
+    bool screenshot = false;
+    std::string input;         ///< to open; empty: nothing
+    std::string output;        ///< PNG of a screenshot
+    int width = 1280, height = 800;
+    bool panels = false;       ///< the whole user interface in the screenshot
+    ViewState state;
+    std::string clip;          ///< as given: "x=0.3", "-z=0.5", "node=5", "1,1,0=0.4"
+    double timeout_seconds = 600;
+    RunOptions run;
+    std::string print;         ///< text to print instead (help, a usage error); empty: none
+    int exit_code = 0;         ///< of that
+};
+
+/// Never throws: what is wrong becomes `print` and exit code 2.
+ViewCommand parse_view_command(int argc, const char* const* argv);
+
+/// The clip plane that a text names; "node=N" needs the tree of the document. Throws Error(usage).
+Clip clip_from_text(const std::string& text, const Clip& before, const Document& document);
+
+/// The clip plane that coincides with the cut of a node. Throws Error(usage) if that was not cut.
+void snap_to_cut(Clip& clip, const Document& document, NodeId node);
+
+}  // namespace kerf::view

@@ -1,0 +1,139 @@
+// Keys and mouse of the scene; panels take theirs first.
+#include <algorithm>
+#include <cmath>
+
+#include <imgui.h>
+
+#include "viewer/app/app.h"
+#include "viewer/app/keys.h"
+#include "viewer/scene/selection.h"
+
+namespace kerf::view {
+
+namespace {
+
+constexpr float click_pixels = 4;  // a press that moves further is a drag
+constexpr double zoom_per_notch = 0.88;
+
+bool pressed(int key, bool repeat = false) { return ImGui::IsKeyPressed(key, repeat); }
+bool digit_pressed(int digit) { return pressed(key_0 + digit) || pressed(key_keypad_0 + digit); }
+
+bool contains(const Rectangle& r, const ImVec2& p) {
+    return p.x >= r.x && p.y >= r.y && p.x < r.x + r.width && p.y < r.y + r.height;
+}
+
+bool is_of_cells(const std::string& layer) { return layer.starts_with("cells ") || layer.starts_with("section "); }
+bool is_of_facets(const std::string& layer) {
+    return layer == "surface" || layer.starts_with("half ") || layer.starts_with("part ");
+}
+
+}  // namespace
+
+void App::take_character_keys() {
+    if (digit_pressed(1)) look(Direction::front);
+    if (digit_pressed(3)) look(Direction::right);
+    if (digit_pressed(7)) look(Direction::top);
+    if (digit_pressed(9)) {
+        Camera camera = camera_;
+        camera.turn = (Eigen::AngleAxisd(M_PI, Vec3::UnitZ()) * camera.turn).normalized();
+        state_.camera = camera;
+    }
+    if (digit_pressed(5)) {
+        Camera camera = camera_;
+        camera.perspective = !camera.perspective;
+        state_.camera = camera;
+    }
+    if (pressed(key_of('H'))) state_.panels.keys = !state_.panels.keys;
+    if (pressed(key_of('F'))) frame_selection();
+    if (pressed(key_of('C'))) state_.clip.on = !state_.clip.on;
+    if (pressed(key_of('E'))) state_.edges = !state_.edges;
+    if (pressed(key_space)) toggle_play();
+}
+
+void App::take_keys() {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.WantTextInput || ui_.wants_keyboard()) return;
+    if (io.KeyCtrl) {
+        if (pressed(key_of('O'))) ui_.open_browser();
+        if (pressed(key_of('R'))) reload();
+        if (pressed(key_of('Q'))) quit();
+        return;
+    }
+    if (pressed(key_left, true)) move_step(-1);
+    if (pressed(key_right, true)) move_step(1);
+    if (pressed(key_up, true)) move_node(-1);
+    if (pressed(key_down, true)) move_node(1);
+    if (pressed(key_home)) fit_all();
+    if (pressed(key_f12)) take_screenshot();
+    if (pressed(key_escape)) {
+        if (state_.panels.keys)
+            state_.panels.keys = false;
+        else
+            state_.selection = {};
+    }
+    take_character_keys();
+}
+
+void App::take_mouse() {
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool in_scene = !io.WantCaptureMouse && contains(area_, io.MousePos);
+    for (int button = 0; button < 3; ++button)
+        if (ImGui::IsMouseClicked(button)) pressed_in_scene_ = in_scene;
+    const double height = std::max(area_.height, 1.f);
+    if (pressed_in_scene_) {
+        const bool pans = ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2) || (ImGui::IsMouseDown(0) && io.KeyShift);
+        const bool orbits = ImGui::IsMouseDown(0) && !pans;
+        if (!dragging_ && (pans || orbits))
+            dragging_ = std::max({io.MouseDragMaxDistanceSqr[0], io.MouseDragMaxDistanceSqr[1],
+                                  io.MouseDragMaxDistanceSqr[2]}) > click_pixels * click_pixels;
+        if (dragging_ && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0) && (pans || orbits)) {
+            Camera camera = camera_;
+            (pans ? pan : orbit)(camera, io.MouseDelta.x / height, io.MouseDelta.y / height);
+            state_.camera = camera;
+        }
+        const bool is_double = ImGui::IsMouseDoubleClicked(0);
+        if (is_double || (ImGui::IsMouseReleased(0) && !dragging_)) take_click(io.MousePos.x, io.MousePos.y, is_double);
+        if (!ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2)) {
+            dragging_ = false;
+            pressed_in_scene_ = false;
+        }
+    }
+    if (in_scene && io.MouseWheel != 0) {
+        Camera camera = camera_;
+        const double x = (io.MousePos.x - area_.x - area_.width / 2) / height;
+        const double y = -(io.MousePos.y - area_.y - area_.height / 2) / height;
+        zoom_at(camera, std::pow(zoom_per_notch, io.MouseWheel), x, y);
+        state_.camera = camera;
+    }
+}
+
+// Selects what is under the cursor, or turns about it from now on.
+void App::take_click(float x, float y, bool center) {
+    const auto found = renderer_.pick(built_.scene, projection_, static_cast<int>(x), static_cast<int>(y));
+    if (!found) {
+        if (!center) state_.selection = {};
+        return;
+    }
+    const Vec3 point = built_.frame.to_file(found->point.cast<double>());
+    if (center) {
+        Camera camera = camera_;
+        const std::array<float, 3>& offset = built_.scene.find(found->layer)->ranges[found->range].offset;
+        const Eigen::Vector3f moved = found->point + Eigen::Vector3f(offset[0], offset[1], offset[2]);
+        camera.target = built_.frame.to_file(moved.cast<double>());
+        state_.camera = camera;
+        return;
+    }
+    const Hit hit{is_of_cells(found->layer), found->owner, found->element, point};
+    state_.selection = {};
+    if (hit.is_cell || is_of_facets(found->layer)) {
+        auto selection = select(session_, hit, state_.pick);
+        if (!selection && wait(5)) selection = select(session_, hit, state_.pick);
+        if (selection) state_.selection = *selection;
+    } else {
+        state_.selection.kind = Selection::Kind::place;
+        state_.selection.owner = found->owner;
+        state_.selection.place = point;
+    }
+}
+
+}  // namespace kerf::view

@@ -1,0 +1,59 @@
+// kerf-view: the viewer. `kerf view` and `kerf screenshot` start it; it lies beside kerf.
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "viewer/app/screenshot.h"
+#include "viewer/app/settings.h"
+#include "viewer/app/view_window.h"
+
+namespace kerf::view {
+
+namespace {
+
+AppOptions options_beside_this_program() {
+    const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+    AppOptions options;
+    options.kerf_program = (folder / "kerf").string();
+    options.shader_folder = (folder / "shaders").string();
+    return options;
+}
+
+int run(int argc, const char* const* argv) {
+    const ViewCommand command = parse_view_command(argc, argv);
+    if (!command.print.empty()) {
+        fmt::print(command.exit_code == 0 ? stdout : stderr, "{}", command.print);
+        return command.exit_code;
+    }
+    AppOptions options = options_beside_this_program();
+    options.run = command.run;
+    if (command.screenshot) {
+        take_screenshot(command, options);
+    } else {
+        options.config_folder = user_config_folder();
+        view_in_window(command, options);
+    }
+    return 0;
+}
+
+}  // namespace
+
+}  // namespace kerf::view
+
+int main(int argc, char** argv) {
+    try {
+        return kerf::view::run(argc, argv);
+    } catch (const kerf::Error& error) {
+        fmt::print(stderr, "kerf: {}\n", error.what());
+        return static_cast<int>(error.code());
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "kerf: out of memory.\n");
+        return static_cast<int>(kerf::ErrorCode::memory);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "kerf: internal error: {}\n", error.what());
+        return static_cast<int>(kerf::ErrorCode::internal);
+    }
+}

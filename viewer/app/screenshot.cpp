@@ -1,0 +1,104 @@
+#include "viewer/app/screenshot.h"
+
+#include <chrono>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "core/error.h"
+#include "viewer/render/offscreen.h"
+
+namespace kerf::view {
+
+namespace {
+
+constexpr float frame_seconds = 1.f / 60;
+
+class Deadline {
+ public:
+    explicit Deadline(double seconds) : end_(std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds)) {}
+    void check() const {
+        if (std::chrono::steady_clock::now() > end_)
+            throw Error(ErrorCode::cancelled, "The picture was not ready in time. Raise --timeout.");
+    }
+
+ private:
+    std::chrono::time_point<std::chrono::steady_clock, std::chrono::duration<double>> end_;
+};
+
+// What the wanted stage needs of a surface.
+bool needs_run(const ViewState& state) { return state.node != 1 || state.step != Step{}; }
+
+void wait_for_document(App& app, const ViewCommand& command, const Deadline& deadline) {
+    Session& session = app.session();
+    const auto is_ready = [&] {
+        const Document& document = session.document();
+        if (!document.error.empty()) return true;
+        if (document.kind == Document::Kind::surface) {
+            if (!document.checked) return false;
+            if (document.has_problems()) return true;
+        }
+        return !session.busy() && !session.pending();
+    };
+    while (!is_ready()) {
+        app.wait(0.05);
+        deadline.check();
+    }
+    if (session.document().kind != Document::Kind::surface || session.document().has_problems()) return;
+    if (!needs_run(command.state) && !command.clip.starts_with("node=")) return;
+    RunOptions run = command.run;
+    run.input = session.document().path;
+    session.start_run(run, command.state.step.stage == Stage::tetrahedra);
+    while (session.busy()) {
+        app.wait(0.05);
+        deadline.check();
+    }
+    const Progress& progress = session.document().progress;
+    if (!progress.message.empty() && session.document().tree.rows.empty())
+        throw Error(ErrorCode::subdomain, progress.message);
+}
+
+// A wish that cannot be met is an error here; in the window it is only a wish.
+void check_wishes(const Document& document, const ViewState& state) {
+    if (!document.error.empty() && !document.checked) throw Error(ErrorCode::io, document.error);
+    if (!needs_run(state)) return;
+    if (document.has_problems())
+        throw Error(ErrorCode::input, fmt::format("{} cannot be meshed as it is, so that there is only its stage 'input'. "
+                                                  "Run kerf check on it.",
+                                                  document.path));
+    if (!document.tree.find(state.node))
+        throw Error(ErrorCode::usage, fmt::format("The tree of {} has no node {}.", document.path, state.node));
+    const std::vector<Step> steps = steps_of(document, state.node);
+    if (!(steps[nearest_step(steps, state.step)] == state.step)) {
+        std::vector<std::string> names;
+        for (const Step& step : steps) names.push_back(name(step));
+        throw Error(ErrorCode::usage, fmt::format("Node {} of {} has no stage '{}', but {}.", state.node, document.path,
+                                                  name(state.step), fmt::join(names, ", ")));
+    }
+}
+
+}  // namespace
+
+void take_screenshot(const ViewCommand& command, const AppOptions& options) {
+    const Deadline deadline(command.timeout_seconds);
+    const OffscreenContext context;
+    const ImGuiOwner imgui;
+    ImGui::GetIO().DeltaTime = frame_seconds;
+    AppOptions own = options;
+    own.auto_run = false;
+    App app(context.gl(), own);
+    app.open(command.input);
+    wait_for_document(app, command, deadline);
+    const Document& document = app.session().document();
+    app.state() = command.state;
+    if (command.clip.starts_with("node=")) app.state().clip = clip_from_text(command.clip, command.state.clip, document);
+    check_wishes(document, app.state());
+    do {
+        deadline.check();
+        app.frame(command.width, command.height, 1, command.panels);
+    } while (!app.settled());
+    if (!app.session().failures().empty()) throw Error(ErrorCode::io, app.session().failures().back());
+    write_png(command.output, app.picture());
+}
+
+}  // namespace kerf::view

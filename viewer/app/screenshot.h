@@ -1,0 +1,12 @@
+// Pictures without a display.
+#pragma once
+
+#include "viewer/app/command_line.h"
+
+namespace kerf::view {
+
+/// Opens the input, waits until all that is to be shown is there, and writes the picture. Throws Error: of the input
+/// if it cannot be shown (a surface with problems can), usage for a node or stage that there is not, cancelled never.
+void take_screenshot(const ViewCommand& command, const AppOptions& options);
+
+}  // namespace kerf::view

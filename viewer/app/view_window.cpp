@@ -1,0 +1,42 @@
+#include "viewer/app/view_window.h"
+
+#include "viewer/render/window.h"
+
+namespace kerf::view {
+
+namespace {
+
+// How long to sleep for events: what plays, runs or is being read is looked at in between.
+double seconds_to_wait(App& app) {
+    if (app.facts().playing || app.session().busy() || app.session().document().progress.running) return 0.05;
+    return app.settled() ? 0.5 : 0;
+}
+
+}  // namespace
+
+void view_in_window(const ViewCommand& command, const AppOptions& options) {
+    const ImGuiOwner imgui;
+    Window window("Kerf", command.width, command.height);
+    App app(window.gl(), options);
+    if (!command.input.empty()) app.open(command.input);
+    const Theme theme = app.state().theme;
+    app.state() = command.state;
+    if (command.state.theme == Theme::light) app.state().theme = theme;
+    bool clip_waits = command.clip.starts_with("node=");
+    std::string title;
+    while (!window.should_close() && !app.wants_to_quit()) {
+        if (window.take_events(seconds_to_wait(app))) app.wake();
+        for (const std::string& path : window.take_dropped_files()) app.open(path);
+        if (clip_waits && !app.session().document().tree.rows.empty()) {
+            clip_waits = false;
+            app.state().clip = clip_from_text(command.clip, command.state.clip, app.session().document());
+        }
+        if (!app.wants_frame()) continue;
+        app.frame(window.pixel_width(), window.pixel_height(), window.content_scale(), true);
+        app.present();
+        window.swap();
+        if (title != app.window_title()) window.set_title(title = app.window_title());
+    }
+}
+
+}  // namespace kerf::view

@@ -1,0 +1,132 @@
+#include "viewer/model/camera.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kerf::view {
+
+namespace {
+
+constexpr double half_field_of_view = 15 * M_PI / 180;  // from the middle to the upper border
+constexpr double margin = 1.04;                         // of what is fitted
+constexpr double orbit_per_height = M_PI;               // a drag over the whole viewport turns by half a turn
+
+Eigen::Quaterniond turn_of(const Vec3& right, const Vec3& up) {
+    Eigen::Matrix3d columns;
+    columns << right, up, right.cross(up);
+    return Eigen::Quaterniond(columns).normalized();
+}
+
+// Distances of the box's nearest and farthest point along the view, from the eye.
+std::array<double, 2> depth_range(const Camera& camera, const Eigen::AlignedBox3d& box) {
+    const Vec3 eye = camera.target + camera.distance() * camera.back();
+    const double middle = (eye - box.center()).dot(camera.back());
+    const double half = box.sizes().cwiseAbs().dot(camera.back().cwiseAbs()) / 2;
+    return {middle - half, middle + half};
+}
+
+}  // namespace
+
+double Camera::distance() const { return height / 2 / std::tan(half_field_of_view); }
+
+Frame Frame::around(const Eigen::AlignedBox3d& box) {
+    Frame frame;
+    if (box.isEmpty()) return frame;
+    frame.center = box.center();
+    const double diagonal = box.diagonal().norm();
+    frame.scale = diagonal > 0 ? 2 / diagonal : 1;
+    return frame;
+}
+
+void look_from(Camera& camera, Direction direction) {
+    const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
+    switch (direction) {
+        case Direction::front: camera.turn = turn_of(x, z); break;
+        case Direction::back: camera.turn = turn_of(-x, z); break;
+        case Direction::right: camera.turn = turn_of(y, z); break;
+        case Direction::left: camera.turn = turn_of(-y, z); break;
+        case Direction::top: camera.turn = turn_of(x, y); break;
+        case Direction::bottom: camera.turn = turn_of(x, -y); break;
+        case Direction::corner: {
+            const Vec3 back = Vec3(0.5, -0.8, 0.5).normalized();
+            const Vec3 right = z.cross(back).normalized();
+            camera.turn = turn_of(right, back.cross(right));
+            break;
+        }
+    }
+}
+
+void fit(Camera& camera, const Eigen::AlignedBox3d& box, double aspect) {
+    if (box.isEmpty()) return;
+    camera.target = box.center();
+    const Vec3 half = box.sizes() / 2;
+    const auto reach = [&](const Vec3& axis) { return half.dot(axis.cwiseAbs()); };
+    const double up = reach(camera.up()), right = reach(camera.right());
+    // In perspective what is nearer than the target is larger.
+    const double nearer = camera.perspective ? reach(camera.back()) * std::tan(half_field_of_view) : 0;
+    const double wanted = std::max(up, right / std::max(aspect, 1e-3)) + nearer;
+    camera.height = std::max(2 * margin * wanted, 1e-300);
+}
+
+void orbit(Camera& camera, double dx, double dy) {
+    // About the vertical axis of the file first, so that up stays up.
+    const double side = camera.up().z() < 0 ? -1 : 1;
+    const Eigen::AngleAxisd about_z(-side * dx * orbit_per_height, Vec3::UnitZ());
+    const Eigen::AngleAxisd about_right(-dy * orbit_per_height, Vec3::UnitX());
+    camera.turn = (about_z * camera.turn * about_right).normalized();
+}
+
+void pan(Camera& camera, double dx, double dy) {
+    camera.target += camera.height * (-dx * camera.right() + dy * camera.up());
+}
+
+void zoom_at(Camera& camera, double factor, double x, double y) {
+    const double height = camera.height * factor;
+    camera.target += (camera.height - height) * (x * camera.right() + y * camera.up());
+    camera.height = height;
+}
+
+Projection project(const Camera& camera, const Frame& frame, const Eigen::AlignedBox3d& box, int width, int height) {
+    Projection p;
+    p.width = width;
+    p.height = height;
+    const double distance = camera.distance() * frame.scale, half = camera.height * frame.scale / 2;
+    const Eigen::Matrix3d to_eye = camera.turn.toRotationMatrix().transpose();
+    Eigen::Matrix4d view = Eigen::Matrix4d::Identity();
+    view.topLeftCorner<3, 3>() = to_eye;
+    view.topRightCorner<3, 1>() = -to_eye * frame.to_draw(camera.target) - Vec3(0, 0, distance);
+    const double aspect = static_cast<double>(width) / height;
+    auto [near, far] = depth_range(camera, box);
+    const double slack = 0.01 * (far - near) + 1e-9;
+    near = (near - slack) * frame.scale;
+    far = (far + slack) * frame.scale;
+    Eigen::Matrix4d projection = Eigen::Matrix4d::Zero();
+    if (camera.perspective) {
+        near = std::max(near, distance / 100);
+        far = std::max(far, 2 * near);
+        projection(0, 0) = distance / half / aspect;
+        projection(1, 1) = distance / half;
+        projection(2, 2) = -(far + near) / (far - near);
+        projection(2, 3) = -2 * far * near / (far - near);
+        projection(3, 2) = -1;
+    } else {
+        projection(0, 0) = 1 / half / aspect;
+        projection(1, 1) = 1 / half;
+        projection(2, 2) = -2 / (far - near);
+        projection(2, 3) = -(far + near) / (far - near);
+        projection(3, 3) = 1;
+    }
+    p.view = view.cast<float>();
+    p.projection = projection.cast<float>();
+    return p;
+}
+
+Vec3 to_screen(const Projection& projection, const Frame& frame, const Vec3& point) {
+    Eigen::Vector4d q;
+    q << frame.to_draw(point), 1;
+    const Eigen::Vector4d clip = projection.projection.cast<double>() * (projection.view.cast<double>() * q);
+    const double w = std::abs(clip.w()) > 1e-12 ? clip.w() : 1e-12;
+    return {(clip.x() / w + 1) / 2 * projection.width, (1 - clip.y() / w) / 2 * projection.height, clip.z() / w};
+}
+
+}  // namespace kerf::view

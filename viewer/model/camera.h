@@ -1,0 +1,60 @@
+// Where one looks from, and the ways to move there.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "core/types.h"
+#include "viewer/scene/layer.h"
+
+namespace kerf::view {
+
+/// Coordinates are those of the file. `height` is what is seen of the plane through the target, from the lower to the
+/// upper border of the viewport, in perspective too: so both projections show the target alike.
+struct Camera {
+    Vec3 target = Vec3::Zero();
+    Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  ///< eye coordinates (x right, y up, z to the eye) to file
+    double height = 1;
+    bool perspective = true;
+
+    Vec3 right() const { return turn * Vec3::UnitX(); }
+    Vec3 up() const { return turn * Vec3::UnitY(); }
+    Vec3 back() const { return turn * Vec3::UnitZ(); }  ///< from the target to the eye
+    double distance() const;                            ///< of the eye from the target
+};
+
+/// The file's box in draw coordinates (scene/layer.h).
+struct Frame {
+    Vec3 center = Vec3::Zero();
+    double scale = 1;  ///< draw = (file - center) * scale
+
+    static Frame around(const Eigen::AlignedBox3d& box);
+    Vec3 to_draw(const Vec3& p) const { return (p - center) * scale; }
+    Vec3 to_file(const Vec3& p) const { return p / scale + center; }
+    std::array<float, 3> draw(const Vec3& p) const {
+        const Vec3 q = to_draw(p);
+        return {static_cast<float>(q.x()), static_cast<float>(q.y()), static_cast<float>(q.z())};
+    }
+};
+
+/// Named directions as in Blender; the z axis is up.
+enum class Direction { front, back, right, left, top, bottom, corner };
+void look_from(Camera& camera, Direction direction);
+
+/// Fits a sphere around the box into a viewport of the given width over height.
+void fit(Camera& camera, const Eigen::AlignedBox3d& box, double aspect);
+
+/// Moves by a drag in fractions of the viewport's height; y is down as on screens.
+void orbit(Camera& camera, double dx, double dy);
+void pan(Camera& camera, double dx, double dy);
+/// Zooms by a factor below 1 to come closer, so that what is at the cursor stays there. The cursor: from the centre of
+/// the viewport, in fractions of its height, y up.
+void zoom_at(Camera& camera, double factor, double x, double y);
+
+/// The matrices for a viewport of this size. `box` in coordinates of the file: everything that is drawn; it sets the
+/// near and far planes.
+Projection project(const Camera& camera, const Frame& frame, const Eigen::AlignedBox3d& box, int width, int height);
+
+/// A point of the file on the screen: pixels from the upper left corner of the viewport; z is the depth in [-1, 1].
+Vec3 to_screen(const Projection& projection, const Frame& frame, const Vec3& point);
+
+}  // namespace kerf::view

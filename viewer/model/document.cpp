@@ -1,0 +1,7 @@
+#include "viewer/model/document.h"
+
+namespace kerf::view {
+
+bool Document::has_problems() const { return !error.empty() || (checked && !checked->diagnosis.clean()); }
+
+}  // namespace kerf::view

@@ -1,0 +1,73 @@
+#include "viewer/model/file_kind.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+
+namespace kerf::view {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view partial_ending = ".kerf-partial";
+
+bool is_there(const fs::path& path) {
+    std::error_code ignored;
+    return fs::exists(path, ignored);
+}
+
+// Without a slash at the end.
+fs::path absolute(const std::string& path) {
+    const fs::path normal = fs::absolute(path).lexically_normal();
+    return normal.has_filename() ? normal : normal.parent_path();
+}
+
+bool begins_with_event(const std::string& path) {
+    constexpr std::size_t limit = 1 << 16;  // the first event is short
+    std::ifstream file(path, std::ios::binary);
+    if (file.peek() != '{') return false;
+    std::string line(limit, '\0');
+    file.read(line.data(), static_cast<std::streamsize>(limit));
+    line.resize(static_cast<std::size_t>(file.gcount()));
+    const nlohmann::json json = nlohmann::json::parse(line.substr(0, line.find('\n')), nullptr, false);
+    return json.is_object() && json.contains("event");
+}
+
+bool begins_like_trace(const std::string& path) {
+    char begin[8] = {};
+    std::ifstream(path, std::ios::binary).read(begin, sizeof begin);
+    return std::string_view(begin, sizeof begin) == "kerftrac";
+}
+
+}  // namespace
+
+OpenedPath tell_kind(const std::string& path) {
+    const std::string full = absolute(path).string();
+    const std::string folder =
+        full.ends_with(partial_ending) ? full.substr(0, full.size() - partial_ending.size()) : full;
+    const std::string partial = folder + std::string(partial_ending);
+    std::error_code ignored;
+    const bool is_file = is_there(full) && !fs::is_directory(full, ignored);
+    if (!is_file) {
+        // A run that is under way is of more interest than the one that it replaces, but only to who asks for it.
+        const bool asks_for_partial = full != folder;
+        if (!asks_for_partial && is_there(fs::path(folder) / "report.json")) return {OpenedPath::Kind::run, folder, ""};
+        if (is_there(fs::path(partial) / "work/run.json")) return {OpenedPath::Kind::partial_run, folder, partial};
+        if (is_there(fs::path(folder) / "report.json")) return {OpenedPath::Kind::run, folder, ""};
+        if (is_there(full))
+            throw Error(ErrorCode::io, fmt::format("{} is a folder without report.json, so it is no finished run. Open "
+                                                   "the folder that kerf mesh -o has written, or a surface file.",
+                                                   path));
+        return {};
+    }
+    if (begins_like_trace(full)) return {OpenedPath::Kind::trace, "", ""};
+    if (begins_with_event(full)) return {OpenedPath::Kind::events, "", ""};
+    return {};
+}
+
+}  // namespace kerf::view

@@ -1,0 +1,24 @@
+// What kind of thing lies under a path.
+#pragma once
+
+#include <string>
+
+namespace kerf::view {
+
+struct OpenedPath {
+    enum class Kind {
+        surface,  ///< or what nobody knows: the reader of surfaces says what is wrong
+        trace,
+        events,
+        run,          ///< a finished one
+        partial_run,  ///< one that is under way, or was interrupted
+    };
+    Kind kind = Kind::surface;
+    std::string folder;   ///< of a run, absolute: where it is or will be when it is finished
+    std::string partial;  ///< of one that is not: where it is now
+};
+
+/// Looks at names and the first bytes. Throws Error(io) for a folder that is no run.
+OpenedPath tell_kind(const std::string& path);
+
+}  // namespace kerf::view

@@ -1,0 +1,53 @@
+// What the files of a run's parts hold, as the viewer has it. All functions read; nothing is kept.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "viewer/model/document.h"
+#include "viewer/model/view_state.h"
+
+namespace kerf::view {
+
+/// FOLDER/parts/part_0008.vtu and FOLDER/parts/part_0008.surface.vtu.
+std::string part_file_of(const std::string& folder, NodeId part);
+std::string part_surface_file_of(const std::string& folder, NodeId part);
+
+/// The node at whose cut two parts came apart.
+NodeId common_ancestor(NodeId a, NodeId b);
+
+/// The closed surface of a part. Throws Error(io). `patch_names`, unless null, receives those of the file.
+NodeSurface read_part_surface(const std::string& folder, NodeId part, std::vector<std::string>* patch_names = nullptr);
+
+/// A part below a node, and its surface if that is at hand.
+using PartBelow = std::pair<NodeId, std::shared_ptr<const NodeSurface>>;
+
+/// The surface of a node: those of the parts below it without the interfaces between them, vertices merged by number;
+/// facets in the order of the parts. Reads what is not at hand. Throws Error(io).
+NodeSurface join_part_surfaces(const std::string& folder, NodeId node, const std::vector<PartBelow>& parts);
+
+/// The tetrahedra of a part. Throws Error(io).
+PartCells read_part_cells(const std::string& folder, NodeId part);
+
+/// The array of the part files with a measure; nullptr if it has to be computed from the cells.
+const char* stored_array(ColorBy color);
+
+/// A value for every cell, computed: `kind`, `volume`, `edge_length` and the measures that files hold.
+std::vector<float> values_of_cells(const PartCells& cells, ColorBy color);
+/// As the file has them, or computed from the cells, which are read unless they are given. Throws Error(io).
+std::vector<float> read_values_of_cells(const std::string& folder, NodeId part, ColorBy color, const PartCells* cells);
+/// The same for the cells behind the facets of the part's surface; NaN where there is none.
+std::vector<float> read_values_at_facets(const std::string& folder, NodeId part, ColorBy color, const PartCells* cells);
+
+/// The `count` worst cells of the parts, worst first; of equal ones that of the smaller part, then the smaller cell.
+/// Returns nothing if `is_stale` becomes true, which is asked before each part. Throws Error(io).
+std::vector<WorstCell> find_worst_cells(const std::string& folder, const std::vector<NodeId>& parts, ColorBy color,
+                                        std::size_t count, const std::function<bool()>& is_stale);
+
+/// The bounding box of the surfaces of parts. Throws Error(io).
+Eigen::AlignedBox3d box_of_parts(const std::string& folder, const std::vector<NodeId>& parts);
+
+}  // namespace kerf::view

@@ -1,0 +1,155 @@
+#include "viewer/model/run_report.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "io/file_bytes.h"
+#include "mesh/quality.h"
+
+namespace kerf::view {
+
+namespace {
+
+using Json = nlohmann::json;
+
+// Numbers that are not finite are null in a report.
+double number(const Json& json, const char* name) {
+    const auto found = json.find(name);
+    return found != json.end() && found->is_number() ? found->get<double>() : -1;
+}
+
+Vec3 vector_of(const Json& json) {
+    Vec3 v;
+    for (int i = 0; i < 3; ++i) v[i] = json.at(static_cast<std::size_t>(i)).get<double>();
+    return v;
+}
+
+void read_cut(const Json& cut, TreeRow& row) {
+    row.rung = cut.at("rung").get<std::string>();
+    row.tries = cut.at("tries").get<std::int32_t>();
+    row.seconds = number(cut, "seconds");
+    if (row.state != NodeState::divided) return;
+    row.plane = Plane(vector_of(cut.at("plane").at("point")), vector_of(cut.at("plane").at("normal")));
+    row.contour_length = number(cut, "contour_length");
+    row.section_area = number(cut, "section_area");
+    row.interface_area = number(cut, "interface_area");
+    row.interface_faces = cut.at("interface_faces").get<std::int32_t>();
+    row.loops = cut.at("loops").get<std::int32_t>();
+    row.min_angle_deg = number(cut, "min_interface_angle_deg");
+    row.min_dihedral_deg = number(cut, "min_dihedral_deg");
+}
+
+void read_node(const Json& node, Tree& tree) {
+    TreeRow& row = tree.at(node.at("id").get<NodeId>());
+    row.state = node.at("children").empty() ? NodeState::waiting : NodeState::divided;
+    row.leaves = node.at("leaves").get<std::int32_t>();
+    row.vertices = node.at("vertices").get<std::int64_t>();
+    row.facets = node.at("faces").get<std::int64_t>();
+    row.volume = number(node, "volume");
+    row.centroid = vector_of(node.at("centroid"));
+    row.eigenvalues = vector_of(node.at("eigenvalues"));
+    for (int i = 0; i < 3; ++i) row.axes.col(i) = vector_of(node.at("axes").at(static_cast<std::size_t>(i)));
+    if (node.contains("cut")) read_cut(node.at("cut"), row);
+}
+
+// Straight cuts of neighbours change a part after its node was described.
+void read_part_row(const Json& part, bool meshed, Tree& tree) {
+    TreeRow& row = tree.at(part.at("id").get<NodeId>());
+    row.vertices = part.at("surface_vertices").get<std::int64_t>();
+    row.facets = part.at("surface_faces").get<std::int64_t>();
+    row.volume = number(part, "surface_volume");
+    row.load = number(part, "load");
+    row.rank = part.at("rank").get<std::int32_t>();
+    if (!meshed) return;
+    row.tets = part.at("tets").get<std::int64_t>();
+    row.seconds = number(part, "seconds");
+    row.state = part.contains("error") ? NodeState::failed : NodeState::done;
+    row.message = part.value("error", "");
+}
+
+std::string option_text(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+
+// An option of another version is no reason not to show the run.
+void read_options(const Json& json, RunReportFile& report) {
+    for (const auto& [name, value] : json.items()) {
+        try {
+            set_options(report.options, {{name, option_text(value)}}, "The report");
+        } catch (const Error&) {
+            report.notes.push_back(fmt::format("The option {} of the run is not known to this version", name));
+        }
+    }
+}
+
+std::optional<MeasureHistogram> read_histogram(const Json& quality, const char* measure) {
+    MeasureHistogram histogram;
+    const Json& all = quality.at("all").at(measure);
+    histogram.edges = all.at("histogram").at("edges").get<std::vector<double>>();
+    const auto counts = [&](const char* cells) {
+        return quality.at(cells).at(measure).at("histogram").at("counts").get<std::vector<std::int64_t>>();
+    };
+    histogram.all = counts("all");
+    histogram.interface = counts("interface");
+    histogram.interior = counts("interior");
+    histogram.min = number(all, "min");
+    histogram.max = number(all, "max");
+    histogram.median = number(all, "median");
+    const bool is_empty =
+        std::all_of(histogram.all.begin(), histogram.all.end(), [](std::int64_t count) { return count == 0; });
+    return is_empty ? std::nullopt : std::optional(std::move(histogram));
+}
+
+RunReportFile from_json(const Json& json) {
+    RunReportFile report;
+    const Json& input = json.at("input");
+    read_options(json.at("options"), report);
+    report.options.input = input.at("path").get<std::string>();
+    report.input_facets = input.at("faces").get<std::int64_t>();
+    report.input_vertices = input.at("vertices").get<std::int64_t>();
+    report.volume = number(input, "volume");
+    for (const Json& note : input.value("notes", Json::array())) report.notes.push_back(note.get<std::string>());
+    for (const Json& node : json.at("tree")) read_node(node, report.tree);
+    const Json& parts = json.at("parts");
+    const bool meshed = json.at("totals").at("tets").get<std::int64_t>() > 0 ||
+                        std::any_of(parts.begin(), parts.end(), [](const Json& p) { return p.contains("error"); });
+    report.options.volume = meshed;
+    for (const Json& part : parts) read_part_row(part, meshed, report.tree);
+    for (std::size_t i = 0; i < quality_measures.size(); ++i)
+        report.histograms[i] = read_histogram(json.at("quality"), quality_measures[i]);
+    report.seconds = number(json.at("totals"), "wall_seconds");
+    report.exit_code = json.at("exit_code").get<int>();
+    if (report.exit_code == static_cast<int>(ErrorCode::verification))
+        report.notes.push_back("The verification of this run has failed: see its report");
+    return report;
+}
+
+}  // namespace
+
+RunReportFile read_report(const std::string& folder) {
+    const std::string path = folder + "/report.json";
+    const std::string text = read_file(path);
+    try {
+        return from_json(Json::parse(text));
+    } catch (const Json::exception& error) {
+        throw Error(ErrorCode::io,
+                    fmt::format("{} is damaged or no report of a run: {}. Repeat the run.", path, error.what()));
+    }
+}
+
+bool is_trace_of(const Trace& trace, const Tree& tree) {
+    std::size_t divided = 0;
+    for (const TreeRow& row : tree.rows) {
+        if (row.leaf()) continue;
+        ++divided;
+        const Cut* cut = trace.find(row.id);
+        if (!cut || !cut->made()) return false;
+        if (row.plane && (cut->plane.origin != row.plane->origin || cut->plane.normal != row.plane->normal))
+            return false;
+    }
+    return divided == static_cast<std::size_t>(std::count_if(trace.cuts.begin(), trace.cuts.end(),
+                                                             [](const Cut& cut) { return cut.made(); }));
+}
+
+}  // namespace kerf::view

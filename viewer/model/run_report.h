@@ -1,0 +1,31 @@
+// report.json back into memory.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viewer/model/document.h"
+
+namespace kerf::view {
+
+/// What the viewer shows of a report.
+struct RunReportFile {
+    Tree tree;
+    RunOptions options;  ///< with the input's path
+    std::int64_t input_facets = 0, input_vertices = 0;
+    double volume = 0;
+    double seconds = 0;  ///< of the whole run
+    std::array<std::optional<MeasureHistogram>, 8> histograms;
+    std::vector<std::string> notes;
+    int exit_code = 0;
+};
+
+/// Reads FOLDER/report.json. Throws Error(io) if it cannot be read or is none.
+RunReportFile read_report(const std::string& folder);
+
+/// Whether the cuts of the tree are those of the trace, as far as their planes are known.
+bool is_trace_of(const Trace& trace, const Tree& tree);
+
+}  // namespace kerf::view

@@ -1,0 +1,81 @@
+// Opens files and folders, starts and follows runs, and fetches what is asked for in the background.
+//
+// All calls come from one thread; nothing blocks but wait(). A second thread reads and computes. Results depend on the
+// files alone; only when they are there depends on time.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "viewer/model/document.h"
+#include "viewer/model/view_state.h"
+
+namespace kerf::view {
+
+class Session {
+ public:
+    /// `kerf_program`: the path of kerf, which makes the runs, in a process of its own; kerf-worker lies beside it.
+    explicit Session(std::string kerf_program);
+    /// Ends a run that it started, and removes its folder if the user gave it none.
+    ~Session();
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    /// Opens a surface file, a trace, a run folder, the folder of a run that is under way (DIR or DIR.kerf-partial), or
+    /// its events (a file of --events). Cancels what was open. Never throws: what fails is in document().error.
+    void open(const std::string& path);
+    void reload();
+    void close();
+
+    /// Takes over what has arrived since the last call; returns whether anything has. Cheap; called once a frame.
+    bool poll();
+    /// Polls until something arrives, at most `seconds`; false if nothing did.
+    bool wait(double seconds);
+    /// Something is being fetched, or a run of ours is under way.
+    bool busy() const;
+
+    const Document& document() const;
+
+    /// Cuts and, if `volume`, meshes the surface that is open, with options.decompose and so on as given, into
+    /// options.output, or into a temporary folder if that is empty. The document fills as it goes.
+    void start_run(RunOptions options, bool volume);
+    /// Interrupts our run; it ends within two seconds.
+    void cancel_run();
+
+    /// Makes the cut of one node again with other options, in the background; needs a trace. The result takes the
+    /// place of that cut in document().trace, and the one before is kept for comparison; what lay below it is gone.
+    void redo_cut(NodeId node, const RunOptions& options);
+    /// The cut of the node before redo_cut(), nullptr if there is none.
+    const Cut* cut_before(NodeId node) const;
+    /// The tree before the last start_run() that was finished, to compare with; empty if there is none.
+    const Tree& tree_before() const;
+
+    // What follows returns what is in memory, or nullptr, and then fetches it: poll() says when it is there. The least
+    // recently used leave the memory.
+
+    /// The closed surface of a node: of a trace by its cuts, of a run folder from the surfaces of its parts.
+    std::shared_ptr<const NodeSurface> surface(NodeId node);
+    /// The closed surface of a part of the run folder.
+    std::shared_ptr<const NodeSurface> part_surface(NodeId part);
+    /// The tetrahedra of a part of the run folder.
+    std::shared_ptr<const PartCells> cells(NodeId part);
+    /// A measure of every cell of a part. `color` must be a measure or `kind` (1 at an interface, else 0).
+    std::shared_ptr<const std::vector<float>> cell_values(NodeId part, ColorBy color);
+    /// The same for the cells behind the facets of a part's surface; reads no more than these values of the file where
+    /// it holds them.
+    std::shared_ptr<const std::vector<float>> facet_values(NodeId part, ColorBy color);
+    /// The `count` worst cells of the run by a measure, worst first: the smallest angle and shape, else the largest.
+    std::shared_ptr<const std::vector<WorstCell>> worst_cells(ColorBy color, std::size_t count);
+    /// Something that was asked for is being fetched.
+    bool pending() const;
+    /// What failed to be fetched, newest last.
+    const std::vector<std::string>& failures() const;
+
+ private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace kerf::view

@@ -1,0 +1,305 @@
+// What is asked for is fetched once: its key is in the store, or among those being fetched, or among the failed ones.
+#include "viewer/model/session_impl.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "surface/mass_properties.h"
+#include "viewer/model/node_surface.h"
+#include "viewer/model/part_files.h"
+#include "viewer/model/tree_source.h"
+
+namespace kerf::view {
+
+namespace {
+
+std::size_t bytes_of_value(const NodeSurface& value) { return bytes_of(value); }
+std::size_t bytes_of_value(const PartCells& value) { return bytes_of(value); }
+template <class T>
+std::size_t bytes_of_value(const std::vector<T>& value) {
+    return sizeof value + bytes_of(value);
+}
+
+bool can_be_fetched(ColorBy color) { return is_measure(color) || color == ColorBy::kind; }
+
+// Depth first, parents before children.
+void sort_depth_first(std::vector<NodeId>& nodes) {
+    const auto path = [](NodeId node) { return std::pair(node << (30 - level_of(node)), level_of(node)); };
+    std::sort(nodes.begin(), nodes.end(), [&](NodeId a, NodeId b) { return path(a) < path(b); });
+}
+
+}  // namespace
+
+template <class T>
+std::shared_ptr<const T> Session::Impl::kept(const Store::Key& key) {
+    asked_ = true;
+    return store_.find<T>(key);
+}
+
+// For what is not kept. `make` runs on the loader's thread.
+template <class T, class Make>
+std::shared_ptr<const T> Session::Impl::fetch(const Store::Key& key, Make make) {
+    if (fetching_.contains(key) || failed_.contains(key)) return nullptr;
+    if (store_.is_full()) {
+        if (!told_of_full_store_)
+            note_failure(fmt::format("What is shown fills the {} GB that the viewer allows itself. Hide some parts.",
+                                     store_bytes >> 30));
+        told_of_full_store_ = true;
+        return nullptr;
+    }
+    fetching_.insert(key);
+    const auto work = [this, key, make]() -> Loader::Completion {
+        Fetched<T> fetched = make();
+        const std::size_t bytes = bytes_of_value(fetched.value);
+        return [this, key, value = std::make_shared<const T>(std::move(fetched.value)), bytes, also = fetched.also] {
+            fetching_.erase(key);
+            store_.insert(key, value, bytes);
+            if (also) also();
+        };
+    };
+    const auto failed = [this, key, folder = document_.folder](const std::string& message) {
+        fetching_.erase(key);
+        std::error_code ignored;
+        if (!folder.empty() && !std::filesystem::exists(folder, ignored)) return;  // the run has just moved it
+        failed_.insert(key);
+        note_failure(message);
+    };
+    post(data_, work, failed);
+    return nullptr;
+}
+
+// Of nodes that a report describes the row stays as it is.
+Loader::Completion Session::Impl::fill_row(NodeId node, std::int64_t vertices, std::int64_t facets,
+                                           const MassProperties& mass) {
+    return [this, node, vertices, facets, mass] {
+        TreeRow* row = document_.tree.find(node);
+        if (row && !row->centroid) describe_surface(vertices, facets, mass, *row);
+    };
+}
+
+std::shared_ptr<const NodeSurface> Session::Impl::surface(NodeId node) {
+    const Store::Key key{Store::Kind::surface, node};
+    if (!document_.tree.find(node)) return nullptr;
+    if (auto found = kept<NodeSurface>(key)) return found;
+    if (replayer_)
+        return fetch<NodeSurface>(key, [this, replayer = replayer_, node]() -> Fetched<NodeSurface> {
+            const std::shared_ptr<const Surface> surface = replayer->surface(node);
+            return {node_surface_of(*surface),
+                    fill_row(node, surface->vertex_count(), surface->facet_count(), mass_properties(*surface))};
+        });
+    if (!folder_parts_.empty()) {
+        std::vector<PartBelow> parts;
+        for (const NodeId part : document_.tree.parts_below(node))
+            if (folder_parts_.contains(part))
+                parts.emplace_back(part, store_.find<NodeSurface>({Store::Kind::part_surface, part}));
+        return fetch<NodeSurface>(key, [folder = document_.folder, node, parts]() -> Fetched<NodeSurface> {
+            return {join_part_surfaces(folder, node, parts), {}};
+        });
+    }
+    if (!document_.soup || node != 1) return nullptr;
+    return fetch<NodeSurface>(key, [soup = document_.soup]() -> Fetched<NodeSurface> {
+        return {node_surface_of(*soup), {}};
+    });
+}
+
+std::shared_ptr<const NodeSurface> Session::Impl::part_surface(NodeId part) {
+    const Store::Key key{Store::Kind::part_surface, part};
+    if (!folder_parts_.contains(part)) return nullptr;
+    if (auto found = kept<NodeSurface>(key)) return found;
+    return fetch<NodeSurface>(key, [folder = document_.folder, part]() -> Fetched<NodeSurface> {
+        return {read_part_surface(folder, part), {}};
+    });
+}
+
+bool Session::Impl::is_meshed(NodeId part) const {
+    const TreeRow* row = document_.tree.find(part);
+    return row && row->state == NodeState::done && folder_parts_.contains(part);
+}
+
+std::shared_ptr<const PartCells> Session::Impl::cells(NodeId part) {
+    const Store::Key key{Store::Kind::cells, part};
+    if (!is_meshed(part)) return nullptr;
+    if (auto found = kept<PartCells>(key)) return found;
+    return fetch<PartCells>(key, [folder = document_.folder, part]() -> Fetched<PartCells> {
+        return {read_part_cells(folder, part), {}};
+    });
+}
+
+std::shared_ptr<const std::vector<float>> Session::Impl::cell_values(NodeId part, ColorBy color) {
+    const Store::Key key{Store::Kind::cell_values, part, static_cast<int>(color)};
+    if (!is_meshed(part) || !can_be_fetched(color)) return nullptr;
+    if (auto found = kept<std::vector<float>>(key)) return found;
+    const auto at_hand = store_.find<PartCells>({Store::Kind::cells, part});
+    return fetch<std::vector<float>>(
+        key, [folder = document_.folder, part, color, at_hand]() -> Fetched<std::vector<float>> {
+            return {read_values_of_cells(folder, part, color, at_hand.get()), {}};
+        });
+}
+
+std::shared_ptr<const std::vector<float>> Session::Impl::facet_values(NodeId part, ColorBy color) {
+    const Store::Key key{Store::Kind::facet_values, part, static_cast<int>(color)};
+    if (!is_meshed(part) || !can_be_fetched(color)) return nullptr;
+    if (auto found = kept<std::vector<float>>(key)) return found;
+    const auto at_hand = store_.find<PartCells>({Store::Kind::cells, part});
+    return fetch<std::vector<float>>(
+        key, [folder = document_.folder, part, color, at_hand]() -> Fetched<std::vector<float>> {
+            return {read_values_at_facets(folder, part, color, at_hand.get()), {}};
+        });
+}
+
+std::shared_ptr<const std::vector<WorstCell>> Session::Impl::worst_cells(ColorBy color, std::size_t count) {
+    const Store::Key key{Store::Kind::worst_cells, 0, static_cast<int>(color), count};
+    if (!is_measure(color)) return nullptr;
+    if (auto found = kept<std::vector<WorstCell>>(key)) return found;
+    std::vector<NodeId> parts;
+    for (const NodeId part : document_.tree.parts_below(1))
+        if (is_meshed(part)) parts.push_back(part);
+    if (parts.empty()) return nullptr;
+    return fetch<std::vector<WorstCell>>(
+        key,
+        [folder = document_.folder, parts, color, count,
+         scope = std::shared_ptr<const Scope>(data_.scope)]() -> Fetched<std::vector<WorstCell>> {
+            return {find_worst_cells(folder, parts, color, count, [&] { return scope->has_ended(); }), {}};
+        });
+}
+
+// What is under way is of a tree or of files that are there no more.
+void Session::Impl::restart_data() {
+    data_.reset();
+    fetching_.clear();
+    failed_.clear();
+    told_of_full_store_ = false;
+    redoing_ = false;
+}
+
+void Session::Impl::forget_data() {
+    restart_data();
+    store_.clear();
+    replayer_.reset();
+    folder_parts_.clear();
+    redo_queue_.clear();
+    before_.clear();
+}
+
+// Vertices and facets of nodes have other numbers in a trace than in a run folder.
+void Session::Impl::use_trace(std::shared_ptr<Replayer> replayer) {
+    restart_data();
+    document_.trace = replayer->trace();
+    replayer_ = std::move(replayer);
+    store_.erase_if([](const Store::Key& key) { return key.kind == Store::Kind::surface; });
+    describe_cuts();
+    prefetch_surfaces();
+}
+
+// Where nothing has told of them yet.
+void Session::Impl::describe_cuts() {
+    for (const Cut& cut : document_.trace->cuts) {
+        TreeRow* row = document_.tree.find(cut.node);
+        if (!row || !row->rung.empty()) continue;
+        const NodeState state = row->state;
+        describe_cut(cut, *row);
+        row->state = state;
+    }
+}
+
+namespace {
+
+// What prefetching tasks share; only they look at it, one after the other.
+struct Prefetch {
+    std::shared_ptr<Replayer> replayer;
+    std::vector<NodeId> nodes;     // the next one last
+    std::set<NodeId> undescribed;  // whose rows lack what only the surface tells
+    std::size_t bytes = 0;
+    bool is_full = false;
+};
+
+}  // namespace
+
+// So that stepping through the tree is immediate: breadth first while there is room. What does not fit is still
+// described in its row, and visited depth first then, since the replayer has kept only the last surfaces.
+void Session::Impl::prefetch_surfaces() {
+    const auto state = std::make_shared<Prefetch>();
+    state->replayer = replayer_;
+    for (const TreeRow& row : document_.tree.rows) {
+        if (!row.centroid) state->undescribed.insert(row.id);
+        if (!row.centroid || !store_.holds({Store::Kind::surface, row.id})) state->nodes.push_back(row.id);
+    }
+    std::reverse(state->nodes.begin(), state->nodes.end());
+    const auto next = [this, state]() -> Loader::Completion {
+        if (state->nodes.empty()) return {};
+        const NodeId node = state->nodes.back();
+        state->nodes.pop_back();
+        const std::shared_ptr<const Surface> surface = state->replayer->surface(node);
+        Loader::Completion fill;
+        if (state->undescribed.contains(node))
+            fill = fill_row(node, surface->vertex_count(), surface->facet_count(), mass_properties(*surface));
+        if (state->is_full) return fill;
+        const auto value = std::make_shared<const NodeSurface>(node_surface_of(*surface));
+        const std::size_t bytes = bytes_of(*value);
+        state->bytes += bytes;
+        if (state->bytes > prefetch_bytes) {
+            state->is_full = true;
+            std::erase_if(state->nodes, [&](NodeId other) { return !state->undescribed.contains(other); });
+            sort_depth_first(state->nodes);
+            std::reverse(state->nodes.begin(), state->nodes.end());
+        }
+        return [this, node, value, bytes, fill] {
+            const Store::Key key{Store::Kind::surface, node};
+            if (!store_.holds(key)) store_.insert(key, value, bytes);
+            if (fill) fill();
+        };
+    };
+    for (std::size_t i = state->nodes.size(); i > 0; --i) loader_.post_idle({data_.scope, next, {}});
+}
+
+void Session::Impl::redo_cut(NodeId node, const RunOptions& options) {
+    if (!replayer_ || !document_.tree.find(node)) {
+        note_failure("A cut can be made again where a trace of the run is open.");
+        return;
+    }
+    redo_queue_.emplace_back(node, options);
+    start_redo();
+}
+
+// One after the other: each changes the trace.
+void Session::Impl::start_redo() {
+    if (redoing_ || redo_queue_.empty()) return;
+    const auto [node, options] = redo_queue_.front();
+    redo_queue_.pop_front();
+    redoing_ = true;
+    const auto work = [this, replayer = replayer_, id = node, given = options]() -> Loader::Completion {
+        const auto redone = std::make_shared<RedoneCut>(view::redo_cut(*replayer, id, given));
+        return [this, id, redone] { take_redone(id, std::move(*redone)); };
+    };
+    post(data_, work, [this](const std::string& message) {
+        redoing_ = false;
+        note_failure(message);
+        start_redo();
+    });
+}
+
+void Session::Impl::take_redone(NodeId node, RedoneCut redone) {
+    const auto is_gone = [&](NodeId id) { return id != node && lies_below(id, node); };
+    std::erase_if(document_.tree.rows, [&](const TreeRow& row) { return is_gone(row.id); });
+    for (TreeRow& row : redone.rows) {
+        if (row.id == node && document_.tree.find(node)) row.load = document_.tree.find(node)->load;
+        document_.tree.at(row.id) = row;
+    }
+    count_leaves(document_.tree);
+    std::erase_if(folder_parts_, [&](NodeId id) { return lies_below(id, node); });
+    std::erase_if(before_, [&](const auto& entry) { return is_gone(entry.first); });
+    if (redone.before) before_[node] = redone.before;
+    store_.erase_if([&](const Store::Key& key) {
+        return key.kind == Store::Kind::worst_cells || (key.node > 0 && lies_below(key.node, node));
+    });
+    restart_data();
+    replayer_ = redone.replayer;
+    document_.trace = redone.replayer->trace();
+    prefetch_surfaces();
+    start_redo();
+}
+
+}  // namespace kerf::view

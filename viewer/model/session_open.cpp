@@ -1,0 +1,296 @@
+// What lies under a path is read on the loader's thread, as far as the first picture needs it; the rest follows.
+#include "viewer/model/session_impl.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "io/surface_reader.h"
+#include "run/saved_run.h"
+#include "surface/mass_properties.h"
+#include "viewer/model/node_surface.h"
+#include "viewer/model/part_files.h"
+#include "viewer/model/tree_source.h"
+
+namespace kerf::view {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+Eigen::AlignedBox3d box_of(const std::vector<Vec3>& points) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : points)
+        if (p.allFinite()) box.extend(p);
+    return box;
+}
+
+std::string title_of(const std::string& path) {
+    const fs::path clean(path);
+    return (clean.has_filename() ? clean : clean.parent_path()).filename().string();
+}
+
+std::string existing_path(const std::string& path, const std::string& beside) {
+    std::error_code ignored;
+    if (fs::exists(path, ignored)) return fs::absolute(path, ignored).lexically_normal().string();
+    const fs::path other = fs::absolute(beside, ignored).parent_path() / fs::path(path).filename();
+    return fs::exists(other, ignored) ? other.lexically_normal().string() : path;
+}
+
+// Those of the trace; an option of another version is no reason not to show it.
+RunOptions options_for(const Trace& trace, const std::string& path) {
+    RunOptions options;
+    for (const OptionText& option : trace.options) {
+        try {
+            set_options(options, {option}, "The trace");
+        } catch (const Error&) {
+        }
+    }
+    options.input = existing_path(trace.input, path);
+    return options;
+}
+
+// What a run would cut, and its mass properties.
+struct Oriented {
+    std::int64_t vertices, facets;
+    MassProperties mass;
+};
+Oriented orient_copy(CheckedSoup checked) {
+    apply_repairs(checked);
+    SurfaceArrays arrays;
+    arrays.vertices = std::move(checked.soup.vertices);
+    arrays.facets = std::move(checked.soup.facets);
+    arrays.patch = std::move(checked.soup.patch);
+    arrays.vertex_key.assign(arrays.vertices.size(), 0);
+    arrays.facet_key.assign(arrays.facets.size(), 0);
+    const Surface surface(std::move(arrays));
+    return {surface.vertex_count(), surface.facet_count(), mass_properties(surface)};
+}
+
+// A run that is made from the options of another one shall not write over its files. Returns where its trace is.
+std::string take_files(RunOptions& options, const std::string& folder) {
+    const std::string trace = options.trace_file.empty() ? "" : existing_path(options.trace_file, folder);
+    for (std::string* file : {&options.report_file, &options.events_file, &options.trace_file}) file->clear();
+    return trace;
+}
+
+std::shared_ptr<const Soup> read_soup_if_there(const std::string& path) {
+    std::error_code ignored;
+    if (!fs::exists(path, ignored)) return nullptr;
+    try {
+        return std::make_shared<const Soup>(read_surface(path));
+    } catch (const Error&) {
+        return nullptr;
+    }
+}
+
+}  // namespace
+
+void Session::Impl::close() {
+    open_.reset();
+    watch_.reset();
+    forget_data();
+    if (process_) {
+        process_->interrupt();
+        leaving_.push_back(std::move(process_));
+    }
+    followed_.reset();
+    scratch_.reset();
+    tree_before_ = {};
+    failures_.clear();
+    document_ = {};
+    opening_ = false;
+}
+
+void Session::Impl::open(const std::string& path) {
+    close();
+    document_.path = path;
+    document_.title = title_of(path);
+    opening_ = true;
+    post(
+        open_, [this, path] { return read_what_is_there(path); },
+        [this](const std::string& message) { show_error(message); });
+}
+
+void Session::Impl::reload() {
+    if (!document_.path.empty()) open(std::string(document_.path));
+}
+
+Loader::Completion Session::Impl::read_what_is_there(const std::string& path) {
+    const OpenedPath what = tell_kind(path);
+    switch (what.kind) {
+        case OpenedPath::Kind::surface: {
+            auto soup = std::make_shared<const Soup>(read_surface(path));
+            auto surface = std::make_shared<const NodeSurface>(node_surface_of(*soup));
+            return [this, soup, surface] { show_soup(soup, surface); };
+        }
+        case OpenedPath::Kind::trace: {
+            auto trace = std::make_shared<const Trace>(read_trace(path));
+            return [this, trace, options = options_for(*trace, path)] { show_trace(trace, options); };
+        }
+        case OpenedPath::Kind::events:
+            return [this, path] { follow_events(path); };
+        case OpenedPath::Kind::run:
+            return [this, run = read_run(what.folder)]() mutable { show_run(std::move(run)); };
+        case OpenedPath::Kind::partial_run:
+            try {
+                return [this, run = read_partial_run(what)]() mutable { show_partial_run(std::move(run)); };
+            } catch (const Error&) {
+                if (tell_kind(what.folder).kind != OpenedPath::Kind::run) throw;
+                return
+                    [this, run = read_run(what.folder)]() mutable { show_run(std::move(run)); };  // it has just ended
+            }
+    }
+    return {};
+}
+
+void Session::Impl::show_error(const std::string& message) {
+    opening_ = false;
+    document_.error = message;
+}
+
+// The surface is there at once: it would wait for the check else.
+void Session::Impl::show_soup(std::shared_ptr<const Soup> soup, std::shared_ptr<const NodeSurface> surface) {
+    opening_ = false;
+    document_.kind = Document::Kind::surface;
+    document_.soup = soup;
+    document_.box = box_of(soup->vertices);
+    document_.patch_names = soup->patch_names;
+    document_.notes = soup->notes;
+    document_.input_vertices = static_cast<std::int64_t>(soup->vertices.size());
+    document_.input_facets = static_cast<std::int64_t>(soup->facets.size());
+    document_.options.input = fs::absolute(document_.path).lexically_normal().string();
+    TreeRow& root = document_.tree.at(1);
+    root.vertices = document_.input_vertices;
+    root.facets = document_.input_facets;
+    store_.insert({Store::Kind::surface, 1}, surface, bytes_of(*surface));
+    check_soup_in_background();
+}
+
+void Session::Impl::check_soup_in_background() {
+    const auto check = [this, soup = document_.soup]() -> Loader::Completion {
+        const auto checked = std::make_shared<const CheckedSoup>(check_soup(*soup));
+        std::optional<Oriented> oriented;
+        if (checked->diagnosis.clean()) oriented = orient_copy(*checked);
+        return [this, checked, oriented] {
+            document_.checked = checked;
+            TreeRow* root = document_.tree.find(1);
+            if (!oriented || !root || !root->leaf() || document_.trace) return;  // a run has told more since
+            describe_surface(oriented->vertices, oriented->facets, oriented->mass, *root);
+            document_.volume = oriented->mass.volume;
+        };
+    };
+    post(open_, check, [this](const std::string& message) { note_failure(message); });
+}
+
+void Session::Impl::describe_trace_input(const Trace& trace) {
+    document_.box = box_of(trace.surface.vertices);
+    document_.patch_names = trace.patch_names;
+    document_.input_vertices = static_cast<std::int64_t>(trace.surface.vertices.size());
+    document_.input_facets = static_cast<std::int64_t>(trace.surface.facets.size());
+    document_.volume = enclosed_volume(trace.surface.vertices, trace.surface.facets);
+}
+
+void Session::Impl::show_trace(std::shared_ptr<const Trace> trace, const RunOptions& options) {
+    opening_ = false;
+    document_.kind = Document::Kind::trace;
+    document_.options = options;
+    describe_trace_input(*trace);
+    document_.tree = tree_of(*trace);
+    use_trace(std::make_shared<Replayer>(std::move(trace), replayer_bytes));
+}
+
+Session::Impl::OpenedRun Session::Impl::read_run(const std::string& folder) {
+    OpenedRun run;
+    run.folder = folder;
+    run.report = read_report(folder);
+    run.report.options.input = existing_path(run.report.options.input, folder);
+    run.trace = take_files(run.report.options, folder);
+    const std::vector<NodeId> parts = run.report.tree.parts_below(1);
+    run.box = box_of_parts(folder, parts);
+    if (!parts.empty()) read_part_surface(folder, parts.front(), &run.patch_names);
+    return run;
+}
+
+// The tree, the numbers and the files of a finished run; a trace stays if its cuts are those of the run.
+void Session::Impl::complete_from_report(OpenedRun run) {
+    RunReportFile& report = run.report;
+    document_.folder = run.folder;
+    document_.tree = std::move(report.tree);
+    document_.options = report.options;
+    document_.histograms = std::move(report.histograms);
+    for (const std::string& note : report.notes)  // a run of the surface that is open repeats those of its reader
+        if (std::find(document_.notes.begin(), document_.notes.end(), note) == document_.notes.end())
+            document_.notes.push_back(note);
+    document_.volume = report.volume;
+    document_.box = run.box;
+    document_.patch_names = run.patch_names;
+    document_.input_facets = report.input_facets;
+    document_.input_vertices = report.input_vertices;
+    const std::vector<NodeId> parts = document_.tree.parts_below(1);
+    folder_parts_ = {parts.begin(), parts.end()};
+    Progress& progress = document_.progress;
+    progress.parts = static_cast<std::int64_t>(parts.size());
+    progress.parts_done = std::count_if(
+        parts.begin(), parts.end(), [&](NodeId part) { return document_.tree.find(part)->state == NodeState::done; });
+    progress.load_done = 1;
+    progress.seconds = report.seconds;
+}
+
+void Session::Impl::show_run(OpenedRun run) {
+    opening_ = false;
+    document_.kind = Document::Kind::run;
+    const std::string trace = run.trace;
+    complete_from_report(std::move(run));
+    find_trace_of_run(trace);
+}
+
+// The run says where it has written its trace; a later run may have written another one there.
+void Session::Impl::find_trace_of_run(const std::string& path) {
+    std::error_code ignored;
+    if (path.empty() || !fs::exists(path, ignored)) return;
+    const auto read = [this, path, tree = document_.tree]() -> Loader::Completion {
+        auto trace = std::make_shared<const Trace>(read_trace(path));
+        if (!is_trace_of(*trace, tree)) return {};
+        return [this, trace] { use_trace(std::make_shared<Replayer>(trace, replayer_bytes)); };
+    };
+    post(open_, read, [](const std::string&) {});  // the run can be shown without it
+}
+
+Session::Impl::OpenedPartialRun Session::Impl::read_partial_run(const OpenedPath& path) {
+    OpenedPartialRun run;
+    run.folder = path.folder;
+    run.partial = path.partial;
+    run.options = load_interrupted_run(path.folder);
+    run.trace = take_files(run.options, path.folder);
+    run.state = look_at_partial_run(path.partial, {});
+    const std::vector<NodeId> parts(run.state.parts.begin(), run.state.parts.end());
+    run.box = box_of_parts(path.partial, parts);
+    if (!parts.empty()) read_part_surface(path.partial, parts.front(), &run.patch_names);
+    run.soup = read_soup_if_there(run.options.input);
+    if (run.soup && run.box.isEmpty()) run.box = box_of(run.soup->vertices);
+    return run;
+}
+
+void Session::Impl::show_partial_run(OpenedPartialRun run) {
+    opening_ = false;
+    document_.kind = Document::Kind::run;
+    document_.options = run.options;
+    document_.folder = run.partial;
+    document_.box = run.box;
+    document_.patch_names = run.patch_names;
+    if (run.soup) {
+        document_.soup = run.soup;
+        document_.input_facets = static_cast<std::int64_t>(run.soup->facets.size());
+        document_.input_vertices = static_cast<std::int64_t>(run.soup->vertices.size());
+    }
+    followed_.emplace();
+    followed_->output = run.folder;
+    followed_->is_shown = true;
+    apply_state(run.state);
+    find_trace_of_run(run.trace);
+}
+
+}  // namespace kerf::view

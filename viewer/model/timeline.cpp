@@ -1,0 +1,164 @@
+#include "viewer/model/timeline.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "run/number_text.h"
+
+namespace kerf::view {
+
+namespace {
+
+bool has_edges(const Cut& cut, Stage stage) {
+    switch (stage) {
+        case Stage::crossed_edges: return !cut.stages.crossed_edges.empty();
+        case Stage::hanging_removed: return !cut.stages.hanging_edges_removed.empty();
+        case Stage::closed_loops: return !cut.stages.closed_loops.empty();
+        case Stage::paths_removed: return !cut.stages.multiple_paths_removed.empty();
+        default: return true;
+    }
+}
+
+// The best soft try is used where nothing better was found.
+bool is_used(const Cut& cut, const CutTry& attempt) {
+    if (attempt.refusal == Refusal::none) return true;
+    return cut.rung == Rung::soft && attempt.refusal == Refusal::soft && attempt.contour == cut.stages.smoothed;
+}
+
+void add_cut(const Cut& cut, std::vector<Step>& steps) {
+    for (std::size_t i = 0; i < cut.tries.size(); ++i)
+        if (!is_used(cut, cut.tries[i])) steps.push_back({Stage::plane, static_cast<std::int32_t>(i)});
+    if (!cut.made()) return;
+    for (int i = static_cast<int>(Stage::plane); i <= static_cast<int>(Stage::split); ++i)
+        if (has_edges(cut, static_cast<Stage>(i))) steps.push_back({static_cast<Stage>(i), -1});
+}
+
+bool is_meshed(const Document& document, NodeId node) {
+    if (document.folder.empty()) return false;
+    for (const NodeId part : document.tree.parts_below(node)) {
+        const TreeRow* row = document.tree.find(part);
+        if (row && row->state == NodeState::done && row->tets > 0) return true;
+    }
+    return false;
+}
+
+std::string describe_try(const CutTry& attempt, std::size_t number, std::size_t count) {
+    std::string text = fmt::format("Refused: {}", name(attempt.refusal));
+    if (!attempt.places.empty())
+        text += fmt::format(" at {} place{}", attempt.places.size(), attempt.places.size() == 1 ? "" : "s");
+    if (attempt.refusal == Refusal::soft)
+        text += fmt::format(" (dihedral {:.1f} deg, angle {:.1f} deg, gap {:.2f})", attempt.quality.dihedral_deg,
+                            attempt.quality.angle_deg, attempt.quality.gap_rel);
+    return text + fmt::format(". Try {} of {}: axis {}, step {}, repair {}.", number + 1, count, attempt.axis,
+                              attempt.step, attempt.repair);
+}
+
+std::string describe_input(const Document& document, const TreeRow* row) {
+    if (!row || row->facets < 0)
+        return fmt::format("{} facets, {} vertices.", grouped(document.input_facets), grouped(document.input_vertices));
+    std::string text = fmt::format("{} facets", grouped(row->facets));
+    if (row->volume > 0) text += fmt::format(", volume {:.5g}", row->volume);
+    text += row->leaf() ? "; a part." : fmt::format("; {} parts below.", row->leaves);
+    if (row->centroid) text += " Principal axes and centre of gravity.";
+    return text;
+}
+
+std::string describe_plane(const TreeRow& row) {
+    const Vec3& n = row.plane->normal;
+    return fmt::format("Normal ({:.3f}, {:.3f}, {:.3f}) through ({:.4g}, {:.4g}, {:.4g}); {}.", n.x(), n.y(), n.z(),
+                       row.plane->origin.x(), row.plane->origin.y(), row.plane->origin.z(), row.rung);
+}
+
+std::string describe_edges(const Cut& cut, Stage stage) {
+    const auto count = [](const auto& edges) { return fmt::format("{} edges", grouped(edges.size())); };
+    switch (stage) {
+        case Stage::crossed_edges: return count(cut.stages.crossed_edges) + " with ends on both sides of the plane.";
+        case Stage::hanging_removed: return count(cut.stages.hanging_edges_removed) + ": closed, nothing hangs.";
+        case Stage::closed_loops: return count(cut.stages.closed_loops) + ": ears and islands removed.";
+        case Stage::paths_removed:
+            return count(cut.stages.multiple_paths_removed) + ": no vertex has more than two of them.";
+        default:
+            return fmt::format("{} edges in {} loop{}, length {:.5g}; at most {:.3g} off the plane.",
+                               grouped(cut.contour_edges), cut.loops.size(), cut.loops.size() == 1 ? "" : "s",
+                               cut.contour_length, cut.max_deviation);
+    }
+}
+
+std::string describe_interface(const Cut& cut) {
+    return fmt::format("{} triangles, area {:.5g} ({:.3f} of the plane section); smallest angle {:.1f} deg, to the "
+                       "surface {:.1f} deg.",
+                       grouped(cut.interface.triangles.size()), cut.interface_area,
+                       cut.section_area > 0 ? cut.interface_area / cut.section_area : 0, cut.quality.angle_deg,
+                       cut.quality.dihedral_deg);
+}
+
+std::string describe_halves(const Document& document, NodeId node) {
+    const TreeRow* below = document.tree.find(2 * node);
+    const TreeRow* above = document.tree.find(2 * node + 1);
+    if (!below || !above) return "Both halves.";
+    return fmt::format("Node {}: {} facets; node {}: {} facets.", 2 * node, grouped(below->facets), 2 * node + 1,
+                       grouped(above->facets));
+}
+
+std::string describe_tetrahedra(const Document& document, NodeId node) {
+    std::int64_t tets = 0;
+    const std::vector<NodeId> parts = document.tree.parts_below(node);
+    for (const NodeId part : parts) tets += std::max<std::int64_t>(0, document.tree.find(part)->tets);
+    return fmt::format("{} tetrahedra in {} part{}.", grouped(tets), parts.size(), parts.size() == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::vector<Step> steps_of(const Document& document, NodeId node) {
+    std::vector<Step> steps = {{Stage::input, -1}};
+    const Cut* cut = document.trace ? document.trace->find(node) : nullptr;
+    const TreeRow* row = document.tree.find(node);
+    if (cut) {
+        add_cut(*cut, steps);
+    } else if (row && row->plane) {
+        steps.push_back({Stage::plane, -1});
+        if (!document.folder.empty()) steps.push_back({Stage::split, -1});
+    }
+    if (is_meshed(document, node)) steps.push_back({Stage::tetrahedra, -1});
+    return steps;
+}
+
+std::size_t nearest_step(const std::vector<Step>& steps, const Step& step) {
+    std::size_t nearest = 0;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        if (steps[i] == step) return i;
+        const bool is_before = steps[i].stage < step.stage || (steps[i].stage == step.stage && step.refused_try >= 0);
+        if (steps[i].refused_try < 0 && is_before) nearest = i;
+    }
+    return nearest;
+}
+
+std::string describe_step(const Document& document, NodeId node, const Step& step) {
+    const Cut* cut = document.trace ? document.trace->find(node) : nullptr;
+    const TreeRow* row = document.tree.find(node);
+    if (step.refused_try >= 0) {
+        const auto number = static_cast<std::size_t>(step.refused_try);
+        if (!cut || number >= cut->tries.size()) return "";
+        return describe_try(cut->tries[number], number, cut->tries.size());
+    }
+    switch (step.stage) {
+        case Stage::input: return describe_input(document, row);
+        case Stage::plane: return row && row->plane ? describe_plane(*row) : "";
+        case Stage::triangulation:
+        case Stage::interface: return cut ? describe_interface(*cut) : "";
+        case Stage::split: return describe_halves(document, node);
+        case Stage::tetrahedra: return describe_tetrahedra(document, node);
+        default: return cut ? describe_edges(*cut, step.stage) : "";
+    }
+}
+
+NodeId next_node(const Tree& tree, NodeId node, int direction) {
+    const std::vector<const TreeRow*> order = tree.in_order();
+    const auto here = std::find_if(order.begin(), order.end(), [&](const TreeRow* row) { return row->id == node; });
+    if (here == order.end()) return order.empty() ? node : order.front()->id;
+    if (direction < 0) return here == order.begin() ? node : (*(here - 1))->id;
+    return here + 1 == order.end() ? node : (*(here + 1))->id;
+}
+
+}  // namespace kerf::view

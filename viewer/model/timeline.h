@@ -1,0 +1,25 @@
+// The steps of each node: what left and right go through.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "viewer/model/document.h"
+#include "viewer/model/stage.h"
+
+namespace kerf::view {
+
+/// The steps of a node that the document has data for, in order; refused tries come between input and plane. Never
+/// empty for a node that exists.
+std::vector<Step> steps_of(const Document& document, NodeId node);
+
+/// The index of a step in `steps`: the step itself, else the last one before it.
+std::size_t nearest_step(const std::vector<Step>& steps, const Step& step);
+
+/// What happened in a step, in one or two sentences with numbers: "Refused: chord at 3 places. Try 2, axis 1, step -1."
+std::string describe_step(const Document& document, NodeId node, const Step& step);
+
+/// The node before or after `node` in depth-first order; `node` itself at the ends.
+NodeId next_node(const Tree& tree, NodeId node, int direction);
+
+}  // namespace kerf::view

@@ -1,0 +1,70 @@
+// The tree of the decomposition as the viewer shows it, from a trace, a report, or the events of a run under way.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cut/cut.h"
+
+namespace kerf::view {
+
+enum class NodeState {
+    divided,  ///< an inner node
+    waiting,  ///< a part that is not meshed (yet)
+    meshing,
+    done,
+    failed,
+};
+const char* name(NodeState state);
+
+/// One node. What is not known is negative, or empty.
+struct TreeRow {
+    NodeId id = 1;
+    NodeState state = NodeState::waiting;
+    std::int32_t leaves = 1;
+    std::int64_t vertices = -1, facets = -1, tets = -1;
+    double volume = -1, load = -1;
+    double seconds = -1;     ///< of meshing a part, of cutting an inner node
+    std::int32_t rank = -1;  ///< that meshed it
+    std::string rung;        ///< how it was cut, as Rung is named
+    std::int32_t tries = 0;
+    std::string message;     ///< why it failed
+    std::optional<Vec3> centroid;
+    Vec3 eigenvalues = Vec3::Zero();
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns, in the order of the eigenvalues
+    std::optional<Plane> plane;                          ///< of the cut, if one was made
+    double contour_length = -1, interface_area = -1, section_area = -1;
+    std::int32_t interface_faces = -1, loops = -1;
+    double min_angle_deg = -1, min_dihedral_deg = -1;
+
+    bool leaf() const { return state != NodeState::divided; }
+};
+
+constexpr int level_of(NodeId node) {
+    int level = 0;
+    for (; node > 1; node /= 2) ++level;
+    return level;
+}
+/// Whether `node` is `ancestor` or below it.
+constexpr bool lies_below(NodeId node, NodeId ancestor) {
+    while (node > ancestor) node /= 2;
+    return node == ancestor;
+}
+
+/// Rows ascending by number.
+struct Tree {
+    std::vector<TreeRow> rows;
+
+    const TreeRow* find(NodeId id) const;
+    TreeRow* find(NodeId id);
+    /// The row, which is made if there is none.
+    TreeRow& at(NodeId id);
+    /// The parts below a node, itself included, ascending.
+    std::vector<NodeId> parts_below(NodeId node) const;
+    /// Rows in depth-first order, parents first: as a tree is read.
+    std::vector<const TreeRow*> in_order() const;
+    int levels() const;
+};
+
+}  // namespace kerf::view

@@ -1,0 +1,66 @@
+#include "viewer/model/tree_source.h"
+
+namespace kerf::view {
+
+void describe_cut(const Cut& cut, TreeRow& row) {
+    row.state = cut.made() ? NodeState::divided : NodeState::waiting;
+    row.rung = name(cut.rung);
+    row.tries = static_cast<std::int32_t>(cut.tries.size());
+    if (cut.seconds > 0) row.seconds = cut.seconds;
+    if (!cut.made()) return;
+    row.plane = cut.plane;
+    row.contour_length = cut.contour_length;
+    row.section_area = cut.section_area;
+    row.interface_area = cut.interface_area;
+    row.interface_faces = static_cast<std::int32_t>(cut.interface.triangles.size());
+    row.loops = static_cast<std::int32_t>(cut.loops.size());
+    row.min_angle_deg = cut.quality.angle_deg;
+    row.min_dihedral_deg = cut.quality.dihedral_deg;
+}
+
+void describe_surface(std::int64_t vertices, std::int64_t facets, const MassProperties& mass, TreeRow& row) {
+    row.vertices = vertices;
+    row.facets = facets;
+    row.volume = mass.volume;
+    row.centroid = mass.centroid;
+    row.eigenvalues = mass.eigenvalues;
+    row.axes = mass.axes;
+}
+
+void count_leaves(Tree& tree) {
+    // Children have larger numbers than their parents, so that they are counted before.
+    for (auto row = tree.rows.rbegin(); row != tree.rows.rend(); ++row) {
+        if (row->leaf()) {
+            row->leaves = 1;
+            continue;
+        }
+        row->leaves = 0;
+        for (const NodeId child : {2 * row->id, 2 * row->id + 1})
+            if (const TreeRow* below = tree.find(child)) row->leaves += below->leaves;
+    }
+}
+
+Tree tree_of(const Trace& trace) {
+    Tree tree;
+    tree.at(1);
+    for (const Cut& cut : trace.cuts) {
+        describe_cut(cut, tree.at(cut.node));
+        if (!cut.made()) continue;
+        tree.at(2 * cut.node);
+        tree.at(2 * cut.node + 1);
+    }
+    count_leaves(tree);
+    return tree;
+}
+
+Tree tree_of(const std::vector<NodeId>& parts) {
+    Tree tree;
+    for (const NodeId part : parts) {
+        tree.at(part);
+        for (NodeId node = part / 2; node > 0; node /= 2) tree.at(node).state = NodeState::divided;
+    }
+    count_leaves(tree);
+    return tree;
+}
+
+}  // namespace kerf::view

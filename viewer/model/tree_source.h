@@ -1,0 +1,25 @@
+// What fills the rows of a tree: cuts, surfaces, and lists of parts.
+#pragma once
+
+#include "run/trace.h"
+#include "surface/mass_properties.h"
+#include "viewer/model/tree.h"
+
+namespace kerf::view {
+
+/// The nodes of a trace and how they were cut. Facets, volumes and axes are not known yet: see describe_surface().
+Tree tree_of(const Trace& trace);
+
+/// The nodes of a tree with these parts.
+Tree tree_of(const std::vector<NodeId>& parts);
+
+/// Fills what a cut, made or not, tells of its node.
+void describe_cut(const Cut& cut, TreeRow& row);
+
+/// Fills what the surface of a node tells.
+void describe_surface(std::int64_t vertices, std::int64_t facets, const MassProperties& mass, TreeRow& row);
+
+/// Sets the number of parts below each node to that of the parts there are.
+void count_leaves(Tree& tree);
+
+}  // namespace kerf::view

@@ -1,0 +1,290 @@
+#include "viewer/model/view_state.h"
+
+#include <algorithm>
+#include <functional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+
+namespace kerf::view {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Names {
+    const char* name;
+    const char* title;
+};
+
+constexpr std::array<Names, color_by_count> color_texts = {{
+    {"part", "Part"},
+    {"rank", "Rank"},
+    {"level", "Level of the tree"},
+    {"patch", "Patch"},
+    {"kind", "At an interface or inside"},
+    {"min-dihedral", "Minimum dihedral angle (deg)"},
+    {"radius-edge", "Radius-edge ratio"},
+    {"aspect", "Aspect ratio"},
+    {"shape", "Shape (regular: 1)"},
+    {"volume", "Volume"},
+    {"edge-length", "Longest edge"},
+}};
+
+constexpr std::array<const char*, 2> shading_names = {"flat", "smooth"};
+constexpr std::array<const char*, 3> clip_names = {"cells", "smooth", "layer"};
+constexpr std::array<const char*, 2> theme_names = {"light", "dark"};
+constexpr std::array<const char*, 3> pick_names = {"facet", "cell", "vertex"};
+constexpr std::array<const char*, 5> selection_names = {"none", "facet", "cell", "vertex", "place"};
+
+template <std::size_t N>
+int index_of(const std::array<const char*, N>& names, const std::string& text, const char* what) {
+    for (std::size_t i = 0; i < N; ++i)
+        if (text == names[i]) return static_cast<int>(i);
+    throw Error(ErrorCode::usage, fmt::format("'{}' is no {}. There are {}.", text, what, fmt::join(names, ", ")));
+}
+
+Json write(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+Vec3 vector_from(const Json& json) {
+    const auto numbers = json.get<std::array<double, 3>>();
+    return {numbers[0], numbers[1], numbers[2]};
+}
+
+Json write(const ValueRange& range) { return {range.low, range.high}; }
+
+ValueRange range_from(const Json& json) {
+    const auto numbers = json.get<std::array<double, 2>>();
+    return {numbers[0], numbers[1]};
+}
+
+Json write(const Camera& camera) {
+    return {{"target", write(camera.target)},
+            {"back", write(camera.back())},
+            {"up", write(camera.up())},
+            {"height", camera.height},
+            {"perspective", camera.perspective}};
+}
+
+// Calls the function of each field that is there; a name without one is an error of the user.
+using Fields = std::vector<std::pair<const char*, std::function<void(const Json&)>>>;
+void read_fields(const Json& json, const Fields& fields, const std::string& source) {
+    if (!json.is_object()) throw Error(ErrorCode::usage, source + " is no JSON object.");
+    for (const auto& [key, value] : json.items()) {
+        const auto field =
+            std::find_if(fields.begin(), fields.end(), [&name = key](const auto& f) { return name == f.first; });
+        if (field == fields.end()) {
+            std::vector<const char*> known;
+            for (const auto& f : fields) known.push_back(f.first);
+            throw Error(ErrorCode::usage,
+                        fmt::format("{} has the field '{}', which is none of {}.", source, key, fmt::join(known, ", ")));
+        }
+        try {
+            field->second(value);
+        } catch (const nlohmann::json::exception&) {
+            throw Error(ErrorCode::usage, fmt::format("{}: '{}' cannot be {}.", source, key, value.dump()));
+        }
+    }
+}
+
+Camera camera_from(const Json& json, const std::string& source) {
+    Camera camera;
+    Vec3 back = Vec3::UnitZ(), up = Vec3::UnitY();
+    read_fields(json,
+                {{"target", [&](const Json& j) { camera.target = vector_from(j); }},
+                 {"back", [&](const Json& j) { back = vector_from(j); }},
+                 {"up", [&](const Json& j) { up = vector_from(j); }},
+                 {"height", [&](const Json& j) { camera.height = j.get<double>(); }},
+                 {"perspective", [&](const Json& j) { camera.perspective = j.get<bool>(); }}},
+                source);
+    const Vec3 right = up.cross(back);
+    if (!(right.norm() > 1e-9 * up.norm() * back.norm()) || !(camera.height > 0))
+        throw Error(ErrorCode::usage, fmt::format("{}: 'back' and 'up' must not be parallel or zero, and 'height' must "
+                                                  "be positive.",
+                                                  source));
+    Eigen::Matrix3d columns;
+    columns << right.normalized(), back.cross(right).normalized(), back.normalized();
+    camera.turn = Eigen::Quaterniond(columns).normalized();
+    return camera;
+}
+
+Json write(const Clip& clip) {
+    return {{"on", clip.on},
+            {"style", name(clip.style)},
+            {"normal", write(clip.normal)},
+            {"position", clip.position},
+            {"flipped", clip.flipped}};
+}
+
+Clip clip_from(const Json& json, const std::string& source) {
+    Clip clip;
+    read_fields(json,
+                {{"on", [&](const Json& j) { clip.on = j.get<bool>(); }},
+                 {"style", [&](const Json& j) { clip.style = clip_style_from_name(j.get<std::string>()); }},
+                 {"normal", [&](const Json& j) { clip.normal = vector_from(j); }},
+                 {"position", [&](const Json& j) { clip.position = j.get<double>(); }},
+                 {"flipped", [&](const Json& j) { clip.flipped = j.get<bool>(); }}},
+                source);
+    if (!(clip.normal.norm() > 0))
+        throw Error(ErrorCode::usage, source + ": the 'normal' of the clip plane must not be zero.");
+    clip.normal.normalize();
+    return clip;
+}
+
+Json write(const Selection& selection) {
+    return {{"kind", selection_names[static_cast<std::size_t>(selection.kind)]},
+            {"owner", selection.owner},
+            {"index", selection.index},
+            {"place", write(selection.place)}};
+}
+
+Selection selection_from(const Json& json, const std::string& source) {
+    Selection s;
+    read_fields(json,
+                {{"kind",
+                  [&](const Json& j) {
+                      s.kind = static_cast<Selection::Kind>(
+                          index_of(selection_names, j.get<std::string>(), "kind of selection"));
+                  }},
+                 {"owner", [&](const Json& j) { s.owner = j.get<NodeId>(); }},
+                 {"index", [&](const Json& j) { s.index = j.get<std::int32_t>(); }},
+                 {"place", [&](const Json& j) { s.place = vector_from(j); }}},
+                source);
+    return s;
+}
+
+// The switches of a value, by name: written and read by the same list.
+std::vector<std::pair<const char*, bool*>> switches(ViewState& s) {
+    return {{"edges", &s.edges},       {"context", &s.context}, {"plane", &s.plane},
+            {"axes", &s.axes},         {"contour", &s.contour}, {"surface", &s.surface},
+            {"interfaces", &s.interfaces}, {"legend", &s.legend},   {"times", &s.times}};
+}
+std::vector<std::pair<const char*, bool*>> switches(Panels& p) {
+    return {{"tree", &p.tree}, {"display", &p.display},       {"timeline", &p.timeline},
+            {"keys", &p.keys}, {"parameters", &p.parameters}, {"quality", &p.quality},
+            {"problems", &p.problems}};
+}
+
+template <class Value>
+Json write_switches(Value value) {
+    Json json = Json::object();
+    for (const auto& [name, place] : switches(value)) json[name] = *place;
+    return json;
+}
+
+template <class Value>
+void add_switches(Value& value, Fields& fields) {
+    for (const auto& [name, place] : switches(value))
+        fields.emplace_back(name, [place = place](const Json& j) { *place = j.get<bool>(); });
+}
+
+Json parse(const std::string& text, const std::string& source) {
+    try {
+        return Json::parse(text);
+    } catch (const nlohmann::json::exception& e) {
+        throw Error(ErrorCode::usage, fmt::format("{} is no JSON: {}.", source, e.what()));
+    }
+}
+
+}  // namespace
+
+bool ViewState::is_hidden(NodeId wanted) const {
+    for (; wanted > 0; wanted /= 2)
+        if (std::binary_search(hidden.begin(), hidden.end(), wanted)) return true;
+    return false;
+}
+
+void ViewState::set_hidden(NodeId changed, bool hide) {
+    const auto place = std::lower_bound(hidden.begin(), hidden.end(), changed);
+    const bool is_there = place != hidden.end() && *place == changed;
+    if (hide && !is_there) hidden.insert(place, changed);
+    if (!hide && is_there) hidden.erase(place);
+}
+
+const char* name(ColorBy color) { return color_texts[static_cast<std::size_t>(color)].name; }
+const char* title(ColorBy color) { return color_texts[static_cast<std::size_t>(color)].title; }
+
+ColorBy color_by_from_name(const std::string& text) {
+    std::array<const char*, color_by_count> names = {};
+    for (std::size_t i = 0; i < names.size(); ++i) names[i] = color_texts[i].name;
+    return static_cast<ColorBy>(index_of(names, text, "colouring"));
+}
+
+const char* name(ClipStyle style) { return clip_names[static_cast<std::size_t>(style)]; }
+ClipStyle clip_style_from_name(const std::string& text) {
+    return static_cast<ClipStyle>(index_of(clip_names, text, "clip style"));
+}
+
+std::string to_json(const Camera& camera) { return write(camera).dump(2) + "\n"; }
+
+Camera camera_from_json(const std::string& text, const std::string& source) {
+    return camera_from(parse(text, source), source);
+}
+
+std::string to_json(const ViewState& state) {
+    Json json = {{"node", state.node}, {"stage", name(state.step)}};
+    if (state.camera) json["camera"] = write(*state.camera);
+    json["shading"] = shading_names[static_cast<std::size_t>(state.shading)];
+    json.update(write_switches(state));
+    json["explode"] = state.explode;
+    json["shrink"] = state.shrink;
+    json["clip"] = write(state.clip);
+    json["color"] = name(state.color);
+    if (state.color_range) json["color_range"] = write(*state.color_range);
+    if (state.filter) json["filter"] = write(*state.filter);
+    json["hidden"] = state.hidden;
+    if (state.isolated) json["isolated"] = *state.isolated;
+    json["pick"] = pick_names[static_cast<std::size_t>(state.pick)];
+    json["selection"] = write(state.selection);
+    json["theme"] = theme_names[static_cast<std::size_t>(state.theme)];
+    json["panels"] = write_switches(state.panels);
+    return json.dump(2) + "\n";
+}
+
+ViewState state_from_json(const std::string& text, const std::string& source) {
+    ViewState s;
+    const auto unit = [&](const char* field, const Json& j) {
+        const double value = j.get<double>();
+        if (!(value >= 0 && value <= 1))
+            throw Error(ErrorCode::usage, fmt::format("{}: '{}' is {}, but it must be in [0, 1].", source, field, value));
+        return value;
+    };
+    Fields fields = {
+        {"node", [&](const Json& j) { s.node = j.get<NodeId>(); }},
+        {"stage", [&](const Json& j) { s.step = step_from_name(j.get<std::string>()); }},
+        {"camera", [&](const Json& j) { s.camera = camera_from(j, source); }},
+        {"shading",
+         [&](const Json& j) {
+             s.shading = static_cast<Shading>(index_of(shading_names, j.get<std::string>(), "shading"));
+         }},
+        {"explode", [&](const Json& j) { s.explode = std::max(0.0, j.get<double>()); }},
+        {"shrink", [&](const Json& j) { s.shrink = unit("shrink", j); }},
+        {"clip", [&](const Json& j) { s.clip = clip_from(j, source); }},
+        {"color", [&](const Json& j) { s.color = color_by_from_name(j.get<std::string>()); }},
+        {"color_range", [&](const Json& j) { s.color_range = range_from(j); }},
+        {"filter", [&](const Json& j) { s.filter = range_from(j); }},
+        {"hidden",
+         [&](const Json& j) {
+             for (const NodeId node : j.get<std::vector<NodeId>>()) s.set_hidden(node, true);
+         }},
+        {"isolated", [&](const Json& j) { s.isolated = j.get<NodeId>(); }},
+        {"pick",
+         [&](const Json& j) { s.pick = static_cast<PickMode>(index_of(pick_names, j.get<std::string>(), "pick mode")); }},
+        {"selection", [&](const Json& j) { s.selection = selection_from(j, source); }},
+        {"theme",
+         [&](const Json& j) { s.theme = static_cast<Theme>(index_of(theme_names, j.get<std::string>(), "theme")); }},
+        {"panels",
+         [&](const Json& j) {
+             Fields of_panels;
+             add_switches(s.panels, of_panels);
+             read_fields(j, of_panels, source);
+         }},
+    };
+    add_switches(s, fields);
+    read_fields(parse(text, source), fields, source);
+    return s;
+}
+
+}  // namespace kerf::view

@@ -1,0 +1,115 @@
+// What is shown and how, as one value: the window, the command line and the tests share it, and it is a JSON file.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viewer/model/camera.h"
+#include "viewer/model/stage.h"
+
+namespace kerf::view {
+
+enum class Shading { flat, smooth };
+
+enum class ClipStyle {
+    cells,   ///< whole cells: those whose centre is on the shown side (crinkle)
+    smooth,  ///< cells are cut at the plane
+    layer,   ///< only the cells that the plane crosses
+};
+
+/// The half space on the side of -normal is shown, or the other one if flipped.
+struct Clip {
+    bool on = false;
+    ClipStyle style = ClipStyle::cells;
+    Vec3 normal = Vec3::UnitX();
+    double position = 0.5;  ///< along the normal, 0 and 1 at the ends of the body's bounding box
+    bool flipped = false;
+};
+
+/// What the colour of a cell or facet means.
+enum class ColorBy {
+    part,
+    rank,
+    level,  ///< of the tree at which its interface was cut; of cells: the level of the part
+    patch,
+    kind,  ///< cells at an interface and inner cells
+    min_dihedral,
+    radius_edge,
+    aspect,
+    shape,
+    volume,
+    edge_length,  ///< the longest
+};
+inline constexpr int color_by_count = static_cast<int>(ColorBy::edge_length) + 1;
+constexpr bool is_measure(ColorBy color) { return color >= ColorBy::min_dihedral; }
+
+struct ValueRange {
+    double low = 0, high = 0;
+};
+
+enum class Theme { light, dark };
+
+/// What a click selects.
+enum class PickMode { facet, cell, vertex };
+
+struct Selection {
+    enum class Kind { none, facet, cell, vertex, place };
+    Kind kind = Kind::none;
+    NodeId owner = 0;         ///< node or part whose numbers follow
+    std::int32_t index = -1;  ///< of the facet, cell or vertex there
+    Vec3 place = Vec3::Zero();  ///< of the click, or of a defect
+};
+
+struct Panels {
+    bool tree = true, display = true, timeline = true, keys = false, parameters = false, quality = false,
+         problems = true;
+};
+
+struct ViewState {
+    NodeId node = 1;
+    Step step;
+    std::optional<Camera> camera;  ///< none: everything fits, seen from the corner
+    Shading shading = Shading::flat;
+    bool edges = true;      ///< of triangles
+    bool context = true;    ///< the rest of the body, translucent
+    bool plane = true;
+    bool axes = true;       ///< principal axes and centre of gravity
+    bool contour = true;
+    bool surface = true;
+    bool interfaces = true;
+    double explode = 0;  ///< 0: together; 1: as far apart as the parts are large
+    double shrink = 0;   ///< of cells about their centres, 0: none, 1: to points
+    Clip clip;
+    ColorBy color = ColorBy::part;
+    std::optional<ValueRange> color_range;  ///< none: that of what is shown
+    std::optional<ValueRange> filter;       ///< only cells with a value of `color` in it
+    bool legend = true;
+    bool times = true;             ///< seconds in the tree
+    std::vector<NodeId> hidden;    ///< ascending; what lies below them is not shown
+    std::optional<NodeId> isolated;
+    PickMode pick = PickMode::facet;
+    Selection selection;
+    Theme theme = Theme::light;
+    Panels panels;
+
+    bool is_hidden(NodeId node) const;
+    void set_hidden(NodeId node, bool hidden);
+};
+
+/// JSON as people write it; every field may be missing and then has its default.
+std::string to_json(const ViewState& state);
+/// Throws Error(usage) naming the first field that is unknown or has a value of another kind.
+ViewState state_from_json(const std::string& text, const std::string& source);
+std::string to_json(const Camera& camera);
+Camera camera_from_json(const std::string& text, const std::string& source);
+
+const char* name(ColorBy color);  ///< "min-dihedral"
+const char* title(ColorBy color); ///< "Minimum dihedral angle (deg)"
+/// Throws Error(usage) naming all.
+ColorBy color_by_from_name(const std::string& text);
+const char* name(ClipStyle style);
+ClipStyle clip_style_from_name(const std::string& text);
+
+}  // namespace kerf::view

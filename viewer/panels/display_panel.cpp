@@ -1,0 +1,151 @@
+// What is shown, and the plane that clips it.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "viewer/panels/parts.h"
+
+namespace kerf::view {
+
+namespace {
+
+constexpr float title_share = 0.76f;  // of a row: what its title leaves
+
+// Checkboxes in two columns.
+void draw_switches(UiContext& context) {
+    ViewState& s = context.state;
+    struct Switch {
+        const char* label;
+        bool* value;
+        const char* tip;
+    };
+    const Switch switches[] = {{"Surface", &s.surface, "Facets of the input"},
+                               {"Interfaces", &s.interfaces, "Facets that cuts have made"},
+                               {"Edges", &s.edges, "Edges of triangles (E)"},
+                               {"Context", &s.context, "The rest of the body, translucent"},
+                               {"Plane", &s.plane, "The cutting plane of the node"},
+                               {"Contour", &s.contour, "The contour of the cut"},
+                               {"Axes", &s.axes, "Principal axes and centre of gravity of the node"},
+                               {"Legend", &s.legend, "What the colours mean"}};
+    const float half = ImGui::GetContentRegionAvail().x / 2;
+    int i = 0;
+    for (const Switch& one : switches) {
+        if (i++ % 2) ImGui::SameLine(half);
+        context.widgets.checkbox(one.label, one.value, one.tip);
+    }
+}
+
+template <class Enum, std::size_t N>
+void draw_choice(Widgets& widgets, const char* title, const char* const (&labels)[N], Enum& value) {
+    const float left = ImGui::GetCursorPosX(), room = ImGui::GetContentRegionAvail().x;
+    const auto width_of = [](const char* label) {
+        return ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize(label).x;
+    };
+    float widths = 0;
+    for (const char* label : labels) widths += width_of(label);
+    const float gap = std::min(em(), (title_share * room - widths) / static_cast<float>(N - 1));
+    float x = left + (1 - title_share) * room;
+    ImGui::AlignTextToFramePadding();
+    show(title);
+    for (std::size_t i = 0; i < N; ++i) {
+        ImGui::SameLine(x, 0);
+        if (widgets.radio(labels[i], static_cast<std::size_t>(value) == i)) value = static_cast<Enum>(i);
+        x += width_of(labels[i]) + gap;
+    }
+}
+
+// Lowest and highest value of n.p over the corners of the box.
+ValueRange extent_along(const Eigen::AlignedBox3d& box, const Vec3& n) {
+    const double middle = n.dot(box.center()), half = n.cwiseAbs().dot(box.sizes()) / 2;
+    return {middle - half, middle + half};
+}
+
+void snap_to_cut(UiContext& context, const Plane& plane) {
+    Clip& clip = context.state.clip;
+    const ValueRange range = extent_along(context.session.document().box, plane.normal);
+    clip.on = true;
+    clip.normal = plane.normal;
+    if (range.high > range.low)
+        clip.position = std::clamp((plane.normal.dot(plane.origin) - range.low) / (range.high - range.low), 0., 1.);
+}
+
+void draw_axis_buttons(UiContext& context) {
+    Clip& clip = context.state.clip;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::string label = std::string("Clip ") + "XYZ"[axis];
+        const Vec3 unit = Vec3::Unit(axis);
+        const bool chosen = clip.on && clip.normal.isApprox(unit);
+        if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetColorU32(ImGuiCol_ButtonActive));
+        if (ImGui::Button((std::string("  ") + "XYZ"[axis] + "  ##" + label).c_str())) {
+            clip.normal = unit;
+            clip.on = true;
+        }
+        context.widgets.record(label);
+        if (chosen) ImGui::PopStyleColor();
+        ImGui::SameLine();
+    }
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 0.6f * em());
+    context.widgets.checkbox("Flip", &clip.flipped, "Show the other side");
+}
+
+void draw_snap_button(UiContext& context) {
+    const TreeRow* row = context.session.document().tree.find(context.state.node);
+    const bool has_plane = row && row->plane && !context.session.document().box.isEmpty();
+    ImGui::BeginDisabled(!has_plane);
+    const std::string label = fmt::format("Snap to cut of node {}", context.state.node);
+    if (context.widgets.button(label.c_str(), has_plane ? "Clips at the plane of this cut" : "This node has no cut"))
+        snap_to_cut(context, *row->plane);
+    ImGui::EndDisabled();
+}
+
+// What is typed takes effect when the field is left, so that half a number does not turn the plane.
+void draw_normal(UiContext& context, Memory& memory) {
+    Clip& clip = context.state.clip;
+    const float left = ImGui::GetCursorPosX(), room = ImGui::GetContentRegionAvail().x;
+    ImGui::AlignTextToFramePadding();
+    show("Normal");
+    ImGui::SameLine(left + (1 - title_share) * room, 0);
+    ImGui::SetNextItemWidth(title_share * room);
+    ImGui::InputScalarN("##normal", ImGuiDataType_Double, memory.normal.data(), 3, nullptr, nullptr, "%.4g");
+    context.widgets.record("Normal");
+    const Vec3 typed(memory.normal[0], memory.normal[1], memory.normal[2]);
+    if (ImGui::IsItemDeactivatedAfterEdit() && typed.allFinite() && typed.norm() > 0) clip.normal = typed.normalized();
+    if (!ImGui::IsItemActive()) memory.normal = {clip.normal.x(), clip.normal.y(), clip.normal.z()};
+}
+
+}  // namespace
+
+void draw_display(UiContext& context) {
+    if (!context.widgets.header("Display", true)) return;
+    ViewState& state = context.state;
+    draw_switches(context);
+    ImGui::Spacing();
+    draw_choice(context.widgets, "Shading", {"Flat", "Smooth"}, state.shading);
+    draw_choice(context.widgets, "Pick", {"Facet", "Cell", "Vertex"}, state.pick);
+    context.widgets.slider("Explode", &state.explode, 0, 1);
+    context.widgets.slider("Shrink cells", &state.shrink, 0, 0.9);
+    ImGui::Spacing();
+}
+
+void draw_clip(UiContext& context, Memory& memory) {
+    if (!context.widgets.header("Clip", true)) return;
+    Clip& clip = context.state.clip;
+    context.widgets.checkbox("Clip plane", &clip.on, "Shows one side of a plane (C)");
+    const Eigen::AlignedBox3d& box = context.session.document().box;
+    if (clip.on && !box.isEmpty()) {
+        const ValueRange range = extent_along(box, clip.normal);
+        ImGui::SameLine();
+        show_right(fmt::format("at {:.4g}", range.low + clip.position * (range.high - range.low)),
+                   palette(context.state.theme).dim);
+    }
+    draw_axis_buttons(context);
+    ImGui::BeginDisabled(!clip.on);
+    context.widgets.slider("Position", &clip.position, 0, 1, "%.3f");
+    draw_normal(context, memory);
+    draw_choice(context.widgets, "Cells", {"Whole", "Cut", "Layer"}, clip.style);
+    ImGui::EndDisabled();
+    draw_snap_button(context);
+    ImGui::Spacing();
+}
+
+}  // namespace kerf::view

@@ -1,0 +1,278 @@
+// The dialog to open a file or folder. What can be opened is told by names; any other file can be tried.
+#include <algorithm>
+#include <cctype>
+
+#include <imgui_internal.h>  // the veil behind the dialog
+#include <imgui_stdlib.h>
+
+#include "viewer/panels/icons.h"
+#include "viewer/panels/parts.h"
+
+namespace kerf::view {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Kind = FileBrowser::Entry::Kind;
+constexpr const char* popup = "Open a surface, a trace or a run";
+
+std::string lower(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+Kind kind_of_file(const fs::path& path) {
+    fs::path name = lower(path.filename().string());
+    if (name.extension() == ".gz" || name.extension() == ".zst") name = name.stem();
+    const std::string extension = name.extension().string();
+    constexpr const char* surfaces[] = {".stl", ".obj", ".ply", ".off", ".msh", ".mesh", ".smesh", ".poly"};
+    if (std::find(std::begin(surfaces), std::end(surfaces), extension) != std::end(surfaces)) return Kind::surface;
+    if (extension.ends_with("trace")) return Kind::trace;
+    return extension == ".jsonl" ? Kind::events : Kind::other;
+}
+
+Kind kind_of_folder(const fs::path& path) {
+    std::error_code ignored;  // what cannot be looked into is a folder
+    const bool run = path.extension() == ".kerf-partial" || fs::is_regular_file(path / "report.json", ignored);
+    return run ? Kind::run : Kind::folder;
+}
+
+FileBrowser::Entry entry_of(const fs::directory_entry& file) {
+    std::error_code ignored;  // broken links are files of no size
+    FileBrowser::Entry entry{.name = file.path().filename().string()};
+    if (file.is_directory(ignored)) {
+        entry.kind = kind_of_folder(file.path());
+    } else {
+        entry.kind = kind_of_file(file.path());
+        const std::uintmax_t bytes = file.file_size(ignored);
+        entry.bytes = ignored ? 0 : bytes;
+    }
+    return entry;
+}
+
+bool is_folder(Kind kind) { return kind == Kind::folder || kind == Kind::run; }
+
+// Folders first, then by name whatever the case.
+bool comes_before(const FileBrowser::Entry& a, const FileBrowser::Entry& b) {
+    if (is_folder(a.kind) != is_folder(b.kind)) return is_folder(a.kind);
+    return std::pair(lower(a.name), a.name) < std::pair(lower(b.name), b.name);
+}
+
+class Dialog {
+ public:
+    Dialog(UiContext& context, FileBrowser& browser)
+        : context_(context), browser_(browser), colors_(palette(context.state.theme)) {}
+
+    void draw() {
+        const float below = 2 * ImGui::GetFrameHeightWithSpacing();
+        draw_path();
+        if (!browser_.error.empty()) show_wrapped(browser_.error, colors_.bad);
+        ImGui::BeginChild("##entries", {0, -below}, true);
+        draw_entries();
+        ImGui::EndChild();
+        draw_filter();
+        draw_buttons();
+        take_keys();
+    }
+
+ private:
+    void draw_path() {
+        const fs::path folder = browser_.folder;
+        if (icon_button(context_.widgets, "parent folder", Icon::up, ImGui::GetFrameHeight(), packed(colors_.accent),
+                        "Parent folder"))
+            browser_.go_to(folder.parent_path());
+        ImGui::SameLine();
+        ImGui::SetNextItemWidth(-1);
+        const bool entered = ImGui::InputText("##path", &browser_.typed, ImGuiInputTextFlags_EnterReturnsTrue);
+        context_.widgets.record("folder path");
+        typing_ |= ImGui::IsItemActive() || entered;
+        if (entered) try_typed();
+    }
+
+    void try_typed() {
+        std::error_code ignored;  // neither: the browser says so
+        if (fs::is_regular_file(browser_.typed, ignored)) return open(browser_.typed);
+        browser_.go_to(browser_.typed);
+    }
+
+    bool is_listed(const FileBrowser::Entry& entry) const {
+        if (!browser_.filter.empty()) return lower(entry.name).find(lower(browser_.filter)) != std::string::npos;
+        return (entry.kind != Kind::other || browser_.all_files) && !entry.name.starts_with('.');
+    }
+
+    void draw_entries() {
+        for (std::size_t i = 0; i < browser_.entries.size(); ++i)
+            if (is_listed(browser_.entries[i])) listed_.push_back(static_cast<int>(i));
+        if (listed_.empty()) show("Nothing here that Kerf can open.", colors_.dim);
+        ImGuiListClipper clipper;
+        clipper.Begin(static_cast<int>(listed_.size()));
+        int activated = -1;  // opening replaces the list
+        while (clipper.Step())
+            for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
+                if (draw_entry(listed_[static_cast<std::size_t>(i)])) activated = listed_[static_cast<std::size_t>(i)];
+        if (activated >= 0) activate(activated);
+    }
+
+    bool draw_entry(int index) {
+        const FileBrowser::Entry& entry = browser_.entries[static_cast<std::size_t>(index)];
+        const float left = ImGui::GetCursorPosX();
+        if (ImGui::Selectable(("##" + entry.name).c_str(), browser_.chosen == index,
+                              ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups))
+            browser_.chosen = index;
+        context_.widgets.record("entry " + entry.name);
+        const bool activated = ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0);
+        ImGui::SameLine(left, 0);
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const float size = ImGui::GetTextLineHeight();
+        draw_icon(*ImGui::GetWindowDrawList(), icon_of(entry.kind), {at.x + 0.6f * size, at.y + size / 2}, size,
+                  packed(color_of(entry.kind)));
+        ImGui::SetCursorPosX(left + 1.6f * size);
+        const float room = ImGui::GetContentRegionAvail().x - 9 * em();
+        show(shortened(entry.name, room), entry.kind == Kind::other ? colors_.dim : colors_.text);
+        ImGui::SameLine();
+        show_right(is_folder(entry.kind) ? word_of(entry.kind) : file_size(entry.bytes), colors_.dim);
+        return activated;
+    }
+
+    static Icon icon_of(Kind kind) {
+        switch (kind) {
+            case Kind::folder:
+                return Icon::folder;
+            case Kind::run:
+                return Icon::run;
+            case Kind::surface:
+                return Icon::surface;
+            case Kind::trace:
+            case Kind::events:
+                return Icon::trace;
+            case Kind::other:
+                return Icon::file;
+        }
+        return Icon::file;
+    }
+    const ImVec4& color_of(Kind kind) const {
+        return kind == Kind::folder || kind == Kind::other ? colors_.dim
+               : kind == Kind::run                         ? colors_.good
+                                                           : colors_.accent;
+    }
+    static const char* word_of(Kind kind) { return kind == Kind::run ? "run" : ""; }
+
+    void draw_filter() {
+        ImGui::SetNextItemWidth(16 * em());
+        ImGui::InputTextWithHint("##filter", "Filter names", &browser_.filter);
+        context_.widgets.record("filter");
+        typing_ |= ImGui::IsItemActive();
+        ImGui::SameLine();
+        context_.widgets.checkbox("All files", &browser_.all_files,
+                                  "Also files whose names say nothing, such as traces");
+    }
+
+    void draw_buttons() {
+        const bool any = browser_.chosen >= 0;
+        ImGui::BeginDisabled(!any);
+        if (context_.widgets.button("Open") && any) activate(browser_.chosen);
+        ImGui::EndDisabled();
+        ImGui::SameLine();
+        if (context_.widgets.button("Open this folder", "As the folder of a run")) open(browser_.folder);
+        ImGui::SameLine();
+        const bool cancelled = ImGui::Button("Cancel");
+        context_.widgets.record("Cancel opening");
+        if (cancelled) close();
+    }
+
+    void take_keys() {
+        const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };
+        if (pressed(ImGuiKey_Escape) && !typing_) return close();
+        if (pressed(ImGuiKey_UpArrow)) move(-1);
+        if (pressed(ImGuiKey_DownArrow)) move(1);
+        if (pressed(ImGuiKey_Enter) && !typing_ && browser_.chosen >= 0) activate(browser_.chosen);
+    }
+
+    void move(int direction) {
+        if (listed_.empty()) return;
+        const auto at = std::find(listed_.begin(), listed_.end(), browser_.chosen);
+        const auto last = static_cast<int>(listed_.size()) - 1;
+        const int next = at == listed_.end() ? 0 : static_cast<int>(at - listed_.begin()) + direction;
+        browser_.chosen = listed_[static_cast<std::size_t>(std::clamp(next, 0, last))];
+    }
+
+    void activate(int index) {
+        const FileBrowser::Entry entry = browser_.entries[static_cast<std::size_t>(index)];
+        const fs::path path = fs::path(browser_.folder) / entry.name;
+        entry.kind == Kind::folder ? browser_.go_to(path) : open(path.string());
+    }
+
+    void open(const std::string& path) {
+        close();
+        context_.actions.open(path);
+    }
+
+    void close() {
+        context_.settings.browser_folder = browser_.folder;
+        ImGui::CloseCurrentPopup();
+        browser_.open = false;
+    }
+
+    UiContext& context_;
+    FileBrowser& browser_;
+    const Palette& colors_;
+    std::vector<int> listed_;  // indices of entries
+    bool typing_ = false;      // Enter and Escape belong to a text field
+};
+
+void begin_browsing(const Settings& settings, FileBrowser& browser) {
+    std::error_code failed;
+    fs::path folder = settings.browser_folder;
+    if (folder.empty() || !fs::is_directory(folder, failed)) folder = fs::current_path(failed);
+    browser.filter.clear();
+    browser.go_to(folder);
+    browser.open = true;
+    ImGui::OpenPopup(popup);
+}
+
+}  // namespace
+
+void FileBrowser::go_to(const fs::path& new_folder) {
+    std::error_code failed;
+    fs::directory_iterator file(new_folder, failed);
+    if (failed) {
+        error = new_folder.string() + " cannot be read: " + failed.message() + ".";
+        return;
+    }
+    error.clear();
+    entries.clear();
+    chosen = -1;
+    for (; !failed && file != fs::directory_iterator(); file.increment(failed)) entries.push_back(entry_of(*file));
+    std::sort(entries.begin(), entries.end(), comes_before);
+    std::error_code unresolved;  // then the path is shown as it was given
+    const fs::path clean = fs::canonical(new_folder, unresolved);
+    folder = typed = (unresolved ? new_folder : clean).string();
+}
+
+void draw_browser(UiContext& context, Memory& memory) {
+    FileBrowser& browser = memory.browser;
+    if (browser.requested) {
+        browser.requested = false;
+        begin_browsing(context.settings, browser);
+    }
+    if (!browser.open) return;
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize({std::min(44 * em(), screen.x), std::min(34 * em(), screen.y)});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.3f * em());
+    const bool shown = ImGui::BeginPopupModal(popup, nullptr,
+                                              ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                                  ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
+    ImGui::PopStyleVar();
+    if (!shown) {
+        browser.open = false;
+        return;
+    }
+    // It would come slowly, and stop on the way where frames are drawn on demand.
+    ImGui::GetCurrentContext()->DimBgRatio = 1;
+    Dialog(context, browser).draw();
+    ImGui::EndPopup();
+}
+
+}  // namespace kerf::view

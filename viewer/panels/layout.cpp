@@ -1,0 +1,85 @@
+#include "viewer/panels/layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "viewer/panels/style.h"
+
+namespace kerf::view {
+
+namespace {
+
+bool is_open(const Document& document) {
+    return has_body(document) || !document.error.empty() || document.progress.running;
+}
+
+bool wants_left(const ViewState& state, const Document& document) {
+    return is_open(document) && (state.panels.tree || (state.panels.problems && has_remarks(document)));
+}
+
+bool wants_right(const ViewState& state, const Document& document) {
+    const Panels& panels = state.panels;
+    return has_body(document) && (panels.display || panels.parameters || panels.quality);
+}
+
+}  // namespace
+
+float menu_padding() { return std::round(0.35f * em()); }
+
+bool has_body(const Document& document) { return document.kind != Document::Kind::none || document.checked; }
+
+bool has_tree(const Document& document) {
+    return document.tree.rows.size() > 1 ||
+           (document.tree.rows.size() == 1 && document.kind != Document::Kind::surface);
+}
+
+bool has_remarks(const Document& document) {
+    const bool defects = document.checked && !document.checked->diagnosis.defects.empty();
+    return defects || !document.error.empty() || !document.notes.empty() || !document.progress.message.empty();
+}
+
+Layout layout_of(const ViewState& state, const Document& document, float width, float height) {
+    const float e = em();
+    const float menu = e + 2 * menu_padding(), status = std::round(1.8f * e);
+    Layout layout;
+    layout.has_left = wants_left(state, document);
+    layout.has_right = wants_right(state, document);
+    layout.has_timeline = state.panels.timeline && has_tree(document);
+    const float left =
+        layout.has_left ? std::round(std::min(std::clamp(0.285f * width, 20 * e, 28 * e), 0.36f * width)) : 0;
+    const float right =
+        layout.has_right ? std::round(std::min(std::clamp(0.22f * width, 20 * e, 24 * e), 0.34f * width)) : 0;
+    const float timeline = layout.has_timeline ? std::round(6.5f * e) : 0;
+    const float middle = std::max(0.f, height - menu - status);
+    layout.left = {0, menu, left, middle};
+    layout.right = {width - right, menu, right, middle};
+    layout.status = {0, height - status, width, status};
+    layout.scene = {left, menu, std::max(1.f, width - left - right), std::max(1.f, middle - timeline)};
+    layout.timeline = {left, menu + layout.scene.height, layout.scene.width, timeline};
+    return layout;
+}
+
+Rectangle scene_rectangle(const ViewState& state, const Document& document, float width, float height, bool panels) {
+    return panels ? layout_of(state, document, width, height).scene : Rectangle{0, 0, width, height};
+}
+
+void begin_place(const char* name, const Rectangle& place, ImGuiWindowFlags flags) {
+    ImGui::SetNextWindowPos({place.x, place.y});
+    ImGui::SetNextWindowSize({place.width, place.height});
+    ImGui::Begin(name, nullptr,
+                 flags | ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNavFocus);
+}
+
+void draw_border(const Rectangle& place, ImGuiDir side) {
+    const float x0 = place.x, y0 = place.y, x1 = place.x + place.width, y1 = place.y + place.height;
+    ImVec2 from = {x0, y0}, to = {x1, y0 + 1};
+    if (side == ImGuiDir_Left) to = {x0 + 1, y1};
+    if (side == ImGuiDir_Right) from = {x1 - 1, y0}, to = {x1, y1};
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.PushClipRect({x0, y0}, {x1, y1});  // the window's own leaves its border out
+    list.AddRectFilled(from, to, ImGui::GetColorU32(ImGuiCol_Border));
+    list.PopClipRect();
+}
+
+}  // namespace kerf::view

@@ -1,0 +1,97 @@
+// The user interface around the scene. Panels read the document, change the view state, and ask the app for the rest.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viewer/model/session.h"
+#include "viewer/model/timeline.h"
+#include "viewer/panels/widgets.h"
+
+namespace kerf::view {
+
+/// What panels cannot do by changing the view state.
+class Actions {
+ public:
+    virtual ~Actions() = default;
+    virtual void open(const std::string& path) = 0;
+    virtual void reload() = 0;
+    virtual void fit_all() = 0;
+    virtual void frame_selection() = 0;
+    /// Turns the camera's target to a point and comes as close as `radius` (units of the file) asks for; selects it.
+    virtual void fly_to(const Vec3& point, double radius) = 0;
+    virtual void look(Direction direction) = 0;
+    virtual void toggle_play() = 0;
+    virtual void quit() = 0;
+    virtual void take_screenshot() = 0;
+    virtual void copy(const std::string& text) = 0;  ///< to the clipboard
+    virtual std::string clipboard() = 0;
+    virtual void start_run(const RunOptions& options, bool volume) = 0;
+    virtual void redo_cut(NodeId node, const RunOptions& options) = 0;
+};
+
+/// What the scene knows that panels show.
+struct SceneFacts {
+    std::string legend_title;         ///< empty: the legend explains what is there, not a colouring
+    std::optional<ValueRange> values;                       ///< of what is shown, by ViewState::color
+    std::vector<std::pair<std::string, Color>> categories;  ///< of a legend without numbers: "part 8"
+    std::vector<Color> scale;                               ///< colours from low to high, of a legend with numbers
+    std::string selection;                                  ///< what is selected, as lines of text; empty: nothing
+    std::int64_t triangles = 0, lines = 0;                  ///< drawn
+    std::string notice;                                     ///< e.g. "saved as kerf-001.png"; shown for some seconds
+    bool playing = false;
+    bool pending = false;  ///< something that is to be shown is still being read
+};
+
+/// Settings that outlive the document, kept in the user's config folder.
+struct Settings {
+    Theme theme = Theme::light;
+    std::vector<std::string> recent;  ///< files, the last one first
+    std::string browser_folder;       ///< of the file browser
+};
+
+struct UiContext {
+    ViewState& state;
+    Session& session;
+    Settings& settings;
+    const SceneFacts& facts;
+    const std::vector<Step>& steps;  ///< of the node
+    Actions& actions;
+    Widgets& widgets;
+    const Camera& camera;  ///< that is in use, also where the state has none
+};
+
+/// A rectangle of the window in ImGui's units, y down.
+struct Rectangle {
+    float x = 0, y = 0, width = 0, height = 0;
+};
+
+/// Where the scene goes: what the panels leave. Without panels the whole window.
+Rectangle scene_rectangle(const ViewState& state, const Document& document, float width, float height, bool panels);
+
+/// What Dear ImGui keeps for us between frames: open dialogs, edited options.
+class Ui {
+ public:
+    Ui();
+    ~Ui();
+
+    /// Style, colours and fonts for a theme and a HiDPI factor.
+    void apply(Theme theme, float scale);
+    /// All panels, dialogs and overlays. Between ImGui::NewFrame() and ImGui::Render().
+    void draw(UiContext& context, float width, float height);
+    /// Legend, gizmo and caption in the scene's rectangle: part of every picture, also without panels.
+    void draw_overlays(UiContext& context, const Rectangle& scene);
+    void open_browser();
+    /// A dialog is open or a text field has the keyboard.
+    bool wants_keyboard() const;
+
+ private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Loads DejaVu Sans at the size if it is installed, else ImGui's own font.
+void load_fonts(ImFontAtlas& atlas, float pixels);
+
+}  // namespace kerf::view

@@ -1,0 +1,155 @@
+// The options of the next run, from the kernel's table, and what a repetition has changed.
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "viewer/panels/parts.h"
+
+namespace kerf::view {
+
+namespace {
+
+enum class Group { parts, input, running };
+
+// Files that a run writes besides the result are no business of the viewer.
+bool is_file(const OptionField& field) {
+    return field.name == "report" || field.name == "events" || field.name == "trace";
+}
+
+bool is_of_input(const std::string& name) {
+    static const std::vector<std::string> names = [] {
+        InputOptions options;
+        std::vector<std::string> all;
+        for (const OptionField& field : input_option_fields(options)) all.push_back(field.name);
+        return all;
+    }();
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+Group group_of(const OptionField& field) {
+    return is_of_input(field.name) ? Group::input : field.shapes_parts ? Group::parts : Group::running;
+}
+
+struct Editor {
+    Widgets& widgets;
+    const char* label;
+
+    void operator()(std::int32_t* value) const {
+        std::int64_t wide = *value;
+        constexpr std::int64_t limit = std::numeric_limits<std::int32_t>::max();
+        if (widgets.input_number(label, &wide)) *value = static_cast<std::int32_t>(std::clamp(wide, -limit, limit));
+    }
+    void operator()(std::int64_t* value) const { widgets.input_number(label, value); }
+    void operator()(double* value) const { widgets.input_number(label, value); }
+    void operator()(std::string* value) const { widgets.input_text(label, value); }
+    void operator()(bool* value) const { widgets.checkbox(label, value); }
+    void operator()(const OptionField::Choice& choice) const {
+        int index = choice.get();
+        if (widgets.combo(label, &index, choice.names)) choice.set(index);
+    }
+};
+
+// Of the same name in the other table, to see what was changed.
+std::string text_in(const std::vector<OptionField>& fields, const std::string& name) {
+    for (const OptionField& field : fields)
+        if (field.name == name) return field.text();
+    return "";
+}
+
+void draw_fields(UiContext& context, Memory& memory, Group group) {
+    RunOptions given = context.session.document().options;
+    const std::vector<OptionField> before = option_fields(given);
+    const Palette& colors = palette(context.state.theme);
+    for (const OptionField& field : option_fields(memory.options)) {
+        if (is_file(field) || group_of(field) != group) continue;
+        const bool changed = field.text() != text_in(before, field.name);
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const float room = ImGui::GetContentRegionAvail().x;
+        ImGui::BeginGroup();
+        std::visit(Editor{context.widgets, field.name.c_str()}, field.value);
+        ImGui::EndGroup();
+        explain(field.help);
+        if (!changed) continue;
+        const ImVec2 bar = {at.x + value_place * room - 0.35f * em(), at.y};
+        ImGui::GetWindowDrawList()->AddRectFilled(bar, {bar.x + 0.2f * em(), bar.y + ImGui::GetFrameHeight()},
+                                                  packed(colors.accent));
+    }
+}
+
+void draw_group(UiContext& context, Memory& memory, const char* title, Group group) {
+    ImGui::Spacing();
+    show(title, palette(context.state.theme).accent);
+    draw_fields(context, memory, group);
+}
+
+// The message of the first option that is out of its range.
+std::string complaint(RunOptions options) {
+    try {
+        options.resolve(1);
+        return "";
+    } catch (const Error& error) {
+        return error.what();
+    }
+}
+
+void draw_buttons(UiContext& context, Memory& memory, bool valid) {
+    Widgets& w = context.widgets;
+    const Document& document = context.session.document();
+    const bool can_run = valid && !document.progress.running && !document.path.empty();
+    const NodeId node = context.state.node;
+    const bool has_cut = document.trace && document.trace->find(node);
+    ImGui::BeginDisabled(!can_run);
+    if (w.button("Run all", "Cuts the surface and fills the parts with tetrahedra, in another process"))
+        context.actions.start_run(memory.options, true);
+    ImGui::SameLine();
+    if (w.button("Only cut", "Stops at the closed surfaces of the parts"))
+        context.actions.start_run(memory.options, false);
+    ImGui::SameLine();
+    ImGui::EndDisabled();
+    if (w.button("Reset", "The options as they were")) memory.options = document.options;
+    ImGui::BeginDisabled(!valid || !has_cut);
+    const std::string label = fmt::format("Re-run cut of node {}", node);
+    if (w.button(label.c_str(), has_cut ? "Makes this cut again with these options; what lies below it is left out"
+                                        : "Needs a trace with a cut of this node"))
+        context.actions.redo_cut(node, memory.options);
+    ImGui::EndDisabled();
+}
+
+// The document's options arrive after it was opened, and change with a run.
+void take_options(const Document& document, Memory& memory) {
+    std::string given = document.path;
+    for (const OptionText& option : option_texts(document.options, false)) given += "\n" + option.text;
+    if (memory.options_of == given) return;
+    memory.options_of = given;
+    memory.options = document.options;
+}
+
+// One line in any case, so that nothing moves while one types.
+void draw_remark(const std::string& wrong, const Palette& colors) {
+    const std::string text = wrong.empty() ? "A bar marks what was changed." : wrong;
+    show(shortened(text, ImGui::GetContentRegionAvail().x), wrong.empty() ? colors.dim : colors.bad);
+    explain(wrong);
+}
+
+}  // namespace
+
+void draw_parameters(UiContext& context, Memory& memory) {
+    const bool opened_elsewhere = context.state.panels.parameters && !memory.parameters_open;
+    ImGui::SetNextItemOpen(context.state.panels.parameters);
+    context.state.panels.parameters = context.widgets.header("Parameters", false);
+    memory.parameters_open = context.state.panels.parameters;
+    if (opened_elsewhere) ImGui::SetScrollHereY(0);
+    if (!context.state.panels.parameters) return;
+    take_options(context.session.document(), memory);
+    const std::string wrong = complaint(memory.options);
+    draw_buttons(context, memory, wrong.empty());
+    draw_remark(wrong, palette(context.state.theme));
+    draw_comparison(context);
+    draw_group(context, memory, "Parts and cells", Group::parts);
+    draw_group(context, memory, "Surface", Group::input);
+    draw_group(context, memory, "Running", Group::running);
+}
+
+}  // namespace kerf::view

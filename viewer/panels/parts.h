@@ -1,0 +1,81 @@
+// The parts of the user interface: one function each, and what it keeps between frames. Only this folder includes it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "viewer/panels/layout.h"
+#include "viewer/panels/panels.h"
+#include "viewer/panels/style.h"
+#include "viewer/panels/text.h"
+
+namespace kerf::view {
+
+/// Chooses a file or folder. Reads a folder when it is shown and when it changes, not in every frame.
+struct FileBrowser {
+    struct Entry {
+        enum class Kind { folder, run, surface, trace, events, other };
+        std::string name;
+        Kind kind = Kind::other;
+        std::uintmax_t bytes = 0;
+    };
+    bool requested = false;  ///< is to open in the next frame
+    bool open = false;
+    bool all_files = false;
+    std::string folder, typed, filter, error;
+    std::vector<Entry> entries;
+    int chosen = -1;  ///< index in `entries`
+
+    void go_to(const std::filesystem::path& new_folder);
+};
+
+/// What ImGui does not keep for us.
+struct Memory {
+    std::string message;  ///< of what the user interface itself could not do; until the next try
+    FileBrowser browser;
+    NodeId scrolled_to = 0;  ///< node that the tree has been scrolled to
+    int defect_group = -1;   ///< kind and severity of the only defects that are listed; -1: all
+    int chosen_defect = -1;
+    std::int64_t chosen_worst = -1;
+    bool log_counts = false;            ///< of the histogram
+    double brush_from = 0;              ///< bin where a drag over the histogram began
+    std::array<double, 3> normal = {};  ///< of the clip plane while it is typed
+    RunOptions options;                 ///< as edited
+    std::string options_of;             ///< path and options of the document that they were taken from
+    bool parameters_open = false;
+};
+
+void draw_menu(UiContext& context, Memory& memory);
+void draw_tree(UiContext& context, Memory& memory);
+void draw_selection(UiContext& context);
+void draw_problems(UiContext& context, Memory& memory);
+void draw_display(UiContext& context);
+void draw_clip(UiContext& context, Memory& memory);
+void draw_color(UiContext& context, Memory& memory);
+void draw_histogram(UiContext& context, Memory& memory);
+void draw_worst_cells(UiContext& context, Memory& memory);
+void draw_parameters(UiContext& context, Memory& memory);
+void draw_comparison(UiContext& context);
+void draw_timeline(UiContext& context);
+void draw_status(UiContext& context, Memory& memory);
+void draw_browser(UiContext& context, Memory& memory);
+void draw_keys(UiContext& context);
+void draw_welcome(UiContext& context, const Rectangle& scene);
+void draw_legend(UiContext& context, const Rectangle& scene);
+void draw_gizmo(UiContext& context, const Rectangle& scene);
+
+/// Shows another node, at the step nearest to the one that is shown.
+void go_to_node(UiContext& context, NodeId node);
+/// Shows a node again, and what it lies below.
+void reveal(ViewState& state, NodeId node);
+/// The colour of a part in the scene, where parts have one.
+const Color* part_color(const SceneFacts& facts, const ViewState& state, NodeId part);
+/// The length of the body's diagonal, of the soup's if there is no body, or 1.
+double diagonal_of(const Document& document);
+/// A message as long as the mouse is over the last item; `text` may be long.
+void explain(const std::string& text);
+/// Text on a soft ground at a corner of the scene, over everything drawn there.
+void draw_backdrop(ImDrawList& list, Theme theme, const ImVec2& from, const ImVec2& to);
+
+}  // namespace kerf::view

@@ -1,0 +1,206 @@
+// What is wrong with the surface, what to do about it, and where it is.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "viewer/panels/parts.h"
+
+namespace kerf::view {
+
+namespace {
+
+const ImVec4& color_of(Severity severity, const Palette& colors) {
+    return severity == Severity::error ? colors.bad : severity == Severity::warning ? colors.warning : colors.good;
+}
+
+std::string measure_of(const Defect& defect) {
+    if (defect.kind == DefectKind::needle) return fmt::format("{:.3g} deg", defect.measure);
+    if (defect.kind == DefectKind::open_edge)
+        return fmt::format("{} edges, length {:.5g}", defect.facets.size(), defect.measure);
+    if (defect.kind == DefectKind::short_edge) return fmt::format("length {:.3g}", defect.measure);
+    return "";
+}
+
+// Of what has to be seen to understand it.
+double radius_of(const Defect& defect, const Soup& soup, double diagonal) {
+    double radius = 0;
+    for (const std::int32_t facet : defect.facets)
+        for (const std::int32_t vertex : soup.facets[static_cast<std::size_t>(facet)]) {
+            const double distance = (soup.vertices[static_cast<std::size_t>(vertex)] - defect.where).norm();
+            if (std::isfinite(distance)) radius = std::max(radius, distance);
+        }
+    return radius > 0 ? std::clamp(1.5 * radius, 1e-3 * diagonal, 0.5 * diagonal) : 0.02 * diagonal;
+}
+
+class ProblemList {
+ public:
+    ProblemList(UiContext& context, Memory& memory, const CheckedSoup& checked)
+        : context_(context), memory_(memory), checked_(checked), colors_(palette(context.state.theme)) {}
+
+    void draw() {
+        draw_groups();
+        ImGui::Spacing();
+        const auto& defects = checked_.diagnosis.defects;
+        for (std::size_t i = 0; i < defects.size(); ++i)
+            if (memory_.defect_group < 0 || group_of(defects[i]) == memory_.defect_group)
+                listed_.push_back(static_cast<int>(i));
+        if (context_.widgets.small_button("Copy list", "All that is listed below, with places and remedies"))
+            context_.actions.copy(text());
+        ImGui::SameLine();
+        show(fmt::format("{} listed; click to fly there", listed_.size()), colors_.dim);
+        draw_entries();
+    }
+
+ private:
+    // Of one kind and severity: they have one remedy.
+    struct Group {
+        const Defect* first = nullptr;
+        std::int64_t count = 0;
+    };
+    static int group_of(const Defect& defect) {
+        return static_cast<int>(defect.severity) * static_cast<int>(defect_kind_count) + static_cast<int>(defect.kind);
+    }
+
+    // Errors first.
+    std::map<int, Group> groups() const {
+        std::map<int, Group> groups;
+        for (const Defect& defect : checked_.diagnosis.defects) {
+            Group& group = groups[group_of(defect)];
+            if (group.count++ == 0) group.first = &defect;
+        }
+        for (auto& [key, group] : groups)  // of some kinds more were found than are listed
+            if (group.first->severity == Severity::warning || group.first->kind == DefectKind::self_intersection)
+                group.count = std::max(group.count, checked_.diagnosis.count(group.first->kind));
+        return groups;
+    }
+
+    // A line for each; a click lists only these. Many remedies would leave no room for the list.
+    void draw_groups() {
+        const std::map<int, Group> all = groups();
+        for (const auto& [key, group] : all) draw_group(key, group, all.size() <= 4 || memory_.defect_group == key);
+    }
+
+    void draw_group(int key, const Group& group, bool with_remedy) {
+        const Defect& first = *group.first;
+        const bool chosen = memory_.defect_group == key;
+        const std::string label = fmt::format("{} {}", name(first.severity), name(first.kind));
+        if (ImGui::Selectable(("##" + label).c_str(), chosen)) memory_.defect_group = chosen ? -1 : key;
+        context_.widgets.record(label);
+        explain(fmt::format("To do: {}.\n{}", remedy(first),
+                            chosen ? "A click lists all again." : "A click lists only these."));
+        ImGui::SameLine(0, 0);
+        draw_dot(first.severity);
+        show(kerf::counted(group.count, first.kind), colors_.text);
+        ImGui::SameLine();
+        show_right(name(first.severity), color_of(first.severity, colors_));
+        if (!with_remedy) return;
+        ImGui::Indent(1.1f * em());
+        show_wrapped(fmt::format("To do: {}.", remedy(first)), colors_.dim);
+        ImGui::Unindent(1.1f * em());
+    }
+
+    void draw_dot(Severity severity) {
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const float r = 0.28f * em();
+        ImGui::GetWindowDrawList()->AddCircleFilled({at.x + 1.3f * r, at.y + ImGui::GetTextLineHeight() / 2}, r,
+                                                    packed(color_of(severity, colors_)));
+        ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 1.1f * em());
+    }
+
+    void draw_entries() {
+        ImGui::BeginChild("##defects", {0, 0}, true);
+        ImGuiListClipper clipper;
+        clipper.Begin(static_cast<int>(listed_.size()), entry_height() + ImGui::GetStyle().ItemSpacing.y);
+        while (clipper.Step())
+            for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
+                draw_entry(listed_[static_cast<std::size_t>(i)]);
+        ImGui::EndChild();
+    }
+
+    static float entry_height() { return 2 * ImGui::GetTextLineHeight() + 0.2f * em(); }
+
+    void draw_entry(int index) {
+        const Defect& defect = checked_.diagnosis.defects[static_cast<std::size_t>(index)];
+        ImGui::PushID(index);
+        const ImVec2 start = ImGui::GetCursorPos();
+        if (ImGui::Selectable("##defect", memory_.chosen_defect == index, 0, {0, entry_height()})) fly_to(index);
+        context_.widgets.record(fmt::format("defect {}", index + 1));
+        const ImVec2 end = ImGui::GetCursorPos();
+        const std::string where = place(defect, checked_.soup);
+        if (ImGui::IsItemHovered())
+            explain(fmt::format("{}: {}.\nTo do: {}.", name(defect.kind), where, remedy(defect)));
+        ImGui::SetCursorPos(start);
+        draw_dot(defect.severity);
+        show(name(defect.kind), colors_.text);
+        ImGui::SameLine();
+        show_right(measure_of(defect), colors_.dim);
+        ImGui::SetCursorPos({start.x + 1.1f * em(), start.y + ImGui::GetTextLineHeight() + 0.1f * em()});
+        show(shortened(where, ImGui::GetContentRegionAvail().x), colors_.dim);
+        ImGui::SetCursorPos(end);
+        ImGui::PopID();
+    }
+
+    void fly_to(int index) {
+        const Defect& defect = checked_.diagnosis.defects[static_cast<std::size_t>(index)];
+        memory_.chosen_defect = index;
+        if (!defect.where.allFinite()) return;
+        context_.actions.fly_to(defect.where,
+                                radius_of(defect, checked_.soup, diagonal_of(context_.session.document())));
+    }
+
+    std::string text() const {
+        std::string all;
+        for (const int i : listed_) {
+            const Defect& defect = checked_.diagnosis.defects[static_cast<std::size_t>(i)];
+            const std::string measure = measure_of(defect);
+            all += fmt::format("{} {}: {}{}{}; {}.\n", name(defect.severity), name(defect.kind),
+                               place(defect, checked_.soup), measure.empty() ? "" : ", ", measure, remedy(defect));
+        }
+        return all;
+    }
+
+    UiContext& context_;
+    Memory& memory_;
+    const CheckedSoup& checked_;
+    const Palette& colors_;
+    std::vector<int> listed_;  // indices of defects
+};
+
+void draw_message(const char* head, const std::string& text, const Palette& colors) {
+    show_wrapped(head, colors.bad);
+    show_wrapped(text, colors.text);
+    ImGui::Spacing();
+}
+
+void draw_remarks(UiContext& context) {
+    const Document& document = context.session.document();
+    const Palette& colors = palette(context.state.theme);
+    if (!document.error.empty()) {
+        draw_message((document.title + " could not be opened.").c_str(), document.error, colors);
+        show_wrapped("Correct the file and press Ctrl+R, or open another one with Ctrl+O.", colors.dim);
+    }
+    if (!document.progress.running && !document.progress.message.empty())
+        draw_message("The run has ended.", document.progress.message, colors);
+    for (const std::string& note : document.notes) show_wrapped("Note: " + note, colors.dim);
+    if (!document.notes.empty()) ImGui::Spacing();
+}
+
+}  // namespace
+
+void draw_problems(UiContext& context, Memory& memory) {
+    const Document& document = context.session.document();
+    const Palette& colors = palette(context.state.theme);
+    if (document.checked && document.error.empty()) {
+        const bool clean = document.checked->diagnosis.clean();
+        show_wrapped(clean ? "This surface can be meshed." : "This surface cannot be meshed as it is.",
+                     clean ? colors.good : colors.bad);
+        ImGui::Spacing();
+    }
+    draw_remarks(context);
+    if (document.checked && !document.checked->diagnosis.defects.empty())
+        ProblemList(context, memory, *document.checked).draw();
+}
+
+}  // namespace kerf::view

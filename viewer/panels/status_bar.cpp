@@ -1,0 +1,109 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "viewer/panels/parts.h"
+
+namespace kerf::view {
+
+namespace {
+
+std::string facts_of(UiContext& context) {
+    const Document& document = context.session.document();
+    std::string text;
+    const auto add = [&](const std::string& more) { text += (text.empty() ? "" : ", ") + more; };
+    if (document.input_facets > 0) add(number_of(document.input_facets, "facet"));
+    std::int64_t tets = 0;
+    for (const TreeRow& row : document.tree.rows) tets += row.leaf() ? std::max<std::int64_t>(0, row.tets) : 0;
+    if (tets > 0) add(compact(tets) + " tetrahedra");
+    if (context.facts.triangles > 0) add(number_of(context.facts.triangles, "triangle") + " drawn");
+    return text;
+}
+
+struct Message {
+    std::string text;
+    ImVec4 color;
+};
+
+// The most urgent thing.
+Message left_message(UiContext& context, const Memory& memory) {
+    const Document& document = context.session.document();
+    const Palette& colors = palette(context.state.theme);
+    if (!memory.message.empty()) return {memory.message, colors.bad};
+    if (!context.facts.notice.empty()) return {context.facts.notice, colors.accent};
+    if (!document.error.empty()) return {document.error, colors.bad};
+    if (!document.progress.running && !document.progress.message.empty())
+        return {document.progress.message, colors.bad};
+    if (document.kind == Document::Kind::none) return {"Nothing is open", colors.dim};
+    if (!context.session.failures().empty()) return {context.session.failures().back(), colors.bad};
+    const std::string facts = facts_of(context);
+    return {facts.empty() ? document.title : document.title + ": " + facts, colors.text};
+}
+
+// Of the work that is left, if it goes on as so far.
+std::string time_left(const Progress& progress) {
+    if (progress.load_done < 0.03 || progress.load_done >= 1) return "";
+    return ", about " + duration(progress.seconds * (1 - progress.load_done) / progress.load_done) + " left";
+}
+
+std::string stage_text(const Progress& progress) {
+    const std::string& stage = progress.stage;
+    if (stage == "read") return "Reading";
+    if (stage == "decompose") return "Cutting";
+    if (stage == "prepare") return "Preparing parts";
+    if (stage == "volume") return "Meshing";
+    if (stage == "number") return "Numbering";
+    return stage.empty() ? "Running" : stage;
+}
+
+std::string progress_text(const Progress& progress) {
+    std::string text = stage_text(progress);
+    if (progress.parts > 0) text += fmt::format(", {} of {} parts", progress.parts_done, progress.parts);
+    return text + ", " + duration(progress.seconds) + time_left(progress);
+}
+
+void draw_bar(double fraction, const Palette& colors) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = 9 * em(), height = 0.55f * em(), drop = (ImGui::GetTextLineHeight() - height) / 2;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const auto fill = static_cast<float>(std::clamp(fraction, 0., 1.));
+    const ImVec2 from = {at.x, at.y + drop}, to = {at.x + width, at.y + drop + height};
+    list.AddRectFilled(from, to, packed(faded(colors.dim, 0.3f)), height / 2);
+    if (fill > 0)
+        list.AddRectFilled(from, {from.x + std::max(height, fill * width), to.y}, packed(colors.busy), height / 2);
+    ImGui::Dummy({width, ImGui::GetTextLineHeight()});
+}
+
+void draw_progress(UiContext& context) {
+    const Progress& progress = context.session.document().progress;
+    const Palette& colors = palette(context.state.theme);
+    const std::string text = progress_text(progress);
+    const float spacing = 0.7f * em();
+    const float button =
+        progress.ours ? ImGui::CalcTextSize("Cancel").x + 2 * ImGui::GetStyle().FramePadding.x + spacing : 0;
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(text.c_str()).x - 9 * em() - spacing - button);
+    show(text, colors.text);
+    ImGui::SameLine(0, spacing);
+    draw_bar(progress.load_done, colors);
+    if (!progress.ours) return;
+    ImGui::SameLine(0, spacing);
+    if (context.widgets.small_button("Cancel", "Ends the run within two seconds")) context.session.cancel_run();
+}
+
+}  // namespace
+
+void draw_status(UiContext& context, Memory& memory) {
+    const Palette& colors = palette(context.state.theme);
+    ImGui::SetCursorPosY((ImGui::GetWindowHeight() - ImGui::GetTextLineHeight()) / 2);
+    const bool running = context.session.document().progress.running;
+    const Message message = left_message(context, memory);
+    if (ImGui::IsMouseClicked(0)) memory.message.clear();  // it has been read
+    show(shortened(message.text, (running ? 0.45f : 0.85f) * ImGui::GetWindowWidth()), message.color);
+    explain(message.text);
+    if (running) return draw_progress(context);
+    if (!context.facts.pending) return;
+    ImGui::SameLine();
+    show_right("reading...", colors.busy);
+}
+
+}  // namespace kerf::view

@@ -1,0 +1,219 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "viewer/panels/icons.h"
+#include "viewer/panels/parts.h"
+#include "viewer/panels/tree_columns.h"
+#include "viewer/panels/tree_words.h"
+
+namespace kerf::view {
+
+namespace {
+
+bool is_shown(const ViewState& state, NodeId node) {
+    if (state.is_hidden(node)) return false;
+    return !state.isolated || lies_below(node, *state.isolated) || lies_below(*state.isolated, node);
+}
+
+// Two digits behind the point as long as they mean anything.
+std::string short_seconds(double seconds) {
+    return seconds < 0 ? "" : fmt::format("{:.{}f}", seconds, seconds < 9.995 ? 2 : seconds < 99.95 ? 1 : 0);
+}
+
+class TreeTable {
+ public:
+    TreeTable(UiContext& context, Memory& memory)
+        : context_(context), memory_(memory), colors_(palette(context.state.theme)) {}
+
+    void draw() {
+        const Tree& tree = context_.session.document().tree;
+        rows_ = tree.in_order();
+        const TreeColumns columns(rows_, context_.state.times, room());
+        total_load_ = columns.total_load;
+        // Widths that a user has changed stay as long as the columns are the same.
+        const std::string id = fmt::format("##tree {} {} {} {} {}", tree.levels(), columns.load, columns.seconds,
+                                           columns.rank, columns.tets);
+        constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_Resizable |
+                                          ImGuiTableFlags_NoSavedSettings | ImGuiTableFlags_NoBordersInBody;
+        if (!ImGui::BeginTable(id.c_str(), column_count, flags, {0, 0})) return;
+        columns.set_up();
+        scroll_to_node();
+        ImGuiListClipper clipper;
+        clipper.Begin(static_cast<int>(rows_.size()), row_height());
+        while (clipper.Step())
+            for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
+                draw_row(*rows_[static_cast<std::size_t>(i)]);
+        ImGui::EndTable();
+    }
+
+ private:
+    static float line_height() { return ImGui::GetTextLineHeight() + 0.15f * em(); }
+    static float row_height() { return line_height() + 2 * ImGui::GetStyle().CellPadding.y; }
+
+    float room() const {
+        const ImVec2 all = ImGui::GetContentRegionAvail();
+        const bool scrolls = static_cast<float>(rows_.size() + 1) * row_height() > all.y;
+        return all.x - (scrolls ? ImGui::GetStyle().ScrollbarSize : 0);
+    }
+
+    // Keys change the node too: it comes into sight, but the wheel stays free.
+    void scroll_to_node() {
+        if (memory_.scrolled_to == context_.state.node) return;
+        memory_.scrolled_to = context_.state.node;
+        const auto row =
+            std::find_if(rows_.begin(), rows_.end(), [&](const TreeRow* r) { return r->id == context_.state.node; });
+        if (row == rows_.end()) return;
+        const float top = static_cast<float>(row - rows_.begin()) * row_height();
+        const float seen = ImGui::GetWindowHeight() - 2 * row_height();
+        if (top < ImGui::GetScrollY() || top > ImGui::GetScrollY() + seen) ImGui::SetScrollY(top - seen / 2);
+    }
+
+    void draw_row(const TreeRow& row) {
+        const float alpha = is_shown(context_.state, row.id) ? 1 : 0.45f;
+        text_ = faded(colors_.text, alpha);
+        ImGui::PushID(row.id);
+        ImGui::TableNextRow(0, row_height());
+        draw_node(row, alpha);
+        draw_switches(row);
+        draw_state(row, alpha);
+        draw_number(facets_column, compact(row.facets));
+        draw_number(tets_column, compact(row.tets));
+        draw_number(load_column, share(row.load));
+        draw_number(seconds_column, short_seconds(row.seconds));
+        draw_number(rank_column, row.rank < 0 ? "" : fmt::format("{}", row.rank));
+        ImGui::PopID();
+    }
+
+    void draw_node(const TreeRow& row, float alpha) {
+        ImGui::TableSetColumnIndex(node_column);
+        const float left = ImGui::GetCursorPosX() + tree_indent * em() * static_cast<float>(level_of(row.id));
+        const float width = ImGui::GetContentRegionAvail().x;
+        if (ImGui::Selectable("##node", context_.state.node == row.id,
+                              ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap,
+                              {0, line_height()}))
+            choose(row.id);
+        const ImVec2 from = ImGui::GetItemRectMin();  // the row spans columns, which are clipped one by one
+        context_.widgets.record(fmt::format("node {}", row.id), from, {from.x + width, ImGui::GetItemRectMax().y});
+        if (ImGui::IsItemHovered()) explain(details(row));
+        ImGui::SameLine(left, 0);
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const float size = 0.7f * em();
+        if (row.leaf()) draw_swatch(row, {at.x, at.y + (line_height() - size) / 2}, size, alpha);
+        ImGui::SetCursorPosX(left + em());
+        show(fmt::format("{}", row.id), text_);
+    }
+
+    void draw_swatch(const TreeRow& row, const ImVec2& from, float size, float alpha) {
+        ImDrawList& list = *ImGui::GetWindowDrawList();
+        const ImVec2 to = {from.x + size, from.y + size};
+        const Color* color = part_color(context_.facts, context_.state, row.id);
+        if (color)
+            list.AddRectFilled(from, to, packed(Color{color->r, color->g, color->b, alpha}), 0.2f * size);
+        else
+            list.AddRect(from, to, packed(faded(colors_.dim, 0.6f * alpha)), 0.2f * size);
+    }
+
+    void draw_switches(const TreeRow& row) {
+        ImGui::TableSetColumnIndex(eye_column);
+        ViewState& state = context_.state;
+        const bool hidden = state.is_hidden(row.id), isolated = state.isolated == row.id;
+        const ImU32 quiet = packed(faded(colors_.dim, 0.55f));
+        if (icon_button(context_.widgets, fmt::format("show {}", row.id), hidden ? Icon::eye_closed : Icon::eye,
+                        line_height(), hidden ? packed(colors_.warning) : quiet,
+                        hidden ? "Hidden: show it again" : "Hide it and what lies below"))
+            hidden ? reveal(state, row.id) : state.set_hidden(row.id, true);
+        ImGui::SameLine(0, 0.1f * em());
+        if (icon_button(context_.widgets, fmt::format("isolate {}", row.id), Icon::isolate, line_height(),
+                        isolated ? packed(colors_.accent) : quiet,
+                        isolated ? "Show the others again" : "Show only this and what lies below"))
+            state.isolated = isolated ? std::nullopt : std::optional(row.id);
+    }
+
+    void draw_state(const TreeRow& row, float alpha) {
+        if (!ImGui::TableSetColumnIndex(state_column)) return;
+        const ImVec4 color = faded(color_of(row, colors_), alpha);
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const float r = 0.22f * em();
+        if (row.leaf())
+            ImGui::GetWindowDrawList()->AddCircleFilled({at.x + r, at.y + line_height() / 2}, r, packed(color));
+        ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 3 * r);
+        show(shortened(word_of(row), ImGui::GetContentRegionAvail().x), color);
+    }
+
+    void draw_number(int column, const std::string& text) {
+        if (ImGui::TableSetColumnIndex(column)) show_right(text, text_);
+    }
+
+    std::string share(double load) const {
+        if (load < 0 || total_load_ <= 0) return "";
+        const double percent = 100 * load / total_load_;
+        return fmt::format("{:.{}f} %", percent, percent < 9.95 ? 1 : 0);
+    }
+
+    void choose(NodeId node) {
+        go_to_node(context_, node);
+        memory_.scrolled_to = node;  // it is in sight
+    }
+
+    UiContext& context_;
+    Memory& memory_;
+    const Palette& colors_;
+    std::vector<const TreeRow*> rows_;
+    double total_load_ = 0;
+    ImVec4 text_;
+};
+
+std::string summary(const Document& document) {
+    std::int64_t parts = 0, tets = 0;
+    for (const TreeRow& row : document.tree.rows) {
+        parts += row.leaf();
+        tets += row.leaf() ? std::max<std::int64_t>(row.tets, 0) : 0;
+    }
+    std::string text = number_of(parts, "part") + ", " + number_of(document.tree.levels(), "level");
+    if (tets > 0) text += ", " + compact(tets) + " tetrahedra";
+    return text;
+}
+
+void draw_tree_head(UiContext& context) {
+    ViewState& state = context.state;
+    ImGui::AlignTextToFramePadding();
+    show(summary(context.session.document()), palette(state.theme).dim);
+    if (state.hidden.empty() && !state.isolated) return;
+    const float width = ImGui::CalcTextSize("Show all").x + 2 * ImGui::GetStyle().FramePadding.x;
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - width);
+    if (context.widgets.button("Show all", "Hides nothing and isolates nothing any more")) {
+        state.hidden.clear();
+        state.isolated.reset();
+    }
+}
+
+void draw_without_tree(UiContext& context) {
+    const Document& document = context.session.document();
+    const Palette& colors = palette(context.state.theme);
+    show(document.title, colors.text);
+    if (document.input_facets > 0)
+        show_wrapped(
+            fmt::format("{}, {}", number_of(document.input_facets, "facet"),
+                        document.input_vertices == 1 ? "1 vertex" : compact(document.input_vertices) + " vertices"),
+            colors.dim);
+    ImGui::Spacing();
+    show_wrapped(
+        "This surface has not been cut yet. Cut it under Parameters at the right: the tree of cuts and the "
+        "parts appear here.",
+        colors.dim);
+    ImGui::Spacing();
+    if (context.widgets.button("Open the parameters")) context.state.panels.parameters = true;
+}
+
+}  // namespace
+
+void draw_tree(UiContext& context, Memory& memory) {
+    const Document& document = context.session.document();
+    if (!has_tree(document)) return draw_without_tree(context);
+    draw_tree_head(context);
+    TreeTable(context, memory).draw();
+}
+
+}  // namespace kerf::view

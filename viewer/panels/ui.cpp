@@ -1,0 +1,196 @@
+// The order in which panels are drawn, and what they share.
+#include <algorithm>
+#include <cmath>
+
+#include <imgui_internal.h>  // whether any popup is open
+
+#include "viewer/panels/parts.h"
+
+namespace kerf::view {
+
+struct Ui::Impl {
+    Memory memory;
+    Theme theme = Theme::light;
+    float scale = 0;
+};
+
+namespace {
+
+void draw_problems_or_tree(UiContext& context, Memory& memory) {
+    const Document& document = context.session.document();
+    const bool remarks = context.state.panels.problems && has_remarks(document);
+    if (remarks && (document.has_problems() || !context.state.panels.tree)) return draw_problems(context, memory);
+    if (!remarks) return draw_tree(context, memory);
+    if (!ImGui::BeginTabBar("##left")) return;
+    const auto tab = [&](const char* label, void (*draw)(UiContext&, Memory&)) {
+        const bool open = ImGui::BeginTabItem(label);
+        context.widgets.record(label);
+        if (!open) return;
+        draw(context, memory);
+        ImGui::EndTabItem();
+    };
+    tab("Tree", draw_tree);
+    tab("Problems", draw_problems);
+    ImGui::EndTabBar();
+}
+
+// Lines of the selection as it will wrap; about.
+float selection_height(const std::string& text) {
+    const float lines = 1 + static_cast<float>(std::count(text.begin(), text.end(), '\n'));
+    return std::min(lines + 3, 16.f) * ImGui::GetTextLineHeightWithSpacing() + ImGui::GetFrameHeight();
+}
+
+void draw_left(UiContext& context, Memory& memory, const Layout& layout) {
+    begin_place("##left column", layout.left);
+    draw_border(layout.left, ImGuiDir_Right);
+    const bool selected = !context.facts.selection.empty();
+    const float below = selected ? selection_height(context.facts.selection) : 0;
+    ImGui::BeginChild("##upper", {0, -below});
+    draw_problems_or_tree(context, memory);
+    ImGui::EndChild();
+    if (selected) draw_selection(context);
+    ImGui::End();
+}
+
+void draw_right(UiContext& context, Memory& memory, const Layout& layout) {
+    begin_place("##right column", layout.right);
+    draw_border(layout.right, ImGuiDir_Left);
+    ImGui::BeginChild("##sections");  // scrolls
+    const Panels panels = context.state.panels;
+    if (panels.display) {
+        draw_display(context);
+        draw_clip(context, memory);
+    }
+    if (panels.display || panels.quality) draw_color(context, memory);
+    draw_parameters(context, memory);
+    ImGui::EndChild();
+    ImGui::End();
+}
+
+void draw_caption(UiContext& context, const Rectangle& scene) {
+    const Document& document = context.session.document();
+    const ViewState& state = context.state;
+    const Palette& colors = palette(state.theme);
+    std::vector<std::pair<std::string, ImVec4>> lines;
+    if (has_tree(document)) {
+        const std::size_t shown = context.steps.empty() ? 0 : nearest_step(context.steps, state.step);
+        const Step step = context.steps.empty() ? state.step : context.steps[shown];
+        const bool refused = step.refused_try >= 0;
+        const std::string what = refused ? "try " + std::to_string(step.refused_try + 1) : title(step.stage);
+        lines.emplace_back("Node " + std::to_string(state.node) + " - " + what, colors.text);
+        if (refused) lines.emplace_back(describe_step(document, state.node, step), colors.bad);
+    } else {
+        lines.emplace_back(document.title, colors.text);
+    }
+    if (state.isolated) lines.emplace_back("only node " + std::to_string(*state.isolated), colors.dim);
+    if (!state.hidden.empty())
+        lines.emplace_back(number_of(static_cast<std::int64_t>(state.hidden.size()), "node") + " hidden", colors.dim);
+
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const float e = em(), room = std::max(scene.width - 9 * e, 8 * e);
+    ImVec2 from = {scene.x + 1.2f * e, scene.y + e}, size = {0, 0};
+    for (const auto& [text, color] : lines) {
+        const ImVec2 extent = ImGui::CalcTextSize(text.c_str(), nullptr, false, room);
+        size = {std::max(size.x, extent.x), size.y + extent.y};
+    }
+    draw_backdrop(list, state.theme, from, {from.x + size.x, from.y + size.y});
+    for (const auto& [text, color] : lines) {
+        list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), from, packed(color), text.c_str(), nullptr, room);
+        from.y += ImGui::CalcTextSize(text.c_str(), nullptr, false, room).y;
+    }
+}
+
+}  // namespace
+
+Ui::Ui() : impl_(std::make_unique<Impl>()) {}
+Ui::~Ui() = default;
+
+void Ui::apply(Theme theme, float scale) {
+    if (scale != impl_->scale) load_fonts(*ImGui::GetIO().Fonts, std::round(15 * scale));
+    impl_->theme = theme;
+    impl_->scale = scale;
+    set_style(theme, scale);
+}
+
+void Ui::draw(UiContext& context, float width, float height) {
+    if (context.state.theme != impl_->theme) {
+        impl_->theme = context.state.theme;
+        set_style(impl_->theme, impl_->scale > 0 ? impl_->scale : 1);
+    }
+    const Layout layout = layout_of(context.state, context.session.document(), width, height);
+    draw_menu(context, impl_->memory);
+    if (layout.has_left) draw_left(context, impl_->memory, layout);
+    if (layout.has_right) draw_right(context, impl_->memory, layout);
+    if (layout.has_timeline) {
+        begin_place("##timeline", layout.timeline);
+        draw_border(layout.timeline, ImGuiDir_Up);
+        draw_timeline(context);
+        ImGui::End();
+    }
+    begin_place("##status", layout.status);
+    draw_border(layout.status, ImGuiDir_Up);
+    draw_status(context, impl_->memory);
+    ImGui::End();
+    draw_overlays(context, layout.scene);
+    draw_keys(context);
+    draw_browser(context, impl_->memory);
+}
+
+void Ui::draw_overlays(UiContext& context, const Rectangle& scene) {
+    if (!has_body(context.session.document())) return draw_welcome(context, scene);
+    draw_caption(context, scene);
+    draw_legend(context, scene);
+    draw_gizmo(context, scene);
+}
+
+void Ui::open_browser() { impl_->memory.browser.requested = true; }
+
+bool Ui::wants_keyboard() const {
+    const bool popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+    return ImGui::GetIO().WantTextInput || popup || impl_->memory.browser.open || impl_->memory.browser.requested;
+}
+
+void go_to_node(UiContext& context, NodeId node) {
+    const std::vector<Step> steps = steps_of(context.session.document(), node);
+    context.state.node = node;
+    if (!steps.empty()) context.state.step = steps[nearest_step(steps, context.state.step)];
+}
+
+void reveal(ViewState& state, NodeId node) {
+    for (; node > 0; node /= 2) state.set_hidden(node, false);
+}
+
+const Color* part_color(const SceneFacts& facts, const ViewState& state, NodeId part) {
+    if (state.color != ColorBy::part) return nullptr;
+    const std::string name = "part " + std::to_string(part);
+    for (const auto& [text, color] : facts.categories)
+        if (text == name) return &color;
+    return nullptr;
+}
+
+double diagonal_of(const Document& document) {
+    Eigen::AlignedBox3d box = document.box;
+    const Soup* soup = document.checked ? &document.checked->soup : document.soup.get();
+    if (box.isEmpty() && soup)
+        for (const Vec3& p : soup->vertices)
+            if (p.allFinite()) box.extend(p);
+    const double diagonal = box.isEmpty() ? 0 : box.diagonal().norm();
+    return diagonal > 0 && std::isfinite(diagonal) ? diagonal : 1;
+}
+
+void explain(const std::string& text) {
+    if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(24 * ImGui::GetFontSize());
+    show(text);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+void draw_backdrop(ImDrawList& list, Theme theme, const ImVec2& from, const ImVec2& to) {
+    const float margin = 0.45f * em();
+    list.AddRectFilled({from.x - margin, from.y - margin}, {to.x + margin, to.y + margin},
+                       packed(palette(theme).backdrop), margin);
+}
+
+}  // namespace kerf::view

@@ -1,0 +1,88 @@
+#include "viewer/render/image.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include "core/error.h"
+#include "io/checked_file.h"
+#include "io/file_bytes.h"
+
+namespace {
+
+// For stb, which frees the result. zlib's best makes files a quarter smaller than stb's own compression.
+unsigned char* compress_best(unsigned char* data, int size, int* compressed_size, int /*quality*/) {
+    uLongf length = compressBound(static_cast<uLong>(size));
+    auto* bytes = static_cast<unsigned char*>(std::malloc(length));
+    if (bytes == nullptr || compress2(bytes, &length, data, static_cast<uLong>(size), Z_BEST_COMPRESSION) != Z_OK) {
+        std::free(bytes);
+        return nullptr;
+    }
+    *compressed_size = static_cast<int>(length);
+    return bytes;
+}
+
+}  // namespace
+
+// Static: programs that link Debian's libstb have these functions a second time.
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_PNG
+#define STBI_NO_STDIO
+#include <stb_image.h>
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STBI_WRITE_NO_STDIO
+#define STBIW_ZLIB_COMPRESS compress_best
+#include <stb_image_write.h>
+
+namespace kerf::view {
+
+namespace {
+
+struct Free {
+    void operator()(void* memory) const { std::free(memory); }
+};
+using Bytes = std::unique_ptr<unsigned char, Free>;
+
+void replace_file(const std::string& path, std::string_view bytes) {
+    const std::string beside = path + ".new";
+    CheckedFile file(beside, "wb");
+    file.write(bytes);
+    file.close();
+    std::error_code error;
+    std::filesystem::rename(beside, path, error);
+    if (error) throw Error(ErrorCode::io, fmt::format("Cannot rename {} to {}: {}.", beside, path, error.message()));
+}
+
+}  // namespace
+
+void write_png(const std::string& path, const Image& image) {
+    int size = 0;
+    const Bytes png(stbi_write_png_to_mem(image.rgb.data(), 3 * image.width, image.width, image.height, 3, &size));
+    if (!png) throw Error(ErrorCode::memory, fmt::format("There is not enough memory to compress {}.", path));
+    replace_file(path, {reinterpret_cast<const char*>(png.get()), static_cast<std::size_t>(size)});
+}
+
+Image read_png(const std::string& path) {
+    const std::string file = read_file(path);
+    Image image;
+    const bool fits = file.size() <= static_cast<std::size_t>(std::numeric_limits<int>::max());
+    const Bytes pixels(fits ? stbi_load_from_memory(reinterpret_cast<const unsigned char*>(file.data()),
+                                                    static_cast<int>(file.size()), &image.width, &image.height, nullptr,
+                                                    3)
+                            : nullptr);
+    if (!pixels)
+        throw Error(ErrorCode::io, fmt::format("{} is not a PNG picture: {}.", path,
+                                               fits ? stbi_failure_reason() : "it is too large"));
+    image.rgb.assign(pixels.get(), pixels.get() + std::size_t{3} * image.width * image.height);
+    return image;
+}
+
+}  // namespace kerf::view

@@ -1,0 +1,23 @@
+// Pictures in memory and as PNG.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace kerf::view {
+
+struct Image {
+    int width = 0, height = 0;
+    std::vector<std::uint8_t> rgb;  ///< 3 bytes per pixel, row by row from the top
+
+    const std::uint8_t* pixel(int x, int y) const { return &rgb[3 * (static_cast<std::size_t>(y) * width + x)]; }
+};
+
+/// Throws Error(io) naming the file if it cannot be written; an older file is replaced only by a complete one.
+void write_png(const std::string& path, const Image& image);
+
+/// Throws Error(io) if the file cannot be read or is no picture.
+Image read_png(const std::string& path);
+
+}  // namespace kerf::view

@@ -1,0 +1,26 @@
+// What the painters are told.
+#pragma once
+
+#include "viewer/render/gpu_geometry.h"
+#include "viewer/scene/layer.h"
+
+namespace kerf::view {
+
+/// One layer of a scene, its copy on the GPU, and where it goes.
+struct PaintJob {
+    const Layer& layer;
+    const GpuGeometry& geometry;
+    const Scene& scene;
+    const Projection& projection;
+
+    const std::array<float, 4>& clip_plane() const {
+        static const ClipPlane everything;
+        return layer.clipped ? scene.clip.plane : everything.plane;
+    }
+
+    /// Whether no back of a triangle can be seen: the bodies are closed, and neither the clip plane nor the near plane
+    /// of the projection cuts one open. Errs on the side of false.
+    bool hides_backs() const;
+};
+
+}  // namespace kerf::view

@@ -1,0 +1,99 @@
+// The point that is hit comes from the geometry, not from the depth buffer, whose 24 bits are too coarse for close
+// looks.
+#include "viewer/render/picker.h"
+
+#include <Eigen/Dense>
+
+namespace kerf::view {
+
+namespace {
+
+using Vec3d = Eigen::Vector3d;
+
+struct Ray {
+    Vec3d from, to;
+};
+
+Vec3d to_double(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
+
+bool is_pickable(const Layer& layer) { return layer.geometry && !layer.geometry->element.empty(); }
+
+// In draw coordinates, through the middle of the only pixel of a narrowed projection.
+Ray ray_of(const Projection& pixel) {
+    const Eigen::Matrix4d back = (pixel.projection.cast<double>() * pixel.view.cast<double>()).inverse();
+    const auto unproject = [&](double depth) { return Vec3d((back * Eigen::Vector4d(0, 0, depth, 1)).hnormalized()); };
+    return {unproject(-1), unproject(1)};
+}
+
+// On the plane of the triangle; its centre where the plane holds the line of sight.
+Vec3d point_on_triangle(const Corner* corners, const Ray& ray) {
+    const Vec3d a = to_double(corners[0].position);
+    const Vec3d b = to_double(corners[1].position), c = to_double(corners[2].position);
+    const Vec3d normal = (b - a).cross(c - a);
+    const double slope = normal.dot(ray.to - ray.from);
+    if (std::abs(slope) <= 1e-9 * normal.norm() * (ray.to - ray.from).norm()) return (a + b + c) / 3;
+    return ray.from + normal.dot(a - ray.from) / slope * (ray.to - ray.from);
+}
+
+Eigen::Vector3f point_of(const Geometry& geometry, std::uint32_t primitive, const Range& range, Ray ray) {
+    if (geometry.corners.empty()) return to_double(geometry.points[primitive]).cast<float>();
+    const Vec3d offset = to_double(range.offset);
+    ray = {ray.from - offset, ray.to - offset};
+    return point_on_triangle(&geometry.corners[3 * std::size_t{primitive}], ray).cast<float>();
+}
+
+PickHit describe(const Layer& layer, std::uint32_t primitive, std::uint32_t range, const Projection& pixel) {
+    PickHit hit;
+    hit.layer = layer.name;
+    hit.owner = layer.ranges[range].owner;
+    hit.range = range;
+    hit.primitive = static_cast<std::int32_t>(primitive);
+    hit.element = layer.geometry->element[primitive];
+    hit.point = point_of(*layer.geometry, primitive, layer.ranges[range], ray_of(pixel));
+    return hit;
+}
+
+}  // namespace
+
+Projection narrow_to_pixel(const Projection& projection, int x, int y) {
+    const double width = projection.width, height = projection.height;
+    Eigen::Matrix4d narrow = Eigen::Matrix4d::Identity();
+    narrow(0, 0) = width;
+    narrow(1, 1) = height;
+    narrow(0, 3) = width - 2 * x - 1;
+    narrow(1, 3) = height - 2 * y - 1;
+    Projection pixel = projection;
+    pixel.projection = (narrow * projection.projection.cast<double>()).cast<float>();
+    pixel.x = pixel.y = 0;
+    pixel.width = pixel.height = 1;
+    return pixel;
+}
+
+std::optional<PickHit> Picker::pick(const Scene& scene, const Projection& projection, int x, int y,
+                                    GeometryCache& cache, TrianglePainter& triangles, StrokePainter& strokes) {
+    const Projection pixel = narrow_to_pixel(projection, x, y);
+    target_.bind();
+    gl_.Viewport(0, 0, 1, 1);
+    constexpr GLuint nothing[4] = {};
+    constexpr GLfloat far = 1;
+    gl_.ClearBufferuiv(GL_COLOR, 0, nothing);
+    gl_.ClearBufferfv(GL_DEPTH, 0, &far);
+    gl_.Enable(GL_DEPTH_TEST);
+    for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+        const Layer& layer = scene.layers[i];
+        if (!layer.geometry || layer.opacity < 1) continue;
+        const std::uint32_t id = is_pickable(layer) ? static_cast<std::uint32_t>(i) + 1 : 0;
+        const PaintJob job = {layer, cache.get(layer.geometry), scene, pixel};
+        if (!layer.geometry->corners.empty())
+            triangles.draw_ids(job, id);
+        else if (id != 0 && !layer.geometry->points.empty())
+            strokes.draw_ids(job, id);
+    }
+    gl_.Disable(GL_DEPTH_TEST);
+    GLuint id[4] = {};  // as the shaders write it: layer, primitive, range
+    gl_.ReadPixels(0, 0, 1, 1, GL_RGBA_INTEGER, GL_UNSIGNED_INT, id);
+    if (id[0] == 0) return std::nullopt;
+    return describe(scene.layers[id[0] - 1], id[1], id[2], pixel);
+}
+
+}  // namespace kerf::view

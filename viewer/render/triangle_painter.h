@@ -1,0 +1,46 @@
+// Draws layers of triangles.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "viewer/render/gl.h"
+#include "viewer/render/gl_object.h"
+#include "viewer/render/paint_job.h"
+#include "viewer/render/shader_program.h"
+
+namespace kerf::view {
+
+/// The framebuffer and its viewport, the depth test, blending and culling are the caller's.
+class TrianglePainter {
+ public:
+    TrianglePainter(const Gl& gl, const std::string& shader_folder);
+
+    void draw(const PaintJob& job);
+
+    /// Into a framebuffer of unsigned integers: (`id`, number of the triangle, of the range, 0).
+    void draw_ids(const PaintJob& job, std::uint32_t id);
+
+ private:
+    void set_place(ShaderProgram& program, const PaintJob& job);
+    void set_light(ShaderProgram& program, const Projection& projection);
+    void set_scale(ShaderProgram& program, const ColorScale& scale);
+    void draw_ranges(ShaderProgram& program, const PaintJob& job, bool colored);
+
+    // A row of colours as a texture, uploaded again when they change.
+    struct ColorRow {
+        GlObject texture;
+        std::vector<std::uint8_t> rgba;
+    };
+    void bind_row(ColorRow& row, const std::vector<Color>& colors);
+
+    const Gl& gl_;
+    std::map<int, std::unique_ptr<ShaderProgram>> programs_;  // by fill, edges and smooth
+    ShaderProgram ids_;
+    ColorRow scale_, palette_;
+};
+
+}  // namespace kerf::view

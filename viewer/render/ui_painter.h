@@ -1,0 +1,36 @@
+// Draws the user interface that Dear ImGui has laid out. Its own OpenGL renderer does not start without a window
+// system, therefore this one.
+#pragma once
+
+#include <string>
+
+#include "viewer/render/gl.h"
+#include "viewer/render/gl_object.h"
+#include "viewer/render/shader_program.h"
+
+struct ImDrawCmd;
+struct ImDrawData;
+struct ImDrawList;
+struct ImFontAtlas;
+
+namespace kerf::view {
+
+class UiPainter {
+ public:
+    UiPainter(const Gl& gl, const std::string& shader_folder);
+
+    /// Into the framebuffer that is bound, of `width` x `height` pixels. `fonts` is uploaded when it has been built
+    /// anew, and loses its copy of the pixels then.
+    void draw(const ImDrawData& ui, ImFontAtlas& fonts, int width, int height);
+
+ private:
+    void update_fonts(ImFontAtlas& fonts);
+    void draw_list(const ImDrawList& list, const ImDrawData& ui, int width, int height);
+    void draw_command(const ImDrawCmd& command, const ImDrawData& ui, int width, int height);
+
+    const Gl& gl_;
+    ShaderProgram program_;
+    GlObject array_, vertices_, indices_, fonts_;
+};
+
+}  // namespace kerf::view

@@ -1,0 +1,162 @@
+// GLFW calls back; a callback notes what happened and ImGui's own ones, which are installed after these and call them,
+// note it for the panels.
+#include "viewer/render/window.h"
+
+#include <algorithm>
+#include <utility>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "viewer/render/gl.h"
+
+namespace kerf::view {
+
+namespace {
+
+std::string glfw_reason() {
+    const char* reason = nullptr;
+    glfwGetError(&reason);
+    return reason != nullptr ? reason : "no reason is given";
+}
+
+// Ends GLFW when it goes.
+class Glfw {
+ public:
+    Glfw() {
+        if (!glfwInit())
+            throw Error(ErrorCode::io, fmt::format("There is no display to open a window on ({}). Set DISPLAY, or use "
+                                                   "kerf screenshot, which needs none.",
+                                                   glfw_reason()));
+    }
+    ~Glfw() { glfwTerminate(); }
+    Glfw(const Glfw&) = delete;
+    Glfw& operator=(const Glfw&) = delete;
+};
+
+GLFWwindow* create_window(const std::string& title, int width, int height) {
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_API);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    // The picture is copied in as it is: the window needs no depth of its own and must not shine through.
+    glfwWindowHint(GLFW_SAMPLES, 0);
+    glfwWindowHint(GLFW_ALPHA_BITS, 0);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    glfwWindowHintString(GLFW_X11_CLASS_NAME, "kerf");
+    glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "kerf");
+    GLFWwindow* window = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+    if (window == nullptr)
+        throw Error(ErrorCode::internal,
+                    fmt::format("The display offers no OpenGL 3.3 ({}). Update its driver, set LIBGL_ALWAYS_SOFTWARE=1,"
+                                " or use kerf screenshot.",
+                                glfw_reason()));
+    return window;
+}
+
+}  // namespace
+
+struct Window::Impl {
+    struct Destroy {
+        void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
+    };
+
+    Impl(const std::string& title, int width, int height) : window(create_window(title, width, height)) {}
+
+    void install_callbacks();
+
+    Glfw glfw;
+    std::unique_ptr<GLFWwindow, Destroy> window;
+    Gl gl;
+    bool happened = true;  // the first picture is due
+    std::vector<std::string> dropped;
+};
+
+namespace {
+
+template <class Impl>
+Impl& impl_of(GLFWwindow* window) {
+    return *static_cast<Impl*>(glfwGetWindowUserPointer(window));
+}
+
+}  // namespace
+
+void Window::Impl::install_callbacks() {
+    GLFWwindow* w = window.get();
+    glfwSetWindowUserPointer(w, this);
+    const auto note = [](GLFWwindow* source, auto...) { impl_of<Impl>(source).happened = true; };
+    glfwSetFramebufferSizeCallback(w, note);
+    glfwSetWindowContentScaleCallback(w, note);
+    glfwSetWindowRefreshCallback(w, note);
+    glfwSetWindowCloseCallback(w, note);
+    glfwSetWindowIconifyCallback(w, note);
+    glfwSetWindowFocusCallback(w, note);
+    glfwSetCursorEnterCallback(w, note);
+    glfwSetCursorPosCallback(w, note);
+    glfwSetMouseButtonCallback(w, note);
+    glfwSetScrollCallback(w, note);
+    glfwSetKeyCallback(w, note);
+    glfwSetCharCallback(w, note);
+    glfwSetDropCallback(w, [](GLFWwindow* source, int count, const char** paths) {
+        Impl& impl = impl_of<Impl>(source);
+        impl.happened = true;
+        impl.dropped.insert(impl.dropped.end(), paths, paths + count);
+    });
+}
+
+Window::Window(const std::string& title, int width, int height) : impl_(std::make_unique<Impl>(title, width, height)) {
+    glfwMakeContextCurrent(impl_->window.get());
+    glfwSwapInterval(1);
+    impl_->gl = load_gl([](const char* name) { return reinterpret_cast<void*>(glfwGetProcAddress(name)); });
+    impl_->install_callbacks();
+    ImGui_ImplGlfw_InitForOpenGL(impl_->window.get(), true);
+}
+
+Window::~Window() { ImGui_ImplGlfw_Shutdown(); }
+
+const Gl& Window::gl() const { return impl_->gl; }
+
+int Window::pixel_width() const {
+    int width = 0;
+    glfwGetFramebufferSize(impl_->window.get(), &width, nullptr);
+    return std::max(width, 1);
+}
+
+int Window::pixel_height() const {
+    int height = 0;
+    glfwGetFramebufferSize(impl_->window.get(), nullptr, &height);
+    return std::max(height, 1);
+}
+
+float Window::content_scale() const {
+    float scale = 1;
+    glfwGetWindowContentScale(impl_->window.get(), &scale, nullptr);
+    return scale;
+}
+
+bool Window::should_close() const { return glfwWindowShouldClose(impl_->window.get()); }
+
+void Window::close() { glfwSetWindowShouldClose(impl_->window.get(), GLFW_TRUE); }
+
+void Window::set_title(const std::string& title) { glfwSetWindowTitle(impl_->window.get(), title.c_str()); }
+
+bool Window::take_events(double wait_seconds) {
+    if (wait_seconds > 0 && !impl_->happened)
+        glfwWaitEventsTimeout(wait_seconds);
+    else
+        glfwPollEvents();
+    ImGui_ImplGlfw_NewFrame();
+    return std::exchange(impl_->happened, false);
+}
+
+std::vector<std::string> Window::take_dropped_files() { return std::exchange(impl_->dropped, {}); }
+
+void Window::swap() { glfwSwapBuffers(impl_->window.get()); }
+
+}  // namespace kerf::view

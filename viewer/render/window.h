@@ -1,0 +1,43 @@
+// A window with an OpenGL context, and its events on their way to Dear ImGui. The only place that knows GLFW.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace kerf::view {
+
+struct Gl;
+
+class Window {
+ public:
+    /// Opens the window and makes its context current. An ImGui context must exist. Throws Error(io) where there is no
+    /// display, saying so and naming `kerf screenshot`; Error(internal) if the display offers no OpenGL 3.3.
+    Window(const std::string& title, int width, int height);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    const Gl& gl() const;
+    int pixel_width() const;  ///< of the framebuffer
+    int pixel_height() const;
+    float content_scale() const;  ///< 2 on a HiDPI screen
+    bool should_close() const;
+    void close();
+    void set_title(const std::string& title);
+
+    /// Hands what has happened to ImGui's input (ImGui_ImplGlfw_NewFrame included). Sleeps until something happens, at
+    /// most `wait_seconds`. Returns whether anything did; the first call does, at once, since nothing is drawn yet.
+    bool take_events(double wait_seconds);
+    /// Files that were dropped onto the window since the last call.
+    std::vector<std::string> take_dropped_files();
+    /// Shows what was drawn.
+    void swap();
+
+ private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace kerf::view

@@ -1,0 +1,117 @@
+// What is drawn, as plain data: the scene builder makes it, the renderer draws it, tests count it.
+//
+// Coordinates are draw coordinates: the body's bounding box is centred at the origin and its diagonal is 2 long
+// (model/frame.h), so that single precision suffices for any unit and place.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/types.h"
+
+namespace kerf::view {
+
+struct Color {
+    float r = 0, g = 0, b = 0, a = 1;
+};
+
+/// A corner of a triangle. Triangles share no corners, so that every one has its own edges and value.
+struct Corner {
+    std::array<float, 3> position = {};
+    std::array<std::int16_t, 3> normal = {};  ///< of length 32767, for smooth shading; zero: that of the triangle
+    std::uint16_t edges = 7;  ///< bit i: the edge from corner i to the next is drawn; the same in all three corners
+    float value = 0;          ///< for Fill::scale and Fill::categories; NaN: no value
+};
+static_assert(sizeof(Corner) == 24);
+
+/// A straight line between two points.
+struct Segment {
+    std::array<float, 3> from = {}, to = {};
+};
+
+/// Immutable once a layer holds it; the renderer keeps a copy on the GPU for as long as it is drawn. Exactly one of the
+/// three is not empty.
+struct Geometry {
+    std::vector<Corner> corners;                ///< 3 per triangle; counter-clockwise seen from outside
+    std::vector<Segment> segments;              ///< lines of a width in pixels
+    std::vector<std::array<float, 3>> points;   ///< discs of a diameter in pixels
+    /// Per triangle or point, what it is for who picks it: a facet or cell number. Empty: cannot be picked.
+    std::vector<std::int32_t> element = {};
+
+    std::size_t triangle_count() const { return corners.size() / 3; }
+};
+
+/// A run of primitives that moves and is coloured as one: a part, or a half.
+struct Range {
+    std::uint32_t first = 0, count = 0;  ///< primitives: triangles, segments or points
+    NodeId owner = 0;                    ///< the node or part that it belongs to
+    std::array<float, 3> offset = {};    ///< added to the positions after clipping
+    Color color;                         ///< of Fill::plain, lines and points
+};
+
+/// How triangles get their colour.
+enum class Fill {
+    plain,       ///< that of the range
+    scale,       ///< the corner's value on Scene::scale
+    categories,  ///< the corner's value, a whole number, in Scene::palette, repeated
+};
+
+struct Layer {
+    std::string name;  ///< "surface", "context", "contour", ... unique in a scene
+    std::shared_ptr<const Geometry> geometry;
+    std::vector<Range> ranges;
+    Fill fill = Fill::plain;
+    float opacity = 1;           ///< below 1: drawn after what is opaque, writes no depth
+    bool edges = false;          ///< dark lines along the edges of triangles
+    bool smooth = false;         ///< shading by the corner's normals
+    bool clipped = true;         ///< by Scene::clip
+    float pixels = 1;            ///< width of lines, diameter of points, at pixel ratio 1
+    bool shines_through = false; ///< lines and points: faint where something lies before them
+    bool two_sided = false;      ///< the back looks like the front; else it is darker and greyer: one looks inside
+    /// Every range is the whole boundary of a body, facing outwards: who is outside sees no backs. The renderer then
+    /// draws none unless the plane or the eye cuts the body open, which is up to twice as fast.
+    bool closed = false;
+};
+
+/// The half space a x + b y + c z + d >= 0 is shown, in draw coordinates before offsets.
+struct ClipPlane {
+    std::array<float, 4> plane = {0, 0, 0, 1};  ///< this one shows everything
+};
+
+/// Values to colours: linear between low and high, beyond them the end colours.
+struct ColorScale {
+    float low = 0, high = 1;
+    std::vector<Color> colors;  ///< at equal distances, at least two; empty: not used
+    Color none;                 ///< of NaN
+};
+
+struct Scene {
+    std::vector<Layer> layers;
+    ClipPlane clip;
+    ColorScale scale;
+    std::vector<Color> palette;
+    Color background_top, background_bottom;
+    Color edge;  ///< of triangle edges; its alpha is their strength
+
+    const Layer* find(const std::string& name) const {
+        for (const Layer& layer : layers)
+            if (layer.name == name) return &layer;
+        return nullptr;
+    }
+};
+
+/// Where the scene is looked at from and where on the picture it goes.
+struct Projection {
+    Eigen::Matrix4f view = Eigen::Matrix4f::Identity();        ///< draw coordinates to eye coordinates
+    Eigen::Matrix4f projection = Eigen::Matrix4f::Identity();  ///< eye to clip coordinates
+    int x = 0, y = 0;           ///< lower left corner of the viewport in pixels of the picture, y up
+    int width = 1, height = 1;  ///< of the viewport in pixels
+    float pixel_ratio = 1;      ///< pixels per unit of line widths; 2 on a HiDPI screen
+};
+
+}  // namespace kerf::view

@@ -1,0 +1,97 @@
+// What colours mean in a scene.
+#include "viewer/scene/scene_build.h"
+
+#include <set>
+
+namespace kerf::view {
+
+Color SceneBuild::color_of(NodeId part) const {
+    const TreeRow* row = document_.tree.find(part);
+    switch (state_.color) {
+        case ColorBy::rank: return row && row->rank >= 0 ? category_color(static_cast<std::size_t>(row->rank)) : colors_.none;
+        case ColorBy::level: return category_color(static_cast<std::size_t>(level_of(part)));
+        case ColorBy::part: {
+            const auto order = part_order_.find(part);
+            return category_color(order == part_order_.end() ? static_cast<std::size_t>(part) : order->second);
+        }
+        default: return colors_.none;
+    }
+}
+
+void SceneBuild::set_colors() {
+    Scene& scene = built_.scene;
+    scene.background_top = colors_.background_top;
+    scene.background_bottom = colors_.background_bottom;
+    scene.edge = colors_.edge;
+    scene.scale.none = colors_.none;
+    for (std::size_t i = 0; i < category_count; ++i) scene.palette.push_back(category_color(i));
+    if (!is_measure(state_.color)) return;
+    scene.scale.colors = value_colors(state_.color);
+    std::optional<ValueRange> range = state_.color_range ? state_.color_range : natural_range(state_.color);
+    const bool is_volume = state_.color == ColorBy::volume;
+    const auto& histogram = document_.histograms[is_volume ? 5 : 7];
+    // Few cells are far larger than the others: their colour is that of the upper end.
+    if (!range && histogram)
+        range = ValueRange{histogram->min, std::min(histogram->max, (is_volume ? 4 : 2) * histogram->median)};
+    if (!range) range = ValueRange{0, 1};
+    scene.scale.low = static_cast<float>(range->low);
+    scene.scale.high = static_cast<float>(range->high);
+    if (step_.stage == Stage::tetrahedra) {
+        built_.legend.values = range;
+        built_.legend.scale = scene.scale.colors;
+    }
+}
+
+void SceneBuild::set_legend() {
+    auto& categories = built_.legend.categories;
+    if (step_.stage == Stage::tetrahedra || state_.color == ColorBy::patch) built_.legend.title = title(state_.color);
+    const Scene& scene = built_.scene;
+    if (state_.color == ColorBy::patch) {
+        for (std::size_t i = 0; i < document_.patch_names.size(); ++i)
+            categories.emplace_back(document_.patch_names[i], category_color(i));
+        if (state_.node != 1 || step_.stage >= Stage::split) categories.emplace_back(step_.stage == Stage::tetrahedra ? "interface or inside" : "interface", colors_.none);
+        return;
+    }
+    if (step_.stage == Stage::tetrahedra && state_.color == ColorBy::kind) {
+        categories = {{"inner cells", category_color(0)}, {"cells at an interface", category_color(1)}};
+        return;
+    }
+    if (step_.stage == Stage::tetrahedra && !is_measure(state_.color)) {
+        std::set<std::int32_t> seen;
+        for (const NodeId part : document_.tree.parts_below(state_.node)) {
+            if (!is_shown(part)) continue;
+            const std::int32_t rank = document_.tree.find(part)->rank;
+            const std::int32_t value = state_.color == ColorBy::rank ? rank : level_of(part);
+            if (state_.color == ColorBy::part)
+                categories.emplace_back(fmt::format("part {}", part), color_of(part));
+            else if (seen.insert(value).second)
+                categories.emplace_back(fmt::format("{} {}", name(state_.color), value), color_of(part));
+        }
+        return;
+    }
+    if (is_measure(state_.color) && step_.stage == Stage::tetrahedra) return;
+    const auto explain = [&](const char* layer, const char* text, const Color& color) {
+        if (scene.find(layer)) categories.emplace_back(text, color);
+    };
+    explain("axes", "long axis", colors_.axes[0]);
+    explain("axes", "middle axis", colors_.axes[1]);
+    explain("axes", "short axis", colors_.axes[2]);
+    explain("plane", "cutting plane", colors_.plane);
+    explain("crossed", "crossed edges", colors_.crossed);
+    if (step_.stage < Stage::contour)
+        explain("contour", "contour, not smoothed", colors_.crossed);
+    else
+        explain("contour", "smoothed contour", colors_.contour);
+    explain("projected", "projected contour", colors_.projected);
+    explain("refused", "refused contour", colors_.refused);
+    explain("places", "where it failed", colors_.error);
+    explain("triangulation", "interface", colors_.interface);
+    explain("interface", "interface", colors_.interface);
+    explain("defect places", "errors", colors_.error);
+    explain("warning places", "warnings", colors_.warning);
+    for (const NodeId half : {2 * state_.node, 2 * state_.node + 1})
+        if (scene.find(fmt::format("half {}", half)))
+            categories.emplace_back(fmt::format("node {}", half), half_color(half));
+}
+
+}  // namespace kerf::view

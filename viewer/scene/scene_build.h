@@ -1,0 +1,91 @@
+// How SceneBuilder makes a scene: only for the files of this folder.
+#pragma once
+
+#include <map>
+
+#include <fmt/format.h>
+
+#include "viewer/model/timeline.h"
+#include "viewer/scene/colors.h"
+#include "viewer/scene/scene_builder.h"
+#include "viewer/scene/shapes.h"
+
+namespace kerf::view {
+
+/// Halves of a cut: not the colour of interfaces.
+inline Color half_color(NodeId half) { return category_color(half % 2 == 0 ? 0 : 2); }
+
+inline constexpr float contour_pixels = 3.5f, thin_pixels = 1.5f, place_pixels = 9;
+
+/// One scene under construction. Its layers come from several files: cut_layers, part_layers, defect_layers, legend.
+class SceneBuild {
+ public:
+    SceneBuild(const ViewState& state, Session& session, GeometryCache& cache)
+        : state_(state),
+          session_(session),
+          document_(session.document()),
+          cache_(cache),
+          colors_(scene_colors(state.theme)) {}
+
+    BuiltScene run();
+
+ private:
+    Layer& add(const std::string& name, std::shared_ptr<const Geometry> geometry, const Color& color, NodeId owner = 0,
+               const Vec3& offset = Vec3::Zero());
+    Layer& add_lines(const std::string& name, const std::vector<std::array<Vec3, 2>>& ends, const Color& color,
+                     float pixels);
+    void add_points(const std::string& name, const std::vector<Vec3>& places, const Color& color, float pixels);
+    void add_node();
+    Layer* add_surface(const std::string& name, const std::shared_ptr<const NodeSurface>& surface, NodeId owner,
+                       const Color& color, const Color& interface_color, const Vec3& offset);
+    void add_node(const std::shared_ptr<const NodeSurface>& surface);
+    void add_context(const NodeSurface& own);
+    void add_defects();
+    void add_axes(const TreeRow& row);
+    void add_plane(const Plane& plane);
+    void add_try(const CutTry& attempt, const NodeSurface& surface);
+    void add_stage(const Cut& cut, const NodeSurface& surface);
+    Layer* add_contour(const Cut& cut, const NodeSurface& surface);
+    void add_halves(const NodeSurface* parent);
+    void add_parts();
+    void add_part(NodeId part);
+    bool add_cells(NodeId part, const NodeSurface& surface, const Vec3& offset);
+    void add_selection();
+    void set_colors();
+    void set_legend();
+
+    bool is_shown(NodeId part) const {
+        return !state_.is_hidden(part) && (!state_.isolated || lies_below(part, *state_.isolated));
+    }
+    bool needs_values() const { return is_measure(state_.color) || state_.color == ColorBy::kind; }
+    Vec3 offset_of(NodeId part, NodeId root) const {
+        return explosion_offset(document_.tree, part, root, state_.explode, document_.box.diagonal().norm());
+    }
+    Color color_of(NodeId part) const;
+    Fill fill_of_values() const { return state_.color == ColorBy::kind ? Fill::categories : Fill::scale; }
+    std::string clip_key() const;
+    std::string value_key() const {
+        return needs_values() || state_.color == ColorBy::patch ? name(state_.color) : "plain";
+    }
+    const char* shading_key() const { return state_.shading == Shading::smooth ? "smooth" : "flat"; }
+    void extend(Eigen::AlignedBox3d box, const Vec3& offset = Vec3::Zero()) {
+        if (!box.isEmpty()) built_.box.extend(box.translate(offset));
+    }
+    std::array<float, 3> move_of(const Vec3& offset) const {
+        const Eigen::Vector3f move = (offset * built_.frame.scale).cast<float>();
+        return {move.x(), move.y(), move.z()};
+    }
+    std::vector<float> patch_values(const NodeSurface& surface) const;
+
+    const ViewState& state_;
+    Session& session_;
+    const Document& document_;
+    GeometryCache& cache_;
+    const SceneColors colors_;
+    BuiltScene built_;
+    std::optional<ShownSide> side_;
+    std::map<NodeId, std::size_t> part_order_;
+    Step step_;
+};
+
+}  // namespace kerf::view

@@ -1,0 +1,224 @@
+#include "viewer/scene/scene_builder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "viewer/scene/scene_build.h"
+#include "viewer/scene/selection.h"
+
+namespace kerf::view {
+
+namespace {
+
+constexpr float context_opacity = 0.16f, glass_opacity = 0.3f;
+
+bool is_interface(const NodeSurface& surface, std::int32_t facet) {
+    return !surface.interface_of.empty() && surface.interface_of[static_cast<std::size_t>(facet)] != 0;
+}
+
+bool is_facet_shown(const NodeSurface& surface, std::int32_t facet, const ShownSide& side, ClipStyle style) {
+    const Triangle& t = surface.facets[static_cast<std::size_t>(facet)];
+    std::array<double, 3> d = {};
+    for (std::size_t k = 0; k < 3; ++k) d[k] = side.distance(surface.vertices[static_cast<std::size_t>(t[k])]);
+    if (style == ClipStyle::cells) return d[0] + d[1] + d[2] <= 0;
+    return std::min({d[0], d[1], d[2]}) < 0 && std::max({d[0], d[1], d[2]}) >= 0;
+}
+
+}  // namespace
+
+std::string SceneBuild::clip_key() const {
+    std::string key = fmt::format("shrink {}", state_.shrink);
+    if (side_)
+        key += fmt::format(" {} {} {} {} {}", name(state_.clip.style), side_->normal.x(), side_->normal.y(),
+                           side_->normal.z(), side_->offset);
+    if (state_.filter && is_measure(state_.color))
+        key += fmt::format(" filter {} {}", state_.filter->low, state_.filter->high);
+    return key;
+}
+
+Layer& SceneBuild::add(const std::string& name, std::shared_ptr<const Geometry> geometry, const Color& color,
+                       NodeId owner, const Vec3& offset) {
+    Layer layer;
+    layer.name = name;
+    Range range;
+    range.count = static_cast<std::uint32_t>(
+        std::max({geometry->triangle_count(), geometry->segments.size(), geometry->points.size()}));
+    range.owner = owner;
+    range.offset = move_of(offset);
+    range.color = color;
+    layer.ranges.push_back(range);
+    layer.geometry = std::move(geometry);
+    layer.edges = state_.edges;
+    layer.smooth = state_.shading == Shading::smooth;
+    return built_.scene.layers.emplace_back(std::move(layer));
+}
+
+Layer& SceneBuild::add_lines(const std::string& name, const std::vector<std::array<Vec3, 2>>& ends, const Color& color,
+                             float pixels) {
+    Layer& layer = add(name, segments(ends, built_.frame), color, state_.node);
+    layer.pixels = pixels;
+    layer.shines_through = true;
+    layer.clipped = false;
+    return layer;
+}
+
+void SceneBuild::add_points(const std::string& name, const std::vector<Vec3>& places, const Color& color,
+                            float pixels) {
+    Layer& layer = add(name, points(places, built_.frame), color, state_.node);
+    layer.pixels = pixels;
+    layer.shines_through = true;
+    layer.clipped = false;
+}
+
+// Empty unless they are asked for.
+std::vector<float> SceneBuild::patch_values(const NodeSurface& surface) const {
+    std::vector<float> values;
+    if (state_.color != ColorBy::patch) return values;
+    for (const std::int32_t patch : surface.patch)
+        values.push_back(patch < 0 ? std::nanf("") : static_cast<float>(patch));
+    return values;
+}
+
+// The facets of a surface: one range of the input's and one of the interfaces'. Nothing if the clip plane leaves none.
+Layer* SceneBuild::add_surface(const std::string& name, const std::shared_ptr<const NodeSurface>& surface, NodeId owner,
+                               const Color& color, const Color& interface_color, const Vec3& offset) {
+    FacetChoice choice;
+    choice.smooth = state_.shading == Shading::smooth;
+    choice.shrink = state_.shrink;
+    const bool by_facets = side_ && state_.clip.style != ClipStyle::smooth;
+    if (by_facets)
+        choice.wanted = [&](std::int32_t f) { return is_facet_shown(*surface, f, *side_, state_.clip.style); };
+    const std::vector<float> patches = patch_values(*surface);
+    choice.value = patches;
+    const std::string key =
+        fmt::format("{} of {} {} {} {}", name, owner, shading_key(),
+                    by_facets ? clip_key() : fmt::format("shrink {}", state_.shrink), state_.color == ColorBy::patch);
+    auto geometry = cache_.get(key, surface, [&] { return facet_triangles(*surface, built_.frame, choice); });
+    extend(box_of(surface->vertices), offset);
+    if (geometry->corners.empty()) return nullptr;
+    Layer& layer = add(name, geometry, color, owner, offset);
+    layer.clipped = !by_facets;
+    if (!patches.empty()) layer.fill = Fill::categories;
+    const auto& element = geometry->element;
+    const auto first_interface =
+        std::find_if(element.begin(), element.end(), [&](std::int32_t f) { return is_interface(*surface, f); });
+    Range input = layer.ranges.front(), interface = input;
+    input.count = static_cast<std::uint32_t>(first_interface - element.begin());
+    interface.first = input.count;
+    interface.count -= input.count;
+    interface.color = interface_color;
+    layer.ranges.clear();
+    if (state_.surface && input.count > 0) layer.ranges.push_back(input);
+    if (state_.interfaces && interface.count > 0) layer.ranges.push_back(interface);
+    // A surface as its file has it may be open or turned.
+    std::size_t shown = 0;
+    for (const Range& range : layer.ranges) shown += range.count;
+    layer.closed = shown == surface->facets.size() && state_.shrink == 0 && document_.trace;
+    return &layer;
+}
+
+// The surface of the node itself, and what its cut did to it.
+void SceneBuild::add_node(const std::shared_ptr<const NodeSurface>& surface) {
+    Layer* layer = add_surface("surface", surface, state_.node, colors_.surface, colors_.interface, Vec3::Zero());
+    if (layer && step_.stage >= Stage::projected) {
+        layer->opacity = glass_opacity;
+        layer->edges = false;
+        layer->two_sided = true;
+    }
+    const Cut* cut = document_.trace ? document_.trace->find(state_.node) : nullptr;
+    const TreeRow* row = document_.tree.find(state_.node);
+    const auto attempt = static_cast<std::size_t>(step_.refused_try);
+    if (step_.refused_try >= 0 && cut && attempt < cut->tries.size())
+        add_try(cut->tries[attempt], *surface);
+    else if (step_.stage >= Stage::plane && row && row->plane)
+        add_plane(*row->plane);
+    if (cut && step_.refused_try < 0) add_stage(*cut, *surface);
+    if (step_.stage == Stage::input && row) add_axes(*row);
+}
+
+// The facets of the input that the node's surface does not have.
+void SceneBuild::add_context(const NodeSurface& own) {
+    if (!state_.context || state_.node == 1) return;
+    const auto whole = session_.surface(1);
+    if (!whole) return;
+    std::vector<char> is_own(whole->facets.size(), 0);
+    for (const std::int32_t f : own.facet_number)
+        if (f >= 0 && static_cast<std::size_t>(f) < is_own.size()) is_own[static_cast<std::size_t>(f)] = 1;
+    FacetChoice choice;
+    choice.wanted = [&](std::int32_t f) { return !is_own[static_cast<std::size_t>(f)]; };
+    choice.smooth = true;
+    auto geometry = cache_.get(fmt::format("context {}", state_.node), whole,
+                               [&] { return facet_triangles(*whole, built_.frame, choice); });
+    if (geometry->corners.empty()) return;
+    Layer& layer = add("context", geometry, colors_.context);
+    layer.opacity = context_opacity;
+    layer.edges = false;
+    layer.smooth = true;
+    layer.two_sided = true;
+    extend(document_.box);
+}
+
+void SceneBuild::add_selection() {
+    const Selection& s = state_.selection;
+    if (s.kind == Selection::Kind::none) return;
+    std::vector<Vec3> corners = selected_points(session_, s);
+    built_.pending |= corners.empty();
+    const bool apart = step_.stage >= Stage::split && s.kind != Selection::Kind::place && s.owner != state_.node;
+    const Vec3 offset = apart ? offset_of(s.owner, state_.node) : Vec3::Zero();
+    for (Vec3& p : corners) p += offset;
+    std::vector<std::array<Vec3, 2>> edges;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        for (std::size_t j = i + 1; j < corners.size(); ++j) edges.push_back({corners[i], corners[j]});
+    if (!edges.empty()) add_lines("selection", edges, colors_.selection, contour_pixels);
+    if (corners.size() == 1) add_points("selected place", corners, colors_.selection, 12);
+}
+
+BuiltScene SceneBuild::run() {
+    built_.frame = Frame::around(document_.box);
+    const std::vector<Step> steps = steps_of(document_, state_.node);
+    step_ = steps[nearest_step(steps, state_.step)];
+    for (const NodeId part : document_.tree.parts_below(1)) part_order_.emplace(part, part_order_.size());
+    if (state_.clip.on && !document_.box.isEmpty()) {
+        side_ = shown_side(state_.clip, document_.box);
+        built_.scene.clip = clip_plane(*side_, built_.frame);
+    }
+    set_colors();
+    if (document_.kind == Document::Kind::none || document_.box.isEmpty()) return std::move(built_);
+
+    const auto surface = surface_of(session_, state_.node);
+    built_.pending |= !surface;
+    if (step_.stage == Stage::tetrahedra)
+        add_parts();
+    else if (step_.stage == Stage::split)
+        add_halves(surface.get());
+    else if (surface)
+        add_node(surface);
+    if (surface) add_context(*surface);
+    add_defects();
+    add_selection();
+    set_legend();
+    if (state_.context) extend(document_.box);
+    built_.pending &= session_.pending() || session_.busy();  // what failed does not come
+    return std::move(built_);
+}
+
+Vec3 explosion_offset(const Tree& tree, NodeId part, NodeId root, double explode, double diagonal) {
+    Vec3 offset = Vec3::Zero();
+    if (!(explode > 0)) return offset;
+    for (NodeId node = part; node > root; node /= 2) {
+        const TreeRow* parent = tree.find(node / 2);
+        if (!parent || !parent->plane) continue;
+        // As long as a cube of the parent's volume; without a volume, less with every level.
+        const double length = parent->volume > 0 ? std::cbrt(parent->volume) : diagonal / (2 + level_of(node));
+        offset += (node % 2 == 0 ? -0.5 : 0.5) * explode * length * parent->plane->normal;
+    }
+    return offset;
+}
+
+BuiltScene SceneBuilder::build(const ViewState& state, Session& session) {
+    BuiltScene built = SceneBuild(state, session, cache_).run();
+    cache_.age();
+    return built;
+}
+
+}  // namespace kerf::view

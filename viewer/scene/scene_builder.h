@@ -1,0 +1,63 @@
+// From what is open and what is to be shown to what is drawn.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "viewer/model/session.h"
+#include "viewer/model/view_state.h"
+#include "viewer/scene/geometry_cache.h"
+#include "viewer/scene/layer.h"
+
+namespace kerf::view {
+
+/// What colours mean in a scene.
+struct Legend {
+    std::string title;                                       ///< of a colouring; empty: what there is to see is explained
+    std::optional<ValueRange> values;                        ///< of a measure
+    std::vector<Color> scale;                                ///< from its low to its high end
+    std::vector<std::pair<std::string, Color>> categories;  ///< else
+};
+
+struct BuiltScene {
+    Scene scene;
+    Legend legend;
+    Frame frame;
+    Eigen::AlignedBox3d box;   ///< of what is drawn, moved parts included; coordinates of the file
+    bool pending = false;      ///< something is still being fetched: build again when it has arrived
+};
+
+/// Layers by name, in the order of drawing:
+///
+///     surface           the closed surface of the node, its interface facets in their own colour
+///     context           the rest of the body, translucent
+///     defects, defect edges, defect places   what kerf check found
+///     axes, centre      principal axes and centre of gravity
+///     plane, plane outline                   the cutting plane with its normal
+///     crossed, contour, projected            the contour at the stage
+///     refused, places                        a refused try's contour, and where it failed
+///     triangulation, interface               the section in the plane, and on the surface
+///     half N            of a split, by node
+///     part N, cells N, section N             of the tetrahedra: a part's boundary; its cells at the clip plane, by
+///                                            filter or shrunk; their smooth sections
+///     selection, selected place
+///
+/// Deterministic: a function of state and document. What was drawn before costs no more than a look-up.
+class SceneBuilder {
+ public:
+    BuiltScene build(const ViewState& state, Session& session);
+    /// How much geometry had to be made so far: stays as it is when one goes back.
+    std::int64_t geometry_made() const { return cache_.made(); }
+    void forget() { cache_.clear(); }
+
+ private:
+    GeometryCache cache_;
+};
+
+/// Where a part or half goes when the parts below `root` are pulled apart: a sum over the cuts between them, along the
+/// normals. Coordinates of the file.
+Vec3 explosion_offset(const Tree& tree, NodeId part, NodeId root, double explode, double diagonal);
+
+}  // namespace kerf::view

@@ -1,0 +1,203 @@
+#include "viewer/scene/selection.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+
+#include "mesh/quality.h"
+#include "mesh/tet_mesh.h"
+
+namespace kerf::view {
+
+namespace {
+
+std::string text_of(const Vec3& p) { return fmt::format("({:.9g}, {:.9g}, {:.9g})", p.x(), p.y(), p.z()); }
+
+std::string number_text(std::int64_t number) { return number < 0 ? "new" : fmt::format("{}", number); }
+
+template <class Indices>
+std::int32_t nearest_vertex(const std::vector<Vec3>& vertices, const Indices& corners, const Vec3& point) {
+    return *std::min_element(corners.begin(), corners.end(), [&](std::int32_t a, std::int32_t b) {
+        return (vertices[static_cast<std::size_t>(a)] - point).squaredNorm() <
+               (vertices[static_cast<std::size_t>(b)] - point).squaredNorm();
+    });
+}
+
+double smallest_angle_deg(const std::array<Vec3, 3>& p) {
+    double smallest = 180;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 a = p[(i + 1) % 3] - p[i], b = p[(i + 2) % 3] - p[i];
+        smallest = std::min(smallest, std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / M_PI);
+    }
+    return smallest;
+}
+
+// Facets that share two vertices with one.
+std::vector<std::int32_t> neighbours_of(const NodeSurface& surface, std::size_t facet) {
+    std::vector<std::int32_t> found;
+    const Triangle& own = surface.facets[facet];
+    for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+        const Triangle& t = surface.facets[f];
+        const auto shared = std::count_if(t.begin(), t.end(), [&](std::int32_t v) {
+            return std::find(own.begin(), own.end(), v) != own.end();
+        });
+        if (shared == 2) found.push_back(static_cast<std::int32_t>(f));
+    }
+    return found;
+}
+
+bool is_leaf(const Document& document, NodeId node) {
+    const TreeRow* row = document.tree.find(node);
+    return row && row->leaf();
+}
+
+std::string vertex_line(const char* label, std::int32_t index, std::int64_t number, const Vec3& p) {
+    return fmt::format("{} {}, global {}\n{}\n", label, index, number_text(number), text_of(p));
+}
+
+std::string describe_facet(Session& session, const NodeSurface& surface, NodeId owner, std::size_t facet) {
+    const Document& document = session.document();
+    const char* what = is_leaf(document, owner) ? "part" : "node";
+    std::string text = fmt::format("facet {} of {} {}\n", facet, what, owner);
+    const std::int32_t number = surface.facet_number.empty() ? -1 : surface.facet_number[facet];
+    const NodeId interface = surface.interface_of.empty() ? 0 : surface.interface_of[facet];
+    if (number >= 0) text += fmt::format("facet {} of the input\n", number);
+    if (interface > 0) text += fmt::format("interface of the cut of node {}\n", interface);
+    if (!surface.neighbour.empty() && surface.neighbour[facet] >= 0)
+        text += fmt::format("part {} behind it\n", surface.neighbour[facet]);
+    const std::int32_t patch = surface.patch.empty() ? -1 : surface.patch[facet];
+    if (patch >= 0 && static_cast<std::size_t>(patch) < document.patch_names.size())
+        text += fmt::format("patch '{}'\n", document.patch_names[static_cast<std::size_t>(patch)]);
+    std::array<Vec3, 3> p;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto v = static_cast<std::size_t>(surface.facets[facet][k]);
+        p[k] = surface.vertices[v];
+        text += vertex_line("vertex", static_cast<std::int32_t>(v),
+                            surface.vertex_number.empty() ? static_cast<std::int64_t>(v) : surface.vertex_number[v],
+                            p[k]);
+    }
+    text += fmt::format("area {:.6g}, smallest angle {:.2f} deg\n", (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2,
+                        smallest_angle_deg(p));
+    return text + fmt::format("neighbours {}\n", fmt::join(neighbours_of(surface, facet), ", "));
+}
+
+std::string describe_vertex(const NodeSurface& surface, NodeId owner, const char* what, std::size_t vertex) {
+    std::string text = fmt::format("vertex {} of {} {}\n", vertex, what, owner);
+    if (!surface.vertex_number.empty())
+        text += fmt::format("global number {}\n", number_text(surface.vertex_number[vertex]));
+    text += text_of(surface.vertices[vertex]) + "\n";
+    std::vector<std::size_t> facets;
+    for (std::size_t f = 0; f < surface.facets.size(); ++f)
+        if (std::find(surface.facets[f].begin(), surface.facets[f].end(), static_cast<std::int32_t>(vertex)) !=
+            surface.facets[f].end())
+            facets.push_back(f);
+    return text + fmt::format("{} facets around it: {}\n", facets.size(), fmt::join(facets, ", "));
+}
+
+std::string describe_cell(const PartCells& cells, std::size_t cell) {
+    std::string text = fmt::format("cell {} of part {}\n", cell, cells.part);
+    std::array<Vec3, 4> p;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const auto v = static_cast<std::size_t>(cells.tets[cell][k]);
+        p[k] = cells.vertices[v];
+        text += vertex_line("vertex", static_cast<std::int32_t>(v), cells.vertex_number[v], p[k]);
+    }
+    std::vector<std::string> neighbours;
+    for (const std::int32_t n : cells.neighbours[cell]) neighbours.push_back(n < 0 ? "boundary" : std::to_string(n));
+    text += fmt::format("neighbours {}\n", fmt::join(neighbours, ", "));
+    text += cells.at_interface[cell] ? "at an interface\n" : "inside of the part\n";
+    const TetQuality q = tet_quality(p[0], p[1], p[2], p[3]);
+    return text + fmt::format("dihedral angles {:.2f} to {:.2f} deg\nradius-edge {:.4g}, aspect {:.4g}, shape "
+                              "{:.4g}\nvolume {:.6g}, edges {:.6g} to {:.6g}\n",
+                              q.min_dihedral_deg, q.max_dihedral_deg, q.radius_edge, q.aspect, q.shape, q.volume,
+                              q.min_edge, q.max_edge);
+}
+
+}  // namespace
+
+std::shared_ptr<const NodeSurface> surface_of(Session& session, NodeId owner) {
+    const bool is_part = is_leaf(session.document(), owner) && !session.document().folder.empty();
+    if (is_part)
+        if (auto surface = session.part_surface(owner)) return surface;
+    return session.surface(owner);
+}
+
+std::optional<Selection> select(Session& session, const Hit& hit, PickMode mode) {
+    Selection s;
+    s.owner = hit.owner;
+    s.index = hit.element;
+    s.place = hit.point;
+    s.kind = hit.is_cell ? Selection::Kind::cell : Selection::Kind::facet;
+    const bool has_cells = is_leaf(session.document(), hit.owner) && !session.document().folder.empty();
+    if (!hit.is_cell && mode == PickMode::cell && has_cells) {
+        const auto cells = session.cells(hit.owner);
+        if (!cells) return std::nullopt;
+        if (static_cast<std::size_t>(hit.element) < cells->tet_at_facet.size()) {
+            s.kind = Selection::Kind::cell;
+            s.index = cells->tet_at_facet[static_cast<std::size_t>(hit.element)];
+        }
+    }
+    if (mode == PickMode::vertex) {
+        if (hit.is_cell) {
+            const auto cells = session.cells(hit.owner);
+            if (!cells) return std::nullopt;
+            s.index = nearest_vertex(cells->vertices, cells->tets[static_cast<std::size_t>(hit.element)], hit.point);
+        } else {
+            const auto surface = surface_of(session, hit.owner);
+            if (!surface) return std::nullopt;
+            s.index = nearest_vertex(surface->vertices, surface->facets[static_cast<std::size_t>(hit.element)], hit.point);
+        }
+        s.kind = Selection::Kind::vertex;
+    }
+    return s;
+}
+
+std::string describe_selection(Session& session, const Selection& s) {
+    if (s.kind == Selection::Kind::none) return "";
+    if (s.kind == Selection::Kind::place) return text_of(s.place) + "\n";
+    const auto index = static_cast<std::size_t>(s.index);
+    if (s.kind == Selection::Kind::cell) {
+        const auto cells = session.cells(s.owner);
+        return cells && index < cells->tets.size() ? describe_cell(*cells, index) : "";
+    }
+    const auto surface = surface_of(session, s.owner);
+    if (!surface) return "";
+    if (s.kind == Selection::Kind::facet)
+        return index < surface->facets.size() ? describe_facet(session, *surface, s.owner, index) : "";
+    const char* what = is_leaf(session.document(), s.owner) ? "part" : "node";
+    if (index < surface->vertices.size()) return describe_vertex(*surface, s.owner, what, index);
+    // Vertices inside of a part come after those of its surface.
+    const auto cells = session.cells(s.owner);
+    if (!cells || index >= cells->vertices.size()) return "";
+    return fmt::format("vertex {} of part {}, inside of it\nglobal number {}\n{}\n", index, s.owner,
+                       cells->vertex_number[index], text_of(cells->vertices[index]));
+}
+
+std::vector<Vec3> selected_points(Session& session, const Selection& s) {
+    std::vector<Vec3> points;
+    const auto index = static_cast<std::size_t>(s.index);
+    if (s.kind == Selection::Kind::none) return points;
+    if (s.kind == Selection::Kind::place) return {s.place};
+    const bool needs_cells = s.kind == Selection::Kind::cell;
+    const auto surface = needs_cells ? nullptr : surface_of(session, s.owner);
+    if (s.kind == Selection::Kind::facet) {
+        if (surface && index < surface->facets.size())
+            for (const std::int32_t v : surface->facets[index])
+                points.push_back(surface->vertices[static_cast<std::size_t>(v)]);
+        return points;
+    }
+    if (surface && index < surface->vertices.size()) return {surface->vertices[index]};
+    if (!needs_cells && !surface) return points;
+    const auto cells = session.cells(s.owner);
+    if (!cells) return points;
+    if (!needs_cells) {
+        if (index < cells->vertices.size()) points.push_back(cells->vertices[index]);
+    } else if (index < cells->tets.size()) {
+        for (const std::int32_t v : cells->tets[index]) points.push_back(cells->vertices[static_cast<std::size_t>(v)]);
+    }
+    return points;
+}
+
+}  // namespace kerf::view

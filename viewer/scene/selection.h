@@ -1,0 +1,35 @@
+// From a click to the thing clicked, and that in words.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viewer/model/session.h"
+#include "viewer/model/view_state.h"
+
+namespace kerf::view {
+
+/// What was hit: a facet or cell of `owner`, and the point on it in coordinates of the file.
+struct Hit {
+    bool is_cell = false;
+    NodeId owner = 0;
+    std::int32_t element = -1;
+    Vec3 point = Vec3::Zero();
+};
+
+/// The surface whose numbers a selection of `owner` uses: of a part of a run folder, its file's; else the node's.
+/// nullptr while it is being fetched.
+std::shared_ptr<const NodeSurface> surface_of(Session& session, NodeId owner);
+
+/// The facet, cell or vertex that a hit selects; none while the cells behind a facet are being fetched.
+std::optional<Selection> select(Session& session, const Hit& hit, PickMode mode);
+
+/// Numbers (in the file, global, of the part), coordinates, neighbours and quality, a fact a line; empty if there is
+/// nothing or it is being fetched.
+std::string describe_selection(Session& session, const Selection& selection);
+
+/// The corners of what is selected, or the place; empty while it is being fetched.
+std::vector<Vec3> selected_points(Session& session, const Selection& selection);
+
+}  // namespace kerf::view
