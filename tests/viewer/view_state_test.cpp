@@ -97,10 +97,18 @@ TEST(Camera, JsonKeepsWhereItLooks) {
         camera.turn = Eigen::Quaterniond(number(random), number(random), number(random), number(random)).normalized();
         camera.target = {number(random), number(random), number(random)};
         const Camera read = camera_from_json(to_json(camera), "it");
-        EXPECT_LT((read.back() - camera.back()).norm() + (read.up() - camera.up()).norm(), 1e-12);
+        EXPECT_EQ(read.turn.coeffs(), camera.turn.coeffs());
         EXPECT_EQ(read.target, camera.target);
         EXPECT_EQ(read.height, camera.height);
     }
+}
+
+TEST(Camera, ReadsWhatPeopleWrite) {
+    const Camera camera = camera_from_json(R"({"back": [0, -2, 0], "up": [0, 0, 1], "height": 3})", "it");
+    Camera front;
+    look_from(front, Direction::front);
+    EXPECT_LT((camera.back() - front.back()).norm() + (camera.up() - front.up()).norm(), 1e-12);
+    EXPECT_EQ(camera.height, 3);
 }
 
 const Eigen::AlignedBox3d box(Vec3(10, 20, 30), Vec3(14, 22, 31));

@@ -72,7 +72,7 @@ def take_picture(environment, folder, number):
 
 
 def main():
-    kerf, surface = sys.argv[1:3]
+    kerf, surface = (str(pathlib.Path(argument).resolve()) for argument in sys.argv[1:3])
     check_without_display(kerf)
     with tempfile.TemporaryDirectory(prefix="kerf_window_test_") as name:
         folder = pathlib.Path(name)

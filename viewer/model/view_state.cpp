@@ -1,6 +1,7 @@
 #include "viewer/model/view_state.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include <fmt/format.h>
@@ -62,8 +63,7 @@ ValueRange range_from(const Json& json) {
 
 Json write(const Camera& camera) {
     return {{"target", write(camera.target)},
-            {"back", write(camera.back())},
-            {"up", write(camera.up())},
+            {"turn", {camera.turn.w(), camera.turn.x(), camera.turn.y(), camera.turn.z()}},
             {"height", camera.height},
             {"perspective", camera.perspective}};
 }
@@ -91,19 +91,30 @@ void read_fields(const Json& json, const Fields& fields, const std::string& sour
 
 Camera camera_from(const Json& json, const std::string& source) {
     Camera camera;
+    std::optional<Eigen::Quaterniond> turn;
     Vec3 back = Vec3::UnitZ(), up = Vec3::UnitY();
     read_fields(json,
                 {{"target", [&](const Json& j) { camera.target = vector_from(j); }},
+                 {"turn",
+                  [&](const Json& j) {
+                      const auto q = j.get<std::array<double, 4>>();
+                      turn.emplace(q[0], q[1], q[2], q[3]);
+                  }},
                  {"back", [&](const Json& j) { back = vector_from(j); }},
                  {"up", [&](const Json& j) { up = vector_from(j); }},
                  {"height", [&](const Json& j) { camera.height = j.get<double>(); }},
                  {"perspective", [&](const Json& j) { camera.perspective = j.get<bool>(); }}},
                 source);
+    const auto refuse = [&](const char* what) { throw Error(ErrorCode::usage, fmt::format("{}: {}", source, what)); };
+    if (!(camera.height > 0)) refuse("'height' must be positive.");
+    if (turn) {
+        if (!(turn->norm() > 0)) refuse("'turn' must not be zero.");
+        // What was written reads back bit for bit.
+        camera.turn = std::abs(turn->norm() - 1) < 1e-12 ? *turn : turn->normalized();
+        return camera;
+    }
     const Vec3 right = up.cross(back);
-    if (!(right.norm() > 1e-9 * up.norm() * back.norm()) || !(camera.height > 0))
-        throw Error(ErrorCode::usage, fmt::format("{}: 'back' and 'up' must not be parallel or zero, and 'height' must "
-                                                  "be positive.",
-                                                  source));
+    if (!(right.norm() > 1e-9 * up.norm() * back.norm())) refuse("'back' and 'up' must not be parallel or zero.");
     Eigen::Matrix3d columns;
     columns << right.normalized(), back.cross(right).normalized(), back.normalized();
     camera.turn = Eigen::Quaterniond(columns).normalized();

@@ -102,6 +102,8 @@ struct ViewState {
 std::string to_json(const ViewState& state);
 /// Throws Error(usage) naming the first field that is unknown or has a value of another kind.
 ViewState state_from_json(const std::string& text, const std::string& source);
+/// "target", "turn" (a quaternion w, x, y, z), "height", "perspective"; for who writes it by hand, "back" (from the
+/// target to the eye) and "up" are read instead of "turn".
 std::string to_json(const Camera& camera);
 Camera camera_from_json(const std::string& text, const std::string& source);
 

@@ -24,6 +24,16 @@ bool is_facet_shown(const NodeSurface& surface, std::int32_t facet, const ShownS
     return std::min({d[0], d[1], d[2]}) < 0 && std::max({d[0], d[1], d[2]}) >= 0;
 }
 
+// A surface as its file has it may be open or turned; what was cut is neither.
+bool is_outward(const Document& document) {
+    if (document.trace) return true;
+    if (!document.checked || !document.checked->diagnosis.clean()) return false;
+    const Diagnosis& diagnosis = document.checked->diagnosis;
+    return diagnosis.count(DefectKind::inverted_shell) == 0 &&
+           diagnosis.count(DefectKind::inconsistent_orientation) == 0 &&
+           diagnosis.count(DefectKind::duplicate_facet) == 0;
+}
+
 }  // namespace
 
 std::string SceneBuild::clip_key() const {
@@ -110,10 +120,9 @@ Layer* SceneBuild::add_surface(const std::string& name, const std::shared_ptr<co
     layer.ranges.clear();
     if (state_.surface && input.count > 0) layer.ranges.push_back(input);
     if (state_.interfaces && interface.count > 0) layer.ranges.push_back(interface);
-    // A surface as its file has it may be open or turned.
     std::size_t shown = 0;
     for (const Range& range : layer.ranges) shown += range.count;
-    layer.closed = shown == surface->facets.size() && state_.shrink == 0 && document_.trace;
+    layer.closed = shown == surface->facets.size() && state_.shrink == 0 && is_outward(document_);
     return &layer;
 }
 

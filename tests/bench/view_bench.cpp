@@ -1,0 +1,131 @@
+// How fast the viewer is without a graphics card: medians of whole frames (panels, scene, picking nothing) at 1280x800,
+// the change from one step to another, and the first picture of a surface.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "support/assets.h"
+#include "support/write_off.h"
+#include "viewer/driver.h"
+
+namespace kerf::test {
+namespace {
+
+using namespace view;
+
+class Stopwatch {
+ public:
+    double milliseconds() const {
+        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+ private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+double median(std::vector<double> values) {
+    std::nth_element(values.begin(), values.begin() + std::ssize(values) / 2, values.end());
+    return values[values.size() / 2];
+}
+
+void report(const std::string& what, double milliseconds, double wanted) {
+    fmt::print("{:<44} {:>8.0f} ms {:>8.0f} ms\n", what, milliseconds, wanted);
+}
+
+// A torus of 2 m n triangles.
+void write_torus(const std::string& path, int m, int n) {
+    std::vector<Vec3> vertices;
+    std::vector<Triangle> facets;
+    const auto number = [&](int i, int j) { return (i % m) * n + j % n; };
+    for (int i = 0; i < m; ++i)
+        for (int j = 0; j < n; ++j) {
+            const double u = 2 * M_PI * i / m, v = 2 * M_PI * j / n, r = 3 + std::cos(v);
+            vertices.emplace_back(r * std::cos(u), r * std::sin(u), std::sin(v));
+            facets.push_back({number(i, j), number(i + 1, j), number(i + 1, j + 1)});
+            facets.push_back({number(i, j), number(i + 1, j + 1), number(i, j + 1)});
+        }
+    write_off(path, vertices, facets);
+}
+
+double frame_time(Driver& driver, int frames) {
+    std::vector<double> times;
+    for (int i = 0; i < frames; ++i) {
+        Camera camera = driver.app().camera();
+        orbit(camera, 0.02, 0);
+        driver.state().camera = camera;
+        const Stopwatch stopwatch;
+        driver.frame();
+        times.push_back(stopwatch.milliseconds());
+    }
+    return median(times);
+}
+
+void time_first_picture() {
+    std::vector<double> times;
+    for (int i = 0; i < 5; ++i) {
+        const Stopwatch stopwatch;
+        Driver driver;
+        driver.app().open(asset_path("bearing_cap_52k"));
+        while (driver.drawn("surface").triangles == 0) {
+            driver.app().wait(0.01);
+            driver.frame();
+        }
+        times.push_back(stopwatch.milliseconds());
+    }
+    report("first picture, bearing cap, 52 k facets", median(times), 1000);
+}
+
+// The second time round everything is in memory.
+void time_steps() {
+    Driver::Options options;
+    options.parts = 8;
+    Driver driver(options);
+    driver.open(asset_path("bearing_cap_52k"));
+    for (const bool first : {true, false}) {
+        std::vector<double> times;
+        for (const Step& step : driver.app().steps()) {
+            driver.state().step = step;
+            const Stopwatch stopwatch;
+            driver.frame();
+            times.push_back(stopwatch.milliseconds());
+            driver.settle();
+        }
+        report(first ? "step change, for the first time, median" : "step change, again, median", median(times), 50);
+        report("                                 longest", *std::max_element(times.begin(), times.end()), 50);
+    }
+}
+
+void time_frames(const std::string& folder, int m, int n, int frames, double wanted) {
+    const std::string path = folder + "/torus.off";
+    write_torus(path, m, n);
+    Driver::Options options;
+    options.auto_run = false;
+    Driver driver(options);
+    driver.open(path);
+    report(fmt::format("frame, {} k triangles with edges", 2 * m * n / 1000), frame_time(driver, frames), wanted);
+    driver.state().edges = false;
+    driver.settle();
+    report(fmt::format("frame, {} k triangles without edges", 2 * m * n / 1000), frame_time(driver, frames), wanted);
+}
+
+int run() {
+    const std::string folder = std::filesystem::temp_directory_path() / fmt::format("kerf_view_bench_{}", ::getpid());
+    std::filesystem::create_directories(folder);
+    fmt::print("{:<44} {:>11} {:>11}\n", "1280x800, software OpenGL", "median", "wanted");
+    time_first_picture();
+    time_steps();
+    time_frames(folder, 500, 200, 30, 60);
+    time_frames(folder, 2000, 500, 10, 350);
+    std::filesystem::remove_all(folder);
+    return 0;
+}
+
+}  // namespace
+}  // namespace kerf::test
+
+int main() { return kerf::test::run(); }
