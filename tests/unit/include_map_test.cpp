@@ -53,12 +53,20 @@ std::vector<Include> includes_of(const fs::path& folder) {
 
 std::vector<Include> all_includes() {
     std::vector<Include> all = includes_of(root / "kernel");
-    for (Include& include : includes_of(root / "cli")) all.push_back(std::move(include));
+    for (const char* folder : {"cli", "viewer"})
+        for (Include& include : includes_of(root / folder)) all.push_back(std::move(include));
     return all;
 }
 
-std::string first_folder(const std::string& name) { return name.substr(0, name.find('/')); }
-std::string folder_of(const fs::path& file) { return file.parent_path().filename(); }
+// The folders of the viewer are named with it, as includes name them.
+std::string first_folder(const std::string& name) {
+    constexpr std::string_view viewer = "viewer/";
+    return name.substr(0, name.find('/', name.starts_with(viewer) ? viewer.size() : 0));
+}
+std::string folder_of(const fs::path& file) {
+    const std::string path = fs::relative(file, root).string();
+    return first_folder(path.starts_with("kernel/") ? path.substr(7) : path);
+}
 
 // Files below the root that include a name for which `matches` holds.
 template <class Matches>
@@ -79,6 +87,9 @@ TEST(IncludeMap, NamesEveryFolder) {
     ASSERT_FALSE(arrows.empty()) << "kernel/README.md has no block ```arrows";
     for (const auto& entry : fs::directory_iterator(root / "kernel"))
         EXPECT_TRUE(!entry.is_directory() || arrows.contains(entry.path().filename())) << entry.path();
+    for (const auto& entry : fs::directory_iterator(root / "viewer"))
+        EXPECT_TRUE(!entry.is_directory() || arrows.contains(fs::relative(entry.path(), root).string()))
+            << entry.path();
     for (const auto& [folder, targets] : arrows)
         for (const std::string& target : targets) EXPECT_TRUE(arrows.contains(target)) << folder << " -> " << target;
 }
@@ -124,10 +135,16 @@ TEST(IncludeMap, LibrariesStayInTheirPlaces) {
               (std::set<std::string>{"kernel/cut/triangulation.cpp", "kernel/mesh/verification.cpp",
                                      "kernel/surface/hole_filling.cpp", "kernel/surface/intersections.cpp"}));
     EXPECT_EQ(files_including([](const std::string& name) { return name == "zlib.h" || name == "zstd.h"; }),
-              std::set<std::string>{"kernel/io/compressed.cpp"});
-    EXPECT_TRUE(files_including([](const std::string& name) {
-                    return first_folder(name) == "GL" || first_folder(name) == "GLFW" || name == "imgui.h";
-                }).empty());
+              (std::set<std::string>{"kernel/io/compressed.cpp", "viewer/render/image.cpp"}));
+    EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "GLFW"; }),
+              std::set<std::string>{"viewer/render/window.cpp"});
+    EXPECT_EQ(files_including([](const std::string& name) { return name == "GL/osmesa.h"; }),
+              std::set<std::string>{"viewer/render/offscreen.cpp"});
+    for (const std::string& file : files_including(
+             [](const std::string& name) { return name.starts_with("imgui") || first_folder(name) == "GL"; }))
+        EXPECT_TRUE(file.starts_with("viewer/render/") || file.starts_with("viewer/panels/") ||
+                    file.starts_with("viewer/app/"))
+            << file;
 }
 
 }  // namespace

@@ -10,7 +10,9 @@ namespace kerf::test {
 
 namespace {
 
-std::string golden_path(const std::string& name) { return fmt::format("{}/tests/golden/images/{}.png", KERF_SOURCE, name); }
+std::string golden_path(const std::string& name) {
+    return fmt::format("{}/tests/golden/images/{}.png", KERF_SOURCE, name);
+}
 
 std::string candidate_path(const std::string& name) {
     const std::string folder = KERF_GOLDEN_CANDIDATES;
@@ -32,7 +34,8 @@ ImageDifference compare(const view::Image& a, const view::Image& b) {
         difference.largest = std::max(difference.largest, most);
         differing += most > channel_tolerance;
     }
-    difference.differing = static_cast<double>(differing) / static_cast<double>(std::max<std::size_t>(1, a.rgb.size() / 3));
+    difference.differing =
+        static_cast<double>(differing) / static_cast<double>(std::max<std::size_t>(1, a.rgb.size() / 3));
     return difference;
 }
 
@@ -48,7 +51,8 @@ testing::AssertionResult is_golden(const std::string& name, const view::Image& p
     view::write_png(candidate, picture);
     if (!difference.same_size) return testing::AssertionFailure() << golden << " has another size than " << candidate;
     return testing::AssertionFailure() << fmt::format("{:.3f} % of the pixels of {} are off, by up to {}; see {}",
-                                                      100 * difference.differing, golden, difference.largest, candidate);
+                                                      100 * difference.differing, golden, difference.largest,
+                                                      candidate);
 }
 
 }  // namespace kerf::test

@@ -18,7 +18,8 @@ struct ImageDifference {
 ImageDifference compare(const view::Image& a, const view::Image& b);
 
 /// The same driver gives the same bytes. Other processors round a little differently: that moves single pixels at
-/// borders. What these let pass was measured against pictures that a user would call different (golden_images_test.cpp).
+/// borders. What these let pass was measured against pictures that a user would call different
+/// (golden_images_test.cpp).
 inline constexpr int channel_tolerance = 16;
 inline constexpr double most_differing = 5e-4;
 

@@ -5,9 +5,9 @@
 
 #include "support/assets.h"
 #include "support/temporary_folder.h"
+#include "support/write_off.h"
 #include "viewer/driver.h"
 #include "viewer/golden_image.h"
-#include "support/write_off.h"
 
 namespace kerf::test {
 namespace {
@@ -180,8 +180,17 @@ TEST(WholeWindow, ProblemsOfABadSurface) {
     // A cube that lacks a triangle.
     write_off(folder.file("open.off"),
               {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
-              {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5}, {2, 3, 7},
-               {2, 7, 6}, {3, 0, 4}});
+              {{0, 2, 1},
+               {0, 3, 2},
+               {4, 5, 6},
+               {4, 6, 7},
+               {0, 1, 5},
+               {0, 5, 4},
+               {1, 2, 6},
+               {1, 6, 5},
+               {2, 3, 7},
+               {2, 7, 6},
+               {3, 0, 4}});
     Driver driver;
     driver.open(folder.file("open.off"));
     EXPECT_TRUE(is_golden("ui-problems", driver.picture()));

@@ -187,16 +187,23 @@ TEST(Layers, HaveTheNumbersOfTheCut) {
                 case Stage::hanging_removed:
                     EXPECT_EQ(driver.drawn("contour").segments, std::ssize(cut->stages.hanging_edges_removed)) << where;
                     break;
-                case Stage::contour: EXPECT_EQ(driver.drawn("contour").segments, cut->contour_edges) << where; break;
-                case Stage::projected: EXPECT_EQ(driver.drawn("projected").segments, cut->contour_edges) << where; break;
+                case Stage::contour:
+                    EXPECT_EQ(driver.drawn("contour").segments, cut->contour_edges) << where;
+                    break;
+                case Stage::projected:
+                    EXPECT_EQ(driver.drawn("projected").segments, cut->contour_edges) << where;
+                    break;
                 case Stage::triangulation:
                     EXPECT_EQ(driver.drawn("triangulation").triangles, interface) << where;
                     break;
-                case Stage::interface: EXPECT_EQ(driver.drawn("interface").triangles, interface) << where; break;
+                case Stage::interface:
+                    EXPECT_EQ(driver.drawn("interface").triangles, interface) << where;
+                    break;
                 case Stage::split:
                     EXPECT_EQ(driver.drawn("half").triangles, row.facets + 2 * interface) << where;
                     break;
-                default: break;
+                default:
+                    break;
             }
         }
     }

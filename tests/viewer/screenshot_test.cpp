@@ -18,7 +18,8 @@ const TemporaryFolder& folder() {
 
 ChildResult screenshot(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "screenshot");
-    for (const char* more : {"-o", "--size"}) arguments.emplace_back(more), arguments.emplace_back(more[1] == 'o' ? folder().file("a.png") : "320x240");
+    for (const char* more : {"-o", "--size"})
+        arguments.emplace_back(more), arguments.emplace_back(more[1] == 'o' ? folder().file("a.png") : "320x240");
     std::filesystem::remove(folder().file("a.png"));
     return run_kerf(arguments);
 }
@@ -39,7 +40,9 @@ TEST(Screenshot, OfASurfaceARunAndATraceShowTheSameCut) {
     EXPECT_EQ(pictures[0].rgb, pictures[1].rgb);
     EXPECT_EQ(pictures[0].width, 320);
     ASSERT_EQ(screenshot({run, "--stage", "tetrahedra", "--clip", "x=0.4", "--explode", "0.4", "--color",
-                          "min-dihedral", "--ui"}).exit_code, 0);
+                          "min-dihedral", "--ui"})
+                  .exit_code,
+              0);
 }
 
 TEST(Screenshot, IsTheSameEveryTime) {
@@ -53,7 +56,8 @@ TEST(Screenshot, IsTheSameEveryTime) {
 }
 
 TEST(Screenshot, ShowsABadSurfaceWithItsProblems) {
-    write_off(folder().file("open.off"), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}});
+    write_off(folder().file("open.off"), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+              {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}});
     const ChildResult shown = screenshot({folder().file("open.off"), "--ui"});
     EXPECT_EQ(shown.exit_code, 0) << shown.log;
     const ChildResult cut = screenshot({folder().file("open.off"), "--stage", "contour"});

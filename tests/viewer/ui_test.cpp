@@ -35,7 +35,8 @@ TEST(Ui, ASession) {
 
     // Opens a model by dropping it; it is cut and meshed.
     driver.drop(asset_path("hollow_box"));
-    driver.await("the run", [&] { return driver.document().tree.parts_below(1).size() == 4 && !driver.app().session().busy(); });
+    driver.await("the run",
+                 [&] { return driver.document().tree.parts_below(1).size() == 4 && !driver.app().session().busy(); });
     const Image opened = driver.picture();
     EXPECT_TRUE(differ(empty, opened));
     EXPECT_EQ(driver.drawn("surface").triangles, 3786);
@@ -206,9 +207,8 @@ TEST(Ui, ChangesOptionsRunsAgainAndCompares) {
     driver.type("6");
     driver.key(key_enter);
     driver.click("Run all");
-    driver.await("six parts", [&] {
-        return driver.document().tree.parts_below(1).size() == 6 && !driver.app().session().busy();
-    });
+    driver.await("six parts",
+                 [&] { return driver.document().tree.parts_below(1).size() == 6 && !driver.app().session().busy(); });
     EXPECT_EQ(driver.app().session().tree_before().parts_below(1).size(), 4u);
 }
 
@@ -225,7 +225,8 @@ TEST(Ui, CancelsARun) {
     driver.await("parts", [&] { return driver.document().progress.running && driver.document().progress.parts > 0; });
     driver.click("Cancel");
     driver.await("the end", [&] { return !driver.document().progress.running && !driver.app().session().busy(); });
-    EXPECT_NE(driver.document().progress.message.find("cancel"), std::string::npos) << driver.document().progress.message;
+    EXPECT_NE(driver.document().progress.message.find("cancel"), std::string::npos)
+        << driver.document().progress.message;
     driver.settle();
     EXPECT_GT(driver.drawn("surface").triangles, 0) << "the surface is still there";
 }

@@ -86,7 +86,8 @@ TEST(Steps, HaveNamesThatReadBack) {
         EXPECT_EQ(step_from_name(name(step)), step);
     }
     EXPECT_EQ(step_from_name("try:17"), (Step{Stage::plane, 17}));
-    for (const char* text : {"", "try:", "try:-1", "try:x", "Contour"}) EXPECT_THROW(step_from_name(text), Error) << text;
+    for (const char* text : {"", "try:", "try:-1", "try:x", "Contour"})
+        EXPECT_THROW(step_from_name(text), Error) << text;
 }
 
 TEST(Camera, JsonKeepsWhereItLooks) {
@@ -126,7 +127,8 @@ TEST(Camera, FitsTheWholeBoxWhateverTheDirection) {
                 const Projection projection = project(camera, frame, box, width, height);
                 double largest = 0;
                 for (int i = 0; i < 8; ++i) {
-                    const Vec3 p = to_screen(projection, frame, box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
+                    const Vec3 p =
+                        to_screen(projection, frame, box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
                     EXPECT_GE(std::min(p.x(), p.y()), 0);
                     EXPECT_LE(p.x(), width);
                     EXPECT_LE(p.y(), height);
@@ -226,8 +228,9 @@ TEST(ViewCommandLine, RefusesNonsenseWithCodeTwo) {
     const ViewCommand help = parse({"screenshot", "--help"});
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_NE(help.print.find("--explode"), std::string::npos);
-    const ViewCommand good = parse({"screenshot", "a.stl", "-o", "b.png", "--node", "5", "--stage", "contour", "--clip",
-                                    "x=0.3", "--explode", "0.4", "--color", "min-dihedral", "--size", "1600x1000", "--ui"});
+    const ViewCommand good =
+        parse({"screenshot", "a.stl", "-o", "b.png", "--node", "5", "--stage", "contour", "--clip", "x=0.3",
+               "--explode", "0.4", "--color", "min-dihedral", "--size", "1600x1000", "--ui"});
     EXPECT_EQ(good.print, "");
     EXPECT_TRUE(good.screenshot && good.panels);
     EXPECT_EQ(good.width, 1600);

@@ -64,8 +64,9 @@ ImGuiOwner::ImGuiOwner() {
     io.KeyMap[ImGuiKey_Enter] = key_enter;
     io.KeyMap[ImGuiKey_Escape] = key_escape;
     io.KeyMap[ImGuiKey_KeyPadEnter] = key_keypad_enter;
-    for (const auto& [name, letter] : {std::pair(ImGuiKey_A, 'A'), std::pair(ImGuiKey_C, 'C'), std::pair(ImGuiKey_V, 'V'),
-                                       std::pair(ImGuiKey_X, 'X'), std::pair(ImGuiKey_Y, 'Y'), std::pair(ImGuiKey_Z, 'Z')})
+    for (const auto& [name, letter] :
+         {std::pair(ImGuiKey_A, 'A'), std::pair(ImGuiKey_C, 'C'), std::pair(ImGuiKey_V, 'V'),
+          std::pair(ImGuiKey_X, 'X'), std::pair(ImGuiKey_Y, 'Y'), std::pair(ImGuiKey_Z, 'Z')})
         io.KeyMap[name] = key_of(letter);
 }
 
@@ -201,7 +202,8 @@ void App::update_camera() {
 
 void App::move_step(int direction) {
     const auto here = static_cast<int>(nearest_step(steps_, state_.step));
-    state_.step = steps_[static_cast<std::size_t>(std::clamp(here + direction, 0, static_cast<int>(steps_.size()) - 1))];
+    state_.step =
+        steps_[static_cast<std::size_t>(std::clamp(here + direction, 0, static_cast<int>(steps_.size()) - 1))];
 }
 
 void App::move_node(int direction) {
@@ -287,7 +289,8 @@ void App::draw(int width, int height, float scale, bool panels) {
     build_scene();
     update_camera();
 
-    projection_ = project(camera_, built_.frame, built_.box, static_cast<int>(area_.width), static_cast<int>(area_.height));
+    projection_ =
+        project(camera_, built_.frame, built_.box, static_cast<int>(area_.width), static_cast<int>(area_.height));
     projection_.x = static_cast<int>(area_.x);
     projection_.y = height - static_cast<int>(area_.y + area_.height);
     projection_.pixel_ratio = scale;

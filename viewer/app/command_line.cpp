@@ -26,9 +26,10 @@ bool parse_number(std::string_view text, Number& number) {
 }
 
 [[noreturn]] void refuse_clip(const std::string& text) {
-    throw Error(ErrorCode::usage, fmt::format("'{}' is no clip plane. Give an axis, a normal or a node, and where along "
-                                              "the body's extent from 0 to 1: x=0.3, -y=0.5, 1,1,0=0.5, node=5.",
-                                              text));
+    throw Error(ErrorCode::usage,
+                fmt::format("'{}' is no clip plane. Give an axis, a normal or a node, and where along "
+                            "the body's extent from 0 to 1: x=0.3, -y=0.5, 1,1,0=0.5, node=5.",
+                            text));
 }
 
 // "x", "-z", "1,1,0".
@@ -52,8 +53,8 @@ void parse_size(const std::string& text, ViewCommand& command) {
     if (x == text.npos || !parse_number(std::string_view(text).substr(0, x), command.width) ||
         !parse_number(std::string_view(text).substr(x + 1), command.height) || command.width < 16 ||
         command.height < 16 || command.width > 16384 || command.height > 16384)
-        throw Error(ErrorCode::usage, fmt::format("--size is '{}', but it must be WIDTHxHEIGHT in pixels, 16 to 16384.",
-                                                  text));
+        throw Error(ErrorCode::usage,
+                    fmt::format("--size is '{}', but it must be WIDTHxHEIGHT in pixels, 16 to 16384.", text));
 }
 
 // The texts of options that change the state, in the order in which they are applied.
@@ -126,7 +127,8 @@ void read_run_config(const std::string& path, RunOptions& run) {
     std::vector<OptionText> given;
     for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_file(path))
         if (!item.inputs.empty()) given.push_back({item.name, item.inputs.front()});
-    std::erase_if(given, [](const OptionText& o) { return o.name == "output" || o.name == "quiet" || o.name == "verbose"; });
+    std::erase_if(given,
+                  [](const OptionText& o) { return o.name == "output" || o.name == "quiet" || o.name == "verbose"; });
     const std::int32_t parts = run.decompose.parts;
     set_options(run, given, path);
     if (parts > 0) run.decompose.parts = parts;
@@ -175,6 +177,8 @@ ViewCommand parse_view_command(int argc, const char* const* argv) {
     screenshot->add_option("input", command.input, "What to open.")->type_name("INPUT")->required();
     screenshot->add_option("-o,--output", command.output, "PNG file.")->type_name("FILE")->required();
     screenshot->add_option("--size", texts.size, "Pixels of the picture. Default 1280x800.")->type_name("WxH");
+    screenshot->add_option("--antialias", command.antialias, "Draw 2 to 4 times as large and average. Default 1.")
+        ->check(CLI::Range(1, 4));
     screenshot->add_flag("--ui", command.panels, "With all panels, as in the window.");
     screenshot->add_option("--timeout", command.timeout_seconds, "Seconds after which to give up. Default 600.")
         ->check(CLI::PositiveNumber);

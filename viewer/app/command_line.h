@@ -9,16 +9,17 @@ namespace kerf::view {
 
 struct ViewCommand {
     bool screenshot = false;
-    std::string input;         ///< to open; empty: nothing
-    std::string output;        ///< PNG of a screenshot
+    std::string input;   ///< to open; empty: nothing
+    std::string output;  ///< PNG of a screenshot
     int width = 1280, height = 800;
-    bool panels = false;       ///< the whole user interface in the screenshot
+    int antialias = 1;    ///< the picture is drawn so many times as large and averaged
+    bool panels = false;  ///< the whole user interface in the screenshot
     ViewState state;
-    std::string clip;          ///< as given: "x=0.3", "-z=0.5", "node=5", "1,1,0=0.4"
+    std::string clip;  ///< as given: "x=0.3", "-z=0.5", "node=5", "1,1,0=0.4"
     double timeout_seconds = 600;
     RunOptions run;
-    std::string print;         ///< text to print instead (help, a usage error); empty: none
-    int exit_code = 0;         ///< of that
+    std::string print;  ///< text to print instead (help, a usage error); empty: none
+    int exit_code = 0;  ///< of that
 };
 
 /// Never throws: what is wrong becomes `print` and exit code 2.

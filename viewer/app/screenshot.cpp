@@ -16,7 +16,8 @@ constexpr float frame_seconds = 1.f / 60;
 
 class Deadline {
  public:
-    explicit Deadline(double seconds) : end_(std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds)) {}
+    explicit Deadline(double seconds)
+        : end_(std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds)) {}
     void check() const {
         if (std::chrono::steady_clock::now() > end_)
             throw Error(ErrorCode::cancelled, "The picture was not ready in time. Raise --timeout.");
@@ -63,9 +64,10 @@ void check_wishes(const Document& document, const ViewState& state) {
     if (!document.error.empty() && !document.checked) throw Error(ErrorCode::io, document.error);
     if (!needs_run(state)) return;
     if (document.has_problems())
-        throw Error(ErrorCode::input, fmt::format("{} cannot be meshed as it is, so that there is only its stage 'input'. "
-                                                  "Run kerf check on it.",
-                                                  document.path));
+        throw Error(ErrorCode::input,
+                    fmt::format("{} cannot be meshed as it is, so that there is only its stage 'input'. "
+                                "Run kerf check on it.",
+                                document.path));
     if (!document.tree.find(state.node))
         throw Error(ErrorCode::usage, fmt::format("The tree of {} has no node {}.", document.path, state.node));
     const std::vector<Step> steps = steps_of(document, state.node);
@@ -91,14 +93,16 @@ void take_screenshot(const ViewCommand& command, const AppOptions& options) {
     wait_for_document(app, command, deadline);
     const Document& document = app.session().document();
     app.state() = command.state;
-    if (command.clip.starts_with("node=")) app.state().clip = clip_from_text(command.clip, command.state.clip, document);
+    if (command.clip.starts_with("node="))
+        app.state().clip = clip_from_text(command.clip, command.state.clip, document);
     check_wishes(document, app.state());
     do {
         deadline.check();
-        app.frame(command.width, command.height, 1, command.panels);
+        app.frame(command.width * command.antialias, command.height * command.antialias,
+                  static_cast<float>(command.antialias), command.panels);
     } while (!app.settled());
     if (!app.session().failures().empty()) throw Error(ErrorCode::io, app.session().failures().back());
-    write_png(command.output, app.picture());
+    write_png(command.output, averaged(app.picture(), command.antialias));
 }
 
 }  // namespace kerf::view

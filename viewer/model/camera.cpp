@@ -41,12 +41,24 @@ Frame Frame::around(const Eigen::AlignedBox3d& box) {
 void look_from(Camera& camera, Direction direction) {
     const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
     switch (direction) {
-        case Direction::front: camera.turn = turn_of(x, z); break;
-        case Direction::back: camera.turn = turn_of(-x, z); break;
-        case Direction::right: camera.turn = turn_of(y, z); break;
-        case Direction::left: camera.turn = turn_of(-y, z); break;
-        case Direction::top: camera.turn = turn_of(x, y); break;
-        case Direction::bottom: camera.turn = turn_of(x, -y); break;
+        case Direction::front:
+            camera.turn = turn_of(x, z);
+            break;
+        case Direction::back:
+            camera.turn = turn_of(-x, z);
+            break;
+        case Direction::right:
+            camera.turn = turn_of(y, z);
+            break;
+        case Direction::left:
+            camera.turn = turn_of(-y, z);
+            break;
+        case Direction::top:
+            camera.turn = turn_of(x, y);
+            break;
+        case Direction::bottom:
+            camera.turn = turn_of(x, -y);
+            break;
         case Direction::corner: {
             const Vec3 back = Vec3(0.5, -0.8, 0.5).normalized();
             const Vec3 right = z.cross(back).normalized();

@@ -1,10 +1,11 @@
 // Where one looks from, and the ways to move there.
 #pragma once
 
+#include <array>
+
 #include <Eigen/Geometry>
 
 #include "core/types.h"
-#include "viewer/scene/layer.h"
 
 namespace kerf::view {
 
@@ -12,7 +13,8 @@ namespace kerf::view {
 /// upper border of the viewport, in perspective too: so both projections show the target alike.
 struct Camera {
     Vec3 target = Vec3::Zero();
-    Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  ///< eye coordinates (x right, y up, z to the eye) to file
+    Eigen::Quaterniond turn =
+        Eigen::Quaterniond::Identity();  ///< eye coordinates (x right, y up, z to the eye) to file
     double height = 1;
     bool perspective = true;
 
@@ -22,7 +24,7 @@ struct Camera {
     double distance() const;                            ///< of the eye from the target
 };
 
-/// The file's box in draw coordinates (scene/layer.h).
+/// The file's coordinates in draw coordinates: the box is centred at the origin, its diagonal is 2 long.
 struct Frame {
     Vec3 center = Vec3::Zero();
     double scale = 1;  ///< draw = (file - center) * scale
@@ -34,6 +36,15 @@ struct Frame {
         const Vec3 q = to_draw(p);
         return {static_cast<float>(q.x()), static_cast<float>(q.y()), static_cast<float>(q.z())};
     }
+};
+
+/// Where the scene is looked at from and where on the picture it goes.
+struct Projection {
+    Eigen::Matrix4f view = Eigen::Matrix4f::Identity();        ///< draw coordinates to eye coordinates
+    Eigen::Matrix4f projection = Eigen::Matrix4f::Identity();  ///< eye to clip coordinates
+    int x = 0, y = 0;           ///< lower left corner of the viewport in pixels of the picture, y up
+    int width = 1, height = 1;  ///< of the viewport in pixels
+    float pixel_ratio = 1;      ///< pixels per unit of line widths; 2 on a HiDPI screen
 };
 
 /// Named directions as in Blender; the z axis is up.

@@ -19,18 +19,18 @@ namespace kerf::view {
 struct NodeSurface {
     std::vector<Vec3> vertices;
     std::vector<Triangle> facets;
-    std::vector<std::int32_t> patch;   ///< #F; of the input, -1 on interfaces
-    std::vector<NodeId> interface_of;  ///< #F; the node whose cut made it, 0: the input's surface, -1: not known
-    std::vector<std::int32_t> neighbour;        ///< #F; of a part: the part behind an interface facet, else -1. Or empty
-    std::vector<std::int32_t> facet_number;     ///< #F; of the facet in the input, -1 on interfaces
-    std::vector<std::int64_t> vertex_number;    ///< #V; global number (parts) or number in the input; -1: interior of an
-                                                ///< interface
+    std::vector<std::int32_t> patch;          ///< #F; of the input, -1 on interfaces
+    std::vector<NodeId> interface_of;         ///< #F; the node whose cut made it, 0: the input's surface, -1: not known
+    std::vector<std::int32_t> neighbour;      ///< #F; of a part: the part behind an interface facet, else -1. Or empty
+    std::vector<std::int32_t> facet_number;   ///< #F; of the facet in the input, -1 on interfaces
+    std::vector<std::int64_t> vertex_number;  ///< #V; global number (parts) or number in the input; -1: interior of an
+                                              ///< interface
 };
 
 /// The tetrahedra of one part.
 struct PartCells {
     NodeId part = 1;
-    std::vector<Vec3> vertices;              ///< the boundary's come first and are those of the part's surface
+    std::vector<Vec3> vertices;  ///< the boundary's come first and are those of the part's surface
     std::int32_t boundary_vertex_count = 0;
     std::vector<std::array<std::int32_t, 4>> tets;
     std::vector<std::array<std::int32_t, 4>> neighbours;  ///< across the face opposite to corner i, or -1
@@ -41,7 +41,7 @@ struct PartCells {
 
 /// A histogram over all cells of a run; the bins are those of report.json.
 struct MeasureHistogram {
-    std::vector<double> edges;  ///< n + 1
+    std::vector<double> edges;                           ///< n + 1
     std::vector<std::int64_t> all, interface, interior;  ///< n
     double min = 0, max = 0, median = 0;
 };
@@ -55,27 +55,27 @@ struct WorstCell {
 };
 
 struct Progress {
-    bool running = false;      ///< a run is under way: ours or another's
-    bool ours = false;         ///< it can be cancelled
-    std::string stage;         ///< "read", "decompose", "prepare", "volume", "number"
+    bool running = false;  ///< a run is under way: ours or another's
+    bool ours = false;     ///< it can be cancelled
+    std::string stage;     ///< "read", "decompose", "prepare", "volume", "number"
     std::int64_t parts_done = 0, parts = 0;
-    double load_done = 0;      ///< in [0, 1]
-    double seconds = 0;        ///< since its start
-    std::string message;       ///< how it ended, if not well
+    double load_done = 0;  ///< in [0, 1]
+    double seconds = 0;    ///< since its start
+    std::string message;   ///< how it ended, if not well
 };
 
 struct Document {
     enum class Kind { none, surface, trace, run };
     Kind kind = Kind::none;
-    std::string path;   ///< as it was opened
-    std::string title;  ///< the file's or folder's name
-    std::string error;  ///< why it could not be opened: nothing else is there then but perhaps `checked`
-    std::shared_ptr<const Soup> soup;             ///< of a surface file: as it was read
-    std::shared_ptr<const CheckedSoup> checked;   ///< and what is wrong with it, once that is known
-    std::shared_ptr<const Trace> trace;           ///< with all stages, if there is one
+    std::string path;                  ///< as it was opened
+    std::string title;                 ///< the file's or folder's name
+    std::string error;                 ///< why it could not be opened: nothing else is there then but perhaps `checked`
+    std::shared_ptr<const Soup> soup;  ///< of a surface file: as it was read
+    std::shared_ptr<const CheckedSoup> checked;  ///< and what is wrong with it, once that is known
+    std::shared_ptr<const Trace> trace;          ///< with all stages, if there is one
     Tree tree;
-    std::string folder;       ///< of the parts; empty: none
-    RunOptions options;       ///< of the run, or those of the next one
+    std::string folder;  ///< of the parts; empty: none
+    RunOptions options;  ///< of the run, or those of the next one
     std::vector<std::string> patch_names;
     Eigen::AlignedBox3d box;  ///< of the body
     std::int64_t input_facets = 0, input_vertices = 0;

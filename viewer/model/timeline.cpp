@@ -12,11 +12,16 @@ namespace {
 
 bool has_edges(const Cut& cut, Stage stage) {
     switch (stage) {
-        case Stage::crossed_edges: return !cut.stages.crossed_edges.empty();
-        case Stage::hanging_removed: return !cut.stages.hanging_edges_removed.empty();
-        case Stage::closed_loops: return !cut.stages.closed_loops.empty();
-        case Stage::paths_removed: return !cut.stages.multiple_paths_removed.empty();
-        default: return true;
+        case Stage::crossed_edges:
+            return !cut.stages.crossed_edges.empty();
+        case Stage::hanging_removed:
+            return !cut.stages.hanging_edges_removed.empty();
+        case Stage::closed_loops:
+            return !cut.stages.closed_loops.empty();
+        case Stage::paths_removed:
+            return !cut.stages.multiple_paths_removed.empty();
+        default:
+            return true;
     }
 }
 
@@ -73,9 +78,12 @@ std::string describe_plane(const TreeRow& row) {
 std::string describe_edges(const Cut& cut, Stage stage) {
     const auto count = [](const auto& edges) { return fmt::format("{} edges", grouped(edges.size())); };
     switch (stage) {
-        case Stage::crossed_edges: return count(cut.stages.crossed_edges) + " with ends on both sides of the plane.";
-        case Stage::hanging_removed: return count(cut.stages.hanging_edges_removed) + ": closed, nothing hangs.";
-        case Stage::closed_loops: return count(cut.stages.closed_loops) + ": ears and islands removed.";
+        case Stage::crossed_edges:
+            return count(cut.stages.crossed_edges) + " with ends on both sides of the plane.";
+        case Stage::hanging_removed:
+            return count(cut.stages.hanging_edges_removed) + ": closed, nothing hangs.";
+        case Stage::closed_loops:
+            return count(cut.stages.closed_loops) + ": ears and islands removed.";
         case Stage::paths_removed:
             return count(cut.stages.multiple_paths_removed) + ": no vertex has more than two of them.";
         default:
@@ -86,11 +94,12 @@ std::string describe_edges(const Cut& cut, Stage stage) {
 }
 
 std::string describe_interface(const Cut& cut) {
-    return fmt::format("{} triangles, area {:.5g} ({:.3f} of the plane section); smallest angle {:.1f} deg, to the "
-                       "surface {:.1f} deg.",
-                       grouped(cut.interface.triangles.size()), cut.interface_area,
-                       cut.section_area > 0 ? cut.interface_area / cut.section_area : 0, cut.quality.angle_deg,
-                       cut.quality.dihedral_deg);
+    return fmt::format(
+        "{} triangles, area {:.5g} ({:.3f} of the plane section); smallest angle {:.1f} deg, to the "
+        "surface {:.1f} deg.",
+        grouped(cut.interface.triangles.size()), cut.interface_area,
+        cut.section_area > 0 ? cut.interface_area / cut.section_area : 0, cut.quality.angle_deg,
+        cut.quality.dihedral_deg);
 }
 
 std::string describe_halves(const Document& document, NodeId node) {
@@ -143,13 +152,19 @@ std::string describe_step(const Document& document, NodeId node, const Step& ste
         return describe_try(cut->tries[number], number, cut->tries.size());
     }
     switch (step.stage) {
-        case Stage::input: return describe_input(document, row);
-        case Stage::plane: return row && row->plane ? describe_plane(*row) : "";
+        case Stage::input:
+            return describe_input(document, row);
+        case Stage::plane:
+            return row && row->plane ? describe_plane(*row) : "";
         case Stage::triangulation:
-        case Stage::interface: return cut ? describe_interface(*cut) : "";
-        case Stage::split: return describe_halves(document, node);
-        case Stage::tetrahedra: return describe_tetrahedra(document, node);
-        default: return cut ? describe_edges(*cut, step.stage) : "";
+        case Stage::interface:
+            return cut ? describe_interface(*cut) : "";
+        case Stage::split:
+            return describe_halves(document, node);
+        case Stage::tetrahedra:
+            return describe_tetrahedra(document, node);
+        default:
+            return cut ? describe_edges(*cut, step.stage) : "";
     }
 }
 

@@ -29,7 +29,7 @@ struct TreeRow {
     std::int32_t rank = -1;  ///< that meshed it
     std::string rung;        ///< how it was cut, as Rung is named
     std::int32_t tries = 0;
-    std::string message;     ///< why it failed
+    std::string message;  ///< why it failed
     std::optional<Vec3> centroid;
     Vec3 eigenvalues = Vec3::Zero();
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns, in the order of the eigenvalues

@@ -78,8 +78,8 @@ void read_fields(const Json& json, const Fields& fields, const std::string& sour
         if (field == fields.end()) {
             std::vector<const char*> known;
             for (const auto& f : fields) known.push_back(f.first);
-            throw Error(ErrorCode::usage,
-                        fmt::format("{} has the field '{}', which is none of {}.", source, key, fmt::join(known, ", ")));
+            throw Error(ErrorCode::usage, fmt::format("{} has the field '{}', which is none of {}.", source, key,
+                                                      fmt::join(known, ", ")));
         }
         try {
             field->second(value);
@@ -168,13 +168,13 @@ Selection selection_from(const Json& json, const std::string& source) {
 
 // The switches of a value, by name: written and read by the same list.
 std::vector<std::pair<const char*, bool*>> switches(ViewState& s) {
-    return {{"edges", &s.edges},       {"context", &s.context}, {"plane", &s.plane},
-            {"axes", &s.axes},         {"contour", &s.contour}, {"surface", &s.surface},
-            {"interfaces", &s.interfaces}, {"legend", &s.legend},   {"times", &s.times}};
+    return {{"edges", &s.edges},     {"context", &s.context}, {"plane", &s.plane},           {"axes", &s.axes},
+            {"contour", &s.contour}, {"surface", &s.surface}, {"interfaces", &s.interfaces}, {"legend", &s.legend},
+            {"times", &s.times}};
 }
 std::vector<std::pair<const char*, bool*>> switches(Panels& p) {
-    return {{"tree", &p.tree}, {"display", &p.display},       {"timeline", &p.timeline},
-            {"keys", &p.keys}, {"parameters", &p.parameters}, {"quality", &p.quality},
+    return {{"tree", &p.tree},        {"display", &p.display},       {"timeline", &p.timeline},
+            {"keys", &p.keys},        {"parameters", &p.parameters}, {"quality", &p.quality},
             {"problems", &p.problems}};
 }
 
@@ -259,7 +259,8 @@ ViewState state_from_json(const std::string& text, const std::string& source) {
     const auto unit = [&](const char* field, const Json& j) {
         const double value = j.get<double>();
         if (!(value >= 0 && value <= 1))
-            throw Error(ErrorCode::usage, fmt::format("{}: '{}' is {}, but it must be in [0, 1].", source, field, value));
+            throw Error(ErrorCode::usage,
+                        fmt::format("{}: '{}' is {}, but it must be in [0, 1].", source, field, value));
         return value;
     };
     Fields fields = {
@@ -282,7 +283,9 @@ ViewState state_from_json(const std::string& text, const std::string& source) {
          }},
         {"isolated", [&](const Json& j) { s.isolated = j.get<NodeId>(); }},
         {"pick",
-         [&](const Json& j) { s.pick = static_cast<PickMode>(index_of(pick_names, j.get<std::string>(), "pick mode")); }},
+         [&](const Json& j) {
+             s.pick = static_cast<PickMode>(index_of(pick_names, j.get<std::string>(), "pick mode"));
+         }},
         {"selection", [&](const Json& j) { s.selection = selection_from(j, source); }},
         {"theme",
          [&](const Json& j) { s.theme = static_cast<Theme>(index_of(theme_names, j.get<std::string>(), "theme")); }},

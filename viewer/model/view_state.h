@@ -57,8 +57,8 @@ enum class PickMode { facet, cell, vertex };
 struct Selection {
     enum class Kind { none, facet, cell, vertex, place };
     Kind kind = Kind::none;
-    NodeId owner = 0;         ///< node or part whose numbers follow
-    std::int32_t index = -1;  ///< of the facet, cell or vertex there
+    NodeId owner = 0;           ///< node or part whose numbers follow
+    std::int32_t index = -1;    ///< of the facet, cell or vertex there
     Vec3 place = Vec3::Zero();  ///< of the click, or of a defect
 };
 
@@ -72,10 +72,10 @@ struct ViewState {
     Step step;
     std::optional<Camera> camera;  ///< none: everything fits, seen from the corner
     Shading shading = Shading::flat;
-    bool edges = true;      ///< of triangles
-    bool context = true;    ///< the rest of the body, translucent
+    bool edges = true;    ///< of triangles
+    bool context = true;  ///< the rest of the body, translucent
     bool plane = true;
-    bool axes = true;       ///< principal axes and centre of gravity
+    bool axes = true;  ///< principal axes and centre of gravity
     bool contour = true;
     bool surface = true;
     bool interfaces = true;
@@ -86,8 +86,8 @@ struct ViewState {
     std::optional<ValueRange> color_range;  ///< none: that of what is shown
     std::optional<ValueRange> filter;       ///< only cells with a value of `color` in it
     bool legend = true;
-    bool times = true;             ///< seconds in the tree
-    std::vector<NodeId> hidden;    ///< ascending; what lies below them is not shown
+    bool times = true;           ///< seconds in the tree
+    std::vector<NodeId> hidden;  ///< ascending; what lies below them is not shown
     std::optional<NodeId> isolated;
     PickMode pick = PickMode::facet;
     Selection selection;
@@ -107,8 +107,8 @@ ViewState state_from_json(const std::string& text, const std::string& source);
 std::string to_json(const Camera& camera);
 Camera camera_from_json(const std::string& text, const std::string& source);
 
-const char* name(ColorBy color);  ///< "min-dihedral"
-const char* title(ColorBy color); ///< "Minimum dihedral angle (deg)"
+const char* name(ColorBy color);   ///< "min-dihedral"
+const char* title(ColorBy color);  ///< "Minimum dihedral angle (deg)"
 /// Throws Error(usage) naming all.
 ColorBy color_by_from_name(const std::string& text);
 const char* name(ClipStyle style);

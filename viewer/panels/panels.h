@@ -8,6 +8,7 @@
 #include "viewer/model/session.h"
 #include "viewer/model/timeline.h"
 #include "viewer/panels/widgets.h"
+#include "viewer/scene/layer.h"
 
 namespace kerf::view {
 
@@ -33,8 +34,8 @@ class Actions {
 
 /// What the scene knows that panels show.
 struct SceneFacts {
-    std::string legend_title;         ///< empty: the legend explains what is there, not a colouring
-    std::optional<ValueRange> values;                       ///< of what is shown, by ViewState::color
+    std::string legend_title;          ///< empty: the legend explains what is there, not a colouring
+    std::optional<ValueRange> values;  ///< of what is shown, by ViewState::color
     std::vector<std::pair<std::string, Color>> categories;  ///< of a legend without numbers: "part 8"
     std::vector<Color> scale;                               ///< colours from low to high, of a legend with numbers
     std::string selection;                                  ///< what is selected, as lines of text; empty: nothing

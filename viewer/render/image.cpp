@@ -63,6 +63,21 @@ void replace_file(const std::string& path, std::string_view bytes) {
 
 }  // namespace
 
+Image averaged(const Image& image, int factor) {
+    if (factor == 1) return image;
+    Image small{image.width / factor, image.height / factor, {}};
+    small.rgb.reserve(image.rgb.size() / static_cast<std::size_t>(factor * factor));
+    for (int y = 0; y < small.height; ++y)
+        for (int x = 0; x < small.width; ++x)
+            for (int channel = 0; channel < 3; ++channel) {
+                int sum = 0;
+                for (int j = 0; j < factor; ++j)
+                    for (int i = 0; i < factor; ++i) sum += image.pixel(factor * x + i, factor * y + j)[channel];
+                small.rgb.push_back(static_cast<std::uint8_t>((sum + factor * factor / 2) / (factor * factor)));
+            }
+    return small;
+}
+
 void write_png(const std::string& path, const Image& image) {
     int size = 0;
     const Bytes png(stbi_write_png_to_mem(image.rgb.data(), 3 * image.width, image.width, image.height, 3, &size));

@@ -1,6 +1,7 @@
 // What the painters are told.
 #pragma once
 
+#include "viewer/model/camera.h"
 #include "viewer/render/gpu_geometry.h"
 #include "viewer/scene/layer.h"
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "viewer/model/camera.h"
 #include "viewer/render/framebuffer.h"
 #include "viewer/render/gl.h"
 #include "viewer/render/gpu_geometry.h"

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "viewer/model/camera.h"
 #include "viewer/render/image.h"
 #include "viewer/scene/layer.h"
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "viewer/model/camera.h"
 #include "viewer/render/gl.h"
 #include "viewer/render/gl_object.h"
 #include "viewer/render/paint_job.h"

@@ -11,9 +11,9 @@ constexpr std::array<const char*, 8> okabe_ito = {"#56B4E9", "#E69F00", "#009E73
                                                   "#CC79A7", "#0072B2", "#D55E00", "#999999"};
 
 // Every 16th colour of Viridis and its last one.
-constexpr std::array<const char*, 17> viridis = {
-    "#440154", "#481668", "#482878", "#433E85", "#3B528B", "#33638D", "#2C728E", "#26828E", "#21918C",
-    "#1FA088", "#28AE80", "#3FBC73", "#5EC962", "#84D44B", "#ADDC30", "#D8E219", "#FDE725"};
+constexpr std::array<const char*, 17> viridis = {"#440154", "#481668", "#482878", "#433E85", "#3B528B", "#33638D",
+                                                 "#2C728E", "#26828E", "#21918C", "#1FA088", "#28AE80", "#3FBC73",
+                                                 "#5EC962", "#84D44B", "#ADDC30", "#D8E219", "#FDE725"};
 
 Color mixed(const Color& a, const Color& b, float share) {
     return {a.r + share * (b.r - a.r), a.g + share * (b.g - a.g), a.b + share * (b.b - a.b), a.a};
@@ -32,9 +32,12 @@ Color color_from_hex(const char* text, float alpha) {
 Color category_color(std::size_t i) {
     const Color base = color_from_hex(okabe_ito[i % okabe_ito.size()]);
     switch (i / okabe_ito.size() % 3) {
-        case 1: return mixed(base, {1, 1, 1, 1}, 0.45f);
-        case 2: return mixed(base, {0, 0, 0, 1}, 0.35f);
-        default: return base;
+        case 1:
+            return mixed(base, {1, 1, 1, 1}, 0.45f);
+        case 2:
+            return mixed(base, {0, 0, 0, 1}, 0.35f);
+        default:
+            return base;
     }
 }
 
@@ -48,11 +51,16 @@ std::vector<Color> value_colors(ColorBy color) {
 
 std::optional<ValueRange> natural_range(ColorBy color) {
     switch (color) {
-        case ColorBy::min_dihedral: return ValueRange{0, 70};
-        case ColorBy::radius_edge: return ValueRange{0.6, 2};
-        case ColorBy::aspect: return ValueRange{1, 6};
-        case ColorBy::shape: return ValueRange{0, 1};
-        default: return std::nullopt;
+        case ColorBy::min_dihedral:
+            return ValueRange{0, 70};
+        case ColorBy::radius_edge:
+            return ValueRange{0.6, 2};
+        case ColorBy::aspect:
+            return ValueRange{1, 6};
+        case ColorBy::shape:
+            return ValueRange{0, 1};
+        default:
+            return std::nullopt;
     }
 }
 

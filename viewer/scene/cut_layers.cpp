@@ -24,17 +24,23 @@ std::vector<std::array<Vec3, 2>> loops_of(const Cut& cut, const NodeSurface& sur
         return projected ? cut.plane.lift(cut.plane.project(p), 0) : p;
     };
     for (const std::vector<std::int32_t>& loop : cut.loops)
-        for (std::size_t i = 0; i < loop.size(); ++i) ends.push_back({place(loop[i]), place(loop[(i + 1) % loop.size()])});
+        for (std::size_t i = 0; i < loop.size(); ++i)
+            ends.push_back({place(loop[i]), place(loop[(i + 1) % loop.size()])});
     return ends;
 }
 
 const std::vector<SurfaceEdge>* edges_of(const Cut& cut, Stage stage) {
     switch (stage) {
-        case Stage::crossed_edges: return &cut.stages.crossed_edges;
-        case Stage::hanging_removed: return &cut.stages.hanging_edges_removed;
-        case Stage::closed_loops: return &cut.stages.closed_loops;
-        case Stage::paths_removed: return &cut.stages.multiple_paths_removed;
-        default: return nullptr;
+        case Stage::crossed_edges:
+            return &cut.stages.crossed_edges;
+        case Stage::hanging_removed:
+            return &cut.stages.hanging_edges_removed;
+        case Stage::closed_loops:
+            return &cut.stages.closed_loops;
+        case Stage::paths_removed:
+            return &cut.stages.multiple_paths_removed;
+        default:
+            return nullptr;
     }
 }
 
@@ -107,12 +113,13 @@ void SceneBuild::add_stage(const Cut& cut, const NodeSurface& surface) {
     if (step_.stage == Stage::triangulation) {
         std::vector<Vec3> places;
         for (const Vec2& q : cut.interface.planar) places.push_back(cut.plane.lift(q, 0));
-        Layer& layer = add("triangulation", triangles(places, cut.interface.triangles, built_.frame), colors_.interface);
+        Layer& layer =
+            add("triangulation", triangles(places, cut.interface.triangles, built_.frame), colors_.interface);
         layer.two_sided = true;
     }
     if (step_.stage == Stage::interface) {
-        Layer& layer = add("interface", triangles(cut.interface.points, cut.interface.triangles, built_.frame),
-                           colors_.interface);
+        Layer& layer =
+            add("interface", triangles(cut.interface.points, cut.interface.triangles, built_.frame), colors_.interface);
         layer.two_sided = true;
     }
     for (Layer& layer : built_.scene.layers)
@@ -139,7 +146,8 @@ void SceneBuild::add_halves(const NodeSurface* parent) {
         built_.pending |= !surface;
         const Color color = half_color(half);
         if (surface)
-            add_surface(fmt::format("half {}", half), surface, half, color, colors_.interface, offset_of(half, state_.node));
+            add_surface(fmt::format("half {}", half), surface, half, color, colors_.interface,
+                        offset_of(half, state_.node));
     }
 }
 

@@ -1,7 +1,7 @@
 // What is drawn, as plain data: the scene builder makes it, the renderer draws it, tests count it.
 //
 // Coordinates are draw coordinates: the body's bounding box is centred at the origin and its diagonal is 2 long
-// (model/frame.h), so that single precision suffices for any unit and place.
+// (Frame in model/camera.h), so that single precision suffices for any unit and place.
 #pragma once
 
 #include <array>
@@ -9,8 +9,6 @@
 #include <memory>
 #include <string>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "core/types.h"
 
@@ -37,9 +35,9 @@ struct Segment {
 /// Immutable once a layer holds it; the renderer keeps a copy on the GPU for as long as it is drawn. Exactly one of the
 /// three is not empty.
 struct Geometry {
-    std::vector<Corner> corners;                ///< 3 per triangle; counter-clockwise seen from outside
-    std::vector<Segment> segments;              ///< lines of a width in pixels
-    std::vector<std::array<float, 3>> points;   ///< discs of a diameter in pixels
+    std::vector<Corner> corners;               ///< 3 per triangle; counter-clockwise seen from outside
+    std::vector<Segment> segments;             ///< lines of a width in pixels
+    std::vector<std::array<float, 3>> points;  ///< discs of a diameter in pixels
     /// Per triangle or point, what it is for who picks it: a facet or cell number. Empty: cannot be picked.
     std::vector<std::int32_t> element = {};
 
@@ -66,13 +64,13 @@ struct Layer {
     std::shared_ptr<const Geometry> geometry;
     std::vector<Range> ranges;
     Fill fill = Fill::plain;
-    float opacity = 1;           ///< below 1: drawn after what is opaque, writes no depth
-    bool edges = false;          ///< dark lines along the edges of triangles
-    bool smooth = false;         ///< shading by the corner's normals
-    bool clipped = true;         ///< by Scene::clip
-    float pixels = 1;            ///< width of lines, diameter of points, at pixel ratio 1
-    bool shines_through = false; ///< lines and points: faint where something lies before them
-    bool two_sided = false;      ///< the back looks like the front; else it is darker and greyer: one looks inside
+    float opacity = 1;            ///< below 1: drawn after what is opaque, writes no depth
+    bool edges = false;           ///< dark lines along the edges of triangles
+    bool smooth = false;          ///< shading by the corner's normals
+    bool clipped = true;          ///< by Scene::clip
+    float pixels = 1;             ///< width of lines, diameter of points, at pixel ratio 1
+    bool shines_through = false;  ///< lines and points: faint where something lies before them
+    bool two_sided = false;       ///< the back looks like the front; else it is darker and greyer: one looks inside
     /// Every range is the whole boundary of a body, facing outwards: who is outside sees no backs. The renderer then
     /// draws none unless the plane or the eye cuts the body open, which is up to twice as fast.
     bool closed = false;
@@ -103,15 +101,6 @@ struct Scene {
             if (layer.name == name) return &layer;
         return nullptr;
     }
-};
-
-/// Where the scene is looked at from and where on the picture it goes.
-struct Projection {
-    Eigen::Matrix4f view = Eigen::Matrix4f::Identity();        ///< draw coordinates to eye coordinates
-    Eigen::Matrix4f projection = Eigen::Matrix4f::Identity();  ///< eye to clip coordinates
-    int x = 0, y = 0;           ///< lower left corner of the viewport in pixels of the picture, y up
-    int width = 1, height = 1;  ///< of the viewport in pixels
-    float pixel_ratio = 1;      ///< pixels per unit of line widths; 2 on a HiDPI screen
 };
 
 }  // namespace kerf::view

@@ -8,13 +8,16 @@ namespace kerf::view {
 Color SceneBuild::color_of(NodeId part) const {
     const TreeRow* row = document_.tree.find(part);
     switch (state_.color) {
-        case ColorBy::rank: return row && row->rank >= 0 ? category_color(static_cast<std::size_t>(row->rank)) : colors_.none;
-        case ColorBy::level: return category_color(static_cast<std::size_t>(level_of(part)));
+        case ColorBy::rank:
+            return row && row->rank >= 0 ? category_color(static_cast<std::size_t>(row->rank)) : colors_.none;
+        case ColorBy::level:
+            return category_color(static_cast<std::size_t>(level_of(part)));
         case ColorBy::part: {
             const auto order = part_order_.find(part);
             return category_color(order == part_order_.end() ? static_cast<std::size_t>(part) : order->second);
         }
-        default: return colors_.none;
+        default:
+            return colors_.none;
     }
 }
 
@@ -49,7 +52,9 @@ void SceneBuild::set_legend() {
     if (state_.color == ColorBy::patch) {
         for (std::size_t i = 0; i < document_.patch_names.size(); ++i)
             categories.emplace_back(document_.patch_names[i], category_color(i));
-        if (state_.node != 1 || step_.stage >= Stage::split) categories.emplace_back(step_.stage == Stage::tetrahedra ? "interface or inside" : "interface", colors_.none);
+        if (state_.node != 1 || step_.stage >= Stage::split)
+            categories.emplace_back(step_.stage == Stage::tetrahedra ? "interface or inside" : "interface",
+                                    colors_.none);
         return;
     }
     if (step_.stage == Stage::tetrahedra && state_.color == ColorBy::kind) {

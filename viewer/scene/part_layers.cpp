@@ -44,8 +44,7 @@ void SceneBuild::add_part(NodeId part) {
     const std::string key =
         fmt::format("part {} {} {}", part, shading_key(),
                     values ? name(state_.color) : (state_.color == ColorBy::patch ? "patch" : "plain"));
-    const auto geometry =
-        cache_.get(key, source, [&] { return facet_triangles(*surface, built_.frame, choice); });
+    const auto geometry = cache_.get(key, source, [&] { return facet_triangles(*surface, built_.frame, choice); });
     Layer& layer = add(fmt::format("part {}", part), geometry, color_of(part), part, offset);
     layer.closed = true;
     if (values) layer.fill = fill_of_values();

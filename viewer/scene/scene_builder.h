@@ -15,9 +15,9 @@ namespace kerf::view {
 
 /// What colours mean in a scene.
 struct Legend {
-    std::string title;                                       ///< of a colouring; empty: what there is to see is explained
-    std::optional<ValueRange> values;                        ///< of a measure
-    std::vector<Color> scale;                                ///< from its low to its high end
+    std::string title;                 ///< of a colouring; empty: what there is to see is explained
+    std::optional<ValueRange> values;  ///< of a measure
+    std::vector<Color> scale;          ///< from its low to its high end
     std::vector<std::pair<std::string, Color>> categories;  ///< else
 };
 
@@ -25,8 +25,8 @@ struct BuiltScene {
     Scene scene;
     Legend legend;
     Frame frame;
-    Eigen::AlignedBox3d box;   ///< of what is drawn, moved parts included; coordinates of the file
-    bool pending = false;      ///< something is still being fetched: build again when it has arrived
+    Eigen::AlignedBox3d box;  ///< of what is drawn, moved parts included; coordinates of the file
+    bool pending = false;     ///< something is still being fetched: build again when it has arrived
 };
 
 /// Layers by name, in the order of drawing:

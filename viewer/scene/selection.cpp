@@ -40,9 +40,8 @@ std::vector<std::int32_t> neighbours_of(const NodeSurface& surface, std::size_t 
     const Triangle& own = surface.facets[facet];
     for (std::size_t f = 0; f < surface.facets.size(); ++f) {
         const Triangle& t = surface.facets[f];
-        const auto shared = std::count_if(t.begin(), t.end(), [&](std::int32_t v) {
-            return std::find(own.begin(), own.end(), v) != own.end();
-        });
+        const auto shared = std::count_if(
+            t.begin(), t.end(), [&](std::int32_t v) { return std::find(own.begin(), own.end(), v) != own.end(); });
         if (shared == 2) found.push_back(static_cast<std::int32_t>(f));
     }
     return found;
@@ -74,9 +73,9 @@ std::string describe_facet(Session& session, const NodeSurface& surface, NodeId 
     for (std::size_t k = 0; k < 3; ++k) {
         const auto v = static_cast<std::size_t>(surface.facets[facet][k]);
         p[k] = surface.vertices[v];
-        text += vertex_line("vertex", static_cast<std::int32_t>(v),
-                            surface.vertex_number.empty() ? static_cast<std::int64_t>(v) : surface.vertex_number[v],
-                            p[k]);
+        text +=
+            vertex_line("vertex", static_cast<std::int32_t>(v),
+                        surface.vertex_number.empty() ? static_cast<std::int64_t>(v) : surface.vertex_number[v], p[k]);
     }
     text += fmt::format("area {:.6g}, smallest angle {:.2f} deg\n", (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2,
                         smallest_angle_deg(p));
@@ -109,10 +108,11 @@ std::string describe_cell(const PartCells& cells, std::size_t cell) {
     text += fmt::format("neighbours {}\n", fmt::join(neighbours, ", "));
     text += cells.at_interface[cell] ? "at an interface\n" : "inside of the part\n";
     const TetQuality q = tet_quality(p[0], p[1], p[2], p[3]);
-    return text + fmt::format("dihedral angles {:.2f} to {:.2f} deg\nradius-edge {:.4g}, aspect {:.4g}, shape "
-                              "{:.4g}\nvolume {:.6g}, edges {:.6g} to {:.6g}\n",
-                              q.min_dihedral_deg, q.max_dihedral_deg, q.radius_edge, q.aspect, q.shape, q.volume,
-                              q.min_edge, q.max_edge);
+    return text + fmt::format(
+                      "dihedral angles {:.2f} to {:.2f} deg\nradius-edge {:.4g}, aspect {:.4g}, shape "
+                      "{:.4g}\nvolume {:.6g}, edges {:.6g} to {:.6g}\n",
+                      q.min_dihedral_deg, q.max_dihedral_deg, q.radius_edge, q.aspect, q.shape, q.volume, q.min_edge,
+                      q.max_edge);
 }
 
 }  // namespace
@@ -147,7 +147,8 @@ std::optional<Selection> select(Session& session, const Hit& hit, PickMode mode)
         } else {
             const auto surface = surface_of(session, hit.owner);
             if (!surface) return std::nullopt;
-            s.index = nearest_vertex(surface->vertices, surface->facets[static_cast<std::size_t>(hit.element)], hit.point);
+            s.index =
+                nearest_vertex(surface->vertices, surface->facets[static_cast<std::size_t>(hit.element)], hit.point);
         }
         s.kind = Selection::Kind::vertex;
     }

@@ -90,9 +90,12 @@ Vec3 center_of(const PartCells& cells, const std::array<std::int32_t, 4>& tet) {
 bool is_chosen_by_plane(const std::array<double, 4>& distance, ClipStyle style) {
     const auto [least, most] = std::minmax_element(distance.begin(), distance.end());
     switch (style) {
-        case ClipStyle::cells: return distance[0] + distance[1] + distance[2] + distance[3] <= 0;
-        case ClipStyle::smooth: return *least < 0;
-        case ClipStyle::layer: return *least < 0 && *most >= 0;
+        case ClipStyle::cells:
+            return distance[0] + distance[1] + distance[2] + distance[3] <= 0;
+        case ClipStyle::smooth:
+            return *least < 0;
+        case ClipStyle::layer:
+            return *least < 0 && *most >= 0;
     }
     return true;
 }
@@ -100,8 +103,8 @@ bool is_chosen_by_plane(const std::array<double, 4>& distance, ClipStyle style) 
 Corners face_of(const PartCells& cells, std::size_t tet, std::size_t face) {
     Corners corners;
     for (std::size_t k = 0; k < 3; ++k)
-        corners[k] = cells.vertices[static_cast<std::size_t>(
-            cells.tets[tet][static_cast<std::size_t>(tet_faces[face][k])])];
+        corners[k] =
+            cells.vertices[static_cast<std::size_t>(cells.tets[tet][static_cast<std::size_t>(tet_faces[face][k])])];
     return corners;
 }
 

@@ -38,16 +38,16 @@ std::shared_ptr<Geometry> facet_triangles(const NodeSurface& surface, const Fram
 
 /// How cells are chosen and drawn.
 struct CellChoice {
-    std::span<const float> value;      ///< per cell; empty: 0
+    std::span<const float> value;                      ///< per cell; empty: 0
     std::span<const std::array<float, 4>> face_value;  ///< per cell and face, instead of `value`; empty: none
-    std::optional<ValueRange> filter;  ///< of the values; needs them
-    const ShownSide* side = nullptr;   ///< of a clip plane, or nullptr
+    std::optional<ValueRange> filter;                  ///< of the values; needs them
+    const ShownSide* side = nullptr;                   ///< of a clip plane, or nullptr
     ClipStyle style = ClipStyle::cells;
     double shrink = 0;
 };
 
-/// What is seen of the chosen cells: faces between a chosen cell and one that is not, and boundary faces; with shrink all
-/// faces of the cells that have one of these. `element` is the cell. O(#T).
+/// What is seen of the chosen cells: faces between a chosen cell and one that is not, and boundary faces; with shrink
+/// all faces of the cells that have one of these. `element` is the cell. O(#T).
 std::shared_ptr<Geometry> cell_faces(const PartCells& cells, const Frame& frame, const CellChoice& choice);
 
 /// The sections of the chosen cells with the plane of choice.side: triangles, of which only the sides of sections are

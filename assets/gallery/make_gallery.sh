@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# Draws the pictures of the README with the program itself. From the repository's root: assets/gallery/make_gallery.sh
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+kerf=build/kerf
+gallery=assets/gallery
+work=$(mktemp -d -t kerf_gallery_XXXXXX)
+trap 'rm -rf "$work"' EXIT
+
+"$kerf" mesh assets/bearing_cap_14k.stl -o "$work/cap" -n 8 --trace "$work/cap.trace" -q
+"$kerf" screenshot "$work/cap" --stage tetrahedra --explode 0.2 --clip y=0.62 --camera assets/cameras/bearing_cap.json \
+    --no-legend --antialias 2 --size 1200x420 -o "$gallery/bearing_cap.png"
+"$kerf" screenshot assets/pipe_with_holes.stl -n 8 --node 3 --stage contour --state "$gallery/no_times.json" --ui \
+    --size 1280x800 -o "$gallery/viewer.png"
+"$kerf" screenshot "$work/cap.trace" --stage interface --antialias 2 --size 640x420 -o "$gallery/interface.png"
+"$kerf" screenshot assets/sinter_packing.stl -n 8 --stage tetrahedra --clip -y=0.45 --color min-dihedral --antialias 2 \
+    --size 640x420 -o "$gallery/quality.png"
