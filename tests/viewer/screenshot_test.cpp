@@ -1,9 +1,14 @@
 // kerf screenshot and kerf view as a user starts them.
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+
 #include <gtest/gtest.h>
 
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/program.h"
+#include "support/started_run.h"
 #include "support/temporary_folder.h"
 #include "support/write_off.h"
 #include "viewer/golden_image.h"
@@ -77,8 +82,31 @@ TEST(Screenshot, SaysWhatIsWrong) {
     expect({asset_path("cube"), "--node", "2", "--stage", "contour", "-n", "2"}, 2, "input");
     expect({asset_path("cube"), "--clip", "node=2", "-n", "2"}, 2, "not cut");
     expect({asset_path("cube"), "--stage", "sawing"}, 2, "sawing");
+    expect({asset_path("cube"), "--clip", "x=nan"}, 2, "clip plane");
+    expect({asset_path("cube"), "--stage", "tetrahedra", "--isolate", "99", "-n", "2"}, 2, "no node 99");
+    expect({asset_path("cube"), "--filter", "1", "2"}, 2, "--filter");
+    expect({asset_path("cube"), "--color", "shape", "--filter", "2", "1"}, 2, "--filter");
+    expect({asset_path("cube"), "--stage", "split", "-n", "100000"}, 2, "too few");
+    std::ofstream(folder().file("word.stl")) << "solid x\nfacet normal 0 0 up\n";
+    expect({folder().file("word.stl")}, 3, "word.stl");
     const ChildResult unwritable = run_kerf({"screenshot", asset_path("cube"), "-o", "/proc/a.png"});
     EXPECT_EQ(unwritable.exit_code, 7) << unwritable.log;
+}
+
+// A picture that is no longer wanted takes its run and its folder along.
+TEST(Screenshot, EndsItsRunWhenItIsInterrupted) {
+    std::ofstream(folder().file("fine.toml")) << "size = 0.4\n";
+    StartedRun picture(KERF_PROGRAM, {"screenshot", asset_path("bearing_cap_52k"), "--stage", "tetrahedra", "-n", "4",
+                                      "-o", folder().file("b.png"), "--config", folder().file("fine.toml")});
+    ASSERT_TRUE(await([&] { return !picture.workers().empty(); }));
+    const std::vector<pid_t> workers = picture.workers();
+    ::kill(picture.process(), SIGTERM);
+    const ChildResult result = picture.wait();
+    EXPECT_EQ(result.exit_code, 130) << result.log;
+    for (const pid_t worker : workers) EXPECT_TRUE(await([&] { return has_ended(worker); }));
+    const std::string left = "kerf-view-" + std::to_string(picture.process());
+    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::temp_directory_path()))
+        EXPECT_FALSE(entry.path().filename().string().starts_with(left)) << entry.path();
 }
 
 TEST(Help, NamesTheViewersCommands) {

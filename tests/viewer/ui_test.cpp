@@ -80,7 +80,8 @@ TEST(Ui, ASession) {
     driver.click("Snap to cut of node 1");
     const TreeRow& root = *driver.document().tree.find(1);
     EXPECT_LT((state.clip.normal - root.plane->normal).norm(), 1e-12);
-    EXPECT_TRUE(differ(clipped, driver.picture()));
+    const Image snapped = driver.picture();
+    EXPECT_TRUE(differ(clipped, snapped));
 
     // Explodes, by dragging the slider.
     const ItemRect slider = *driver.app().widgets().find("Explode");
@@ -89,7 +90,7 @@ TEST(Ui, ASession) {
     EXPECT_GT(state.explode, 0.2);
     EXPECT_LT(state.explode, 0.8);
     const Image exploded = driver.picture();
-    EXPECT_TRUE(differ(clipped, exploded));
+    EXPECT_TRUE(differ(snapped, exploded));
 
     // Picks a cell; its numbers go to the clipboard.
     driver.click("Cell");
@@ -139,8 +140,18 @@ TEST(Ui, MouseMovesTheCamera) {
     EXPECT_EQ(panned.back(), turned.back());
     EXPECT_GT((panned.target - turned.target).norm(), 0.01);
 
-    driver.wheel(x, y, 3);
-    EXPECT_LT(driver.app().camera().height, panned.height);
+    // What was panned before is no drag now.
+    driver.click_at(x, y);
+    EXPECT_EQ(driver.state().selection.kind, Selection::Kind::facet);
+
+    // The eye comes closer to the surface, but never goes through it.
+    for (int i = 0; i < 60; ++i) driver.wheel(x, y, 1);
+    EXPECT_LT(driver.app().camera().height, panned.height / 100);
+    EXPECT_GT(driver.drawn("surface").triangles, 0);
+    driver.state().selection = {};
+    driver.click_at(x, y);
+    EXPECT_EQ(driver.state().selection.kind, Selection::Kind::facet) << "still before the surface";
+    driver.key(key_home);
 
     driver.key(key_of('7'));
     EXPECT_LT((driver.app().camera().back() - Vec3::UnitZ()).norm(), 1e-9);

@@ -152,6 +152,23 @@ TEST(Camera, ZoomKeepsWhatIsAtTheCursor) {
     EXPECT_LT((before - after).head<2>().norm(), 1e-3);
 }
 
+TEST(Camera, FocusingKeepsThePicture) {
+    const Frame frame = Frame::around(box);
+    for (const bool perspective : {true, false}) {
+        Camera camera;
+        camera.perspective = perspective;
+        look_from(camera, Direction::corner);
+        fit(camera, box, 1.5);
+        const Vec3 place = box.min(), other = box.max();
+        const Projection before = project(camera, frame, box, 900, 600);
+        focus_depth(camera, place);
+        EXPECT_NEAR((place - camera.target).dot(camera.back()), 0, 1e-9);
+        const Projection after = project(camera, frame, box, 900, 600);
+        for (const Vec3& p : {place, other})
+            EXPECT_LT((to_screen(before, frame, p) - to_screen(after, frame, p)).head<2>().norm(), 1e-2);
+    }
+}
+
 TEST(Camera, PanMovesTheTargetPlaneWithTheCursor) {
     const Frame frame = Frame::around(box);
     Camera camera;

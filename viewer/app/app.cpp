@@ -90,6 +90,7 @@ std::string App::window_title() const {
 void App::open(const std::string& path) {
     session_.open(path);
     remember(settings_, path);
+    save_settings(options_.config_folder, settings_);
     opened_.clear();
     const ViewState before = state_;
     state_ = {};
@@ -183,10 +184,19 @@ void App::follow_session() {
         wake();
     }
     begin_auto_run();
+    if (session_changed_) resolve_click();
     const Document& document = session_.document();
-    if (!document.tree.rows.empty() && !document.tree.find(state_.node)) state_.node = 1;
-    steps_ = steps_of(document, state_.node);
+    // A node that is asked for before the tree is known is waited for.
+    const bool is_final = !session_.busy() && !session_.pending() && !document.progress.running;
+    if (is_final && !document.tree.rows.empty() && !document.tree.find(state_.node)) state_.node = 1;
+    steps_ = steps_of(document, shown_state().node);
     facts_.pending = session_.pending();
+}
+
+ViewState App::shown_state() const {
+    ViewState shown = state_;
+    if (!session_.document().tree.find(shown.node)) shown.node = 1;
+    return shown;
 }
 
 // Without a camera in the state everything fits, whatever is shown.
@@ -227,11 +237,12 @@ void App::play() {
 }
 
 void App::build_scene() {
-    const std::string key = scene_key(state_);
+    const ViewState shown = shown_state();
+    const std::string key = scene_key(shown);
     if (!session_changed_ && key == built_for_ && !built_.pending) return;
     session_changed_ = false;
     built_for_ = key;
-    built_ = builder_.build(state_, session_);
+    built_ = builder_.build(shown, session_);
     facts_.legend_title = built_.legend.title;
     facts_.values = built_.legend.values;
     facts_.categories = built_.legend.categories;
@@ -285,7 +296,7 @@ void App::draw(int width, int height, float scale, bool panels) {
     ImGui::Render();
     settings_.theme = state_.theme;
     // What the panels have changed is part of this picture.
-    steps_ = steps_of(session_.document(), state_.node);
+    steps_ = steps_of(session_.document(), shown_state().node);
     build_scene();
     update_camera();
 
@@ -324,11 +335,16 @@ bool App::wait(double seconds) {
 
 bool App::wants_frame() {
     follow_session();
-    return !settled() || session_.document().progress.running;
+    // Progress in words, a few times a second.
+    const auto now = std::chrono::steady_clock::now();
+    const bool tells = session_.document().progress.running || !facts_.notice.empty();
+    if (settled() && !(tells && now - last_frame_ > std::chrono::milliseconds(300))) return false;
+    last_frame_ = now;
+    return true;
 }
 
 bool App::settled() const {
-    return frames_wanted_ == 0 && !built_.pending && !session_changed_ && !facts_.playing && !capture_ && !dragging_;
+    return frames_wanted_ == 0 && !built_.pending && !session_changed_ && !facts_.playing && !capture_;
 }
 
 }  // namespace kerf::view

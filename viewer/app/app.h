@@ -2,13 +2,16 @@
 // the tests run the same one.
 #pragma once
 
+#include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "viewer/model/session.h"
 #include "viewer/panels/panels.h"
 #include "viewer/render/renderer.h"
 #include "viewer/scene/scene_builder.h"
+#include "viewer/scene/selection.h"
 
 namespace kerf::view {
 
@@ -92,10 +95,14 @@ class App : private Actions {
     void take_character_keys();
     void take_mouse();
     void take_click(float x, float y, bool center);
+    void resolve_click();
+    void zoom(float x, float y, float notches);
+    Vec3 seen_point(const PickHit& hit) const;
     void move_step(int direction);
     void move_node(int direction);
     void play();
     void build_scene();
+    ViewState shown_state() const;  ///< as the tree that is known allows
     void save_picture();
     void notify(const std::string& text);
 
@@ -111,6 +118,7 @@ class App : private Actions {
     BuiltScene built_;
     std::string built_for_;  // the state as JSON, without camera and panels
     bool session_changed_ = true;
+    std::optional<Hit> unresolved_;  // a click whose cells are being read
     SceneFacts facts_;
     std::vector<Step> steps_;
     Camera camera_;
@@ -121,6 +129,7 @@ class App : private Actions {
     std::string opened_;      // what auto_run has been decided for
     bool quit_ = false, capture_ = false, dragging_ = false, pressed_in_scene_ = false;
     double notice_until_ = 0, played_until_ = 0;
+    std::chrono::steady_clock::time_point last_frame_;
     int frames_wanted_ = 3;
 };
 

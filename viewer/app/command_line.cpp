@@ -1,6 +1,8 @@
 #include "viewer/app/command_line.h"
 
 #include <charconv>
+#include <cmath>
+#include <set>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -22,7 +24,7 @@ constexpr const char* footer =
 template <class Number>
 bool parse_number(std::string_view text, Number& number) {
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return error == std::errc() && stop == text.data() + text.size();
+    return error == std::errc() && stop == text.data() + text.size() && std::isfinite(static_cast<double>(number));
 }
 
 [[noreturn]] void refuse_clip(const std::string& text) {
@@ -72,9 +74,11 @@ void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
         ->type_name("FILE");
     app.add_option("--node", texts.node, "Node of the tree: the root is 1, the children of i are 2i and 2i+1.")
         ->check(CLI::PositiveNumber);
-    app.add_option("--stage", texts.stage,
-                   "input, plane, crossed-edges, hanging-removed, closed-loops, paths-removed, contour, projected, "
-                   "triangulation, interface, split, tetrahedra, or try:0 for the first refused try.");
+    app.add_option(
+        "--stage", texts.stage,
+        "input, plane, crossed-edges, hanging-removed, closed-loops, paths-removed, contour, projected, "
+        "triangulation, interface, split, tetrahedra, or try:0 for the first refused try. Default: input, or "
+        "tetrahedra where they are coloured or moved.");
     app.add_option("--color", texts.color,
                    "part, rank, level, patch, kind, min-dihedral, radius-edge, aspect, shape, volume or edge-length.");
     app.add_option("--filter", texts.filter, "Only cells whose value of --color lies in LOW HIGH.")->expected(2);
@@ -104,10 +108,20 @@ void apply(const StateTexts& texts, ViewCommand& command) {
     if (!texts.state_file.empty()) state = state_from_json(read_file(texts.state_file), texts.state_file);
     if (!texts.camera_file.empty()) state.camera = camera_from_json(read_file(texts.camera_file), texts.camera_file);
     if (texts.node > 0) state.node = texts.node;
-    if (!texts.stage.empty()) state.step = step_from_name(texts.stage);
+    // What only cells have is not to be asked for in vain.
+    const bool is_of_cells = !texts.color.empty() || texts.explode > 0 || texts.shrink > 0 || !texts.filter.empty();
+    if (!texts.stage.empty())
+        state.step = step_from_name(texts.stage);
+    else if (is_of_cells && texts.state_file.empty() && texts.color != "patch")
+        state.step.stage = Stage::tetrahedra;
     if (!texts.color.empty()) state.color = color_by_from_name(texts.color);
     if (!texts.clip_style.empty()) state.clip.style = clip_style_from_name(texts.clip_style);
-    if (!texts.filter.empty()) state.filter = ValueRange{texts.filter[0], texts.filter[1]};
+    if (!texts.filter.empty()) {
+        state.filter = ValueRange{texts.filter[0], texts.filter[1]};
+        if (!(state.filter->low <= state.filter->high) || !is_measure(state.color))
+            throw Error(ErrorCode::usage,
+                        "--filter needs LOW <= HIGH and a --color with values, such as min-dihedral.");
+    }
     if (texts.explode >= 0) state.explode = texts.explode;
     if (texts.shrink >= 0) state.shrink = texts.shrink;
     for (const NodeId node : texts.hidden) state.set_hidden(node, true);
@@ -116,7 +130,9 @@ void apply(const StateTexts& texts, ViewCommand& command) {
     if (texts.no_edges) state.edges = false;
     if (texts.no_context) state.context = false;
     if (texts.no_legend) state.legend = false;
-    if (!texts.theme.empty()) state.theme = texts.theme == "dark" ? Theme::dark : Theme::light;
+    if (!texts.state_file.empty()) command.theme = state.theme;
+    if (!texts.theme.empty()) command.theme = texts.theme == "dark" ? Theme::dark : Theme::light;
+    state.theme = command.theme.value_or(state.theme);
     if (!texts.size.empty()) parse_size(texts.size, command);
     if (!command.clip.empty() && !command.clip.starts_with("node="))
         state.clip = clip_from_text(command.clip, state.clip, {});
@@ -127,8 +143,9 @@ void read_run_config(const std::string& path, RunOptions& run) {
     std::vector<OptionText> given;
     for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_file(path))
         if (!item.inputs.empty()) given.push_back({item.name, item.inputs.front()});
-    std::erase_if(given,
-                  [](const OptionText& o) { return o.name == "output" || o.name == "quiet" || o.name == "verbose"; });
+    // What the run would write beside its folder is not for a picture.
+    static const std::set<std::string> not_taken = {"output", "quiet", "verbose", "report", "trace", "events", "stl"};
+    std::erase_if(given, [](const OptionText& o) { return not_taken.contains(o.name); });
     const std::int32_t parts = run.decompose.parts;
     set_options(run, given, path);
     if (parts > 0) run.decompose.parts = parts;

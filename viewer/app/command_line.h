@@ -15,7 +15,8 @@ struct ViewCommand {
     int antialias = 1;    ///< the picture is drawn so many times as large and averaged
     bool panels = false;  ///< the whole user interface in the screenshot
     ViewState state;
-    std::string clip;  ///< as given: "x=0.3", "-z=0.5", "node=5", "1,1,0=0.4"
+    std::optional<Theme> theme;  ///< if one was asked for
+    std::string clip;            ///< as given: "x=0.3", "-z=0.5", "node=5", "1,1,0=0.4"
     double timeout_seconds = 600;
     RunOptions run;
     std::string print;  ///< text to print instead (help, a usage error); empty: none

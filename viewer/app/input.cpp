@@ -84,8 +84,9 @@ void App::take_mouse() {
         const bool pans = ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2) || (ImGui::IsMouseDown(0) && io.KeyShift);
         const bool orbits = ImGui::IsMouseDown(0) && !pans;
         if (!dragging_ && (pans || orbits))
-            dragging_ = std::max({io.MouseDragMaxDistanceSqr[0], io.MouseDragMaxDistanceSqr[1],
-                                  io.MouseDragMaxDistanceSqr[2]}) > click_pixels * click_pixels;
+            for (int button = 0; button < 3; ++button)  // those that are up still have their last drag's
+                dragging_ |=
+                    ImGui::IsMouseDown(button) && io.MouseDragMaxDistanceSqr[button] > click_pixels * click_pixels;
         if (dragging_ && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0) && (pans || orbits)) {
             Camera camera = camera_;
             (pans ? pan : orbit)(camera, io.MouseDelta.x / height, io.MouseDelta.y / height);
@@ -98,42 +99,59 @@ void App::take_mouse() {
             pressed_in_scene_ = false;
         }
     }
-    if (in_scene && io.MouseWheel != 0) {
-        Camera camera = camera_;
-        const double x = (io.MousePos.x - area_.x - area_.width / 2) / height;
-        const double y = -(io.MousePos.y - area_.y - area_.height / 2) / height;
-        zoom_at(camera, std::pow(zoom_per_notch, io.MouseWheel), x, y);
-        state_.camera = camera;
-    }
+    if (in_scene && io.MouseWheel != 0) zoom(io.MousePos.x, io.MousePos.y, io.MouseWheel);
+}
+
+// Towards what is seen under the cursor, and not through it.
+void App::zoom(float x, float y, float notches) {
+    Camera camera = camera_;
+    const double diagonal = session_.document().box.diagonal().norm();
+    if (const auto found = renderer_.pick(built_.scene, projection_, static_cast<int>(x), static_cast<int>(y)))
+        focus_depth(camera, seen_point(*found));
+    const double height = std::max(area_.height, 1.f);
+    zoom_at(camera, std::pow(zoom_per_notch, notches), (x - area_.x - area_.width / 2) / height,
+            -(y - area_.y - area_.height / 2) / height);
+    camera.height = std::clamp(camera.height, 1e-6 * diagonal, 1e2 * diagonal);
+    state_.camera = camera;
+}
+
+// Where it is on the picture, parts pulled apart.
+Vec3 App::seen_point(const PickHit& hit) const {
+    const std::array<float, 3>& offset = built_.scene.find(hit.layer)->ranges[hit.range].offset;
+    const Eigen::Vector3f moved = hit.point + Eigen::Vector3f(offset[0], offset[1], offset[2]);
+    return built_.frame.to_file(moved.cast<double>());
 }
 
 // Selects what is under the cursor, or turns about it from now on.
 void App::take_click(float x, float y, bool center) {
     const auto found = renderer_.pick(built_.scene, projection_, static_cast<int>(x), static_cast<int>(y));
-    if (!found) {
-        if (!center) state_.selection = {};
-        return;
-    }
-    const Vec3 point = built_.frame.to_file(found->point.cast<double>());
+    unresolved_.reset();
     if (center) {
+        if (!found) return;
         Camera camera = camera_;
-        const std::array<float, 3>& offset = built_.scene.find(found->layer)->ranges[found->range].offset;
-        const Eigen::Vector3f moved = found->point + Eigen::Vector3f(offset[0], offset[1], offset[2]);
-        camera.target = built_.frame.to_file(moved.cast<double>());
+        camera.target = seen_point(*found);
         state_.camera = camera;
         return;
     }
-    const Hit hit{is_of_cells(found->layer), found->owner, found->element, point};
     state_.selection = {};
-    if (hit.is_cell || is_of_facets(found->layer)) {
-        auto selection = select(session_, hit, state_.pick);
-        if (!selection && wait(5)) selection = select(session_, hit, state_.pick);
-        if (selection) state_.selection = *selection;
+    if (!found) return;
+    const Vec3 point = built_.frame.to_file(found->point.cast<double>());
+    if (is_of_cells(found->layer) || is_of_facets(found->layer)) {
+        unresolved_ = Hit{is_of_cells(found->layer), found->owner, found->element, point};
+        resolve_click();
     } else {
         state_.selection.kind = Selection::Kind::place;
         state_.selection.owner = found->owner;
         state_.selection.place = point;
     }
+}
+
+// The cells behind a facet may have to be read first: then it is tried again when something has arrived.
+void App::resolve_click() {
+    if (!unresolved_) return;
+    const auto selection = select(session_, *unresolved_, state_.pick);
+    if (selection) state_.selection = *selection;
+    if (selection || !session_.pending()) unresolved_.reset();
 }
 
 }  // namespace kerf::view

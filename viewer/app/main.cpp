@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "viewer/app/interruption.h"
 #include "viewer/app/screenshot.h"
 #include "viewer/app/settings.h"
 #include "viewer/app/view_window.h"
@@ -30,6 +31,7 @@ int run(int argc, const char* const* argv) {
     }
     AppOptions options = options_beside_this_program();
     options.run = command.run;
+    watch_for_interruption();
     if (command.screenshot) {
         take_screenshot(command, options);
     } else {

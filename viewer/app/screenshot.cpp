@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include "core/error.h"
+#include "viewer/app/interruption.h"
 #include "viewer/render/offscreen.h"
 
 namespace kerf::view {
@@ -19,6 +20,7 @@ class Deadline {
     explicit Deadline(double seconds)
         : end_(std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds)) {}
     void check() const {
+        if (was_interrupted()) throw Error(ErrorCode::cancelled, "Interrupted.");
         if (std::chrono::steady_clock::now() > end_)
             throw Error(ErrorCode::cancelled, "The picture was not ready in time. Raise --timeout.");
     }
@@ -36,7 +38,7 @@ void wait_for_document(App& app, const ViewCommand& command, const Deadline& dea
         const Document& document = session.document();
         if (!document.error.empty()) return true;
         if (document.kind == Document::Kind::surface) {
-            if (!document.checked) return false;
+            if (!document.checked && (session.busy() || session.failures().empty())) return false;
             if (document.has_problems()) return true;
         }
         return !session.busy() && !session.pending();
@@ -54,29 +56,37 @@ void wait_for_document(App& app, const ViewCommand& command, const Deadline& dea
         app.wait(0.05);
         deadline.check();
     }
-    const Progress& progress = session.document().progress;
-    if (!progress.message.empty() && session.document().tree.rows.empty())
-        throw Error(ErrorCode::subdomain, progress.message);
+}
+
+// What ended the run is the reason why something is missing.
+[[noreturn]] void refuse(const Document& document, const std::string& message) {
+    const Progress& progress = document.progress;
+    if (!progress.message.empty() && progress.exit_code > 0)
+        throw Error(static_cast<ErrorCode>(progress.exit_code), progress.message);
+    throw Error(ErrorCode::usage, message);
 }
 
 // A wish that cannot be met is an error here; in the window it is only a wish.
-void check_wishes(const Document& document, const ViewState& state) {
-    if (!document.error.empty() && !document.checked) throw Error(ErrorCode::io, document.error);
+void check_wishes(const Document& document, const ViewState& state, bool with_panels) {
+    if (!document.error.empty() && !with_panels) throw Error(document.error_code, document.error);
     if (!needs_run(state)) return;
     if (document.has_problems())
         throw Error(ErrorCode::input,
                     fmt::format("{} cannot be meshed as it is, so that there is only its stage 'input'. "
                                 "Run kerf check on it.",
                                 document.path));
-    if (!document.tree.find(state.node))
-        throw Error(ErrorCode::usage, fmt::format("The tree of {} has no node {}.", document.path, state.node));
+    std::vector<NodeId> nodes = state.hidden;
+    nodes.push_back(state.node);
+    if (state.isolated) nodes.push_back(*state.isolated);
+    for (const NodeId node : nodes)
+        if (!document.tree.find(node))
+            refuse(document, fmt::format("The tree of {} has no node {}.", document.path, node));
     const std::vector<Step> steps = steps_of(document, state.node);
-    if (!(steps[nearest_step(steps, state.step)] == state.step)) {
-        std::vector<std::string> names;
-        for (const Step& step : steps) names.push_back(name(step));
-        throw Error(ErrorCode::usage, fmt::format("Node {} of {} has no stage '{}', but {}.", state.node, document.path,
-                                                  name(state.step), fmt::join(names, ", ")));
-    }
+    if (steps[nearest_step(steps, state.step)] == state.step) return;
+    std::vector<std::string> names;
+    for (const Step& step : steps) names.push_back(name(step));
+    refuse(document, fmt::format("Node {} of {} has no stage '{}', but {}.", state.node, document.path,
+                                 name(state.step), fmt::join(names, ", ")));
 }
 
 }  // namespace
@@ -95,7 +105,7 @@ void take_screenshot(const ViewCommand& command, const AppOptions& options) {
     app.state() = command.state;
     if (command.clip.starts_with("node="))
         app.state().clip = clip_from_text(command.clip, command.state.clip, document);
-    check_wishes(document, app.state());
+    check_wishes(document, app.state(), command.panels);
     do {
         deadline.check();
         app.frame(command.width * command.antialias, command.height * command.antialias,

@@ -1,5 +1,7 @@
 #include "viewer/app/view_window.h"
 
+#include "core/error.h"
+#include "viewer/app/interruption.h"
 #include "viewer/render/window.h"
 
 namespace kerf::view {
@@ -12,6 +14,16 @@ double seconds_to_wait(App& app) {
     return app.settled() ? 0.5 : 0;
 }
 
+// Clips at the cut of a node once that is known; returns what is still to be done.
+std::string clip_when_known(App& app, const std::string& clip) {
+    try {
+        app.state().clip = clip_from_text(clip, app.state().clip, app.session().document());
+        return "";
+    } catch (const Error&) {
+        return clip;
+    }
+}
+
 }  // namespace
 
 void view_in_window(const ViewCommand& command, const AppOptions& options) {
@@ -21,17 +33,15 @@ void view_in_window(const ViewCommand& command, const AppOptions& options) {
     if (!command.input.empty()) app.open(command.input);
     const Theme theme = app.state().theme;
     app.state() = command.state;
-    if (command.state.theme == Theme::light) app.state().theme = theme;
-    bool clip_waits = command.clip.starts_with("node=");
+    app.state().theme = command.theme.value_or(theme);
+    std::string clip = command.clip.starts_with("node=") ? command.clip : "";
     std::string title;
-    while (!window.should_close() && !app.wants_to_quit()) {
+    while (!window.should_close() && !app.wants_to_quit() && !was_interrupted()) {
         if (window.take_events(seconds_to_wait(app))) app.wake();
         for (const std::string& path : window.take_dropped_files()) app.open(path);
-        if (clip_waits && !app.session().document().tree.rows.empty()) {
-            clip_waits = false;
-            app.state().clip = clip_from_text(command.clip, command.state.clip, app.session().document());
-        }
+        if (!clip.empty()) clip = clip_when_known(app, clip);
         if (!app.wants_frame()) continue;
+        window.begin_frame();
         app.frame(window.pixel_width(), window.pixel_height(), window.content_scale(), true);
         app.present();
         window.swap();

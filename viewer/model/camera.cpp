@@ -92,6 +92,13 @@ void pan(Camera& camera, double dx, double dy) {
     camera.target += camera.height * (-dx * camera.right() + dy * camera.up());
 }
 
+void focus_depth(Camera& camera, const Vec3& point) {
+    const double nearer = (point - camera.target).dot(camera.back()), distance = camera.distance();
+    if (!(nearer < distance)) return;
+    camera.target += nearer * camera.back();
+    if (camera.perspective) camera.height *= (distance - nearer) / distance;
+}
+
 void zoom_at(Camera& camera, double factor, double x, double y) {
     const double height = camera.height * factor;
     camera.target += (camera.height - height) * (x * camera.right() + y * camera.up());

@@ -57,6 +57,8 @@ void fit(Camera& camera, const Eigen::AlignedBox3d& box, double aspect);
 /// Moves by a drag in fractions of the viewport's height; y is down as on screens.
 void orbit(Camera& camera, double dx, double dy);
 void pan(Camera& camera, double dx, double dy);
+/// Moves the target along the line of sight to the depth of a point that lies before the eye; the picture stays.
+void focus_depth(Camera& camera, const Vec3& point);
 /// Zooms by a factor below 1 to come closer, so that what is at the cursor stays there. The cursor: from the centre of
 /// the viewport, in fractions of its height, y up.
 void zoom_at(Camera& camera, double factor, double x, double y);

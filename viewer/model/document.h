@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/error.h"
 #include "run/input.h"
 #include "run/options.h"
 #include "run/trace.h"
@@ -62,13 +63,15 @@ struct Progress {
     double load_done = 0;  ///< in [0, 1]
     double seconds = 0;    ///< since its start
     std::string message;   ///< how it ended, if not well
+    int exit_code = 0;     ///< of a run that has ended
 };
 
 struct Document {
     enum class Kind { none, surface, trace, run };
     Kind kind = Kind::none;
-    std::string path;                  ///< as it was opened
-    std::string title;                 ///< the file's or folder's name
+    std::string path;                      ///< as it was opened
+    std::string title;                     ///< the file's or folder's name
+    ErrorCode error_code = ErrorCode::io;  ///< of `error`
     std::string error;                 ///< why it could not be opened: nothing else is there then but perhaps `checked`
     std::shared_ptr<const Soup> soup;  ///< of a surface file: as it was read
     std::shared_ptr<const CheckedSoup> checked;  ///< and what is wrong with it, once that is known

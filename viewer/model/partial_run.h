@@ -18,6 +18,11 @@ struct PartialRun {
     std::set<NodeId> finished;
     std::set<NodeId> failed;
     std::vector<TreeRow> outcomes;  ///< tets and seconds of finished parts that were not known before
+
+    bool is_at_the_same(const PartialRun& o) const {
+        return exists == o.exists && is_alive == o.is_alive && parts == o.parts && taken == o.taken &&
+               finished == o.finished && failed == o.failed;
+    }
 };
 
 /// `known`: finished parts whose outcome need not be read. What cannot be read is passed over.

@@ -49,7 +49,9 @@ void Session::Impl::note_failure(const std::string& message) {
 bool Session::Impl::poll() {
     if (asked_) store_.next_frame();
     asked_ = false;
-    bool changed = loader_.take_over() > 0;
+    looks_in_vain_ = 0;
+    const std::size_t done = loader_.take_over();
+    bool changed = done > looks_in_vain_;
     changed |= poll_run();
     return changed;
 }

@@ -289,6 +289,7 @@ void Session::Impl::take_redone(NodeId node, RedoneCut redone) {
         document_.tree.at(row.id) = row;
     }
     count_leaves(document_.tree);
+    tree_before_ = {};  // whole runs cannot be compared with this
     std::erase_if(folder_parts_, [&](NodeId id) { return lies_below(id, node); });
     std::erase_if(before_, [&](const auto& entry) { return is_gone(entry.first); });
     if (redone.before) before_[node] = redone.before;

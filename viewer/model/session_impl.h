@@ -94,14 +94,14 @@ class Session::Impl {
     Loader::Completion read_what_is_there(const std::string& path);  // on the loader's thread
     static OpenedRun read_run(const std::string& folder);
     static OpenedPartialRun read_partial_run(const OpenedPath& path);
-    void show_error(const std::string& message);
-    void show_soup(std::shared_ptr<const Soup> soup, std::shared_ptr<const NodeSurface> surface);
+    void show_error(ErrorCode code, const std::string& message);
+    void show_soup(const std::shared_ptr<const Soup>& soup, const std::shared_ptr<const NodeSurface>& surface);
     void check_soup_in_background();
     void show_trace(std::shared_ptr<const Trace> trace, const RunOptions& options);
     void show_run(OpenedRun run);
     void complete_from_report(OpenedRun run);
     void find_trace_of_run(const std::string& path);
-    void show_partial_run(OpenedPartialRun run);
+    void show_partial_run(const OpenedPartialRun& run);
     void describe_trace_input(const Trace& trace);
 
     // --- runs ---
@@ -117,6 +117,7 @@ class Session::Impl {
         bool is_ending = false;  // its report is being read
         std::chrono::steady_clock::time_point next_look = {};
         bool is_looking = false;
+        std::optional<PartialRun> last_look;
         std::set<NodeId> finished;  // parts whose outcome is known
         // Of ours:
         std::shared_ptr<ScratchFolder> scratch;
@@ -141,7 +142,7 @@ class Session::Impl {
     void end_if_complete();
     void read_result();
     void show_result(OpenedRun run);
-    void end_without_result(const std::string& message);
+    void end_without_result(const std::string& message, int exit_code = 1);
     void look_at_folder();
     void apply_state(const PartialRun& state);
     void mark_taken(const std::set<NodeId>& taken);
@@ -188,6 +189,7 @@ class Session::Impl {
 
     Tree tree_before_;
     std::shared_ptr<ScratchFolder> scratch_;  // that the document's folder is in
+    std::size_t looks_in_vain_ = 0;           // completions that have changed nothing
     std::optional<Followed> followed_;
     std::unique_ptr<RunProcess> process_;               // of followed_
     std::vector<std::unique_ptr<RunProcess>> leaving_;  // interrupted ones that nobody follows

@@ -109,9 +109,14 @@ void Session::Impl::open(const std::string& path) {
     document_.path = path;
     document_.title = title_of(path);
     opening_ = true;
-    post(
-        open_, [this, path] { return read_what_is_there(path); },
-        [this](const std::string& message) { show_error(message); });
+    const auto read = [this, path]() -> Loader::Completion {
+        try {
+            return read_what_is_there(path);
+        } catch (const Error& error) {
+            return [this, code = error.code(), message = std::string(error.what())] { show_error(code, message); };
+        }
+    };
+    post(open_, read, [this](const std::string& message) { show_error(ErrorCode::internal, message); });
 }
 
 void Session::Impl::reload() {
@@ -136,7 +141,7 @@ Loader::Completion Session::Impl::read_what_is_there(const std::string& path) {
             return [this, run = read_run(what.folder)]() mutable { show_run(std::move(run)); };
         case OpenedPath::Kind::partial_run:
             try {
-                return [this, run = read_partial_run(what)]() mutable { show_partial_run(std::move(run)); };
+                return [this, run = read_partial_run(what)] { show_partial_run(run); };
             } catch (const Error&) {
                 if (tell_kind(what.folder).kind != OpenedPath::Kind::run) throw;
                 return
@@ -146,13 +151,15 @@ Loader::Completion Session::Impl::read_what_is_there(const std::string& path) {
     return {};
 }
 
-void Session::Impl::show_error(const std::string& message) {
+void Session::Impl::show_error(ErrorCode code, const std::string& message) {
     opening_ = false;
+    document_.error_code = code;
     document_.error = message;
 }
 
 // The surface is there at once: it would wait for the check else.
-void Session::Impl::show_soup(std::shared_ptr<const Soup> soup, std::shared_ptr<const NodeSurface> surface) {
+void Session::Impl::show_soup(const std::shared_ptr<const Soup>& soup,
+                              const std::shared_ptr<const NodeSurface>& surface) {
     opening_ = false;
     document_.kind = Document::Kind::surface;
     document_.soup = soup;
@@ -274,7 +281,7 @@ Session::Impl::OpenedPartialRun Session::Impl::read_partial_run(const OpenedPath
     return run;
 }
 
-void Session::Impl::show_partial_run(OpenedPartialRun run) {
+void Session::Impl::show_partial_run(const OpenedPartialRun& run) {
     opening_ = false;
     document_.kind = Document::Kind::run;
     document_.options = run.options;
@@ -286,7 +293,7 @@ void Session::Impl::show_partial_run(OpenedPartialRun run) {
         document_.input_facets = static_cast<std::int64_t>(run.soup->facets.size());
         document_.input_vertices = static_cast<std::int64_t>(run.soup->vertices.size());
     }
-    followed_.emplace();
+    followed_ = Followed();
     followed_->output = run.folder;
     followed_->is_shown = true;
     apply_state(run.state);

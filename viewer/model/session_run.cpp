@@ -57,7 +57,7 @@ void Session::Impl::start_run(RunOptions options, bool volume) {
         return;
     }
     try {
-        followed_.emplace();
+        followed_ = Followed();
         followed_->scratch = std::make_shared<ScratchFolder>();
     } catch (const std::exception& error) {
         end_without_result(error.what());
@@ -106,7 +106,7 @@ void Session::Impl::cancel_run() {
     if (process_)
         process_->interrupt();
     else if (document_.progress.ours && !followed_->end)
-        end_without_result("The run was cancelled.");
+        end_without_result("The run was cancelled.", static_cast<int>(ErrorCode::cancelled));
 }
 
 bool Session::Impl::poll_process() {
@@ -138,7 +138,7 @@ void Session::Impl::follow_events(const std::string& path) {
     opening_ = false;
     document_.kind = Document::Kind::run;
     document_.progress.running = true;
-    followed_.emplace();
+    followed_ = Followed();
     followed_->tail.emplace(path);
     poll_events();
 }
@@ -285,14 +285,24 @@ void Session::Impl::look_at_folder() {
 }
 
 void Session::Impl::mark_taken(const std::set<NodeId>& taken) {
+    bool any = false;
     for (const NodeId part : taken)
-        if (TreeRow* row = document_.tree.find(part); row && row->state == NodeState::waiting)
+        if (TreeRow* row = document_.tree.find(part); row && row->state == NodeState::waiting) {
             row->state = NodeState::meshing;
+            any = true;
+        }
+    if (!any) ++looks_in_vain_;
 }
 
 void Session::Impl::apply_state(const PartialRun& state) {
     if (!state.exists) {
         read_result();
+        return;
+    }
+    const bool is_known = followed_->last_look && followed_->last_look->is_at_the_same(state);
+    followed_->last_look = state;
+    if (is_known) {
+        ++looks_in_vain_;
         return;
     }
     if (state.parts != folder_parts_ && !document_.trace) {
@@ -336,7 +346,7 @@ void Session::Impl::end_if_complete() {
     if (followed_->end->message.empty() && !followed_->output.empty())
         read_result();
     else
-        end_without_result(followed_->end->message);
+        end_without_result(followed_->end->message, followed_->end->exit_code);
 }
 
 void Session::Impl::read_result() {
@@ -369,15 +379,17 @@ void Session::Impl::show_result(OpenedRun run) {
     if (ours) document_.options = followed_->options;
     if (ours) tree_before_ = std::move(followed_->tree_before);
     document_.progress.running = document_.progress.ours = false;
+    document_.progress.exit_code = exit_code;
     document_.progress.message = message_of(exit_code, document_.tree);
     followed_.reset();
     watch_.reset();
     if (replayer_) prefetch_surfaces();
 }
 
-void Session::Impl::end_without_result(const std::string& message) {
+void Session::Impl::end_without_result(const std::string& message, int exit_code) {
     document_.progress.running = document_.progress.ours = false;
     document_.progress.message = message;
+    document_.progress.exit_code = exit_code;
     for (TreeRow& row : document_.tree.rows)
         if (row.state == NodeState::meshing) row.state = NodeState::waiting;
     const bool shown = followed_->is_shown;

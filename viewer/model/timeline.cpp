@@ -112,9 +112,16 @@ std::string describe_halves(const Document& document, NodeId node) {
 
 std::string describe_tetrahedra(const Document& document, NodeId node) {
     std::int64_t tets = 0;
+    std::size_t meshed = 0;
     const std::vector<NodeId> parts = document.tree.parts_below(node);
-    for (const NodeId part : parts) tets += std::max<std::int64_t>(0, document.tree.find(part)->tets);
-    return fmt::format("{} tetrahedra in {} part{}.", grouped(tets), parts.size(), parts.size() == 1 ? "" : "s");
+    for (const NodeId part : parts)
+        if (const TreeRow& row = *document.tree.find(part); row.tets > 0) {
+            tets += row.tets;
+            ++meshed;
+        }
+    return fmt::format("{} tetrahedra in {}{} part{}.", grouped(tets),
+                       meshed < parts.size() ? fmt::format("{} of ", meshed) : "", parts.size(),
+                       parts.size() == 1 ? "" : "s");
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ constexpr std::array<Names, color_by_count> color_texts = {{
     {"level", "Level of the tree"},
     {"patch", "Patch"},
     {"kind", "At an interface or inside"},
-    {"min-dihedral", "Minimum dihedral angle (deg)"},
+    {"min-dihedral", "Min dihedral angle (deg)"},
     {"radius-edge", "Radius-edge ratio"},
     {"aspect", "Aspect ratio"},
     {"shape", "Shape (regular: 1)"},

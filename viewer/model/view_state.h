@@ -108,7 +108,7 @@ std::string to_json(const Camera& camera);
 Camera camera_from_json(const std::string& text, const std::string& source);
 
 const char* name(ColorBy color);   ///< "min-dihedral"
-const char* title(ColorBy color);  ///< "Minimum dihedral angle (deg)"
+const char* title(ColorBy color);  ///< "Min dihedral angle (deg)"
 /// Throws Error(usage) naming all.
 ColorBy color_by_from_name(const std::string& text);
 const char* name(ClipStyle style);

@@ -124,6 +124,10 @@ void draw_color(UiContext& context, Memory& memory) {
         const bool needs_cells = is_measure(state.color) || state.color == ColorBy::kind;
         if (needs_cells && context.session.document().folder.empty())
             show_wrapped("Needs tetrahedra, which only the folder of a run has.", palette(state.theme).warning);
+        else if (needs_cells && state.step.stage != Stage::tetrahedra) {
+            show_wrapped("Only tetrahedra have it.", palette(state.theme).dim);
+            if (context.widgets.button("Show the tetrahedra")) context.state.step = {Stage::tetrahedra, -1};
+        }
         if (is_measure(state.color)) {
             draw_range(context);
             draw_histogram(context, memory);

@@ -99,7 +99,7 @@ void draw_buttons(UiContext& context, Memory& memory, bool valid) {
     const Document& document = context.session.document();
     const bool can_run = valid && !document.progress.running && !document.path.empty();
     const NodeId node = context.state.node;
-    const bool has_cut = document.trace && document.trace->find(node);
+    const bool has_cut = document.trace && document.trace->find(node) && !document.progress.running;
     ImGui::BeginDisabled(!can_run);
     if (w.button("Run all", "Cuts the surface and fills the parts with tetrahedra, in another process"))
         context.actions.start_run(memory.options, true);
@@ -112,7 +112,8 @@ void draw_buttons(UiContext& context, Memory& memory, bool valid) {
     ImGui::BeginDisabled(!valid || !has_cut);
     const std::string label = fmt::format("Re-run cut of node {}", node);
     if (w.button(label.c_str(), has_cut ? "Makes this cut again with these options; what lies below it is left out"
-                                        : "Needs a trace with a cut of this node"))
+                                : document.progress.running ? "A run is under way"
+                                                            : "Needs a trace with a cut of this node"))
         context.actions.redo_cut(node, memory.options);
     ImGui::EndDisabled();
 }

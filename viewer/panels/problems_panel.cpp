@@ -16,6 +16,7 @@ const ImVec4& color_of(Severity severity, const Palette& colors) {
 }
 
 std::string measure_of(const Defect& defect) {
+    if (!std::isfinite(defect.measure)) return "";
     if (defect.kind == DefectKind::needle) return fmt::format("{:.3g} deg", defect.measure);
     if (defect.kind == DefectKind::open_edge)
         return fmt::format("{} edges, length {:.5g}", defect.facets.size(), defect.measure);

@@ -46,17 +46,18 @@ class TimelineBar {
 
     void draw_controls() {
         const bool playing = context_.facts.playing, any = !steps_.empty();
-        if (control("previous step", Icon::left, "Step before (left arrow)", any && current_ > 0))
+        if (control("previous step", Icon::left, "Previous step (left arrow)", any && current_ > 0))
             show_step(current_ - 1);
         if (control("play", playing ? Icon::pause : Icon::play, playing ? "Pause (space)" : "Play all steps (space)"))
             context_.actions.toggle_play();
-        if (control("next step", Icon::right, "Step behind (right arrow)", any && current_ + 1 < steps_.size()))
+        if (control("next step", Icon::right, "Next step (right arrow)", any && current_ + 1 < steps_.size()))
             show_step(current_ + 1);
         const Tree& tree = context_.session.document().tree;
         const NodeId node = context_.state.node, before = next_node(tree, node, -1), after = next_node(tree, node, 1);
         ImGui::SameLine(0, 0.6f * em());
-        if (control("previous node", Icon::up, "Node before (up arrow)", before != node)) go_to_node(context_, before);
-        if (control("next node", Icon::down, "Node behind (down arrow)", after != node)) go_to_node(context_, after);
+        if (control("previous node", Icon::up, "Previous node (up arrow)", before != node))
+            go_to_node(context_, before);
+        if (control("next node", Icon::down, "Next node (down arrow)", after != node)) go_to_node(context_, after);
         ImGui::SameLine(0, 0.6f * em());
     }
 

@@ -90,6 +90,11 @@ class TreeTable {
         ImGui::TableSetColumnIndex(node_column);
         const float left = ImGui::GetCursorPosX() + tree_indent * em() * static_cast<float>(level_of(row.id));
         const float width = ImGui::GetContentRegionAvail().x;
+        const bool is_picked = context_.state.selection.kind != Selection::Kind::none &&
+                               context_.state.selection.kind != Selection::Kind::place &&
+                               context_.state.selection.owner == row.id;
+        if (is_picked && context_.state.node != row.id)
+            ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg0, packed(faded(colors_.accent, 0.18f)));
         if (ImGui::Selectable("##node", context_.state.node == row.id,
                               ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap,
                               {0, line_height()}))
@@ -139,7 +144,8 @@ class TreeTable {
         if (row.leaf())
             ImGui::GetWindowDrawList()->AddCircleFilled({at.x + r, at.y + line_height() / 2}, r, packed(color));
         ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 3 * r);
-        show(shortened(word_of(row), ImGui::GetContentRegionAvail().x), color);
+        show(shortened(word_of(row, context_.session.document().progress.running), ImGui::GetContentRegionAvail().x),
+             color);
     }
 
     void draw_number(int column, const std::string& text) {

@@ -42,7 +42,8 @@ ImVec4 color_of(const TreeRow& row, const Palette& colors) {
     return colors.text;
 }
 
-const char* word_of(const TreeRow& row) {
+const char* word_of(const TreeRow& row, bool running) {
+    if (row.state == NodeState::waiting && !running) return "not meshed";
     return row.leaf() ? name(row.state) : row.rung.empty() ? "cut" : row.rung.c_str();
 }
 

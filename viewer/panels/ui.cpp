@@ -180,11 +180,13 @@ double diagonal_of(const Document& document) {
 
 void explain(const std::string& text) {
     if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1);  // a disabled item is dim, its tip is not
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(24 * ImGui::GetFontSize());
     show(text);
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
+    ImGui::PopStyleVar();
 }
 
 void draw_backdrop(ImDrawList& list, Theme theme, const ImVec2& from, const ImVec2& to) {

@@ -30,11 +30,13 @@ std::string label_left(const char* label) {
 
 void explain(const char* tip) {
     if (!tip || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1);  // a disabled item is dim, its tip is not
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(22 * ImGui::GetFontSize());
     ImGui::TextUnformatted(tip);
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
+    ImGui::PopStyleVar();
 }
 
 // Nothing behind an open dialog can be clicked; its own menus lie above it.

@@ -3,6 +3,7 @@
 #include "viewer/render/window.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #define GLFW_INCLUDE_NONE
@@ -57,6 +58,7 @@ GLFWwindow* create_window(const std::string& title, int width, int height) {
                     fmt::format("The display offers no OpenGL 3.3 ({}). Update its driver, set LIBGL_ALWAYS_SOFTWARE=1,"
                                 " or use kerf screenshot.",
                                 glfw_reason()));
+    glfwSetWindowSizeLimits(window, 900, 560, GLFW_DONT_CARE, GLFW_DONT_CARE);  // less would not be readable
     return window;
 }
 
@@ -70,11 +72,17 @@ struct Window::Impl {
     Impl(const std::string& title, int width, int height) : window(create_window(title, width, height)) {}
 
     void install_callbacks();
+    void install_key_callback();
 
     Glfw glfw;
     std::unique_ptr<GLFWwindow, Destroy> window;
     Gl gl;
-    bool happened = true;  // the first picture is due
+    struct Release {
+        int key, scancode, mods;
+    };
+    std::set<int> pressed;                             // since the last frame
+    std::vector<Release> released_too_soon, released;  // in the frame of the press, and in the one before
+    bool happened = true;                              // the first picture is due
     std::vector<std::string> dropped;
 };
 
@@ -110,12 +118,27 @@ void Window::Impl::install_callbacks() {
     });
 }
 
+// Takes the place of ImGui's own, which it calls.
+void Window::Impl::install_key_callback() {
+    glfwSetKeyCallback(window.get(), [](GLFWwindow* source, int key, int scancode, int action, int mods) {
+        Impl& impl = impl_of<Impl>(source);
+        if (action == GLFW_PRESS) impl.pressed.insert(key);
+        if (action == GLFW_RELEASE && impl.pressed.contains(key)) {
+            impl.happened = true;
+            impl.released_too_soon.push_back({key, scancode, mods});
+        } else {
+            ImGui_ImplGlfw_KeyCallback(source, key, scancode, action, mods);
+        }
+    });
+}
+
 Window::Window(const std::string& title, int width, int height) : impl_(std::make_unique<Impl>(title, width, height)) {
     glfwMakeContextCurrent(impl_->window.get());
     glfwSwapInterval(1);
     impl_->gl = load_gl([](const char* name) { return reinterpret_cast<void*>(glfwGetProcAddress(name)); });
     impl_->install_callbacks();
     ImGui_ImplGlfw_InitForOpenGL(impl_->window.get(), true);
+    impl_->install_key_callback();
 }
 
 Window::~Window() { ImGui_ImplGlfw_Shutdown(); }
@@ -151,8 +174,17 @@ bool Window::take_events(double wait_seconds) {
         glfwWaitEventsTimeout(wait_seconds);
     else
         glfwPollEvents();
-    ImGui_ImplGlfw_NewFrame();
     return std::exchange(impl_->happened, false);
+}
+
+void Window::begin_frame() {
+    // ImGui looks at the keys once a frame: who presses and releases one in between has pressed it all the same.
+    for (const auto& [key, scancode, mods] : std::exchange(impl_->released, {}))
+        ImGui_ImplGlfw_KeyCallback(impl_->window.get(), key, scancode, GLFW_RELEASE, mods);
+    impl_->released = std::exchange(impl_->released_too_soon, {});
+    if (!impl_->released.empty()) impl_->happened = true;
+    impl_->pressed.clear();
+    ImGui_ImplGlfw_NewFrame();
 }
 
 std::vector<std::string> Window::take_dropped_files() { return std::exchange(impl_->dropped, {}); }

@@ -30,6 +30,8 @@ class Window {
     /// Hands what has happened to ImGui's input (ImGui_ImplGlfw_NewFrame included). Sleeps until something happens, at
     /// most `wait_seconds`. Returns whether anything did; the first call does, at once, since nothing is drawn yet.
     bool take_events(double wait_seconds);
+    /// Hands it to ImGui's input, and the time since the last call. Before every frame.
+    void begin_frame();
     /// Files that were dropped onto the window since the last call.
     std::vector<std::string> take_dropped_files();
     /// Shows what was drawn.

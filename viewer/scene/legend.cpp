@@ -1,6 +1,8 @@
 // What colours mean in a scene.
 #include "viewer/scene/scene_build.h"
 
+#include <cmath>
+#include <limits>
 #include <set>
 
 namespace kerf::view {
@@ -36,13 +38,31 @@ void SceneBuild::set_colors() {
     // Few cells are far larger than the others: their colour is that of the upper end.
     if (!range && histogram)
         range = ValueRange{histogram->min, std::min(histogram->max, (is_volume ? 4 : 2) * histogram->median)};
-    if (!range) range = ValueRange{0, 1};
-    scene.scale.low = static_cast<float>(range->low);
-    scene.scale.high = static_cast<float>(range->high);
-    if (step_.stage == Stage::tetrahedra) {
-        built_.legend.values = range;
-        built_.legend.scale = scene.scale.colors;
+    if (!range) return;  // follows from what is drawn
+    set_range(*range);
+}
+
+void SceneBuild::set_range(const ValueRange& range) {
+    built_.scene.scale.low = static_cast<float>(range.low);
+    built_.scene.scale.high = static_cast<float>(range.high);
+    if (step_.stage != Stage::tetrahedra) return;
+    built_.legend.values = range;
+    built_.legend.scale = built_.scene.scale.colors;
+}
+
+// Of a run under way nobody knows the distribution of the values yet.
+void SceneBuild::set_range_of_values() {
+    if (!is_measure(state_.color) || step_.stage != Stage::tetrahedra || built_.legend.values) return;
+    ValueRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (const Layer& layer : built_.scene.layers) {
+        if (layer.fill != Fill::scale) continue;
+        for (const Corner& corner : layer.geometry->corners) {
+            if (!std::isfinite(corner.value)) continue;
+            range.low = std::min(range.low, double{corner.value});
+            range.high = std::max(range.high, double{corner.value});
+        }
     }
+    if (range.low < range.high) set_range(range);
 }
 
 void SceneBuild::set_legend() {
@@ -66,6 +86,7 @@ void SceneBuild::set_legend() {
         for (const NodeId part : document_.tree.parts_below(state_.node)) {
             if (!is_shown(part)) continue;
             const std::int32_t rank = document_.tree.find(part)->rank;
+            if (state_.color == ColorBy::rank && rank < 0) continue;
             const std::int32_t value = state_.color == ColorBy::rank ? rank : level_of(part);
             if (state_.color == ColorBy::part)
                 categories.emplace_back(fmt::format("part {}", part), color_of(part));

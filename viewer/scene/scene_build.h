@@ -39,7 +39,7 @@ class SceneBuild {
     Layer* add_surface(const std::string& name, const std::shared_ptr<const NodeSurface>& surface, NodeId owner,
                        const Color& color, const Color& interface_color, const Vec3& offset);
     void add_node(const std::shared_ptr<const NodeSurface>& surface);
-    void add_context(const NodeSurface& own);
+    void add_context(const std::shared_ptr<const NodeSurface>& surface);
     void add_defects();
     void add_axes(const TreeRow& row);
     void add_plane(const Plane& plane);
@@ -52,6 +52,8 @@ class SceneBuild {
     bool add_cells(NodeId part, const NodeSurface& surface, const Vec3& offset);
     void add_selection();
     void set_colors();
+    void set_range(const ValueRange& range);
+    void set_range_of_values();
     void set_legend();
 
     bool is_shown(NodeId part) const {

@@ -128,7 +128,9 @@ Layer* SceneBuild::add_surface(const std::string& name, const std::shared_ptr<co
 
 // The surface of the node itself, and what its cut did to it.
 void SceneBuild::add_node(const std::shared_ptr<const NodeSurface>& surface) {
-    Layer* layer = add_surface("surface", surface, state_.node, colors_.surface, colors_.interface, Vec3::Zero());
+    Layer* layer = nullptr;
+    if (!state_.is_hidden(state_.node))
+        layer = add_surface("surface", surface, state_.node, colors_.surface, colors_.interface, Vec3::Zero());
     if (layer && step_.stage >= Stage::projected) {
         layer->opacity = glass_opacity;
         layer->edges = false;
@@ -146,17 +148,17 @@ void SceneBuild::add_node(const std::shared_ptr<const NodeSurface>& surface) {
 }
 
 // The facets of the input that the node's surface does not have.
-void SceneBuild::add_context(const NodeSurface& own) {
+void SceneBuild::add_context(const std::shared_ptr<const NodeSurface>& surface) {
     if (!state_.context || state_.node == 1) return;
     const auto whole = session_.surface(1);
     if (!whole) return;
     std::vector<char> is_own(whole->facets.size(), 0);
-    for (const std::int32_t f : own.facet_number)
+    for (const std::int32_t f : surface->facet_number)
         if (f >= 0 && static_cast<std::size_t>(f) < is_own.size()) is_own[static_cast<std::size_t>(f)] = 1;
     FacetChoice choice;
     choice.wanted = [&](std::int32_t f) { return !is_own[static_cast<std::size_t>(f)]; };
     choice.smooth = true;
-    auto geometry = cache_.get(fmt::format("context {}", state_.node), whole,
+    auto geometry = cache_.get(fmt::format("context {}", state_.node), surface,
                                [&] { return facet_triangles(*whole, built_.frame, choice); });
     if (geometry->corners.empty()) return;
     Layer& layer = add("context", geometry, colors_.context);
@@ -202,9 +204,10 @@ BuiltScene SceneBuild::run() {
         add_halves(surface.get());
     else if (surface)
         add_node(surface);
-    if (surface) add_context(*surface);
-    add_defects();
+    if (surface) add_context(surface);
+    if (step_.stage == Stage::input) add_defects();
     add_selection();
+    set_range_of_values();
     set_legend();
     if (state_.context) extend(document_.box);
     built_.pending &= session_.pending() || session_.busy();  // what failed does not come
