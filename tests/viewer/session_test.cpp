@@ -661,12 +661,14 @@ TEST_F(SessionTest, FollowsTheFolderOfARunUnderWay) {
                                         "--size", "1.2", "--workers", "2"});
     ASSERT_TRUE(test::await([&] { return fs::exists(output + ".kerf-partial/work/run.json"); }));
     session_.open(output);
-    ASSERT_TRUE(reach(session_, [&] { return document().progress.running; }));
+    // A machine that is busy with other things may have finished it before the first look.
+    ASSERT_TRUE(reach(session_, [&] { return document().progress.running || document().folder == output; }));
     EXPECT_FALSE(document().progress.ours);
     EXPECT_EQ(document().kind, Document::Kind::run);
-    EXPECT_TRUE(document().soup);
-    ASSERT_TRUE(reach(session_, [&] { return document().progress.parts_done > 0; }));
     if (document().progress.running) {
+        EXPECT_TRUE(document().soup);
+        ASSERT_TRUE(
+            reach(session_, [&] { return document().progress.parts_done > 0 || !document().progress.running; }));
         EXPECT_FALSE(document().tree.parts_below(1).empty());
     }
     ASSERT_TRUE(reach(session_, [&] { return !document().progress.running; }));

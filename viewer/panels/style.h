@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include "viewer/model/view_state.h"
+#include "viewer/scene/layer.h"
 
 namespace kerf::view {
 
