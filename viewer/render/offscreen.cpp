@@ -33,7 +33,7 @@ OSMesaContext create_context() {
 
 struct OffscreenContext::Impl {
     struct Destroy {
-        void operator()(OSMesaContext context) const { OSMesaDestroyContext(context); }
+        void operator()(OSMesaContext unused) const { OSMesaDestroyContext(unused); }
     };
     std::array<unsigned char, 4 * buffer_size* buffer_size> pixels = {};
     std::unique_ptr<osmesa_context, Destroy> context{create_context()};

@@ -66,7 +66,7 @@ GLFWwindow* create_window(const std::string& title, int width, int height) {
 
 struct Window::Impl {
     struct Destroy {
-        void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
+        void operator()(GLFWwindow* unused) const { glfwDestroyWindow(unused); }
     };
 
     Impl(const std::string& title, int width, int height) : window(create_window(title, width, height)) {}

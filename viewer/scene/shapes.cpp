@@ -317,7 +317,8 @@ std::shared_ptr<Geometry> plane_outline(const Plane& plane, const Eigen::Aligned
     std::vector<std::array<Vec3, 2>> lines;
     for (std::size_t i = 0; i < 4; ++i) lines.push_back({corners[i], corners[(i + 1) % 4]});
     const double length = 0.18 * (corners[2] - corners[0]).norm();
-    const Vec3 from = corners[2], tip = from + length * plane.normal;
+    const Vec3& from = corners[2];
+    const Vec3 tip = from + length * plane.normal;
     lines.push_back({from, tip});
     for (const Vec3& side : {plane.u, plane.v})
         for (const double sign : {-1.0, 1.0})
