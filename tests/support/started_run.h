@@ -36,11 +36,15 @@ inline std::vector<pid_t> children_of(pid_t process) {
     return {std::istream_iterator<pid_t>(list), {}};
 }
 
-/// All processes below one that have the name.
+/// The processes below one that have the name. Nothing below those: a child has its parent's name until it begins its
+/// own program.
 inline std::vector<pid_t> descendants_of(pid_t process, const std::string& name) {
     std::vector<pid_t> found;
     for (const pid_t child : children_of(process)) {
-        if (bytes_of_file("/proc/" + std::to_string(child) + "/comm") == name + "\n") found.push_back(child);
+        if (bytes_of_file("/proc/" + std::to_string(child) + "/comm") == name + "\n") {
+            found.push_back(child);
+            continue;
+        }
         for (const pid_t grandchild : descendants_of(child, name)) found.push_back(grandchild);
     }
     return found;
