@@ -14,6 +14,13 @@ using Vec3 = Eigen::Vector3d;
 /// Three vertex indices, counter-clockwise seen from outside of the body.
 using Triangle = std::array<std::int32_t, 3>;
 
+/// The two ends of an edge, the smaller vertex first.
+using UndirectedEdge = std::array<std::int32_t, 2>;
+
+constexpr UndirectedEdge undirected(std::int32_t a, std::int32_t b) {
+    return a < b ? UndirectedEdge{a, b} : UndirectedEdge{b, a};
+}
+
 /// Four vertex indices a, b, c, d with det[b-a, c-a, d-a] > 0.
 using Tetrahedron = std::array<std::int32_t, 4>;
 

@@ -33,16 +33,12 @@ struct BorderEdge {
     bool operator<(const BorderEdge& o) const { return std::tie(region, from, to) < std::tie(o.region, o.from, o.to); }
 };
 
-using Edge = std::array<std::int32_t, 2>;  // smaller vertex first
-
-Edge undirected(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
-
-void sort_unique(std::vector<Edge>& edges) {
+void sort_unique(std::vector<UndirectedEdge>& edges) {
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
 }
 
-bool contains(const std::vector<Edge>& sorted, const Edge& edge) {
+bool contains(const std::vector<UndirectedEdge>& sorted, const UndirectedEdge& edge) {
     return std::binary_search(sorted.begin(), sorted.end(), edge);
 }
 
@@ -60,26 +56,26 @@ class CapTriangulator {
  private:
     // A soft run between two kept vertices.
     struct Segment {
-        Edge ends;
+        UndirectedEdge ends;
         std::vector<std::int32_t> between;  // from the first end to the second
         bool operator<(const Segment& o) const { return ends < o.ends; }
     };
-    double length(const Edge& e) const { return (complex_.point(e[0]) - complex_.point(e[1])).norm(); }
+    double length(const UndirectedEdge& e) const { return (complex_.point(e[0]) - complex_.point(e[1])).norm(); }
     bool is_straight(std::int32_t a, std::int32_t middle, std::int32_t b) const;
     std::int32_t next_kept(const BorderEdge& edge) const;
     void divide(const Segment& segment, double from_first, double first_size, double second_size, std::int32_t a,
                 std::int32_t b, NodeId cut, std::vector<std::int32_t>& between);
-    std::vector<Edge> outline(std::int32_t region) const;
+    std::vector<UndirectedEdge> outline(std::int32_t region) const;
     bool triangulate_region(std::int32_t region);
 
     FaceComplex& complex_;
     double max_edge_;
-    std::vector<Region> regions_;      // ascending
-    std::vector<BorderEdge> borders_;  // ascending
-    std::vector<Edge> hard_;           // border edges held by a face that is no cap, ascending
-    std::vector<char> passed_;         // per vertex
-    std::vector<double> size_;         // per vertex: mean length of its hard border edges; 0: none
-    std::vector<Segment> segments_;    // ascending
+    std::vector<Region> regions_;       // ascending
+    std::vector<BorderEdge> borders_;   // ascending
+    std::vector<UndirectedEdge> hard_;  // border edges held by a face that is no cap, ascending
+    std::vector<char> passed_;          // per vertex
+    std::vector<double> size_;          // per vertex: mean length of its hard border edges; 0: none
+    std::vector<Segment> segments_;     // ascending
     std::vector<ComplexFace> caps_;
 };
 
@@ -103,7 +99,7 @@ void CapTriangulator::find_borders() {
 
 void CapTriangulator::measure_sizes() {
     std::vector<char> at_border(complex_.vertex_count(), 0);
-    std::vector<Edge> border_edges;
+    std::vector<UndirectedEdge> border_edges;
     for (const BorderEdge& e : borders_) {
         at_border[e.from] = at_border[e.to] = 1;
         border_edges.push_back(undirected(e.from, e.to));
@@ -111,13 +107,13 @@ void CapTriangulator::measure_sizes() {
     sort_unique(border_edges);
     for (const ComplexFace& face : complex_.faces())
         for (int i = 0; i < 3 && face.cap == 0; ++i) {
-            const Edge e = undirected(face.corners[i], face.corners[(i + 1) % 3]);
+            const UndirectedEdge e = undirected(face.corners[i], face.corners[(i + 1) % 3]);
             if (at_border[e[0]] && at_border[e[1]] && contains(border_edges, e)) hard_.push_back(e);
         }
     sort_unique(hard_);
     size_.assign(complex_.vertex_count(), 0);
     std::vector<std::int32_t> count(complex_.vertex_count(), 0);
-    for (const Edge& e : hard_)
+    for (const UndirectedEdge& e : hard_)
         for (std::int32_t v : e) {
             size_[v] += length(e);
             ++count[v];
@@ -140,7 +136,7 @@ void CapTriangulator::find_passed_vertices() {
     for (const ComplexFace& face : complex_.faces())
         for (std::int32_t v : face.corners)
             if (face.cap == 0) solid[v] = 1;
-    std::vector<Edge> ends;  // vertex and neighbour
+    std::vector<UndirectedEdge> ends;  // vertex and neighbour
     for (const BorderEdge& e : borders_) {
         if (!solid[e.from]) ends.push_back({e.from, e.to});
         if (!solid[e.to]) ends.push_back({e.to, e.from});
@@ -174,7 +170,7 @@ void CapTriangulator::divide(const Segment& segment, double from_first, double f
 }
 
 void CapTriangulator::divide_segments() {
-    std::vector<std::pair<Edge, NodeId>> soft;
+    std::vector<std::pair<UndirectedEdge, NodeId>> soft;
     for (const BorderEdge& e : borders_) {
         if (passed_[e.from] || contains(hard_, undirected(e.from, e.to))) continue;
         soft.push_back({undirected(e.from, next_kept(e)), regions_[e.region].cap});
@@ -194,8 +190,8 @@ void CapTriangulator::divide_segments() {
 }
 
 // Directed edges around a region with their new vertices.
-std::vector<Edge> CapTriangulator::outline(std::int32_t region) const {
-    std::vector<Edge> edges;
+std::vector<UndirectedEdge> CapTriangulator::outline(std::int32_t region) const {
+    std::vector<UndirectedEdge> edges;
     const auto first = std::lower_bound(borders_.begin(), borders_.end(), BorderEdge{region, 0, 0});
     for (auto it = first; it != borders_.end() && it->region == region; ++it) {
         if (passed_[it->from]) continue;
@@ -219,9 +215,9 @@ std::vector<Edge> CapTriangulator::outline(std::int32_t region) const {
 bool CapTriangulator::triangulate_region(std::int32_t region) {
     const Region& r = regions_[region];
     const Plane plane = complex_.plane(r.cap);
-    std::vector<Edge> edges = outline(region);
+    std::vector<UndirectedEdge> edges = outline(region);
     std::vector<std::int32_t> vertices;
-    for (const Edge& e : edges) vertices.push_back(e[0]);
+    for (const UndirectedEdge& e : edges) vertices.push_back(e[0]);
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     PlanarRegion planar;
@@ -230,7 +226,7 @@ bool CapTriangulator::triangulate_region(std::int32_t region) {
         return static_cast<std::int32_t>(std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin());
     };
     double sum = 0;
-    for (const Edge& e : edges) {
+    for (const UndirectedEdge& e : edges) {
         planar.edges.push_back({local(e[0]), local(e[1])});
         sum += length(e);
     }

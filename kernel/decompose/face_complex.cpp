@@ -31,10 +31,6 @@ std::vector<KeyedItem> sorted_items(const std::vector<Leaf>& leaves, KeysOf keys
     return items;
 }
 
-using UndirectedEdge = std::array<std::int32_t, 2>;
-
-UndirectedEdge undirected(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
-
 Triangle turned(const Triangle& t) { return {t[0], t[2], t[1]}; }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace kerf {
 namespace {
 
 // True if vertices carry more than coordinates.
-bool read_header(TextScanner& scanner) {
+bool read_keyword(TextScanner& scanner) {
     const std::string_view word = scanner.next_word();
     if (!word.ends_with("OFF") || word.find_first_not_of("STCN") != word.size() - 3)
         scanner.fail("\"OFF\" in three dimensions is expected, not \"" + std::string(word.substr(0, 40)) +
@@ -39,7 +39,7 @@ void read_facet(TextScanner& scanner, SoupBuilder& builder, std::vector<std::int
 Soup read_off(std::string_view bytes, const std::string& path) {
     TextScanner scanner(bytes, path, '#');
     SoupBuilder builder(path);
-    const bool has_extras = read_header(scanner);
+    const bool has_extras = read_keyword(scanner);
     const std::int64_t vertices = read_count(scanner), facets = read_count(scanner);
     read_count(scanner);  // of edges; many files say 0
     for (std::int64_t v = 0; v < vertices; ++v) {

@@ -6,12 +6,11 @@
 #include <fmt/format.h>
 
 #include "io/text_file.h"
+#include "io/vtk_cell_types.h"
 
 namespace kerf {
 
 namespace {
-
-constexpr int vtk_vertex = 1, vtk_poly_line = 4, vtk_triangle = 5;
 
 class OffendersGrid {
  public:

@@ -19,6 +19,7 @@
 
 #include "core/error.h"
 #include "io/checked_file.h"
+#include "io/vtk_cell_types.h"
 #include "mesh/quality.h"
 
 namespace kerf {
@@ -125,7 +126,6 @@ Grid make_grid(const std::vector<Vec3>& vertices, const std::vector<Tetrahedron>
     require_sizes(boundary_count <= vertex_count && arrays.boundary_id.size() == boundary_count &&
                   arrays.neighbour.size() == facet_count && surface.patch.size() == facet_count &&
                   surface.facet_key.size() == facet_count);
-    constexpr std::uint8_t vtk_triangle = 5, vtk_tetra = 10;
     const auto none = [](std::size_t) { return -1; };
     const auto part = [part = arrays.part](std::size_t) { return part; };
 

@@ -8,11 +8,11 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 
 #include "core/bytes.h"
 #include "core/error.h"
 #include "run/part_job.h"
+#include "run/peak_memory.h"
 
 namespace kerf {
 
@@ -44,18 +44,6 @@ void limit_address_space(std::int64_t megabytes) {
     const auto bytes = static_cast<rlim_t>(megabytes) << 20;
     const rlimit limit = {bytes, bytes};
     setrlimit(RLIMIT_AS, &limit);
-}
-
-std::int64_t own_peak_rss_bytes() {
-    // VmHWM starts at exec, unlike ru_maxrss, which carries over what the parent had.
-    std::int64_t kilobytes = 0;
-    if (FILE* status = std::fopen("/proc/self/status", "r")) {
-        std::array<char, 256> line;
-        while (std::fgets(line.data(), line.size(), status))
-            if (std::sscanf(line.data(), "VmHWM: %ld", &kilobytes) == 1) break;
-        std::fclose(status);
-    }
-    return kilobytes * 1024;
 }
 
 }  // namespace

@@ -3,8 +3,6 @@
 // files only: a part goes from the rank that cut it to the worker that takes it, and from there to its place.
 #include "run/pipeline.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -25,6 +23,7 @@
 #include "run/interface_match.h"
 #include "run/mesh_hash.h"
 #include "run/numbering.h"
+#include "run/peak_memory.h"
 #include "run/saved_run.h"
 #include "run/trace.h"
 #include "run/volume_stage.h"
@@ -361,12 +360,6 @@ int failure_code(const std::vector<PartReport>& parts) {
         code = part.result.code;
     }
     return code;
-}
-
-std::int64_t own_peak_rss_bytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
 }
 
 RunReport Run::finish(const Stopwatch& whole, double read_seconds) {

@@ -10,22 +10,22 @@ namespace kerf {
 namespace {
 
 // Edge `corner % 3` of facet `corner / 3`, from that vertex to the next.
-struct FacetEdge {
+struct EdgeOfCorner {
     std::int32_t low, high, corner;
-    bool same_ends(const FacetEdge& other) const { return low == other.low && high == other.high; }
+    bool same_ends(const EdgeOfCorner& other) const { return low == other.low && high == other.high; }
 };
 
 }  // namespace
 
 std::vector<std::int32_t> edge_partners(const std::vector<Triangle>& facets) {
-    std::vector<FacetEdge> edges;
+    std::vector<EdgeOfCorner> edges;
     edges.reserve(3 * facets.size());
     for (std::size_t f = 0; f < facets.size(); ++f)
         for (int i = 0; i < 3; ++i) {
             const auto [low, high] = std::minmax(facets[f][i], facets[f][(i + 1) % 3]);
             edges.push_back({low, high, static_cast<std::int32_t>(3 * f + i)});
         }
-    std::sort(edges.begin(), edges.end(), [](const FacetEdge& a, const FacetEdge& b) {
+    std::sort(edges.begin(), edges.end(), [](const EdgeOfCorner& a, const EdgeOfCorner& b) {
         return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
     });
     std::vector<std::int32_t> partner(edges.size(), -1);

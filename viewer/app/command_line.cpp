@@ -153,17 +153,6 @@ void read_run_config(const std::string& path, RunOptions& run) {
 
 }  // namespace
 
-void snap_to_cut(Clip& clip, const Document& document, NodeId node) {
-    const TreeRow* row = document.tree.find(node);
-    if (!row || !row->plane)
-        throw Error(ErrorCode::usage, fmt::format("Node {} was not cut, so that there is no plane to clip at.", node));
-    clip.on = true;
-    clip.normal = row->plane->normal;
-    const double half = clip.normal.cwiseAbs().dot(document.box.sizes()) / 2;
-    const double middle = clip.normal.dot(document.box.center());
-    clip.position = half > 0 ? (clip.normal.dot(row->plane->origin) - middle) / (2 * half) + 0.5 : 0.5;
-}
-
 Clip clip_from_text(const std::string& text, const Clip& before, const Document& document) {
     Clip clip = before;
     clip.on = true;
@@ -174,7 +163,11 @@ Clip clip_from_text(const std::string& text, const Clip& before, const Document&
     if (place == "node") {
         NodeId node = 0;
         if (!parse_number(value, node) || node < 1) refuse_clip(text);
-        snap_to_cut(clip, document, node);
+        const TreeRow* row = document.tree.find(node);
+        if (!row || !row->plane)
+            throw Error(ErrorCode::usage,
+                        fmt::format("Node {} was not cut, so that there is no plane to clip at.", node));
+        snap_to(clip, *row->plane, document.box);
         return clip;
     }
     if (!parse_normal(place, clip.normal, clip.flipped) || !parse_number(value, clip.position)) refuse_clip(text);

@@ -29,7 +29,4 @@ ViewCommand parse_view_command(int argc, const char* const* argv);
 /// The clip plane that a text names; "node=N" needs the tree of the document. Throws Error(usage).
 Clip clip_from_text(const std::string& text, const Clip& before, const Document& document);
 
-/// The clip plane that coincides with the cut of a node. Throws Error(usage) if that was not cut.
-void snap_to_cut(Clip& clip, const Document& document, NodeId node);
-
 }  // namespace kerf::view

@@ -26,6 +26,10 @@ struct NodeSurface {
     std::vector<std::int32_t> facet_number;   ///< #F; of the facet in the input, -1 on interfaces
     std::vector<std::int64_t> vertex_number;  ///< #V; global number (parts) or number in the input; -1: interior of an
                                               ///< interface
+
+    bool is_interface(std::int32_t facet) const {
+        return !interface_of.empty() && interface_of[static_cast<std::size_t>(facet)] != 0;
+    }
 };
 
 /// The tetrahedra of one part.

@@ -21,12 +21,6 @@ bool is_there(const fs::path& path) {
     return fs::exists(path, ignored);
 }
 
-// Without a slash at the end.
-fs::path absolute(const std::string& path) {
-    const fs::path normal = fs::absolute(path).lexically_normal();
-    return normal.has_filename() ? normal : normal.parent_path();
-}
-
 bool begins_with_event(const std::string& path) {
     constexpr std::size_t limit = 1 << 16;  // the first event is short
     std::ifstream file(path, std::ios::binary);
@@ -46,8 +40,13 @@ bool begins_like_trace(const std::string& path) {
 
 }  // namespace
 
+std::string absolute_path(const std::string& path) {
+    const fs::path normal = fs::absolute(path).lexically_normal();
+    return normal.has_filename() ? normal : normal.parent_path();
+}
+
 OpenedPath tell_kind(const std::string& path) {
-    const std::string full = absolute(path).string();
+    const std::string full = absolute_path(path);
     const std::string folder =
         full.ends_with(partial_ending) ? full.substr(0, full.size() - partial_ending.size()) : full;
     const std::string partial = folder + std::string(partial_ending);

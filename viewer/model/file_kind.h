@@ -18,6 +18,9 @@ struct OpenedPath {
     std::string partial;  ///< of one that is not: where it is now
 };
 
+/// Without ".", ".." and a slash at the end.
+std::string absolute_path(const std::string& path);
+
 /// Looks at names and the first bytes. Throws Error(io) for a folder that is no run.
 OpenedPath tell_kind(const std::string& path);
 

@@ -45,7 +45,7 @@ RunEvent::Part ended_part(const Json& json) {
 }
 
 // Throws what the JSON library throws.
-RunEvent from_json(const Json& json) {
+RunEvent event_from_json(const Json& json) {
     RunEvent event;
     event.kind = kind_of(json.at("event").get<std::string>());
     event.seconds = json.value("seconds", 0.0);
@@ -94,8 +94,8 @@ std::vector<RunEvent> EventTail::read_new() {
     std::size_t begin = 0;
     for (std::size_t end = 0; (end = rest_.find('\n', begin)) != rest_.npos; begin = end + 1) {
         try {
-            events.push_back(from_json(Json::parse(rest_.begin() + static_cast<std::ptrdiff_t>(begin),
-                                                   rest_.begin() + static_cast<std::ptrdiff_t>(end))));
+            events.push_back(event_from_json(Json::parse(rest_.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                         rest_.begin() + static_cast<std::ptrdiff_t>(end))));
         } catch (const Json::exception&) {  // no line of ours
         }
     }

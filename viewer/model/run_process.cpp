@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int tag = 0;  // of the only child
-constexpr double patience_seconds = 5;
+constexpr double patience_with_runs_seconds = 5;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -94,7 +94,9 @@ void RunProcess::interrupt() {
     interrupted_ = Clock::now();
 }
 
-bool RunProcess::is_overdue() const { return interrupted_ && seconds_since(*interrupted_) > patience_seconds; }
+bool RunProcess::is_overdue() const {
+    return interrupted_ && seconds_since(*interrupted_) > patience_with_runs_seconds;
+}
 
 std::optional<ChildResult> RunProcess::wait(double seconds) {
     if (!is_running()) return std::nullopt;

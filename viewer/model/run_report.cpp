@@ -101,7 +101,7 @@ std::optional<MeasureHistogram> read_histogram(const Json& quality, const char* 
     return is_empty ? std::nullopt : std::optional(std::move(histogram));
 }
 
-RunReportFile from_json(const Json& json) {
+RunReportFile report_from_json(const Json& json) {
     RunReportFile report;
     const Json& input = json.at("input");
     read_options(json.at("options"), report);
@@ -131,7 +131,7 @@ RunReportFile read_report(const std::string& folder) {
     const std::string path = folder + "/report.json";
     const std::string text = read_file(path);
     try {
-        return from_json(Json::parse(text));
+        return report_from_json(Json::parse(text));
     } catch (const Json::exception& error) {
         throw Error(ErrorCode::io,
                     fmt::format("{} is damaged or no report of a run: {}. Repeat the run.", path, error.what()));

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "io/surface_reader.h"
+#include "viewer/model/file_kind.h"
 #include "viewer/model/tree_source.h"
 
 namespace kerf::view {
@@ -25,8 +26,6 @@ bool exists(const std::string& path) {
     return !path.empty() && fs::exists(path, ignored);
 }
 
-std::string absolute(const std::string& path) { return fs::absolute(path).lexically_normal().string(); }
-
 std::string message_of(int exit_code, const Tree& tree) {
     if (exit_code == static_cast<int>(ErrorCode::verification)) return "The verification of the mesh has failed.";
     const auto failed = std::count_if(tree.rows.begin(), tree.rows.end(),
@@ -40,7 +39,7 @@ std::string message_of(int exit_code, const Tree& tree) {
 
 std::string Session::Impl::input_of_next_run() const {
     const std::string& input = document_.options.input;
-    return exists(input) ? absolute(input) : "";
+    return exists(input) ? absolute_path(input) : "";
 }
 
 void Session::Impl::start_run(RunOptions options, bool volume) {
@@ -71,8 +70,8 @@ void Session::Impl::start_run(RunOptions options, bool volume) {
     if (document_.trace || !document_.folder.empty()) followed_->tree_before = document_.tree;
     document_.options = options;
     options.input = input.empty() ? scratch.file("surface.mesh") : input;
-    options.output = options.output.empty() ? scratch.file("run") : absolute(options.output);
-    options.trace_file = options.trace_file.empty() ? scratch.file("run.trace") : absolute(options.trace_file);
+    options.output = options.output.empty() ? scratch.file("run") : absolute_path(options.output);
+    options.trace_file = options.trace_file.empty() ? scratch.file("run.trace") : absolute_path(options.trace_file);
     options.events_file = scratch.file("events");
     followed_->input = options.input;
     followed_->output = options.output;

@@ -13,7 +13,7 @@ namespace kerf::view {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 struct Names {
     const char* name;
@@ -47,21 +47,21 @@ int index_of(const std::array<const char*, N>& names, const std::string& text, c
     throw Error(ErrorCode::usage, fmt::format("'{}' is no {}. There are {}.", text, what, fmt::join(names, ", ")));
 }
 
-Json write(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+OrderedJson write(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-Vec3 vector_from(const Json& json) {
+Vec3 vector_from(const OrderedJson& json) {
     const auto numbers = json.get<std::array<double, 3>>();
     return {numbers[0], numbers[1], numbers[2]};
 }
 
-Json write(const ValueRange& range) { return {range.low, range.high}; }
+OrderedJson write(const ValueRange& range) { return {range.low, range.high}; }
 
-ValueRange range_from(const Json& json) {
+ValueRange range_from(const OrderedJson& json) {
     const auto numbers = json.get<std::array<double, 2>>();
     return {numbers[0], numbers[1]};
 }
 
-Json write(const Camera& camera) {
+OrderedJson write(const Camera& camera) {
     return {{"target", write(camera.target)},
             {"turn", {camera.turn.w(), camera.turn.x(), camera.turn.y(), camera.turn.z()}},
             {"height", camera.height},
@@ -69,8 +69,8 @@ Json write(const Camera& camera) {
 }
 
 // Calls the function of each field that is there; a name without one is an error of the user.
-using Fields = std::vector<std::pair<const char*, std::function<void(const Json&)>>>;
-void read_fields(const Json& json, const Fields& fields, const std::string& source) {
+using Fields = std::vector<std::pair<const char*, std::function<void(const OrderedJson&)>>>;
+void read_fields(const OrderedJson& json, const Fields& fields, const std::string& source) {
     if (!json.is_object()) throw Error(ErrorCode::usage, source + " is no JSON object.");
     for (const auto& [key, value] : json.items()) {
         const auto field =
@@ -89,21 +89,21 @@ void read_fields(const Json& json, const Fields& fields, const std::string& sour
     }
 }
 
-Camera camera_from(const Json& json, const std::string& source) {
+Camera camera_from(const OrderedJson& json, const std::string& source) {
     Camera camera;
     std::optional<Eigen::Quaterniond> turn;
     Vec3 back = Vec3::UnitZ(), up = Vec3::UnitY();
     read_fields(json,
-                {{"target", [&](const Json& j) { camera.target = vector_from(j); }},
+                {{"target", [&](const OrderedJson& j) { camera.target = vector_from(j); }},
                  {"turn",
-                  [&](const Json& j) {
+                  [&](const OrderedJson& j) {
                       const auto q = j.get<std::array<double, 4>>();
                       turn.emplace(q[0], q[1], q[2], q[3]);
                   }},
-                 {"back", [&](const Json& j) { back = vector_from(j); }},
-                 {"up", [&](const Json& j) { up = vector_from(j); }},
-                 {"height", [&](const Json& j) { camera.height = j.get<double>(); }},
-                 {"perspective", [&](const Json& j) { camera.perspective = j.get<bool>(); }}},
+                 {"back", [&](const OrderedJson& j) { back = vector_from(j); }},
+                 {"up", [&](const OrderedJson& j) { up = vector_from(j); }},
+                 {"height", [&](const OrderedJson& j) { camera.height = j.get<double>(); }},
+                 {"perspective", [&](const OrderedJson& j) { camera.perspective = j.get<bool>(); }}},
                 source);
     const auto refuse = [&](const char* what) { throw Error(ErrorCode::usage, fmt::format("{}: {}", source, what)); };
     if (!(camera.height > 0)) refuse("'height' must be positive.");
@@ -121,7 +121,7 @@ Camera camera_from(const Json& json, const std::string& source) {
     return camera;
 }
 
-Json write(const Clip& clip) {
+OrderedJson write(const Clip& clip) {
     return {{"on", clip.on},
             {"style", name(clip.style)},
             {"normal", write(clip.normal)},
@@ -129,14 +129,14 @@ Json write(const Clip& clip) {
             {"flipped", clip.flipped}};
 }
 
-Clip clip_from(const Json& json, const std::string& source) {
+Clip clip_from(const OrderedJson& json, const std::string& source) {
     Clip clip;
     read_fields(json,
-                {{"on", [&](const Json& j) { clip.on = j.get<bool>(); }},
-                 {"style", [&](const Json& j) { clip.style = clip_style_from_name(j.get<std::string>()); }},
-                 {"normal", [&](const Json& j) { clip.normal = vector_from(j); }},
-                 {"position", [&](const Json& j) { clip.position = j.get<double>(); }},
-                 {"flipped", [&](const Json& j) { clip.flipped = j.get<bool>(); }}},
+                {{"on", [&](const OrderedJson& j) { clip.on = j.get<bool>(); }},
+                 {"style", [&](const OrderedJson& j) { clip.style = clip_style_from_name(j.get<std::string>()); }},
+                 {"normal", [&](const OrderedJson& j) { clip.normal = vector_from(j); }},
+                 {"position", [&](const OrderedJson& j) { clip.position = j.get<double>(); }},
+                 {"flipped", [&](const OrderedJson& j) { clip.flipped = j.get<bool>(); }}},
                 source);
     if (!(clip.normal.norm() > 0))
         throw Error(ErrorCode::usage, source + ": the 'normal' of the clip plane must not be zero.");
@@ -144,24 +144,24 @@ Clip clip_from(const Json& json, const std::string& source) {
     return clip;
 }
 
-Json write(const Selection& selection) {
+OrderedJson write(const Selection& selection) {
     return {{"kind", selection_names[static_cast<std::size_t>(selection.kind)]},
             {"owner", selection.owner},
             {"index", selection.index},
             {"place", write(selection.place)}};
 }
 
-Selection selection_from(const Json& json, const std::string& source) {
+Selection selection_from(const OrderedJson& json, const std::string& source) {
     Selection s;
     read_fields(json,
                 {{"kind",
-                  [&](const Json& j) {
+                  [&](const OrderedJson& j) {
                       s.kind = static_cast<Selection::Kind>(
                           index_of(selection_names, j.get<std::string>(), "kind of selection"));
                   }},
-                 {"owner", [&](const Json& j) { s.owner = j.get<NodeId>(); }},
-                 {"index", [&](const Json& j) { s.index = j.get<std::int32_t>(); }},
-                 {"place", [&](const Json& j) { s.place = vector_from(j); }}},
+                 {"owner", [&](const OrderedJson& j) { s.owner = j.get<NodeId>(); }},
+                 {"index", [&](const OrderedJson& j) { s.index = j.get<std::int32_t>(); }},
+                 {"place", [&](const OrderedJson& j) { s.place = vector_from(j); }}},
                 source);
     return s;
 }
@@ -179,8 +179,8 @@ std::vector<std::pair<const char*, bool*>> switches(Panels& p) {
 }
 
 template <class Value>
-Json write_switches(Value value) {
-    Json json = Json::object();
+OrderedJson write_switches(Value value) {
+    OrderedJson json = OrderedJson::object();
     for (const auto& [name, place] : switches(value)) json[name] = *place;
     return json;
 }
@@ -188,18 +188,31 @@ Json write_switches(Value value) {
 template <class Value>
 void add_switches(Value& value, Fields& fields) {
     for (const auto& [name, place] : switches(value))
-        fields.emplace_back(name, [place = place](const Json& j) { *place = j.get<bool>(); });
+        fields.emplace_back(name, [place = place](const OrderedJson& j) { *place = j.get<bool>(); });
 }
 
-Json parse(const std::string& text, const std::string& source) {
+OrderedJson parse(const std::string& text, const std::string& source) {
     try {
-        return Json::parse(text);
+        return OrderedJson::parse(text);
     } catch (const nlohmann::json::exception& e) {
         throw Error(ErrorCode::usage, fmt::format("{} is no JSON: {}.", source, e.what()));
     }
 }
 
 }  // namespace
+
+ValueRange extent_along(const Eigen::AlignedBox3d& box, const Vec3& n) {
+    const double middle = n.dot(box.center()), half = n.cwiseAbs().dot(box.sizes()) / 2;
+    return {middle - half, middle + half};
+}
+
+void snap_to(Clip& clip, const Plane& plane, const Eigen::AlignedBox3d& box) {
+    const ValueRange range = extent_along(box, plane.normal);
+    clip.on = true;
+    clip.normal = plane.normal;
+    if (range.high > range.low)
+        clip.position = std::clamp((plane.normal.dot(plane.origin) - range.low) / (range.high - range.low), 0., 1.);
+}
 
 bool ViewState::is_hidden(NodeId wanted) const {
     for (; wanted > 0; wanted /= 2)
@@ -235,7 +248,7 @@ Camera camera_from_json(const std::string& text, const std::string& source) {
 }
 
 std::string to_json(const ViewState& state) {
-    Json json = {{"node", state.node}, {"stage", name(state.step)}};
+    OrderedJson json = {{"node", state.node}, {"stage", name(state.step)}};
     if (state.camera) json["camera"] = write(*state.camera);
     json["shading"] = shading_names[static_cast<std::size_t>(state.shading)];
     json.update(write_switches(state));
@@ -256,7 +269,7 @@ std::string to_json(const ViewState& state) {
 
 ViewState state_from_json(const std::string& text, const std::string& source) {
     ViewState s;
-    const auto unit = [&](const char* field, const Json& j) {
+    const auto unit = [&](const char* field, const OrderedJson& j) {
         const double value = j.get<double>();
         if (!(value >= 0 && value <= 1))
             throw Error(ErrorCode::usage,
@@ -264,33 +277,35 @@ ViewState state_from_json(const std::string& text, const std::string& source) {
         return value;
     };
     Fields fields = {
-        {"node", [&](const Json& j) { s.node = j.get<NodeId>(); }},
-        {"stage", [&](const Json& j) { s.step = step_from_name(j.get<std::string>()); }},
-        {"camera", [&](const Json& j) { s.camera = camera_from(j, source); }},
+        {"node", [&](const OrderedJson& j) { s.node = j.get<NodeId>(); }},
+        {"stage", [&](const OrderedJson& j) { s.step = step_from_name(j.get<std::string>()); }},
+        {"camera", [&](const OrderedJson& j) { s.camera = camera_from(j, source); }},
         {"shading",
-         [&](const Json& j) {
+         [&](const OrderedJson& j) {
              s.shading = static_cast<Shading>(index_of(shading_names, j.get<std::string>(), "shading"));
          }},
-        {"explode", [&](const Json& j) { s.explode = std::max(0.0, j.get<double>()); }},
-        {"shrink", [&](const Json& j) { s.shrink = unit("shrink", j); }},
-        {"clip", [&](const Json& j) { s.clip = clip_from(j, source); }},
-        {"color", [&](const Json& j) { s.color = color_by_from_name(j.get<std::string>()); }},
-        {"color_range", [&](const Json& j) { s.color_range = range_from(j); }},
-        {"filter", [&](const Json& j) { s.filter = range_from(j); }},
+        {"explode", [&](const OrderedJson& j) { s.explode = std::max(0.0, j.get<double>()); }},
+        {"shrink", [&](const OrderedJson& j) { s.shrink = unit("shrink", j); }},
+        {"clip", [&](const OrderedJson& j) { s.clip = clip_from(j, source); }},
+        {"color", [&](const OrderedJson& j) { s.color = color_by_from_name(j.get<std::string>()); }},
+        {"color_range", [&](const OrderedJson& j) { s.color_range = range_from(j); }},
+        {"filter", [&](const OrderedJson& j) { s.filter = range_from(j); }},
         {"hidden",
-         [&](const Json& j) {
+         [&](const OrderedJson& j) {
              for (const NodeId node : j.get<std::vector<NodeId>>()) s.set_hidden(node, true);
          }},
-        {"isolated", [&](const Json& j) { s.isolated = j.get<NodeId>(); }},
+        {"isolated", [&](const OrderedJson& j) { s.isolated = j.get<NodeId>(); }},
         {"pick",
-         [&](const Json& j) {
+         [&](const OrderedJson& j) {
              s.pick = static_cast<PickMode>(index_of(pick_names, j.get<std::string>(), "pick mode"));
          }},
-        {"selection", [&](const Json& j) { s.selection = selection_from(j, source); }},
+        {"selection", [&](const OrderedJson& j) { s.selection = selection_from(j, source); }},
         {"theme",
-         [&](const Json& j) { s.theme = static_cast<Theme>(index_of(theme_names, j.get<std::string>(), "theme")); }},
+         [&](const OrderedJson& j) {
+             s.theme = static_cast<Theme>(index_of(theme_names, j.get<std::string>(), "theme"));
+         }},
         {"panels",
-         [&](const Json& j) {
+         [&](const OrderedJson& j) {
              Fields of_panels;
              add_switches(s.panels, of_panels);
              read_fields(j, of_panels, source);

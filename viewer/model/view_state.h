@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cut/cut.h"
 #include "viewer/model/camera.h"
 #include "viewer/model/stage.h"
 
@@ -28,6 +29,15 @@ struct Clip {
     bool flipped = false;
 };
 
+struct ValueRange {
+    double low = 0, high = 0;
+};
+
+/// Of n.p over the points p of a box: what Clip::position is a fraction of.
+ValueRange extent_along(const Eigen::AlignedBox3d& box, const Vec3& n);
+/// Makes the clip plane coincide with a plane that meets the box.
+void snap_to(Clip& clip, const Plane& plane, const Eigen::AlignedBox3d& box);
+
 /// What the colour of a cell or facet means.
 enum class ColorBy {
     part,
@@ -44,10 +54,6 @@ enum class ColorBy {
 };
 inline constexpr int color_by_count = static_cast<int>(ColorBy::edge_length) + 1;
 constexpr bool is_measure(ColorBy color) { return color >= ColorBy::min_dihedral; }
-
-struct ValueRange {
-    double low = 0, high = 0;
-};
 
 enum class Theme { light, dark };
 

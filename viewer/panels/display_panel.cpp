@@ -38,11 +38,11 @@ void draw_switches(UiContext& context) {
 template <class Enum, std::size_t N>
 void draw_choice(Widgets& widgets, const char* title, const char* const (&labels)[N], Enum& value) {
     const float left = ImGui::GetCursorPosX(), room = ImGui::GetContentRegionAvail().x;
-    const auto width_of = [](const char* label) {
-        return ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize(label).x;
+    const auto width_of_radio = [](const char* label) {
+        return ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + width_of(label);
     };
     float widths = 0;
-    for (const char* label : labels) widths += width_of(label);
+    for (const char* label : labels) widths += width_of_radio(label);
     const float gap = std::min(em(), (title_share * room - widths) / static_cast<float>(N - 1));
     float x = left + (1 - title_share) * room;
     ImGui::AlignTextToFramePadding();
@@ -50,23 +50,8 @@ void draw_choice(Widgets& widgets, const char* title, const char* const (&labels
     for (std::size_t i = 0; i < N; ++i) {
         ImGui::SameLine(x, 0);
         if (widgets.radio(labels[i], static_cast<std::size_t>(value) == i)) value = static_cast<Enum>(i);
-        x += width_of(labels[i]) + gap;
+        x += width_of_radio(labels[i]) + gap;
     }
-}
-
-// Lowest and highest value of n.p over the corners of the box.
-ValueRange extent_along(const Eigen::AlignedBox3d& box, const Vec3& n) {
-    const double middle = n.dot(box.center()), half = n.cwiseAbs().dot(box.sizes()) / 2;
-    return {middle - half, middle + half};
-}
-
-void snap_to_cut(UiContext& context, const Plane& plane) {
-    Clip& clip = context.state.clip;
-    const ValueRange range = extent_along(context.session.document().box, plane.normal);
-    clip.on = true;
-    clip.normal = plane.normal;
-    if (range.high > range.low)
-        clip.position = std::clamp((plane.normal.dot(plane.origin) - range.low) / (range.high - range.low), 0., 1.);
 }
 
 void draw_axis_buttons(UiContext& context) {
@@ -94,7 +79,7 @@ void draw_snap_button(UiContext& context) {
     ImGui::BeginDisabled(!has_plane);
     const std::string label = fmt::format("Snap to cut of node {}", context.state.node);
     if (context.widgets.button(label.c_str(), has_plane ? "Clips at the plane of this cut" : "This node has no cut"))
-        snap_to_cut(context, *row->plane);
+        snap_to(context.state.clip, *row->plane, context.session.document().box);
     ImGui::EndDisabled();
 }
 

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 using Kind = FileBrowser::Entry::Kind;
-constexpr const char* popup = "Open a surface, a trace or a run";
+constexpr const char* popup_title = "Open a surface, a trace or a run";
 
 std::string lower(std::string text) {
     for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -228,7 +228,7 @@ void begin_browsing(const Settings& settings, FileBrowser& browser) {
     browser.filter.clear();
     browser.go_to(folder);
     browser.open = true;
-    ImGui::OpenPopup(popup);
+    ImGui::OpenPopup(popup_title);
 }
 
 }  // namespace
@@ -261,7 +261,7 @@ void draw_browser(UiContext& context, Memory& memory) {
     ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSize({std::min(44 * em(), screen.x), std::min(34 * em(), screen.y)});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.3f * em());
-    const bool shown = ImGui::BeginPopupModal(popup, nullptr,
+    const bool shown = ImGui::BeginPopupModal(popup_title, nullptr,
                                               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
     ImGui::PopStyleVar();

@@ -12,8 +12,6 @@ namespace {
 
 constexpr std::size_t most_categories = 12;
 
-float width_of(const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; }
-
 // Ticks of one legend have equally many decimals.
 std::string tick_text(double value, double step) {
     const double size = std::max(std::abs(value), std::abs(step));

@@ -26,9 +26,9 @@ constexpr std::array<const char*, 5> bytes_units = {"B", "kB", "MB", "GB", "TB"}
 // The bytes that continue a character of UTF-8.
 bool continues(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
 
-float width_of(const std::string& text) { return ImGui::CalcTextSize(text.data(), text.data() + text.size()).x; }
-
 }  // namespace
+
+float width_of(const std::string& text) { return ImGui::CalcTextSize(text.data(), text.data() + text.size()).x; }
 
 std::string compact(std::int64_t count) {
     return count < 0 ? "" : with_unit(static_cast<double>(count), 1000, thousands);

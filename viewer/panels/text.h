@@ -22,6 +22,8 @@ std::string number_of(std::int64_t n, const std::string& noun);
 std::string file_size(std::uintmax_t bytes);
 /// About `wanted` round values in [low, high], ascending: multiples of 1, 2 or 5 times a power of ten.
 std::vector<double> round_ticks(double low, double high, int wanted);
+/// In pixels, on one line.
+float width_of(const std::string& text);
 /// The start of the text that is no wider than `width`, with "..." if anything was left out.
 std::string shortened(const std::string& text, float width);
 /// Of a path: its end rather than its start.

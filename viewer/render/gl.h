@@ -2,6 +2,7 @@
 // (GLFW) and without a display (OSMesa), and links neither's OpenGL.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 
 #include <GL/glcorearb.h>
@@ -86,6 +87,9 @@ struct Gl {
     KERF_GL_FUNCTIONS(KERF_GL_MEMBER)
 #undef KERF_GL_MEMBER
 };
+
+/// How OpenGL takes a place in the bound buffer.
+inline const void* buffer_offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
 /// Address of an OpenGL function of the current context, or null.
 using GlLoader = std::function<void*(const char* name)>;

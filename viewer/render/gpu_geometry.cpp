@@ -51,8 +51,6 @@ void upload(const Gl& gl, const GlObject& buffer, const std::vector<Item>& items
     gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(items.size() * sizeof(Item)), items.data(), GL_STATIC_DRAW);
 }
 
-const void* at(std::size_t offset) { return reinterpret_cast<const void*>(offset); }
-
 }  // namespace
 
 GpuGeometry::GpuGeometry(const Gl& gl, const Geometry& geometry)
@@ -72,33 +70,35 @@ void GpuGeometry::upload_triangles(const Geometry& geometry) {
     constexpr GLsizei stride = sizeof(Corner);
     upload(gl_, vertices_, geometry.corners);
     gl_.EnableVertexAttribArray(attribute::position);
-    gl_.VertexAttribPointer(attribute::position, 3, GL_FLOAT, GL_FALSE, stride, at(offsetof(Corner, position)));
+    gl_.VertexAttribPointer(attribute::position, 3, GL_FLOAT, GL_FALSE, stride,
+                            buffer_offset(offsetof(Corner, position)));
     gl_.EnableVertexAttribArray(attribute::corner_normal);
-    gl_.VertexAttribPointer(attribute::corner_normal, 3, GL_SHORT, GL_TRUE, stride, at(offsetof(Corner, normal)));
+    gl_.VertexAttribPointer(attribute::corner_normal, 3, GL_SHORT, GL_TRUE, stride,
+                            buffer_offset(offsetof(Corner, normal)));
     gl_.EnableVertexAttribArray(attribute::edges);
-    gl_.VertexAttribIPointer(attribute::edges, 1, GL_UNSIGNED_SHORT, stride, at(offsetof(Corner, edges)));
+    gl_.VertexAttribIPointer(attribute::edges, 1, GL_UNSIGNED_SHORT, stride, buffer_offset(offsetof(Corner, edges)));
     gl_.EnableVertexAttribArray(attribute::value);
-    gl_.VertexAttribPointer(attribute::value, 1, GL_FLOAT, GL_FALSE, stride, at(offsetof(Corner, value)));
+    gl_.VertexAttribPointer(attribute::value, 1, GL_FLOAT, GL_FALSE, stride, buffer_offset(offsetof(Corner, value)));
     for (const Corner& corner : geometry.corners) box_.extend(to_eigen(corner.position));
     normals_ = GlObject::buffer(gl_);
     upload(gl_, normals_, triangle_normals(geometry.corners));
     gl_.EnableVertexAttribArray(attribute::triangle_normal);
-    gl_.VertexAttribPointer(attribute::triangle_normal, 3, GL_SHORT, GL_TRUE, sizeof(PackedNormal), at(0));
+    gl_.VertexAttribPointer(attribute::triangle_normal, 3, GL_SHORT, GL_TRUE, sizeof(PackedNormal), buffer_offset(0));
 }
 
 void GpuGeometry::upload_segments(const Geometry& geometry) {
     constexpr GLsizei stride = sizeof(Segment);
     upload(gl_, vertices_, six_of_each(geometry.segments));
     gl_.EnableVertexAttribArray(attribute::from);
-    gl_.VertexAttribPointer(attribute::from, 3, GL_FLOAT, GL_FALSE, stride, at(offsetof(Segment, from)));
+    gl_.VertexAttribPointer(attribute::from, 3, GL_FLOAT, GL_FALSE, stride, buffer_offset(offsetof(Segment, from)));
     gl_.EnableVertexAttribArray(attribute::to);
-    gl_.VertexAttribPointer(attribute::to, 3, GL_FLOAT, GL_FALSE, stride, at(offsetof(Segment, to)));
+    gl_.VertexAttribPointer(attribute::to, 3, GL_FLOAT, GL_FALSE, stride, buffer_offset(offsetof(Segment, to)));
 }
 
 void GpuGeometry::upload_points(const Geometry& geometry) {
     upload(gl_, vertices_, six_of_each(geometry.points));
     gl_.EnableVertexAttribArray(attribute::center);
-    gl_.VertexAttribPointer(attribute::center, 3, GL_FLOAT, GL_FALSE, sizeof(geometry.points[0]), at(0));
+    gl_.VertexAttribPointer(attribute::center, 3, GL_FLOAT, GL_FALSE, sizeof(geometry.points[0]), buffer_offset(0));
 }
 
 const GpuGeometry& GeometryCache::get(const std::shared_ptr<const Geometry>& geometry) {

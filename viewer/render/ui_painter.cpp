@@ -14,8 +14,6 @@ namespace {
 ImTextureID to_imgui(GLuint texture) { return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)); }
 GLuint from_imgui(ImTextureID texture) { return static_cast<GLuint>(reinterpret_cast<std::uintptr_t>(texture)); }
 
-const void* at(std::size_t offset) { return reinterpret_cast<const void*>(offset); }
-
 }  // namespace
 
 UiPainter::UiPainter(const Gl& gl, const std::string& shader_folder)
@@ -29,9 +27,9 @@ UiPainter::UiPainter(const Gl& gl, const std::string& shader_folder)
     gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
     constexpr GLsizei stride = sizeof(ImDrawVert);
     for (GLuint location : {0, 1, 2}) gl.EnableVertexAttribArray(location);
-    gl.VertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, stride, at(offsetof(ImDrawVert, pos)));
-    gl.VertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, stride, at(offsetof(ImDrawVert, uv)));
-    gl.VertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride, at(offsetof(ImDrawVert, col)));
+    gl.VertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, stride, buffer_offset(offsetof(ImDrawVert, pos)));
+    gl.VertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, stride, buffer_offset(offsetof(ImDrawVert, uv)));
+    gl.VertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride, buffer_offset(offsetof(ImDrawVert, col)));
     gl.BindVertexArray(0);
     gl.BindBuffer(GL_ARRAY_BUFFER, 0);
 }
@@ -105,7 +103,8 @@ void UiPainter::draw_command(const ImDrawCmd& command, const ImDrawData& ui, int
     gl_.BindTexture(GL_TEXTURE_2D, texture != 0 ? texture : fonts_.id());
     gl_.DrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount),
                                sizeof(ImDrawIdx) == 2 ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT,
-                               at(command.IdxOffset * sizeof(ImDrawIdx)), static_cast<GLint>(command.VtxOffset));
+                               buffer_offset(command.IdxOffset * sizeof(ImDrawIdx)),
+                               static_cast<GLint>(command.VtxOffset));
 }
 
 }  // namespace kerf::view

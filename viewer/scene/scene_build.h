@@ -35,7 +35,6 @@ class SceneBuild {
     Layer& add_lines(const std::string& name, const std::vector<std::array<Vec3, 2>>& ends, const Color& color,
                      float pixels);
     void add_points(const std::string& name, const std::vector<Vec3>& places, const Color& color, float pixels);
-    void add_node();
     Layer* add_surface(const std::string& name, const std::shared_ptr<const NodeSurface>& surface, NodeId owner,
                        const Color& color, const Color& interface_color, const Vec3& offset);
     void add_node(const std::shared_ptr<const NodeSurface>& surface);

@@ -12,10 +12,6 @@ namespace {
 
 constexpr float context_opacity = 0.16f, glass_opacity = 0.3f;
 
-bool is_interface(const NodeSurface& surface, std::int32_t facet) {
-    return !surface.interface_of.empty() && surface.interface_of[static_cast<std::size_t>(facet)] != 0;
-}
-
 bool is_facet_shown(const NodeSurface& surface, std::int32_t facet, const ShownSide& side, ClipStyle style) {
     const Triangle& t = surface.facets[static_cast<std::size_t>(facet)];
     std::array<double, 3> d = {};
@@ -111,7 +107,7 @@ Layer* SceneBuild::add_surface(const std::string& name, const std::shared_ptr<co
     if (!patches.empty()) layer.fill = Fill::categories;
     const auto& element = geometry->element;
     const auto first_interface =
-        std::find_if(element.begin(), element.end(), [&](std::int32_t f) { return is_interface(*surface, f); });
+        std::find_if(element.begin(), element.end(), [&](std::int32_t f) { return surface->is_interface(f); });
     Range input = layer.ranges.front(), interface = input;
     input.count = static_cast<std::uint32_t>(first_interface - element.begin());
     interface.first = input.count;

@@ -32,10 +32,6 @@ Corners shrunk(Corners corners, const Vec3& center, double shrink) {
     return corners;
 }
 
-bool is_interface(const NodeSurface& surface, std::int32_t facet) {
-    return !surface.interface_of.empty() && surface.interface_of[static_cast<std::size_t>(facet)] != 0;
-}
-
 // Facets around each vertex, one after the other.
 struct Fans {
     std::vector<std::int32_t> begin, facet;
@@ -160,9 +156,8 @@ std::array<Vec3, 4> rectangle_corners(const Plane& plane, const Eigen::AlignedBo
 }  // namespace
 
 ShownSide shown_side(const Clip& clip, const Eigen::AlignedBox3d& box) {
-    const double middle = clip.normal.dot(box.center());
-    const double half = clip.normal.cwiseAbs().dot(box.sizes()) / 2;
-    const double offset = middle + (2 * clip.position - 1) * half;
+    const ValueRange range = extent_along(box, clip.normal);
+    const double offset = range.low + clip.position * (range.high - range.low);
     if (clip.flipped) return {-clip.normal, -offset};
     return {clip.normal, offset};
 }
@@ -184,7 +179,7 @@ std::shared_ptr<Geometry> facet_triangles(const NodeSurface& surface, const Fram
     for (const bool interfaces : {false, true}) {
         if (interfaces && interface_begin) *interface_begin = static_cast<std::uint32_t>(geometry->triangle_count());
         for (std::int32_t f = 0; f < count; ++f) {
-            if (is_interface(surface, f) != interfaces || (choice.wanted && !choice.wanted(f))) continue;
+            if (surface.is_interface(f) != interfaces || (choice.wanted && !choice.wanted(f))) continue;
             const Triangle& t = surface.facets[static_cast<std::size_t>(f)];
             const Corners corners = {surface.vertices[static_cast<std::size_t>(t[0])],
                                      surface.vertices[static_cast<std::size_t>(t[1])],
