@@ -6,16 +6,20 @@
 
 #include <algorithm>
 #include <cstring>
+#include <fstream>
 #include <span>
 #include <string_view>
 
 #include "io/checked_file.h"
 #include "io/file_bytes.h"
+#include "io/vtk_cell_types.h"
 #include "io/vtu_writer.h"
 
 namespace kerf {
 
 namespace {
+
+constexpr std::string_view closing_tag = "</VTKFile>\n";
 
 class PartBytes {
  public:
@@ -23,7 +27,7 @@ class PartBytes {
         : path_(path),
           bytes_(read_file(path)),
           header_(parse_vtu_header(std::string_view(bytes_).substr(0, vtu_header_limit), path)) {
-        if (!bytes_.ends_with("</VTKFile>\n")) fail("it does not end with the closing tag");
+        if (!bytes_.ends_with(closing_tag)) fail("it does not end with the closing tag");
     }
 
     const VtuHeader& header() const { return header_; }
@@ -58,7 +62,6 @@ class PartBytes {
 };
 
 std::int64_t count_tets(const PartBytes& file) {
-    constexpr std::uint8_t vtk_triangle = 5, vtk_tetra = 10;
     const auto types = file.values<std::uint8_t>("types", file.header().cell_count);
     const auto is = [](std::uint8_t type) { return [type](std::uint8_t other) { return other == type; }; };
     const auto first_facet = std::find_if_not(types.begin(), types.end(), is(vtk_tetra));
@@ -144,6 +147,13 @@ PartFile read_part(const std::string& path) {
     part.global_id = file.values<std::int64_t>("GlobalVertexId", header.point_count);
     part.patch_names = read_names(file);
     return part;
+}
+
+bool is_complete_part_file(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::string end(closing_tag.size(), '\0');
+    file.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
+    return file.read(end.data(), static_cast<std::streamsize>(end.size())) && end == closing_tag;
 }
 
 PartCellCounts read_cell_counts(const std::string& path) {

@@ -26,6 +26,10 @@ struct PartFile {
 /// mesh obeys its laws is verify_mesh()'s question. Throws Error(io) naming the file and what is wrong with it.
 PartFile read_part(const std::string& path);
 
+/// Whether the file ends as write_part() and write_part_surface() end theirs: one that is still being written, or was
+/// when its run was killed, does not, nor does one that cannot be read.
+bool is_complete_part_file(const std::string& path);
+
 /// The numbers of cells of a part file, of which its facets come last.
 struct PartCellCounts {
     std::int64_t tets = 0, facets = 0;

@@ -683,6 +683,21 @@ TEST_F(SessionTest, FollowsTheFolderOfARunUnderWay) {
     EXPECT_EQ(whole->facets.size(), 51840u);
 }
 
+// As if a part were being written at this moment.
+TEST_F(SessionTest, OpensARunOfWhichAPartIsHalfWritten) {
+    const std::string output = folder_.file("run");
+    test::StartedRun run(KERF_PROGRAM, {"mesh", test::asset_path("cube"), "-q", "-o", output, "-n", "4", "--workers",
+                                        "1", "--max-volume", "4e-6"});
+    ASSERT_TRUE(test::await([&] { return test::finished_parts(output) >= 1; }));
+    ::kill(run.process(), SIGKILL);
+    run.wait();
+    const std::string surface = output + ".kerf-partial/parts/part_0004.surface.vtu";
+    fs::resize_file(surface, fs::file_size(surface) / 2);
+    open(output);
+    EXPECT_EQ(document().error, "");
+    EXPECT_EQ(document().kind, Document::Kind::run);
+}
+
 TEST_F(SessionTest, ShowsAnInterruptedRun) {
     const std::string output = folder_.file("run");
     const std::vector<std::string> arguments = {"mesh",

@@ -9,6 +9,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "io/run_folder.h"
+#include "io/vtu_reader.h"
 #include "run/journal.h"
 
 namespace kerf::view {
@@ -61,6 +63,9 @@ PartialRun look_at_partial_run(const std::string& partial, const std::set<NodeId
     if (!run.exists) return run;
     run.is_alive = is_alive(partial);
     run.parts = numbers_in(partial + "/parts", "part_", ".surface.vtu");
+    std::erase_if(run.parts, [&](NodeId part) {
+        return !is_complete_part_file(partial + "/parts/" + part_surface_file_name(part));
+    });
     run.taken = parts_taken(partial);
     run.failed = numbers_in(partial + "/failed", "part_", ".txt");
     for (const NodeId part : numbers_in(partial + "/work/journal", "", "")) {
