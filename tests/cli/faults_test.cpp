@@ -19,9 +19,9 @@
 namespace kerf {
 namespace {
 
-// About a second for a part.
+// About half a second for a part.
 std::vector<std::string> four_parts(const std::string& output) {
-    return {"mesh", test::asset_path("cube"), "-o", output, "-n", "4", "--workers", "1", "--max-volume", "2e-6"};
+    return {"mesh", test::asset_path("cube"), "-o", output, "-n", "4", "--workers", "1", "--max-volume", "4e-6"};
 }
 
 TEST(KilledWorker, IsReportedAndTheOtherPartsAreWritten) {
@@ -73,14 +73,14 @@ TEST(MemoryLimit, IsReportedWithItsOwnCode) {
 TEST(HangingWorker, IsStoppedAndItsPartTriedAgain) {
     const test::TemporaryFolder folder;
     std::vector<std::string> arguments = four_parts(folder.file("out"));
-    arguments.insert(arguments.end(), {"--timeout", "15"});
+    arguments.insert(arguments.end(), {"--timeout", "8"});
     test::StartedRun run(KERF_PROGRAM, arguments);
     ASSERT_TRUE(test::await([&] { return !run.workers().empty(); }));
     ASSERT_EQ(::kill(run.workers().front(), SIGSTOP), 0);
     const ChildResult result = run.wait();
     EXPECT_EQ(result.exit_code, 0) << result.log;
     EXPECT_NE(result.log.find("another order of the vertices"), std::string::npos) << result.log;
-    EXPECT_NE(test::bytes_of_file(folder.file("out/report.json")).find("ran longer than its 15 s"), std::string::npos);
+    EXPECT_NE(test::bytes_of_file(folder.file("out/report.json")).find("ran longer than its 8 s"), std::string::npos);
 }
 
 TEST(SecondRun, IntoTheSameFolderIsRefused) {

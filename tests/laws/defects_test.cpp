@@ -144,7 +144,7 @@ TEST(Defects, RepairsGiveTheUndamagedSurfaceBack) {
                 EXPECT_EQ(facet_set(checked.soup.facets), facet_set(base.soup.facets));
                 EXPECT_EQ(checked.soup.patch.size(), checked.soup.facets.size());
                 EXPECT_EQ(lines(check(checked.soup)), Lines());
-                EXPECT_GT(enclosed_volume(Surface(test::to_arrays(checked.soup))), 0);
+                EXPECT_GT(enclosed_volume(test::to_surface(checked.soup)), 0);
             }
 }
 

@@ -9,6 +9,7 @@
 #include "support/file_contents.h"
 #include "support/mutation.h"
 #include "support/shapes.h"
+#include "support/slice.h"
 #include "support/surface_files.h"
 
 namespace kerf {
@@ -36,7 +37,7 @@ void expect_valid_indices(const Soup& soup) {
 }
 
 struct Outcomes {
-    int refused = 0, defective = 0, clean = 0;
+    unsigned refused = 0, defective = 0, clean = 0;
 };
 
 // What every command does with a file before it cuts.
@@ -88,10 +89,10 @@ std::vector<SurfaceFile> small_files() {
 TEST(Mutation, MutationsOfFilesOfEveryFormatNeverDoHarm) {
     Outcomes outcomes;
     const std::vector<SurfaceFile> files = small_files();
-    EXPECT_GE(check_mutations(files, 300, false, outcomes), 10'000u);
-    EXPECT_GT(outcomes.refused, 1000);
-    EXPECT_GT(outcomes.defective, 1000);
-    EXPECT_GT(outcomes.clean, 100);
+    EXPECT_GE(check_mutations(files, test::slice(300u), false, outcomes), test::slice(10'000u));
+    EXPECT_GT(outcomes.refused, test::slice(1000u));
+    EXPECT_GT(outcomes.defective, test::slice(1000u));
+    EXPECT_GT(outcomes.clean, test::slice(100u));
 }
 
 TEST(Mutation, MutationsOfArchivesNeverDoHarm) {
@@ -101,8 +102,8 @@ TEST(Mutation, MutationsOfArchivesNeverDoHarm) {
         files.push_back({file.name + ".gz", test::gzip(file.bytes)});
         files.push_back({file.name + ".zst", test::zstd(file.bytes)});
     }
-    check_mutations(files, 30, true, outcomes);
-    EXPECT_GT(outcomes.refused, 500);
+    check_mutations(files, test::slice(30u), true, outcomes);
+    EXPECT_GT(outcomes.refused, test::slice(500u));
 }
 
 TEST(Mutation, MutationsOfAssetsNeverDoHarm) {
@@ -110,9 +111,10 @@ TEST(Mutation, MutationsOfAssetsNeverDoHarm) {
     std::vector<SurfaceFile> files;
     for (const char* name : {"hollow_box", "cube"})
         files.push_back({"asset.stl", test::bytes_of_file(test::asset_path(name))});
-    check_mutations(files, 60, false, outcomes);
-    EXPECT_GT(outcomes.refused, 10);
-    EXPECT_GT(outcomes.defective, 10);
+    const unsigned seeds = test::in_slices() ? 12 : 60;
+    check_mutations(files, seeds, false, outcomes);
+    EXPECT_GT(outcomes.refused, seeds / 6);
+    EXPECT_GT(outcomes.defective, seeds / 6);
 }
 
 }  // namespace

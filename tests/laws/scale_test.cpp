@@ -1,11 +1,10 @@
 // Any unit and any place: surfaces at scales of 1e-12 to 1e12, and a thousand times their size away from the origin,
 // are divided, meshed and verified, and the parts have the coordinates of the input bit for bit.
-#include <cstring>
-
 #include <gtest/gtest.h>
 
 #include "io/surface_reader.h"
 #include "support/assets.h"
+#include "support/face.h"
 #include "support/program.h"
 #include "support/run_laws.h"
 #include "support/temporary_folder.h"
@@ -37,8 +36,6 @@ Soup placed(Soup soup, const Placement& placement) {
     return soup;
 }
 
-bool same_bits(const Vec3& a, const Vec3& b) { return std::memcmp(a.data(), b.data(), 3 * sizeof(double)) == 0; }
-
 void expect_laws(const std::string& command, const std::string& asset, const Placement& placement) {
     SCOPED_TRACE(testing::Message() << command << ' ' << asset << " * " << placement.scale << " from "
                                     << placement.offset.transpose());
@@ -58,7 +55,7 @@ void expect_laws(const std::string& command, const std::string& asset, const Pla
             const auto id = static_cast<std::size_t>(part.global_id[v]);
             if (id >= soup.vertices.size()) continue;  // made by a cut or by the mesher
             found[id] = 1;
-            EXPECT_TRUE(same_bits(part.mesh.vertices[v], soup.vertices[id])) << "vertex " << id;
+            EXPECT_TRUE(test::same_bits(part.mesh.vertices[v], soup.vertices[id])) << "vertex " << id;
         }
     EXPECT_EQ(std::count(found.begin(), found.end(), char{0}), 0) << "vertices of the input are missing";
     if (is_meshed) {
@@ -94,7 +91,8 @@ TEST(Scale, PowersOfTwoChangeNothingButTheCoordinates) {
             EXPECT_EQ(part.facets, original.facets) << scale;
             EXPECT_EQ(part.global_id, original.global_id) << scale;
             for (std::size_t v = 0; v < part.mesh.vertices.size(); ++v)
-                EXPECT_TRUE(same_bits(part.mesh.vertices[v], scale * original.mesh.vertices[v])) << scale << ' ' << v;
+                EXPECT_TRUE(test::same_bits(part.mesh.vertices[v], scale * original.mesh.vertices[v]))
+                    << scale << ' ' << v;
         }
     }
 }

@@ -7,6 +7,7 @@
 
 #include "support/checked_run.h"
 #include "support/shapes.h"
+#include "support/slice.h"
 #include "support/write_off.h"
 
 namespace kerf {
@@ -78,12 +79,12 @@ TEST_P(GeneratedShape, IsWhatItsNameSays) {
 
 TEST_P(GeneratedShape, ObeysEveryLawInManyParts) {
     const std::string path = written();
-    for (const std::int32_t parts : {2, 8, 32}) expect_laws(path, parts);
+    for (const std::int32_t parts : test::slice({2, 8, 32}, {8})) expect_laws(path, parts);
 }
 
 TEST_P(GeneratedShape, ObeysEveryLawWhenTurned) {
     const std::string path = written_turned();
-    for (const std::int32_t parts : {2, 8}) expect_laws(path, parts);
+    for (const std::int32_t parts : test::slice({2, 8}, {2})) expect_laws(path, parts);
 }
 
 }  // namespace

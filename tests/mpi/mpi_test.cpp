@@ -8,6 +8,7 @@
 #include "support/file_contents.h"
 #include "support/program.h"
 #include "support/shapes.h"
+#include "support/slice.h"
 #include "support/started_run.h"
 #include "support/temporary_folder.h"
 #include "support/write_off.h"
@@ -50,7 +51,7 @@ TEST_P(MpiRuns, PartFilesAreTheSameForAnyRanksAndWorkers) {
     ASSERT_EQ(test::run_kerf(arguments("alone", 1)).exit_code, 0);
     const auto expected = test::contents(folder.file("alone/parts"));
     EXPECT_EQ(expected.size(), 2 * static_cast<std::size_t>(parts));
-    for (const int ranks : {1, 2, 3, 4, 7})
+    for (const int ranks : test::slice({1, 2, 3, 4, 7}, {2, 7}))
         for (const int workers : {1, 2}) {
             SCOPED_TRACE(testing::Message() << ranks << " ranks, " << workers << " workers");
             std::vector<std::string> command = arguments("ranks", workers);

@@ -1,14 +1,13 @@
-// Faces are compared as triples of vertex keys, rotated so that the smallest comes first: equal triples are the same
-// face seen from the same side, and `turned` is the same face seen from behind.
+// The corners of faces are vertex keys.
 #include "support/decomposition_laws.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <tuple>
 
 #include "decompose/straight_division.h"
+#include "support/face.h"
 #include "surface/facet_cover.h"
 #include "surface/intersections.h"
 #include "surface/mass_properties.h"
@@ -19,14 +18,6 @@ namespace {
 
 constexpr double volume_rel_tolerance = 1e-12;
 
-using Face = std::array<Key, 3>;
-
-Face rotated(Face f) {
-    std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
-    return f;
-}
-Face turned(const Face& f) { return {f[0], f[2], f[1]}; }
-
 Face face_of(const SurfaceArrays& surface, std::size_t facet) {
     const Triangle& t = surface.facets[facet];
     return rotated({surface.vertex_key[t[0]], surface.vertex_key[t[1]], surface.vertex_key[t[2]]});
@@ -36,8 +27,6 @@ std::array<Vec3, 3> corners_of(const SurfaceArrays& surface, std::size_t facet) 
     const Triangle& t = surface.facets[facet];
     return {surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]};
 }
-
-bool same_bits(const Vec3& a, const Vec3& b) { return std::memcmp(a.data(), b.data(), sizeof(double) * 3) == 0; }
 
 class DecompositionLaws {
  public:

@@ -7,6 +7,13 @@
 
 namespace kerf::test {
 
+/// The defaults, for so many parts.
+inline DecomposeOptions in_parts(std::int32_t parts) {
+    DecomposeOptions options;
+    options.parts = parts;
+    return options;
+}
+
 /// All leaves, by contours of edges and, where these leave parts whole and facets may be split, by straight cuts.
 Decomposition decompose_whole(const Surface& surface, const DecomposeOptions& options, CutListener* listener = nullptr);
 

@@ -1,15 +1,14 @@
-// Faces are compared as corner triples in global vertex numbers, rotated so that the smallest comes first: equal
-// triples are the same face seen from the same side, and `turned` is the same face seen from behind.
+// The corners of faces are global vertex numbers.
 #include "support/run_laws.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <tuple>
 
 #include <Eigen/Geometry>
 
+#include "support/face.h"
 #include "surface/facet_cover.h"
 #include "surface/intersections.h"
 #include "surface/mass_properties.h"
@@ -17,16 +16,6 @@
 namespace kerf::test {
 
 namespace {
-
-using Face = std::array<std::int64_t, 3>;
-
-Face rotated(Face f) {
-    std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
-    return f;
-}
-Face turned(const Face& f) { return {f[0], f[2], f[1]}; }
-
-bool same_bits(const Vec3& a, const Vec3& b) { return std::memcmp(a.data(), b.data(), sizeof(double) * 3) == 0; }
 
 // A face of the boundary of a part.
 struct BoundaryFace {

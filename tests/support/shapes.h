@@ -294,4 +294,7 @@ inline SurfaceArrays to_arrays(const Soup& soup) {
     return arrays;
 }
 
+/// The soup, which is closed, as a surface.
+inline Surface to_surface(const Soup& soup) { return Surface(to_arrays(soup)); }
+
 }  // namespace kerf::test

@@ -15,7 +15,7 @@
 namespace kerf {
 namespace {
 
-constexpr NodeId node = 5;
+constexpr NodeId cut_node = 5;
 
 // A body, its plane at height z, and the interface there.
 struct Section {
@@ -93,7 +93,7 @@ TEST(Acceptance, FoldedInterfaceIsFound) {
 }
 
 TEST(Acceptance, ShellsMustLieInTheMaterial) {
-    const auto misplaced = [](const Soup& soup) { return find_misplaced_shell(Surface(test::to_arrays(soup))); };
+    const auto misplaced = [](const Soup& soup) { return find_misplaced_shell(test::to_surface(soup)); };
     EXPECT_EQ(misplaced(test::box()), -1);
     EXPECT_EQ(misplaced(test::inside_out(test::box())), 0);
     EXPECT_EQ(misplaced(test::nested_boxes(2)), -1);
@@ -110,7 +110,7 @@ TEST(Acceptance, ShellsMustLieInTheMaterial) {
 TEST(Split, FacetsArePartitionedAndInterfacesOpposite) {
     for (const Soup& soup : bodies()) {
         const Section s(soup, 0.03);
-        const std::array<Half, 2> split_halves = split(s.surface, s.side, s.interface, node);
+        const std::array<Half, 2> split_halves = split(s.surface, s.side, s.interface, cut_node);
         const std::array<SurfaceArrays, 2> halves = {split_halves[0].arrays, split_halves[1].arrays};
         const std::size_t interface_facets = s.interface.triangles.size();
         std::set<Key> seen;
@@ -137,7 +137,7 @@ TEST(Split, FacetsArePartitionedAndInterfacesOpposite) {
         for (std::size_t j = 0; j < interface_facets; ++j) {
             const std::size_t f0 = halves[0].facets.size() - interface_facets + j;
             const std::size_t f1 = halves[1].facets.size() - interface_facets + j;
-            EXPECT_EQ(halves[0].facet_key[f0], make_key(node, static_cast<std::int32_t>(j)));
+            EXPECT_EQ(halves[0].facet_key[f0], make_key(cut_node, static_cast<std::int32_t>(j)));
             EXPECT_EQ(halves[1].facet_key[f1], halves[0].facet_key[f0]);
             EXPECT_EQ(halves[0].patch[f0], -1);
             EXPECT_EQ(halves[1].patch[f1], -1);

@@ -17,8 +17,6 @@
 namespace kerf {
 namespace {
 
-Surface surface_of(const Soup& soup) { return Surface(test::to_arrays(soup)); }
-
 double length(const Surface& surface, const std::vector<SurfaceEdge>& edges) {
     double sum = 0;
     for (const auto& [a, b] : edges) sum += (surface.point(b) - surface.point(a)).norm();
@@ -176,19 +174,19 @@ TEST_P(Contours, PenaltyPushesTheContourAway) {
 }
 
 TEST(Band, SectionAreaIsExact) {
-    const Surface cube = surface_of(test::box(Vec3::Zero(), Vec3(2, 3, 4), 5));
+    const Surface cube = test::to_surface(test::box(Vec3::Zero(), Vec3(2, 3, 4), 5));
     EXPECT_NEAR(make_band(cube, Plane(Vec3(1, 1, 1.7), Vec3::UnitZ())).section_area, 6, 1e-12);
     EXPECT_NEAR(make_band(cube, Plane(Vec3(1, 1, 1), -Vec3::UnitX())).section_area, 12, 1e-12);
-    const Surface hollow = surface_of(test::nested_boxes(2, 4));
+    const Surface hollow = test::to_surface(test::nested_boxes(2, 4));
     EXPECT_NEAR(make_band(hollow, Plane(Vec3(0, 0, 0.1), Vec3::UnitZ())).section_area, 8, 1e-12);
     EXPECT_NEAR(make_band(hollow, Plane(Vec3(0, 0, 1.1), Vec3::UnitZ())).section_area, 9, 1e-12);
-    const Surface sphere = surface_of(test::icosphere(5, 2));
+    const Surface sphere = test::to_surface(test::icosphere(5, 2));
     EXPECT_NEAR(make_band(sphere, Plane(Vec3::Zero(), Vec3(1, 2, 3).normalized())).section_area, 4 * std::numbers::pi,
                 0.02);
 }
 
 TEST(Band, PlaneBesideTheBodyMeetsNothing) {
-    const Surface cube = surface_of(test::box());
+    const Surface cube = test::to_surface(test::box());
     const Band band = make_band(cube, Plane(Vec3(0, 0, 2), Vec3::UnitZ()));
     EXPECT_EQ(band.edge_length, 0);
     EXPECT_EQ(band.section_area, 0);
@@ -196,7 +194,7 @@ TEST(Band, PlaneBesideTheBodyMeetsNothing) {
 }
 
 TEST(Band, CrossedEdgesRunUpwards) {
-    const Surface sphere = surface_of(test::icosphere(3));
+    const Surface sphere = test::to_surface(test::icosphere(3));
     const Plane plane(Vec3(0.1, 0, 0), Vec3(1, 2, 3).normalized());
     const std::vector<SurfaceEdge> edges = crossed_edges(sphere, make_band(sphere, plane));
     std::int64_t crossing = 0;
@@ -214,11 +212,11 @@ TEST(Band, CrossedEdgesRunUpwards) {
 
 TEST(Contour, PinchedVertexIsNamed) {
     const std::vector<SurfaceEdge> figure_eight = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {3, 4}, {4, 0}};
-    EXPECT_EQ(trace_loops(surface_of(test::icosphere(1)), figure_eight).pinched, std::vector<std::int32_t>{0});
+    EXPECT_EQ(trace_loops(test::to_surface(test::icosphere(1)), figure_eight).pinched, std::vector<std::int32_t>{0});
 }
 
 TEST(Contour, LoopsOfAHollowBodyAreTwo) {
-    const Surface body = surface_of(test::nested_boxes(2, 8));
+    const Surface body = test::to_surface(test::nested_boxes(2, 8));
     const Band band = make_band(body, Plane(Vec3(0, 0, 0.03), Vec3::UnitZ()));
     std::vector<Side> side = majority_labels(body, band);
     clean_labels(body, band, side, nullptr);
@@ -226,8 +224,8 @@ TEST(Contour, LoopsOfAHollowBodyAreTwo) {
 }
 
 TEST(Contour, IslandIsAbsorbedButAWholeShellIsNot) {
-    const Surface body = surface_of(test::join(test::box(Vec3(0, 0, 0), Vec3(1, 1, 1), 10),
-                                               test::box(Vec3(2, 0, 0.45), Vec3(2.05, 0.05, 0.49), 1)));
+    const Surface body = test::to_surface(test::join(test::box(Vec3(0, 0, 0), Vec3(1, 1, 1), 10),
+                                                     test::box(Vec3(2, 0, 0.45), Vec3(2.05, 0.05, 0.49), 1)));
     const Band band = make_band(body, Plane(Vec3(0, 0, 0.52), Vec3::UnitZ()));
     std::vector<Side> side = majority_labels(body, band), clean = side;
     clean_labels(body, band, clean, nullptr);

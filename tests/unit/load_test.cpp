@@ -10,8 +10,6 @@
 namespace kerf {
 namespace {
 
-Surface surface_of(const Soup& soup) { return Surface(test::to_arrays(soup)); }
-
 LoadProfile profile(const Surface& surface, const Plane& plane, Balance balance, double max_volume = 0) {
     return LoadProfile(surface, plane, {balance, max_volume});
 }
@@ -27,7 +25,7 @@ TEST(LoadModel, WorkCountsFacetsAndWantedTetrahedra) {
 }
 
 TEST(LoadProfile, VolumeOfACubeAlongItsEdge) {
-    const Surface cube = surface_of(test::box(Vec3::Zero(), Vec3::Ones(), 3));
+    const Surface cube = test::to_surface(test::box(Vec3::Zero(), Vec3::Ones(), 3));
     const LoadProfile load = profile(cube, Plane(Vec3::Zero(), Vec3::UnitZ()), Balance::volume);
     EXPECT_EQ(load.lowest(), 0);
     EXPECT_EQ(load.highest(), 1);
@@ -36,7 +34,7 @@ TEST(LoadProfile, VolumeOfACubeAlongItsEdge) {
 }
 
 TEST(LoadProfile, VolumeOfACubeAlongItsDiagonal) {
-    const Surface cube = surface_of(test::box(Vec3::Zero(), Vec3::Ones(), 4));
+    const Surface cube = test::to_surface(test::box(Vec3::Zero(), Vec3::Ones(), 4));
     const LoadProfile load = profile(cube, Plane(Vec3::Zero(), Vec3::Ones().normalized()), Balance::volume);
     for (double s = 0.05; s < 3; s += 0.07) {  // volume with x + y + z below s
         double volume = s * s * s;
@@ -47,7 +45,7 @@ TEST(LoadProfile, VolumeOfACubeAlongItsDiagonal) {
 }
 
 TEST(LoadProfile, VolumeOfASphereIsThatOfItsCaps) {
-    const Surface sphere = surface_of(test::icosphere(4, 2, Vec3(5, -7, 11)));
+    const Surface sphere = test::to_surface(test::icosphere(4, 2, Vec3(5, -7, 11)));
     const Vec3 normal = Vec3(1, 2, -3).normalized();
     const LoadProfile load = profile(sphere, Plane(Vec3(5, -7, 11), normal), Balance::volume);
     for (const double height : {-1.5, -0.6, 0.0, 0.3, 1.2}) {
@@ -58,7 +56,7 @@ TEST(LoadProfile, VolumeOfASphereIsThatOfItsCaps) {
 }
 
 TEST(LoadProfile, SecondMomentOfACubeAlongItsEdge) {
-    const Surface cube = surface_of(test::box(Vec3::Zero(), Vec3::Ones(), 3));
+    const Surface cube = test::to_surface(test::box(Vec3::Zero(), Vec3::Ones(), 3));
     for (const double origin : {0.0, 0.5, -2.0}) {
         const LoadProfile load = profile(cube, Plane(Vec3(0, 0, origin), Vec3::UnitZ()), Balance::inertia);
         const auto moment = [&](double z) { return (std::pow(z - origin, 3) + std::pow(origin, 3)) / 3; };
@@ -69,7 +67,7 @@ TEST(LoadProfile, SecondMomentOfACubeAlongItsEdge) {
 
 TEST(LoadProfile, SecondMomentOfACubeAlongItsDiagonal) {
     // Of the cube's corner at x + y + z < s below 1: the integral of (u/sqrt3)^2 (u^2/2) du with u = x + y + z.
-    const Surface cube = surface_of(test::box(Vec3::Zero(), Vec3::Ones(), 4));
+    const Surface cube = test::to_surface(test::box(Vec3::Zero(), Vec3::Ones(), 4));
     const LoadProfile load = profile(cube, Plane(Vec3::Zero(), Vec3::Ones().normalized()), Balance::inertia);
     const double whole = (3 * (1 / 3.0) + 6 * (1 / 4.0)) / 3;  // of (x + y + z)^2 / 3
     for (double s = 0.05; s < 1; s += 0.07)
@@ -78,14 +76,14 @@ TEST(LoadProfile, SecondMomentOfACubeAlongItsDiagonal) {
 
 TEST(LoadProfile, VoidsAreNoVolume) {
     // Edge 3 around a void of edge 1: through the middle, the section is 9 - 1.
-    const Surface body = surface_of(test::nested_boxes(2, 3));
+    const Surface body = test::to_surface(test::nested_boxes(2, 3));
     const LoadProfile load = profile(body, Plane(Vec3::Zero(), Vec3::UnitX()), Balance::volume);
     EXPECT_NEAR(load.fraction_below(-0.5), 9 / 26.0, 1e-13);
     EXPECT_NEAR(load.fraction_below(0.25), (9 + 0.75 * 8) / 26.0, 1e-13);
 }
 
 TEST(LoadProfile, GrowsFromNothingToAll) {
-    const Surface torus = surface_of(test::torus(3, 1, 24, 12));
+    const Surface torus = test::to_surface(test::torus(3, 1, 24, 12));
     const Plane plane(Vec3(0.1, 0.2, 0.3), Vec3(3, 1, 2).normalized());
     for (const Balance balance : all_balances) {
         SCOPED_TRACE(static_cast<int>(balance));
@@ -101,7 +99,7 @@ TEST(LoadProfile, GrowsFromNothingToAll) {
 }
 
 TEST(LoadProfile, BothSidesAddUp) {
-    const Surface torus = surface_of(test::torus(3, 1, 25, 13));
+    const Surface torus = test::to_surface(test::torus(3, 1, 25, 13));
     const Vec3 normal = Vec3(3, 1, 2).normalized();
     for (const Balance balance : all_balances) {
         const LoadProfile up = profile(torus, Plane(Vec3::Zero(), normal), balance, 0.01);
@@ -112,7 +110,7 @@ TEST(LoadProfile, BothSidesAddUp) {
 }
 
 TEST(LoadProfile, BisectIsTheInverse) {
-    const Surface torus = surface_of(test::torus(3, 1, 60, 30));
+    const Surface torus = test::to_surface(test::torus(3, 1, 60, 30));
     const Plane plane(Vec3(50, 0, 0), Vec3(3, 1, 2).normalized());
     for (const Balance balance : all_balances) {
         SCOPED_TRACE(static_cast<int>(balance));
@@ -126,8 +124,9 @@ TEST(LoadProfile, BisectIsTheInverse) {
 }
 
 TEST(LoadProfile, ManyHeightsAtOnceAreThoseOneByOne) {
-    const Surface torus = surface_of(test::torus(3, 1, 40, 20));
-    const Surface cube = surface_of(test::box(Vec3::Zero(), Vec3::Ones(), 4));  // vertices at the heights themselves
+    const Surface torus = test::to_surface(test::torus(3, 1, 40, 20));
+    const Surface cube =
+        test::to_surface(test::box(Vec3::Zero(), Vec3::Ones(), 4));  // vertices at the heights themselves
     for (const Balance balance : all_balances)
         for (const Surface* surface : {&torus, &cube})
             for (const std::vector<double>& heights :
@@ -144,7 +143,7 @@ TEST(LoadProfile, ManyHeightsAtOnceAreThoseOneByOne) {
 TEST(LoadProfile, PlaceDoesNotMatter) {
     const Vec3 far(1e5, -2e5, 3e5);
     const Soup soup = test::icosphere(2);
-    const Surface near_one = surface_of(soup), far_one = surface_of(test::translated(soup, far));
+    const Surface near_one = test::to_surface(soup), far_one = test::to_surface(test::translated(soup, far));
     const Vec3 normal = Vec3(1, 1, 2).normalized();
     for (const double z : {-0.7, 0.1, 0.4})
         EXPECT_NEAR(profile(near_one, Plane(Vec3::Zero(), normal), Balance::volume).fraction_below(z),

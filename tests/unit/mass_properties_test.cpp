@@ -10,7 +10,7 @@
 namespace kerf {
 namespace {
 
-MassProperties properties(const Soup& soup) { return mass_properties(Surface(test::to_arrays(soup))); }
+MassProperties properties(const Soup& soup) { return mass_properties(test::to_surface(soup)); }
 
 Soup rotated(Soup soup, const Eigen::Matrix3d& rotation) {
     for (Vec3& p : soup.vertices) p = rotation * p;

@@ -24,7 +24,7 @@ using test::join;
 using test::translated;
 using Numbers = std::vector<std::int32_t>;
 
-std::vector<Soup> shapes() {
+std::vector<Soup> whole_shapes() {
     return {box(Vec3(0, 0, 0), Vec3(1, 2, 3), 4), test::icosphere(2), test::uv_sphere(9, 11), test::torus(3, 1, 12, 8),
             test::nested_boxes(2, 3)};
 }
@@ -46,7 +46,7 @@ Soup with_holes(Soup soup, unsigned seed) {
 }
 
 TEST(OpenLoops, HoldEveryOpenEdgeOnceAgainstTheDirectionOfItsFacet) {
-    for (const Soup& shape : shapes())
+    for (const Soup& shape : whole_shapes())
         for (unsigned seed = 1; seed <= 20; ++seed) {
             SCOPED_TRACE(shape.patch_names.front() + ", seed " + std::to_string(seed));
             const Soup soup = with_holes(shape, seed);
@@ -218,7 +218,7 @@ TEST(WeldWithin, LeavesWhatIsNotFinite) {
 }
 
 TEST(WeldWithin, MendsSurfacesWhoseFacetsHaveVerticesThatAreNearlyEqual) {
-    for (const Soup& shape : shapes())
+    for (const Soup& shape : whole_shapes())
         for (unsigned seed = 1; seed <= 5; ++seed) {
             SCOPED_TRACE(shape.patch_names.front() + ", seed " + std::to_string(seed));
             const Soup cracked = test::cracked(shape, 1e-9, seed);
@@ -238,7 +238,7 @@ TEST(WeldWithin, MendsSurfacesWhoseFacetsHaveVerticesThatAreNearlyEqual) {
 }
 
 TEST(HoleFilling, ClosesEverySmallHole) {
-    for (const Soup& shape : shapes())
+    for (const Soup& shape : whole_shapes())
         for (unsigned seed = 1; seed <= 10; ++seed) {
             SCOPED_TRACE(shape.patch_names.front() + ", seed " + std::to_string(seed));
             const Soup open = with_holes(shape, seed);

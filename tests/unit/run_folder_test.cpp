@@ -10,7 +10,7 @@
 
 #include <unistd.h>
 
-#include "core/error.h"
+#include "support/io_error.h"
 #include "support/temporary_folder.h"
 
 namespace kerf {
@@ -54,17 +54,6 @@ void expect_run(const std::string& path, const std::string& mark) {
         << "files of two runs are mixed";
 }
 
-template <class Action>
-std::string io_error(Action action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), ErrorCode::io) << error.what();
-        return error.what();
-    }
-    return "";
-}
-
 TEST_F(RunFolderTest, AppearsUnderItsNameOnlyWhenCommitted) {
     std::optional<RunFolder> folder = RunFolder::create(path("run"));
     EXPECT_TRUE(fs::is_directory(folder->file("parts")));
@@ -106,7 +95,7 @@ TEST_F(RunFolderTest, KeepsFoldersAndFilesOfOthers) {
     put(path("thesis/chapter"), "years of work");
     put(path("file"), "text");
     for (const std::string name : {"thesis", "file"}) {
-        const std::string message = io_error([&] { RunFolder::create(path(name)); });
+        const std::string message = test::io_error([&] { RunFolder::create(path(name)); });
         EXPECT_NE(message.find(path(name)), message.npos) << message;
     }
     EXPECT_EQ(get(path("thesis/chapter")), "years of work");
@@ -120,13 +109,13 @@ TEST_F(RunFolderTest, KeepsWhatOthersPutThereDuringTheRun) {
         fill(folder, "a");
         fs::create_directory(path("run"));
         put(path("run/chapter"), "years of work");
-        EXPECT_NE(io_error([&] { folder.commit(); }), "");
+        EXPECT_NE(test::io_error([&] { folder.commit(); }), "");
     }
     {
         RunFolder folder = RunFolder::create(path("other"));
         fill(folder, "a");
         put(path("other"), "text");
-        EXPECT_NE(io_error([&] { folder.commit(); }), "");
+        EXPECT_NE(test::io_error([&] { folder.commit(); }), "");
     }
     EXPECT_EQ(get(path("run/chapter")), "years of work");
     EXPECT_EQ(get(path("other")), "text");
@@ -138,7 +127,7 @@ TEST_F(RunFolderTest, OneRunAtATimeWrites) {
     {
         RunFolder first = RunFolder::create(path("run"));
         fill(first, "first");
-        const std::string message = io_error([&] { RunFolder::create(path("run")); });
+        const std::string message = test::io_error([&] { RunFolder::create(path("run")); });
         EXPECT_NE(message.find("Another run (process " + std::to_string(::getpid())), message.npos) << message;
         run(path("other"), "a");
         EXPECT_EQ(get(first.part_file(8)), "first") << "the refused run has changed nothing";
@@ -206,17 +195,17 @@ TEST_F(RunFolderTest, OtherRanksWriteIntoTheSameFolder) {
     }
     root.commit();
     EXPECT_EQ(get(path("run/parts/part_0009.vtu")), "from another rank");
-    const std::string message = io_error([&] { RunFolder::join(path("nowhere")); });
+    const std::string message = test::io_error([&] { RunFolder::join(path("nowhere")); });
     EXPECT_NE(message.find(path("nowhere")), message.npos) << message;
 }
 
 TEST_F(RunFolderTest, SaysWhyAFolderCannotBeCreated) {
     put(path("file"), "text");
-    const std::string message = io_error([&] { RunFolder::create(path("file/run")); });
+    const std::string message = test::io_error([&] { RunFolder::create(path("file/run")); });
     EXPECT_NE(message.find("Not a directory"), message.npos) << message;
     EXPECT_NE(message.find(path("file")), message.npos) << message;
-    EXPECT_NE(io_error([] { RunFolder::create(""); }), "");
-    EXPECT_NE(io_error([] { RunFolder::create("/"); }), "");
+    EXPECT_NE(test::io_error([] { RunFolder::create(""); }), "");
+    EXPECT_NE(test::io_error([] { RunFolder::create("/"); }), "");
 }
 
 // Permissions do not bind the super-user, so while this lives such a process is somebody else.
@@ -239,7 +228,7 @@ TEST_F(RunFolderTest, SaysThatPermissionsForbidIt) {
     fs::permissions(path("locked"), fs::perms::owner_read | fs::perms::owner_exec);
     {
         const OrdinaryUser user;
-        const std::string message = io_error([&] { RunFolder::create(path("locked/run")); });
+        const std::string message = test::io_error([&] { RunFolder::create(path("locked/run")); });
         EXPECT_NE(message.find("Permission denied"), message.npos) << message;
     }
     fs::permissions(path("locked"), fs::perms::owner_all);

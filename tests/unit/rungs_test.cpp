@@ -11,12 +11,6 @@ namespace {
 
 constexpr double out_of_reach_deg = 61;  // every triangle has a smaller angle
 
-DecomposeOptions in_parts(std::int32_t parts) {
-    DecomposeOptions options;
-    options.parts = parts;
-    return options;
-}
-
 // The first cut; that the whole tree is valid is checked, too.
 TreeNode first_cut(const Surface& surface, const DecomposeOptions& options) {
     const Decomposition whole = test::decompose_whole(surface, options);
@@ -24,7 +18,7 @@ TreeNode first_cut(const Surface& surface, const DecomposeOptions& options) {
     return whole.nodes.front();
 }
 TreeNode first_cut(const Soup& soup, const DecomposeOptions& options) {
-    return first_cut(Surface(test::to_arrays(soup)), options);
+    return first_cut(test::to_surface(soup), options);
 }
 
 void expect_rung(Rung expected, const TreeNode& node) {
@@ -34,19 +28,19 @@ void expect_rung(Rung expected, const TreeNode& node) {
 }
 
 TEST(Rungs, SphereNeedsOneTry) {
-    const TreeNode node = first_cut(test::icosphere(3), in_parts(2));
+    const TreeNode node = first_cut(test::icosphere(3), test::in_parts(2));
     expect_rung(Rung::first_try, node);
     EXPECT_EQ(node.tries, 1);
 }
 
 TEST(Rungs, KneeNeedsLocalRepair) {
-    const TreeNode node = first_cut(test::asset_surface("knee_tibial"), in_parts(5));
+    const TreeNode node = first_cut(test::asset_surface("knee_tibial"), test::in_parts(5));
     expect_rung(Rung::local_repair, node);
     EXPECT_GT(node.tries, 1);
 }
 
 TEST(Rungs, PorousFrameNeedsAnotherPlaneWhereNothingIsRepaired) {
-    DecomposeOptions options = in_parts(5);
+    DecomposeOptions options = test::in_parts(5);
     options.cut.repairs = 0;
     const TreeNode node = first_cut(test::porous_frame(2, 2), options);
     expect_rung(Rung::plane_step, node);
@@ -54,21 +48,21 @@ TEST(Rungs, PorousFrameNeedsAnotherPlaneWhereNothingIsRepaired) {
 }
 
 TEST(Rungs, BlockWithCavitiesNeedsAnotherAxis) {
-    const TreeNode node = first_cut(test::block_with_cavities({3, 2, 2}), in_parts(2));
+    const TreeNode node = first_cut(test::block_with_cavities({3, 2, 2}), test::in_parts(2));
     expect_rung(Rung::other_axis, node);
     EXPECT_GT(node.tries, 2);
 }
 
 TEST(Rungs, ThinPlateIsLeftWithASoftCut) {
     const CutOptions thresholds;
-    const TreeNode node = first_cut(test::box(Vec3::Zero(), Vec3(100, 100, 0.5), {40, 40, 1}), in_parts(2));
+    const TreeNode node = first_cut(test::box(Vec3::Zero(), Vec3(100, 100, 0.5), {40, 40, 1}), test::in_parts(2));
     expect_rung(Rung::soft, node);
     EXPECT_TRUE(node.quality.dihedral_deg < thresholds.good_dihedral_deg ||
                 node.quality.angle_deg < thresholds.good_angle_deg || node.quality.gap_rel < thresholds.good_gap_rel);
 }
 
 TEST(Rungs, BoxOfTwelveFacetsNeedsAStraightCutOrStaysWhole) {
-    DecomposeOptions options = in_parts(2);
+    DecomposeOptions options = test::in_parts(2);
     expect_rung(Rung::straight, first_cut(test::box(), options));
     options.facets = FacetPolicy::keep;
     const TreeNode kept = first_cut(test::box(), options);
@@ -77,7 +71,7 @@ TEST(Rungs, BoxOfTwelveFacetsNeedsAStraightCutOrStaysWhole) {
 }
 
 TEST(Rungs, CoarseFrameIsTriedInVainAndThenCutStraightOrStaysWhole) {
-    DecomposeOptions options = in_parts(2);
+    DecomposeOptions options = test::in_parts(2);
     const Soup frame = test::porous_frame(2, 1);
     const TreeNode straight = first_cut(frame, options);
     expect_rung(Rung::straight, straight);
@@ -91,7 +85,7 @@ TEST(Rungs, CoarseFrameIsTriedInVainAndThenCutStraightOrStaysWhole) {
 
 TEST(Rungs, RemediesTakenAwayLeadDownTheLadder) {
     const Surface block(test::to_arrays(test::block_with_cavities({3, 2, 2})));
-    DecomposeOptions options = in_parts(5);
+    DecomposeOptions options = test::in_parts(5);
     expect_rung(Rung::local_repair, first_cut(block, options));
     options.cut.repairs = 0;
     expect_rung(Rung::plane_step, first_cut(block, options));

@@ -27,12 +27,6 @@ std::vector<Part> parts() {
             {"hollow_box", nested_boxes(2)}};
 }
 
-DecomposeOptions in_parts(std::int32_t parts) {
-    DecomposeOptions options;
-    options.parts = parts;
-    return options;
-}
-
 class StraightDivision : public testing::TestWithParam<Part> {
  protected:
     StraightDivision() : surface_(test::to_arrays(GetParam().soup)) {}
@@ -44,7 +38,7 @@ INSTANTIATE_TEST_SUITE_P(Parts, StraightDivision, testing::ValuesIn(parts()),
 TEST_P(StraightDivision, ReachesAnyNumberOfPartsAndObeysEveryLaw) {
     for (const std::int32_t parts : {2, 3, 8, 17}) {
         SCOPED_TRACE(testing::Message() << parts << " parts");
-        const Decomposition whole = test::decompose_whole(surface_, in_parts(parts));
+        const Decomposition whole = test::decompose_whole(surface_, test::in_parts(parts));
         EXPECT_EQ(whole.leaves.size(), static_cast<std::size_t>(parts));
         EXPECT_EQ(test::broken_laws(whole, surface_.arrays()), "");
         EXPECT_FALSE(whole.divided_facets.empty());
@@ -76,13 +70,13 @@ void expect_same_in_ranges(const Surface& surface, const DecomposeOptions& optio
     }
 }
 
-TEST_P(StraightDivision, RangesOfLeavesAreThoseOfTheWhole) { expect_same_in_ranges(surface_, in_parts(8)); }
+TEST_P(StraightDivision, RangesOfLeavesAreThoseOfTheWhole) { expect_same_in_ranges(surface_, test::in_parts(8)); }
 
 // So many parts that they become too small for contours of edges.
 class MixedTree : public testing::Test {
  protected:
     const Surface surface_ = test::asset_surface("hollow_box");
-    const DecomposeOptions options_ = in_parts(240);
+    const DecomposeOptions options_ = test::in_parts(240);
 };
 
 TEST_F(MixedTree, ObeysEveryLaw) {

@@ -13,14 +13,14 @@
 namespace kerf {
 namespace {
 
-constexpr int cells = 3;  // along each axis of the mesh below
+constexpr int cells_along = 3;  // along each axis of the mesh below
 
 struct MeshedSurface {
     TetMesh mesh;
     SurfaceArrays surface;
 };
 
-std::int32_t grid_vertex(int x, int y, int z) { return (x * (cells + 1) + y) * (cells + 1) + z; }
+std::int32_t grid_vertex(int x, int y, int z) { return (x * (cells_along + 1) + y) * (cells_along + 1) + z; }
 
 // Kuhn's six tetrahedra around the main diagonal of a cube, one for each order of the axes.
 void add_cell(TetMesh& mesh, const Vec3& corner) {
@@ -59,16 +59,16 @@ void set_neighbours(TetMesh& mesh) {
         }
 }
 
-// A cube of cells^3 cells. All its vertices belong to the surface as numbered here, also the 8 in the middle.
+// A cube of cells_along^3 cells. All its vertices belong to the surface as numbered here, also the 8 in the middle.
 MeshedSurface meshed_cube() {
     MeshedSurface cube;
     TetMesh& mesh = cube.mesh;
-    for (int x = 0; x <= cells; ++x)
-        for (int y = 0; y <= cells; ++y)
-            for (int z = 0; z <= cells; ++z) mesh.vertices.emplace_back(x, y, z);
-    for (int x = 0; x < cells; ++x)
-        for (int y = 0; y < cells; ++y)
-            for (int z = 0; z < cells; ++z) add_cell(mesh, Vec3(x, y, z));
+    for (int x = 0; x <= cells_along; ++x)
+        for (int y = 0; y <= cells_along; ++y)
+            for (int z = 0; z <= cells_along; ++z) mesh.vertices.emplace_back(x, y, z);
+    for (int x = 0; x < cells_along; ++x)
+        for (int y = 0; y < cells_along; ++y)
+            for (int z = 0; z < cells_along; ++z) add_cell(mesh, Vec3(x, y, z));
     set_neighbours(mesh);
     mesh.boundary_vertex_count = static_cast<std::int32_t>(mesh.vertices.size());
     cube.surface.vertices = mesh.vertices;
@@ -110,7 +110,7 @@ TEST(Verification, HoldsForACorrectMesh) {
     const MeshedSurface cube = meshed_cube();
     const MeshLaws laws = verify_mesh(cube.mesh, cube.surface);
     EXPECT_EQ(counts(cube), Counts{});
-    EXPECT_DOUBLE_EQ(laws.volume, cells * cells * cells);
+    EXPECT_DOUBLE_EQ(laws.volume, cells_along * cells_along * cells_along);
     EXPECT_TRUE(laws.hold());
 }
 

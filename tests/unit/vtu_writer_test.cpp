@@ -13,6 +13,7 @@
 #include "io/file_bytes.h"
 #include "io/vtu_reader.h"
 #include "mesh/quality.h"
+#include "support/io_error.h"
 #include "support/temporary_folder.h"
 
 namespace kerf {
@@ -100,18 +101,6 @@ std::vector<T> array_values(const std::string& file, const std::string& bytes, c
     return values;
 }
 
-// The message of the Error(io) that the action throws; empty if it throws none.
-template <class Action>
-std::string io_error(Action action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), ErrorCode::io) << error.what();
-        return error.what();
-    }
-    return "";
-}
-
 TEST_F(VtuWriter, PartsComeBackAsTheyWere) {
     for (unsigned seed = 1; seed <= 60; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
@@ -165,13 +154,13 @@ TEST_F(VtuWriter, SomeValuesOfACellArrayAreThoseOfTheWhole) {
                                            {std::int64_t{0}, cells + 1},
                                            {std::int64_t{1}, std::int64_t{-1}},
                                            {std::int64_t{1} << 60, std::int64_t{1} << 60}})
-            EXPECT_NE(io_error([&, begin = first, n = count] { read_cell_values(file, "Shape", begin, n); }), "");
+            EXPECT_NE(test::io_error([&, begin = first, n = count] { read_cell_values(file, "Shape", begin, n); }), "");
         for (const char* array : {"Part", "GlobalVertexId", "Points", "Nothing"})
-            EXPECT_NE(io_error([&] { read_cell_values(file, array, 0, 1); }), "") << array;
+            EXPECT_NE(test::io_error([&] { read_cell_values(file, array, 0, 1); }), "") << array;
         fs::resize_file(file, array_values<char>(file, read_file(file), "Part").size());
-        EXPECT_NE(io_error([&] { read_cell_values(file, "Shape", counts.tets, counts.facets); }), "");
+        EXPECT_NE(test::io_error([&] { read_cell_values(file, "Shape", counts.tets, counts.facets); }), "");
     }
-    EXPECT_NE(io_error([&] { read_cell_counts(path("missing.vtu")); }), "");
+    EXPECT_NE(test::io_error([&] { read_cell_counts(path("missing.vtu")); }), "");
 }
 
 TEST_F(VtuWriter, NumberingTouchesTheInteriorIdsAlone) {
@@ -260,9 +249,10 @@ TEST_F(VtuWriter, PvtuNamesItsPiecesAndTheArraysOfThePieces) {
 
 TEST_F(VtuWriter, AFullDiskIsAnErrorThatNamesTheFile) {
     const Part part = random_part(1);
-    for (const std::string& message : {io_error([&] { write("/dev/full", part); }),
-                                       io_error([&] { write_part_surface("/dev/full", part.surface, part.arrays); }),
-                                       io_error([&] { write_pvtu("/dev/full", {"parts/part_0001.vtu"}); })}) {
+    for (const std::string& message : {test::io_error([&] { write("/dev/full", part); }), test::io_error([&] {
+                                           write_part_surface("/dev/full", part.surface, part.arrays);
+                                       }),
+                                       test::io_error([&] { write_pvtu("/dev/full", {"parts/part_0001.vtu"}); })}) {
         EXPECT_NE(message.find("/dev/full"), message.npos) << message;
         EXPECT_NE(message.find("No space left on device"), message.npos) << message;
     }
@@ -270,8 +260,8 @@ TEST_F(VtuWriter, AFullDiskIsAnErrorThatNamesTheFile) {
 
 TEST_F(VtuWriter, AMissingFolderIsAnErrorThatNamesTheFile) {
     const std::string missing = path("missing/part.vtu");
-    for (const std::string& message :
-         {io_error([&] { write(missing, random_part(1)); }), io_error([&] { number_interior_vertices(missing, 0); })}) {
+    for (const std::string& message : {test::io_error([&] { write(missing, random_part(1)); }),
+                                       test::io_error([&] { number_interior_vertices(missing, 0); })}) {
         EXPECT_NE(message.find(missing), message.npos) << message;
         EXPECT_NE(message.find("No such file"), message.npos) << message;
     }
@@ -297,8 +287,23 @@ TEST_F(VtuWriter, FilesThatEndTooEarlyAreRefused) {
     for (std::size_t missing = 1; missing <= bytes.size(); missing += missing < 300 ? 1 : 97) {
         SCOPED_TRACE(missing);
         std::ofstream(cut, std::ios::binary) << bytes.substr(0, bytes.size() - missing);
-        EXPECT_NE(io_error([&] { read_part(cut); }).find(cut), std::string::npos);
+        EXPECT_NE(test::io_error([&] { read_part(cut); }).find(cut), std::string::npos);
     }
+}
+
+TEST_F(VtuWriter, TellsFilesThatAreStillBeingWritten) {
+    const Part part = random_part(9);
+    write(path("part.vtu"), part);
+    write_part_surface(path("surface.vtu"), part.surface, part.arrays);
+    for (const char* name : {"part.vtu", "surface.vtu"}) {
+        EXPECT_TRUE(is_complete_part_file(path(name)));
+        for (const std::uintmax_t size :
+             {fs::file_size(path(name)) - 1, fs::file_size(path(name)) / 2, std::uintmax_t{0}}) {
+            fs::resize_file(path(name), size);
+            EXPECT_FALSE(is_complete_part_file(path(name))) << name << ' ' << size;
+        }
+    }
+    EXPECT_FALSE(is_complete_part_file(path("missing.vtu")));
 }
 
 TEST_F(VtuWriter, DamagedFilesAreRefusedOrReadButNeverWorse) {
@@ -313,8 +318,8 @@ TEST_F(VtuWriter, DamagedFilesAreRefusedOrReadButNeverWorse) {
         const std::size_t range = seed % 2 ? bytes.find("AppendedData") : bytes.size();
         damaged[engine() % range] = static_cast<char>(engine());
         std::ofstream(path("damaged.vtu"), std::ios::binary) << damaged;
-        refused += !io_error([&] { read_part(path("damaged.vtu")); }).empty();
-        io_error([&] { number_interior_vertices(path("damaged.vtu"), 5); });
+        refused += !test::io_error([&] { read_part(path("damaged.vtu")); }).empty();
+        test::io_error([&] { number_interior_vertices(path("damaged.vtu"), 5); });
     }
     EXPECT_GT(refused, 50);
 }
