@@ -1,0 +1,1 @@
+// The headers of libraries that CMakeLists.txt names for all targets.
