@@ -7,6 +7,8 @@
 
 #include "core/error.h"
 #include "io/offenders_writer.h"
+#include "io/output_file.h"
+#include "io/standard_streams.h"
 
 namespace kerf {
 
@@ -33,7 +35,7 @@ Json to_json(const InputRepairs& r) {
             {"facets_added", r.added_facets}};
 }
 
-void print_json(const Json& json) { fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace)); }
+void print_json(const Json& json) { print_data(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"); }
 
 void print_json(const std::string& path, const CheckedSoup& checked) {
     const Soup& soup = checked.soup;
@@ -53,8 +55,8 @@ void print_json(const std::string& path, const CheckedSoup& checked) {
 }
 
 // One line for the defects of equal kind and severity; of needles, the worst is named.
-void print_kind(const CheckedSoup& checked, std::vector<Defect>::const_iterator first,
-                std::vector<Defect>::const_iterator last) {
+std::string kind_text(const CheckedSoup& checked, std::vector<Defect>::const_iterator first,
+                      std::vector<Defect>::const_iterator last) {
     const auto worst = std::min_element(first, last, [](const Defect& a, const Defect& b) {
         return a.kind == DefectKind::open_edge ? a.measure > b.measure : a.measure < b.measure;
     });
@@ -66,30 +68,31 @@ void print_kind(const CheckedSoup& checked, std::vector<Defect>::const_iterator 
     if (first->kind == DefectKind::open_edge)
         measure = fmt::format(", {} edges, length {:.6g}", worst->facets.size(), worst->measure);
     if (first->kind == DefectKind::short_edge) measure = fmt::format(", length {:.3g}", worst->measure);
-    fmt::print("  {:<9} {}: {}{}{}; {}.\n", name(first->severity), counted(count, first->kind),
-               count == 1    ? ""
-               : is_measured ? "the worst "
-                             : "the first ",
-               place(*worst, checked.soup), measure, remedy(*first));
+    return fmt::format("  {:<9} {}: {}{}{}; {}.\n", name(first->severity), counted(count, first->kind),
+                       count == 1    ? ""
+                       : is_measured ? "the worst "
+                                     : "the first ",
+                       place(*worst, checked.soup), measure, remedy(*first));
 }
 
 void print_text(const CheckRequest& request, CheckedSoup& checked) {
     const Diagnosis& diagnosis = checked.diagnosis;
-    fmt::print("{}: {} facets, {} vertices, {} patch{}\n", request.path, checked.soup.facets.size(),
-               checked.soup.vertices.size(), checked.soup.patch_names.size(),
-               checked.soup.patch_names.size() == 1 ? "" : "es");
-    for (const std::string& note : checked.soup.notes) fmt::print("  note      {}\n", note);
+    std::string text = fmt::format("{}: {} facets, {} vertices, {} patch{}\n", request.path, checked.soup.facets.size(),
+                                   checked.soup.vertices.size(), checked.soup.patch_names.size(),
+                                   checked.soup.patch_names.size() == 1 ? "" : "es");
+    for (const std::string& note : checked.soup.notes) text += fmt::format("  note      {}\n", note);
     for (auto first = diagnosis.defects.begin(); first != diagnosis.defects.end();) {
         const auto last = std::find_if(first, diagnosis.defects.end(), [&](const Defect& d) {
             return d.kind != first->kind || d.severity != first->severity;
         });
-        print_kind(checked, first, last);
+        text += kind_text(checked, first, last);
         first = last;
     }
     const bool clean = diagnosis.clean();
     const bool more = diagnosis.defects.size() > 1;
-    fmt::print("{}\n", clean ? "It can be meshed." : "It cannot be meshed as it is.");
-    if (more) fmt::print("--json lists all, --offenders FILE.vtu shows them in ParaView.\n");
+    text += clean ? "It can be meshed.\n" : "It cannot be meshed as it is.\n";
+    if (more) text += "--json lists all, --offenders FILE.vtu shows them in ParaView.\n";
+    print_data(text);
 }
 
 // The reader stops at the first thing that it does not understand.
@@ -104,7 +107,7 @@ int report_unreadable(const CheckRequest& request, const Error& error) {
                                                       {"vertices", Json::array()},
                                                       {"message", error.what()}}})}});
     else
-        fmt::print("  error     unreadable: {}\n", error.what());
+        print_data(fmt::format("  error     unreadable: {}\n", error.what()));
     return static_cast<int>(error.code());
 }
 
@@ -112,6 +115,8 @@ int report_unreadable(const CheckRequest& request, const Error& error) {
 
 int check_surface(const CheckRequest& request) {
     request.options.check();
+    refuse_to_overwrite(request.path, "--offenders", request.offenders_file);
+    require_writable("--offenders", request.offenders_file);
     if (!(request.needle_angle_deg >= 0 && request.needle_angle_deg <= 60))
         throw Error(ErrorCode::usage, fmt::format("--needle-angle is {}, but it must be 0 (no needles) to 60 degrees.",
                                                   request.needle_angle_deg));

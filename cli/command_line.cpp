@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "core/error.h"
+#include "run/config_file.h"
 #include "run/saved_run.h"
 #include "run/version.h"
 
@@ -19,30 +20,32 @@ constexpr const char* exit_codes =
     "Exit codes: 0 done and verified, 1 internal error, 2 usage, 3 input rejected, 4 a part could not be meshed,\n"
     "5 out of memory, 7 reading or writing failed, 8 verification failed, 130 cancelled.";
 
-void add_field(CLI::App& app, const OptionField& field) {
+const char* type_name(const OptionField& field) {
+    if (std::holds_alternative<double*>(field.value)) return "FLOAT";
+    const bool is_text = std::holds_alternative<std::string*>(field.value);
+    return is_text ? "TEXT" : std::holds_alternative<OptionField::Choice>(field.value) ? "" : "INT";
+}
+
+// Values go through OptionField::set_text(), as those of config files do.
+CLI::Option* add_field(CLI::App& app, const OptionField& field) {
     const std::string names =
         field.short_name.empty() ? "--" + field.name : "-" + field.short_name + ",--" + field.name;
-    std::visit(
-        [&](const auto& value) {
-            if constexpr (std::is_same_v<std::decay_t<decltype(value)>, OptionField::Choice>) {
-                const auto set = value.set;
-                const auto all = value.names;
-                app.add_option_function<std::string>(
-                       names,
-                       [set, all](const std::string& text) {
-                           set(static_cast<int>(std::find(all.begin(), all.end(), text) - all.begin()));
-                       },
-                       field.help)
-                    ->check(CLI::IsMember(all))
-                    ->default_str(all[static_cast<std::size_t>(value.get())])
-                    ->type_name("");
-            } else if constexpr (std::is_same_v<std::decay_t<decltype(value)>, bool*>) {
-                app.add_flag(names, *value, field.help);
-            } else {
-                app.add_option(names, *value, field.help)->capture_default_str();
-            }
-        },
-        field.value);
+    if (bool* const* flag = std::get_if<bool*>(&field.value)) return app.add_flag(names, **flag, field.help);
+    CLI::Option* option = app.add_option_function<std::string>(
+        names, [field](const std::string& text) { field.set_text(text); }, field.help);
+    if (const auto* choice = std::get_if<OptionField::Choice>(&field.value))
+        option->check(CLI::IsMember(choice->names));
+    return option->default_str(field.text())->type_name(type_name(field));
+}
+
+// What a config file may say: the table, and what the program itself asks for.
+std::vector<OptionField> config_fields(CommandLine& line) {
+    std::vector<OptionField> fields = option_fields(line.options);
+    fields.insert(fields.end(),
+                  {{"output", "o", "Folder of the result; an older run there is replaced.", &line.options.output},
+                   {"quiet", "q", "Print nothing but errors.", &line.quiet},
+                   {"verbose", "v", "Print the tree of cuts with every node of it.", &line.verbose}});
+    return fields;
 }
 
 CLI::App* add_run_command(CLI::App& app, const char* name, const char* text, CommandLine& line) {
@@ -50,39 +53,33 @@ CLI::App* add_run_command(CLI::App& app, const char* name, const char* text, Com
     command
         ->add_option("input", line.options.input,
                      "Closed surface: STL, OBJ, PLY, OFF, .msh, .mesh, .smesh or .poly; also as .gz or .zst.")
-        ->type_name("INPUT")
-        ->configurable(false);
-    command->add_option("-o,--output", line.options.output, "Folder of the result; an older run there is replaced.")
-        ->type_name("DIR");
-    for (const OptionField& field : option_fields(line.options)) add_field(*command, field);
-    command->add_flag("-q,--quiet", line.quiet, "Print nothing but errors.");
-    command->add_flag("-v,--verbose", line.verbose, "Print the tree of cuts with every node of it.");
-    command->add_flag("--print-config", line.print_config, "Print the options as a config file and end.")
-        ->configurable(false);
+        ->type_name("INPUT");
+    for (const OptionField& field : config_fields(line)) add_field(*command, field);
+    command->get_option("--output")->type_name("DIR");
+    command->add_flag("--print-config", line.print_config, "Print the options as a config file and end.");
     command->add_option("--config", line.config_file, "Read options from a TOML file; the command line wins.")
-        ->type_name("FILE")
-        ->configurable(false);
+        ->type_name("FILE");
     return command;
 }
 
-// CLI11 reads config files for the whole program only. Throws CLI::ParseError.
-void read_config(CLI::App& command, const std::string& path) {
-    if (path.empty()) return;
-    for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_file(path)) {
-        CLI::Option* option = command.get_option_no_throw("--" + item.name);
-        if (!option) throw CLI::ConfigError("'" + item.name + "' in " + path + " is not an option.");
-        if (option->count() > 0) continue;
-        option->add_result(item.inputs);
-        option->run_callback();
+// Sets what the command line has not given. Throws Error.
+void apply_config(const CLI::App& command, CommandLine& line) {
+    const std::vector<OptionField> fields = config_fields(line);
+    for (const OptionText& given : read_config(line.config_file)) {
+        const auto field =
+            std::find_if(fields.begin(), fields.end(), [&](const OptionField& f) { return f.name == given.name; });
+        if (field == fields.end())
+            throw Error(ErrorCode::usage,
+                        fmt::format("'{}' in {} is not an option. kerf mesh --print-config lists them.", given.name,
+                                    line.config_file));
+        if (command.get_option("--" + given.name)->count() == 0) field->set_text(given.text);
     }
 }
 
-void require_input_and_output(CLI::App& command, const CommandLine& line) {
-    if (!line.resume.empty()) return;
-    for (const char* name : {"input", "--output"}) {
-        if (line.options.dry_run && command.get_option(name) == command.get_option("--output")) continue;
-        if (command.get_option(name)->count() == 0) throw CLI::RequiredError(name);
-    }
+void require_input_and_output(const CommandLine& line) {
+    if (!line.resume.empty() || line.print_config) return;
+    if (line.options.input.empty()) throw CLI::RequiredError("input");
+    if (line.options.output.empty() && !line.options.dry_run) throw CLI::RequiredError("--output");
 }
 
 // The interrupted run's options, and those of this command line that change nothing of the result. Throws Error.
@@ -125,18 +122,16 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         add_run_command(app, "decompose", "The same, up to the closed surfaces of the parts; print the tree.", line);
     CLI::Option* resume = mesh->add_option("--resume", line.resume,
                                            "Finish the run into this folder that was interrupted, with its options.")
-                              ->type_name("DIR")
-                              ->configurable(false);
+                              ->type_name("DIR");
     for (const char* name : {"input", "--output"}) resume->excludes(mesh->get_option(name));
-    mesh->add_flag("--dry-run", line.options.dry_run, "Cut, print what every part will take, and end; write nothing.")
-        ->configurable(false);
+    mesh->add_flag("--dry-run", line.options.dry_run, "Cut, print what every part will take, and end; write nothing.");
     CLI::App* check = app.add_subcommand("check", "Diagnose a surface without meshing it.");
     check->add_option("input", line.check.path, "Surface file.")->required()->type_name("INPUT");
     check->add_flag("--json", line.check.json, "Print every defect as JSON.");
     check->add_option("--offenders", line.check.offenders_file, "Write the offending facets, edges and places as VTU.")
         ->type_name("FILE");
-    check->add_option("--needle-angle", line.check.needle_angle_deg, "Degrees below which a facet is a needle.")
-        ->capture_default_str();
+    add_field(*check, {"needle-angle", "", "Degrees below which a facet is a needle. Default 1.",
+                       &line.check.needle_angle_deg});
     for (const OptionField& field : input_option_fields(line.check.options)) add_field(*check, field);
     CLI::App* verify = app.add_subcommand("verify", "Check every law of a finished run again, from its files.");
     verify->add_option("folder", line.options.output, "Folder of the run.")->required()->type_name("DIR");
@@ -149,8 +144,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         app.parse(argc, argv);
         for (CLI::App* command : {mesh, decompose})
             if (command->parsed()) {
-                read_config(*command, line.config_file);
-                require_input_and_output(*command, line);
+                if (!line.config_file.empty()) apply_config(*command, line);
+                require_input_and_output(line);
             }
     } catch (const CLI::ParseError& e) {
         std::ostringstream out, err;
@@ -170,7 +165,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
             line.output =
                 fmt::format("kerf: --parts is {}, but a mesh has 1 or more parts.\n", line.options.decompose.parts);
         }
-        if (line.print_config) line.config = (mesh->parsed() ? mesh : decompose)->config_to_str(true, true);
+        if (line.print_config) line.config = to_config(config_fields(line));
     } else if (check->parsed()) {
         line.command = Command::check;
     } else if (verify->parsed()) {

@@ -1,7 +1,5 @@
 // kerf: the headless program. Root rank prints; data goes to files, except for --json and --print-config.
 #include <algorithm>
-#include <csignal>
-#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <memory>
@@ -14,6 +12,7 @@
 #include "cli/ranks.h"
 #include "cli/verify.h"
 #include "cli/viewer.h"
+#include "io/standard_streams.h"
 #include "run/pipeline.h"
 #include "run/tree_text.h"
 
@@ -26,16 +25,25 @@ std::string worker_beside_this_program() {
 }
 
 void report_failed_parts(const RunReport& report) {
+    std::size_t failed = 0;
     for (const PartReport& part : report.parts) {
         if (!part.result.code) continue;
         const auto node = std::find_if(report.nodes.begin(), report.nodes.end(),
                                        [&](const TreeNode& candidate) { return candidate.id == part.id; });
         const Vec3& place = node->mass.centroid;
-        fmt::print(stderr,
-                   "kerf: part {} around ({:.6g}, {:.6g}, {:.6g}) could not be meshed: {} How to repeat and to look at "
-                   "it: {}/failed/part_{:04}.txt.\n",
-                   part.id, place.x(), place.y(), place.z(), part.result.message, report.options.output, part.id);
+        ++failed;
+        tell(
+            fmt::format("kerf: part {} around ({:.6g}, {:.6g}, {:.6g}) could not be meshed: {} How to repeat and to "
+                        "look at it: {}/failed/part_{:04}.txt.\n",
+                        part.id, place.x(), place.y(), place.z(), part.result.message, report.folder, part.id));
     }
+    if (failed > 0)
+        tell(
+            fmt::format("kerf: the other {} parts are in {}; kerf mesh --resume {} tries the failed ones again, if "
+                        "wanted with other --timeout or --memory.\n",
+                        report.parts.size() - failed, report.folder, report.options.output));
+    if (report.kept_valid_run)
+        tell(fmt::format("kerf: {} keeps the older run, which is valid.\n", report.options.output));
 }
 
 // The log of events, if there is one and this is the rank that writes it.
@@ -43,6 +51,7 @@ std::unique_ptr<EventLog> open_event_log(const CommandLine& line, Communicator& 
     std::unique_ptr<EventLog> log;
     in_agreement(ranks, [&] {
         if (ranks.rank() != 0 || line.options.events_file.empty()) return;
+        line.options.check_files();
         log = std::make_unique<EventLog>(line.options.events_file);
         log->on_start(line.options);
     });
@@ -66,12 +75,12 @@ int run_command(const CommandLine& line) {
         if (events) events->on_end(report.exit_code, "");
         if (options.dry_run) return 0;
         if (root && !line.quiet && (line.verbose || !options.volume))
-            fmt::print(stderr, "{}\n", tree_text(report.nodes, line.verbose));
-        if (root && !line.quiet) fmt::print(stderr, "{}", to_text(report));
+            tell(tree_text(report.nodes, line.verbose) + "\n");
+        if (root && !line.quiet) tell(to_text(report));
         if (root) report_failed_parts(report);
         return report.exit_code;
     } catch (const Error& e) {
-        if (root) fmt::print(stderr, "kerf: {}\n", e.what());
+        if (root) tell(fmt::format("kerf: {}\n", e.what()));
         if (events) events->on_end(static_cast<int>(e.code()), e.what());
         return static_cast<int>(e.code());
     }
@@ -81,11 +90,15 @@ int run_program(int argc, char** argv) {
     if (argc > 1 && is_viewer_command(argv[1])) become_viewer(argv);
     const CommandLine line = parse_command_line(argc, argv);
     if (line.finished) {
-        if (is_first_rank()) std::fputs(line.output.c_str(), line.exit_code == 0 ? stdout : stderr);
+        if (!is_first_rank()) return line.exit_code;
+        if (line.exit_code == 0)
+            print_data(line.output);
+        else
+            tell(line.output);
         return line.exit_code;
     }
     if (line.print_config) {
-        std::fputs(line.config.c_str(), stdout);
+        if (is_first_rank()) print_data(line.config);
         return 0;
     }
     switch (line.command) {
@@ -103,17 +116,17 @@ int run_program(int argc, char** argv) {
 }  // namespace kerf
 
 int main(int argc, char** argv) {
-    std::signal(SIGPIPE, SIG_IGN);  // who reads the events may leave: that is an error of writing
+    kerf::prepare_standard_streams();
     try {
         return kerf::run_program(argc, argv);
     } catch (const kerf::Error& e) {
-        if (kerf::is_first_rank()) fmt::print(stderr, "kerf: {}\n", e.what());  // all ranks meet it
+        if (kerf::is_first_rank()) kerf::tell(fmt::format("kerf: {}\n", e.what()));  // all ranks meet it
         return static_cast<int>(e.code());
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "kerf: Out of memory.\n");
+        kerf::tell("kerf: Out of memory.\n");
         return static_cast<int>(kerf::ErrorCode::memory);
     } catch (const std::exception& e) {
-        fmt::print(stderr, "kerf: internal error: {}\n", e.what());
+        kerf::tell(fmt::format("kerf: internal error: {}\n", e.what()));
         return static_cast<int>(kerf::ErrorCode::internal);
     }
 }

@@ -4,10 +4,11 @@
 
 #include <cmath>
 #include <csignal>
-#include <cstdio>
+#include <string_view>
 
 #include <fmt/format.h>
 
+#include "io/standard_streams.h"
 #include "run/number_text.h"
 
 namespace kerf {
@@ -16,7 +17,21 @@ namespace {
 
 volatile std::sig_atomic_t stop_signal = 0;
 
-void note_signal(int signal) { stop_signal = signal; }
+// The run ends by itself as soon as it notices. Where it is deaf, in a long computation or a slow disk, it is ended:
+// whatever it was doing, its folder can be continued.
+constexpr unsigned seconds_to_end = 2;
+
+void note_signal(int signal) {
+    stop_signal = signal;
+    ::alarm(seconds_to_end);
+}
+
+void end_now(int) {
+    constexpr std::string_view text =
+        "kerf: The run was cancelled in the middle of a step; kerf mesh --resume goes on.\n";
+    (void)!::write(STDERR_FILENO, text.data(), text.size());
+    ::_exit(static_cast<int>(ErrorCode::cancelled));
+}
 
 std::string time_left(double elapsed, double done) {
     if (done <= 0) return "--:--";
@@ -32,16 +47,18 @@ ProgressLine::ProgressLine(bool quiet, EventLog* events)
     stop_signal = 0;
     std::signal(SIGINT, note_signal);
     std::signal(SIGTERM, note_signal);
+    std::signal(SIGALRM, end_now);
 }
 
 ProgressLine::~ProgressLine() {
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
+    ::alarm(0);
     clear();
 }
 
 void ProgressLine::clear() {
-    if (line_open_) std::fputs("\r\033[K", stderr);
+    if (line_open_) tell("\r\033[K");
     line_open_ = false;
 }
 
@@ -59,7 +76,7 @@ void ProgressLine::on_parts(const std::vector<PartReport>& parts, const std::str
     if (events_) events_->on_parts(parts, plan);
     if (!quiet_) {
         clear();
-        std::fputs(plan.c_str(), stderr);
+        tell(plan);
     }
     double all = 0;
     for (const PartReport& part : parts) {
@@ -85,8 +102,7 @@ void ProgressLine::on_part(const PartEvent& event) {
 }
 
 void ProgressLine::print(const std::string& text) {
-    std::fputs(terminal_ ? ("\r\033[K" + text).c_str() : (text + "\n").c_str(), stderr);
-    std::fflush(stderr);
+    tell(terminal_ ? "\r\033[K" + text : text + "\n");
     line_open_ = terminal_;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "io/standard_streams.h"
 #include "run/verify_folder.h"
 
 namespace kerf {
@@ -10,10 +11,10 @@ namespace kerf {
 int verify_run(const std::string& folder) {
     const FolderVerification found = verify_folder(folder);
     const RunVerification& laws = found.laws;
-    fmt::print("{}: {} parts, {} tetrahedra, {} vertices, volume error {:.1e}\n", folder, found.parts, found.tets,
-               found.vertices, laws.volume_rel_error);
-    const auto line = [](std::int64_t count, const char* what) {
-        if (count) fmt::print("  {} {}\n", count, what);
+    std::string text = fmt::format("{}: {} parts, {} tetrahedra, {} vertices, volume error {:.1e}\n", folder,
+                                   found.parts, found.tets, found.vertices, laws.volume_rel_error);
+    const auto line = [&](std::int64_t count, const char* what) {
+        if (count) text += fmt::format("  {} {}\n", count, what);
     };
     line(laws.input_faces_missing, "facets of the input missing");
     line(laws.extra_boundary_faces, "boundary faces that are neither input nor interface");
@@ -23,8 +24,14 @@ int verify_run(const std::string& folder) {
     line(laws.tets_zero_parts, "parts without tetrahedra");
     line(found.moved_vertices, "vertices whose coordinates differ between parts or from the input");
     line(found.misnumbered, "wrong global vertex numbers");
-    for (const std::string& note : found.notes) fmt::print("  note: {}\n", note);
-    fmt::print("{}\n", laws.passed ? "Every law holds." : "The mesh is NOT valid. Run kerf mesh again.");
+    for (const std::string& difference : found.differences) text += fmt::format("  {}\n", difference);
+    if (!laws.passed)
+        text += "The mesh is NOT valid. Run kerf mesh again.\n";
+    else if (found.not_compared.empty())
+        text += "Every law holds.\n";
+    else
+        text += fmt::format("The laws of the mesh hold; the input was not compared: {}\n", found.not_compared);
+    print_data(text);
     return laws.passed ? 0 : static_cast<int>(ErrorCode::verification);
 }
 

@@ -10,6 +10,9 @@
 
 namespace kerf {
 
+/// 128 bits of Hasher::digest().
+using FileHash = std::array<std::uint64_t, 2>;
+
 /// Hashes what is added, in its order. The pieces do not matter, only the bytes.
 class Hasher {
  public:
@@ -24,7 +27,7 @@ class Hasher {
         add_bytes(items.data(), items.size_bytes());
     }
     /// Of all that was added so far: 128 bits, the higher ones first.
-    std::array<std::uint64_t, 2> digest() const {
+    FileHash digest() const {
         const XXH128_hash_t hash = XXH3_128bits_digest(&state_);
         return {hash.high64, hash.low64};
     }

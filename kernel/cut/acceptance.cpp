@@ -220,7 +220,9 @@ Verdict judge_interface(const Surface& surface, const Band& band, const Interfac
         verdict.refusal = Refusal::chord;
         return verdict;
     }
+    if (options.poll) options.poll();
     verdict.failed = judge.intersections();
+    if (options.poll) options.poll();
     if (!verdict.failed.empty()) {
         verdict.refusal = Refusal::intersection;
         return verdict;

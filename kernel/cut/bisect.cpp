@@ -264,6 +264,7 @@ bool Ladder::try_plane(const PlaneCandidate& candidate, std::vector<CutTry>& tri
     PlaneTrial trial(surface_, candidate, node_, options_, record_, step_budget_);
     const std::int32_t rounds = options_.contour == ContourMethod::min_cut ? options_.repairs : 0;
     for (std::int32_t repair = 0, soft = 0; repair <= rounds && soft < soft_rounds; ++repair) {
+        if (options_.poll) options_.poll();
         auto attempt = std::make_unique<Attempt>(trial.attempt(repair));
         const double value = attempt->valid() ? softness(attempt->record.quality, options_) : 0;
         const bool wanted = attempt->record.refusal == Refusal::none || value > best_softness_;

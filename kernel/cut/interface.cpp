@@ -71,6 +71,8 @@ InterfaceAttempt build_interface(const Surface& surface, const Band& band, const
     InterfaceAttempt attempt;
     PlanarRegion region;
     region.max_edge = options.max_interface_edge();
+    region.max_points = options.max_interface_points;
+    region.poll = options.poll;
     std::vector<double> contour_height;
     std::vector<char> on_contour(surface.vertex_count(), 0);
     std::vector<std::int32_t>& contour = attempt.interface.contour;

@@ -1,6 +1,8 @@
 // What a user may choose about cuts.
 #pragma once
 
+#include <functional>
+
 #include "core/regular_tet.h"
 #include "cut/cut.h"
 #include "cut/load.h"
@@ -26,6 +28,8 @@ struct CutOptions {
     double good_dihedral_deg = 25;  ///< thresholds of InterfaceQuality below which a cut is soft
     double good_angle_deg = 20;
     double good_gap_rel = 0.2;
+    std::int64_t max_interface_points = 1 << 29;  ///< beyond them bisect() throws Error(memory)
+    std::function<void()> poll;  ///< called every few milliseconds of a cut, if given; ends it by what it throws
 
     /// Longest wanted edge of an interface: a little more than that of the largest wanted tetrahedron; 0: any.
     double max_interface_edge() const { return max_volume > 0 ? 1.1 * regular_tet_edge(max_volume) : 0; }

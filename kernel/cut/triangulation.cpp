@@ -11,6 +11,9 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <fmt/format.h>
+
+#include "core/error.h"
 
 namespace kerf {
 
@@ -31,6 +34,7 @@ constexpr double too_flat = 1.1;           // circumradius over shortest edge; 1
 constexpr double edge_clearance = 0.4;     // least distance of a point from a contour edge, in lengths of that edge
 constexpr double vertex_clearance = 0.35;  // least distance of a point from a vertex, in sizes
 constexpr int smoothing_sweeps = 8;
+constexpr std::size_t points_between_polls = 1024;
 
 Point to_point(const Vec2& p) { return {p.x(), p.y()}; }
 Vec2 to_vec(const Point& p) { return {p.x(), p.y()}; }
@@ -218,7 +222,13 @@ void Triangulator::insert_wanted() {
 
 void Triangulator::refine() {
     for (const Cdt::Face_handle face : cdt_.finite_face_handles()) consider(face);
-    while (!queue_.empty()) {
+    for (std::size_t i = 0; !queue_.empty(); ++i) {
+        if (region_.poll && i % points_between_polls == 0) region_.poll();
+        if (static_cast<std::int64_t>(vertices_.size()) >= region_.max_points)
+            throw Error(ErrorCode::memory,
+                        fmt::format("The triangles of an interface have more than {} vertices. Use a "
+                                    "larger --size or more --memory.",
+                                    region_.max_points));
         const Triangle t = queue_.top().corners;
         queue_.pop();
         Cdt::Face_handle face;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "cut/cut.h"
@@ -22,6 +23,8 @@ struct PlanarRegion {
     double max_edge = 0;                             ///< upper bound of the edge length; 0: none
     double least_edge = 0;                           ///< shorter contour edges do not make the triangles small
     bool refined = true;                             ///< false: no interior points
+    std::int64_t max_points = 1 << 29;               ///< beyond them triangulate() throws Error(memory)
+    std::function<void()> poll;                      ///< as CutOptions::poll
 };
 
 /// A conforming triangulation of the region, or why there is none.

@@ -20,20 +20,25 @@ struct Branch {
 class Decomposer {
  public:
     Decomposer(const DecomposeOptions& options, LeafRange range, CutListener* listener)
-        : options_(options), range_(range), listener_(listener), records_(listener && listener->wants_cuts()) {}
+        : options_(options), range_(range), listener_(listener), records_(listener && listener->wants_cuts()) {
+        options_.cut.poll = [this] { end_if_cancelled(); };
+    }
 
     Decomposition descend(Surface surface, const Branch& branch, std::int32_t threads);
 
  private:
     using Halves = std::array<Surface, 2>;
 
+    void end_if_cancelled() const {
+        if (listener_ && listener_->cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
+    }
     void keep_whole(const Surface& surface, Decomposition& result) const;
     std::array<double, 2> loads(const Halves& halves) const;
     void tell_listener(const Surface& surface, const Cut& cut);
     void descend_halves(Halves halves, const std::array<Branch, 2>& branches, std::int32_t threads,
                         Decomposition& result);
 
-    const DecomposeOptions& options_;
+    DecomposeOptions options_;
     LeafRange range_;
     CutListener* listener_;
     bool records_;
@@ -67,7 +72,7 @@ void Decomposer::tell_listener(const Surface& surface, const Cut& cut) {
 }
 
 Decomposition Decomposer::descend(Surface surface, const Branch& branch, std::int32_t threads) {
-    if (listener_ && listener_->cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
+    end_if_cancelled();
     const auto [id, first_leaf, leaves] = branch;
     const MassProperties mass = mass_properties(surface);
     Decomposition result;

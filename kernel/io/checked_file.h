@@ -17,7 +17,13 @@
 
 namespace kerf {
 
-/// Throws Error(io) with the file, the step and the system's reason, a full disk included.
+/// Nobody reads any more what goes into a pipe.
+class ReaderLeft : public Error {
+    using Error::Error;
+};
+
+/// Throws Error(io) with the file, the step and the system's reason, a full disk included; ReaderLeft for a pipe
+/// whose reader has gone.
 class CheckedFile {
  public:
     CheckedFile(const std::string& path, const char* mode) : path_(path), file_(std::fopen(path.c_str(), mode)) {
@@ -59,10 +65,13 @@ class CheckedFile {
  private:
     void check(bool ok, const char* action) const {
         if (ok) return;
-        const std::string reason = std::generic_category().message(errno);
-        throw Error(ErrorCode::io, fmt::format("Cannot {} {}: {}. Check the free space and the permissions of its "
-                                               "folder, or choose another one.",
-                                               action, path_, reason));
+        const int error = errno;
+        const std::string text = fmt::format(
+            "Cannot {} {}: {}. Check the free space and the permissions of its "
+            "folder, or choose another one.",
+            action, path_, std::generic_category().message(error));
+        if (error == EPIPE) throw ReaderLeft(ErrorCode::io, text);
+        throw Error(ErrorCode::io, text);
     }
 
     struct Close {

@@ -24,6 +24,9 @@ std::string read_file(const std::string& path) {
         fail(path, "standard input is not supported because a surface is read more than once; give a file");
     std::error_code error;
     if (std::filesystem::is_directory(path, error)) fail(path, "it is a folder; give a file");
+    // A pipe may wait for ever, and a device may never end.
+    if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
+        fail(path, "it is a pipe or a device; give a file");
     errno = 0;
     std::ifstream file(path, std::ios::binary);
     if (!file) fail(path, std::strerror(errno));

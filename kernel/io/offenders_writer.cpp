@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "io/text_file.h"
+#include "io/output_file.h"
 #include "io/vtk_cell_types.h"
 
 namespace kerf {
@@ -101,7 +101,7 @@ class OffendersGrid {
 void write_offenders(const std::string& path, const Soup& soup, const Diagnosis& diagnosis) {
     OffendersGrid grid(soup);
     for (std::size_t i = 0; i < diagnosis.defects.size(); ++i) grid.add(diagnosis.defects[i], i);
-    write_text_file(path, grid.xml());
+    write_output_file(path, grid.xml());
 }
 
 }  // namespace kerf

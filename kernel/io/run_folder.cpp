@@ -21,6 +21,8 @@
 
 #include "core/error.h"
 #include "io/durable_file.h"
+#include "io/folder_files.h"
+#include "io/run_manifest.h"
 
 namespace kerf {
 
@@ -37,27 +39,49 @@ namespace {
 
 // Absolute, without links or a slash at the end, so that a sibling's name is the path and a suffix.
 std::string normal_path(const std::string& path) {
-    std::error_code error;
+    constexpr int most_links = 40;
+    std::error_code error, ignored;
     fs::path normal = fs::absolute(path, error);
+    if (!error && !normal.has_filename()) normal = normal.parent_path();
+    for (int i = 0; i < most_links && !error && fs::is_symlink(normal, ignored); ++i)
+        normal = normal.parent_path() / fs::read_symlink(normal, error);
     if (!error) normal = fs::weakly_canonical(normal, error);
     if (error) fail("use the output folder", "'" + path + "'", error);
     return normal.has_filename() ? normal.string() : normal.parent_path().string();
 }
 
-// Only an empty folder or an older run may be replaced.
-void refuse_foreign(const std::string& path) {
+[[noreturn]] void refuse_foreign(const std::string& folder, const std::string& file) {
+    throw Error(ErrorCode::io, fmt::format("The folder {} is not a run of Kerf alone: it holds {}, so it is not "
+                                           "replaced. Choose another output folder, or move that away.",
+                                           folder, file));
+}
+
+// Of a finished run, to which nothing was added; or nothing at all.
+FolderContent require_replaceable(const std::string& path) {
     std::error_code error;
-    const fs::file_status status = fs::status(path, error);
-    if (status.type() == fs::file_type::not_found) return;
-    if (status.type() == fs::file_type::none) fail("read the output folder", path, error);
-    if (!fs::is_directory(status))
+    if (fs::exists(path, error) && !fs::is_directory(path, error))
         throw Error(ErrorCode::io, fmt::format("The output folder {} is a file. Choose another name.", path));
-    const bool is_run = fs::exists(fs::path(path) / "report.json", error);
-    const bool is_empty = !error && fs::is_empty(path, error);
-    if (error) fail("read the output folder", path, error);
-    if (!is_run && !is_empty)
-        throw Error(ErrorCode::io, fmt::format("The folder {} holds files but no report.json, so it is not a run of "
-                                               "Kerf and is not replaced. Choose another output folder or empty it.",
+    FolderContent content = inspect_run_folder(path);
+    if (!content.foreign.empty()) refuse_foreign(path, content.foreign);
+    return content;
+}
+
+// Of a run that has not ended in order, whose files are on no list.
+void require_remains_of_run(const std::string& path) {
+    std::error_code error;
+    if (fs::exists(path, error) && !fs::is_directory(path, error))
+        throw Error(ErrorCode::io, fmt::format("{} is in the way of the run. Choose another output folder.", path));
+    for (const std::string& file : list_files(path))
+        if (!is_named_like_run_file(file)) refuse_foreign(path, file);
+}
+
+// A folder that other file systems are mounted on cannot get another one's name.
+void refuse_mount_point(const std::string& path) {
+    struct stat folder, parent;
+    if (::stat(path.c_str(), &folder) != 0 || ::stat(fs::path(path).parent_path().c_str(), &parent) != 0) return;
+    if (folder.st_dev != parent.st_dev || folder.st_ino == parent.st_ino)
+        throw Error(ErrorCode::io, fmt::format("A file system is mounted on the output folder {}, which therefore "
+                                               "cannot be replaced as a whole. Choose a folder inside of it.",
                                                path));
 }
 
@@ -85,6 +109,16 @@ constexpr const char* lock_file = "work/lock";    // held by the creator
 constexpr const char* ranks_file = "work/ranks";  // shared by the others
 
 std::string partial_path_of(const std::string& final_path) { return final_path + ".kerf-partial"; }
+std::string failed_path_of(const std::string& final_path) { return final_path + ".failed"; }
+std::string older_path_of(const std::string& partial) { return partial + "-older"; }
+std::string removed_path_of(const std::string& partial) { return partial + "-removed"; }
+
+// The failed run's folder becomes the partial one of the next, unless that has one already.
+void take_over_failed_run(const std::string& failed, const std::string& partial) {
+    std::error_code error;
+    if (fs::exists(partial, error) || !fs::exists(failed + "/work/run.json", error)) return;
+    fs::rename(failed, partial, error);  // if it cannot be, all parts are meshed again
+}
 
 // A folder that is not there has none.
 std::vector<std::string> names_in(const std::string& folder) {
@@ -96,13 +130,18 @@ std::vector<std::string> names_in(const std::string& folder) {
     return names;
 }
 
-// Removes the entries of a folder whose name is none of `kept`.
+// By which a run with failed parts is continued.
+bool is_kept_for_next_run(const std::string& file) {
+    return file.starts_with("work/journal/") || file == "work/run.json";
+}
+
+// Removes the files of a folder whose name is none of `kept`.
 void clear_folder(const std::string& folder, const std::set<std::string>& kept) {
     for (const std::string& name : names_in(folder)) {
         if (kept.contains(name)) continue;
         std::error_code error;
         const std::string path = (fs::path(folder) / name).string();
-        fs::remove_all(path, error);
+        fs::remove(path, error);
         if (error) fail("remove what an interrupted run left,", path, error);
     }
 }
@@ -124,14 +163,14 @@ RunFolder::RunFolder(RunFolder&& other) noexcept
 // moved out of the way of other runs before.
 RunFolder::~RunFolder() {
     std::error_code ignored;
-    const std::string removed = partial_ + "-removed";
+    const std::string removed = removed_path_of(partial_);
     const bool removes = owner_ && !keep_;
-    if (removes) {
-        fs::remove_all(removed, ignored);
-        fs::rename(partial_, removed, ignored);
-    }
+    if (removes) fs::rename(partial_, removed, ignored);
     release_locks();
-    if (removes) fs::remove_all(removed, ignored);
+    try {
+        if (removes) remove_run_files(removed);
+    } catch (const Error&) {  // it cannot be read; the next run will say so
+    }
 }
 
 void RunFolder::release_locks() {
@@ -140,13 +179,27 @@ void RunFolder::release_locks() {
 }
 
 std::string RunFolder::saved_run_file(const std::string& path) {
-    return RunFolder("", partial_path_of(normal_path(path)), false).saved_run_file();
+    const std::string final_path = normal_path(path), partial = partial_path_of(final_path);
+    std::error_code ignored;
+    for (const std::string& folder : {partial, final_path, failed_path_of(final_path)}) {
+        const std::string file = RunFolder("", folder, false).saved_run_file();
+        if (fs::exists(file, ignored)) return file;
+    }
+    return RunFolder("", partial, false).saved_run_file();
 }
 
 RunFolder RunFolder::create(const std::string& path) {
-    const std::string final_path = normal_path(path);
-    refuse_foreign(final_path);
-    RunFolder folder(final_path, partial_path_of(final_path), false);
+    const std::string final_path = normal_path(path), partial = partial_path_of(final_path);
+    const FolderContent older = require_replaceable(final_path);
+    if (older.exists) refuse_mount_point(final_path);
+    const std::string failed = failed_path_of(final_path);
+    require_replaceable(failed);
+    for (const std::string& remains : {partial, older_path_of(partial), removed_path_of(partial)})
+        require_remains_of_run(remains);
+    remove_run_files(removed_path_of(partial));
+    if (older.is_run && !older.is_valid) take_over_failed_run(final_path, partial);
+    take_over_failed_run(failed, partial);
+    RunFolder folder(final_path, partial, false);
     create_folder(folder.file("work"));
     folder.lock();
     folder.owner_ = true;
@@ -194,8 +247,11 @@ void RunFolder::lock() {
 }
 
 void RunFolder::clear_all_but_parts() const {
-    clear_folder(partial_, {"parts", "work"});
-    clear_folder(file("work"), {"journal", "lock", "ranks", "run.json"});
+    for (const char* name : {"work/jobs", "work/taken", "failed"}) clear_folder(file(name), {});
+    clear_folder(file("work"), {"journal", "jobs", "taken", "lock", "ranks", "run.json"});
+    std::error_code error;
+    fs::remove(file("failed"), error);
+    clear_folder(partial_, {"parts", "work", "failed"});
 }
 
 void RunFolder::keep_only(const std::vector<int>& leaves) const {
@@ -242,28 +298,32 @@ bool RunFolder::take(int leaf) const {
     return fd >= 0;
 }
 
-void RunFolder::commit() {
+std::string RunFolder::commit(bool valid) {
     if (!owner_) throw Error(ErrorCode::internal, "A run folder is committed once, and by its creator.");
+    const std::string place = !valid && require_replaceable(final_).is_valid ? failed_path_of(final_) : final_;
     sync_file_system(partial_);
-    const std::string older = partial_ + "-older";
+    const std::string older = older_path_of(partial_);
     std::error_code error;
-    while (fs::rename(partial_, final_, error), error) {
+    while (fs::rename(partial_, place, error), error) {
         if (error != std::errc::directory_not_empty && error != std::errc::file_exists) break;
-        refuse_foreign(final_);
-        fs::remove_all(older, error);
-        fs::rename(final_, older, error);
+        require_replaceable(place);
+        remove_run_files(older);
+        fs::rename(place, older, error);
         if (error && error != std::errc::no_such_file_or_directory) break;
     }
     if (error) {
         std::error_code ignored;
-        fs::rename(older, final_, ignored);  // nothing was gained, so nothing shall be lost
-        fail("write the output folder", final_, error);
+        fs::rename(older, place, ignored);  // nothing was gained, so nothing shall be lost
+        fail("write the output folder", place, error);
     }
     owner_ = false;
     release_locks();
-    sync_folder(fs::path(final_).parent_path().string());
-    for (const std::string& leftover : {older, (fs::path(final_) / "work").string()})
-        fs::remove_all(leftover, error);  // the result is complete with and without them
+    sync_folder(fs::path(place).parent_path().string());
+    remove_run_files(older);  // the result is complete with and without it
+    remove_run_files(place, [&](const std::string& file) {
+        return file.starts_with("work/") && (valid || !is_kept_for_next_run(file));
+    });
+    return place;
 }
 
 std::string part_file_name(int leaf) { return fmt::format("part_{:04}.vtu", leaf); }

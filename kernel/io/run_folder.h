@@ -10,20 +10,24 @@ namespace kerf {
 ///
 /// What is under way lies in its sub-folder `work`: a lock, the run's options, the jobs that wait, which of them are
 /// taken, and the journal of finished parts. A run that was interrupted leaves the partial folder with its parts and
-/// journal; the next one into PATH finds them there, and nothing else of it.
+/// journal; the next one into PATH finds them there, and nothing else of it. A run with failed parts leaves the journal
+/// in its result, which the next run into PATH takes over in the same way.
 ///
-/// An older run under the final name is replaced as a whole, never mixed. A folder that exists but holds no report.json
-/// and is not empty is not a run of Kerf: it is refused, so that nobody's files are lost. With several ranks the first
-/// creates and commits, the others open the same partial folder.
+/// An older run under the final name is replaced as a whole, never mixed; but a valid one is not replaced by one with
+/// failed parts, which gets the name PATH.failed. Only runs of Kerf are ever replaced or removed
+/// (io/run_manifest.h): with a file of anybody else in the way, under any of these names, the run is refused, so that
+/// nobody's files are lost. With several ranks the first creates and commits, the others open the same partial folder.
 class RunFolder {
  public:
     /// Checks `path`, makes its partial folder or takes over that of an interrupted run, and makes the folders above
-    /// where they are missing. Throws Error(io) if it cannot be written, or if another run is writing it or ranks of an
-    /// interrupted one still live, naming the folder and the reason. A file system without locks keeps nobody out.
+    /// where they are missing. Links are followed, also those that lead to nothing yet. Throws Error(io) if it cannot
+    /// be written or holds foreign files, naming the first, or if another run is writing it or ranks of an interrupted
+    /// one still live, naming the folder and the reason. A file system without locks keeps nobody out.
     static RunFolder create(const std::string& path);
     /// Opens the partial folder that another rank has created. Throws Error(io) if this host does not see it.
     static RunFolder join(const std::string& partial_path);
-    /// saved_run_file() of a run into `path` that may have been interrupted. Throws Error(io) if that cannot be a path.
+    /// saved_run_file() of a run into `path` that was interrupted or has failed parts; where it would lie if there is
+    /// none. Throws Error(io) if that cannot be a path.
     static std::string saved_run_file(const std::string& path);
 
     RunFolder(RunFolder&& other) noexcept;
@@ -32,9 +36,10 @@ class RunFolder {
     ~RunFolder();
 
     const std::string& partial_path() const { return partial_; }
-    std::string part_file(int leaf) const;          ///< .../parts/part_0008.vtu
-    std::string part_surface_file(int leaf) const;  ///< .../parts/part_0008.surface.vtu
-    std::string part_stl_file(int leaf) const;      ///< .../parts/part_0008.stl
+    const std::string& final_path() const { return final_; }  ///< empty if another rank has created the folder
+    std::string part_file(int leaf) const;                    ///< .../parts/part_0008.vtu
+    std::string part_surface_file(int leaf) const;            ///< .../parts/part_0008.surface.vtu
+    std::string part_stl_file(int leaf) const;                ///< .../parts/part_0008.stl
     std::string file(const std::string& name) const;
 
     std::string saved_run_file() const;        ///< the options, for who continues the run
@@ -51,12 +56,15 @@ class RunFolder {
     /// the creator.
     void keep_only(const std::vector<int>& leaves) const;
 
-    /// From now on the destructor leaves the folder for the next run.
+    /// From now on the destructor leaves the folder for the next run, or again does not.
     void keep() { keep_ = true; }
+    void discard() { keep_ = false; }
 
-    /// Waits for the disk, renames the folder to its final name, and removes `work` and an older run there, as far as
-    /// they can be removed. Only for the creator. Throws Error(io) if what lies under the final name is not a run.
-    void commit();
+    /// Waits for the disk, renames the folder to its final name, and removes an older run there and `work`, of which a
+    /// run that is not `valid` keeps what the next one needs. Returns the final name: that of a run that is not valid
+    /// ends with ".failed" if a valid one has the name. Only for the creator. Throws Error(io) if there are foreign
+    /// files under the final name.
+    std::string commit(bool valid);
 
  private:
     RunFolder(std::string final_path, std::string partial, bool owner);

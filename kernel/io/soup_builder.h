@@ -92,9 +92,11 @@ class SoupBuilder {
     std::int32_t find_or_add_patch() {
         const auto next = static_cast<std::int32_t>(soup_.patch_names.size());
         const auto [found, is_new] = patch_of_name_.try_emplace(patch_name_, next);
-        if (is_new) soup_.patch_names.push_back(patch_name_);
+        if (is_new) soup_.patch_names.push_back(patch_name_.substr(0, longest_name));
         return found->second;
     }
+
+    static constexpr std::size_t longest_name = 255;  // bytes that are kept
 
     const std::string& path_;
     Soup soup_;

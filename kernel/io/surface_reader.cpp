@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -51,8 +52,33 @@ bool is_binary_medit(std::string_view bytes) {
     return version >= 1 && version <= 4;
 }
 
+// Texts of two bytes a character, as some programs save them: every other byte of plain letters is zero.
+bool is_utf16(std::string_view bytes) {
+    if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) return true;
+    constexpr std::size_t looked_at = 32;
+    if (bytes.size() < looked_at) return false;
+    for (const std::size_t zero : {std::size_t{0}, std::size_t{1}}) {
+        bool is_text = true;
+        for (std::size_t i = 0; i < looked_at && is_text; ++i)
+            is_text = i % 2 == zero ? bytes[i] == '\0' : bytes[i] >= '\t' && bytes[i] < '\x7f';
+        if (is_text) return true;
+    }
+    return false;
+}
+
+// The first zero byte of what is text up to there, and longer than the header of a binary STL.
+std::optional<std::size_t> find_nul_in_text(std::string_view bytes) {
+    const std::string_view text = without_padding(bytes);
+    const std::size_t nul = text.find('\0');
+    if (nul == text.npos || nul <= stl_header_size) return {};
+    const bool is_text = std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(nul),
+                                     [](char c) { return c >= '\t' && c < '\x7f'; });
+    return is_text ? std::optional(nul) : std::nullopt;
+}
+
 Reader recognise(std::string_view bytes, const std::string& path) {
     if (is_binary_stl(bytes)) return read_stl;
+    if (is_utf16(bytes)) throw Error(ErrorCode::input, path + ": the text is UTF-16. Save it as ASCII or UTF-8.");
     const std::string_view word = first_word(bytes, path);
     if (word == "ply") return read_ply;
     if (word.ends_with("OFF")) return read_off;
@@ -61,6 +87,9 @@ Reader recognise(std::string_view bytes, const std::string& path) {
     if (is_binary_medit(bytes))
         throw Error(ErrorCode::input,
                     path + ": binary MEDIT (.meshb) is not supported. Save the mesh as text (.mesh).");
+    if (const auto nul = find_nul_in_text(bytes))
+        throw Error(ErrorCode::input, path + ": the text is damaged: byte " + std::to_string(*nul) +
+                                          " is zero. Export or copy it again.");
     if (is_ascii_stl(bytes) || holds_nul(bytes)) return read_stl;
     if (is_obj_keyword(word)) return read_obj;
     if (begins_like_tetgen(bytes, path)) return read_tetgen;

@@ -19,6 +19,7 @@
 
 #include "core/error.h"
 #include "io/checked_file.h"
+#include "io/text_file.h"
 #include "io/vtk_cell_types.h"
 #include "mesh/quality.h"
 
@@ -228,6 +229,33 @@ void write_grid(CheckedFile& file, const Grid& grid) {
     file.write(file_end);
 }
 
+Grid make_part_grid(const TetMesh& mesh, const SurfaceArrays& surface, std::span<const TetQuality> quality,
+                    std::span<const std::int32_t> tet_at_facet, const PartArrays& arrays) {
+    require_sizes(quality.size() == mesh.tets.size() && tet_at_facet.size() == surface.facets.size() &&
+                  static_cast<std::size_t>(mesh.boundary_vertex_count) == surface.vertices.size());
+    Grid grid = make_grid(mesh.vertices, mesh.tets, surface, arrays);
+    add_quality(grid, quality, tet_at_facet);
+    return grid;
+}
+
+FileHash hash_grid(const Grid& grid) {
+    Hasher hasher;
+    CheckedFile nowhere("/dev/null", "wb");
+    nowhere.hash_into(hasher);
+    write_grid(nowhere, grid);
+    return hasher.digest();
+}
+
+FileHash write_grid_file(const std::string& path, const Grid& grid) {
+    Hasher hasher;
+    CheckedFile file(path, "wb");
+    file.hash_into(hasher);
+    write_grid(file, grid);
+    file.sync();
+    file.close();
+    return hasher.digest();
+}
+
 // The names and types of a section's arrays, as each piece of a PVTU has them.
 std::string parallel_section(const Section& section) {
     std::string xml = fmt::format("<P{}>\n", section.element);
@@ -330,28 +358,25 @@ InteriorIds find_interior_ids(CheckedFile& file, const std::string& path) {
 FileHash write_part(const std::string& path, const TetMesh& mesh, const SurfaceArrays& surface,
                     std::span<const TetQuality> quality, std::span<const std::int32_t> tet_at_facet,
                     const PartArrays& arrays) {
-    require_sizes(quality.size() == mesh.tets.size() && tet_at_facet.size() == surface.facets.size() &&
-                  static_cast<std::size_t>(mesh.boundary_vertex_count) == surface.vertices.size());
-    Grid grid = make_grid(mesh.vertices, mesh.tets, surface, arrays);
-    add_quality(grid, quality, tet_at_facet);
-    Hasher hasher;
-    CheckedFile file(path, "wb");
-    file.hash_into(hasher);
-    write_grid(file, grid);
-    file.sync();
-    file.close();
-    return hasher.digest();
+    return write_grid_file(path, make_part_grid(mesh, surface, quality, tet_at_facet, arrays));
 }
 
-void write_part_surface(const std::string& path, const SurfaceArrays& surface, const PartArrays& arrays) {
+FileHash hash_of_part(const TetMesh& mesh, const SurfaceArrays& surface, std::span<const TetQuality> quality,
+                      std::span<const std::int32_t> tet_at_facet, const PartArrays& arrays) {
+    return hash_grid(make_part_grid(mesh, surface, quality, tet_at_facet, arrays));
+}
+
+FileHash write_part_surface(const std::string& path, const SurfaceArrays& surface, const PartArrays& arrays) {
     const std::vector<Tetrahedron> no_tets;
-    CheckedFile file(path, "wb");
-    write_grid(file, make_grid(surface.vertices, no_tets, surface, arrays));
-    file.sync();
-    file.close();
+    return write_grid_file(path, make_grid(surface.vertices, no_tets, surface, arrays));
 }
 
-void write_pvtu(const std::string& path, const std::vector<std::string>& pieces) {
+FileHash hash_of_part_surface(const SurfaceArrays& surface, const PartArrays& arrays) {
+    const std::vector<Tetrahedron> no_tets;
+    return hash_grid(make_grid(surface.vertices, no_tets, surface, arrays));
+}
+
+std::string pvtu_text(const std::vector<std::string>& pieces) {
     // Only the names and types of the arrays are asked for, so that they are those of the pieces.
     const TetMesh no_mesh;
     const SurfaceArrays no_surface;
@@ -363,11 +388,11 @@ void write_pvtu(const std::string& path, const std::vector<std::string>& pieces)
     for (const Section* section : {&grid.point_data(), &grid.cell_data(), &grid.points()})
         xml += parallel_section(*section);
     for (const std::string& piece : pieces) xml += fmt::format("<Piece Source=\"{}\"/>\n", xml_escaped(piece));
-    xml += "</PUnstructuredGrid>\n</VTKFile>\n";
+    return xml + "</PUnstructuredGrid>\n</VTKFile>\n";
+}
 
-    CheckedFile file(path, "wb");
-    file.write(xml);
-    file.close();
+void write_pvtu(const std::string& path, const std::vector<std::string>& pieces) {
+    write_text_file(path, pvtu_text(pieces));
 }
 
 void fail_damaged_vtu(const std::string& path, const std::string& what) {
@@ -388,25 +413,31 @@ VtuHeader parse_vtu_header(std::string_view begin_of_file, const std::string& pa
     return HeaderParser(begin_of_file.substr(0, end), path).parse(static_cast<std::int64_t>(end + data_begin.size()));
 }
 
-FileHash hash_of_part_file(const std::string& path) {
+PartFileHashes hash_part_file(const std::string& path) {
     CheckedFile file(path, "rb");
     const InteriorIds ids = find_interior_ids(file, path);
-    Hasher hasher;
-    const auto add_until = [&](std::int64_t position, std::int64_t end) {
+    const std::int64_t ids_end = ids.position + ids.count * static_cast<std::int64_t>(sizeof(std::int64_t));
+    PartFileHashes hashes;
+    Hasher written, present;
+    // Reads up to `end`, or to the end of the file.
+    const auto read_until = [&](std::int64_t end, bool as_written) {
         constexpr std::int64_t chunk_size = std::int64_t{1} << 20;
-        file.seek(position);
-        for (bool more = true; more && position < end;) {
-            const std::string chunk = file.read(static_cast<std::size_t>(std::min(chunk_size, end - position)));
-            hasher.add_bytes(chunk.data(), chunk.size());
-            position += static_cast<std::int64_t>(chunk.size());
-            more = !chunk.empty();
+        while (hashes.bytes < end) {
+            const std::string chunk = file.read(static_cast<std::size_t>(std::min(chunk_size, end - hashes.bytes)));
+            if (chunk.empty()) return;
+            present.add_bytes(chunk.data(), chunk.size());
+            if (as_written) written.add_bytes(chunk.data(), chunk.size());
+            hashes.bytes += static_cast<std::int64_t>(chunk.size());
         }
     };
-    add_until(0, ids.position);
-    for (std::int64_t i = 0; i < ids.count; ++i) hasher.add_bytes(&i, sizeof i);
-    add_until(ids.position + ids.count * static_cast<std::int64_t>(sizeof(std::int64_t)),
-              std::numeric_limits<std::int64_t>::max());
-    return hasher.digest();
+    file.seek(0);
+    read_until(ids.position, true);
+    read_until(ids_end, false);
+    for (std::int64_t i = 0; i < ids.count; ++i) written.add_bytes(&i, sizeof i);
+    read_until(std::numeric_limits<std::int64_t>::max(), true);
+    hashes.written = written.digest();
+    hashes.present = present.digest();
+    return hashes;
 }
 
 void number_interior_vertices(const std::string& path, std::int64_t first) {

@@ -8,13 +8,12 @@
 #include <string_view>
 #include <vector>
 
+#include "core/hash.h"
 #include "mesh/quality.h"
 #include "mesh/tet_mesh.h"
 #include "surface/surface.h"
 
 namespace kerf {
-
-using FileHash = std::array<std::uint64_t, 2>;  ///< as of Hasher::digest()
 
 /// What a part file holds beyond mesh and surface.
 struct PartArrays {
@@ -37,20 +36,35 @@ FileHash write_part(const std::string& path, const TetMesh& mesh, const SurfaceA
                     std::span<const TetQuality> quality, std::span<const std::int32_t> tet_at_facet,
                     const PartArrays& arrays);
 
-/// What write_part() returned for the file, if that has kept its bytes; a call of number_interior_vertices() since
-/// then changes nothing. Throws Error(io) if it cannot be read or has no header of write_part().
-FileHash hash_of_part_file(const std::string& path);
+/// A file of write_part(), read once.
+struct PartFileHashes {
+    /// What write_part() returned for the file, if that has kept its bytes; a call of number_interior_vertices() since
+    /// then changes nothing.
+    FileHash written = {0, 0};
+    FileHash present = {0, 0};  ///< of the bytes as they are
+    std::int64_t bytes = 0;
+};
+
+/// Throws Error(io) if the file cannot be read or has no header of write_part().
+PartFileHashes hash_part_file(const std::string& path);
 
 /// Rewrites the GlobalVertexId of the interior vertices of a file of write_part() in place: they become `first`,
 /// `first` + 1, ... Everything else keeps its bytes. Throws Error(io).
 void number_interior_vertices(const std::string& path, std::int64_t first);
 
-/// Writes DIR/parts/part_XXXX.surface.vtu: the closed surface with GlobalVertexId, Part, Patch, Neighbour and the same
-/// field data. Throws Error(io).
-void write_part_surface(const std::string& path, const SurfaceArrays& surface, const PartArrays& arrays);
+/// The hashes that write_part() and write_part_surface() would return, without a file.
+FileHash hash_of_part(const TetMesh& mesh, const SurfaceArrays& surface, std::span<const TetQuality> quality,
+                      std::span<const std::int32_t> tet_at_facet, const PartArrays& arrays);
+FileHash hash_of_part_surface(const SurfaceArrays& surface, const PartArrays& arrays);
 
-/// Writes the PVTU that joins files of write_part(); `pieces` are paths relative to the PVTU's folder. Throws
-/// Error(io).
+/// Writes DIR/parts/part_XXXX.surface.vtu: the closed surface with GlobalVertexId, Part, Patch, Neighbour and the same
+/// field data. Returns the hash of its bytes. Throws Error(io).
+FileHash write_part_surface(const std::string& path, const SurfaceArrays& surface, const PartArrays& arrays);
+
+/// The PVTU that joins files of write_part(); `pieces` are paths relative to the PVTU's folder.
+std::string pvtu_text(const std::vector<std::string>& pieces);
+
+/// Writes it. Throws Error(io).
 void write_pvtu(const std::string& path, const std::vector<std::string>& pieces);
 
 /// The XML header of a file of write_part() or write_part_surface(): where its arrays lie.

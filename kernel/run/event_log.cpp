@@ -20,7 +20,8 @@ std::unique_ptr<CheckedFile> open_target(const std::string& target) {
     int number = -1;
     const char* end = target.data() + target.size();
     const auto [stop, error] = std::from_chars(target.data() + 3, end, number);
-    const int copy = error == std::errc() && stop == end ? ::dup(number) : -1;
+    if (error != std::errc() || stop != end) number = -1;
+    const int copy = ::dup(number);  // sets errno where there is no such file
     return std::make_unique<CheckedFile>(copy < 0 ? nullptr : ::fdopen(copy, "w"), target);
 }
 
@@ -38,8 +39,13 @@ template <class Object>
 void EventLog::write(Object json) {
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
     json["seconds"] = seconds.count();
-    file_->write(json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
-    file_->flush();
+    if (!file_) return;
+    try {
+        file_->write(json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+        file_->flush();
+    } catch (const ReaderLeft&) {
+        file_.reset();
+    }
 }
 
 void EventLog::on_start(const RunOptions& options) {

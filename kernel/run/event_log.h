@@ -14,13 +14,14 @@ class CheckedFile;
 /// Writes each event when it happens. All objects have "event" and "seconds" since the start:
 ///
 ///     {"event": "run", "input", "output", "trace", "parts"}
-///     {"event": "stage", "stage": "read" | "decompose" | "prepare" | "volume" | "number"}
+///     {"event": "stage", "stage": "read" | "decompose" | "prepare" | "volume" | "number" | "hash"}
 ///     {"event": "parts", "parts": [{"id", "load", "facets", "volume", "resumed"}]}
 ///     {"event": "part", "id", "state": "done" | "resumed" | "failed", "rank", "worker", "attempts", "tets",
 ///                       "part_seconds", "parts_done", "parts", "load_done", "tets_done", "message", "remedy"}
 ///     {"event": "end", "exit_code", "message"}
 ///
 /// The first one says what runs: absolute paths, "" for one that is not written, and K, 0 if the run chooses it.
+/// A reader of a pipe that leaves is told nothing more, and the run goes on.
 /// "message" is there where something failed, "remedy" where the first attempt did.
 class EventLog : public RunListener {
  public:
@@ -41,7 +42,7 @@ class EventLog : public RunListener {
     template <class Object>
     void write(Object json);
 
-    std::unique_ptr<CheckedFile> file_;
+    std::unique_ptr<CheckedFile> file_;  // none when the reader has left
     std::string stage_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/regular_tet.h"
 #include "run/number_text.h"
 
 namespace kerf {
@@ -17,7 +19,10 @@ constexpr double bytes_per_tet = 220, bytes_of_worker = 14e6, seconds_per_tet = 
 // The limit of a worker is one of its address space, of which libraries take a share; and a forecast may be low.
 constexpr double reserved_bytes = 100e6, safety = 1.5;
 constexpr double least_tets_per_part = 1000;
-constexpr std::int32_t parts_per_worker = 4;  // so that the last one is short against all of them
+constexpr std::int32_t parts_per_worker = 4;    // so that the last one is short against all of them
+constexpr double most_tets_per_part = 1 << 29;  // TetGen counts their corners in 32 bits
+constexpr double file_bytes_per_tet = 70;
+constexpr double certain = 0.5;  // nearly every mesh is larger than this share of its forecast
 
 Forecast forecast_of(const PartReport& part, const RunOptions& options) {
     return forecast(static_cast<double>(part.surface_facets), part.surface_volume, options.mesher.max_volume);
@@ -41,6 +46,37 @@ std::int32_t choose_parts(const RunOptions& options, double facets, double volum
         parts = std::max(parts, std::ceil(safety * bytes_per_tet * tets / available));
     }
     return static_cast<std::int32_t>(std::clamp<double>(parts, 1, most));
+}
+
+void check_budget(const RunOptions& options, double facets, double volume) {
+    const double bound = options.mesher.max_volume, parts = options.decompose.parts;
+    const double tets = forecast(facets, volume, bound).tets;
+    // The bound that would make so many tetrahedra, as a size.
+    const auto way_out = [&](double affordable) {
+        const double left = affordable - tets_per_facet * facets;
+        return left <= 0 ? std::string("Use a coarser surface")
+                         : fmt::format("Use --size {:.2g} or larger",
+                                       regular_tet_edge(tets_per_volume_bound * volume / left));
+    };
+    if (tets > most_tets_per_part * parts)
+        throw Error(ErrorCode::memory,
+                    fmt::format("This would make about {} tetrahedra, {} in each of {} parts, but a part can hold {}. "
+                                "{}, or -n {:.0f} or more.",
+                                short_number(tets), short_number(tets / parts), parts, short_number(most_tets_per_part),
+                                way_out(most_tets_per_part * parts), std::ceil(tets / most_tets_per_part)));
+    std::error_code error;
+    std::filesystem::path folder = std::filesystem::absolute(options.output, error).parent_path();
+    while (!std::filesystem::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
+    const std::filesystem::space_info space = std::filesystem::space(folder, error);
+    const bool is_known = !error && space.capacity > 0;
+    if (!is_known || certain * tets * file_bytes_per_tet <= static_cast<double>(space.available)) return;
+    throw Error(
+        ErrorCode::memory,
+        fmt::format("This would make about {} tetrahedra, whose files take {} bytes, but {} has {} left. {}, or "
+                    "another disk.",
+                    short_number(tets), short_number(tets * file_bytes_per_tet), folder.string(),
+                    short_number(static_cast<double>(space.available)),
+                    way_out(static_cast<double>(space.available) / file_bytes_per_tet)));
 }
 
 std::string plan_text(const std::vector<PartReport>& parts, const RunOptions& options, int ranks, bool every_part) {

@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 
 #include "core/error.h"
+#include "io/file_bytes.h"
+#include "io/run_manifest.h"
 #include "io/surface_reader.h"
 #include "surface/hole_filling.h"
 #include "surface/intersections.h"
@@ -85,7 +87,11 @@ OrientationReport apply_repairs(CheckedSoup& checked) {
 Input read_input(const std::string& path, const InputOptions& options) {
     Input input;
     input.path = path;
-    CheckedSoup checked = check_input(path, options);
+    std::string bytes = read_file(path);
+    Hasher hasher;
+    hasher.add_bytes(bytes.data(), bytes.size());
+    input.file_hash = hash_text(hasher.digest());
+    CheckedSoup checked = check_soup(read_surface_bytes(std::move(bytes), path), options);
     Soup& soup = checked.soup;
     if (!checked.diagnosis.clean())
         throw Error(ErrorCode::input,

@@ -44,6 +44,7 @@ struct CheckedSoup {
 /// A surface ready to be cut, and what was learnt about it.
 struct Input {
     std::string path;
+    std::string file_hash;  ///< of the file's bytes, see hash_text()
     std::int64_t vertices = 0;
     std::int64_t facets = 0;
     std::int64_t components = 0;

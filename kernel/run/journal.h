@@ -21,8 +21,9 @@ struct JournalEntry {
 };
 
 /// Names all that the file of a part depends on: the job, the mesher's options, how often it may be retried, and the
-/// version of Kerf.
-FileHash hash_of_job(const PartJob& job, const MesherOptions& mesher, std::int32_t attempts);
+/// program that does it, by the hash of its file: another build of the same version may mesh otherwise.
+FileHash hash_of_job(const PartJob& job, const MesherOptions& mesher, std::int32_t attempts,
+                     const std::string& worker_hash);
 
 /// Durable when it returns. Throws Error(io).
 void write_journal_entry(const std::string& path, const JournalEntry& entry);

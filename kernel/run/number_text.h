@@ -15,8 +15,9 @@ inline std::string grouped(std::int64_t n) {
     return digits;
 }
 
-/// 12345678 as "12.3 M", 12345 as "12 k".
+/// 12345678 as "12.3 M", 12345 as "12 k", 123456789012 as "1.2e+11".
 inline std::string short_number(double n) {
+    if (n >= 1e10) return fmt::format("{:.2g}", n);
     if (n >= 1e6) return fmt::format("{:.1f} M", n / 1e6);
     return n >= 1e3 ? fmt::format("{:.0f} k", n / 1e3) : fmt::format("{:.0f}", n);
 }

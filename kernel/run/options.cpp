@@ -9,10 +9,14 @@
 
 #include "core/error.h"
 #include "core/regular_tet.h"
+#include "io/output_file.h"
 
 namespace kerf {
 
 namespace {
+
+constexpr std::int32_t most_workers = 4096;
+constexpr std::int64_t bytes_per_interface_point = 500;
 
 template <class Enum>
 OptionField::Choice choice(Enum& value, std::vector<std::string> names, int first = 0) {
@@ -41,12 +45,15 @@ std::string text_of(const T* value) {
 }
 std::string text_of(const OptionField::Choice& choice) { return choice.names[static_cast<std::size_t>(choice.get())]; }
 
-// False if the text is no such value.
+// False if the text is no such value: numbers that are not finite, or too small or too large for their type, are none.
 template <class Number>
 bool assign(Number* value, const std::string& text) {
+    Number number = 0;
     const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, *value);
-    return error == std::errc() && stop == end;
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    if (error != std::errc() || stop != end || !std::isfinite(static_cast<double>(number))) return false;
+    *value = number;
+    return true;
 }
 bool assign(bool* value, const std::string& text) {
     *value = text == "true";
@@ -76,27 +83,47 @@ void OptionField::set_text(const std::string& text) const {
 
 void RunOptions::resolve(int cores_of_rank) {
     input_options.check();
-    require(workers >= 0, "workers", "0 (share of the cores) or more", workers);
+    require(workers >= 0 && workers <= most_workers, "workers",
+            fmt::format("0 (share of the cores) to {}", most_workers), workers);
     if (workers == 0) workers = std::max(1, cores_of_rank);
     require(decompose.parts >= 0, "parts", "1 or more", decompose.parts);
     decompose.threads = workers;  // they have nothing to do yet
     require(size >= 0 && std::isfinite(size), "size", "positive", size);
-    require(mesher.max_volume >= 0 && std::isfinite(mesher.max_volume), "max-volume", "positive", mesher.max_volume);
-    require(mesher.radius_edge == 0 || (mesher.radius_edge > 1 && std::isfinite(mesher.radius_edge)), "radius-edge",
-            "0 (none) or above 1", mesher.radius_edge);
-    require(timeout_seconds >= 0, "timeout", "0 (none) or more seconds", timeout_seconds);
+    require(size == 0 || std::isnormal(regular_tet_volume(size)), "size",
+            "such that its cube is a number of double precision", size);
+    require(mesher.max_volume == 0 || (mesher.max_volume > 0 && std::isnormal(mesher.max_volume)), "max-volume",
+            "positive", mesher.max_volume);
+    check_mesher_options(mesher);
+    require(timeout_seconds >= 0 && std::isfinite(timeout_seconds), "timeout", "0 (none) or more seconds",
+            timeout_seconds);
     require(memory_mb >= 0, "memory", "0 (unlimited) or more MB", static_cast<double>(memory_mb));
     require(attempts >= 1, "attempts", "1 or more", attempts);
     if (decompose.facets == FacetPolicy::keep && decompose.cut.contour == ContourMethod::straight)
         throw Error(ErrorCode::usage, "--contour straight splits facets, and --surface keep forbids it. Drop one.");
-    for (const auto& [option, file] : {std::pair("trace", &trace_file), std::pair("events", &events_file)})
-        if (!file->empty() && !output.empty() && lies_inside(*file, output))
-            throw Error(ErrorCode::usage,
-                        fmt::format("--{} is {}, which lies in the output folder {}. That is replaced "
-                                    "as a whole when the run ends, so choose a place outside of it.",
-                                    option, *file, output));
+    check_files();
     if (mesher.max_volume == 0 && size > 0) mesher.max_volume = regular_tet_volume(size);
     decompose.cut.max_volume = decompose.cut.load.max_volume = mesher.max_volume;
+    if (memory_mb > 0) decompose.cut.max_interface_points = (memory_mb << 20) / bytes_per_interface_point;
+}
+
+// Before any work, for all that can be known of the files by then.
+void RunOptions::check_files() const {
+    const std::string folder = dry_run ? "" : output;
+    if (!folder.empty() && lies_inside(input, folder))
+        throw Error(ErrorCode::io,
+                    fmt::format("The input {} lies in the output folder {}, which is replaced as a whole "
+                                "when the run ends. Choose another output folder.",
+                                input, folder));
+    for (const auto& [option, file] : {std::pair("--trace", &trace_file), std::pair("--events", &events_file),
+                                       std::pair("--report", &report_file)}) {
+        if (file->empty() || file->starts_with("fd:")) continue;
+        if (!folder.empty() && lies_inside(*file, folder))
+            throw Error(ErrorCode::usage, fmt::format("{} is {}, which lies in the output folder {}. That is replaced "
+                                                      "as a whole when the run ends, so choose a place outside of it.",
+                                                      option, *file, folder));
+        refuse_to_overwrite(input, option, *file);
+        require_writable(option, *file);
+    }
 }
 
 void InputOptions::check() const {

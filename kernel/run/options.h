@@ -14,6 +14,8 @@ namespace kerf {
 
 struct RunOptions {
     std::string input;
+    std::string input_hash;  ///< of the bytes that the input must have, as a run that is continued has read them;
+                             ///< empty: any
     std::string output;
     std::string worker_program;  ///< path of kerf-worker
     DecomposeOptions decompose = {
@@ -32,9 +34,11 @@ struct RunOptions {
     bool volume = true;            ///< false: stop at the closed surfaces of the parts
     bool dry_run = false;          ///< stop at the plan, and write nothing
 
-    /// Fills what follows from other choices, K excepted, and checks ranges. Throws Error(usage) naming option, value
-    /// and range.
+    /// Fills what follows from other choices, K excepted, and checks ranges and files. Throws Error(usage) naming
+    /// option, value and range, Error(io) for a file that could not be written or would be lost.
     void resolve(int cores_of_rank);
+    /// The part of resolve() that asks for input and outputs, for who writes one of them before the run.
+    void check_files() const;
 };
 
 /// One option: its name on the command line and in the config file, and where its value lives.

@@ -2,8 +2,10 @@
 
 #include <chrono>
 
-#include "core/bytes.h"
+#include <fmt/format.h>
+
 #include "core/error.h"
+#include "core/record.h"
 #include "io/checked_file.h"
 #include "io/file_bytes.h"
 #include "run/mesh_hash.h"
@@ -85,13 +87,18 @@ void fill_result(const PartJob& job, const MesherCall& call, const std::string& 
 }  // namespace
 
 void write_job(const std::string& path, const PartJob& job) {
-    const Bytes bytes = to_bytes(job);
+    const Bytes record = to_record(job);
     CheckedFile file(path, "wb");
-    file.write(bytes.data(), bytes.size());
+    file.write(record.data(), record.size());
     file.close();
 }
 
-PartJob read_job(const std::string& path) { return from_bytes<PartJob>(read_file(path)); }
+PartJob read_job(const std::string& path) {
+    auto job = from_record<PartJob>(read_file(path));
+    if (!job)
+        throw Error(ErrorCode::io, fmt::format("{} is damaged. Check the disk; the same command again goes on.", path));
+    return *std::move(job);
+}
 
 PartResult out_of_memory() {
     PartResult result;

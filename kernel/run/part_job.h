@@ -42,7 +42,7 @@ struct PartResult {
     MeshLaws laws;
     PartQuality quality;
     std::array<std::uint64_t, 2> hash = {0, 0};  ///< of surface, keys and mesh
-    FileHash file_hash = {0, 0};                 ///< of the part's file, see hash_of_part_file()
+    FileHash file_hash = {0, 0};                 ///< of the part's file, as write_part() returned it
     double load_seconds = 0, mesh_seconds = 0, verify_seconds = 0, write_seconds = 0;
     std::int64_t peak_rss_bytes = 0;
 
@@ -58,7 +58,7 @@ PartResult out_of_memory();
 
 /// Keeps the bytes of a job in a file, from which any worker can take it. Throws Error(io).
 void write_job(const std::string& path, const PartJob& job);
-/// Throws Error(io) if the file cannot be read, Error(internal) if it is damaged.
+/// Throws Error(io) if the file cannot be read or is damaged.
 PartJob read_job(const std::string& path);
 
 /// Meshes, verifies, measures and writes a part. Never throws kerf::Error: it comes back as the result's code and

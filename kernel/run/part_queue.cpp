@@ -81,6 +81,12 @@ std::optional<PartQueue::Finished> PartQueue::take_result(std::size_t part, cons
     outcome.result = answered ? from_bytes<PartResult>(child.output) : result_of_silence(child);
     const bool timed_out = child.end == ChildResult::End::timed_out;
     outcome.timed_out |= timed_out;
+    if (child.end == ChildResult::End::signalled && outcome.interruption.empty()) {
+        outcome.interruption = outcome.result.message;
+        --outcome.attempts;
+        start(part);
+        return {};
+    }
     const bool mesher_failed = outcome.result.code == static_cast<int>(ErrorCode::subdomain) &&
                                (answered || timed_out || died_by_itself(child));
     if (mesher_failed && outcome.attempts < options_.attempts) {

@@ -26,10 +26,11 @@ struct PartOutcome {
     std::vector<std::string> failures;  ///< why earlier attempts failed
     std::string remedy;                 ///< of the last attempt (volume/retries.h); empty: none was needed
     bool timed_out = false;             ///< an attempt has exceeded the limit of time
+    std::string interruption;           ///< how a worker died whose call was repeated as it was; empty: none did
 
     template <class Archive>
     void archive(Archive& a) {
-        a(result, attempts, worker, seconds, failures, remedy, timed_out);
+        a(result, attempts, worker, seconds, failures, remedy, timed_out, interruption);
     }
 };
 
@@ -47,7 +48,9 @@ struct QueueOptions {
 /// Parts are asked for in the given order whenever a worker is free, and those meshed for which `take` says true: so
 /// several queues, of the same or of other ranks, can share one list. An attempt that fails for the mesher's reasons
 /// (it aborts, crashes, hangs, or returns a mesh that breaks a law) is repeated with the remedies of volume/retries.h.
-/// A worker that was killed from outside or ran out of memory is not: the part has failed, and its file is removed.
+/// The first signal that ends a worker at a part counts as sent from outside, and the same call is made once more: so
+/// the part becomes what it would have been. A part whose worker is killed twice, or runs out of memory, has failed,
+/// and its file is removed.
 class PartQueue {
  public:
     PartQueue(std::vector<QueuedPart> parts, QueueOptions options, std::function<bool(std::size_t part)> take);

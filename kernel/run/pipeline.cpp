@@ -15,6 +15,8 @@
 #include <Eigen/Geometry>
 
 #include "decompose/straight_division.h"
+#include "io/folder_files.h"
+#include "io/output_file.h"
 #include "io/run_folder.h"
 #include "io/stl_writer.h"
 #include "io/text_file.h"
@@ -126,15 +128,15 @@ std::int32_t part_count(const Input& input, const RunOptions& options, int ranks
 // One rank's share of the run.
 class Run {
  public:
-    Run(RunOptions options, Communicator& ranks, Input& input, RunListener* listener)
-        : ranks_(ranks), input_(input), listener_(listener) {
-        if (!options.dry_run) folder_.emplace(open_run_folder(options.output, ranks));
+    Run(RunOptions options, std::string worker_hash, Communicator& ranks, Input& input, RunListener* listener)
+        : ranks_(ranks), worker_hash_(std::move(worker_hash)), input_(input), listener_(listener) {
         report_.options = std::move(options);
         report_.quality = PartQuality(input.diagonal);
         report_.ranks = ranks.size();
         report_.input = &input;
     }
 
+    void open_folder();
     void decompose_surface();
     void divide_unfinished(CutListener* cuts);
     void join_interfaces();
@@ -154,11 +156,13 @@ class Run {
         if (listener_->cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
         listener_->on_progress(stage, done, total);
     }
-    void keep_folder();
     void verify();
     void measure_workers();
+    std::vector<RunFile> describe_files();
+    RunFile describe_part_file(const std::string& path, const PartReport& part) const;
 
     Communicator& ranks_;
+    std::string worker_hash_;
     Input& input_;
     RunListener* listener_;
     std::optional<RunFolder> folder_;  // none for a dry run
@@ -169,6 +173,16 @@ class Run {
     std::optional<VolumeStage> volume_;
     std::int64_t surface_vertices_ = 0;
 };
+
+// From the beginning on the run can be continued by the name of its folder, however it ends.
+void Run::open_folder() {
+    folder_.emplace(open_run_folder(report_.options.output, ranks_));
+    in_agreement(ranks_, [&] {
+        if (!is_root() || !report_.options.volume) return;
+        save_run(folder_->saved_run_file(), report_.options, input_.file_hash);
+        folder_->keep();
+    });
+}
 
 void Run::decompose_surface() {
     const Stopwatch stopwatch;
@@ -248,15 +262,15 @@ void Run::hand_over_parts() {
         std::vector<int> leaves;
         for (const PartReport& part : report_.parts) leaves.push_back(part.id);
         folder_->keep_only(volume ? leaves : std::vector<int>());
-        if (volume) keep_folder();
     });
-    if (volume) volume_.emplace(ranks_, *folder_, report_.options, input_.diagonal, listener_);
+    if (volume) volume_.emplace(ranks_, *folder_, report_.options, worker_hash_, input_.diagonal, listener_);
     in_agreement(ranks_, [&] {
         for (std::size_t i = 0; i < own_.leaves.size(); ++i) {
             progress("prepare", i, own_.leaves.size());
             const Leaf leaf = std::exchange(own_.leaves[i], {});
             PartJob job{leaf.surface, std::exchange(own_arrays_[i], {}), input_.diagonal};
-            write_part_surface(folder_->part_surface_file(leaf.id), job.surface, job.arrays);
+            own_parts_[i].surface_hash =
+                write_part_surface(folder_->part_surface_file(leaf.id), job.surface, job.arrays);
             if (report_.options.stl)
                 write_stl(folder_->part_stl_file(leaf.id), job.surface.vertices, job.surface.facets);
             if (volume) volume_->hand_over(job, own_parts_[i]);
@@ -277,18 +291,15 @@ void Run::mesh_parts() {
     report_.seconds.mesh = longest(ranks_, stopwatch.seconds());
 }
 
-// Only on the root rank.
-void Run::keep_folder() {
-    save_run(folder_->saved_run_file(), report_.options);
-    folder_->keep();
-}
-
-// What ends a run says how to continue it. A run that the user has stopped can always be continued.
+// What ends a run says how to continue it. A run that the user has stopped can always be continued; of another one
+// nothing is left if no part is finished.
 Error Run::with_way_to_go_on(const Error& error) {
     if (!folder_ || !report_.options.volume) return error;
-    if (error.code() == ErrorCode::cancelled && is_root()) keep_folder();
     const std::size_t finished = folder_->finished_parts();
-    if (finished == 0 && error.code() != ErrorCode::cancelled) return error;
+    if (finished == 0 && error.code() != ErrorCode::cancelled) {
+        folder_->discard();
+        return error;
+    }
     return {error.code(), fmt::format("{} {} parts are finished; kerf mesh --resume {} does the others.", error.what(),
                                       finished, report_.options.output)};
 }
@@ -362,7 +373,55 @@ int failure_code(const std::vector<PartReport>& parts) {
     return code;
 }
 
+// The file as it is now, of which the worker has said what it has written.
+RunFile Run::describe_part_file(const std::string& path, const PartReport& part) const {
+    const PartFileHashes hashes = hash_part_file(folder_->file(path));
+    if (hashes.written != part.result.file_hash)
+        throw Error(ErrorCode::io, fmt::format("{} is not what its worker has written: the disk or the memory has "
+                                               "damaged it. That part is meshed again when the run is continued.",
+                                               folder_->file(path)));
+    return {path, hashes.bytes, hash_text(hashes.present)};
+}
+
+// All files of the folder but the report. Each rank reads a share.
+std::vector<RunFile> Run::describe_files() {
+    const std::vector<std::string> found = in_agreement(ranks_, [&] {
+        std::vector<std::string> files = is_root() ? list_files(folder_->partial_path()) : std::vector<std::string>();
+        std::erase_if(files, [](const std::string& file) { return file.starts_with("work/") || file.ends_with('/'); });
+        return files;
+    });
+    const std::vector<std::string> files = all_gather(ranks_, found).front();
+    std::map<std::string, const PartReport*> part_of, part_of_surface;  // by the names of the files
+    for (const PartReport& part : report_.parts) {
+        part_of_surface["parts/" + part_surface_file_name(part.id)] = &part;
+        if (part.result.code == 0) part_of["parts/" + part_file_name(part.id)] = &part;
+    }
+    const LeafRange share = range_of_rank(static_cast<std::int32_t>(files.size()), ranks_);
+    const std::vector<RunFile> own = in_agreement(ranks_, [&] {
+        std::vector<RunFile> described;
+        for (std::int32_t i = share.first; i < share.last; ++i) {
+            progress("hash", static_cast<std::size_t>(i), files.size());
+            const std::string& path = files[static_cast<std::size_t>(i)];
+            if (const auto part = part_of.find(path); part != part_of.end()) {
+                described.push_back(describe_part_file(path, *part->second));
+                continue;
+            }
+            described.push_back(describe_file(folder_->partial_path(), path));
+            if (const auto part = part_of_surface.find(path);
+                part != part_of_surface.end() && described.back().hash != hash_text(part->second->surface_hash))
+                throw Error(ErrorCode::io, fmt::format("{} is not what was written: the disk or the memory has damaged "
+                                                       "it. Continue the run to write it again.",
+                                                       folder_->file(path)));
+        }
+        return described;
+    });
+    std::vector<RunFile> all;
+    for (const auto& of_rank : all_gather(ranks_, own)) all.insert(all.end(), of_rank.begin(), of_rank.end());
+    return all;
+}
+
 RunReport Run::finish(const Stopwatch& whole, double read_seconds) {
+    const Stopwatch stopwatch;
     std::vector<PartHash> hashes;
     std::int64_t largest_worker = 0;
     for (const PartReport& part : report_.parts) {
@@ -379,20 +438,24 @@ RunReport Run::finish(const Stopwatch& whole, double read_seconds) {
     if (report_.exit_code == 0 && !report_.verification.passed)
         report_.exit_code = static_cast<int>(ErrorCode::verification);
     report_.seconds.read = read_seconds;
+    in_agreement(ranks_, [&] {
+        if (!is_root() || !report_.options.volume) return;
+        std::vector<std::string> pieces;
+        for (const PartReport& part : report_.parts)
+            if (part.result.code == 0) pieces.push_back("parts/" + part_file_name(part.id));
+        write_pvtu(folder_->file("mesh.pvtu"), pieces);
+    });
+    report_.files = describe_files();
+    report_.seconds.hash = longest(ranks_, stopwatch.seconds());
     if (!is_root()) folder_.reset();  // nobody uses it when it moves
     report_.seconds.wall = longest(ranks_, whole.seconds());
     in_agreement(ranks_, [&] {
         if (!is_root()) return;
-        if (report_.options.volume) {
-            std::vector<std::string> pieces;
-            for (const PartReport& part : report_.parts)
-                if (part.result.code == 0) pieces.push_back("parts/" + part_file_name(part.id));
-            write_pvtu(folder_->file("mesh.pvtu"), pieces);
-        }
         const std::string json = to_json(report_);
         write_text_file(folder_->file("report.json"), json);
-        folder_->commit();
-        if (!report_.options.report_file.empty()) write_text_file(report_.options.report_file, json);
+        report_.folder = folder_->commit(report_.exit_code == 0);
+        report_.kept_valid_run = report_.folder != folder_->final_path();
+        if (!report_.options.report_file.empty()) write_output_file(report_.options.report_file, json);
     });
     return std::move(report_);
 }
@@ -403,17 +466,24 @@ RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input&
     const Stopwatch whole;
     // Hosts may differ, but the defaults of K and workers must not.
     for (const int cores : all_gather(ranks, cores_of_rank)) cores_of_rank = std::min(cores_of_rank, cores);
+    std::string worker_hash;
     in_agreement(ranks, [&] {
         options.resolve(cores_of_rank);
+        const bool meshes = options.volume && !options.dry_run;
+        if (meshes) worker_hash = describe_file("", options.worker_program).hash;
         if (listener) listener->on_progress("read", 0, 1);
         input = read_input(options.input, options.input_options);
-        if (ranks.rank() == 0) options.decompose.parts = part_count(input, options, ranks.size());
+        refuse_changed_input(options, input.file_hash);
+        if (ranks.rank() != 0) return;
+        options.decompose.parts = part_count(input, options, ranks.size());
+        if (meshes) check_budget(options, static_cast<double>(input.facets), input.volume);
     });
     options.decompose.parts = all_gather(ranks, options.decompose.parts).front();
     const double read_seconds = longest(ranks, whole.seconds());
     const bool volume = options.volume, dry_run = options.dry_run;
-    Run run(std::move(options), ranks, input, listener);
+    Run run(std::move(options), std::move(worker_hash), ranks, input, listener);
     try {
+        if (!dry_run) run.open_folder();
         run.decompose_surface();
         run.join_interfaces();
         if (dry_run) {

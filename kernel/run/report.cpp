@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 
 #include "core/error.h"
 #include "run/number_text.h"
+#include "run/path_text.h"
 #include "run/version.h"
 
 namespace kerf {
@@ -48,7 +50,8 @@ Json to_json(const QualityDistributions& quality) {
 }
 
 Json input_json(const Input& input) {
-    Json json = {{"path", input.path},
+    Json json = {{"path", path_text(std::filesystem::absolute(input.path).lexically_normal().string())},
+                 {"hash", input.file_hash},
                  {"vertices", input.vertices},
                  {"faces", input.facets},
                  {"components", input.components},
@@ -78,6 +81,8 @@ Json options_json(RunOptions options) {
             [](const auto& value) -> Json {
                 if constexpr (std::is_same_v<std::decay_t<decltype(value)>, OptionField::Choice>)
                     return value.names[value.get()];
+                else if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string*>)
+                    return path_text(*value);
                 else
                     return *value;
             },
@@ -146,6 +151,9 @@ Json part_json(const PartReport& part) {
                  {"peak_rss_bytes", part.result.peak_rss_bytes}};
     if (!part.failures.empty()) json["failures"] = part.failures;
     if (!part.remedy.empty()) json["remedy"] = part.remedy;
+    if (!part.interruption.empty()) json["interruption"] = part.interruption;
+    if (part.timed_out)
+        json["note"] = "An attempt ran out of time, so the bytes may differ from those of an undisturbed run.";
     if (part.resumed) json["resumed"] = true;
     if (part.result.code) json["error"] = part.result.message;
     return json;
@@ -172,10 +180,13 @@ Json totals_json(const RunReport& report) {
             {"start_seconds", report.worker_seconds.start},
             {"idle_seconds", report.worker_seconds.idle},
             {"number_seconds", report.seconds.number},
+            {"hash_seconds", report.seconds.hash},
             {"wall_seconds", report.seconds.wall},
             {"imbalance", report.imbalance},
             {"peak_rss_bytes", report.peak_rss_bytes}};
 }
+
+Json file_json(const RunFile& file) { return {{"path", file.path}, {"bytes", file.bytes}, {"hash", file.hash}}; }
 
 template <class T>
 Json array_of(const std::vector<T>& items, Json (*convert)(const T&)) {
@@ -227,8 +238,9 @@ std::string to_json(const RunReport& report) {
                    {"inverted_tets", v.inverted_tets},
                    {"tets_zero_parts", v.tets_zero_parts}}},
                  {"mesh_hash", report.mesh_hash},
+                 {"files", array_of(report.files, file_json)},
                  {"exit_code", report.exit_code}};
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return sealed(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 // What was done to the surface, without the welding of equal vertices.
@@ -259,6 +271,19 @@ std::string remedies_text(const RunReport& report) {
     return fmt::format("{}{}", fmt::join(all.begin(), end, "; "), more);
 }
 
+// What was repeated because workers were killed, and what may be otherwise because they were too slow.
+std::string disturbances_text(const RunReport& report) {
+    const auto count = [&](auto is_so) { return std::count_if(report.parts.begin(), report.parts.end(), is_so); };
+    const auto killed = count([](const PartReport& part) { return !part.interruption.empty(); });
+    const auto late = count([](const PartReport& part) { return part.timed_out; });
+    std::string text;
+    if (killed > 0) text = fmt::format("{} part{} again after the worker was killed", killed, killed == 1 ? "" : "s");
+    if (late > 0)
+        text += fmt::format("{}{} part{} after a time-out, whose bytes may differ from an undisturbed run",
+                            text.empty() ? "" : "; ", late, late == 1 ? "" : "s");
+    return text;
+}
+
 // Where the seconds went.
 std::string time_text(const RunReport& report) {
     const StageSeconds& s = report.seconds;
@@ -267,8 +292,8 @@ std::string time_text(const RunReport& report) {
     const WorkerSeconds& w = report.worker_seconds;
     return text + fmt::format(
                       ", prepare {:.2f}, mesh {:.2f} (mesher {:.2f}, verify {:.2f}, write {:.2f}, start {:.2f}, "
-                      "idle {:.2f}), number {:.2f}",
-                      s.prepare, s.mesh, w.mesher, w.verify, w.write, w.start, w.idle, s.number);
+                      "idle {:.2f}), number {:.2f}, hash {:.2f}",
+                      s.prepare, s.mesh, w.mesher, w.verify, w.write, w.start, w.idle, s.number, s.hash);
 }
 
 std::string to_text(const RunReport& report) {
@@ -299,6 +324,8 @@ std::string to_text(const RunReport& report) {
         line("interfaces", fmt::format("area {:.6g}, {:.3f} of the plane sections; smallest angle {:.1f} deg",
                                        interface, interface / section, angle));
     if (const std::string remedies = remedies_text(report); !remedies.empty()) line("retried", remedies);
+    if (const std::string disturbances = disturbances_text(report); !disturbances.empty())
+        line("disturbed", disturbances);
     const auto resumed = std::count_if(report.parts.begin(), report.parts.end(), std::mem_fn(&PartReport::resumed));
     if (resumed > 0) line("continued", fmt::format("{} parts were finished by an interrupted run", resumed));
     if (report.options.volume) {

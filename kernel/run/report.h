@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "io/run_manifest.h"
 #include "run/input.h"
 #include "run/options.h"
 #include "run/part_queue.h"
@@ -17,6 +18,7 @@ struct PartReport : PartOutcome {
     bool resumed = false;   ///< an interrupted run had finished it
     double load = 0;        ///< predicted work, as LoadModel has it
     FileHash job_hash = {0, 0};
+    FileHash surface_hash = {0, 0};  ///< of the file of its surface
     double surface_volume = 0;
     std::int64_t surface_vertices = 0, surface_facets = 0;
     double interface_area = 0;
@@ -25,8 +27,8 @@ struct PartReport : PartOutcome {
     template <class Archive>
     void archive(Archive& a) {
         PartOutcome::archive(a);
-        a(id, rank, resumed, load, job_hash, surface_volume, surface_vertices, surface_facets, interface_area,
-          neighbours);
+        a(id, rank, resumed, load, job_hash, surface_hash, surface_volume, surface_vertices, surface_facets,
+          interface_area, neighbours);
     }
 };
 
@@ -50,6 +52,7 @@ struct StageSeconds {
     double prepare = 0;  ///< both sides of interfaces brought together, surfaces and jobs written
     double mesh = 0;     ///< of the stage
     double number = 0;   ///< global numbers of interior vertices
+    double hash = 0;     ///< all files read again for the list of their hashes
     double wall = 0;     ///< of the run
 };
 
@@ -77,10 +80,13 @@ struct RunReport {
     std::int64_t peak_rss_bytes = 0;  ///< of the ranks, and of the largest worker for each worker
     PartQuality quality;
     std::string mesh_hash;
+    std::vector<RunFile> files;   ///< all of the folder but the report, ascending
+    std::string folder;           ///< where the result is
+    bool kept_valid_run = false;  ///< parts have failed, and an older run without that has kept the folder's name
     int exit_code = 0;
 };
 
-/// report.json as text, two spaces of indentation. Numbers that are not finite become null.
+/// report.json as text, two spaces of indentation, sealed (io/run_manifest.h). Numbers that are not finite become null.
 std::string to_json(const RunReport& report);
 
 /// About ten lines for people.

@@ -9,18 +9,20 @@
 #include "io/durable_file.h"
 #include "io/file_bytes.h"
 #include "io/run_folder.h"
+#include "run/path_text.h"
 
 namespace kerf {
 
-void save_run(const std::string& path, const RunOptions& options) {
+void save_run(const std::string& path, const RunOptions& options, const std::string& input_hash) {
     RunOptions saved = options;
     saved.workers = 0;          // the machine that continues may have other cores
     saved.events_file.clear();  // who follows the run that continues will say where
     for (std::string* file : {&saved.report_file, &saved.trace_file})
         if (!file->empty()) *file = std::filesystem::absolute(*file).string();
-    nlohmann::ordered_json json = {{"input", std::filesystem::absolute(options.input).string()}};
-    for (const OptionText& option : option_texts(saved, false)) json["options"][option.name] = option.text;
-    write_durable_file(path, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    nlohmann::ordered_json json = {{"input", path_text(std::filesystem::absolute(options.input).string())},
+                                   {"input_hash", input_hash}};
+    for (const OptionText& option : option_texts(saved, false)) json["options"][option.name] = path_text(option.text);
+    write_durable_file(path, json.dump(2) + "\n");
 }
 
 RunOptions load_interrupted_run(const std::string& output) {
@@ -33,9 +35,11 @@ RunOptions load_interrupted_run(const std::string& output) {
     RunOptions options;
     try {
         const auto json = nlohmann::json::parse(read_file(file));
-        options.input = json.at("input").get<std::string>();
+        options.input = path_of_text(json.at("input").get<std::string>());
+        options.input_hash = json.at("input_hash").get<std::string>();
         std::vector<OptionText> texts;
-        for (const auto& [name, text] : json.at("options").items()) texts.push_back({name, text.get<std::string>()});
+        for (const auto& [name, text] : json.at("options").items())
+            texts.push_back({name, path_of_text(text.get<std::string>())});
         set_options(options, texts, file);
     } catch (const nlohmann::json::exception&) {
         throw Error(ErrorCode::io,
@@ -45,6 +49,14 @@ RunOptions load_interrupted_run(const std::string& output) {
     }
     options.output = std::filesystem::absolute(output).string();
     return options;
+}
+
+void refuse_changed_input(const RunOptions& options, const std::string& input_hash) {
+    if (options.input_hash.empty() || options.input_hash == input_hash) return;
+    throw Error(ErrorCode::io,
+                fmt::format("{} is not the file that the interrupted run has read: its bytes are others. "
+                            "Put that back to continue, or start anew: kerf mesh {} -o {}.",
+                            options.input, options.input, options.output));
 }
 
 std::int32_t interrupted_part_count(const std::string& output) {

@@ -7,13 +7,16 @@
 
 namespace kerf {
 
-/// Writes input, options and K of a run. Durable. Throws Error(io).
-void save_run(const std::string& path, const RunOptions& options);
+/// Writes input, options and K of a run; `input_hash`: of the bytes of the input. Durable. Throws Error(io).
+void save_run(const std::string& path, const RunOptions& options, const std::string& input_hash);
 
 /// The options of the run that was interrupted while it wrote to the folder `output`. All paths are absolute, that of
 /// the output is the given one, in case it was moved. Throws Error(io) if there is none or what it left is damaged,
 /// naming the way out.
 RunOptions load_interrupted_run(const std::string& output);
+
+/// Throws Error(io) if the options are those of an interrupted run and its input had another hash.
+void refuse_changed_input(const RunOptions& options, const std::string& input_hash);
 
 /// K of the run that was interrupted while it wrote to the folder `output`; 0 if there is none that can be read.
 std::int32_t interrupted_part_count(const std::string& output);

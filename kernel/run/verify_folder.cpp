@@ -1,4 +1,5 @@
-// Nothing of the run that wrote the files is trusted but the plan of its parts in report.json.
+// Nothing of the run that wrote the files is trusted but the plan of its parts in report.json. The hashes tell any
+// change since then; what follows from the mesh is computed again, in case somebody has computed the hashes again.
 #include "run/verify_folder.h"
 
 #include <algorithm>
@@ -12,10 +13,15 @@
 
 #include "core/error.h"
 #include "io/file_bytes.h"
+#include "io/folder_files.h"
 #include "io/run_folder.h"
+#include "io/run_manifest.h"
 #include "io/vtu_reader.h"
+#include "io/vtu_writer.h"
 #include "mesh/adjacency.h"
+#include "mesh/quality.h"
 #include "run/oriented_triangle.h"
+#include "run/path_text.h"
 #include "surface/facet_cover.h"
 
 namespace kerf {
@@ -34,28 +40,43 @@ struct InterfaceFacet {
 
 // A boundary triangle that lies on a facet of the input: the facet itself, or a piece of it.
 struct InputPiece {
-    std::int32_t facet;
+    std::int32_t facet, patch;
     NamedTriangle vertices;
     bool operator<(const InputPiece& o) const { return std::tie(facet, vertices) < std::tie(o.facet, o.vertices); }
 };
 
-nlohmann::json read_report(const std::string& folder) {
+std::string read_report(const std::string& folder) {
     const std::string path = folder + "/report.json";
     if (!std::filesystem::exists(path))
         throw Error(ErrorCode::io, fmt::format("{} is not a finished run: it holds no report.json.", folder));
-    try {
-        return nlohmann::json::parse(read_file(path));
-    } catch (const nlohmann::json::exception& e) {
-        throw Error(ErrorCode::io, fmt::format("{} is damaged: {}.", path, e.what()));
-    }
+    return read_file(path);
+}
+
+// The keys say only what the file has: the facet of the input, or that there is none.
+SurfaceArrays surface_of(const PartFile& part) {
+    constexpr NodeId some_cut = 1;
+    SurfaceArrays surface;
+    surface.vertices.assign(part.mesh.vertices.begin(), part.mesh.vertices.begin() + part.mesh.boundary_vertex_count);
+    surface.facets = part.facets;
+    surface.patch = part.patch;
+    for (const std::int32_t facet : part.facet)
+        surface.facet_key.push_back(facet >= 0 ? make_key(0, facet) : make_key(some_cut, 0));
+    return surface;
+}
+
+bool has_repeated_vertex(const Tetrahedron& t) {
+    return t[0] == t[1] || t[0] == t[2] || t[0] == t[3] || t[1] == t[2] || t[1] == t[3] || t[2] == t[3];
 }
 
 class FolderVerifier {
  public:
-    explicit FolderVerifier(const std::string& folder) : folder_(folder), report_(read_report(folder)) {}
+    explicit FolderVerifier(const std::string& folder)
+        : folder_(folder), report_text_(read_report(folder)), report_(nlohmann::json::parse(report_text_)) {}
 
     FolderVerification run() {
-        for (const auto& part : report_.at("parts")) check_part(part.at("id").get<std::int32_t>());
+        check_files();
+        for (const auto& part : report_.at("parts")) check_part(part);
+        check_pvtu();
         check_shared_vertices();
         check_interfaces();
         check_numbering();
@@ -65,7 +86,12 @@ class FolderVerifier {
     }
 
  private:
-    void check_part(std::int32_t leaf);
+    void differs(std::string what) { result_.differences.push_back(std::move(what)); }
+    void check_files();
+    void check_part(const nlohmann::json& of_report);
+    void check_what_follows(const PartFile& part, const std::string& path, const std::string& surface_path);
+    void check_pvtu();
+    void check_totals();
     void keep_boundary(const PartFile& part);
     void check_shared_vertices();
     void check_interfaces();
@@ -74,7 +100,7 @@ class FolderVerifier {
     bool is_facet(const Surface& input, std::int32_t facet, std::span<const InputPiece> pieces) const;
     void summarise();
 
-    std::string folder_;
+    std::string folder_, report_text_;
     nlohmann::json report_;
     FolderVerification result_;
     double volume_ = 0;
@@ -84,14 +110,33 @@ class FolderVerifier {
     std::vector<InterfaceFacet> interfaces_;
 };
 
-void FolderVerifier::check_part(std::int32_t leaf) {
-    const std::string path = folder_ + "/parts/" + part_file_name(leaf);
+// The files are those of the list, each with its hash.
+void FolderVerifier::check_files() {
+    if (!is_sealed(report_text_)) differs("report.json is not as the run has written it");
+    std::vector<std::string> present = list_files(folder_), listed = {"report.json"};
+    for (const auto& of_report : report_.at("files")) {
+        const RunFile file{of_report.at("path"), of_report.at("bytes"), of_report.at("hash")};
+        listed.push_back(file.path);
+        if (!std::binary_search(present.begin(), present.end(), file.path)) {
+            differs(file.path + " is missing");
+            continue;
+        }
+        const RunFile now = describe_file(folder_, file.path);
+        if (now.bytes != file.bytes || now.hash != file.hash) differs(file.path + " is not as the run has written it");
+    }
+    std::sort(listed.begin(), listed.end());
+    for (const std::string& file : present)
+        if (!std::binary_search(listed.begin(), listed.end(), file) && !file.ends_with('/'))
+            differs(file + " is no file of the run");
+}
+
+void FolderVerifier::check_part(const nlohmann::json& of_report) {
+    const auto leaf = of_report.at("id").get<std::int32_t>();
+    const std::string name = "parts/" + part_file_name(leaf), path = folder_ + "/" + name;
     if (!std::filesystem::exists(path))
         throw Error(ErrorCode::io, fmt::format("{} is missing: the part was not meshed. Run kerf mesh again.", path));
     PartFile part = read_part(path);
-    SurfaceArrays surface;
-    surface.vertices.assign(part.mesh.vertices.begin(), part.mesh.vertices.begin() + part.mesh.boundary_vertex_count);
-    surface.facets = part.facets;
+    SurfaceArrays surface = surface_of(part);
     connect_tets(part.mesh);
     const MeshLaws laws = verify_mesh(part.mesh, surface);
     result_.laws.inverted_tets += laws.inverted_tets;
@@ -101,7 +146,58 @@ void FolderVerifier::check_part(std::int32_t leaf) {
     result_.tets += static_cast<std::int64_t>(part.mesh.tets.size());
     ++result_.parts;
     volume_ += laws.volume;
+    if (part.part != leaf) differs(fmt::format("{} says that it is part {}", name, part.part));
+    if (of_report.at("tets") != part.mesh.tets.size() || of_report.at("vertices") != part.mesh.vertices.size())
+        differs(fmt::format("report.json has other numbers of part {}", leaf));
+    check_what_follows(part, name, "parts/" + part_surface_file_name(leaf));
     keep_boundary(part);
+}
+
+// The arrays that follow from the mesh, and all headers: the bytes are those that the mesh would be written as.
+void FolderVerifier::check_what_follows(const PartFile& part, const std::string& path,
+                                        const std::string& surface_path) {
+    const SurfaceArrays surface = surface_of(part);
+    PartArrays arrays;
+    arrays.part = part.part;
+    arrays.boundary_id.assign(part.global_id.begin(), part.global_id.begin() + part.mesh.boundary_vertex_count);
+    arrays.neighbour = part.neighbour;
+    arrays.patch_names = part.patch_names;
+    for (std::size_t f = 0; f < part.facets.size(); ++f) {
+        const bool is_interface = part.neighbour[f] >= 0;
+        const auto patches = static_cast<std::int32_t>(part.patch_names.size());
+        if (is_interface != (part.facet[f] < 0) || (!is_interface && (part.patch[f] < 0 || part.patch[f] >= patches))) {
+            differs(fmt::format("{} has a boundary triangle without a patch or facet of the input", path));
+            break;
+        }
+    }
+    const bool is_valid = std::none_of(part.mesh.tets.begin(), part.mesh.tets.end(), has_repeated_vertex);
+    if (is_valid &&
+        hash_part_file(folder_ + "/" + path).written !=
+            hash_of_part(part.mesh, surface, tet_qualities(part.mesh), tets_at_facets(part.mesh, surface), arrays))
+        differs(path + " has arrays that do not follow from its mesh");
+    std::error_code ignored;
+    if (!std::filesystem::exists(folder_ + "/" + surface_path, ignored)) return;  // the list of files says so
+    if (describe_file(folder_, surface_path).hash != hash_text(hash_of_part_surface(surface, arrays)))
+        differs(surface_path + " is not the surface of its part");
+}
+
+void FolderVerifier::check_pvtu() {
+    std::vector<std::string> pieces;
+    for (const auto& part : report_.at("parts")) pieces.push_back("parts/" + part_file_name(part.at("id")));
+    const std::string path = folder_ + "/mesh.pvtu";
+    std::error_code ignored;
+    if (std::filesystem::exists(path, ignored) && read_file(path) != pvtu_text(pieces))
+        differs("mesh.pvtu does not name the parts");
+}
+
+// What the report says of the whole.
+void FolderVerifier::check_totals() {
+    const auto& totals = report_.at("totals");
+    if (totals.at("tets") != result_.tets || totals.at("vertices") != result_.vertices ||
+        totals.at("volume").get<double>() != volume_)
+        differs("report.json has other totals than the parts");
+    if (report_.at("exit_code") != 0 || report_.at("verification").at("passed") != true)
+        differs("report.json is that of a run that has failed");
 }
 
 void FolderVerifier::keep_boundary(const PartFile& part) {
@@ -118,7 +214,7 @@ void FolderVerifier::keep_boundary(const PartFile& part) {
         const Triangle& t = part.facets[f];
         const NamedTriangle g = rotated_to_smallest({part.global_id[t[0]], part.global_id[t[1]], part.global_id[t[2]]});
         if (part.neighbour[f] < 0)
-            pieces_.push_back({part.facet[f], g});
+            pieces_.push_back({part.facet[f], part.patch[f], g});
         else
             interfaces_.push_back({part.part < part.neighbour[f] ? g : reversed(g), part.part, part.neighbour[f]});
     }
@@ -189,24 +285,32 @@ InputOptions input_options_of(const nlohmann::json& options) {
     return of_input;
 }
 
-// The facets that are no interface must be those of the input, each once, at the same coordinates.
+// The facets that are no interface must be those of the input, each once, at the same coordinates and in its patch.
 void FolderVerifier::check_input() {
-    const std::string path = report_.at("input").at("path");
+    const auto& of_report = report_.at("input");
     Input input;
     try {
-        input = read_input(path, input_options_of(report_.at("options")));
+        input = read_input(path_of_text(of_report.at("path")), input_options_of(report_.at("options")));
     } catch (const Error& e) {
-        result_.notes.push_back(fmt::format("The facets were not compared with the input: {}", e.what()));
+        result_.not_compared = e.what();
+        return;
+    }
+    if (of_report.at("hash") != input.file_hash) {
+        result_.not_compared = input.path + " is not the file that the run has read: its bytes are others.";
         return;
     }
     std::sort(pieces_.begin(), pieces_.end());
     auto next = std::find_if(pieces_.begin(), pieces_.end(), [](const InputPiece& p) { return p.facet >= 0; });
     result_.laws.extra_boundary_faces += next - pieces_.begin();
+    std::int64_t wrong_patches = 0;
     for (std::int32_t f = 0; f < input.surface.facet_count(); ++f) {
         const auto first = next;
-        while (next != pieces_.end() && next->facet == f) ++next;
+        for (; next != pieces_.end() && next->facet == f; ++next)
+            wrong_patches += next->patch != input.surface.patch(f);
         result_.laws.input_faces_missing += !is_facet(input.surface, f, {first, next});
     }
+    if (wrong_patches > 0)
+        differs(fmt::format("{} boundary triangles are in other patches than the input", wrong_patches));
     result_.laws.extra_boundary_faces += pieces_.end() - next;
     for (const PlacedVertex& v : boundary_)
         if (v.id < input.vertices)
@@ -214,11 +318,12 @@ void FolderVerifier::check_input() {
 }
 
 void FolderVerifier::summarise() {
+    check_totals();
     RunVerification& laws = result_.laws;
     const double volume = report_.at("input").at("volume");
     laws.volume_rel_error = std::abs(volume_ - volume) / volume;
-    laws.passed =
-        laws.all_hold() && result_.moved_vertices == 0 && result_.misnumbered == 0 && result_.wrong_neighbours == 0;
+    laws.passed = laws.all_hold() && result_.moved_vertices == 0 && result_.misnumbered == 0 &&
+                  result_.wrong_neighbours == 0 && result_.differences.empty();
 }
 
 }  // namespace

@@ -16,12 +16,15 @@ struct FolderVerification {
     std::int64_t wrong_neighbours = 0;  ///< interface triangles that do not name the part on the other side
     std::int64_t tets = 0, vertices = 0;
     std::int32_t parts = 0;
-    std::vector<std::string> notes;  ///< what could not be checked, and why
+    std::vector<std::string> differences;  ///< what is not as the run has left it, or does not follow from the mesh
+    std::string not_compared;              ///< why the input was not compared; empty: it was
 };
 
-/// Reads report.json, the input and every part of a run folder, one part at a time, and checks every law again: each
-/// part by verify_mesh(), the interfaces by the global numbers, the facets of the input one by one. Memory follows the
-/// surface, not the mesh. Throws Error(io) for a folder that is no finished run or a damaged file.
+/// Reads report.json, the input and every file of a run folder, one part at a time, and checks every law again: each
+/// part by verify_mesh(), the interfaces by the global numbers, the facets and patches of the input one by one. Every
+/// file must have the hash that the report has for it, and the report its own; what follows from the mesh (quality,
+/// headers, surfaces, mesh.pvtu, totals) is computed again and compared. Memory follows the surface, not the mesh.
+/// Throws Error(io) for a folder that is no finished run, a missing or unreadable part.
 FolderVerification verify_folder(const std::string& folder);
 
 }  // namespace kerf

@@ -74,7 +74,7 @@ class VolumeStage::Tally {
 
 void VolumeStage::hand_over(const PartJob& job, PartReport& part) {
     const std::string journal = folder_.journal_file(part.id), file = folder_.part_file(part.id);
-    part.job_hash = hash_of_job(job, options_.mesher, options_.attempts);
+    part.job_hash = hash_of_job(job, options_.mesher, options_.attempts, worker_hash_);
     if (const auto outcome = find_finished_part(journal, file, part.job_hash, options_.timeout_seconds)) {
         static_cast<PartOutcome&>(part) = *outcome;
         part.resumed = true;

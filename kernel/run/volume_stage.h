@@ -14,9 +14,15 @@ namespace kerf {
 class VolumeStage {
  public:
     /// `length_scale`: of the distributions of the quality.
-    VolumeStage(Communicator& ranks, RunFolder& folder, const RunOptions& options, double length_scale,
-                RunListener* listener)
-        : ranks_(ranks), folder_(folder), options_(options), listener_(listener), quality_(length_scale) {}
+    /// `worker_hash`: of the program that does the work, see hash_of_job().
+    VolumeStage(Communicator& ranks, RunFolder& folder, const RunOptions& options, std::string worker_hash,
+                double length_scale, RunListener* listener)
+        : ranks_(ranks),
+          folder_(folder),
+          options_(options),
+          worker_hash_(std::move(worker_hash)),
+          listener_(listener),
+          quality_(length_scale) {}
 
     /// The job of `part` waits in the folder when this returns, unless an interrupted run has finished it: then
     /// `part` gets its outcome. Throws Error(io).
@@ -39,6 +45,7 @@ class VolumeStage {
     Communicator& ranks_;
     RunFolder& folder_;
     const RunOptions& options_;
+    std::string worker_hash_;
     RunListener* listener_;
     PartQuality quality_;  // of the parts that this rank has meshed, or found finished
 };

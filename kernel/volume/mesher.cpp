@@ -1,6 +1,8 @@
 // Checks the options and hands the surface to the mesher that they name.
 #include "volume/mesher.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "core/error.h"
@@ -8,24 +10,19 @@
 
 namespace kerf {
 
-namespace {
-
-void check(const MesherOptions& options) {
+void check_mesher_options(const MesherOptions& options) {
     // Written so that NaN fails.
-    if (!(options.max_volume >= 0))
+    if (!(options.max_volume >= 0 && std::isfinite(options.max_volume)))
         throw Error(ErrorCode::usage,
-                    fmt::format("The largest volume of a tetrahedron is {}. Give a positive number, or 0 for no bound.",
-                                options.max_volume));
-    if (!(options.radius_edge == 0 || options.radius_edge > 1))
-        throw Error(
-            ErrorCode::usage,
-            fmt::format("The radius-edge ratio is {}. Give a number above 1, or 0 for no bound.", options.radius_edge));
+                    fmt::format("--max-volume is {}, but it must be positive, or 0 for no bound.", options.max_volume));
+    if (!(options.radius_edge == 0 || (options.radius_edge > 1 && std::isfinite(options.radius_edge))))
+        throw Error(ErrorCode::usage,
+                    fmt::format("--radius-edge is {}, but it must be 0 (none) or above 1.", options.radius_edge));
+    check_tetgen_switches(options.tetgen_switches);
 }
 
-}  // namespace
-
 TetMesh mesh_volume(const SurfaceArrays& surface, const MesherOptions& options, std::uint32_t vertex_order_seed) {
-    check(options);
+    check_mesher_options(options);
     switch (options.kind) {
         case MesherKind::tetgen:
             return mesh_with_tetgen(surface, hole_points(surface), options, vertex_order_seed);

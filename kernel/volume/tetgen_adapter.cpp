@@ -12,6 +12,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -118,21 +119,32 @@ void set_holes(tetgenio& in, std::vector<Vec3> holes, const Normalisation& frame
     in.holelist = new_point_list(holes);
 }
 
+constexpr std::string_view expert_letters = "qaSTODMCVX";
+
 // p: fill a surface, Y: keep it, J: keep all vertices, n: neighbours, Q: quiet. Bounds are set as numbers, because the
 // switches know no exponents.
-tetgenbehavior behaviour_of(const MesherOptions& options, const Normalisation& frame) {
+[[noreturn]] void refuse_switches(const std::string& switches) {
+    throw Error(
+        ErrorCode::usage,
+        fmt::format("--tetgen is \"{}\", which cannot be used. Of TetGen's switches those of a linear mesh inside "
+                    "of the surface are left to choose: {}, each with its numbers. See TetGen's manual.",
+                    switches, expert_letters));
+}
+
+tetgenbehavior parse_switches(const MesherOptions& options) {
     const bool refine = options.max_volume > 0 || options.radius_edge > 0;
-    const bool expert = !options.tetgen_switches.empty();
-    std::string switches = "pYJnQ" + (expert ? options.tetgen_switches : refine ? "q" : "");
+    const std::string& expert = options.tetgen_switches;
+    std::string switches = "pYJnQ" + (!expert.empty() ? expert : refine ? "q" : "");
     tetgenbehavior behaviour;
     if (switches.size() >= sizeof behaviour.commandline - 2 || !behaviour.parse_commandline(switches.data()) ||
         behaviour.refine || behaviour.order != 1 || behaviour.reversetetori)
-        throw Error(
-            ErrorCode::usage,
-            fmt::format("TetGen's switches \"{}\" cannot be used. See its manual; refinement of a mesh, second-order "
-                        "elements and other orientations are not supported.",
-                        options.tetgen_switches));
-    if (!expert) {
+        refuse_switches(expert);
+    return behaviour;
+}
+
+tetgenbehavior behaviour_of(const MesherOptions& options, const Normalisation& frame) {
+    tetgenbehavior behaviour = parse_switches(options);
+    if (options.tetgen_switches.empty()) {
         behaviour.minratio = options.radius_edge;
         behaviour.fixedvolume = options.max_volume > 0;
         behaviour.maxvolume = options.max_volume;
@@ -208,6 +220,12 @@ TetMesh to_mesh(const tetgenio& out, const SurfaceArrays& surface, const std::ve
 }
 
 }  // namespace
+
+void check_tetgen_switches(const std::string& switches) {
+    if (switches.find_first_not_of(std::string(expert_letters) + "0123456789./") != switches.npos)
+        refuse_switches(switches);
+    parse_switches({.tetgen_switches = switches});
+}
 
 TetMesh mesh_with_tetgen(const SurfaceArrays& surface, const std::vector<Vec3>& holes, const MesherOptions& options,
                          std::uint32_t vertex_order_seed) {

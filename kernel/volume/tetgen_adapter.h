@@ -13,4 +13,8 @@ namespace kerf {
 TetMesh mesh_with_tetgen(const SurfaceArrays& surface, const std::vector<Vec3>& holes, const MesherOptions& options,
                          std::uint32_t vertex_order_seed);
 
+/// Throws Error(usage) for an expert's switches that TetGen does not know or that ask for something else than a linear
+/// mesh of the surface. Empty ones are good.
+void check_tetgen_switches(const std::string& switches);
+
 }  // namespace kerf

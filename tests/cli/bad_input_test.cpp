@@ -1,4 +1,6 @@
 // What users get wrong: the exit code of the contract, one clear message, and nothing left behind.
+#include <sys/stat.h>
+
 #include <filesystem>
 #include <fstream>
 
@@ -82,11 +84,56 @@ TEST_F(BadInput, TooManyParts) {
 TEST_F(BadInput, StraightContourThatKeepsTheSurface) {
     expect_refused(good_, 2, {"--contour straight", "--surface keep"}, {"--contour", "straight", "--surface", "keep"});
 }
-TEST_F(BadInput, PartsNoNumber) { expect_refused(good_, 2, {"--parts", "many"}, {"-n", "many"}); }
+TEST_F(BadInput, PartsNoNumber) { expect_refused(good_, 2, {"--parts", "'many'"}, {"-n", "many"}); }
 TEST_F(BadInput, UnknownOption) { expect_refused(good_, 2, {"--frobnicate"}, {"--frobnicate"}); }
 TEST_F(BadInput, UnknownChoice) { expect_refused(good_, 2, {"--balance", "luck", "volume"}, {"--balance", "luck"}); }
 TEST_F(BadInput, ValueOutOfRange) { expect_refused(good_, 2, {"--radius-edge is 0.5"}, {"--radius-edge", "0.5"}); }
-TEST_F(BadInput, NotANumber) { expect_refused(good_, 2, {"--size is nan", "positive"}, {"--size", "nan"}); }
+
+// Neither silently none nor silently all.
+TEST_F(BadInput, NumbersBeyondTheirType) {
+    for (const std::string option :
+         {"--size", "--max-volume", "--radius-edge", "--timeout", "--weld", "--feature-angle"})
+        for (const std::string value : {"nan", "inf", "-inf", "1e-400", "1e400", "", "1x"})
+            expect_refused(good_, 2, {option}, {option, value});
+    for (const std::string option : {"-n", "--workers", "--attempts", "--memory", "--optimise-surface"})
+        for (const std::string value : {"99999999999999999999", "1.5", "nan"})
+            expect_refused(good_, 2, {}, {option, value});
+    expect_refused(good_, 2, {"--size is 1e-300", "cube"}, {"--size", "1e-300"});
+    expect_refused(good_, 2, {"--workers is 2147483647", "4096"}, {"--workers", "2147483647"});
+}
+
+TEST_F(BadInput, SwitchesThatAskForSomethingElse) {
+    for (const std::string switches : {"r", "o2", "h", "q1.2k", "zz", "q1.2 a"})
+        expect_refused(good_, 2, {"--tetgen", switches}, {"--tetgen", switches});
+}
+
+// At once, and with the size that would do.
+TEST_F(BadInput, SizesBeyondAllBudgets) {
+    for (const std::string size : {"1e-5", "1e-4", "1e-100"})
+        expect_refused(good_, 5, {"tetrahedra", "Use --size 0.0", "or larger"}, {"-n", "2", "--size", size});
+    expect_refused(good_, 5, {"whose files take", "another disk"}, {"-n", "946", "--size", "0.0013"});
+}
+
+TEST_F(BadInput, TextThatIsNone) {
+    const std::string text =
+        "solid a\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\n   vertex 0 1 0\n  endloop\n"
+        " endfacet\n";
+    std::string utf16 = "\xFF\xFE";
+    for (const char c : text) utf16 += {c, '\0'};
+    expect_refused(write("utf16.stl", utf16), 3, {"utf16.stl", "UTF-16", "ASCII or UTF-8"});
+    expect_refused(write("utf16_without_mark.stl", utf16.substr(2)), 3, {"UTF-16"});
+    std::string zero = text;
+    zero[100] = '\0';
+    expect_refused(write("zero.stl", zero), 3, {"zero.stl", "byte 100 is zero"});
+}
+
+TEST_F(BadInput, PipesAndDevices) {
+    ASSERT_EQ(::mkfifo(folder_.file("pipe").c_str(), 0600), 0);
+    expect_refused(folder_.file("pipe"), 7, {"a pipe or a device"});
+    expect_refused("/dev/zero", 7, {"a pipe or a device"});
+    expect_refused(good_, 7, {"a pipe or a device"}, {"--config", "/dev/zero"});
+    expect_refused(good_, 7, {"it is a folder"}, {"--config", folder_.file("")});
+}
 
 // Permission bits do not bind the root user, as whom containers test; these places bind everybody.
 TEST_F(BadInput, OutputBelowAFile) {
@@ -114,22 +161,35 @@ TEST_F(BadInput, NothingToDo) {
 
 // The printed options, read again, print themselves; the command line wins over the file.
 TEST_F(BadInput, ConfigFileGivesOptions) {
-    const std::vector<std::string> mesh = {"mesh", good_, "-o", folder_.file("out")};
     const auto printed = [&](std::vector<std::string> options) {
-        options.insert(options.begin(), mesh.begin(), mesh.end());
+        options.insert(options.begin(), "mesh");
         options.push_back("--print-config");
         const ChildResult result = test::run_kerf(options);
         EXPECT_EQ(result.exit_code, 0) << result.log;
         return test::output_of(result);
     };
-    const std::string text = printed({"-n", "3", "--size", "0.25", "--cut", "volume"});
+    const std::string odd = folder_.file("line\nend \"quoted\" \xC3\xA4 back\\slash");
+    const std::vector<std::string> given = {"-n", "3", "--size", "0.25", "--cut", "volume", "--stl", "-q", "-o", odd};
+    const std::string text = printed(given);
     const std::string config = folder_.file("kerf.toml");
+    for (const std::string& again : {text, printed({})}) {
+        std::ofstream(config) << again;
+        EXPECT_EQ(printed({"--config", config}), again);
+    }
     std::ofstream(config) << text;
-    EXPECT_EQ(printed({"--config", config}), text);
-    EXPECT_EQ(printed({"--config", config, "-n", "5"}), printed({"-n", "5", "--size", "0.25", "--cut", "volume"}));
+    std::vector<std::string> more = given;
+    more[1] = "5";
+    EXPECT_EQ(printed({"--config", config, "-n", "5"}), printed(more));
 
-    std::ofstream(config) << "parts = 2\nsice = 1\n";
-    expect_message(test::run_kerf({"mesh", good_, "-o", folder_.file("out"), "--config", config}), 2, {"'sice'"});
+    const std::vector<std::pair<std::string, std::string>> mistakes = {{"parts = 2\nsice = 1\n", "'sice'"},
+                                                                       {"parts = \"many\"\n", "'many'"},
+                                                                       {"size = nan\n", "--size"},
+                                                                       {"parts = [2]\n", "line 1"},
+                                                                       {"size = 1\nparts 2\n", "line 2"}};
+    for (const auto& [mistake, words] : mistakes) {
+        std::ofstream(config) << mistake;
+        expect_message(test::run_kerf({"mesh", good_, "-o", folder_.file("out"), "--config", config}), 2, {words});
+    }
 }
 
 TEST_F(BadInput, RefusalKeepsTheOlderRun) {

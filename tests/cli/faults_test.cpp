@@ -2,6 +2,7 @@
 // Each has its exit code and its message; nothing that looks whole is not, no process stays, and what can go on does.
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
@@ -24,14 +25,42 @@ std::vector<std::string> four_parts(const std::string& output) {
     return {"mesh", test::asset_path("cube"), "-o", output, "-n", "4", "--workers", "1", "--max-volume", "4e-6"};
 }
 
-TEST(KilledWorker, IsReportedAndTheOtherPartsAreWritten) {
+// Kills the worker of the first part, and the one that takes its place, so many times.
+void kill_workers(const test::StartedRun& run, int times) {
+    std::vector<pid_t> killed;
+    for (int i = 0; i < times; ++i) {
+        std::vector<pid_t> workers;
+        ASSERT_TRUE(test::await([&] {
+            workers = run.workers();
+            return !workers.empty() && std::find(killed.begin(), killed.end(), workers.front()) == killed.end();
+        }));
+        ASSERT_EQ(::kill(workers.front(), i % 2 == 0 ? SIGKILL : SIGTERM), 0);
+        killed.push_back(workers.front());
+    }
+}
+
+TEST(KilledWorker, IsStartedOnceMoreForTheSameBytes) {
     const test::TemporaryFolder folder;
+    ASSERT_EQ(test::run_kerf(four_parts(folder.file("undisturbed"))).exit_code, 0);
     test::StartedRun run(KERF_PROGRAM, four_parts(folder.file("out")));
-    ASSERT_TRUE(test::await([&] { return !run.workers().empty(); }));
-    ASSERT_EQ(::kill(run.workers().front(), SIGKILL), 0);
+    ASSERT_NO_FATAL_FAILURE(kill_workers(run, 1));
+    const ChildResult result = run.wait();
+    EXPECT_EQ(result.exit_code, 0) << result.log;
+    EXPECT_NE(result.log.find("1 part again after the worker was killed"), std::string::npos) << result.log;
+    EXPECT_NE(test::bytes_of_file(folder.file("out/report.json")).find("killed by signal 9"), std::string::npos);
+    EXPECT_TRUE(test::contents(folder.file("out/parts")) == test::contents(folder.file("undisturbed/parts")));
+}
+
+// The run that goes on needs only that part.
+TEST(KilledWorker, KilledAgainItsPartFailsAndTheOthersAreKept) {
+    const test::TemporaryFolder folder;
+    ASSERT_EQ(test::run_kerf(four_parts(folder.file("undisturbed"))).exit_code, 0);
+    test::StartedRun run(KERF_PROGRAM, four_parts(folder.file("out")));
+    ASSERT_NO_FATAL_FAILURE(kill_workers(run, 2));
     const ChildResult result = run.wait();
     EXPECT_EQ(result.exit_code, 4) << result.log;
-    EXPECT_NE(result.log.find("killed by signal 9"), std::string::npos) << result.log;
+    EXPECT_NE(result.log.find("killed by signal 15"), std::string::npos) << result.log;
+    EXPECT_NE(result.log.find("kerf mesh --resume " + folder.file("out")), std::string::npos) << result.log;
 
     const auto report = nlohmann::json::parse(test::bytes_of_file(folder.file("out/report.json")));
     EXPECT_EQ(report["exit_code"], 4);
@@ -45,12 +74,43 @@ TEST(KilledWorker, IsReportedAndTheOtherPartsAreWritten) {
         EXPECT_NE(written, kept) << name.str();
         if (!kept) continue;
         ++failed;
-        EXPECT_NE(part.dump().find("killed by signal 9"), std::string::npos) << part.dump();
-        EXPECT_NE(test::bytes_of_file(folder.file("out/failed/" + name.str() + ".txt")).find("killed by signal 9"),
+        EXPECT_NE(part.dump().find("killed by signal 15"), std::string::npos) << part.dump();
+        EXPECT_NE(test::bytes_of_file(folder.file("out/failed/" + name.str() + ".txt")).find("killed by signal 15"),
                   std::string::npos);
     }
     EXPECT_EQ(failed, 1);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"out", "undisturbed"}));
+
+    const ChildResult resumed = test::run_kerf({"mesh", "--resume", folder.file("out")});
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.log;
+    EXPECT_NE(resumed.log.find("3 parts were finished by an interrupted run"), std::string::npos) << resumed.log;
+    EXPECT_TRUE(test::contents(folder.file("out/parts")) == test::contents(folder.file("undisturbed/parts")));
+    EXPECT_EQ(test::run_kerf({"verify", folder.file("out")}).exit_code, 0);
+}
+
+TEST(KilledWorker, AFailedRunDoesNotReplaceAValidOne) {
+    const test::TemporaryFolder folder;
+    ASSERT_EQ(test::run_kerf(four_parts(folder.file("out"))).exit_code, 0);
+    const auto before = test::contents_below(folder.file("out"));
+    test::StartedRun run(KERF_PROGRAM, four_parts(folder.file("out")));
+    ASSERT_NO_FATAL_FAILURE(kill_workers(run, 2));
+    const ChildResult result = run.wait();
+    EXPECT_EQ(result.exit_code, 4) << result.log;
+    EXPECT_NE(result.log.find("keeps the older run, which is valid"), std::string::npos) << result.log;
+    EXPECT_TRUE(test::contents_below(folder.file("out")) == before);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"out", "out.failed"}));
+    EXPECT_EQ(test::run_kerf({"mesh", "--resume", folder.file("out")}).exit_code, 0);
     EXPECT_EQ(folder.names(), std::vector<std::string>{"out"});
+}
+
+TEST(MissingWorker, IsSaidBeforeTheWork) {
+    const test::TemporaryFolder folder;
+    std::filesystem::copy_file(KERF_PROGRAM, folder.file("kerf"));
+    const ChildResult result =
+        test::run_program(folder.file("kerf"), {"mesh", test::asset_path("cube"), "-o", folder.file("out"), "-n", "2"});
+    EXPECT_EQ(result.exit_code, 7) << result.log;
+    EXPECT_NE(result.log.find("kerf-worker"), std::string::npos) << result.log;
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"kerf"});
 }
 
 TEST(KilledWorker, TimeLimitIsReportedAlike) {
@@ -99,30 +159,48 @@ TEST(SecondRun, IntoTheSameFolderIsRefused) {
 TEST(FullDisk, EndsTheRunAndSpaceLetsItGoOn) {
     const test::TemporaryFolder folder;
     ASSERT_EQ(test::run_kerf(four_parts(folder.file("whole"))).exit_code, 0);
-    std::string script = "trap '' XFSZ; ulimit -f 2000; exec '" KERF_PROGRAM "'";
-    for (const std::string& argument : four_parts(folder.file("out"))) script += " '" + argument + "'";
-    const ChildResult full = test::run_program("/bin/sh", {"-c", script});
-    EXPECT_EQ(full.exit_code, 7) << full.log;
-    EXPECT_NE(full.log.find("part_"), std::string::npos) << full.log;
-    EXPECT_NE(full.log.find("File too large"), std::string::npos) << full.log;
+    const auto run_full = [&] {
+        std::string script = "ulimit -f 2000; exec '" KERF_PROGRAM "'";
+        for (const std::string& argument : four_parts(folder.file("out"))) script += " '" + argument + "'";
+        ChildResult full = test::run_program("/bin/sh", {"-c", script});
+        EXPECT_EQ(full.exit_code, 7) << full.log;
+        EXPECT_NE(full.log.find("part_"), std::string::npos) << full.log;
+        EXPECT_NE(full.log.find("File too large"), std::string::npos) << full.log;
+        return full;
+    };
+    run_full();
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"whole"}) << "nothing was finished";
+    test::StartedRun run(KERF_PROGRAM, four_parts(folder.file("out")));
+    ASSERT_TRUE(test::await([&] { return test::finished_parts(folder.file("out")) >= 2; }));
+    ASSERT_EQ(::kill(run.process(), SIGTERM), 0);
+    EXPECT_EQ(run.wait().exit_code, 130);
+    const ChildResult full = run_full();
+    EXPECT_NE(full.log.find("parts are finished; kerf mesh --resume"), std::string::npos) << full.log;
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"out.kerf-partial", "whole"}));
     const ChildResult resumed = test::run_kerf({"mesh", "--resume", folder.file("out")});
     EXPECT_EQ(resumed.exit_code, 0) << resumed.log;
     EXPECT_TRUE(test::contents(folder.file("out/parts")) == test::contents(folder.file("whole/parts")));
 }
 
-// A file system of 2 MB, where a process may mount one of its own.
+// A file system of its own, where a process may mount one: too small for a mesh of about 24 MB, or by far too small.
 TEST(FullDisk, OfAFileSystemOfItsOwn) {
     const test::TemporaryFolder folder;
     if (test::run_program("/usr/bin/unshare", {"--map-root-user", "--mount", "true"}).exit_code != 0)
         return;  // the test above needs no such permission
-    std::string script = "mount -t tmpfs -o size=2m none '" + folder.file("") + "' && '" KERF_PROGRAM "'";
-    for (const std::string& argument : four_parts(folder.file("out"))) script += " '" + argument + "'";
-    script += "; echo \"code=$?\"; ls '" + folder.file("") + "'";
-    const ChildResult full =
-        test::run_program("/usr/bin/unshare", {"--map-root-user", "--mount", "/bin/sh", "-c", script});
+    const auto run_in = [&](const std::string& megabytes) {
+        std::string script =
+            "mount -t tmpfs -o size=" + megabytes + "m none '" + folder.file("") + "' && '" KERF_PROGRAM "'";
+        for (const std::string& argument : four_parts(folder.file("out"))) script += " '" + argument + "'";
+        script += "; echo \"code=$?\"; ls '" + folder.file("") + "'";
+        return test::run_program("/usr/bin/unshare", {"--map-root-user", "--mount", "/bin/sh", "-c", script});
+    };
+    const ChildResult full = run_in("15");
     EXPECT_EQ(test::output_of(full), "code=7\nout.kerf-partial\n") << full.log;
     EXPECT_NE(full.log.find("No space left on device"), std::string::npos) << full.log;
+    EXPECT_NE(full.log.find("kerf mesh --resume"), std::string::npos) << full.log;
+    const ChildResult hopeless = run_in("2");
+    EXPECT_EQ(test::output_of(hopeless), "code=5\n") << hopeless.log;
+    EXPECT_NE(hopeless.log.find("whose files take"), std::string::npos) << hopeless.log;
 }
 
 TEST(EventsFile, TellsOfEveryPartAndTheEnd) {
@@ -152,7 +230,7 @@ TEST(EventsFile, TellsOfEveryPartAndTheEnd) {
         }
     }
     EXPECT_EQ(kinds, (std::vector<std::string>{"run", "read", "decompose", "prepare", "parts", "volume", "part", "part",
-                                               "part", "number", "end"}));
+                                               "part", "number", "hash", "end"}));
     const auto report = nlohmann::json::parse(test::bytes_of_file(folder.file("out/report.json")));
     EXPECT_EQ(report["totals"]["tets"], tets);
     const ChildResult unwritable = test::run_kerf(
@@ -169,6 +247,11 @@ TEST(EventsFile, TellsOfEveryPartAndTheEnd) {
     const ChildResult inside = test::run_kerf(
         {"mesh", test::asset_path("hollow_box"), "-o", folder.file("out"), "--events", folder.file("out/events")});
     EXPECT_EQ(inside.exit_code, 2) << inside.log;
+    // A reader that leaves has seen enough.
+    const ChildResult left = test::run_program(
+        "/bin/sh", {"-c", "('" KERF_PROGRAM "' mesh '" + test::asset_path("hollow_box") + "' -q -o '" +
+                              folder.file("out") + "' --events fd:5; echo code=$? >&2) 5>&1 | head -1"});
+    EXPECT_NE(left.log.find("code=0"), std::string::npos) << left.log;
     const std::string to_descriptor = "'" KERF_PROGRAM "' mesh '" + test::asset_path("hollow_box") + "' -q -o '" +
                                       folder.file("out") + "' --events fd:5 5>&1";
     const ChildResult descriptor = test::run_program("/bin/sh", {"-c", to_descriptor});

@@ -180,6 +180,31 @@ TEST_F(Resume, DamagedJournalsAndPartsAreMeshedAgain) {
     }
 }
 
+// The finished parts are those of the first body.
+TEST_F(Resume, AnotherInputOfTheSameNameIsRefused) {
+    fs::copy_file(input_, folder_.file("body.stl"));
+    input_ = folder_.file("body.stl");
+    interrupt(SIGTERM);
+    fs::copy_file(test::asset_path("hollow_box"), input_, fs::copy_options::overwrite_existing);
+    const ChildResult other = resume();
+    EXPECT_EQ(other.exit_code, 7);
+    EXPECT_NE(other.log.find("is not the file that the interrupted run has read"), std::string::npos) << other.log;
+    EXPECT_GE(test::finished_parts(folder_.file("out")), 2u);
+}
+
+// As when a build of the same version replaces the programs meanwhile.
+TEST_F(Resume, PartsOfAnotherBuildAreMeshedAgain) {
+    interrupt(SIGTERM);
+    const std::string programs = folder_.file("programs");
+    fs::create_directory(programs);
+    fs::copy_file(KERF_PROGRAM, programs + "/kerf");
+    fs::copy_file(KERF_WORKER, programs + "/kerf-worker");
+    std::ofstream(programs + "/kerf-worker", std::ios::app) << "x";
+    const ChildResult result = test::run_program(programs + "/kerf", {"mesh", "--resume", folder_.file("out")});
+    EXPECT_EQ(result.exit_code, 0) << result.log;
+    EXPECT_EQ(resumed_parts(), 0u);
+}
+
 TEST_F(Resume, SaysWhatIsMissing) {
     const ChildResult nothing = resume();
     EXPECT_EQ(nothing.exit_code, 7);

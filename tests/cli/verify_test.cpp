@@ -4,8 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
+#include "io/folder_files.h"
+#include "io/run_manifest.h"
+#include "io/vtu_reader.h"
 #include "io/vtu_writer.h"
 #include "support/assets.h"
+#include "support/file_contents.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -18,6 +24,7 @@ class Verify : public testing::Test {
         const ChildResult run =
             test::run_kerf({"mesh", test::asset_path("hollow_box"), "-o", folder_.file("out"), "-n", "2", "-q"});
         ASSERT_EQ(run.exit_code, 0) << run.log;
+        std::filesystem::copy(folder_.file("out"), folder_.file("good"), std::filesystem::copy_options::recursive);
     }
     std::string part() const { return folder_.file("out/parts/part_0002.vtu"); }
 
@@ -33,6 +40,11 @@ class Verify : public testing::Test {
         file.clear();
         file.seekp(found->position + 8 + index * static_cast<std::int64_t>(sizeof(T)));
         file.write(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+    // Everything below a copy of the run may be changed.
+    void restore() const {
+        std::filesystem::remove_all(folder_.file("out"));
+        std::filesystem::copy(folder_.file("good"), folder_.file("out"), std::filesystem::copy_options::recursive);
     }
     void expect_broken(const std::string& words) {
         const ChildResult result = test::run_kerf({"verify", folder_.file("out")});
@@ -70,6 +82,108 @@ TEST_F(Verify, TruncatedPartIsRefused) {
     const ChildResult result = test::run_kerf({"verify", folder_.file("out")});
     EXPECT_EQ(result.exit_code, 7);
     EXPECT_NE(result.log.find("part_0002.vtu"), std::string::npos) << result.log;
+}
+
+void flip_bit(const std::string& path, std::uintmax_t byte) {
+    std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekg(static_cast<std::streamoff>(byte));
+    const char flipped = static_cast<char>(file.peek() ^ 1);
+    file.seekp(static_cast<std::streamoff>(byte));
+    file.put(flipped);
+}
+
+// Any bit of any file. A part that cannot be read any more ends with 7.
+TEST_F(Verify, AnyFlippedBitIsFound) {
+    for (const std::string& name : list_files(folder_.file("good"))) {
+        const std::uintmax_t size = std::filesystem::file_size(folder_.file("good/" + name));
+        for (int i = 0; i < 9; ++i) {
+            const std::uintmax_t byte = i == 8 ? size - 1 : size * static_cast<std::uintmax_t>(i) / 8;
+            SCOPED_TRACE(name + " byte " + std::to_string(byte));
+            restore();
+            flip_bit(folder_.file("out/" + name), byte);
+            const ChildResult result = test::run_kerf({"verify", folder_.file("out")});
+            EXPECT_TRUE(result.exit_code == 8 || result.exit_code == 7) << result.exit_code << test::output_of(result);
+            EXPECT_NE((test::output_of(result) + result.log).find(name), std::string::npos)
+                << test::output_of(result) << result.log;
+        }
+    }
+}
+
+TEST_F(Verify, FilesThatAreMissingAddedOrExchangedAreFound) {
+    namespace fs = std::filesystem;
+    for (const std::string name : {"mesh.pvtu", "parts/part_0003.surface.vtu"}) {
+        restore();
+        fs::remove(folder_.file("out/" + name));
+        expect_broken(name + " is missing");
+    }
+    restore();
+    fs::copy_file(part(), folder_.file("out/parts/part_0009.vtu"));
+    expect_broken("parts/part_0009.vtu is no file of the run");
+    restore();
+    fs::rename(part(), folder_.file("part"));
+    fs::rename(folder_.file("out/parts/part_0003.vtu"), part());
+    fs::rename(folder_.file("part"), folder_.file("out/parts/part_0003.vtu"));
+    expect_broken("says that it is part 3");
+}
+
+// Somebody changes a file and all hashes with it: what follows from the mesh is found all the same.
+TEST_F(Verify, WhatFollowsFromTheMeshIsComputedAgain) {
+    const auto hash_again = [&] {
+        const std::string path = folder_.file("out/report.json");
+        const std::string text = test::bytes_of_file(path);
+        auto report = nlohmann::ordered_json::parse(text);
+        report.erase("report_hash");
+        for (auto& file : report["files"]) {
+            const RunFile now = describe_file(folder_.file("out"), file["path"]);
+            file["hash"] = now.hash;
+            file["bytes"] = now.bytes;
+        }
+        std::ofstream(path) << sealed(report.dump(2) + "\n");
+    };
+    hash_again();
+    ASSERT_EQ(test::run_kerf({"verify", folder_.file("out")}).exit_code, 0);
+    const auto expect_found = [&](const std::string& words) {
+        hash_again();
+        expect_broken(words);
+        restore();
+    };
+    for (const std::string array :
+         {"MinDihedralAngle", "MaxDihedralAngle", "RadiusEdgeRatio", "AspectRatio", "Shape"}) {
+        overwrite<float>(array, 7, 0.5f);
+        expect_found("do not follow from its mesh");
+    }
+    const std::int64_t last = read_cell_counts(part()).tets + read_cell_counts(part()).facets - 1;
+    for (const std::int32_t patch : {5, -1, 1'000'000'000}) {
+        overwrite<std::int32_t>("Patch", last - 300, patch);
+        expect_found("without a patch");
+    }
+    std::string text = test::bytes_of_file(folder_.file("out/parts/part_0002.surface.vtu"));
+    text.replace(text.find("GlobalVertexId"), 14, "GlobalVertexIe");
+    std::ofstream(folder_.file("out/parts/part_0002.surface.vtu"), std::ios::binary) << text;
+    expect_found("is not the surface of its part");
+    std::ofstream(folder_.file("out/mesh.pvtu")) << "junk";
+    expect_found("mesh.pvtu does not name the parts");
+    auto report = nlohmann::ordered_json::parse(test::bytes_of_file(folder_.file("out/report.json")));
+    report["totals"]["tets"] = 1;
+    std::ofstream(folder_.file("out/report.json")) << report.dump(2) << "\n";
+    expect_found("other totals");
+}
+
+TEST_F(Verify, WithoutItsInputItSaysSo) {
+    const std::string input = folder_.file("input.stl");
+    std::filesystem::copy_file(test::asset_path("cube"), input);
+    ASSERT_EQ(test::run_kerf({"mesh", input, "-o", folder_.file("of_copy"), "-n", "2", "-q"}).exit_code, 0);
+    const auto last_line = [&] {
+        const ChildResult result = test::run_kerf({"verify", folder_.file("of_copy")});
+        EXPECT_EQ(result.exit_code, 0) << test::output_of(result);
+        return test::output_of(result);
+    };
+    EXPECT_NE(last_line().find("Every law holds."), std::string::npos);
+    flip_bit(input, 10);
+    EXPECT_NE(last_line().find("the input was not compared"), std::string::npos);
+    EXPECT_EQ(last_line().find("Every law holds."), std::string::npos);
+    std::filesystem::remove(input);
+    EXPECT_NE(last_line().find("the input was not compared"), std::string::npos);
 }
 
 TEST_F(Verify, FolderThatIsNoRunIsRefused) {

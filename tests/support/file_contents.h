@@ -22,4 +22,19 @@ inline std::map<std::string, std::string> contents(const std::string& folder) {
     return files;
 }
 
+/// All files below a folder by their paths, links by where they lead; folders, which end with '/', are empty.
+inline std::map<std::string, std::string> contents_below(const std::string& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        const std::string name = entry.path().lexically_relative(folder).string();
+        if (entry.is_symlink())
+            files[name] = "-> " + std::filesystem::read_symlink(entry.path()).string();
+        else if (entry.is_regular_file())
+            files[name] = bytes_of_file(entry.path());
+        else
+            files[name + "/"] = "";
+    }
+    return files;
+}
+
 }  // namespace kerf::test

@@ -134,6 +134,8 @@ TEST(IncludeMap, LibrariesStayInTheirPlaces) {
     EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "CGAL"; }),
               (std::set<std::string>{"kernel/cut/triangulation.cpp", "kernel/mesh/verification.cpp",
                                      "kernel/surface/hole_filling.cpp", "kernel/surface/intersections.cpp"}));
+    EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "toml++"; }),
+              std::set<std::string>{"kernel/run/config_file.cpp"});
     EXPECT_EQ(files_including([](const std::string& name) { return name == "zlib.h" || name == "zstd.h"; }),
               (std::set<std::string>{"kernel/io/compressed.cpp", "viewer/render/image.cpp"}));
     EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "GLFW"; }),

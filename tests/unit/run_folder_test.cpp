@@ -10,6 +10,10 @@
 
 #include <unistd.h>
 
+#include <nlohmann/json.hpp>
+
+#include "io/folder_files.h"
+#include "io/run_manifest.h"
 #include "support/io_error.h"
 #include "support/temporary_folder.h"
 
@@ -35,21 +39,25 @@ std::string get(const std::string& file) {
 }
 
 // A finished run that can be told from others by its mark.
-void fill(const RunFolder& folder, const std::string& mark) {
-    put(folder.file("report.json"), mark);
-    put(folder.part_file(8), mark);
-    put(folder.file("only_" + mark), mark);
+void fill(const RunFolder& folder, const std::string& mark, int exit_code = 0) {
+    nlohmann::ordered_json report = {{"mark", mark}, {"files", nlohmann::json::array()}, {"exit_code", exit_code}};
+    for (const std::string file : {"mesh.pvtu", "parts/part_0008.vtu"}) {
+        put(folder.file(file), mark);
+        report["files"].push_back({{"path", file}});
+    }
+    put(folder.file("report.json"), sealed(report.dump(2) + "\n"));
 }
 
-void run(const std::string& path, const std::string& mark) {
+std::string run(const std::string& path, const std::string& mark, int exit_code = 0) {
     RunFolder folder = RunFolder::create(path);
-    fill(folder, mark);
-    folder.commit();
+    fill(folder, mark, exit_code);
+    return folder.commit(exit_code == 0);
 }
 
 void expect_run(const std::string& path, const std::string& mark) {
-    EXPECT_EQ(get(path + "/report.json"), mark);
+    EXPECT_NE(get(path + "/report.json").find("\"mark\": \"" + mark + '"'), std::string::npos);
     EXPECT_EQ(get(path + "/parts/part_0008.vtu"), mark);
+    EXPECT_EQ(get(path + "/mesh.pvtu"), mark);
     EXPECT_EQ(std::distance(fs::directory_iterator(path), fs::directory_iterator()), 3)
         << "files of two runs are mixed";
 }
@@ -60,7 +68,7 @@ TEST_F(RunFolderTest, AppearsUnderItsNameOnlyWhenCommitted) {
     EXPECT_EQ(fs::path(folder->partial_path()).parent_path(), fs::path(path("run")).parent_path());
     fill(*folder, "a");
     EXPECT_FALSE(fs::exists(path("run")));
-    folder->commit();
+    folder->commit(true);
     folder.reset();
     expect_run(path("run"), "a");
     EXPECT_EQ(entries(), 1u);
@@ -109,17 +117,77 @@ TEST_F(RunFolderTest, KeepsWhatOthersPutThereDuringTheRun) {
         fill(folder, "a");
         fs::create_directory(path("run"));
         put(path("run/chapter"), "years of work");
-        EXPECT_NE(test::io_error([&] { folder.commit(); }), "");
+        EXPECT_NE(test::io_error([&] { folder.commit(true); }), "");
     }
     {
         RunFolder folder = RunFolder::create(path("other"));
         fill(folder, "a");
         put(path("other"), "text");
-        EXPECT_NE(test::io_error([&] { folder.commit(); }), "");
+        EXPECT_NE(test::io_error([&] { folder.commit(true); }), "");
     }
     EXPECT_EQ(get(path("run/chapter")), "years of work");
     EXPECT_EQ(get(path("other")), "text");
     EXPECT_EQ(entries(), 2u);
+}
+
+// Under any of the names that a run may use, and also when something calls itself a report.
+TEST_F(RunFolderTest, AForeignFileIsNamedAndKept) {
+    for (const std::string suffix : {"", ".failed", ".kerf-partial", ".kerf-partial-older", ".kerf-partial-removed"})
+        for (const std::string file : {"chapter", "parts/notes.txt", "empty/"}) {
+            SCOPED_TRACE(suffix + " " + file);
+            const std::string folder = path("run" + suffix);
+            fs::create_directories(fs::path(folder + "/" + file).parent_path());
+            if (!file.ends_with('/')) put(folder + "/" + file, "years of work");
+            put(folder + "/report.json", "{}");
+            const std::vector<std::string> before = list_files(path(""));
+            const std::string message = test::io_error([&] { RunFolder::create(path("run")); });
+            EXPECT_NE(message.find(folder), message.npos) << message;
+            EXPECT_EQ(list_files(path("")), before);
+            fs::remove_all(folder);
+        }
+    run(path("run"), "old");
+    put(path("run/parts/part_0009.vtu"), "named like a part, but on no list");
+    const std::string message = test::io_error([&] { RunFolder::create(path("run")); });
+    EXPECT_NE(message.find("parts/part_0009.vtu"), message.npos) << message;
+    fs::remove(path("run/parts/part_0009.vtu"));
+    put(path("run/report.json"), get(path("run/report.json")) + " ");
+    EXPECT_NE(test::io_error([&] { RunFolder::create(path("run")); }), "") << "somebody has changed the report";
+}
+
+TEST_F(RunFolderTest, AFailedRunLeavesAValidOneAlone) {
+    EXPECT_EQ(run(path("run"), "first", 4), path("run")) << "there was none";
+    EXPECT_EQ(run(path("run"), "second", 4), path("run"));
+    expect_run(path("run"), "second");
+    EXPECT_EQ(run(path("run"), "valid"), path("run"));
+    EXPECT_EQ(run(path("run"), "third", 4), path("run.failed"));
+    EXPECT_EQ(run(path("run"), "fourth", 5), path("run.failed"));
+    expect_run(path("run"), "valid");
+    expect_run(path("run.failed"), "fourth");
+    EXPECT_EQ(entries(), 2u);
+}
+
+TEST_F(RunFolderTest, FinishedPartsOfAFailedRunAreTakenOver) {
+    for (const bool is_beside_valid : {false, true}) {
+        SCOPED_TRACE(is_beside_valid);
+        if (is_beside_valid) run(path("run"), "valid");
+        {
+            RunFolder folder = RunFolder::create(path("run"));
+            fill(folder, "failed", 4);
+            put(folder.journal_file(8), "finished");
+            put(folder.saved_run_file(), "options");
+            put(folder.job_file(9), "waits");
+            const std::string place = folder.commit(false);
+            EXPECT_EQ(RunFolder::saved_run_file(path("run")), place + "/work/run.json");
+            EXPECT_FALSE(fs::exists(place + "/work/jobs"));
+        }
+        RunFolder folder = RunFolder::create(path("run"));
+        EXPECT_EQ(folder.finished_parts(), 1u);
+        EXPECT_EQ(get(folder.part_file(8)), "failed");
+        fill(folder, "valid");
+        folder.commit(true);
+        expect_run(path("run"), "valid");
+        EXPECT_EQ(entries(), 1u);
+    }
 }
 
 TEST_F(RunFolderTest, OneRunAtATimeWrites) {
@@ -161,7 +229,7 @@ TEST_F(RunFolderTest, PartsAndJournalOfAnInterruptedRunWaitForTheNext) {
     for (const std::string& stale : {folder.part_file(9), folder.journal_file(9), folder.part_surface_file(8)})
         EXPECT_FALSE(fs::exists(stale)) << stale;
     fill(folder, "b");
-    folder.commit();
+    folder.commit(true);
     expect_run(path("run"), "b");
     EXPECT_EQ(entries(), 1u);
 }
@@ -184,6 +252,13 @@ TEST_F(RunFolderTest, FollowsALinkToAnOlderRun) {
     expect_run(path("run"), "new");
 }
 
+TEST_F(RunFolderTest, FollowsALinkToNothingYet) {
+    fs::create_symlink("else/where", path("link"));
+    run(path("link"), "a");
+    EXPECT_TRUE(fs::is_symlink(path("link")));
+    expect_run(path("else/where"), "a");
+}
+
 TEST_F(RunFolderTest, OtherRanksWriteIntoTheSameFolder) {
     RunFolder root = RunFolder::create(path("run"));
     fill(root, "a");
@@ -191,9 +266,9 @@ TEST_F(RunFolderTest, OtherRanksWriteIntoTheSameFolder) {
         RunFolder other = RunFolder::join(root.partial_path());
         EXPECT_EQ(other.part_file(9), root.part_file(9));
         put(other.part_file(9), "from another rank");
-        EXPECT_THROW(other.commit(), Error);
+        EXPECT_THROW(other.commit(true), Error);
     }
-    root.commit();
+    root.commit(true);
     EXPECT_EQ(get(path("run/parts/part_0009.vtu")), "from another rank");
     const std::string message = test::io_error([&] { RunFolder::join(path("nowhere")); });
     EXPECT_NE(message.find(path("nowhere")), message.npos) << message;

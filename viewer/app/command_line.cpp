@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "io/file_bytes.h"
+#include "run/config_file.h"
 
 namespace kerf::view {
 
@@ -86,7 +87,7 @@ void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
                    "Clip plane: x=0.3, -y=0.5 (other side), 1,1,0=0.4 (normal), node=5 (at its cut).");
     app.add_option("--clip-style", texts.clip_style, "cells (whole ones, default), smooth, or layer (at the plane).");
     app.add_option("--explode", texts.explode, "Pull the parts apart along the tree; 0 to 1.")
-        ->check(CLI::NonNegativeNumber);
+        ->check(CLI::Range(0.0, 1e6));
     app.add_option("--shrink", texts.shrink, "Shrink cells about their centres; 0 to 1.")->check(CLI::Range(0.0, 1.0));
     app.add_option("--hide", texts.hidden, "Nodes that are not shown.")->delimiter(',');
     app.add_option("--isolate", texts.isolated, "Only what lies below this node.")->check(CLI::PositiveNumber);
@@ -103,7 +104,16 @@ void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
         ->type_name("FILE");
 }
 
+// Ranges let NaN pass.
+void require_numbers(const StateTexts& texts, const ViewCommand& command) {
+    std::vector<double> numbers = texts.filter;
+    numbers.insert(numbers.end(), {texts.explode, texts.shrink, command.timeout_seconds});
+    if (!std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }))
+        throw Error(ErrorCode::usage, "--explode, --shrink, --filter and --timeout need finite numbers.");
+}
+
 void apply(const StateTexts& texts, ViewCommand& command) {
+    require_numbers(texts, command);
     ViewState& state = command.state;
     if (!texts.state_file.empty()) state = state_from_json(read_file(texts.state_file), texts.state_file);
     if (!texts.camera_file.empty()) state.camera = camera_from_json(read_file(texts.camera_file), texts.camera_file);
@@ -140,9 +150,7 @@ void apply(const StateTexts& texts, ViewCommand& command) {
 
 void read_run_config(const std::string& path, RunOptions& run) {
     if (path.empty()) return;
-    std::vector<OptionText> given;
-    for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_file(path))
-        if (!item.inputs.empty()) given.push_back({item.name, item.inputs.front()});
+    std::vector<OptionText> given = read_config(path);
     // What the run would write beside its folder is not for a picture.
     static const std::set<std::string> not_taken = {"output", "quiet", "verbose", "report", "trace", "events", "stl"};
     std::erase_if(given, [](const OptionText& o) { return not_taken.contains(o.name); });

@@ -1,11 +1,11 @@
 // kerf-view: the viewer. `kerf view` and `kerf screenshot` start it; it lies beside kerf.
-#include <cstdio>
 #include <exception>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "io/standard_streams.h"
 #include "viewer/app/interruption.h"
 #include "viewer/app/screenshot.h"
 #include "viewer/app/settings.h"
@@ -26,7 +26,10 @@ AppOptions options_beside_this_program() {
 int run(int argc, const char* const* argv) {
     const ViewCommand command = parse_view_command(argc, argv);
     if (!command.print.empty()) {
-        fmt::print(command.exit_code == 0 ? stdout : stderr, "{}", command.print);
+        if (command.exit_code == 0)
+            print_data(command.print);
+        else
+            tell(command.print);
         return command.exit_code;
     }
     AppOptions options = options_beside_this_program();
@@ -46,16 +49,17 @@ int run(int argc, const char* const* argv) {
 }  // namespace kerf::view
 
 int main(int argc, char** argv) {
+    kerf::prepare_standard_streams();
     try {
         return kerf::view::run(argc, argv);
     } catch (const kerf::Error& error) {
-        fmt::print(stderr, "kerf: {}\n", error.what());
+        kerf::tell(fmt::format("kerf: {}\n", error.what()));
         return static_cast<int>(error.code());
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "kerf: out of memory.\n");
+        kerf::tell("kerf: out of memory.\n");
         return static_cast<int>(kerf::ErrorCode::memory);
     } catch (const std::exception& error) {
-        fmt::print(stderr, "kerf: internal error: {}\n", error.what());
+        kerf::tell(fmt::format("kerf: internal error: {}\n", error.what()));
         return static_cast<int>(kerf::ErrorCode::internal);
     }
 }

@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include "core/error.h"
+#include "io/output_file.h"
 #include "viewer/app/interruption.h"
 #include "viewer/render/offscreen.h"
 
@@ -93,6 +94,8 @@ void check_wishes(const Document& document, const ViewState& state, bool with_pa
 
 void take_screenshot(const ViewCommand& command, const AppOptions& options) {
     const Deadline deadline(command.timeout_seconds);
+    refuse_to_overwrite(command.input, "--output", command.output);
+    require_writable("--output", command.output);
     const OffscreenContext context;
     const ImGuiOwner imgui;
     ImGui::GetIO().DeltaTime = frame_seconds;

@@ -53,6 +53,7 @@ std::string stage_text(const Progress& progress) {
     if (stage == "prepare") return "Preparing parts";
     if (stage == "volume") return "Meshing";
     if (stage == "number") return "Numbering";
+    if (stage == "hash") return "Checking files";
     return stage.empty() ? "Running" : stage;
 }
 

@@ -1,18 +1,15 @@
 #include "viewer/render/image.h"
 
 #include <cstdlib>
-#include <filesystem>
 #include <limits>
 #include <memory>
-#include <string_view>
-#include <system_error>
 
 #include <fmt/format.h>
 #include <zlib.h>
 
 #include "core/error.h"
-#include "io/checked_file.h"
 #include "io/file_bytes.h"
+#include "io/output_file.h"
 
 namespace {
 
@@ -51,16 +48,6 @@ struct Free {
 };
 using Bytes = std::unique_ptr<unsigned char, Free>;
 
-void replace_file(const std::string& path, std::string_view bytes) {
-    const std::string beside = path + ".new";
-    CheckedFile file(beside, "wb");
-    file.write(bytes);
-    file.close();
-    std::error_code error;
-    std::filesystem::rename(beside, path, error);
-    if (error) throw Error(ErrorCode::io, fmt::format("Cannot rename {} to {}: {}.", beside, path, error.message()));
-}
-
 }  // namespace
 
 Image averaged(const Image& image, int factor) {
@@ -82,7 +69,7 @@ void write_png(const std::string& path, const Image& image) {
     int size = 0;
     const Bytes png(stbi_write_png_to_mem(image.rgb.data(), 3 * image.width, image.width, image.height, 3, &size));
     if (!png) throw Error(ErrorCode::memory, fmt::format("There is not enough memory to compress {}.", path));
-    replace_file(path, {reinterpret_cast<const char*>(png.get()), static_cast<std::size_t>(size)});
+    write_output_file(path, {reinterpret_cast<const char*>(png.get()), static_cast<std::size_t>(size)});
 }
 
 Image read_png(const std::string& path) {

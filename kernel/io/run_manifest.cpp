@@ -1,0 +1,134 @@
+#include "io/run_manifest.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <set>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "io/checked_file.h"
+#include "io/file_bytes.h"
+#include "io/folder_files.h"
+
+namespace kerf {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view report_name = "report.json", end_of_report = "\n}\n";
+constexpr std::string_view seal_begin = ",\n  \"report_hash\": \"", seal_end = "\"";
+
+FileHash hash_of_text(std::string_view text) {
+    Hasher hasher;
+    hasher.add_bytes(text.data(), text.size());
+    return hasher.digest();
+}
+
+bool is_number(std::string_view text) {
+    return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); });
+}
+
+// True and without it if the text begins with the prefix.
+bool take_prefix(std::string_view& text, std::string_view prefix) {
+    const bool is_there = text.starts_with(prefix);
+    if (is_there) text.remove_prefix(prefix.size());
+    return is_there;
+}
+
+bool is_part_name(std::string_view name, std::initializer_list<std::string_view> endings) {
+    return take_prefix(name, "part_") && std::any_of(endings.begin(), endings.end(), [&](std::string_view ending) {
+               return name.ends_with(ending) && is_number(name.substr(0, name.size() - ending.size()));
+           });
+}
+
+bool is_work_name(std::string_view name) {
+    for (const std::string_view file : {"lock", "ranks", "run.json", "run.json.new", "report.json"})
+        if (name == file) return true;
+    if (take_prefix(name, "journal/")) {
+        if (name.ends_with(".new")) name.remove_suffix(4);
+        return is_number(name);
+    }
+    return (take_prefix(name, "jobs/") || take_prefix(name, "taken/")) && is_number(name);
+}
+
+}  // namespace
+
+std::string hash_text(const FileHash& hash) { return fmt::format("{:016x}{:016x}", hash[0], hash[1]); }
+
+RunFile describe_file(const std::string& folder, const std::string& path) {
+    constexpr std::size_t chunk_size = std::size_t{1} << 20;
+    CheckedFile file((fs::path(folder) / path).string(), "rb");
+    Hasher hasher;
+    std::int64_t bytes = 0;
+    for (std::string chunk = file.read(chunk_size); !chunk.empty(); chunk = file.read(chunk_size)) {
+        hasher.add_bytes(chunk.data(), chunk.size());
+        bytes += static_cast<std::int64_t>(chunk.size());
+    }
+    return {path, bytes, hash_text(hasher.digest())};
+}
+
+std::string sealed(const std::string& report) {
+    if (!report.ends_with(end_of_report)) throw Error(ErrorCode::internal, "A report does not end as JSON does.");
+    return fmt::format("{}{}{}{}{}", report.substr(0, report.size() - end_of_report.size()), seal_begin,
+                       hash_text(hash_of_text(report)), seal_end, end_of_report);
+}
+
+bool is_sealed(const std::string& report) {
+    const std::size_t seal = report.rfind(seal_begin);
+    return seal != report.npos && report == sealed(report.substr(0, seal) + std::string(end_of_report));
+}
+
+bool is_named_like_run_file(const std::string& path) {
+    std::string_view name = path;
+    for (const std::string_view whole :
+         {"report.json", "mesh.pvtu", "parts/", "failed/", "work/", "work/journal/", "work/jobs/", "work/taken/"})
+        if (name == whole) return true;
+    if (take_prefix(name, "parts/")) return is_part_name(name, {".vtu", ".surface.vtu", ".stl"});
+    if (take_prefix(name, "failed/")) return is_part_name(name, {".smesh", ".txt"});
+    return take_prefix(name, "work/") && is_work_name(name);
+}
+
+FolderContent inspect_run_folder(const std::string& folder) {
+    FolderContent content;
+    std::error_code error;
+    content.exists = fs::is_directory(folder, error);
+    const std::vector<std::string> files = list_files(folder);
+    std::set<std::string> listed;
+    try {
+        const std::string report = read_file((fs::path(folder) / report_name).string());
+        if (is_sealed(report)) {
+            const auto json = nlohmann::json::parse(report);
+            for (const auto& file : json.at("files")) listed.insert(file.at("path").get<std::string>());
+            listed.insert(std::string(report_name));
+            content.is_valid = json.at("exit_code") == 0;
+            content.is_run = true;
+        }
+    } catch (const Error&) {  // no report that can be read
+    } catch (const nlohmann::json::exception&) {
+    }
+    // An empty folder of a run's is not on the list, nor is what lets a failed run go on.
+    const auto is_own = [&](const std::string& file) {
+        return content.is_run && (listed.contains(file) ||
+                                  ((file.ends_with('/') || file.starts_with("work/")) && is_named_like_run_file(file)));
+    };
+    const auto foreign = std::find_if_not(files.begin(), files.end(), is_own);
+    if (foreign != files.end()) content.foreign = *foreign;
+    return content;
+}
+
+bool remove_run_files(const std::string& folder, const std::function<bool(const std::string&)>& unwanted) {
+    std::error_code ignored;
+    for (const std::string& file : list_files(folder))
+        if (is_named_like_run_file(file) && (!unwanted || unwanted(file))) fs::remove(fs::path(folder) / file, ignored);
+    for (const char* name : {"parts", "failed", "work/journal", "work/jobs", "work/taken", "work", ""})
+        fs::remove(fs::path(folder) / name, ignored);  // only if it is empty
+    return !fs::exists(folder, ignored);
+}
+
+}  // namespace kerf

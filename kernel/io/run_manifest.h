@@ -1,0 +1,58 @@
+// How a run folder is known as Kerf's own: the report lists every file with its hash, and carries a hash of itself.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/hash.h"
+
+namespace kerf {
+
+/// 32 hexadecimal digits.
+std::string hash_text(const FileHash& hash);
+
+/// A file of a run folder as it was when the run was finished.
+struct RunFile {
+    std::string path;  ///< relative to the folder
+    std::int64_t bytes = 0;
+    std::string hash;  ///< of its bytes, see hash_text()
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(path, bytes, hash);
+    }
+};
+
+/// Reads FOLDER/path as a whole, in pieces. Throws Error(io).
+RunFile describe_file(const std::string& folder, const std::string& path);
+
+/// The text of a report, which is an object of JSON that ends with "\n}\n", with its own hash as its last member
+/// "report_hash".
+std::string sealed(const std::string& report);
+/// Whether the text is as sealed() returned it.
+bool is_sealed(const std::string& report);
+
+/// Whether a path below a run folder is named like a file that Kerf writes there, finished or not:
+/// "parts/part_0008.vtu", "report.json", "work/journal/8"; folders, which end with '/', too.
+bool is_named_like_run_file(const std::string& path);
+
+/// What a folder holds that may be a run.
+struct FolderContent {
+    bool is_run = false;    ///< a report that Kerf has sealed lies in it
+    bool is_valid = false;  ///< that report says exit code 0
+    bool exists = false;    ///< as a folder
+    /// The first file that is no part of a run of Kerf: of a run, not on its list of files; else any at all.
+    std::string foreign;
+};
+
+/// Throws Error(io) for a folder that cannot be read.
+FolderContent inspect_run_folder(const std::string& folder);
+
+/// Removes the files of the folder that are named like a run's, of them those that are `unwanted` if that is given, and
+/// folders that are empty then: whatever else lies there stays. False if something is left. Throws Error(io) if the
+/// folder cannot be read.
+bool remove_run_files(const std::string& folder, const std::function<bool(const std::string& path)>& unwanted = {});
+
+}  // namespace kerf
