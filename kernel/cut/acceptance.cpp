@@ -238,12 +238,14 @@ std::int32_t find_misplaced_shell(const Surface& half) {
     const SurfaceArrays arrays = half.arrays();
     const std::vector<Shell> shells =
         collect_shells(arrays.vertices, arrays.facets, components.of_facet, components.count);
+    const BoxTree boxes = boxes_of(shells);
     for (std::size_t i = 0; i < shells.size(); ++i) {
         const std::int32_t vertex = shells[i].facets[0][0];
+        const Vec3& point = arrays.vertices[vertex];
         int depth = 0;
-        for (std::size_t j = 0; j < shells.size(); ++j) {
-            if (i == j) continue;
-            const std::optional<bool> inside = encloses(arrays.vertices, shells[j], arrays.vertices[vertex]);
+        for (const std::int32_t j : boxes.around(Eigen::AlignedBox3d(point, point))) {
+            if (static_cast<std::size_t>(j) == i) continue;
+            const std::optional<bool> inside = encloses(arrays.vertices, shells[j], point);
             if (!inside) return vertex;  // it touches another shell
             depth += *inside;
         }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/checked_file.h"
+#include "run/path_text.h"
 
 namespace kerf {
 
@@ -26,7 +27,7 @@ std::unique_ptr<CheckedFile> open_target(const std::string& target) {
 }
 
 std::string absolute(const std::string& path) {
-    return path.empty() ? path : std::filesystem::absolute(path).lexically_normal().string();
+    return path.empty() ? path : path_text(std::filesystem::absolute(path).lexically_normal().string());
 }
 
 }  // namespace

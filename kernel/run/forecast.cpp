@@ -21,11 +21,20 @@ constexpr double reserved_bytes = 100e6, safety = 1.5;
 constexpr double least_tets_per_part = 1000;
 constexpr std::int32_t parts_per_worker = 4;    // so that the last one is short against all of them
 constexpr double most_tets_per_part = 1 << 29;  // TetGen counts their corners in 32 bits
+constexpr double area_per_squared_edge = 0.69;  // of an interface triangle, and of its longest wanted edge
 constexpr double file_bytes_per_tet = 70;
 constexpr double certain = 0.5;  // nearly every mesh is larger than this share of its forecast
 
+// Those of the interfaces as the bound of the volume will have them: a dry run leaves them coarse.
+double expected_facets(const PartReport& part, const RunOptions& options) {
+    const double edge = options.decompose.cut.max_interface_edge();
+    const auto coarse = static_cast<double>(part.interface_facets);
+    const double fine = edge > 0 ? part.interface_area / (area_per_squared_edge * edge * edge) : 0;
+    return static_cast<double>(part.surface_facets) - coarse + std::max(coarse, fine);
+}
+
 Forecast forecast_of(const PartReport& part, const RunOptions& options) {
-    return forecast(static_cast<double>(part.surface_facets), part.surface_volume, options.mesher.max_volume);
+    return forecast(expected_facets(part, options), part.surface_volume, options.mesher.max_volume);
 }
 
 }  // namespace
@@ -64,6 +73,7 @@ void check_budget(const RunOptions& options, double facets, double volume) {
                                 "{}, or -n {:.0f} or more.",
                                 short_number(tets), short_number(tets / parts), parts, short_number(most_tets_per_part),
                                 way_out(most_tets_per_part * parts), std::ceil(tets / most_tets_per_part)));
+    if (!options.volume) return;
     std::error_code error;
     std::filesystem::path folder = std::filesystem::absolute(options.output, error).parent_path();
     while (!std::filesystem::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
@@ -89,7 +99,8 @@ std::string plan_text(const std::vector<PartReport>& parts, const RunOptions& op
         all.seconds += f.seconds;
         if (f.tets > largest.tets) largest = f;
         if (every_part)
-            table += fmt::format("{:>10} {:>10} {:>12.0f} {:>10.0f} {:>9.1f}\n", part.id, part.surface_facets, f.tets,
+            table += fmt::format("{:>10} {:>10} {:>12.0f} {:>10.0f} {:>9.1f}\n", part.id,
+                                 std::llround(expected_facets(part, options)), f.tets,
                                  f.memory_bytes / (1 << 20), f.seconds);
     }
     const int workers = ranks * options.workers;

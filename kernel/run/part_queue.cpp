@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <thread>
 
+#include <fmt/format.h>
+
 #include "core/bytes.h"
 #include "core/error.h"
 
@@ -35,6 +37,14 @@ PartResult result_of_silence(const ChildResult& child) {
     result.message = "The worker " + child.describe() + ".";
     if (const std::string line = last_line(child.log); !line.empty()) result.message += " Its last words: " + line;
     return result;
+}
+
+// The first reason is that of the call as it was wanted; the others are those of remedies.
+std::string message_of_all(const PartOutcome& outcome) {
+    const std::string& last = outcome.result.message;
+    if (outcome.failures.empty() || outcome.failures.front() == last) return last;
+    return fmt::format("{} {} more attempt{} failed, too, the last one so: {}", outcome.failures.front(),
+                       outcome.failures.size(), outcome.failures.size() == 1 ? "" : "s", last);
 }
 
 }  // namespace
@@ -101,6 +111,7 @@ std::optional<PartQueue::Finished> PartQueue::take_result(std::size_t part, cons
     }
     idle_.push_back(outcome.worker);
     if (outcome.result.code) {
+        outcome.result.message = message_of_all(outcome);
         std::error_code ignored;
         std::filesystem::remove(parts_[part].part_file, ignored);  // the worker may have ended while it wrote
     }

@@ -90,6 +90,7 @@ PartReport describe_part(const Leaf& leaf, const std::vector<NodeId>& neighbours
     part.surface_facets = static_cast<std::int64_t>(leaf.surface.facets.size());
     for (std::size_t f = 0; f < neighbours.size(); ++f) {
         if (neighbours[f] < 0) continue;
+        ++part.interface_facets;
         const Triangle& t = leaf.surface.facets[f];
         const std::vector<Vec3>& p = leaf.surface.vertices;
         part.interface_area += (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / 2;
@@ -186,10 +187,12 @@ void Run::open_folder() {
 
 void Run::decompose_surface() {
     const Stopwatch stopwatch;
-    const DecomposeOptions& options = report_.options.decompose;
+    DecomposeOptions options = report_.options.decompose;
     const LeafRange range = range_of_rank(options.parts, ranks_);
     CutListener* cuts = listener_;
     std::optional<TraceRecorder> trace;
+    // A forecast counts the triangles of fine interfaces without making them.
+    if (report_.options.dry_run && report_.options.trace_file.empty()) options.cut.max_volume = 0;
     if (!report_.options.trace_file.empty()) cuts = &trace.emplace(report_.options, input_, cuts);
     own_ = in_agreement(ranks_, [&] {
         progress("decompose", 0, 1);
@@ -476,7 +479,7 @@ RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input&
         refuse_changed_input(options, input.file_hash);
         if (ranks.rank() != 0) return;
         options.decompose.parts = part_count(input, options, ranks.size());
-        if (meshes) check_budget(options, static_cast<double>(input.facets), input.volume);
+        if (!options.dry_run) check_budget(options, static_cast<double>(input.facets), input.volume);
     });
     options.decompose.parts = all_gather(ranks, options.decompose.parts).front();
     const double read_seconds = longest(ranks, whole.seconds());

@@ -21,6 +21,7 @@ struct PartReport : PartOutcome {
     FileHash surface_hash = {0, 0};  ///< of the file of its surface
     double surface_volume = 0;
     std::int64_t surface_vertices = 0, surface_facets = 0;
+    std::int64_t interface_facets = 0;  ///< of them
     double interface_area = 0;
     std::vector<NodeId> neighbours;  ///< ascending
 
@@ -28,7 +29,7 @@ struct PartReport : PartOutcome {
     void archive(Archive& a) {
         PartOutcome::archive(a);
         a(id, rank, resumed, load, job_hash, surface_hash, surface_volume, surface_vertices, surface_facets,
-          interface_area, neighbours);
+          interface_facets, interface_area, neighbours);
     }
 };
 

@@ -83,9 +83,9 @@ class Propagation {
     ConsistentFacets result_;
 };
 
-// A vertex of the inner shell decides unless it lies on the outer one; then another one does.
+// A vertex of a shell decides whether it lies in one whose box contains its own, unless it lies on that; then another
+// one does.
 std::optional<bool> is_inner(const std::vector<Vec3>& vertices, const Shell& inner, const Shell& outer) {
-    if (!outer.box.contains(inner.box)) return false;
     constexpr std::size_t attempts = 8;
     for (std::size_t f = 0; f < std::min(attempts, inner.facets.size()); ++f)
         for (std::int32_t v : inner.facets[f])
@@ -94,17 +94,17 @@ std::optional<bool> is_inner(const std::vector<Vec3>& vertices, const Shell& inn
 }
 
 // Sets depth, parent or contact of shell i.
-void place_among(const std::vector<Vec3>& vertices, const std::vector<Shell>& shells, std::size_t i,
-                 std::vector<std::int32_t>& around, ShellPlace& place) {
+void place_among(const std::vector<Vec3>& vertices, const std::vector<Shell>& shells, const BoxTree& boxes,
+                 std::int32_t i, std::vector<std::int32_t>& around, ShellPlace& place) {
     around.clear();
-    for (std::size_t j = 0; j < shells.size(); ++j) {
+    for (const std::int32_t j : boxes.around(shells[i].box)) {
         if (i == j) continue;
         const std::optional<bool> inner = is_inner(vertices, shells[i], shells[j]);
         if (!inner) {
-            place.touches = static_cast<std::int32_t>(j);
+            place.touches = j;
             return;
         }
-        if (*inner) around.push_back(static_cast<std::int32_t>(j));
+        if (*inner) around.push_back(j);
     }
     place.depth = static_cast<std::int32_t>(around.size());
 }
@@ -150,9 +150,10 @@ std::vector<ShellPlace> locate_shells(const std::vector<Vec3>& vertices, const C
     std::vector<ShellPlace> places(shells.size());
     for (std::size_t f = consistent.shell.size(); f-- > 0;)
         places[consistent.shell[f]].first_facet = static_cast<std::int32_t>(f);
+    const BoxTree boxes = boxes_of(shells);
     std::vector<std::vector<std::int32_t>> around(shells.size());
     for (std::size_t i = 0; i < shells.size(); ++i) {
-        place_among(vertices, shells, i, around[i], places[i]);
+        place_among(vertices, shells, boxes, static_cast<std::int32_t>(i), around[i], places[i]);
         places[i].outward = is_outward(vertices, shells[i]);
     }
     for (std::size_t i = 0; i < shells.size(); ++i)

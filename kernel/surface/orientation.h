@@ -34,7 +34,7 @@ struct ShellPlace {
 };
 
 /// Places of the shells of `consistent`, in their order. Requires closed shells. `holes`: points in voids. The nesting
-/// depth is found by ray parity. O(#F) plus O((#shells + #holes) x #F) for boxes that are nested. Deterministic.
+/// depth is found by ray parity. O(#F log #F) plus, for every box in another one, the facets of that. Deterministic.
 std::vector<ShellPlace> locate_shells(const std::vector<Vec3>& vertices, const ConsistentFacets& consistent,
                                       const std::vector<Vec3>& holes = {});
 

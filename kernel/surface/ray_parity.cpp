@@ -70,6 +70,12 @@ std::vector<Shell> collect_shells(const std::vector<Vec3>& vertices, const std::
     return shells;
 }
 
+BoxTree boxes_of(const std::vector<Shell>& shells) {
+    std::vector<Eigen::AlignedBox3d> boxes;
+    for (const Shell& shell : shells) boxes.push_back(shell.box);
+    return BoxTree(std::move(boxes));
+}
+
 std::optional<bool> encloses(const std::vector<Vec3>& vertices, const Shell& shell, const Vec3& point) {
     if (!shell.box.contains(point)) return false;
     for (int attempt = 0; attempt < attempts; ++attempt)

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "core/types.h"
+#include "surface/box_tree.h"
 
 namespace kerf {
 
@@ -19,6 +20,9 @@ struct Shell {
 /// Facets grouped by their shell number in [0, count), in ascending order of facets.
 std::vector<Shell> collect_shells(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                                   const std::vector<std::int32_t>& shell_of_facet, std::int32_t count);
+
+/// The boxes of the shells.
+BoxTree boxes_of(const std::vector<Shell>& shells);
 
 /// Whether the point lies inside of the shell: a segment from it to the outside crosses the shell an odd number of
 /// times. Crossings are decided by exact predicates; a segment that touches an edge or a vertex says nothing and is

@@ -143,6 +143,21 @@ TEST(HangingWorker, IsStoppedAndItsPartTriedAgain) {
     EXPECT_NE(test::bytes_of_file(folder.file("out/report.json")).find("ran longer than its 8 s"), std::string::npos);
 }
 
+// An interface of some hundred thousand triangles takes half a minute.
+TEST(Cancelling, EndsACutInTheMiddle) {
+    const test::TemporaryFolder folder;
+    for (const int tenths : {3, 12, 25}) {
+        test::StartedRun run(KERF_PROGRAM, {"decompose", test::asset_path("hollow_box"), "-o", folder.file("out"), "-n",
+                                            "2", "--size", "0.0065"});
+        std::this_thread::sleep_for(std::chrono::milliseconds(100 * tenths));
+        ASSERT_EQ(::kill(run.process(), SIGTERM), 0);
+        const auto start = std::chrono::steady_clock::now();
+        EXPECT_EQ(run.wait().exit_code, 130);
+        EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(3));
+        EXPECT_TRUE(folder.names().empty() || folder.names() == std::vector<std::string>{"out.kerf-partial"});
+    }
+}
+
 TEST(SecondRun, IntoTheSameFolderIsRefused) {
     const test::TemporaryFolder folder;
     test::StartedRun run(KERF_PROGRAM, four_parts(folder.file("out")));

@@ -4,6 +4,9 @@
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
+
+#include "support/surroundings.h"
 #include "volume/child_process.h"
 
 namespace kerf::test {
@@ -16,7 +19,13 @@ inline ChildResult run_program(const std::string& program, const std::vector<std
     return pool.wait_any()->result;
 }
 
-inline ChildResult run_kerf(const std::vector<std::string>& arguments) { return run_program(KERF_PROGRAM, arguments); }
+/// Runs kerf; nothing but the outputs that the arguments name may change.
+inline ChildResult run_kerf(const std::vector<std::string>& arguments) {
+    const Surroundings around(arguments);
+    ChildResult result = run_program(KERF_PROGRAM, arguments);
+    EXPECT_EQ(around.changes(), "");
+    return result;
+}
 
 inline std::string output_of(const ChildResult& result) { return {result.output.begin(), result.output.end()}; }
 

@@ -1,12 +1,20 @@
 #include "run/options.h"
 
 #include <cmath>
+#include <fstream>
 #include <limits>
+#include <random>
 #include <set>
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
 #include "core/error.h"
+#include "run/config_file.h"
+#include "run/path_text.h"
+#include "support/temporary_folder.h"
 
 namespace kerf {
 namespace {
@@ -162,6 +170,47 @@ TEST(RunOptions, TraceMustLieOutsideOfTheOutputFolder) {
         EXPECT_FALSE(is_refused("run.trace", output));
         EXPECT_FALSE(is_refused("other/out/run.trace", output));
     }
+}
+
+// Some value of the field's type, other for every seed; texts hold what a path may hold.
+std::string some_text(const OptionField& field, std::mt19937& random) {
+    const auto number = [&](std::uint32_t most) { return static_cast<std::int32_t>(random() % most); };
+    if (const auto* choice = std::get_if<OptionField::Choice>(&field.value))
+        return choice->names[static_cast<std::size_t>(number(static_cast<std::uint32_t>(choice->names.size())))];
+    if (std::holds_alternative<bool*>(field.value)) return number(2) ? "true" : "false";
+    if (std::holds_alternative<double*>(field.value))
+        return fmt::format("{}", std::ldexp(static_cast<double>(random()), number(1800) - 900));
+    if (!std::holds_alternative<std::string*>(field.value)) return fmt::format("{}", number(1'000'000));
+    std::string text;
+    for (int i = number(12); i > 0; --i) text += static_cast<char>(1 + number(255));
+    return text;
+}
+
+TEST(ConfigFile, GivesEveryOptionBack) {
+    const test::TemporaryFolder folder;
+    std::mt19937 random(1);
+    for (int seed = 0; seed < 200; ++seed) {
+        RunOptions options, copy;
+        const std::vector<OptionField> fields = option_fields(options), copied = option_fields(copy);
+        for (const OptionField& field : fields) field.set_text(some_text(field, random));
+        const std::string text = to_config(fields);
+        std::ofstream(folder.file("config"), std::ios::binary) << text;
+        set_options(copy, read_config(folder.file("config")), "config");
+        for (std::size_t i = 0; i < fields.size(); ++i)
+            EXPECT_EQ(copied[i].text(), fields[i].text()) << fields[i].name << " in\n" << text;
+        EXPECT_EQ(to_config(copied), text);
+    }
+}
+
+TEST(PathText, GivesAnyBytesBack) {
+    std::mt19937 random(1);
+    for (int seed = 0; seed < 1000; ++seed) {
+        std::string path = seed % 2 ? "bytes:" : "";
+        for (std::uint32_t i = random() % 9; i > 0; --i) path += static_cast<char>(1 + random() % 255);
+        EXPECT_EQ(path_of_text(path_text(path)), path);
+        EXPECT_NO_THROW((void)nlohmann::json(path_text(path)).dump());
+    }
+    EXPECT_EQ(path_text("/a/\xC3\xA4 %41"), "/a/\xC3\xA4 %41") << "readable where it can be";
 }
 
 }  // namespace

@@ -89,8 +89,45 @@ TEST(Screenshot, SaysWhatIsWrong) {
     expect({asset_path("cube"), "--stage", "split", "-n", "100000"}, 2, "too few");
     std::ofstream(folder().file("word.stl")) << "solid x\nfacet normal 0 0 up\n";
     expect({folder().file("word.stl")}, 3, "word.stl");
+    for (const std::string option : {"--explode", "--shrink", "--timeout"}) expect({asset_path("cube"), option, "nan"}, 2, "");
+    std::filesystem::copy_file(asset_path("cube"), folder().file("a.stl"));
+    const std::string before = bytes_of_file(folder().file("a.stl"));
+    const ChildResult onto_input = run_kerf({"screenshot", folder().file("a.stl"), "-o", folder().file("a.stl")});
+    EXPECT_EQ(onto_input.exit_code, 7) << onto_input.log;
+    EXPECT_TRUE(bytes_of_file(folder().file("a.stl")) == before);
     const ChildResult unwritable = run_kerf({"screenshot", asset_path("cube"), "-o", "/proc/a.png"});
     EXPECT_EQ(unwritable.exit_code, 7) << unwritable.log;
+}
+
+// A run with a hole in it is no picture of the run.
+TEST(Screenshot, MissingAndCutPartFilesAreErrors) {
+    const std::string run = folder().file("holed"), part = run + "/parts/part_0002.vtu";
+    ASSERT_EQ(run_kerf({"mesh", asset_path("cube"), "-o", run, "-n", "2", "-q"}).exit_code, 0);
+    const auto expect_error = [&](const std::string& word) {
+        for (const std::vector<std::string>& view : {std::vector<std::string>{"--clip", "x=0.5"}, {"--explode", "0.3"}, {}}) {
+            std::vector<std::string> arguments = {run};
+            arguments.insert(arguments.end(), view.begin(), view.end());
+            const ChildResult result = screenshot(arguments);
+            EXPECT_EQ(result.exit_code, 7) << result.log;
+            EXPECT_NE(result.log.find("part_0002.vtu is " + word), std::string::npos) << result.log;
+        }
+    };
+    std::filesystem::resize_file(part, 5000);
+    expect_error("cut short");
+    std::filesystem::remove(part);
+    expect_error("missing");
+}
+
+TEST(Screenshot, NamesOfAMegabyteAreShort) {
+    std::ofstream file(folder().file("named.stl"));
+    file << "solid " << std::string(1'000'000, 'x') << R"(
+facet normal 0 0 0 outer loop vertex 0 0 0 vertex 0 1 0 vertex 1 0 0 endloop endfacet
+facet normal 0 0 0 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 0 1 endloop endfacet
+facet normal 0 0 0 outer loop vertex 0 0 0 vertex 0 0 1 vertex 0 1 0 endloop endfacet
+facet normal 0 0 0 outer loop vertex 1 0 0 vertex 0 1 0 vertex 0 0 1 endloop endfacet
+endsolid)";
+    file.close();
+    EXPECT_EQ(screenshot({folder().file("named.stl"), "--color", "patch", "--ui"}).exit_code, 0);
 }
 
 // A picture that is no longer wanted takes its run and its folder along.

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "run/path_text.h"
 #include "viewer/model/tree_source.h"
 
 namespace kerf::view {
@@ -51,9 +52,9 @@ RunEvent event_from_json(const Json& json) {
     event.seconds = json.value("seconds", 0.0);
     switch (event.kind) {
         case RunEvent::Kind::run:
-            event.input = json.value("input", "");
-            event.output = json.value("output", "");
-            event.trace = json.value("trace", "");
+            event.input = path_of_text(json.value("input", ""));
+            event.output = path_of_text(json.value("output", ""));
+            event.trace = path_of_text(json.value("trace", ""));
             event.parts_total = json.value("parts", std::int64_t{0});
             break;
         case RunEvent::Kind::stage:

@@ -1,6 +1,7 @@
 #include "viewer/model/run_report.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -8,6 +9,7 @@
 #include "core/error.h"
 #include "io/file_bytes.h"
 #include "mesh/quality.h"
+#include "run/path_text.h"
 
 namespace kerf::view {
 
@@ -70,7 +72,9 @@ void read_part_row(const Json& part, bool meshed, Tree& tree) {
     row.message = part.value("error", "");
 }
 
-std::string option_text(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+std::string option_text(const Json& value) {
+    return value.is_string() ? path_of_text(value.get<std::string>()) : value.dump();
+}
 
 // An option of another version is no reason not to show the run.
 void read_options(const Json& json, RunReportFile& report) {
@@ -105,7 +109,7 @@ RunReportFile report_from_json(const Json& json) {
     RunReportFile report;
     const Json& input = json.at("input");
     read_options(json.at("options"), report);
-    report.options.input = input.at("path").get<std::string>();
+    report.options.input = path_of_text(input.at("path").get<std::string>());
     report.input_facets = input.at("faces").get<std::int64_t>();
     report.input_vertices = input.at("vertices").get<std::int64_t>();
     report.volume = number(input, "volume");
@@ -125,13 +129,32 @@ RunReportFile report_from_json(const Json& json) {
     return report;
 }
 
+// Whether each file is there with all its bytes; what is in them is for kerf verify.
+std::string damage_of(const std::string& folder, const Json& files) {
+    std::string first;
+    int count = 0;
+    for (const Json& file : files) {
+        const auto path = file.at("path").get<std::string>();
+        std::error_code error;
+        const std::uintmax_t size = std::filesystem::file_size(folder + "/" + path, error);
+        if (!error && size == file.at("bytes").get<std::uintmax_t>()) continue;
+        if (count++ == 0) first = fmt::format("{}/{} is {}", folder, path, error ? "missing" : "cut short");
+    }
+    if (count == 0) return "";
+    return fmt::format("{}{}. Run kerf verify on the folder, and kerf mesh again.", first,
+                       count > 1 ? fmt::format(", and so are {} other files", count - 1) : "");
+}
+
 }  // namespace
 
 RunReportFile read_report(const std::string& folder) {
     const std::string path = folder + "/report.json";
     const std::string text = read_file(path);
     try {
-        return report_from_json(Json::parse(text));
+        const Json json = Json::parse(text);
+        RunReportFile report = report_from_json(json);
+        report.damage = damage_of(folder, json.value("files", Json::array()));
+        return report;
     } catch (const Json::exception& error) {
         throw Error(ErrorCode::io,
                     fmt::format("{} is damaged or no report of a run: {}. Repeat the run.", path, error.what()));

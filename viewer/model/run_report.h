@@ -20,6 +20,7 @@ struct RunReportFile {
     std::array<std::optional<MeasureHistogram>, 8> histograms;
     std::vector<std::string> notes;
     int exit_code = 0;
+    std::string damage;  ///< which files are not there or not as long as the run has left them; empty: none
 };
 
 /// Reads FOLDER/report.json. Throws Error(io) if it cannot be read or is none.

@@ -224,6 +224,7 @@ Session::Impl::OpenedRun Session::Impl::read_run(const std::string& folder) {
 // The tree, the numbers and the files of a finished run; a trace stays if its cuts are those of the run.
 void Session::Impl::complete_from_report(OpenedRun run) {
     RunReportFile& report = run.report;
+    if (!report.damage.empty()) note_failure(report.damage);
     document_.folder = run.folder;
     document_.tree = std::move(report.tree);
     document_.options = report.options;
