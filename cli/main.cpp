@@ -37,7 +37,7 @@ void report_failed_parts(const RunReport& report) {
                         "look at it: {}/failed/part_{:04}.txt.\n",
                         part.id, place.x(), place.y(), place.z(), part.result.message, report.folder, part.id));
     }
-    if (failed > 0)
+    if (failed > 0 && failed < report.parts.size())
         tell(
             fmt::format("kerf: the other {} parts are in {}; kerf mesh --resume {} tries the failed ones again, if "
                         "wanted with other --timeout or --memory.\n",

@@ -100,8 +100,8 @@ std::string plan_text(const std::vector<PartReport>& parts, const RunOptions& op
         if (f.tets > largest.tets) largest = f;
         if (every_part)
             table += fmt::format("{:>10} {:>10} {:>12.0f} {:>10.0f} {:>9.1f}\n", part.id,
-                                 std::llround(expected_facets(part, options)), f.tets,
-                                 f.memory_bytes / (1 << 20), f.seconds);
+                                 std::llround(expected_facets(part, options)), f.tets, f.memory_bytes / (1 << 20),
+                                 f.seconds);
     }
     const int workers = ranks * options.workers;
     return fmt::format(

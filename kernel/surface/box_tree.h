@@ -19,9 +19,9 @@ class BoxTree {
 
  private:
     struct Node {
-        Eigen::AlignedBox3d box;       // of all below
-        std::int32_t first, count;     // in order_
-        std::int32_t left = 0;         // 0: a leaf; the other child follows it
+        Eigen::AlignedBox3d box;    // of all below
+        std::int32_t first, count;  // in order_
+        std::int32_t left = 0;      // 0: a leaf; the other child follows it
     };
     void split(std::size_t node);
 

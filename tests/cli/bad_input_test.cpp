@@ -73,6 +73,17 @@ TEST_F(BadInput, SelfIntersectingSurface) {
     expect_refused(write("crossing.off", soup), 3, {"crossing.off", "intersect"});
 }
 
+// The first reason is the one that helps, whatever the remedies said.
+TEST_F(BadInput, ShellsThatAlmostTouch) {
+    const Soup ball = test::icosphere(2), inner = test::inside_out(test::icosphere(2, 1 - 1e-9));
+    const ChildResult result = test::run_kerf(
+        {"mesh", write("balls.off", test::join(ball, inner)), "-o", folder_.file("out"), "-n", "1", "-q"});
+    EXPECT_EQ(result.exit_code, 4) << result.log;
+    EXPECT_NE(result.log.find("could not be meshed: TetGen stopped with code 3: it found facets that intersect"),
+              std::string::npos)
+        << result.log;
+}
+
 TEST_F(BadInput, ZeroParts) { expect_refused(good_, 2, {"--parts is 0", "1 or more"}, {"-n", "0"}); }
 TEST_F(BadInput, NegativeParts) { expect_refused(good_, 2, {"--parts is -3", "1 or more"}, {"-n", "-3"}); }
 TEST_F(BadInput, TooManyParts) {

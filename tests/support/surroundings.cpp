@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::set<std::string> output_options = {"-o",       "--output", "--report",    "--trace",
+const std::set<std::string> output_options = {"-o",       "--output", "--report",   "--trace",
                                               "--events", "--resume", "--offenders"};
 
 // Behind all links, as far as it exists.

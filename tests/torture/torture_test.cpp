@@ -20,7 +20,6 @@
 #include <gtest/gtest.h>
 
 #include "io/folder_files.h"
-#include "surface/mass_properties.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/mutation.h"
@@ -30,6 +29,7 @@
 #include "support/surroundings.h"
 #include "support/temporary_folder.h"
 #include "support/write_off.h"
+#include "surface/mass_properties.h"
 
 namespace kerf {
 namespace {
@@ -136,28 +136,28 @@ Words Trial::make_options() {
         std::string name;
         Words values, refused;
     };
-    static const std::vector<Option> table = {
-        {"--cut", {"inertia", "volume", "equidistant"}, {"saw"}},
-        {"--axis", {"auto", "x", "y", "z"}, {"w"}},
-        {"--balance", {"nodes", "faces", "volume", "inertia", "work"}, {""}},
-        {"--contour", {"min-cut", "edges", "straight"}, {"none"}},
-        {"--surface", {"keep", "split"}, {"lose"}},
-        {"--radius-edge", {"0", "1.2", "1.4", "2"}, {"1", "nan"}},
-        {"--size", {"0.1", "0.5"}, {"1e-7", "1e-300", "-1"}},
-        {"--max-volume", {"1e-3", "1e-4", "0"}, {"inf"}},
-        {"--attempts", {"1", "3"}, {"0"}},
-        {"--weld", {"0", "1e-9"}, {"1e-400"}},
-        {"--voids", {"as-given", "parity"}, {"some"}},
-        {"--feature-angle", {"0", "40"}, {"180"}},
-        {"--optimise-surface", {"0", "2"}, {"1.5"}},
-        {"--keep-largest", {}, {}},
-        {"--tetgen", {"q1.5", "q1.4a0.01"}, {"r", "h"}},
-        {"--stl", {}, {}},
-        {"--memory", {"0", "2000", "150"}, {"20"}},
-        {"--timeout", {"0", "100"}, {"-1"}}};
+    static const std::vector<Option> table = {{"--cut", {"inertia", "volume", "equidistant"}, {"saw"}},
+                                              {"--axis", {"auto", "x", "y", "z"}, {"w"}},
+                                              {"--balance", {"nodes", "faces", "volume", "inertia", "work"}, {""}},
+                                              {"--contour", {"min-cut", "edges", "straight"}, {"none"}},
+                                              {"--surface", {"keep", "split"}, {"lose"}},
+                                              {"--radius-edge", {"0", "1.2", "1.4", "2"}, {"1", "nan"}},
+                                              {"--size", {"0.1", "0.5"}, {"1e-7", "1e-300", "-1"}},
+                                              {"--max-volume", {"1e-3", "1e-4", "0"}, {"inf"}},
+                                              {"--attempts", {"1", "3"}, {"0"}},
+                                              {"--weld", {"0", "1e-9"}, {"1e-400"}},
+                                              {"--voids", {"as-given", "parity"}, {"some"}},
+                                              {"--feature-angle", {"0", "40"}, {"180"}},
+                                              {"--optimise-surface", {"0", "2"}, {"1.5"}},
+                                              {"--keep-largest", {}, {}},
+                                              {"--tetgen", {"q1.5", "q1.4a0.01"}, {"r", "h"}},
+                                              {"--stl", {}, {}},
+                                              {"--memory", {"0", "2000", "150"}, {"20"}},
+                                              {"--timeout", {"0", "100"}, {"-1"}}};
     Words options = {"-n", std::to_string(one_in(20) ? below(2000) : 1 + below(8))};
     // Some tenths of a second, so that there is something to disturb.
-    if (volume_ > 0 && !one_in(3)) options.insert(options.end(), {"--size", fmt::format("{}", std::cbrt(volume_) / 25)});
+    if (volume_ > 0 && !one_in(3))
+        options.insert(options.end(), {"--size", fmt::format("{}", std::cbrt(volume_) / 25)});
     for (std::uint32_t i = below(4); i > 0; --i) {
         const Option& option = any_of(table);
         if (std::find(options.begin(), options.end(), option.name) != options.end()) continue;
@@ -178,8 +178,9 @@ Words Trial::under_ranks(Words words) {
     words.insert(words.begin(), KERF_PROGRAM);
 #ifdef KERF_MPIRUN
     if (one_in(4)) {
-        const Words launcher = {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1", KERF_MPIRUN,
-                                "--oversubscribe", "-n", std::to_string(2 + below(2))};
+        const Words launcher = {
+            "OMPI_ALLOW_RUN_AS_ROOT=1",  "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1", KERF_MPIRUN, "--oversubscribe", "-n",
+            std::to_string(2 + below(2))};
         words.insert(words.begin(), launcher.begin(), launcher.end());
     }
 #endif
@@ -220,9 +221,8 @@ void Trial::kill_something() {
     test::StartedRun run("/usr/bin/env", words);
     const std::uint32_t wanted = below(4);
     if (one_in(2))
-        test::await([&] {
-            return test::finished_parts(folder_.file("out")) >= wanted || test::has_ended(run.process());
-        });
+        test::await(
+            [&] { return test::finished_parts(folder_.file("out")) >= wanted || test::has_ended(run.process()); });
     for (std::uint32_t times = 1 + below(3); times > 0; --times) {
         std::this_thread::sleep_for(std::chrono::milliseconds(below(one_in(2) ? 60 : 600)));
         std::vector<pid_t> victims = with_workers ? run.workers() : test::descendants_of(run.process(), "kerf");
@@ -241,9 +241,9 @@ void Trial::kill_something() {
 }
 
 void Trial::limit_something() {
-    const std::string limit =
-        any_of(Words{"ulimit -f " + std::to_string(1 + below(400)), "ulimit -v " + std::to_string(100'000 + below(300'000)),
-                     "ulimit -n " + std::to_string(5 + below(30)), "ulimit -t " + std::to_string(1 + below(5))});
+    const std::string limit = any_of(
+        Words{"ulimit -f " + std::to_string(1 + below(400)), "ulimit -v " + std::to_string(100'000 + below(300'000)),
+              "ulimit -n " + std::to_string(5 + below(30)), "ulimit -t " + std::to_string(1 + below(5))});
     Words words = command("out");
     words.insert(words.begin(), KERF_PROGRAM);
     const ChildResult result = run_to_end("/bin/sh", {"-c", limit + "; exec " + command_text(words)});

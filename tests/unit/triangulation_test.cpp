@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/error.h"
 namespace kerf {
 namespace {
 
@@ -193,6 +194,22 @@ TEST(Triangulation, IsDeterministic) {
     const PlanarTriangulation a = triangulate(region), b = triangulate(region);
     EXPECT_EQ(a.triangles, b.triangles);
     EXPECT_TRUE(a.points == b.points);
+}
+
+TEST(Triangulation, EndsAtItsLimitAndWhenItIsAskedTo) {
+    PlanarRegion region = disc(400, 1);
+    region.max_edge = 0.01;
+    const auto points = static_cast<std::int64_t>(triangulate(region).points.size());
+    EXPECT_GT(points, 10'000);
+    region.max_points = points - 1;
+    EXPECT_THROW(triangulate(region), Error);
+    region.max_points = points + 1;
+    int polls = 0;
+    region.poll = [&] {
+        if (++polls == 5) throw Error(ErrorCode::cancelled, "enough");
+    };
+    EXPECT_THROW(triangulate(region), Error);
+    EXPECT_EQ(polls, 5);
 }
 
 }  // namespace

@@ -89,7 +89,8 @@ TEST(Screenshot, SaysWhatIsWrong) {
     expect({asset_path("cube"), "--stage", "split", "-n", "100000"}, 2, "too few");
     std::ofstream(folder().file("word.stl")) << "solid x\nfacet normal 0 0 up\n";
     expect({folder().file("word.stl")}, 3, "word.stl");
-    for (const std::string option : {"--explode", "--shrink", "--timeout"}) expect({asset_path("cube"), option, "nan"}, 2, "");
+    for (const std::string option : {"--explode", "--shrink", "--timeout"})
+        expect({asset_path("cube"), option, "nan"}, 2, "");
     std::filesystem::copy_file(asset_path("cube"), folder().file("a.stl"));
     const std::string before = bytes_of_file(folder().file("a.stl"));
     const ChildResult onto_input = run_kerf({"screenshot", folder().file("a.stl"), "-o", folder().file("a.stl")});
@@ -104,7 +105,8 @@ TEST(Screenshot, MissingAndCutPartFilesAreErrors) {
     const std::string run = folder().file("holed"), part = run + "/parts/part_0002.vtu";
     ASSERT_EQ(run_kerf({"mesh", asset_path("cube"), "-o", run, "-n", "2", "-q"}).exit_code, 0);
     const auto expect_error = [&](const std::string& word) {
-        for (const std::vector<std::string>& view : {std::vector<std::string>{"--clip", "x=0.5"}, {"--explode", "0.3"}, {}}) {
+        for (const std::vector<std::string>& view :
+             {std::vector<std::string>{"--clip", "x=0.5"}, {"--explode", "0.3"}, {}}) {
             std::vector<std::string> arguments = {run};
             arguments.insert(arguments.end(), view.begin(), view.end());
             const ChildResult result = screenshot(arguments);
