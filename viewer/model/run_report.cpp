@@ -136,7 +136,7 @@ std::string damage_of(const std::string& folder, const Json& files) {
     for (const Json& file : files) {
         const auto path = file.at("path").get<std::string>();
         std::error_code error;
-        const std::uintmax_t size = std::filesystem::file_size(folder + "/" + path, error);
+        const std::uintmax_t size = std::filesystem::file_size(std::filesystem::path(folder) / path, error);
         if (!error && size == file.at("bytes").get<std::uintmax_t>()) continue;
         if (count++ == 0) first = fmt::format("{}/{} is {}", folder, path, error ? "missing" : "cut short");
     }
