@@ -123,7 +123,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     CLI::Option* resume = mesh->add_option("--resume", line.resume,
                                            "Finish the run into this folder that was interrupted, with its options.")
                               ->type_name("DIR");
-    for (const char* name : {"input", "--output"}) resume->excludes(mesh->get_option(name));
+    for (const char* name : {"input", "--output", "--config"}) resume->excludes(mesh->get_option(name));
     mesh->add_flag("--dry-run", line.options.dry_run, "Cut, print what every part will take, and end; write nothing.");
     CLI::App* check = app.add_subcommand("check", "Diagnose a surface without meshing it.");
     check->add_option("input", line.check.path, "Surface file.")->required()->type_name("INPUT");

@@ -43,7 +43,8 @@ void report_failed_parts(const RunReport& report) {
                         "wanted with other --timeout or --memory.\n",
                         report.parts.size() - failed, report.folder, report.options.output));
     if (report.kept_valid_run)
-        tell(fmt::format("kerf: {} keeps the older run, which is valid.\n", report.options.output));
+        tell(fmt::format("kerf: {} keeps the older run, which is valid; this one is in {}.\n", report.options.output,
+                         report.folder));
 }
 
 // The log of events, if there is one and this is the rank that writes it.

@@ -22,13 +22,13 @@ volatile std::sig_atomic_t stop_signal = 0;
 constexpr unsigned seconds_to_end = 2;
 
 void note_signal(int signal) {
+    if (stop_signal == 0) ::alarm(seconds_to_end);
     stop_signal = signal;
-    ::alarm(seconds_to_end);
 }
 
 void end_now(int) {
     constexpr std::string_view text =
-        "kerf: The run was cancelled in the middle of a step; kerf mesh --resume goes on.\n";
+        "kerf: The run was cancelled in the middle of a step. What kerf mesh has finished waits for --resume.\n";
     (void)!::write(STDERR_FILENO, text.data(), text.size());
     ::_exit(static_cast<int>(ErrorCode::cancelled));
 }

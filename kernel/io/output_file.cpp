@@ -4,8 +4,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -19,16 +22,48 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Where the bytes go: the file behind all links, which may be still to be written. What is no file stays as it is
-// named, since the links of /dev/stdout lead to no path.
-std::string target_of(const std::string& path) {
-    std::error_code error;
-    if (fs::exists(path, error)) {
-        if (!fs::is_regular_file(path, error)) return path;
-        const fs::path target = fs::canonical(path, error);
-        return error ? path : target.string();
+// The number of a descriptor that a path names; -1 for a path of a file.
+int descriptor_of(const std::string& path) {
+    if (path == "/dev/stdout") return STDOUT_FILENO;
+    if (path == "/dev/stderr") return STDERR_FILENO;
+    for (const std::string_view prefix : {"fd:", "/dev/fd/", "/proc/self/fd/"}) {
+        if (!path.starts_with(prefix)) continue;
+        int number = -1;
+        const char* end = path.data() + path.size();
+        const auto [stop, error] = std::from_chars(path.data() + prefix.size(), end, number);
+        return error == std::errc() && stop == end ? number : -1;
     }
+    return -1;
+}
+
+std::string folder_of(const std::string& path) {
+    const std::string folder = fs::path(path).parent_path().string();
+    return folder.empty() ? "." : folder;
+}
+
+void write_in_place(const std::string& path, std::span<const char> bytes) {
+    CheckedFile file(open_output(path), path);
+    file.write(bytes.data(), bytes.size());
+    file.close();
+}
+
+// Opens a new file beside the target, which is nobody else's, and says its name; -1 with errno if there can be none.
+int open_beside(const std::string& target, std::string& name) {
+    name = target + ".XXXXXX";
+    const int fd = ::mkostemp(name.data(), O_CLOEXEC);
+    if (fd < 0) return fd;
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    struct stat older;
+    ::fchmod(fd, ::stat(target.c_str(), &older) == 0 ? older.st_mode & 07777 : 0666 & ~mask);
+    return fd;
+}
+
+}  // namespace
+
+std::string behind_links(const std::string& path) {
     constexpr int most_links = 40;
+    std::error_code error;
     fs::path target = path;
     for (int i = 0; i < most_links && fs::is_symlink(target, error); ++i) {
         const fs::path next = fs::read_symlink(target, error);
@@ -38,34 +73,6 @@ std::string target_of(const std::string& path) {
     return target.string();
 }
 
-std::string folder_of(const std::string& path) {
-    const std::string folder = fs::path(path).parent_path().string();
-    return folder.empty() ? "." : folder;
-}
-
-void write_and_close(CheckedFile file, std::span<const char> bytes) {
-    file.write(bytes.data(), bytes.size());
-    file.close();
-}
-
-// A new file beside the target, which is nobody else's.
-std::string unused_name(const std::string& target) {
-    std::string name = target + ".XXXXXX";
-    const int fd = ::mkostemp(name.data(), O_CLOEXEC);
-    if (fd < 0)
-        throw Error(ErrorCode::io, fmt::format("Cannot write {}: {}. Check the permissions and the free space of its "
-                                               "folder, or choose another one.",
-                                               target, std::generic_category().message(errno)));
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
-    struct stat older;
-    ::fchmod(fd, ::stat(target.c_str(), &older) == 0 ? older.st_mode & 07777 : 0666 & ~mask);
-    ::close(fd);
-    return name;
-}
-
-}  // namespace
-
 void refuse_to_overwrite(const std::string& input, const std::string& option, const std::string& output) {
     std::error_code error;
     if (input.empty() || output.empty() || !fs::equivalent(input, output, error) || error) return;
@@ -73,32 +80,51 @@ void refuse_to_overwrite(const std::string& input, const std::string& option, co
                                            option, output, input));
 }
 
+bool lies_inside(const std::string& file, const std::string& folder) {
+    const auto normal = [](const std::string& path) {
+        std::error_code ignored;  // a path that cannot be used is refused where it is used
+        const auto clean = fs::weakly_canonical(fs::absolute(path, ignored), ignored);
+        return clean.has_filename() ? clean : clean.parent_path();
+    };
+    const fs::path inner = normal(file), outer = folder.empty() ? fs::path() : normal(folder);
+    return !outer.empty() && std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
+
 void require_writable(const std::string& option, const std::string& path) {
-    if (path.empty()) return;
-    const std::string target = target_of(path);
+    if (path.empty() || descriptor_of(path) >= 0) return;
+    const std::string target = behind_links(path);
     std::error_code error;
     const bool exists = fs::exists(target, error);
     if (exists && fs::is_directory(target, error)) error = std::make_error_code(std::errc::is_a_directory);
-    const bool is_file = exists && fs::is_regular_file(target);
-    // A regular file is replaced by one beside it; devices and pipes are opened.
-    const std::string asked = exists && !is_file ? target : folder_of(target);
-    if (!error && ::access(asked.c_str(), is_file || !exists ? W_OK | X_OK : W_OK) != 0)
-        error = {errno, std::generic_category()};
+    const bool is_allowed =
+        exists ? ::access(target.c_str(), W_OK) == 0 : ::access(folder_of(target).c_str(), W_OK | X_OK) == 0;
+    if (!error && !is_allowed) error = {errno, std::generic_category()};
     if (error)
         throw Error(ErrorCode::io, fmt::format("{} is {}, which cannot be written: {}. Choose another place.", option,
                                                path, error.message()));
 }
 
+std::FILE* open_output(const std::string& path) {
+    const int descriptor = descriptor_of(path);
+    if (descriptor < 0 && !path.starts_with("fd:")) return std::fopen(path.c_str(), "wb");
+    const int copy = ::dup(descriptor);  // sets errno where there is no such file
+    return copy < 0 ? nullptr : ::fdopen(copy, "w");
+}
+
 void write_output_file(const std::string& path, std::span<const char> bytes) {
-    const std::string target = target_of(path);
     std::error_code error;
-    if (fs::exists(target, error) && !fs::is_regular_file(target, error)) {
-        write_and_close(CheckedFile(target, "wb"), bytes);
+    const std::string target = behind_links(path);
+    const bool is_replaced = descriptor_of(path) < 0 && (!fs::exists(path, error) || fs::is_regular_file(path, error));
+    std::string beside;
+    const int fd = is_replaced ? open_beside(target, beside) : -1;
+    if (fd < 0) {
+        write_in_place(path, bytes);
         return;
     }
-    const std::string beside = unused_name(target);
     try {
-        write_and_close(CheckedFile(beside, "wb"), bytes);
+        CheckedFile file(::fdopen(fd, "wb"), beside);
+        file.write(bytes.data(), bytes.size());
+        file.close();
         fs::rename(beside, target, error);
         if (error)
             throw Error(ErrorCode::io, fmt::format("Cannot rename {} to {}: {}.", beside, target, error.message()));

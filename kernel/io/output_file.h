@@ -1,22 +1,33 @@
 // Files that a user has named for a result.
 #pragma once
 
+#include <cstdio>
 #include <span>
 #include <string>
 
 namespace kerf {
 
+/// The path behind all links that it ends with, the last of which may lead to what does not exist yet.
+std::string behind_links(const std::string& path);
+
 /// Throws Error(io), naming both, if `output` is the file `input`, by whatever path or link: the input would be lost.
 /// `option` names the output, as "--report". Either may be empty.
 void refuse_to_overwrite(const std::string& input, const std::string& option, const std::string& output);
+
+/// Whether the file is the folder or lies below it, by whatever links; false for an empty folder.
+bool lies_inside(const std::string& file, const std::string& folder);
 
 /// Throws Error(io), naming option, path and reason, if the file could not be written: its folder is missing, it is a
 /// folder itself, or permissions forbid it. Changes nothing. An empty path is good.
 void require_writable(const std::string& option, const std::string& path);
 
+/// Opens a file to be written from its beginning. `fd:N`, /dev/stdout, /dev/stderr and /dev/fd/N are the process's own
+/// descriptors, which are written to where they stand, and stay open. Null with errno if it cannot be opened.
+std::FILE* open_output(const std::string& path);
+
 /// Writes the file. One that exists is replaced as a whole, and only when all bytes are written, so that a full disk
-/// leaves the older one. Links are followed; devices and pipes are written to. Throws Error(io) naming the file and the
-/// reason.
+/// leaves the older one; where its folder allows no new file, it is written over. Links are followed; devices, pipes
+/// and descriptors are written to. Throws Error(io) naming the file and the reason.
 void write_output_file(const std::string& path, std::span<const char> bytes);
 
 }  // namespace kerf

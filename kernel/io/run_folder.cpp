@@ -22,6 +22,7 @@
 #include "core/error.h"
 #include "io/durable_file.h"
 #include "io/folder_files.h"
+#include "io/output_file.h"
 #include "io/run_manifest.h"
 
 namespace kerf {
@@ -39,13 +40,10 @@ namespace {
 
 // Absolute, without links or a slash at the end, so that a sibling's name is the path and a suffix.
 std::string normal_path(const std::string& path) {
-    constexpr int most_links = 40;
-    std::error_code error, ignored;
+    std::error_code error;
     fs::path normal = fs::absolute(path, error);
     if (!error && !normal.has_filename()) normal = normal.parent_path();
-    for (int i = 0; i < most_links && !error && fs::is_symlink(normal, ignored); ++i)
-        normal = normal.parent_path() / fs::read_symlink(normal, error);
-    if (!error) normal = fs::weakly_canonical(normal, error);
+    if (!error) normal = fs::weakly_canonical(behind_links(normal.string()), error);
     if (error) fail("use the output folder", "'" + path + "'", error);
     return normal.has_filename() ? normal.string() : normal.parent_path().string();
 }
@@ -73,6 +71,12 @@ void require_remains_of_run(const std::string& path) {
         throw Error(ErrorCode::io, fmt::format("{} is in the way of the run. Choose another output folder.", path));
     for (const std::string& file : list_files(path))
         if (!is_named_like_run_file(file)) refuse_foreign(path, file);
+}
+
+[[noreturn]] void refuse_finished_run(const std::string& path) {
+    throw Error(ErrorCode::io, fmt::format("{} is a finished run, but a run may need that name. Rename it, or choose "
+                                           "another output folder.",
+                                           path));
 }
 
 // A folder that other file systems are mounted on cannot get another one's name.
@@ -113,13 +117,6 @@ std::string failed_path_of(const std::string& final_path) { return final_path + 
 std::string older_path_of(const std::string& partial) { return partial + "-older"; }
 std::string removed_path_of(const std::string& partial) { return partial + "-removed"; }
 
-// The failed run's folder becomes the partial one of the next, unless that has one already.
-void take_over_failed_run(const std::string& failed, const std::string& partial) {
-    std::error_code error;
-    if (fs::exists(partial, error) || !fs::exists(failed + "/work/run.json", error)) return;
-    fs::rename(failed, partial, error);  // if it cannot be, all parts are meshed again
-}
-
 // A folder that is not there has none.
 std::vector<std::string> names_in(const std::string& folder) {
     std::error_code error;
@@ -135,15 +132,10 @@ bool is_kept_for_next_run(const std::string& file) {
     return file.starts_with("work/journal/") || file == "work/run.json";
 }
 
-// Removes the files of a folder whose name is none of `kept`.
-void clear_folder(const std::string& folder, const std::set<std::string>& kept) {
-    for (const std::string& name : names_in(folder)) {
-        if (kept.contains(name)) continue;
-        std::error_code error;
-        const std::string path = (fs::path(folder) / name).string();
-        fs::remove(path, error);
-        if (error) fail("remove what an interrupted run left,", path, error);
-    }
+// A run that was stopped between two renames has left its older one aside.
+void put_back(const std::string& older, const std::string& final_path) {
+    std::error_code error;
+    if (!fs::exists(final_path, error) && inspect_run_folder(older).is_run) fs::rename(older, final_path, error);
 }
 
 }  // namespace
@@ -154,6 +146,7 @@ RunFolder::RunFolder(std::string final_path, std::string partial, bool owner)
 RunFolder::RunFolder(RunFolder&& other) noexcept
     : final_(std::move(other.final_)),
       partial_(std::move(other.partial_)),
+      taken_over_(std::move(other.taken_over_)),
       owner_(std::exchange(other.owner_, false)),
       keep_(other.keep_),
       lock_(std::exchange(other.lock_, -1)),
@@ -162,14 +155,14 @@ RunFolder::RunFolder(RunFolder&& other) noexcept
 // Files that are open leave traces on network disks when they are removed, so locks go first; what they protected is
 // moved out of the way of other runs before.
 RunFolder::~RunFolder() {
-    std::error_code ignored;
-    const std::string removed = removed_path_of(partial_);
-    const bool removes = owner_ && !keep_;
-    if (removes) fs::rename(partial_, removed, ignored);
-    release_locks();
     try {
-        if (removes) remove_run_files(removed);
-    } catch (const Error&) {  // it cannot be read; the next run will say so
+        std::error_code ignored;
+        const std::string removed = removed_path_of(partial_);
+        const bool removes = owner_ && !keep_;
+        if (removes) fs::rename(partial_, removed, ignored);
+        release_locks();
+        if (removes) remove_run_folder(removed);
+    } catch (...) {  // no memory is left; the next run removes it
     }
 }
 
@@ -178,38 +171,61 @@ void RunFolder::release_locks() {
         if (*fd >= 0) ::close(std::exchange(*fd, -1));
 }
 
+std::vector<std::string> RunFolder::folders_of(const std::string& path) {
+    const std::string final_path = normal_path(path), partial = partial_path_of(final_path);
+    return {final_path, failed_path_of(final_path), partial, older_path_of(partial), removed_path_of(partial)};
+}
+
 std::string RunFolder::saved_run_file(const std::string& path) {
     const std::string final_path = normal_path(path), partial = partial_path_of(final_path);
     std::error_code ignored;
     for (const std::string& folder : {partial, final_path, failed_path_of(final_path)}) {
         const std::string file = RunFolder("", folder, false).saved_run_file();
-        if (fs::exists(file, ignored)) return file;
+        if (fs::exists(file, ignored) && !inspect_run_folder(folder).is_valid) return file;
     }
     return RunFolder("", partial, false).saved_run_file();
 }
 
-RunFolder RunFolder::create(const std::string& path) {
+RunFolder RunFolder::create(const std::string& path,
+                            const std::function<bool(const std::string& saved_run)>& continues) {
     const std::string final_path = normal_path(path), partial = partial_path_of(final_path);
-    const FolderContent older = require_replaceable(final_path);
-    if (older.exists) refuse_mount_point(final_path);
-    const std::string failed = failed_path_of(final_path);
-    require_replaceable(failed);
-    for (const std::string& remains : {partial, older_path_of(partial), removed_path_of(partial)})
-        require_remains_of_run(remains);
-    remove_run_files(removed_path_of(partial));
-    if (older.is_run && !older.is_valid) take_over_failed_run(final_path, partial);
-    take_over_failed_run(failed, partial);
+    const std::string failed = failed_path_of(final_path), older = older_path_of(partial);
+    put_back(older, final_path);
+    if (require_replaceable(final_path).exists) refuse_mount_point(final_path);
+    if (require_replaceable(failed).is_valid) refuse_finished_run(failed);
+    for (const std::string& remains : {partial, older, removed_path_of(partial)}) require_remains_of_run(remains);
     RunFolder folder(final_path, partial, false);
+    std::error_code ignored;
+    if (inspect_run_folder(partial).is_run && !fs::exists(folder.file(lock_file), ignored))
+        refuse_finished_run(partial);
+    remove_run_folder(removed_path_of(partial));
     create_folder(folder.file("work"));
     folder.lock();
     folder.owner_ = true;
-    folder.keep_ = folder.finished_parts() > 0;  // what an interrupted run left is lost only to its heir
     folder.clear_all_but_parts();
     for (const char* name : {"parts", "work/journal", "work/jobs", "work/taken"}) create_folder(folder.file(name));
+    for (const std::string& candidate : {failed, final_path}) {
+        const std::string saved = RunFolder("", candidate, false).saved_run_file();
+        if (folder.finished_parts() == 0 && continues && fs::exists(saved, ignored) && continues(saved))
+            folder.take_over_finished_parts(candidate);
+    }
+    folder.keep_ = folder.finished_parts() > 0;  // what an interrupted run left is lost only to its heir
     for (const std::string& parent :
          {fs::path(final_path).parent_path().string(), folder.partial_, folder.file("work")})
         sync_folder(parent);
     return folder;
+}
+
+// What cannot be moved is meshed again.
+void RunFolder::take_over_finished_parts(const std::string& failed) {
+    taken_over_ = failed;
+    std::error_code ignored;
+    for (const std::string& entry : names_in((fs::path(failed) / "work/journal").string())) {
+        const std::string journal = "work/journal/" + entry;
+        if (!is_named_like_run_file(journal) || entry.find('.') != entry.npos) continue;
+        const std::string part = "parts/" + part_file_name(std::stoi(entry));
+        for (const std::string& name : {part, journal}) fs::rename(fs::path(failed) / name, file(name), ignored);
+    }
 }
 
 // Opens the file and locks it without waiting: false if others hold a lock that excludes this one. A file system that
@@ -247,21 +263,21 @@ void RunFolder::lock() {
 }
 
 void RunFolder::clear_all_but_parts() const {
-    for (const char* name : {"work/jobs", "work/taken", "failed"}) clear_folder(file(name), {});
-    clear_folder(file("work"), {"journal", "jobs", "taken", "lock", "ranks", "run.json"});
-    std::error_code error;
-    fs::remove(file("failed"), error);
-    clear_folder(partial_, {"parts", "work", "failed"});
+    remove_run_files(partial_, [](const std::string& name) {
+        return !name.starts_with("parts/") && !name.starts_with("work/journal/") && name != "work/run.json" &&
+               name != lock_file && name != ranks_file;
+    });
 }
 
 void RunFolder::keep_only(const std::vector<int>& leaves) const {
-    std::set<std::string> entries, parts;
+    std::set<std::string> kept;
     for (const int leaf : leaves) {
-        entries.insert(fs::path(journal_file(leaf)).filename());
-        parts.insert(part_file_name(leaf));
+        kept.insert("work/journal/" + fs::path(journal_file(leaf)).filename().string());
+        kept.insert("parts/" + part_file_name(leaf));
     }
-    clear_folder(file("work/journal"), entries);
-    clear_folder(file("parts"), parts);
+    remove_run_files(partial_, [&](const std::string& name) {
+        return (name.starts_with("parts/") || name.starts_with("work/journal/")) && !kept.contains(name);
+    });
 }
 
 RunFolder RunFolder::join(const std::string& partial_path) {
@@ -306,8 +322,8 @@ std::string RunFolder::commit(bool valid) {
     std::error_code error;
     while (fs::rename(partial_, place, error), error) {
         if (error != std::errc::directory_not_empty && error != std::errc::file_exists) break;
-        require_replaceable(place);
-        remove_run_files(older);
+        if (require_replaceable(place).is_valid && !valid) refuse_finished_run(place);
+        remove_run_folder(older);
         fs::rename(place, older, error);
         if (error && error != std::errc::no_such_file_or_directory) break;
     }
@@ -319,10 +335,18 @@ std::string RunFolder::commit(bool valid) {
     owner_ = false;
     release_locks();
     sync_folder(fs::path(place).parent_path().string());
-    remove_run_files(older);  // the result is complete with and without it
-    remove_run_files(place, [&](const std::string& file) {
-        return file.starts_with("work/") && (valid || !is_kept_for_next_run(file));
-    });
+    // The result is complete with and without what follows.
+    try {
+        remove_run_files(place, [&](const std::string& file) {
+            return file.starts_with("work/") && (valid || !is_kept_for_next_run(file));
+        });
+    } catch (const Error&) {
+    }
+    std::error_code ignored;
+    for (const char* name : {"work/journal", "work/jobs", "work/taken", "work"})
+        fs::remove(fs::path(place) / name, ignored);  // only if it is empty
+    remove_run_folder(older);
+    if (valid && !taken_over_.empty() && taken_over_ != place) remove_run_folder(taken_over_);
     return place;
 }
 

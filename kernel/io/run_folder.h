@@ -1,6 +1,7 @@
 // A folder that appears under its name only when it is complete, and can be continued until then.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,15 +21,22 @@ namespace kerf {
 class RunFolder {
  public:
     /// Checks `path`, makes its partial folder or takes over that of an interrupted run, and makes the folders above
-    /// where they are missing. Links are followed, also those that lead to nothing yet. Throws Error(io) if it cannot
-    /// be written or holds foreign files, naming the first, or if another run is writing it or ranks of an interrupted
-    /// one still live, naming the folder and the reason. A file system without locks keeps nobody out.
-    static RunFolder create(const std::string& path);
+    /// where they are missing. If none was interrupted, but one has failed parts and `continues` says of its
+    /// saved_run_file() that this run is the same, its finished parts are taken over. Links are followed, also those
+    /// that lead to nothing yet. Throws Error(io) if it cannot be written or holds foreign files, naming the first, or
+    /// if another run is writing it or ranks of an interrupted one still live, naming the folder and the reason. A file
+    /// system without locks keeps nobody out.
+    static RunFolder create(const std::string& path,
+                            const std::function<bool(const std::string& saved_run)>& continues = {});
     /// Opens the partial folder that another rank has created. Throws Error(io) if this host does not see it.
     static RunFolder join(const std::string& partial_path);
     /// saved_run_file() of a run into `path` that was interrupted or has failed parts; where it would lie if there is
     /// none. Throws Error(io) if that cannot be a path.
     static std::string saved_run_file(const std::string& path);
+
+    /// The folders that a run into `path` may write, replace or remove: its result, that of a run with failed parts,
+    /// and what is under way. Throws Error(io) if it cannot be a path.
+    static std::vector<std::string> folders_of(const std::string& path);
 
     RunFolder(RunFolder&& other) noexcept;
     RunFolder& operator=(RunFolder&&) = delete;
@@ -53,15 +61,16 @@ class RunFolder {
     std::size_t finished_parts() const;
 
     /// Removes parts and journal entries of other leaves, and all surfaces, that an interrupted run has left. Only for
-    /// the creator.
+    /// the creator. Throws Error(io).
     void keep_only(const std::vector<int>& leaves) const;
 
     /// From now on the destructor leaves the folder for the next run, or again does not.
     void keep() { keep_ = true; }
     void discard() { keep_ = false; }
 
-    /// Waits for the disk, renames the folder to its final name, and removes an older run there and `work`, of which a
-    /// run that is not `valid` keeps what the next one needs. Returns the final name: that of a run that is not valid
+    /// Waits for the disk, renames the folder to its final name, and removes an older run there, the one with failed
+    /// parts that a valid one has taken over, and `work`, of which a run that is not `valid` keeps what the next one
+    /// needs. Returns the final name: that of a run that is not valid
     /// ends with ".failed" if a valid one has the name. Only for the creator. Throws Error(io) if there are foreign
     /// files under the final name.
     std::string commit(bool valid);
@@ -72,8 +81,10 @@ class RunFolder {
     void lock();
     void release_locks();
     void clear_all_but_parts() const;
+    void take_over_finished_parts(const std::string& failed);
 
     std::string final_, partial_;
+    std::string taken_over_;  // the folder of a run with failed parts whose finished ones are here now; or empty
     bool owner_ = false, keep_ = false;
     int lock_ = -1, ranks_lock_ = -1;  // open files
 };

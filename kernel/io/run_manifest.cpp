@@ -48,7 +48,7 @@ bool is_part_name(std::string_view name, std::initializer_list<std::string_view>
 }
 
 bool is_work_name(std::string_view name) {
-    for (const std::string_view file : {"lock", "ranks", "run.json", "run.json.new", "report.json"})
+    for (const std::string_view file : {"lock", "ranks", "run.json", "run.json.new"})
         if (name == file) return true;
     if (take_prefix(name, "journal/")) {
         if (name.ends_with(".new")) name.remove_suffix(4);
@@ -57,13 +57,33 @@ bool is_work_name(std::string_view name) {
     return (take_prefix(name, "jobs/") || take_prefix(name, "taken/")) && is_number(name);
 }
 
+// Without a look into the folders below: this may be anybody's home.
+std::string first_name_in(const std::string& folder) {
+    std::string first;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
+        if (first.empty() || name < first) first = name;
+    }
+    if (error && error != std::errc::no_such_file_or_directory && error != std::errc::not_a_directory)
+        throw Error(ErrorCode::io,
+                    fmt::format("Cannot read the folder {}: {}. Check its permissions, or choose another "
+                                "folder.",
+                                folder, error.message()));
+    return first;
+}
+
 }  // namespace
 
 std::string hash_text(const FileHash& hash) { return fmt::format("{:016x}{:016x}", hash[0], hash[1]); }
 
 RunFile describe_file(const std::string& folder, const std::string& path) {
     constexpr std::size_t chunk_size = std::size_t{1} << 20;
-    CheckedFile file((fs::path(folder) / path).string(), "rb");
+    const std::string whole = (fs::path(folder) / path).string();
+    std::error_code error;
+    if (fs::exists(whole, error) && !fs::is_regular_file(whole, error))
+        throw Error(ErrorCode::io, fmt::format("{} is no file. Move it away.", whole));
+    CheckedFile file(whole, "rb");
     Hasher hasher;
     std::int64_t bytes = 0;
     for (std::string chunk = file.read(chunk_size); !chunk.empty(); chunk = file.read(chunk_size)) {
@@ -98,37 +118,53 @@ FolderContent inspect_run_folder(const std::string& folder) {
     FolderContent content;
     std::error_code error;
     content.exists = fs::is_directory(folder, error);
-    const std::vector<std::string> files = list_files(folder);
-    std::set<std::string> listed;
+    std::set<std::string> listed = {std::string(report_name)};
     try {
         const std::string report = read_file((fs::path(folder) / report_name).string());
         if (is_sealed(report)) {
             const auto json = nlohmann::json::parse(report);
             for (const auto& file : json.at("files")) listed.insert(file.at("path").get<std::string>());
-            listed.insert(std::string(report_name));
             content.is_valid = json.at("exit_code") == 0;
             content.is_run = true;
         }
     } catch (const Error&) {  // no report that can be read
     } catch (const nlohmann::json::exception&) {
     }
+    if (!content.is_run) {
+        content.foreign = first_name_in(folder);
+        return content;
+    }
     // An empty folder of a run's is not on the list, nor is what lets a failed run go on.
-    const auto is_own = [&](const std::string& file) {
-        return content.is_run && (listed.contains(file) ||
-                                  ((file.ends_with('/') || file.starts_with("work/")) && is_named_like_run_file(file)));
-    };
-    const auto foreign = std::find_if_not(files.begin(), files.end(), is_own);
+    const std::vector<std::string> files = list_files(folder);
+    const auto foreign = std::find_if_not(files.begin(), files.end(), [&](const std::string& file) {
+        return listed.contains(file) ||
+               ((file.ends_with('/') || file.starts_with("work/")) && is_named_like_run_file(file));
+    });
     if (foreign != files.end()) content.foreign = *foreign;
     return content;
 }
 
-bool remove_run_files(const std::string& folder, const std::function<bool(const std::string&)>& unwanted) {
+void remove_run_files(const std::string& folder, const std::function<bool(const std::string&)>& unwanted) {
+    for (const std::string& file : list_files(folder)) {
+        if (file.ends_with('/') || !is_named_like_run_file(file) || !unwanted(file)) continue;
+        std::error_code error;
+        fs::remove(fs::path(folder) / file, error);
+        if (error)
+            throw Error(ErrorCode::io, fmt::format("Cannot remove {}/{}, which an older run has left: {}. Check the "
+                                                   "permissions there.",
+                                                   folder, file, error.message()));
+    }
+}
+
+void remove_run_folder(const std::string& folder) {
     std::error_code ignored;
-    for (const std::string& file : list_files(folder))
-        if (is_named_like_run_file(file) && (!unwanted || unwanted(file))) fs::remove(fs::path(folder) / file, ignored);
+    try {
+        for (const std::string& file : list_files(folder))
+            if (is_named_like_run_file(file)) fs::remove(fs::path(folder) / file, ignored);
+    } catch (const Error&) {  // it cannot be read, so it stays
+    }
     for (const char* name : {"parts", "failed", "work/journal", "work/jobs", "work/taken", "work", ""})
         fs::remove(fs::path(folder) / name, ignored);  // only if it is empty
-    return !fs::exists(folder, ignored);
 }
 
 }  // namespace kerf

@@ -25,7 +25,7 @@ struct RunFile {
     }
 };
 
-/// Reads FOLDER/path as a whole, in pieces. Throws Error(io).
+/// Reads FOLDER/path as a whole, in pieces. Throws Error(io), also for what is no file.
 RunFile describe_file(const std::string& folder, const std::string& path);
 
 /// The text of a report, which is an object of JSON that ends with "\n}\n", with its own hash as its last member
@@ -40,19 +40,21 @@ bool is_named_like_run_file(const std::string& path);
 
 /// What a folder holds that may be a run.
 struct FolderContent {
+    bool exists = false;    ///< as a folder
     bool is_run = false;    ///< a report that Kerf has sealed lies in it
     bool is_valid = false;  ///< that report says exit code 0
-    bool exists = false;    ///< as a folder
     /// The first file that is no part of a run of Kerf: of a run, not on its list of files; else any at all.
     std::string foreign;
 };
 
-/// Throws Error(io) for a folder that cannot be read.
+/// Reads the report, and of a run what else lies in the folder. Throws Error(io) if it cannot be read.
 FolderContent inspect_run_folder(const std::string& folder);
 
-/// Removes the files of the folder that are named like a run's, of them those that are `unwanted` if that is given, and
-/// folders that are empty then: whatever else lies there stays. False if something is left. Throws Error(io) if the
-/// folder cannot be read.
-bool remove_run_files(const std::string& folder, const std::function<bool(const std::string& path)>& unwanted = {});
+/// Removes the `unwanted` of the files below the folder that are named like a run's: whatever else lies there stays.
+/// Throws Error(io), naming the file, if one cannot be removed.
+void remove_run_files(const std::string& folder, const std::function<bool(const std::string& path)>& unwanted);
+
+/// Removes all files that are named like a run's, and the folders that are empty then, as far as that can be done.
+void remove_run_folder(const std::string& folder);
 
 }  // namespace kerf

@@ -12,9 +12,11 @@
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <system_error>
 
 #include "core/error.h"
@@ -419,6 +421,15 @@ PartFileHashes hash_part_file(const std::string& path) {
     const std::int64_t ids_end = ids.position + ids.count * static_cast<std::int64_t>(sizeof(std::int64_t));
     PartFileHashes hashes;
     Hasher written, present;
+    std::optional<std::int64_t> next_id;
+    const auto check_ids = [&](const std::string& chunk) {
+        for (std::size_t at = 0; at + sizeof(std::int64_t) <= chunk.size(); at += sizeof(std::int64_t)) {
+            std::int64_t id = 0;
+            std::memcpy(&id, chunk.data() + at, sizeof id);
+            if (id != next_id.value_or(id)) fail_damaged_vtu(path, "its interior vertices are not numbered in a row");
+            next_id = id + 1;
+        }
+    };
     // Reads up to `end`, or to the end of the file.
     const auto read_until = [&](std::int64_t end, bool as_written) {
         constexpr std::int64_t chunk_size = std::int64_t{1} << 20;
@@ -426,7 +437,10 @@ PartFileHashes hash_part_file(const std::string& path) {
             const std::string chunk = file.read(static_cast<std::size_t>(std::min(chunk_size, end - hashes.bytes)));
             if (chunk.empty()) return;
             present.add_bytes(chunk.data(), chunk.size());
-            if (as_written) written.add_bytes(chunk.data(), chunk.size());
+            if (as_written)
+                written.add_bytes(chunk.data(), chunk.size());
+            else
+                check_ids(chunk);
             hashes.bytes += static_cast<std::int64_t>(chunk.size());
         }
     };

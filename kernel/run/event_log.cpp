@@ -1,13 +1,11 @@
 #include "run/event_log.h"
 
-#include <unistd.h>
-
-#include <charconv>
 #include <filesystem>
 
 #include <nlohmann/json.hpp>
 
 #include "io/checked_file.h"
+#include "io/output_file.h"
 #include "run/path_text.h"
 
 namespace kerf {
@@ -16,23 +14,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::unique_ptr<CheckedFile> open_target(const std::string& target) {
-    if (!target.starts_with("fd:")) return std::make_unique<CheckedFile>(target, "w");
-    int number = -1;
-    const char* end = target.data() + target.size();
-    const auto [stop, error] = std::from_chars(target.data() + 3, end, number);
-    if (error != std::errc() || stop != end) number = -1;
-    const int copy = ::dup(number);  // sets errno where there is no such file
-    return std::make_unique<CheckedFile>(copy < 0 ? nullptr : ::fdopen(copy, "w"), target);
-}
-
 std::string absolute(const std::string& path) {
     return path.empty() ? path : path_text(std::filesystem::absolute(path).lexically_normal().string());
 }
 
 }  // namespace
 
-EventLog::EventLog(const std::string& target) : file_(open_target(target)) {}
+EventLog::EventLog(const std::string& target) : file_(std::make_unique<CheckedFile>(open_output(target), target)) {}
 
 EventLog::~EventLog() = default;
 

@@ -8,6 +8,8 @@
 
 #include "core/error.h"
 #include "core/regular_tet.h"
+#include "io/folder_files.h"
+#include "io/run_folder.h"
 #include "run/number_text.h"
 
 namespace kerf {
@@ -57,6 +59,22 @@ std::int32_t choose_parts(const RunOptions& options, double facets, double volum
     return static_cast<std::int32_t>(std::clamp<double>(parts, 1, most));
 }
 
+namespace {
+
+// What parts that wait for this run have taken of the disk already.
+double bytes_waiting(const std::string& output) {
+    double bytes = 0;
+    for (const std::string& folder : RunFolder::folders_of(output))
+        if (std::error_code ignored; std::filesystem::exists(folder + "/work/run.json", ignored))
+            for (const std::string& file : list_files(folder)) {
+                const std::uintmax_t size = std::filesystem::file_size(folder + "/" + file, ignored);
+                if (!ignored) bytes += static_cast<double>(size);
+            }
+    return bytes;
+}
+
+}  // namespace
+
 void check_budget(const RunOptions& options, double facets, double volume) {
     const double bound = options.mesher.max_volume, parts = options.decompose.parts;
     const double tets = forecast(facets, volume, bound).tets;
@@ -67,19 +85,22 @@ void check_budget(const RunOptions& options, double facets, double volume) {
                          : fmt::format("Use --size {:.2g} or larger",
                                        regular_tet_edge(tets_per_volume_bound * volume / left));
     };
+    const double enough = std::ceil(tets / most_tets_per_part);
     if (tets > most_tets_per_part * parts)
         throw Error(ErrorCode::memory,
                     fmt::format("This would make about {} tetrahedra, {} in each of {} parts, but a part can hold {}. "
-                                "{}, or -n {:.0f} or more.",
+                                "{}{}.",
                                 short_number(tets), short_number(tets / parts), parts, short_number(most_tets_per_part),
-                                way_out(most_tets_per_part * parts), std::ceil(tets / most_tets_per_part)));
+                                way_out(most_tets_per_part * parts),
+                                enough <= facets / 4 ? fmt::format(", or -n {:.0f} or more", enough) : ""));
     if (!options.volume) return;
     std::error_code error;
-    std::filesystem::path folder = std::filesystem::absolute(options.output, error).parent_path();
+    std::filesystem::path folder = std::filesystem::path(RunFolder::folders_of(options.output).front()).parent_path();
     while (!std::filesystem::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
     const std::filesystem::space_info space = std::filesystem::space(folder, error);
+    const double available = static_cast<double>(space.available) + bytes_waiting(options.output);
     const bool is_known = !error && space.capacity > 0;
-    if (!is_known || certain * tets * file_bytes_per_tet <= static_cast<double>(space.available)) return;
+    if (!is_known || certain * tets * file_bytes_per_tet <= available) return;
     throw Error(
         ErrorCode::memory,
         fmt::format("This would make about {} tetrahedra, whose files take {} bytes, but {} has {} left. {}, or "

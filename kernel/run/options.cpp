@@ -3,19 +3,20 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
 #include "core/regular_tet.h"
 #include "io/output_file.h"
+#include "io/run_folder.h"
 
 namespace kerf {
 
 namespace {
 
 constexpr std::int32_t most_workers = 4096;
+constexpr std::int64_t most_memory_mb = std::int64_t{1} << 40;
 constexpr std::int64_t bytes_per_interface_point = 500;
 
 template <class Enum>
@@ -26,17 +27,6 @@ OptionField::Choice choice(Enum& value, std::vector<std::string> names, int firs
 
 void require(bool good, const std::string& option, const std::string& range, double value) {
     if (!good) throw Error(ErrorCode::usage, fmt::format("--{} is {}, but it must be {}.", option, value, range));
-}
-
-// The folder is replaced as a whole at the end of the run.
-bool lies_inside(const std::string& file, const std::string& folder) {
-    const auto normal = [](const std::string& path) {
-        std::error_code ignored;  // a path that cannot be used is refused where it is used
-        const auto clean = std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
-        return clean.has_filename() ? clean : clean.parent_path();
-    };
-    const std::filesystem::path inner = normal(file), outer = normal(folder);
-    return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
 }
 
 template <class T>
@@ -91,12 +81,11 @@ void RunOptions::resolve(int cores_of_rank) {
     require(size >= 0 && std::isfinite(size), "size", "positive", size);
     require(size == 0 || std::isnormal(regular_tet_volume(size)), "size",
             "such that its cube is a number of double precision", size);
-    require(mesher.max_volume == 0 || (mesher.max_volume > 0 && std::isnormal(mesher.max_volume)), "max-volume",
-            "positive", mesher.max_volume);
     check_mesher_options(mesher);
     require(timeout_seconds >= 0 && std::isfinite(timeout_seconds), "timeout", "0 (none) or more seconds",
             timeout_seconds);
-    require(memory_mb >= 0, "memory", "0 (unlimited) or more MB", static_cast<double>(memory_mb));
+    require(memory_mb >= 0 && memory_mb <= most_memory_mb, "memory",
+            fmt::format("0 (unlimited) to {} MB", most_memory_mb), static_cast<double>(memory_mb));
     require(attempts >= 1, "attempts", "1 or more", attempts);
     if (decompose.facets == FacetPolicy::keep && decompose.cut.contour == ContourMethod::straight)
         throw Error(ErrorCode::usage, "--contour straight splits facets, and --surface keep forbids it. Drop one.");
@@ -108,19 +97,24 @@ void RunOptions::resolve(int cores_of_rank) {
 
 // Before any work, for all that can be known of the files by then.
 void RunOptions::check_files() const {
-    const std::string folder = dry_run ? "" : output;
-    if (!folder.empty() && lies_inside(input, folder))
+    const std::vector<std::string> folders =
+        dry_run || output.empty() ? std::vector<std::string>() : RunFolder::folders_of(output);
+    const auto is_in_the_way = [&](const std::string& file) {
+        return std::any_of(folders.begin(), folders.end(),
+                           [&](const std::string& folder) { return lies_inside(file, folder); });
+    };
+    if (is_in_the_way(input))
         throw Error(ErrorCode::io,
                     fmt::format("The input {} lies in the output folder {}, which is replaced as a whole "
                                 "when the run ends. Choose another output folder.",
-                                input, folder));
+                                input, output));
     for (const auto& [option, file] : {std::pair("--trace", &trace_file), std::pair("--events", &events_file),
                                        std::pair("--report", &report_file)}) {
         if (file->empty() || file->starts_with("fd:")) continue;
-        if (!folder.empty() && lies_inside(*file, folder))
+        if (is_in_the_way(*file))
             throw Error(ErrorCode::usage, fmt::format("{} is {}, which lies in the output folder {}. That is replaced "
                                                       "as a whole when the run ends, so choose a place outside of it.",
-                                                      option, *file, folder));
+                                                      option, *file, output));
         refuse_to_overwrite(input, option, *file);
         require_writable(option, *file);
     }

@@ -56,11 +56,13 @@ LeafRange range_of_rank(std::int32_t parts, const Communicator& ranks) {
     return {begin(ranks.rank()), begin(ranks.rank() + 1)};
 }
 
-RunFolder open_run_folder(const std::string& path, Communicator& ranks) {
+RunFolder open_run_folder(const RunOptions& options, const std::string& input_hash, Communicator& ranks) {
     std::optional<RunFolder> folder;
     const std::string partial = in_agreement(ranks, [&] {
         if (ranks.rank() != 0) return std::string();
-        folder.emplace(RunFolder::create(path));
+        folder.emplace(RunFolder::create(options.output, [&](const std::string& saved) {
+            return options.volume && is_same_run(saved, options, input_hash);
+        }));
         return folder->partial_path();
     });
     const std::string shared = all_gather(ranks, partial).front();
@@ -115,7 +117,7 @@ std::int32_t part_count(const Input& input, const RunOptions& options, int ranks
         static_cast<std::int32_t>(std::max<std::int64_t>(1, input.facets / least_facets(options.decompose)));
     const std::int32_t wanted = options.decompose.parts;
     if (wanted == 0) {
-        const std::int32_t interrupted = options.dry_run ? 0 : interrupted_part_count(options.output);
+        const std::int32_t interrupted = options.dry_run ? 0 : interrupted_part_count(options.output, input.file_hash);
         if (interrupted > 0 && interrupted <= most) return interrupted;
         return choose_parts(options, static_cast<double>(input.facets), input.volume, ranks, most);
     }
@@ -157,6 +159,7 @@ class Run {
         if (listener_->cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
         listener_->on_progress(stage, done, total);
     }
+    void save() const { save_run(folder_->saved_run_file(), report_.options, input_.file_hash); }
     void verify();
     void measure_workers();
     std::vector<RunFile> describe_files();
@@ -177,11 +180,11 @@ class Run {
 
 // From the beginning on the run can be continued by the name of its folder, however it ends.
 void Run::open_folder() {
-    folder_.emplace(open_run_folder(report_.options.output, ranks_));
+    folder_.emplace(open_run_folder(report_.options, input_.file_hash, ranks_));
     in_agreement(ranks_, [&] {
         if (!is_root() || !report_.options.volume) return;
-        save_run(folder_->saved_run_file(), report_.options, input_.file_hash);
-        folder_->keep();
+        if (folder_->finished_parts() == 0) save();  // else the options are those of the finished parts, until
+        folder_->keep();                             // this run knows its own
     });
 }
 
@@ -259,12 +262,14 @@ void Run::gather_parts() {
 void Run::hand_over_parts() {
     const Stopwatch stopwatch;
     const bool volume = report_.options.volume;
-    const std::size_t finished_before = folder_->finished_parts();
+    std::size_t finished_before = 0;
     in_agreement(ranks_, [&] {
         if (!is_root()) return;
+        finished_before = folder_->finished_parts();
         std::vector<int> leaves;
         for (const PartReport& part : report_.parts) leaves.push_back(part.id);
         folder_->keep_only(volume ? leaves : std::vector<int>());
+        if (volume) save();
     });
     if (volume) volume_.emplace(ranks_, *folder_, report_.options, worker_hash_, input_.diagonal, listener_);
     in_agreement(ranks_, [&] {
@@ -282,7 +287,7 @@ void Run::hand_over_parts() {
     gather_parts();
     const auto resumed = static_cast<std::size_t>(
         std::count_if(report_.parts.begin(), report_.parts.end(), std::mem_fn(&PartReport::resumed)));
-    if (resumed < finished_before)
+    if (is_root() && resumed < finished_before)
         input_.notes.push_back(fmt::format("{} parts of an interrupted run were no longer of use and are removed",
                                            finished_before - resumed));
     report_.seconds.prepare += longest(ranks_, stopwatch.seconds());
@@ -298,7 +303,12 @@ void Run::mesh_parts() {
 // nothing is left if no part is finished.
 Error Run::with_way_to_go_on(const Error& error) {
     if (!folder_ || !report_.options.volume) return error;
-    const std::size_t finished = folder_->finished_parts();
+    std::size_t finished = 0;
+    try {
+        finished = folder_->finished_parts();
+    } catch (const Error&) {  // it cannot be read
+        return error;
+    }
     if (finished == 0 && error.code() != ErrorCode::cancelled) {
         folder_->discard();
         return error;
@@ -390,7 +400,9 @@ RunFile Run::describe_part_file(const std::string& path, const PartReport& part)
 std::vector<RunFile> Run::describe_files() {
     const std::vector<std::string> found = in_agreement(ranks_, [&] {
         std::vector<std::string> files = is_root() ? list_files(folder_->partial_path()) : std::vector<std::string>();
-        std::erase_if(files, [](const std::string& file) { return file.starts_with("work/") || file.ends_with('/'); });
+        std::erase_if(files, [](const std::string& file) {
+            return file.starts_with("work/") || file.ends_with('/') || !is_named_like_run_file(file);
+        });
         return files;
     });
     const std::vector<std::string> files = all_gather(ranks_, found).front();

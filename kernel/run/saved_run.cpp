@@ -1,5 +1,6 @@
 #include "run/saved_run.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -12,6 +13,29 @@
 #include "run/path_text.h"
 
 namespace kerf {
+
+namespace {
+
+RunOptions load_saved_run(const std::string& file) {
+    RunOptions options;
+    try {
+        const auto json = nlohmann::json::parse(read_file(file));
+        options.input = path_of_text(json.at("input").get<std::string>());
+        options.input_hash = json.at("input_hash").get<std::string>();
+        std::vector<OptionText> texts;
+        for (const auto& [name, text] : json.at("options").items())
+            texts.push_back({name, path_of_text(text.get<std::string>())});
+        set_options(options, texts, file);
+    } catch (const nlohmann::json::exception&) {
+        throw Error(ErrorCode::io,
+                    fmt::format("{} is damaged. Run kerf mesh with the input and the options again: what "
+                                "is finished is found there, too.",
+                                file));
+    }
+    return options;
+}
+
+}  // namespace
 
 void save_run(const std::string& path, const RunOptions& options, const std::string& input_hash) {
     RunOptions saved = options;
@@ -32,21 +56,7 @@ RunOptions load_interrupted_run(const std::string& output) {
         throw Error(ErrorCode::io, fmt::format("No interrupted run waits for {}: {} does not exist. Start one with "
                                                "kerf mesh INPUT -o {}.",
                                                output, file, output));
-    RunOptions options;
-    try {
-        const auto json = nlohmann::json::parse(read_file(file));
-        options.input = path_of_text(json.at("input").get<std::string>());
-        options.input_hash = json.at("input_hash").get<std::string>();
-        std::vector<OptionText> texts;
-        for (const auto& [name, text] : json.at("options").items())
-            texts.push_back({name, path_of_text(text.get<std::string>())});
-        set_options(options, texts, file);
-    } catch (const nlohmann::json::exception&) {
-        throw Error(ErrorCode::io,
-                    fmt::format("{} is damaged. Run kerf mesh with the input and the options again: what "
-                                "is finished is found there, too.",
-                                file));
-    }
+    RunOptions options = load_saved_run(file);
     options.output = std::filesystem::absolute(output).string();
     return options;
 }
@@ -59,9 +69,22 @@ void refuse_changed_input(const RunOptions& options, const std::string& input_ha
                             options.input, options.input, options.output));
 }
 
-std::int32_t interrupted_part_count(const std::string& output) {
+bool is_same_run(const std::string& saved_run_file, const RunOptions& options, const std::string& input_hash) {
     try {
-        return load_interrupted_run(output).decompose.parts;
+        const RunOptions saved = load_saved_run(saved_run_file);
+        const std::vector<OptionText> one = option_texts(saved, true), other = option_texts(options, true);
+        return saved.input_hash == input_hash &&
+               std::equal(one.begin(), one.end(), other.begin(), other.end(),
+                          [](const OptionText& a, const OptionText& b) { return a.text == b.text; });
+    } catch (const Error&) {
+        return false;
+    }
+}
+
+std::int32_t interrupted_part_count(const std::string& output, const std::string& input_hash) {
+    try {
+        const RunOptions saved = load_interrupted_run(output);
+        return saved.input_hash == input_hash ? saved.decompose.parts : 0;
     } catch (const Error&) {
         return 0;
     }

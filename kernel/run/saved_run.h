@@ -18,7 +18,11 @@ RunOptions load_interrupted_run(const std::string& output);
 /// Throws Error(io) if the options are those of an interrupted run and its input had another hash.
 void refuse_changed_input(const RunOptions& options, const std::string& input_hash);
 
-/// K of the run that was interrupted while it wrote to the folder `output`; 0 if there is none that can be read.
-std::int32_t interrupted_part_count(const std::string& output);
+/// Whether a run with these options would have the same part files as the one that has written the file.
+bool is_same_run(const std::string& saved_run_file, const RunOptions& options, const std::string& input_hash);
+
+/// K of the run of this input that was interrupted, or failed in part, while it wrote to the folder `output`; 0 if
+/// there is none that can be read.
+std::int32_t interrupted_part_count(const std::string& output, const std::string& input_hash);
 
 }  // namespace kerf

@@ -11,6 +11,7 @@
 #include "cut/split.h"
 #include "io/checked_file.h"
 #include "io/file_bytes.h"
+#include "io/output_file.h"
 
 namespace kerf {
 
@@ -88,7 +89,7 @@ void write_trace(const std::string& path, const Trace& trace) {
     header.record_size = record.size();
     header.record_hash = hash_bytes(record);
     const Bytes begin = to_bytes(header);
-    CheckedFile file(path, "wb");
+    CheckedFile file(open_output(path), path);
     file.write(begin.data(), begin.size());
     file.write(record.data(), record.size());
     file.close();

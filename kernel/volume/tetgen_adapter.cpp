@@ -121,8 +121,6 @@ void set_holes(tetgenio& in, std::vector<Vec3> holes, const Normalisation& frame
 
 constexpr std::string_view expert_letters = "qaSTODMCVX";
 
-// p: fill a surface, Y: keep it, J: keep all vertices, n: neighbours, Q: quiet. Bounds are set as numbers, because the
-// switches know no exponents.
 [[noreturn]] void refuse_switches(const std::string& switches) {
     throw Error(
         ErrorCode::usage,
@@ -131,6 +129,8 @@ constexpr std::string_view expert_letters = "qaSTODMCVX";
                     switches, expert_letters));
 }
 
+// p: fill a surface, Y: keep it, J: keep all vertices, n: neighbours, Q: quiet. Bounds are set as numbers, because the
+// switches know no exponents.
 tetgenbehavior parse_switches(const MesherOptions& options) {
     const bool refine = options.max_volume > 0 || options.radius_edge > 0;
     const std::string& expert = options.tetgen_switches;

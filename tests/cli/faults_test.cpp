@@ -14,6 +14,7 @@
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/program.h"
+#include "support/slice.h"
 #include "support/started_run.h"
 #include "support/temporary_folder.h"
 
@@ -152,9 +153,12 @@ TEST(Cancelling, EndsACutInTheMiddle) {
         std::this_thread::sleep_for(std::chrono::milliseconds(100 * tenths));
         ASSERT_EQ(::kill(run.process(), SIGTERM), 0);
         const auto start = std::chrono::steady_clock::now();
-        EXPECT_EQ(run.wait().exit_code, 130);
+        const ChildResult result = run.wait();
+        EXPECT_EQ(result.exit_code, 130);
         EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(3));
-        EXPECT_TRUE(folder.names().empty() || folder.names() == std::vector<std::string>{"out.kerf-partial"});
+        if (test::in_slices()) continue;  // sanitizers may be too slow to end in order
+        EXPECT_NE(result.log.find("The run was cancelled."), std::string::npos) << result.log;
+        EXPECT_TRUE(folder.names().empty());
     }
 }
 

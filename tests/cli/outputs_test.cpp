@@ -39,8 +39,11 @@ class Outputs : public testing::Test {
     }
     // A shell command in which K is the program and I the input.
     ChildResult shell(const std::string& command) const {
-        return test::run_program(
+        const test::Surroundings around({input_, "-o", file("out"), "-o", file("code"), "-o", file("log")});
+        ChildResult result = test::run_program(
             "/bin/sh", {"-c", "K='" KERF_PROGRAM "'; I='" + input_ + "'; cd '" + file("") + "' && " + command});
+        EXPECT_EQ(around.changes(), "");
+        return result;
     }
 
     test::TemporaryFolder folder_;
@@ -93,6 +96,36 @@ TEST_F(Outputs, LinksAreFollowedAndPipesAreWrittenTo) {
     EXPECT_EQ(mesh({"--report", "/dev/full"}).exit_code, 7);
     const ChildResult piped = shell("$K mesh $I -o out -n 2 -q --report /dev/stdout | cat");
     EXPECT_EQ(test::output_of(piped), test::bytes_of_file(file("out/report.json"))) << piped.log;
+}
+
+// What was in the file that the shell has opened stays, and what follows comes behind.
+TEST_F(Outputs, StandardStreamsAreNotReplaced) {
+    for (const std::string name : {"/dev/stdout", "/dev/fd/1", "fd:1", "/proc/self/fd/1"}) {
+        SCOPED_TRACE(name);
+        std::ofstream(file("log")) << "before\n";
+        const bool is_report = name != "fd:1";
+        shell(std::string("$K mesh $I -o out -n 2 -q ") + (is_report ? "--report " : "--events ") + name +
+              " >>log; echo after >>log");
+        const std::string log = test::bytes_of_file(file("log"));
+        EXPECT_TRUE(log.starts_with("before\n{") && log.ends_with("}\nafter\n")) << log;
+    }
+}
+
+TEST_F(Outputs, AnInputBesideTheOutputThatTheRunWouldRemoveIsRefused) {
+    for (const std::string suffix : {".failed", ".kerf-partial", ".kerf-partial-older", ".kerf-partial-removed"}) {
+        fs::create_directory(file("out" + suffix));
+        const std::string inside = file("out" + suffix + "/part_0011.smesh");
+        fs::copy_file(input_, inside);
+        expect_refused({"mesh", inside, "-o", file("out"), "-n", "2"}, {"lies in the output"});
+        fs::remove_all(file("out" + suffix));
+    }
+}
+
+TEST_F(Outputs, WriteProtectedFilesAreNotReplaced) {
+    if (::geteuid() == 0) return;  // whom no permission binds
+    std::ofstream(file("report")) << "older";
+    fs::permissions(file("report"), fs::perms::owner_read);
+    expect_refused({"mesh", input_, "-o", file("out"), "--report", file("report")}, {"--report", "Permission denied"});
 }
 
 TEST_F(Outputs, ALinkToNothingYetIsFollowed) {

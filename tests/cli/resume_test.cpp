@@ -225,6 +225,7 @@ TEST_F(Resume, SaysWhatIsMissing) {
     EXPECT_EQ(other.exit_code, 2);
     EXPECT_NE(other.log.find("--max-volume would change the parts"), std::string::npos) << other.log;
     EXPECT_EQ(resume({"-o", folder_.file("new")}).exit_code, 2);
+    EXPECT_EQ(resume({"--config", folder_.file("any")}).exit_code, 2);
     EXPECT_EQ(resume({"--dry-run"}).exit_code, 0);
     EXPECT_FALSE(fs::exists(folder_.file("out")));
 

@@ -166,6 +166,11 @@ TEST_F(RunFolderTest, AFailedRunLeavesAValidOneAlone) {
     EXPECT_EQ(entries(), 2u);
 }
 
+void expect_failed_run(const std::string& path) {
+    EXPECT_EQ(get(path + "/parts/part_0008.vtu"), "failed");
+    EXPECT_EQ(get(path + "/work/journal/8"), "finished");
+}
+
 TEST_F(RunFolderTest, FinishedPartsOfAFailedRunAreTakenOver) {
     for (const bool is_beside_valid : {false, true}) {
         SCOPED_TRACE(is_beside_valid);
@@ -180,14 +185,57 @@ TEST_F(RunFolderTest, FinishedPartsOfAFailedRunAreTakenOver) {
             EXPECT_EQ(RunFolder::saved_run_file(path("run")), place + "/work/run.json");
             EXPECT_FALSE(fs::exists(place + "/work/jobs"));
         }
-        RunFolder folder = RunFolder::create(path("run"));
+        const std::string place = path(is_beside_valid ? "run.failed" : "run");
+        const auto options_are = [](const std::string& text) {
+            return [text](const std::string& saved) { return get(saved) == text; };
+        };
+        { EXPECT_EQ(RunFolder::create(path("run"), options_are("others")).finished_parts(), 0u); }
+        expect_failed_run(place);
+        RunFolder folder = RunFolder::create(path("run"), options_are("options"));
         EXPECT_EQ(folder.finished_parts(), 1u);
         EXPECT_EQ(get(folder.part_file(8)), "failed");
+        EXPECT_EQ(get(place + "/report.json").substr(0, 1), "{") << "until the next run is complete";
         fill(folder, "valid");
         folder.commit(true);
         expect_run(path("run"), "valid");
         EXPECT_EQ(entries(), 1u);
     }
+}
+
+TEST_F(RunFolderTest, FinishedRunsUnderTheNamesOfOthersStay) {
+    run(path("run.failed"), "valid");
+    EXPECT_NE(test::io_error([&] { RunFolder::create(path("run")); }), "");
+    expect_run(path("run.failed"), "valid");
+    run(path("other.kerf-partial"), "valid");
+    EXPECT_NE(test::io_error([&] { RunFolder::create(path("other")); }), "");
+    expect_run(path("other.kerf-partial"), "valid");
+}
+
+// As a kill between two renames leaves it.
+TEST_F(RunFolderTest, AnOlderRunThatWasAsideIsPutBack) {
+    run(path("run"), "valid");
+    fs::rename(path("run"), path("run.kerf-partial-older"));
+    EXPECT_EQ(run(path("run"), "failed", 4), path("run.failed"));
+    expect_run(path("run"), "valid");
+}
+
+// Whatever is put among the parts meanwhile is nobody's to remove, and makes no run of Kerf.
+TEST_F(RunFolderTest, WhatOthersPutIntoThePartialFolderStays) {
+    {
+        RunFolder folder = RunFolder::create(path("run"));
+        fill(folder, "a");
+        put(folder.file("parts/view.pvsm"), "an hour of work");
+        folder.keep_only({8});
+        folder.commit(true);
+    }
+    EXPECT_EQ(get(path("run/parts/view.pvsm")), "an hour of work");
+    EXPECT_NE(test::io_error([&] { RunFolder::create(path("run")); }).find("parts/view.pvsm"), std::string::npos);
+    { RunFolder::create(path("other")); }
+    {
+        RunFolder folder = RunFolder::create(path("other"));
+        put(folder.file("notes.txt"), "an hour of work");
+    }
+    EXPECT_EQ(get(path("other.kerf-partial-removed/notes.txt")), "an hour of work");
 }
 
 TEST_F(RunFolderTest, OneRunAtATimeWrites) {

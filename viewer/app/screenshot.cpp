@@ -1,6 +1,7 @@
 #include "viewer/app/screenshot.h"
 
 #include <chrono>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -95,6 +96,10 @@ void check_wishes(const Document& document, const ViewState& state, bool with_pa
 void take_screenshot(const ViewCommand& command, const AppOptions& options) {
     const Deadline deadline(command.timeout_seconds);
     refuse_to_overwrite(command.input, "--output", command.output);
+    if (std::error_code ignored;
+        std::filesystem::is_directory(command.input, ignored) && lies_inside(command.output, command.input))
+        throw Error(ErrorCode::io, fmt::format("--output is {}, which lies in the run {}. Choose another place.",
+                                               command.output, command.input));
     require_writable("--output", command.output);
     const OffscreenContext context;
     const ImGuiOwner imgui;

@@ -2,12 +2,15 @@
 
 #include <unistd.h>
 
-#include <atomic>
+#include <cerrno>
+#include <cstdlib>
 #include <filesystem>
+#include <system_error>
 #include <thread>
 
 #include <fmt/format.h>
 
+#include "core/error.h"
 #include "io/checked_file.h"
 
 namespace kerf::view {
@@ -26,11 +29,13 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }  // namespace
 
 ScratchFolder::ScratchFolder() {
-    static std::atomic<int> count = 0;
-    path_ = (fs::temp_directory_path() / fmt::format("kerf-view-{}-{}", ::getpid(), ++count)).string();
-    fs::remove_all(path_);  // of a process with the same number that has crashed
-    fs::create_directories(path_);
-    fs::permissions(path_, fs::perms::owner_all);
+    std::error_code error;
+    path_ = (fs::temp_directory_path(error) / fmt::format("kerf-view-{}-XXXXXX", ::getpid())).string();
+    if (!::mkdtemp(path_.data()))
+        throw Error(ErrorCode::io,
+                    fmt::format("No folder for temporary files can be made in {}: {}. Check its permissions "
+                                "and free space, or set TMPDIR.",
+                                fs::path(path_).parent_path().string(), std::generic_category().message(errno)));
 }
 
 // Workers of a run that was killed may need a moment to end, too.
