@@ -67,7 +67,7 @@ double bytes_waiting(const std::string& output) {
     for (const std::string& folder : RunFolder::folders_of(output))
         if (std::error_code ignored; std::filesystem::exists(folder + "/work/run.json", ignored))
             for (const std::string& file : list_files(folder)) {
-                const std::uintmax_t size = std::filesystem::file_size(folder + "/" + file, ignored);
+                const std::uintmax_t size = std::filesystem::file_size(std::filesystem::path(folder) / file, ignored);
                 if (!ignored) bytes += static_cast<double>(size);
             }
     return bytes;
