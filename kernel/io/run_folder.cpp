@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -206,8 +207,9 @@ RunFolder RunFolder::create(const std::string& path,
     for (const char* name : {"parts", "work/journal", "work/jobs", "work/taken"}) create_folder(folder.file(name));
     for (const std::string& candidate : {failed, final_path}) {
         const std::string saved = RunFolder("", candidate, false).saved_run_file();
-        if (folder.finished_parts() == 0 && continues && fs::exists(saved, ignored) && continues(saved))
-            folder.take_over_finished_parts(candidate);
+        if (folder.finished_parts() > 0 || !continues || !fs::exists(saved, ignored)) continue;
+        const FolderContent content = inspect_run_folder(candidate);  // a kill may have left the work of a valid run
+        if (content.is_run && !content.is_valid && continues(saved)) folder.take_over_finished_parts(candidate);
     }
     folder.keep_ = folder.finished_parts() > 0;  // what an interrupted run left is lost only to its heir
     for (const std::string& parent :
@@ -222,8 +224,11 @@ void RunFolder::take_over_finished_parts(const std::string& failed) {
     std::error_code ignored;
     for (const std::string& entry : names_in((fs::path(failed) / "work/journal").string())) {
         const std::string journal = "work/journal/" + entry;
-        if (!is_named_like_run_file(journal) || entry.find('.') != entry.npos) continue;
-        const std::string part = "parts/" + part_file_name(std::stoi(entry));
+        int leaf = 0;
+        const char* end = entry.data() + entry.size();
+        const auto [stop, error] = std::from_chars(entry.data(), end, leaf);
+        if (error != std::errc() || stop != end) continue;  // no entry
+        const std::string part = "parts/" + part_file_name(leaf);
         for (const std::string& name : {part, journal}) fs::rename(fs::path(failed) / name, file(name), ignored);
     }
 }
