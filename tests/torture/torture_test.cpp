@@ -223,8 +223,11 @@ void Trial::kill_something() {
     if (one_in(2))
         test::await(
             [&] { return test::finished_parts(folder_.file("out")) >= wanted || test::has_ended(run.process()); });
+    std::vector<pid_t> all;
     for (std::uint32_t times = 1 + below(3); times > 0; --times) {
         std::this_thread::sleep_for(std::chrono::milliseconds(below(one_in(2) ? 60 : 600)));
+        for (const std::string name : {"kerf", "kerf-worker"})
+            for (const pid_t process : test::descendants_of(run.process(), name)) all.push_back(process);
         std::vector<pid_t> victims = with_workers ? run.workers() : test::descendants_of(run.process(), "kerf");
         if (!with_workers) victims.push_back(run.process());
         if (victims.empty() || test::has_ended(run.process())) continue;
@@ -235,6 +238,8 @@ void Trial::kill_something() {
     }
     const ChildResult result = run.wait();
     note("  " + result.describe() + ": " + result.log);
+    // Ranks notice in a moment that their launcher was killed.
+    for (const pid_t process : all) EXPECT_TRUE(test::await([&] { return test::has_ended(process); })) << "an orphan";
     // A launcher has codes of its own for ranks that were killed.
     expect_contract(result, !with_workers, false);
     EXPECT_EQ(around.changes(), "");
