@@ -208,7 +208,9 @@ TEST_F(RunFolderTest, NothingIsTakenFromAValidRun) {
     fs::create_directories(path("run/work/journal"));
     put(path("run/work/journal/8"), "finished");
     put(path("run/work/run.json"), "options");
-    { EXPECT_EQ(RunFolder::create(path("run"), [](const std::string&) { return true; }).finished_parts(), 0u); }
+    {
+        EXPECT_EQ(RunFolder::create(path("run"), [](const std::string&) { return true; }).finished_parts(), 0u);
+    }
     EXPECT_EQ(get(path("run/parts/part_0008.vtu")), "valid");
     EXPECT_EQ(RunFolder::saved_run_file(path("run")), path("run.kerf-partial/work/run.json"));
 }
