@@ -117,12 +117,14 @@ void write_output_file(const std::string& path, std::span<const char> bytes) {
     const bool is_replaced = descriptor_of(path) < 0 && (!fs::exists(path, error) || fs::is_regular_file(path, error));
     std::string beside;
     const int fd = is_replaced ? open_beside(target, beside) : -1;
-    if (fd < 0) {
+    const int reason = errno;
+    if (!is_replaced || (fd < 0 && (reason == EACCES || reason == EPERM || reason == ENAMETOOLONG))) {
         write_in_place(path, bytes);
         return;
     }
+    errno = reason;
+    CheckedFile file(fd < 0 ? nullptr : ::fdopen(fd, "wb"), beside);
     try {
-        CheckedFile file(::fdopen(fd, "wb"), beside);
         file.write(bytes.data(), bytes.size());
         file.close();
         fs::rename(beside, target, error);

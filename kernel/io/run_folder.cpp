@@ -272,6 +272,8 @@ void RunFolder::clear_all_but_parts() const {
         return !name.starts_with("parts/") && !name.starts_with("work/journal/") && name != "work/run.json" &&
                name != lock_file && name != ranks_file;
     });
+    std::error_code ignored;
+    fs::remove(file("failed"), ignored);  // only if it is empty
 }
 
 void RunFolder::keep_only(const std::vector<int>& leaves) const {

@@ -70,9 +70,8 @@ class RunFolder {
 
     /// Waits for the disk, renames the folder to its final name, and removes an older run there, the one with failed
     /// parts that a valid one has taken over, and `work`, of which a run that is not `valid` keeps what the next one
-    /// needs. Returns the final name: that of a run that is not valid
-    /// ends with ".failed" if a valid one has the name. Only for the creator. Throws Error(io) if there are foreign
-    /// files under the final name.
+    /// needs. Returns the final name: that of a run that is not valid ends with ".failed" if a valid one has the name.
+    /// Only for the creator. Throws Error(io) if there are foreign files under the final name.
     std::string commit(bool valid);
 
  private:

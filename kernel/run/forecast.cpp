@@ -106,8 +106,7 @@ void check_budget(const RunOptions& options, double facets, double volume) {
         fmt::format("This would make about {} tetrahedra, whose files take {} bytes, but {} has {} left. {}, or "
                     "another disk.",
                     short_number(tets), short_number(tets * file_bytes_per_tet), folder.string(),
-                    short_number(static_cast<double>(space.available)),
-                    way_out(static_cast<double>(space.available) / file_bytes_per_tet)));
+                    short_number(available), way_out(available / file_bytes_per_tet)));
 }
 
 std::string plan_text(const std::vector<PartReport>& parts, const RunOptions& options, int ranks, bool every_part) {
