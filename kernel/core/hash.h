@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -35,6 +36,13 @@ class Hasher {
  private:
     XXH3_state_t state_;
 };
+
+/// Of bytes that are all at hand.
+inline FileHash digest_of(std::string_view bytes) {
+    Hasher hasher;
+    hasher.add_bytes(bytes.data(), bytes.size());
+    return hasher.digest();
+}
 
 /// 64 bits: tells damaged bytes from good ones.
 inline std::uint64_t hash_bytes(std::span<const char> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }

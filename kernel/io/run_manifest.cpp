@@ -24,12 +24,6 @@ namespace {
 constexpr std::string_view report_name = "report.json", end_of_report = "\n}\n";
 constexpr std::string_view seal_begin = ",\n  \"report_hash\": \"", seal_end = "\"";
 
-FileHash hash_of_text(std::string_view text) {
-    Hasher hasher;
-    hasher.add_bytes(text.data(), text.size());
-    return hasher.digest();
-}
-
 bool is_number(std::string_view text) {
     return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); });
 }
@@ -96,7 +90,7 @@ RunFile describe_file(const std::string& folder, const std::string& path) {
 std::string sealed(const std::string& report) {
     if (!report.ends_with(end_of_report)) throw Error(ErrorCode::internal, "A report does not end as JSON does.");
     return fmt::format("{}{}{}{}{}", report.substr(0, report.size() - end_of_report.size()), seal_begin,
-                       hash_text(hash_of_text(report)), seal_end, end_of_report);
+                       hash_text(digest_of(report)), seal_end, end_of_report);
 }
 
 bool is_sealed(const std::string& report) {

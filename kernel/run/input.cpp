@@ -88,9 +88,7 @@ Input read_input(const std::string& path, const InputOptions& options) {
     Input input;
     input.path = path;
     std::string bytes = read_file(path);
-    Hasher hasher;
-    hasher.add_bytes(bytes.data(), bytes.size());
-    input.file_hash = hash_text(hasher.digest());
+    input.file_hash = hash_text(digest_of(bytes));
     CheckedSoup checked = check_soup(read_surface_bytes(std::move(bytes), path), options);
     Soup& soup = checked.soup;
     if (!checked.diagnosis.clean())
