@@ -1,9 +1,12 @@
 // Pieces inside of the facet, none of them turned over, whose areas add up to its area can neither overlap nor leave a
 // hole: an overlap would need a hole of the same size, and pieces that share corners leave none. Distances are compared
-// with the spacing of doubles at the largest coordinate, because that is how far a vertex on an edge may be off.
+// with the spacing of doubles at the largest coordinate, because that is how far a vertex on an edge may be off. They
+// are measured from the nearest point of an edge: the normal of a needle is off by its length over its height, so that
+// a distance from the plane, measured from a far corner, would be off by as much.
 #include "surface/facet_cover.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <Eigen/Geometry>
@@ -15,6 +18,27 @@ namespace {
 constexpr double spacings = 16;
 
 Vec3 area_vector(const std::array<Vec3, 3>& t) { return (t[1] - t[0]).cross(t[2] - t[0]) / 2; }
+
+Vec3 closest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+    const Vec3 along = b - a;
+    const double t = along.dot(p - a), length_sq = along.squaredNorm();
+    return t <= 0 ? a : t >= length_sq ? b : Vec3(a + t / length_sq * along);
+}
+
+// Of a point from a facet with this unit normal, which is zero if the facet has no area.
+double distance_from(const std::array<Vec3, 3>& facet, const Vec3& normal, const Vec3& p) {
+    double from_edges = INFINITY, from_plane = 0;
+    bool inside = true;
+    for (int i = 0; i < 3; ++i) {
+        const Vec3 &a = facet[i], &b = facet[(i + 1) % 3];
+        const Vec3 offset = p - closest_on_segment(p, a, b);
+        inside = inside && normal.dot((b - a).cross(offset)) > 0;
+        if (offset.norm() >= from_edges) continue;
+        from_edges = offset.norm();
+        from_plane = std::abs(normal.dot(offset));
+    }
+    return inside ? from_plane : from_edges;
+}
 
 double perimeter(const std::array<Vec3, 3>& t) {
     return (t[1] - t[0]).norm() + (t[2] - t[1]).norm() + (t[0] - t[2]).norm();
@@ -30,13 +54,8 @@ bool covers(const std::array<Vec3, 3>& facet, std::span<const std::array<Vec3, 3
     const double area_tolerance = tolerance * perimeter(facet);
     double sum = 0;
     for (const auto& piece : pieces) {
-        for (const Vec3& p : piece) {
-            if (std::abs(normal.dot(p - facet[0])) > tolerance) return false;
-            for (int i = 0; i < 3; ++i) {
-                const Vec3 edge = facet[(i + 1) % 3] - facet[i];
-                if (normal.dot(edge.cross(p - facet[i])) < -tolerance * edge.norm()) return false;
-            }
-        }
+        for (const Vec3& p : piece)
+            if (distance_from(facet, normal, p) > tolerance) return false;
         const double part = normal.dot(area_vector(piece));
         if (part < -area_tolerance) return false;
         sum += part;
