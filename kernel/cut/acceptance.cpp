@@ -62,10 +62,10 @@ class InterfaceJudge {
     PlanarGrid grid_;                 // of the interface triangles
 };
 
-std::vector<PlanarBox> triangle_boxes(const Interface& interface) {
+std::vector<PlanarBox> triangle_boxes(const Interface& interface, const Plane& plane) {
     std::vector<PlanarBox> boxes(interface.triangles.size());
     for (std::size_t i = 0; i < boxes.size(); ++i)
-        for (std::int32_t point : interface.triangles[i]) boxes[i].extend(interface.planar[point]);
+        for (std::int32_t point : interface.triangles[i]) boxes[i].extend(plane.project(interface.points[point]));
     return boxes;
 }
 
@@ -74,7 +74,7 @@ InterfaceJudge::InterfaceJudge(const Surface& surface, const Band& band, const I
       band_(band),
       interface_(interface),
       contour_count_(static_cast<std::int32_t>(interface.contour.size())),
-      boxes_(triangle_boxes(interface)),
+      boxes_(triangle_boxes(interface, band.plane)),
       grid_(boxes_) {
     for (const Triangle& t : interface.triangles) {
         const auto [low, high] =

@@ -67,6 +67,12 @@ double softness(const InterfaceQuality& quality, const CutOptions& options) {
                      quality.gap_rel / options.good_gap_rel});
 }
 
+// 0 if the interface is not valid; 1 and more if it is good.
+double rating(const Verdict& verdict, const CutOptions& options) {
+    if (verdict.refusal == Refusal::none) return 1;
+    return verdict.refusal == Refusal::soft ? softness(verdict.quality, options) : 0;
+}
+
 bool divides(const std::vector<Side>& side) {
     return std::adjacent_find(side.begin(), side.end(), std::not_equal_to<>()) != side.end();
 }
@@ -98,6 +104,11 @@ class PlaneTrial {
     void refuse(Attempt& attempt, Refusal refusal, std::vector<std::int32_t> vertices) const;
     bool label_facets(Attempt& attempt);
     bool find_contour(Attempt& attempt);
+    struct Spanned {
+        Interface interface;
+        Verdict verdict;
+    };
+    Spanned span(const Attempt& attempt, ContourLayout layout) const;
     void span_interface(Attempt& attempt) const;
     void raise_penalty();
 
@@ -158,16 +169,23 @@ bool PlaneTrial::find_contour(Attempt& attempt) {
     return attempt.record.refusal == Refusal::none;
 }
 
+PlaneTrial::Spanned PlaneTrial::span(const Attempt& attempt, ContourLayout layout) const {
+    InterfaceAttempt built = build_interface(surface_, band_, attempt.side, attempt.loops, hits_, options_, layout);
+    if (built.refusal != Refusal::none) return {{}, {built.refusal, std::move(built.failed), {}}};
+    Verdict verdict = judge_interface(surface_, band_, built.interface, options_);
+    return {std::move(built.interface), std::move(verdict)};
+}
+
 void PlaneTrial::span_interface(Attempt& attempt) const {
-    InterfaceAttempt spanned = build_interface(surface_, band_, attempt.side, attempt.loops, hits_, options_);
-    if (spanned.refusal != Refusal::none) {
-        refuse(attempt, spanned.refusal, std::move(spanned.failed));
-        return;
+    Spanned spanned = span(attempt, ContourLayout::projected);
+    if (spanned.verdict.refusal != Refusal::none) {
+        Spanned unfolded = span(attempt, ContourLayout::unfolded);
+        if (rating(unfolded.verdict, options_) > rating(spanned.verdict, options_)) spanned = std::move(unfolded);
     }
     attempt.interface = std::move(spanned.interface);
-    Verdict verdict = judge_interface(surface_, band_, attempt.interface, options_);
-    attempt.record.quality = verdict.quality;
-    if (verdict.refusal != Refusal::none) refuse(attempt, verdict.refusal, std::move(verdict.failed));
+    attempt.record.quality = spanned.verdict.quality;
+    if (spanned.verdict.refusal != Refusal::none)
+        refuse(attempt, spanned.verdict.refusal, std::move(spanned.verdict.failed));
 }
 
 void PlaneTrial::complete(Attempt& attempt) const {

@@ -49,12 +49,13 @@ std::array<double, 2> surface_angles(const Surface& surface, const std::vector<S
 }  // namespace
 
 std::vector<HeightRange> dihedral_ranges(const Surface& surface, const Band& band, const std::vector<Side>& side,
-                                         const std::vector<std::int32_t>& contour, const PlanarTriangulation& planar,
+                                         const std::vector<std::int32_t>& contour,
+                                         const std::vector<Triangle>& triangles, const std::vector<Vec2>& places,
                                          double angle_deg) {
     const auto contour_count = static_cast<std::int32_t>(contour.size());
     const double wanted = angle_deg * std::numbers::pi / 180;
-    std::vector<HeightRange> ranges(planar.points.size());
-    for (const Triangle& t : planar.triangles)
+    std::vector<HeightRange> ranges(places.size());
+    for (const Triangle& t : triangles)
         for (int i = 0; i < 3; ++i) {
             const std::int32_t a = t[i], b = t[(i + 1) % 3], apex = t[(i + 2) % 3];
             if (a >= contour_count || b >= contour_count || apex < contour_count) continue;
@@ -66,7 +67,7 @@ std::vector<HeightRange> dihedral_ranges(const Surface& surface, const Band& ban
             low += wanted;
             high -= wanted;
             if (low > high) low = high = (low + high) / 2;
-            const Vec3 flat = band.plane.lift(planar.points[apex], 0) - frame.origin;
+            const Vec3 flat = band.plane.lift(places[apex], 0) - frame.origin;
             const auto height_at = [&](double angle) {
                 return (flat.dot(frame.u) * std::tan(angle) - flat.dot(frame.w)) / band.plane.normal.dot(frame.w);
             };

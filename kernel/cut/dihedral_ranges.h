@@ -13,7 +13,8 @@ namespace kerf {
 /// two sides enclose less than twice the angle, the range is the middle between them. `contour`: vertices of the
 /// surface, the first points of `planar`. O(#triangles).
 std::vector<HeightRange> dihedral_ranges(const Surface& surface, const Band& band, const std::vector<Side>& side,
-                                         const std::vector<std::int32_t>& contour, const PlanarTriangulation& planar,
+                                         const std::vector<std::int32_t>& contour,
+                                         const std::vector<Triangle>& triangles, const std::vector<Vec2>& places,
                                          double angle_deg);
 
 }  // namespace kerf

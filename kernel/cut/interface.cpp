@@ -1,11 +1,16 @@
 // Obstacles are the vertices of the surface near the plane that do not touch the contour: tips and pockets that poke
 // through the section without changing a label.
+//
+// Where a contour steps up or down a steep wall along a slanted edge, its projection runs back on itself: a spike,
+// which the triangulation would cut off by a chord, flat upon the wall. Unfolded, the spikes are smoothed away before
+// the section is triangulated, and the points inside are moved back with the contour: harmonically, as they are lifted.
 #include "cut/interface.h"
 
 #include <cmath>
 
 #include <Eigen/Geometry>
 
+#include "cut/contour_layout.h"
 #include "cut/dihedral_ranges.h"
 #include "cut/lift.h"
 #include "cut/triangulation.h"
@@ -67,25 +72,32 @@ std::vector<Obstacle> find_obstacles(const Surface& surface, const Band& band, c
 
 InterfaceAttempt build_interface(const Surface& surface, const Band& band, const std::vector<Side>& side,
                                  const std::vector<std::vector<std::int32_t>>& loops,
-                                 const std::vector<std::int32_t>& hits, const CutOptions& options) {
+                                 const std::vector<std::int32_t>& hits, const CutOptions& options,
+                                 ContourLayout layout) {
     InterfaceAttempt attempt;
+    std::vector<std::int32_t>& contour = attempt.interface.contour;
+    std::vector<double> contour_height;
+    std::vector<char> on_contour(surface.vertex_count(), 0);
+    for (const auto& loop : loops)
+        for (const std::int32_t v : loop) {
+            contour.push_back(v);
+            on_contour[v] = 1;
+            contour_height.push_back(band.distance[v]);
+        }
+    ContourInPlane planar_contour = project_contour(surface, band.plane, loops);
+    std::vector<Vec2> displacement = planar_contour.points;  // from the layout back to the projection
+    if (layout == ContourLayout::unfolded && !unfold(surface, contour, options.good_dihedral_deg, planar_contour)) {
+        attempt.refusal = Refusal::crossing_projection;
+        return attempt;
+    }
+    for (std::size_t i = 0; i < displacement.size(); ++i) displacement[i] -= planar_contour.points[i];
+
     PlanarRegion region;
     region.max_edge = options.max_interface_edge();
     region.max_points = options.max_interface_points;
     region.poll = options.poll;
-    std::vector<double> contour_height;
-    std::vector<char> on_contour(surface.vertex_count(), 0);
-    std::vector<std::int32_t>& contour = attempt.interface.contour;
-    for (const auto& loop : loops) {
-        const auto first = static_cast<std::int32_t>(contour.size()), n = static_cast<std::int32_t>(loop.size());
-        for (std::int32_t i = 0; i < n; ++i) {
-            contour.push_back(loop[i]);
-            on_contour[loop[i]] = 1;
-            contour_height.push_back(band.distance[loop[i]]);
-            region.contour.push_back(band.plane.project(surface.point(loop[i])));
-            region.edges.push_back({first + (i + 1) % n, first + i});  // the section lies on the other hand of the loop
-        }
-    }
+    region.contour = std::move(planar_contour.points);
+    region.edges = std::move(planar_contour.edges);
     const std::vector<Obstacle> obstacles = find_obstacles(surface, band, side, on_contour, hits);
     for (const Obstacle& o : obstacles)
         if (depth(o.height, o.side) < wanted_depth * o.size) region.wanted.push_back({o.position, o.size});
@@ -95,12 +107,18 @@ InterfaceAttempt build_interface(const Surface& surface, const Band& band, const
     for (std::int32_t i : planar.failed) attempt.failed.push_back(contour[i]);
     if (attempt.refusal != Refusal::none) return attempt;
 
-    const std::vector<double> height = lift_heights(
-        planar, contour_height, obstacles,
-        dihedral_ranges(surface, band, side, contour, planar, options.good_dihedral_deg + dihedral_margin));
-    for (std::size_t i = 0; i < planar.points.size(); ++i)
+    std::vector<Vec2> places = planar.points;
+    if (layout == ContourLayout::unfolded) {
+        const std::vector<Vec2> moved = harmonic_displacements(planar, displacement);
+        for (std::size_t i = 0; i < places.size(); ++i) places[i] += moved[i];
+    }
+    const std::vector<double> height =
+        lift_heights(planar, places, contour_height, obstacles,
+                     dihedral_ranges(surface, band, side, contour, planar.triangles, places,
+                                     options.good_dihedral_deg + dihedral_margin));
+    for (std::size_t i = 0; i < places.size(); ++i)
         attempt.interface.points.push_back(i < contour.size() ? surface.point(contour[i])
-                                                              : band.plane.lift(planar.points[i], height[i]));
+                                                              : band.plane.lift(places[i], height[i]));
     attempt.interface.planar = std::move(planar.points);
     attempt.interface.triangles = std::move(planar.triangles);
     return attempt;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cut/band.h"
+#include "cut/contour_layout.h"
 #include "cut/options.h"
 
 namespace kerf {
@@ -16,10 +17,12 @@ struct InterfaceAttempt {
 };
 
 /// Spans the contour's loops with triangles as small as a volume bound of `options` asks for. `hits` (#V) counts how
-/// often an interface has run into a surface vertex before: its clearance grows with it.
+/// often an interface has run into a surface vertex before: its clearance grows with it. Unfolded, a contour that does
+/// not run back on itself is refused at no vertex: it has no other layout.
 InterfaceAttempt build_interface(const Surface& surface, const Band& band, const std::vector<Side>& side,
                                  const std::vector<std::vector<std::int32_t>>& loops,
-                                 const std::vector<std::int32_t>& hits, const CutOptions& options);
+                                 const std::vector<std::int32_t>& hits, const CutOptions& options,
+                                 ContourLayout layout = ContourLayout::projected);
 
 /// Area of the lifted triangles.
 double interface_area(const Interface& interface);

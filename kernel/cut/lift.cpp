@@ -89,15 +89,15 @@ void solve_harmonic(const WeightedGraph& graph, std::size_t contour_count, std::
 }
 
 // Narrows the ranges of interior points; contour points lie on the surface and stay.
-void add_obstacles(const PlanarTriangulation& t, std::size_t contour_count, const std::vector<Obstacle>& obstacles,
+void add_obstacles(const std::vector<Vec2>& places, std::size_t contour_count, const std::vector<Obstacle>& obstacles,
                    std::vector<HeightRange>& bounds) {
     std::vector<PlanarBox> boxes;
-    for (std::size_t v = contour_count; v < t.points.size(); ++v) boxes.push_back({t.points[v], t.points[v]});
+    for (std::size_t v = contour_count; v < places.size(); ++v) boxes.push_back({places[v], places[v]});
     PlanarGrid grid(std::move(boxes));
     for (const Obstacle& o : obstacles)
         grid.for_each_overlap(PlanarBox{o.position, o.position}.grown(reach * o.size), [&](std::int32_t i) {
             const std::size_t v = contour_count + static_cast<std::size_t>(i);
-            const double lead = o.clearance * o.size - fall_off * (t.points[v] - o.position).norm();
+            const double lead = o.clearance * o.size - fall_off * (places[v] - o.position).norm();
             if (o.side == Side::below)
                 bounds[v].low = std::max(bounds[v].low, o.height + lead);
             else
@@ -120,15 +120,29 @@ void relax_within_bounds(const WeightedGraph& graph, std::size_t contour_count, 
 
 }  // namespace
 
-std::vector<double> lift_heights(const PlanarTriangulation& triangulation, const std::vector<double>& contour_height,
-                                 const std::vector<Obstacle>& obstacles, std::vector<HeightRange> ranges) {
+std::vector<Vec2> harmonic_displacements(const PlanarTriangulation& triangulation,
+                                         const std::vector<Vec2>& of_contour) {
+    const WeightedGraph graph = cotangent_graph(triangulation);
+    std::vector<Vec2> displacements(triangulation.points.size());
+    for (int axis = 0; axis < 2; ++axis) {
+        std::vector<double> values(displacements.size(), 0);
+        for (std::size_t i = 0; i < of_contour.size(); ++i) values[i] = of_contour[i][axis];
+        solve_harmonic(graph, of_contour.size(), values);
+        for (std::size_t i = 0; i < values.size(); ++i) displacements[i][axis] = values[i];
+    }
+    return displacements;
+}
+
+std::vector<double> lift_heights(const PlanarTriangulation& triangulation, const std::vector<Vec2>& places,
+                                 const std::vector<double>& contour_height, const std::vector<Obstacle>& obstacles,
+                                 std::vector<HeightRange> ranges) {
     const std::size_t contour_count = contour_height.size();
     std::vector<double> height = contour_height;
     height.resize(triangulation.points.size(), 0);
     const WeightedGraph graph = cotangent_graph(triangulation);
     solve_harmonic(graph, contour_count, height);
     ranges.resize(height.size());
-    add_obstacles(triangulation, contour_count, obstacles, ranges);
+    add_obstacles(places, contour_count, obstacles, ranges);
     bool violated = false;
     for (std::size_t v = contour_count; v < height.size(); ++v) violated |= ranges[v].clamp(height[v]) != height[v];
     if (violated) relax_within_bounds(graph, contour_count, ranges, height);

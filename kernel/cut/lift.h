@@ -24,11 +24,16 @@ struct HeightRange {
     double clamp(double z) const { return low > high ? (low + high) / 2 : std::clamp(z, low, high); }
 };
 
+/// Harmonic extension of the displacements of the contour (#C) to all points; weights as in lift_heights().
+std::vector<Vec2> harmonic_displacements(const PlanarTriangulation& triangulation, const std::vector<Vec2>& of_contour);
+
 /// Harmonic heights with the contour's heights as boundary values, then bounded by `ranges` (one per point, or none)
 /// and by the obstacles, whose bound falls off with the distance at rate 0.3. Weights are cotangents, but positive
 /// where triangles are obtuse, so that no height lies beyond those of the contour; constants are kept, and planes up to
-/// that. `contour_height` #C; returns one height per point. O(n^1.5) for the factorisation.
-std::vector<double> lift_heights(const PlanarTriangulation& triangulation, const std::vector<double>& contour_height,
-                                 const std::vector<Obstacle>& obstacles, std::vector<HeightRange> ranges = {});
+/// that. `places` #P: where the points lie, if not where they were triangulated; `contour_height` #C; returns one
+/// height per point. O(n^1.5) for the factorisation.
+std::vector<double> lift_heights(const PlanarTriangulation& triangulation, const std::vector<Vec2>& places,
+                                 const std::vector<double>& contour_height, const std::vector<Obstacle>& obstacles,
+                                 std::vector<HeightRange> ranges = {});
 
 }  // namespace kerf

@@ -34,7 +34,7 @@ TEST(Lift, ReproducesPlanes) {
     ASSERT_GT(t.points.size(), contour_count + 20u);
     for (const Vec3& plane : {Vec3(0, 0, 0), Vec3(0, 0, 7), Vec3(0.3, -1.2, 5)}) {
         const auto height = [&](const Vec2& p) { return plane.x() * p.x() + plane.y() * p.y() + plane.z(); };
-        const std::vector<double> heights = lift_heights(t, contour_heights(t, height), {});
+        const std::vector<double> heights = lift_heights(t, t.points, contour_heights(t, height), {});
         ASSERT_EQ(heights.size(), t.points.size());
         // Weights of flat triangles are raised to keep the maximum principle, so a slope is not kept to the last digit.
         const double tolerance = plane.head<2>().isZero() ? 1e-13 : 1e-3;
@@ -48,7 +48,7 @@ TEST(Lift, ObeysTheMaximumPrinciple) {
     std::uniform_real_distribution<double> uniform(-1, 1);
     for (int i = 0; i < 20; ++i) {
         const std::vector<double> contour = contour_heights(t, [&](const Vec2&) { return uniform(random); });
-        const std::vector<double> heights = lift_heights(t, contour, {});
+        const std::vector<double> heights = lift_heights(t, t.points, contour, {});
         EXPECT_TRUE(std::equal(contour.begin(), contour.end(), heights.begin())) << "the contour stays";
         const auto [low, high] = std::minmax_element(contour.begin(), contour.end());
         for (const double z : heights) {
@@ -65,7 +65,7 @@ TEST(Lift, PassesObstaclesOnTheirSide) {
         SCOPED_TRACE(static_cast<int>(side));
         const double sign = side == Side::below ? 1 : -1;
         const Obstacle tip{Vec2(0.3, 0.1), sign * 0.4, 0.2, side, 0.5};
-        const std::vector<double> heights = lift_heights(t, flat, {tip});
+        const std::vector<double> heights = lift_heights(t, t.points, flat, {tip});
         int raised = 0;
         for (std::size_t v = contour_count; v < heights.size(); ++v) {
             const double distance = (t.points[v] - tip.position).norm();
@@ -82,14 +82,14 @@ TEST(Lift, ObstaclesOutOfTheWayChangeNothing) {
     const PlanarTriangulation t = disc();
     const std::vector<double> contour = contour_heights(t, [](const Vec2& p) { return p.x() * p.y(); });
     const Obstacle deep{Vec2(0, 0), -10, 0.2, Side::below, 0.5}, beside{Vec2(50, 0), 3, 0.2, Side::below, 0.5};
-    EXPECT_EQ(lift_heights(t, contour, {deep, beside}), lift_heights(t, contour, {}));
+    EXPECT_EQ(lift_heights(t, t.points, contour, {deep, beside}), lift_heights(t, t.points, contour, {}));
 }
 
 TEST(Lift, WithoutInteriorPointsIsTheContour) {
     PlanarTriangulation t;
     t.points = {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)};
     t.triangles = {{0, 1, 2}};
-    EXPECT_EQ(lift_heights(t, {1, 2, 3}, {}), (std::vector<double>{1, 2, 3}));
+    EXPECT_EQ(lift_heights(t, t.points, {1, 2, 3}, {}), (std::vector<double>{1, 2, 3}));
 }
 
 }  // namespace
