@@ -14,6 +14,7 @@
 #include "cut/acceptance.h"
 #include "cut/contour.h"
 #include "cut/interface.h"
+#include "cut/interface_smoothing.h"
 #include "cut/labels.h"
 #include "cut/plane.h"
 #include "cut/split.h"
@@ -25,6 +26,7 @@ namespace {
 constexpr double least_softness = 0.02;         // worse cuts make tetrahedra that are of no use
 constexpr std::int32_t planes_before_soft = 3;  // tried before a soft cut is good enough
 constexpr std::int32_t soft_rounds = 6;         // of local repair of a valid cut
+constexpr int max_stalled = 2;                  // rounds of repair that change nothing
 constexpr int max_raises = 4;                   // of the penalties, until the contour moves
 
 // Bound of the steps of all minimum cuts of a node: well-shaped surfaces rarely need a hundredth of it, slivers would
@@ -108,6 +110,8 @@ class PlaneTrial {
         Interface interface;
         Verdict verdict;
     };
+    Spanned judge(Interface interface) const;
+    Spanned better(Spanned first, Spanned second) const;
     Spanned span(const Attempt& attempt, ContourLayout layout) const;
     void span_interface(Attempt& attempt) const;
     void raise_penalty();
@@ -125,6 +129,9 @@ class PlaneTrial {
     std::vector<std::size_t> bad_facets_;  // of the band, around the places of the last failure
     double penalty_factor_ = 1;
     std::vector<SurfaceEdge> last_contour_;
+    std::vector<std::vector<std::int32_t>> last_loops_;
+    std::vector<std::int32_t> last_failed_;
+    int stalled_ = 0;  // rounds that ended as the one before
 };
 
 void PlaneTrial::refuse(Attempt& attempt, Refusal refusal, std::vector<std::int32_t> vertices) const {
@@ -169,19 +176,30 @@ bool PlaneTrial::find_contour(Attempt& attempt) {
     return attempt.record.refusal == Refusal::none;
 }
 
+PlaneTrial::Spanned PlaneTrial::judge(Interface interface) const {
+    Verdict verdict = judge_interface(surface_, band_, interface, options_);
+    return {std::move(interface), std::move(verdict)};
+}
+
 PlaneTrial::Spanned PlaneTrial::span(const Attempt& attempt, ContourLayout layout) const {
     InterfaceAttempt built = build_interface(surface_, band_, attempt.side, attempt.loops, hits_, options_, layout);
     if (built.refusal != Refusal::none) return {{}, {built.refusal, std::move(built.failed), {}}};
-    Verdict verdict = judge_interface(surface_, band_, built.interface, options_);
-    return {std::move(built.interface), std::move(verdict)};
+    Spanned spanned = judge(std::move(built.interface));
+    if (spanned.verdict.refusal != Refusal::soft) return spanned;
+    Interface smoothed = spanned.interface;
+    smooth_interface(surface_, options_, smoothed);
+    return better(std::move(spanned), judge(std::move(smoothed)));
+}
+
+// The first unless the second is better.
+PlaneTrial::Spanned PlaneTrial::better(Spanned first, Spanned second) const {
+    return rating(second.verdict, options_) > rating(first.verdict, options_) ? std::move(second) : std::move(first);
 }
 
 void PlaneTrial::span_interface(Attempt& attempt) const {
     Spanned spanned = span(attempt, ContourLayout::projected);
-    if (spanned.verdict.refusal != Refusal::none) {
-        Spanned unfolded = span(attempt, ContourLayout::unfolded);
-        if (rating(unfolded.verdict, options_) > rating(spanned.verdict, options_)) spanned = std::move(unfolded);
-    }
+    if (spanned.verdict.refusal != Refusal::none)
+        spanned = better(std::move(spanned), span(attempt, ContourLayout::unfolded));
     attempt.interface = std::move(spanned.interface);
     attempt.record.quality = spanned.verdict.quality;
     if (spanned.verdict.refusal != Refusal::none)
@@ -222,6 +240,10 @@ Attempt PlaneTrial::attempt(std::int32_t repair) {
 
 bool PlaneTrial::learn(const Attempt& attempt) {
     if (attempt.failed.empty()) return false;
+    stalled_ = attempt.loops == last_loops_ && attempt.failed == last_failed_ ? stalled_ + 1 : 0;
+    if (stalled_ == max_stalled) return false;
+    last_loops_ = attempt.loops;
+    last_failed_ = attempt.failed;
     std::vector<char> bad(surface_.vertex_count(), 0);
     for (std::int32_t v : attempt.failed) bad[v] = 1;
     if (attempt.record.refusal == Refusal::intersection || attempt.record.refusal == Refusal::soft)

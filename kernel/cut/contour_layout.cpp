@@ -16,7 +16,8 @@ namespace {
 constexpr double spike_cosine = -0.5;   // of the turn at a spike: 120 degrees and more
 constexpr double corner_cosine = 0.85;  // of the turn at a corner that must not be cut off: 30 degrees
 constexpr double shrunk = 0.4;          // projected length over length of an edge that is too steep
-constexpr int unfolding_passes = 30;          // a run of vertical edges spreads over about so many others
+constexpr double size_in_space = 0.8;   // of the mean length of the edges
+constexpr int unfolding_passes = 30;    // a run of vertical edges spreads over about so many others
 
 // Smallest angle between the surface and the triangle that cuts off vertex v of the contour.
 double ear_angle_deg(const Surface& surface, std::int32_t previous, std::int32_t v, std::int32_t next) {
@@ -110,6 +111,18 @@ bool unfold(const Surface& surface, const std::vector<std::int32_t>& vertices, d
     int passes = 0;
     while (passes < unfolding_passes && unfolding.smooth_once()) ++passes;
     return passes > 0;
+}
+
+std::vector<double> sizes_in_space(const Surface& surface, const std::vector<std::int32_t>& vertices,
+                                   const ContourInPlane& contour) {
+    std::vector<double> sizes;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const Vec3& p = surface.point(vertices[i]);
+        const Vec3 &before = surface.point(vertices[contour.previous[i]]),
+                   &after = surface.point(vertices[contour.next[i]]);
+        sizes.push_back(size_in_space * ((before - p).norm() + (after - p).norm()) / 2);
+    }
+    return sizes;
 }
 
 }  // namespace kerf

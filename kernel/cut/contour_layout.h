@@ -30,4 +30,9 @@ ContourInPlane project_contour(const Surface& surface, const Plane& plane,
 bool unfold(const Surface& surface, const std::vector<std::int32_t>& vertices, double good_dihedral_deg,
             ContourInPlane& contour);
 
+/// Edge lengths for the interior at each vertex of an unfolded contour: 0.8 of the mean length in space of its two
+/// edges, because that is how long they are when the points inside have been lifted.
+std::vector<double> sizes_in_space(const Surface& surface, const std::vector<std::int32_t>& vertices,
+                                   const ContourInPlane& contour);
+
 }  // namespace kerf

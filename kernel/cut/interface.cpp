@@ -96,6 +96,7 @@ InterfaceAttempt build_interface(const Surface& surface, const Band& band, const
     region.max_edge = options.max_interface_edge();
     region.max_points = options.max_interface_points;
     region.poll = options.poll;
+    if (layout == ContourLayout::unfolded) region.sizes = sizes_in_space(surface, contour, planar_contour);
     region.contour = std::move(planar_contour.points);
     region.edges = std::move(planar_contour.edges);
     const std::vector<Obstacle> obstacles = find_obstacles(surface, band, side, on_contour, hits);

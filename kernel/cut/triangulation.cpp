@@ -33,6 +33,7 @@ constexpr double too_large = 1.5;          // circumradius x sqrt(3) over size
 constexpr double too_flat = 1.1;           // circumradius over shortest edge; 1.1: smallest angle 27 degrees
 constexpr double edge_clearance = 0.4;     // least distance of a point from a contour edge, in lengths of that edge
 constexpr double vertex_clearance = 0.35;  // least distance of a point from a vertex, in sizes
+constexpr double foreshortened = 0.6;      // of the given size: edges that are shorter are so in the plane only
 constexpr int smoothing_sweeps = 8;
 constexpr std::size_t points_between_polls = 1024;
 
@@ -107,6 +108,7 @@ class Triangulator {
     bool insert_interior(const Vec2& p, double size, Cdt::Face_handle hint);
     void consider(Cdt::Face_handle face);
     double mean_size(Cdt::Face_handle face) const;
+    double shortest_that_counts(Cdt::Face_handle face) const;
 
     const PlanarRegion& region_;
     Cdt cdt_;
@@ -130,6 +132,7 @@ std::vector<std::int32_t> Triangulator::insert_contour() {
         size_[b] += length / 2;
         cdt_.insert_constraint(vertices_[a], vertices_[b]);
     }
+    if (!region_.sizes.empty()) size_ = region_.sizes;
     for (double& size : size_) size = std::max(size, region_.least_edge);
     if (region_.max_edge > 0)
         for (double& size : size_) size = std::min(size, region_.max_edge);
@@ -175,6 +178,11 @@ double Triangulator::mean_size(Cdt::Face_handle face) const {
     return (size_[face->vertex(0)->info()] + size_[face->vertex(1)->info()] + size_[face->vertex(2)->info()]) / 3;
 }
 
+// Shorter edges make no triangle flat.
+double Triangulator::shortest_that_counts(Cdt::Face_handle face) const {
+    return region_.sizes.empty() ? region_.least_edge : std::max(region_.least_edge, foreshortened * mean_size(face));
+}
+
 // Inserts p unless it lies outside, encroaches a contour edge or crowds a vertex.
 bool Triangulator::insert_interior(const Vec2& p, double size, Cdt::Face_handle hint) {
     const Point point = to_point(p);
@@ -211,7 +219,7 @@ void Triangulator::consider(Cdt::Face_handle face) {
     const double la = (b - c).norm(), lb = (c - a).norm(), lc = (a - b).norm();
     const double radius = la * lb * lc / (2 * cross_2d(b - a, c - a));
     if (radius * std::sqrt(3.0) <= too_large * mean_size(face) &&
-        radius <= too_flat * std::max(region_.least_edge, std::min({la, lb, lc})))
+        radius <= too_flat * std::max(shortest_that_counts(face), std::min({la, lb, lc})))
         return;
     queue_.push({radius, {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()}});
 }

@@ -1,0 +1,104 @@
+#include "cut/interface_smoothing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "cut/angles.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr int interface_sweeps = 10;
+constexpr double enough = 1.1;  // of a threshold: better is not asked for
+
+class InterfaceSmoother {
+ public:
+    InterfaceSmoother(const Surface& surface, const CutOptions& options, Interface& interface);
+    // False if no point has moved.
+    bool sweep();
+
+ private:
+    bool on_contour(std::int32_t point) const { return point < static_cast<std::int32_t>(interface_.contour.size()); }
+    double measure(const Triangle& t) const;
+    double worst_around(std::int32_t point) const;
+    Vec3 middle_around(std::int32_t point) const;
+    bool improve(std::int32_t point);
+
+    const Surface& surface_;
+    const CutOptions& options_;
+    Interface& interface_;
+    std::vector<std::vector<std::int32_t>> around_;  // triangles of each interior point
+};
+
+InterfaceSmoother::InterfaceSmoother(const Surface& surface, const CutOptions& options, Interface& interface)
+    : surface_(surface), options_(options), interface_(interface), around_(interface.points.size()) {
+    for (std::size_t i = 0; i < interface.triangles.size(); ++i)
+        for (const std::int32_t point : interface.triangles[i])
+            if (!on_contour(point)) around_[point].push_back(static_cast<std::int32_t>(i));
+}
+
+// Smallest angle of a triangle, and to the surface at its contour edges, over the thresholds.
+double InterfaceSmoother::measure(const Triangle& t) const {
+    double smallest = enough;
+    for (int i = 0; i < 3; ++i) {
+        const std::int32_t from = t[i], to = t[(i + 1) % 3], apex = t[(i + 2) % 3];
+        const Vec3 &a = interface_.points[from], &b = interface_.points[to], &c = interface_.points[apex];
+        smallest = std::min(smallest, angle_degrees(a, b, c) / options_.good_angle_deg);
+        if (!on_contour(from) || !on_contour(to)) continue;
+        const std::int32_t h = surface_.find_half_edge(interface_.contour[from], interface_.contour[to]);
+        if (h < 0) continue;  // an edge across the section
+        for (const std::int32_t side : {h, Surface::opposite(h)}) {
+            const Vec3& facet_apex = surface_.point(surface_.to_vertex(surface_.next(side)));
+            smallest = std::min(smallest, dihedral_degrees(a, b, c, facet_apex) / options_.good_dihedral_deg);
+        }
+    }
+    return smallest;
+}
+
+double InterfaceSmoother::worst_around(std::int32_t point) const {
+    double worst = INFINITY;
+    for (const std::int32_t i : around_[point]) worst = std::min(worst, measure(interface_.triangles[i]));
+    return worst;
+}
+
+Vec3 InterfaceSmoother::middle_around(std::int32_t point) const {
+    Vec3 sum = Vec3::Zero();
+    for (const std::int32_t i : around_[point])
+        for (const std::int32_t corner : interface_.triangles[i])
+            if (corner != point) sum += interface_.points[corner];
+    return sum / (2.0 * static_cast<double>(around_[point].size()));
+}
+
+bool InterfaceSmoother::improve(std::int32_t point) {
+    const double before = worst_around(point);
+    if (before >= enough) return false;
+    Vec3& place = interface_.points[point];
+    const Vec3 old = place, middle = middle_around(point);
+    for (const double step : {1.0, 0.5, 0.25, -0.25}) {
+        place = old + step * (middle - old);
+        if (worst_around(point) > before) return true;
+    }
+    place = old;
+    return false;
+}
+
+bool InterfaceSmoother::sweep() {
+    bool any = false;
+    for (auto point = static_cast<std::int32_t>(interface_.contour.size());
+         point < static_cast<std::int32_t>(interface_.points.size()); ++point)
+        any |= improve(point);
+    return any;
+}
+
+}  // namespace
+
+void smooth_interface(const Surface& surface, const CutOptions& options, Interface& interface) {
+    InterfaceSmoother smoother(surface, options, interface);
+    for (int i = 0; i < interface_sweeps && smoother.sweep(); ++i) {
+    }
+}
+
+}  // namespace kerf
