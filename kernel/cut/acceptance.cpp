@@ -1,10 +1,11 @@
-// Interface and surface are compared in the plane: triangles whose boxes overlap there and whose heights overlap are
-// handed to the exact test. Points of the interface are numbered after the vertices of the surface, contour points
-// share the number of their surface vertex, so that shared corners are recognised by number.
+// Interface and surface are compared in the plane: triangles whose boxes overlap there and whose heights overlap, up to
+// the rounding of both, are handed to the exact test. Points of the interface are numbered after the vertices of the
+// surface, contour points share the number of their surface vertex, so that shared corners are recognised by number.
 #include "cut/acceptance.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include <Eigen/Geometry>
@@ -56,6 +57,7 @@ class InterfaceJudge {
     const Band& band_;
     const Interface& interface_;
     std::int32_t contour_count_;
+    double rounding_;                 // bound of the error of a projection or a height
     std::vector<PlanarBox> boxes_;    // of the interface triangles
     std::vector<double> low_, high_;  // heights of the interface triangles
     std::vector<NearFacet> slab_;     // facets that share heights with the interface
@@ -69,11 +71,20 @@ std::vector<PlanarBox> triangle_boxes(const Interface& interface, const Plane& p
     return boxes;
 }
 
+// Lifting a point and projecting it again are each a few sums of products of coordinates.
+double rounding_of(const Surface& surface, const Plane& plane) {
+    double largest = plane.origin.cwiseAbs().maxCoeff();
+    for (std::int32_t v = 0; v < surface.vertex_count(); ++v)
+        largest = std::max(largest, surface.point(v).cwiseAbs().maxCoeff());
+    return 64 * std::numeric_limits<double>::epsilon() * largest;
+}
+
 InterfaceJudge::InterfaceJudge(const Surface& surface, const Band& band, const Interface& interface)
     : surface_(surface),
       band_(band),
       interface_(interface),
       contour_count_(static_cast<std::int32_t>(interface.contour.size())),
+      rounding_(rounding_of(surface, band.plane)),
       boxes_(triangle_boxes(interface, band.plane)),
       grid_(boxes_) {
     for (const Triangle& t : interface.triangles) {
@@ -87,8 +98,8 @@ InterfaceJudge::InterfaceJudge(const Surface& surface, const Band& band, const I
 }
 
 void InterfaceJudge::find_slab_facets() {
-    const double low = *std::min_element(low_.begin(), low_.end());
-    const double high = *std::max_element(high_.begin(), high_.end());
+    const double low = *std::min_element(low_.begin(), low_.end()) - rounding_;
+    const double high = *std::max_element(high_.begin(), high_.end()) + rounding_;
     band_.for_each_facet_between(surface_, low, high, [&](const SlabFacet& facet) {
         PlanarBox box;
         for (std::int32_t v : surface_.vertices(facet.facet)) box.extend(band_.plane.project(surface_.point(v)));
@@ -119,8 +130,8 @@ std::vector<std::int32_t> InterfaceJudge::intersections() {
     std::vector<std::int32_t> vertices;
     for (const NearFacet& f : slab_) {
         const Triangle t = surface_.vertices(f.facet);
-        grid_.for_each_overlap(f.box, [&](std::int32_t i) {
-            if (low_[i] > f.high || high_[i] < f.low) return;
+        grid_.for_each_overlap(f.box.grown(rounding_), [&](std::int32_t i) {
+            if (low_[i] > f.high + rounding_ || high_[i] < f.low - rounding_) return;
             const Triangle& s = interface_.triangles[i];
             if (!triangles_intersect(corners(s), ids(s), facet_corners(t), t)) return;
             vertices.insert(vertices.end(), t.begin(), t.end());
@@ -128,7 +139,7 @@ std::vector<std::int32_t> InterfaceJudge::intersections() {
         });
     }
     for (std::size_t i = 0; i < boxes_.size(); ++i)
-        grid_.for_each_overlap(boxes_[i], [&](std::int32_t j) {
+        grid_.for_each_overlap(boxes_[i].grown(rounding_), [&](std::int32_t j) {
             if (static_cast<std::size_t>(j) <= i) return;
             const Triangle &s = interface_.triangles[i], &t = interface_.triangles[j];
             if (!triangles_intersect(corners(s), ids(s), corners(t), ids(t))) return;
@@ -249,8 +260,8 @@ std::int32_t find_misplaced_shell(const Surface& half) {
             if (!inside) return vertex;  // it touches another shell
             depth += *inside;
         }
-        const bool is_void = enclosed_volume(arrays.vertices, shells[i].facets) < 0;
-        if (is_void != (depth % 2 == 1)) return vertex;
+        const bool is_void = depth % 2 == 1;
+        if (is_outward(arrays.vertices, shells[i].facets) == is_void) return vertex;
     }
     return -1;
 }

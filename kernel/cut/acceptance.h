@@ -23,7 +23,8 @@ Verdict judge_interface(const Surface& surface, const Band& band, const Interfac
                         const CutOptions& options);
 
 /// Every shell of a half must enclose positive volume if it lies outside of all others, negative inside of the
-/// material. Returns a vertex (of the half) of the first shell for which this fails, or -1. O(#shells x #F).
+/// material. Returns a vertex (of the half) of the first shell for which this fails, or -1. O(#F) plus, for every box
+/// in another one, the facets of that.
 std::int32_t find_misplaced_shell(const Surface& half);
 
 }  // namespace kerf

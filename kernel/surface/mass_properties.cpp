@@ -63,8 +63,8 @@ class VolumeSum {
 }  // namespace
 
 double enclosed_volume(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
-    if (vertices.empty()) return 0;
-    const Vec3& base = vertices[0];
+    if (facets.empty()) return 0;
+    const Vec3& base = vertices[facets[0][0]];
     VolumeSum sum;
     for (const Triangle& t : facets) sum.add(vertices[t[0]] - base, vertices[t[1]] - base, vertices[t[2]] - base);
     return sum.volume();
@@ -79,6 +79,10 @@ double enclosed_volume(const Surface& surface) {
         sum.add(surface.point(t[0]) - base, surface.point(t[1]) - base, surface.point(t[2]) - base);
     }
     return sum.volume();
+}
+
+bool is_outward(const std::vector<Vec3>& vertices, const std::vector<Triangle>& shell) {
+    return enclosed_volume(vertices, shell) > 0;
 }
 
 MassProperties mass_properties(const Surface& surface) {

@@ -20,9 +20,14 @@ struct MassProperties {
 /// largest component of every axis is positive. O(#V + #F).
 MassProperties mass_properties(const Surface& surface);
 
-/// Enclosed volume of a closed triangle set, relative to its first vertex against cancellation far from the origin.
+/// Enclosed volume of a closed set of facets. Summed relative to the first corner of the first facet: cancellation
+/// grows with the distance from there, and the vertices may be those of a larger surface.
 double enclosed_volume(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets);
 
 double enclosed_volume(const Surface& surface);
+
+/// Whether the normals of a shell, a connected closed set of facets, point out of it: those of a void point into it.
+/// Right for a shell of any size, wherever it lies among the others.
+bool is_outward(const std::vector<Vec3>& vertices, const std::vector<Triangle>& shell);
 
 }  // namespace kerf

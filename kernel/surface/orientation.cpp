@@ -119,20 +119,6 @@ void mark_shell_around(const std::vector<Vec3>& vertices, const std::vector<Shel
     if (innermost) innermost->has_hole = true;
 }
 
-// The shell gets its own vertices because cancellation grows with the distance from the first vertex.
-bool is_outward(const std::vector<Vec3>& vertices, const Shell& shell) {
-    std::vector<Vec3> corners;
-    std::vector<Triangle> facets;
-    corners.reserve(3 * shell.facets.size());
-    facets.reserve(shell.facets.size());
-    for (const Triangle& t : shell.facets) {
-        const auto first = static_cast<std::int32_t>(corners.size());
-        facets.push_back({first, first + 1, first + 2});
-        for (std::int32_t v : t) corners.push_back(vertices[v]);
-    }
-    return enclosed_volume(corners, facets) > 0;
-}
-
 [[noreturn]] void refuse(const Soup& soup, std::int32_t facet, const char* what) {
     const Vec3& p = soup.vertices[soup.facets[facet][0]];
     throw Error(ErrorCode::input, fmt::format("The shell of facet {} near ({:.9g}, {:.9g}, {:.9g}) {}",
@@ -154,7 +140,7 @@ std::vector<ShellPlace> locate_shells(const std::vector<Vec3>& vertices, const C
     std::vector<std::vector<std::int32_t>> around(shells.size());
     for (std::size_t i = 0; i < shells.size(); ++i) {
         place_among(vertices, shells, boxes, static_cast<std::int32_t>(i), around[i], places[i]);
-        places[i].outward = is_outward(vertices, shells[i]);
+        places[i].outward = is_outward(vertices, shells[i].facets);
     }
     for (std::size_t i = 0; i < shells.size(); ++i)
         for (const std::int32_t j : around[i])

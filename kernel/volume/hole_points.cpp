@@ -19,37 +19,38 @@ namespace kerf {
 
 namespace {
 
-struct NestedShell : Shell {
-    bool is_void = false;
+struct NestedShells {
+    std::vector<Shell> shells;
+    std::vector<char> is_void;
+    BoxTree boxes;
 };
 
-std::vector<NestedShell> split_into_shells(const SurfaceArrays& surface) {
+NestedShells split_into_shells(const SurfaceArrays& surface) {
     const Shells components = find_shells(Surface(surface));
-    std::vector<NestedShell> shells;
-    for (Shell& shell : collect_shells(surface.vertices, surface.facets, components.of_facet, components.count)) {
-        const bool is_void = enclosed_volume(surface.vertices, shell.facets) < 0;
-        shells.push_back({std::move(shell), is_void});
-    }
-    return shells;
+    std::vector<Shell> shells = collect_shells(surface.vertices, surface.facets, components.of_facet, components.count);
+    std::vector<char> is_void;
+    for (const Shell& shell : shells) is_void.push_back(!is_outward(surface.vertices, shell.facets));
+    BoxTree boxes = boxes_of(shells);
+    return {std::move(shells), std::move(is_void), std::move(boxes)};
 }
 
-// For each shell whether the point lies inside of it; shell `self` is taken as given, because the point may lie on it.
-std::optional<std::vector<bool>> shells_around(const SurfaceArrays& surface, const std::vector<NestedShell>& shells,
-                                               const Vec3& point, std::size_t self) {
-    std::vector<bool> around(shells.size(), true);
-    for (std::size_t s = 0; s < shells.size(); ++s) {
+// The shells around the point, ascending. Shell `self` is taken for one, because the point may lie on it.
+std::optional<std::vector<std::int32_t>> shells_around(const SurfaceArrays& surface, const NestedShells& nested,
+                                                       const Vec3& point, std::int32_t self) {
+    std::vector<std::int32_t> around = {self};
+    for (const std::int32_t s : nested.boxes.around(Eigen::AlignedBox3d(point, point))) {
         if (s == self) continue;
-        const std::optional<bool> inside = encloses(surface.vertices, shells[s], point);
+        const std::optional<bool> inside = encloses(surface.vertices, nested.shells[s], point);
         if (!inside) return std::nullopt;
-        around[s] = *inside;
+        if (*inside) around.push_back(s);
     }
+    std::sort(around.begin(), around.end());
     return around;
 }
 
-int winding_number(const std::vector<NestedShell>& shells, const std::vector<bool>& around) {
+int winding_number(const NestedShells& nested, const std::vector<std::int32_t>& around) {
     int winding = 0;
-    for (std::size_t s = 0; s < shells.size(); ++s)
-        if (around[s]) winding += shells[s].is_void ? -1 : 1;
+    for (const std::int32_t s : around) winding += nested.is_void[s] ? -1 : 1;
     return winding;
 }
 
@@ -73,18 +74,18 @@ std::vector<Triangle> largest_facets(const SurfaceArrays& surface, const Shell& 
     return largest;
 }
 
-Vec3 hole_point(const SurfaceArrays& surface, const std::vector<NestedShell>& shells, std::size_t void_shell) {
-    const Shell& shell = shells[void_shell];
+Vec3 hole_point(const SurfaceArrays& surface, const NestedShells& nested, std::int32_t void_shell) {
+    const Shell& shell = nested.shells[void_shell];
     const Vec3& on_shell = surface.vertices[shell.facets[0][0]];
-    const auto wanted = shells_around(surface, shells, on_shell, void_shell);
-    if (wanted && winding_number(shells, *wanted) == 0)
+    const auto wanted = shells_around(surface, nested, on_shell, void_shell);
+    if (wanted && winding_number(nested, *wanted) == 0)
         for (const double step : {1e-3, 1e-5, 1e-7, 1e-9})
             for (const Triangle& t : largest_facets(surface, shell, 32)) {
                 const Vec3 n = normal(surface, t);
                 const Vec3 centroid = (surface.vertices[t[0]] + surface.vertices[t[1]] + surface.vertices[t[2]]) / 3;
                 const Vec3 candidate = centroid + step * std::sqrt(n.norm()) * n.normalized();
                 if (encloses(surface.vertices, shell, candidate) == true &&
-                    shells_around(surface, shells, candidate, void_shell) == wanted)
+                    shells_around(surface, nested, candidate, void_shell) == wanted)
                     return candidate;
             }
     throw Error(
@@ -98,10 +99,10 @@ Vec3 hole_point(const SurfaceArrays& surface, const std::vector<NestedShell>& sh
 }  // namespace
 
 std::vector<Vec3> hole_points(const SurfaceArrays& surface) {
-    const std::vector<NestedShell> shells = split_into_shells(surface);
+    const NestedShells nested = split_into_shells(surface);
     std::vector<Vec3> points;
-    for (std::size_t s = 0; s < shells.size(); ++s)
-        if (shells[s].is_void) points.push_back(hole_point(surface, shells, s));
+    for (std::size_t s = 0; s < nested.shells.size(); ++s)
+        if (nested.is_void[s]) points.push_back(hole_point(surface, nested, static_cast<std::int32_t>(s)));
     return points;
 }
 

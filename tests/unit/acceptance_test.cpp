@@ -2,6 +2,7 @@
 #include "cut/acceptance.h"
 
 #include <algorithm>
+#include <random>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include "cut/labels.h"
 #include "cut/split.h"
 #include "support/shapes.h"
+#include "surface/intersections.h"
 #include "surface/mass_properties.h"
 
 namespace kerf {
@@ -90,6 +92,55 @@ TEST(Acceptance, FoldedInterfaceIsFound) {
     ASSERT_NE(inside, s.interface.triangles.end());
     std::swap(s.interface.points[(*inside)[0]], s.interface.points[(*inside)[1]]);
     EXPECT_EQ(s.judge().refusal, Refusal::intersection);
+}
+
+// A small triangle near a facet, on a plane of any direction far from the origin, where rounding is as large as the
+// gap.
+TEST(Acceptance, WhateverMeetsIsFoundFarFromTheOrigin) {
+    std::mt19937 random(7);
+    const auto uniform = [&] { return static_cast<double>(random()) / 2147483648.0 - 1; };
+    const auto direction = [&] { return Vec3(uniform(), uniform(), uniform()).normalized(); };
+    int meetings = 0;
+    for (int trial = 0; trial < 2000; ++trial) {
+        SCOPED_TRACE(trial);
+        const Vec3 place = 1e6 * direction();
+        const Surface surface = test::to_surface(test::translated(test::tetrahedron(), place));
+        const Triangle facet = surface.vertices(static_cast<std::int32_t>(random() % 4));
+        const Plane plane(place + 0.1 * direction(), direction());
+        // A corner of the triangle is the place of a vertex of the facet or one on an edge, up to rounding.
+        const double t = trial % 2 ? 0 : 0.5 + 0.4 * uniform();
+        const Vec3 target = (1 - t) * surface.point(facet[0]) + t * surface.point(facet[1]);
+        const Vec3 away = 0.2 * (target - place).normalized();
+        Interface interface;
+        for (const Vec3& p : {target, Vec3(target + away + 0.1 * direction()), Vec3(target + away)}) {
+            interface.planar.push_back(plane.project(p));
+            interface.points.push_back(plane.lift(interface.planar.back(), plane.distance(p)));
+        }
+        interface.triangles = {{0, 1, 2}};
+        const std::array<Vec3, 3> corners = {interface.points[0], interface.points[1], interface.points[2]};
+        bool meets = false;
+        for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
+            const Triangle v = surface.vertices(f);
+            meets |= triangles_intersect(corners, {4, 5, 6},
+                                         {surface.point(v[0]), surface.point(v[1]), surface.point(v[2])}, v);
+        }
+        meetings += meets;
+        EXPECT_EQ(judge_interface(surface, make_band(surface, plane), interface, CutOptions()).refusal ==
+                      Refusal::intersection,
+                  meets);
+    }
+    EXPECT_GT(meetings, 100);
+}
+
+TEST(Acceptance, TinyVoidsKeepTheirSign) {
+    std::mt19937 random(3);
+    const auto uniform = [&] { return 0.1 + 0.8 * static_cast<double>(random()) / 4294967296.0; };
+    for (int place = 0; place < 30; ++place) {
+        SCOPED_TRACE(place);
+        const Soup shell = test::icosphere(2, 3e-6, Vec3(uniform(), uniform(), uniform()));
+        EXPECT_EQ(find_misplaced_shell(test::to_surface(test::join(test::box(), test::inside_out(shell)))), -1);
+        EXPECT_EQ(find_misplaced_shell(test::to_surface(test::join(test::box(), shell))), 8);
+    }
 }
 
 TEST(Acceptance, ShellsMustLieInTheMaterial) {

@@ -55,6 +55,19 @@ TEST(HolePoints, LieInManyRandomVoids) {
     }
 }
 
+TEST(HolePoints, LieInTinyVoids) {
+    std::mt19937 random(3);
+    const auto uniform = [&] { return 0.1 + 0.8 * double(random()) / 4294967296.0; };
+    for (int place = 0; place < 30; ++place) {
+        SCOPED_TRACE(place);
+        const Vec3 centre(uniform(), uniform(), uniform());
+        const Soup void_shell = test::inside_out(test::icosphere(2, 3e-6, centre));
+        const std::vector<Vec3> points = hole_points_of(test::join(test::box(), void_shell));
+        ASSERT_EQ(points.size(), 1u);
+        EXPECT_LT((points[0] - centre).norm(), 3e-6);
+    }
+}
+
 TEST(HolePoints, DoNotDependOnPlaceAndScale) {
     for (const double scale : {1e-6, 1.0, 1e6})
         for (const double offset : {0.0, 1e5}) {

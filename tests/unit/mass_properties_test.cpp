@@ -1,6 +1,7 @@
 #include "surface/mass_properties.h"
 
 #include <numbers>
+#include <random>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
@@ -54,6 +55,26 @@ TEST(MassProperties, OfShellsAndVoids) {
 TEST(MassProperties, VolumeDoesNotSufferFarFromTheOrigin) {
     const Soup soup = test::icosphere(3);
     EXPECT_NEAR(properties(test::translated(soup, Vec3(1e6, -1e6, 1e6))).volume / properties(soup).volume, 1, 1e-9);
+}
+
+// In a sum from a vertex of another shell, cancellation leaves nothing of a volume like this.
+TEST(IsOutward, OfTinyShellsFarFromTheFirstVertex) {
+    std::mt19937 random(3);
+    const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0; };
+    for (const double radius : {1e-3, 3e-6, 1e-7})
+        for (int place = 0; place < 30; ++place) {
+            SCOPED_TRACE(testing::Message() << "radius " << radius << ", place " << place);
+            const Soup outside = test::box();
+            const Soup shell = test::icosphere(2, radius, Vec3(uniform(), uniform(), uniform()));
+            const auto facets_of_shell = [&](const Soup& soup) {
+                return std::vector<Triangle>(soup.facets.begin() + static_cast<std::ptrdiff_t>(outside.facets.size()),
+                                             soup.facets.end());
+            };
+            const Soup solid = test::join(outside, shell), hollow = test::join(outside, test::inside_out(shell));
+            EXPECT_TRUE(is_outward(solid.vertices, facets_of_shell(solid)));
+            EXPECT_FALSE(is_outward(hollow.vertices, facets_of_shell(hollow)));
+            EXPECT_TRUE(is_outward(hollow.vertices, outside.facets));
+        }
 }
 
 TEST(MassProperties, AxesFollowARotation) {
