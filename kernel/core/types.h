@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include <Eigen/Core>
 
@@ -13,6 +14,9 @@ using Vec3 = Eigen::Vector3d;
 
 /// Three vertex indices, counter-clockwise seen from outside of the body.
 using Triangle = std::array<std::int32_t, 3>;
+
+/// A surface has at most so many facets, because its corners, three for each facet, are numbered by 32 bits.
+inline constexpr std::int64_t most_facets = std::numeric_limits<std::int32_t>::max() / 3;
 
 /// The two ends of an edge, the smaller vertex first.
 using UndirectedEdge = std::array<std::int32_t, 2>;

@@ -82,6 +82,7 @@ Decomposition Decomposer::descend(Surface surface, const Branch& branch, std::in
         keep_whole(surface, result);
         return result;
     }
+    const auto [lower_id, upper_id] = children_of(id);
     const CutPlace place = choose_place(surface, mass, leaves, options_.cut);
     Bisection bisection = bisect(surface, mass, id, place, options_.cut, records_);
     tell_listener(surface, bisection.cut);
@@ -92,7 +93,7 @@ Decomposition Decomposer::descend(Surface surface, const Branch& branch, std::in
     }
     surface = Surface();  // the halves hold all that is needed below
     const std::int32_t below = leaves_below(loads(bisection.halves), leaves, options_.cut);
-    const Branch lower{2 * id, first_leaf, below}, upper{2 * id + 1, first_leaf + below, leaves - below};
+    const Branch lower{lower_id, first_leaf, below}, upper{upper_id, first_leaf + below, leaves - below};
     descend_halves(std::move(bisection.halves), {lower, upper}, threads, result);
     return result;
 }

@@ -102,6 +102,7 @@ void FaceComplex::note_division(const ComplexFace& face) {
 
 void FaceComplex::divide(NodeId id, const Part& whole, const StraightCut& cut) {
     const PlaneSplit& split = cut.split;
+    const std::array<NodeId, 2> children = children_of(id);
     std::vector<std::int32_t> vertex = whole.vertex;
     for (std::size_t i = vertex.size(); i < split.arrays.vertices.size(); ++i)
         vertex.push_back(add_point(split.arrays.vertices[i], id));
@@ -121,7 +122,7 @@ void FaceComplex::divide(NodeId id, const Part& whole, const StraightCut& cut) {
             const Triangle& t = split.arrays.facets[piece];
             face.corners = {vertex[t[0]], vertex[t[1]], vertex[t[2]]};
             if (own == 1) face.corners = turned(face.corners);
-            face.owner[own] = 2 * id + (split.side[piece] == Side::above ? 1 : 0);
+            face.owner[own] = children[split.side[piece] == Side::above ? 1 : 0];
             if (piece == i)
                 faces_[whole.face[split.parent[i]]] = face;
             else
@@ -132,7 +133,7 @@ void FaceComplex::divide(NodeId id, const Part& whole, const StraightCut& cut) {
     const Interface& cap = cut.cut.interface;
     for (const Triangle& t : cap.triangles) {
         const auto corner = [&](int i) { return vertex[cap.contour[t[i]]]; };
-        faces_.push_back({{corner(0), corner(1), corner(2)}, {2 * id, 2 * id + 1}, make_key(id, 0), -1, id});
+        faces_.push_back({{corner(0), corner(1), corner(2)}, children, make_key(id, 0), -1, id});
     }
 }
 

@@ -85,9 +85,10 @@ void StraightDivision::divide(NodeId id) {
         leaves_.push_back(id);
         return;
     }
-    const std::int32_t below = leaves_below({load(2 * id), load(2 * id + 1)}, node.leaves, options_.cut);
-    add_child(2 * id, node.first_leaf, below);
-    add_child(2 * id + 1, node.first_leaf + below, node.leaves - below);
+    const auto [lower, upper] = children_of(id);
+    const std::int32_t below = leaves_below({load(lower), load(upper)}, node.leaves, options_.cut);
+    add_child(lower, node.first_leaf, below);
+    add_child(upper, node.first_leaf + below, node.leaves - below);
 }
 
 void StraightDivision::finish_interfaces() {

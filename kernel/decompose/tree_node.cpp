@@ -2,8 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
 
 namespace kerf {
+
+std::array<NodeId, 2> children_of(NodeId node) {
+    if (node > std::numeric_limits<NodeId>::max() / 2)
+        throw Error(ErrorCode::usage, fmt::format("The part of node {} would be cut once more, but the tree of cuts "
+                                                  "cannot be deeper. Use fewer parts, or another --balance.",
+                                                  node));
+    return {2 * node, 2 * node + 1};
+}
 
 TreeNode describe_node(NodeId id, std::int32_t first_leaf, std::int32_t leaves, const Surface& surface,
                        const MassProperties& mass) {

@@ -38,6 +38,10 @@ struct TreeNode {
     }
 };
 
+/// The halves below and above the cut of a node. Throws Error(usage) where the tree gets deeper than its nodes can be
+/// numbered: 30 cuts one below the other.
+std::array<NodeId, 2> children_of(NodeId node);
+
 /// A node before it is cut.
 TreeNode describe_node(NodeId id, std::int32_t first_leaf, std::int32_t leaves, const Surface& surface,
                        const MassProperties& mass);

@@ -240,6 +240,10 @@ class Elements {
             source_.fail("elements of type " + std::to_string(number) + " (" + describe() +
                          ") cannot be read. Save the surface with triangles of three nodes.");
     }
+    /// So many of them follow.
+    void announce(std::int64_t count) const {
+        if (is_face()) builder_.announce_facets(count);
+    }
     void set_patch(std::int64_t group, std::int64_t entity) {
         if (std::pair(group, entity) == patch_) return;
         patch_ = {group, entity};
@@ -315,6 +319,7 @@ void read_elements_2(Source& source, Elements& elements) {
         elements.set_type(source.next_int());
         const std::int64_t block = source.is_binary() ? source.next_int() : 1, tags = source.next_int();
         if (block < 1) source.fail("a block of elements is empty. Save the mesh again.");
+        elements.announce(block);
         for (std::int64_t j = 0; j < block; ++j, ++i) {
             const std::int64_t tag = source.is_binary() ? source.next_int() : first;
             read_tags_2(source, tags, elements);
@@ -333,6 +338,7 @@ void read_elements_4(Source& source, const Model& model, Elements& elements) {
         const std::int64_t* group = find(model.group_of_surface, entity);
         elements.set_patch(group ? *group : 0, entity);
         const std::int64_t count = source.next_count();
+        elements.announce(count);
         for (std::int64_t i = 0; i < count; ++i) {
             const std::int64_t tag = source.next_long();
             elements.read(tag, [&] { return source.next_long(); });

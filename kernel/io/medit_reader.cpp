@@ -33,6 +33,7 @@ void read_vertices(TextScanner& scanner, SoupBuilder& builder) {
 
 void read_faces(TextScanner& scanner, std::size_t corner_count, SoupBuilder& builder) {
     const std::int64_t count = scanner.next_count();
+    builder.announce_facets(count);
     std::vector<std::int64_t> corners(corner_count);
     for (std::int64_t f = 0; f < count; ++f) {
         for (std::int64_t& corner : corners) corner = scanner.next_index(1);

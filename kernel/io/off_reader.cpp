@@ -41,6 +41,7 @@ Soup read_off(std::string_view bytes, const std::string& path) {
     SoupBuilder builder(path);
     const bool has_extras = read_keyword(scanner);
     const std::int64_t vertices = read_count(scanner), facets = read_count(scanner);
+    builder.announce_facets(facets);
     read_count(scanner);  // of edges; many files say 0
     for (std::int64_t v = 0; v < vertices; ++v) {
         const double x = scanner.next_real(), y = scanner.next_real(), z = scanner.next_real();

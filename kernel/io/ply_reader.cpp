@@ -210,6 +210,8 @@ template <class Source>
 Soup read_body(Source source, const Header& header, const std::string& path) {
     SoupBuilder builder(path);
     std::vector<std::int64_t> corners;
+    for (const Element& element : header.elements)
+        if (element.name == "face") builder.announce_facets(element.count);
     for (const Element& element : header.elements) {
         if (element.properties.empty()) continue;  // takes no bytes, whatever its count claims
         for (std::int64_t i = 0; i < element.count; ++i) {

@@ -27,6 +27,13 @@ class SoupBuilder {
             throw Error(ErrorCode::input, path_ + ": the file has more than 2^31 - 1 vertices. Split the surface.");
         soup_.vertices.push_back(p);
     }
+    /// What the file says of its facets before they come. Throws Error(input) if they are more than a surface can have.
+    void announce_facets(std::int64_t count) const {
+        if (count > most_facets - static_cast<std::int64_t>(soup_.facets.size()))
+            throw Error(ErrorCode::input, path_ + ": the file claims to hold " + std::to_string(count) +
+                                              " facets, but a surface can have " + std::to_string(most_facets) +
+                                              " at most. Split it, or export it again if there are fewer.");
+    }
     /// Facets to come belong to the patch of this name; a patch without facets is not kept.
     void set_patch(std::string_view name) {
         if (name == patch_name_) return;
@@ -75,8 +82,9 @@ class SoupBuilder {
 
  private:
     void add_facet(const Triangle& facet) {
-        if (soup_.facets.size() == std::numeric_limits<std::int32_t>::max())
-            throw Error(ErrorCode::input, path_ + ": the file has more than 2^31 - 1 facets. Split the surface.");
+        if (soup_.facets.size() == static_cast<std::size_t>(most_facets))
+            throw Error(ErrorCode::input, path_ + ": the file has more than " + std::to_string(most_facets) +
+                                              " facets, which is the most that a surface can have. Split it.");
         if (patch_ < 0) patch_ = find_or_add_patch();
         soup_.facets.push_back(facet);
         soup_.patch.push_back(patch_);

@@ -24,17 +24,6 @@ Vec3 read_corner(const char* bytes) {
     return Vec3(p[0], p[1], p[2]);
 }
 
-// All facets that the header claims, which the file holds.
-void read_binary(std::string_view bytes, SoupBuilder& builder) {
-    const std::size_t end = stl_header_size + stl_facet_size * claimed_stl_facets(bytes);
-    for (std::size_t at = stl_header_size; at < end; at += stl_facet_size) {
-        const char* corners = bytes.data() + at + 12;
-        builder.add_separate_facet(read_corner(corners), read_corner(corners + 12), read_corner(corners + 24));
-    }
-    builder.note_ignored(static_cast<std::int64_t>(bytes.size() - end), "byte behind the last facet",
-                         "bytes behind the last facet");
-}
-
 // Less than a facet behind the claimed ones is padding; more may be facets that the count misses.
 bool holds_claimed_facets(std::string_view bytes) {
     if (bytes.size() < stl_header_size) return false;
@@ -56,6 +45,18 @@ bool holds_claimed_facets(std::string_view bytes) {
     throw Error(ErrorCode::input, path + ": the binary STL is longer than " + claim + "which end at byte " +
                                       std::to_string(stl_header_size + stl_facet_size * claimed) + " of " + size +
                                       ". Export it again.");
+}
+
+void read_binary(std::string_view bytes, const std::string& path, SoupBuilder& builder) {
+    builder.announce_facets(claimed_stl_facets(bytes));
+    if (!holds_claimed_facets(bytes)) refuse_size(bytes, path);
+    const std::size_t end = stl_header_size + stl_facet_size * claimed_stl_facets(bytes);
+    for (std::size_t at = stl_header_size; at < end; at += stl_facet_size) {
+        const char* corners = bytes.data() + at + 12;
+        builder.add_separate_facet(read_corner(corners), read_corner(corners + 12), read_corner(corners + 24));
+    }
+    builder.note_ignored(static_cast<std::int64_t>(bytes.size() - end), "byte behind the last facet",
+                         "bytes behind the last facet");
 }
 
 bool is_keyword(std::string_view word, std::string_view keyword) {
@@ -110,10 +111,8 @@ Soup read_stl(std::string_view bytes, const std::string& path) {
     SoupBuilder builder(path);
     if (!is_binary_stl(bytes) && is_ascii_stl(bytes))
         read_ascii(without_padding(bytes), path, builder);
-    else if (holds_claimed_facets(bytes))
-        read_binary(bytes, builder);
     else
-        refuse_size(bytes, path);
+        read_binary(bytes, path, builder);
     Soup soup = builder.finish();
     weld_exactly(soup);
     soup.vertex_number.clear();  // the file numbers no vertices

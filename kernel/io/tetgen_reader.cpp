@@ -84,6 +84,7 @@ bool is_poly(TextScanner scanner, const std::string& path) {
 
 void read_facets(TextScanner& scanner, const std::string& path, std::int64_t first_node, SoupBuilder& builder) {
     const std::int64_t count = scanner.next_count();
+    builder.announce_facets(count);
     const bool has_markers = !scanner.at_line_end() && scanner.next_integer() != 0;
     scanner.skip_line();
     const bool poly = is_poly(scanner, path);

@@ -1,9 +1,12 @@
 // Whole trees of straight cuts obey every law, for any ranges of leaves, also where cuts along edges came before.
 #include "decompose/straight_division.h"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "core/bytes.h"
+#include "core/error.h"
 #include "support/assets.h"
 #include "support/decomposition_laws.h"
 #include "support/shapes.h"
@@ -34,6 +37,25 @@ class StraightDivision : public testing::TestWithParam<Part> {
 };
 INSTANTIATE_TEST_SUITE_P(Parts, StraightDivision, testing::ValuesIn(parts()),
                          [](const auto& param) { return param.param.name; });
+
+TEST(TreeNodes, AreNumberedAsFarAsThereAreNumbers) {
+    NodeId node = 1;
+    for (int depth = 0; depth < 30; ++depth) {
+        const auto [below, above] = children_of(node);
+        EXPECT_EQ(below / 2, node);
+        EXPECT_EQ(above, below + 1);
+        node = above;
+    }
+    EXPECT_EQ(node, std::numeric_limits<NodeId>::max());
+    for (const NodeId deepest : {node, NodeId{1} << 30}) {
+        try {
+            children_of(deepest);
+            FAIL() << "no error";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::usage);
+        }
+    }
+}
 
 TEST_P(StraightDivision, ReachesAnyNumberOfPartsAndObeysEveryLaw) {
     for (const std::int32_t parts : {2, 3, 8, 17}) {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <random>
 #include <sstream>
@@ -261,6 +262,53 @@ TEST(SurfaceReader, DoesNotBelieveClaimedCounts) {
     message_of("MeshVersionFormatted 2 Dimension 3 Vertices 9000000000000000000 0 0 0 0");
     message_of("9000000000000000000 3\n1 0 0 0\n", ".smesh");
     message_of("1 3\n1 0 0 0\n1 0\n9000000000000000000 1 1 1", ".smesh");
+}
+
+// The corners of so many facets have no numbers. A file of this size is not made for the test: its header says enough.
+TEST(SurfaceReader, RefusesMoreFacetsThanCanBeNumbered) {
+    const std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face ?\nproperty list uchar int vertex_index\nend_header\n";
+    const std::string medit = "MeshVersionFormatted 2\nDimension 3\nVertices 0\n", nodes = "1 3 0 0\n1 0 0 0\n";
+    const std::string msh41 = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n0 0 0 0\n$EndNodes\n";
+    std::string msh2 = "$MeshFormat\n2.2 1 8\n";
+    append(msh2, std::int32_t{1});
+    msh2 += "\n$EndMeshFormat\n$Elements\n900000000\n";
+    append(msh2, std::int32_t{2});  // triangles
+    struct Case {
+        std::string name, ending;
+        std::function<std::string(std::uint32_t)> bytes;
+    };
+    const auto text = [](const std::string& pattern) {
+        return [pattern](std::uint32_t count) {
+            std::string bytes;
+            for (const char c : pattern) bytes += c == '?' ? std::to_string(count) : std::string(1, c);
+            return bytes;
+        };
+    };
+    const auto binary = [](const std::string& begin) {
+        return [begin](std::uint32_t count) {
+            std::string bytes = begin;
+            append(bytes, count);
+            return bytes + std::string(8, '\0');
+        };
+    };
+    const std::vector<Case> cases = {{"binary STL", ".stl", binary(std::string(80, ' '))},
+                                     {"PLY", ".ply", text(ply)},
+                                     {"OFF", ".off", text("OFF\n0 ? 0\n")},
+                                     {"MEDIT", ".mesh", text(medit + "Triangles ?\n")},
+                                     {"MEDIT", ".mesh", text(medit + "Quadrilaterals ?\n")},
+                                     {"TetGen", ".smesh", text(nodes + "? 0\n")},
+                                     {"TetGen", ".poly", text(nodes + "? 1\n")},
+                                     {"MSH 2", ".msh", binary(msh2)},
+                                     {"MSH 4.1", ".msh", text(msh41 + "$Elements\n1 ? 1 ?\n2 1 2 ?\n")}};
+    for (const Case& c : cases) {
+        SCOPED_TRACE(c.name);
+        const std::string limit = "a surface can have 715827882 at most";
+        EXPECT_NE(message_of(c.bytes(800'000'000), c.ending).find(limit), std::string::npos);
+        EXPECT_NE(message_of(c.bytes(715'827'883), c.ending).find(limit), std::string::npos);
+        EXPECT_EQ(message_of(c.bytes(715'827'882), c.ending).find(limit), std::string::npos);
+    }
 }
 
 TEST(SurfaceReader, NamesThePlaceAndTheCause) {
