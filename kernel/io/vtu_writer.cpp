@@ -93,11 +93,12 @@ Array cell_array(std::string name, std::size_t tet_count, std::size_t facet_coun
                              [=](std::size_t i) { return i < tet_count ? of_tet(i) : of_facet(i - tet_count); });
 }
 
-// VTK's form of strings: each one ends with a zero byte.
+// Strings as bytes, each one with a zero byte behind it. VTK has a type for strings with the same bytes, but meshio
+// opens no file with an array of it.
 Array string_array(std::string name, const std::vector<std::string>& strings) {
     std::uint64_t bytes = 0;
     for (const std::string& s : strings) bytes += s.size() + 1;
-    return {std::move(name), "String", 1, strings.size(), bytes, [&strings](CheckedFile& file) {
+    return {std::move(name), vtk_type<std::uint8_t>, 1, bytes, bytes, [&strings](CheckedFile& file) {
                 for (const std::string& s : strings) file.write(s.c_str(), s.size() + 1);
             }};
 }
@@ -194,10 +195,9 @@ std::string array_elements(const Section& section, std::uint64_t& offset) {
     std::string xml;
     for (const Array& array : section.arrays) {
         xml += fmt::format(
-            "<{} type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" NumberOfTuples=\"{}\" format=\"appended\" "
+            "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" NumberOfTuples=\"{}\" format=\"appended\" "
             "offset=\"{}\"/>\n",
-            array.type == "String" ? "Array" : "DataArray", array.type, array.name, array.components, array.tuples,
-            offset);
+            array.type, array.name, array.components, array.tuples, offset);
         offset += sizeof(std::uint64_t) + array.bytes;
     }
     return xml;

@@ -28,7 +28,8 @@ struct PartArrays {
 /// Point array GlobalVertexId (Int64). Cell arrays Part, Patch, Facet (of the input), Neighbour (Int32),
 /// MinDihedralAngle, MaxDihedralAngle, RadiusEdgeRatio, AspectRatio, Shape (Float32); a boundary triangle carries the
 /// quality of the tetrahedron behind it, NaN if there is none; a tetrahedron has Patch, Facet and Neighbour -1. Field
-/// data PatchNames (String) and BoundaryVertexCount (Int32). Interior vertices are numbered from 0 until
+/// data PatchNames (UInt8: the names' bytes in the order of their patches, a zero byte behind each) and
+/// BoundaryVertexCount (Int32). Interior vertices are numbered from 0 until
 /// number_interior_vertices() is called, because their numbers depend on the other parts. `quality`: see
 /// tet_qualities(); `tet_at_facet`: see tets_at_facets(). The bytes depend on the arguments alone; their hash is
 /// returned. The file outlives a power cut after the return. Throws Error(io).
@@ -70,7 +71,7 @@ void write_pvtu(const std::string& path, const std::vector<std::string>& pieces)
 /// The XML header of a file of write_part() or write_part_surface(): where its arrays lie.
 struct VtuHeader {
     struct Array {
-        std::string name, type;  ///< type as VTK names it: Int32, Float64, String, ...
+        std::string name, type;  ///< type as VTK names it: UInt8, Int32, Float64, ...
         std::int64_t components = 0, tuples = 0;
         std::int64_t position = 0;  ///< of the array's UInt64 size in the file; its values follow
     };

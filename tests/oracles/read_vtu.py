@@ -1,15 +1,17 @@
-"""Reads a run folder with VTK's own reader and compares what it finds with the laws of part files.
+"""Reads a run folder with VTK's own reader and with meshio, and compares what they find with the laws of part files, with
+each other and with the report.
 
 usage: python3 read_vtu.py DIR
 
-Reads DIR/mesh.pvtu, and every file of DIR/parts. Prints counts and the total volume as JSON; the exit code is 1 if a law
-does not hold.
+Reads DIR/mesh.pvtu, every file of DIR/parts, and DIR/report.json. Prints counts and the total volume as JSON; the exit
+code is 1 if a law does not hold. ParaView and pyvista read VTU by VTK. gmsh reads none, so it is not asked.
 """
 
 import json
 import pathlib
 import sys
 
+import meshio
 import numpy as np
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
@@ -40,13 +42,21 @@ def read(reader, path):
 
 
 def array(data, name, path):
-    require(data.HasArray(name), f"{path} has the array {name}")
+    require(data.GetArray(name) is not None, f"{path} has the array {name} of numbers")
     return vtk_to_numpy(data.GetArray(name))
 
 
 def volumes(points, corners):
     a, b, c, d = (points[corners[:, i]] for i in range(4))
     return np.einsum("ij,ij->i", b - a, np.cross(c - a, d - a)) / 6
+
+
+def patch_names(values, path):
+    """The names in the bytes of PatchNames: each ends with a zero byte."""
+    require(values.dtype == np.uint8, f"PatchNames of {path} are bytes")
+    text = values.tobytes()
+    require(text.endswith(b"\0"), f"the last of PatchNames of {path} is complete")
+    return text[:-1].decode().split("\0")
 
 
 def check_grid(grid, path, measures):
@@ -85,15 +95,37 @@ def check_part(path):
     is_surface = path.name.endswith(".surface.vtu")
     numbers = check_grid(grid, path, () if is_surface else MEASURES)
     fields = grid.GetFieldData()
-    names = fields.GetAbstractArray("PatchNames")
-    require(names is not None and names.IsA("vtkStringArray"), f"{path} has PatchNames")
+    numbers["patches"] = patch_names(array(fields, "PatchNames", path), path)
     patches = array(grid.GetCellData(), "Patch", path)
-    require(patches.max(initial=-1) < names.GetNumberOfValues(), f"every patch of {path} has a name")
+    require(patches.max(initial=-1) < len(numbers["patches"]), f"every patch of {path} has a name")
     boundary = array(fields, "BoundaryVertexCount", path)
     require(0 <= boundary[0] <= numbers["points"], f"BoundaryVertexCount of {path} is a number of its vertices")
     require(numbers["parts"] == 1, f"{path} is one part")
     require(is_surface == (numbers["tets"] == 0), f"{path} has tetrahedra unless it is a surface")
+    check_as_meshio_reads_it(path, numbers)
     return numbers
+
+
+def check_as_meshio_reads_it(path, numbers):
+    """meshio finds what VTK has found."""
+    mesh = meshio.read(path)
+    cells = mesh.cells_dict
+    tets = cells.get("tetra", np.empty((0, 4), dtype=int))
+    counts = {"points": len(mesh.points), "tets": len(tets), "triangles": len(cells["triangle"])}
+    for count, value in counts.items():
+        require(value == numbers[count], f"meshio and VTK find as many {count} in {path}")
+    volume = float(volumes(mesh.points, tets).sum())
+    require(np.isclose(volume, numbers["volume"], rtol=1e-12, atol=0), f"meshio and VTK find one volume in {path}")
+    require(patch_names(mesh.field_data["PatchNames"], path) == numbers["patches"], f"meshio reads the names in {path}")
+
+
+def check_report(folder, whole):
+    report = json.loads((folder / "report.json").read_text())
+    parts = report["parts"]
+    require(whole["parts"] == len(parts), "the report has the parts of mesh.pvtu")
+    require(whole["tets"] == sum(part["tets"] for part in parts), "the report has the tetrahedra of mesh.pvtu")
+    volume = report["input"]["volume"]
+    require(np.isclose(whole["volume"], volume, rtol=1e-9, atol=0), "mesh.pvtu has the volume of the input")
 
 
 def check_run(folder):
@@ -104,6 +136,7 @@ def check_run(folder):
     volumetric = [numbers for name, numbers in parts.items() if not name.endswith(".surface.vtu")]
     for count in ("points", "tets", "triangles", "parts"):
         require(whole[count] == sum(part[count] for part in volumetric), f"mesh.pvtu has the {count} of its parts")
+    check_report(folder, whole)
     return whole
 
 
