@@ -120,9 +120,11 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     CLI::App* mesh = add_run_command(app, "mesh", "Decompose, mesh every part, verify, write, report.", line);
     CLI::App* decompose =
         add_run_command(app, "decompose", "The same, up to the closed surfaces of the parts; print the tree.", line);
-    CLI::Option* resume = mesh->add_option("--resume", line.resume,
-                                           "Finish the run into this folder that was interrupted, with its options.")
-                              ->type_name("DIR");
+    CLI::Option* resume =
+        mesh->add_option("--resume", line.resume,
+                         "Finish the run into this folder, or DIR.kerf-partial, that was interrupted, "
+                         "with its options.")
+            ->type_name("DIR");
     for (const char* name : {"input", "--output", "--config"}) resume->excludes(mesh->get_option(name));
     mesh->add_flag("--dry-run", line.options.dry_run, "Cut, print what every part will take, and end; write nothing.");
     CLI::App* check = app.add_subcommand("check", "Diagnose a surface without meshing it.");

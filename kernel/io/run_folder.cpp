@@ -17,6 +17,7 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -113,7 +114,9 @@ bool is_same_file(int fd, const std::string& path) {
 constexpr const char* lock_file = "work/lock";    // held by the creator
 constexpr const char* ranks_file = "work/ranks";  // shared by the others
 
-std::string partial_path_of(const std::string& final_path) { return final_path + ".kerf-partial"; }
+constexpr std::string_view partial_suffix = ".kerf-partial";
+
+std::string partial_path_of(const std::string& final_path) { return fmt::format("{}{}", final_path, partial_suffix); }
 std::string failed_path_of(const std::string& final_path) { return final_path + ".failed"; }
 std::string older_path_of(const std::string& partial) { return partial + "-older"; }
 std::string removed_path_of(const std::string& partial) { return partial + "-removed"; }
@@ -175,6 +178,13 @@ void RunFolder::release_locks() {
 std::vector<std::string> RunFolder::folders_of(const std::string& path) {
     const std::string final_path = normal_path(path), partial = partial_path_of(final_path);
     return {final_path, failed_path_of(final_path), partial, older_path_of(partial), removed_path_of(partial)};
+}
+
+std::string RunFolder::result_of(const std::string& path) {
+    const std::size_t end = path.find_last_not_of('/');
+    const std::string_view name = std::string_view(path).substr(0, end + 1);
+    if (!name.ends_with(partial_suffix) || name.size() == partial_suffix.size()) return path;
+    return std::string(name.substr(0, name.size() - partial_suffix.size()));
 }
 
 std::string RunFolder::saved_run_file(const std::string& path) {

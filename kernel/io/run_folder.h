@@ -34,6 +34,9 @@ class RunFolder {
     /// none. Throws Error(io) if that cannot be a path.
     static std::string saved_run_file(const std::string& path);
 
+    /// The result of the run whose partial folder `path` is, or else `path` as it is.
+    static std::string result_of(const std::string& path);
+
     /// The folders that a run into `path` may write, replace or remove: its result, that of a run with failed parts,
     /// and what is under way. Throws Error(io) if it cannot be a path.
     static std::vector<std::string> folders_of(const std::string& path);

@@ -53,7 +53,8 @@ struct OptionField {
     std::string short_name;  ///< a letter, or empty
     std::string help;        ///< one sentence with unit and default
     std::variant<std::int32_t*, std::int64_t*, double*, bool*, std::string*, Choice> value;
-    bool shapes_parts = true;  ///< false: a finished run has the same part files whatever it is
+    bool shapes_parts = true;  ///< false: a finished run has the same part files whatever it is, but for parts that
+                               ///< took longer than a limit of time, which the run marks (PartOutcome::timed_out)
 
     /// The value as text, numbers with all their digits; set_text() takes it back and throws Error(usage), naming the
     /// option, for what is no such value.

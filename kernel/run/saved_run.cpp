@@ -49,7 +49,8 @@ void save_run(const std::string& path, const RunOptions& options, const std::str
     write_durable_file(path, json.dump(2) + "\n");
 }
 
-RunOptions load_interrupted_run(const std::string& output) {
+RunOptions load_interrupted_run(const std::string& folder) {
+    const std::string output = RunFolder::result_of(folder);
     const std::string file = RunFolder::saved_run_file(output);
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored))

@@ -10,10 +10,10 @@ namespace kerf {
 /// Writes input, options and K of a run; `input_hash`: of the bytes of the input. Durable. Throws Error(io).
 void save_run(const std::string& path, const RunOptions& options, const std::string& input_hash);
 
-/// The options of the run that was interrupted while it wrote to the folder `output`. All paths are absolute, that of
-/// the output is the given one, in case it was moved. Throws Error(io) if there is none or what it left is damaged,
-/// naming the way out.
-RunOptions load_interrupted_run(const std::string& output);
+/// The options of the run that was interrupted while it wrote to `folder`, or whose partial folder that is. All paths
+/// are absolute, that of the output follows from the given one, in case it was moved. Throws Error(io) if there is none
+/// or what it left is damaged, naming the way out.
+RunOptions load_interrupted_run(const std::string& folder);
 
 /// Throws Error(io) if the options are those of an interrupted run and its input had another hash.
 void refuse_changed_input(const RunOptions& options, const std::string& input_hash);

@@ -1,4 +1,4 @@
-// What may happen during a night: workers that are killed, hang or grow, full disks, other runs into the same folder.
+// What may happen during a night: workers that are killed or grow, full disks, other runs into the same folder.
 // Each has its exit code and its message; nothing that looks whole is not, no process stays, and what can go on does.
 #include <unistd.h>
 
@@ -129,19 +129,6 @@ TEST(MemoryLimit, IsReportedWithItsOwnCode) {
     EXPECT_EQ(result.exit_code, 5) << result.log;
     EXPECT_NE(result.log.find("memory"), std::string::npos) << result.log;
     EXPECT_TRUE(std::filesystem::exists(folder.file("out/failed/part_0002.smesh")));
-}
-
-TEST(HangingWorker, IsStoppedAndItsPartTriedAgain) {
-    const test::TemporaryFolder folder;
-    std::vector<std::string> arguments = four_parts(folder.file("out"));
-    arguments.insert(arguments.end(), {"--timeout", "8"});
-    test::StartedRun run(KERF_PROGRAM, arguments);
-    ASSERT_TRUE(test::await([&] { return !run.workers().empty(); }));
-    ASSERT_EQ(::kill(run.workers().front(), SIGSTOP), 0);
-    const ChildResult result = run.wait();
-    EXPECT_EQ(result.exit_code, 0) << result.log;
-    EXPECT_NE(result.log.find("another order of the vertices"), std::string::npos) << result.log;
-    EXPECT_NE(test::bytes_of_file(folder.file("out/report.json")).find("ran longer than its 8 s"), std::string::npos);
 }
 
 // An interface of some hundred thousand triangles takes half a minute.

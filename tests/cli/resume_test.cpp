@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +11,7 @@
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/program.h"
+#include "support/slice.h"
 #include "support/started_run.h"
 #include "support/temporary_folder.h"
 
@@ -100,6 +102,17 @@ TEST_F(Resume, GivesTheBytesOfAnUndisturbedRun) {
     }
 }
 
+// The folder that a user sees after an interruption.
+TEST_F(Resume, TakesThePartialFolderForTheRunIntoIt) {
+    interrupt(SIGTERM);
+    const std::size_t finished = test::finished_parts(folder_.file("out"));
+    for (const char* name : {"out.kerf-partial", "out.kerf-partial/"})
+        EXPECT_EQ(test::run_kerf({"mesh", "--resume", folder_.file(name), "--dry-run"}).exit_code, 0) << name;
+    EXPECT_EQ(test::run_kerf({"mesh", "--resume", folder_.file("out.kerf-partial/")}).exit_code, 0);
+    EXPECT_EQ(resumed_parts(), finished);
+    EXPECT_EQ(folder_.names(), std::vector<std::string>{"out"});
+}
+
 TEST_F(Resume, TheSameCommandFindsWhatIsFinishedToo) {
     const auto expected = undisturbed();
     interrupt(SIGKILL);
@@ -142,6 +155,37 @@ TEST_F(Resume, ASignalToAllProcessesFailsNoPart) {
     EXPECT_EQ(test::bytes_of_file(folder_.file("events")).find("failed"), std::string::npos);
     EXPECT_FALSE(fs::exists(folder_.file("out.kerf-partial/failed")));
     EXPECT_EQ(resume().exit_code, 0);
+}
+
+// A worker hangs, so that its part becomes another one in the second attempt.
+TEST_F(Resume, APartThatATimeLimitHasShapedIsSaidAndNotTakenOverUnderAnotherLimit) {
+    const auto expected = undisturbed();
+    const std::string limit = test::in_slices() ? "20" : "4";
+    std::vector<std::string> arguments = command("out");
+    arguments.insert(arguments.end(), {"--timeout", limit});
+    test::StartedRun run(KERF_PROGRAM, arguments);
+    ASSERT_TRUE(test::await([&] { return !run.workers().empty(); }));
+    ASSERT_EQ(::kill(run.workers().front(), SIGSTOP), 0);
+    ASSERT_TRUE(test::await([&] { return test::finished_parts(folder_.file("out")) >= 1; }));
+    ASSERT_EQ(::kill(run.process(), SIGTERM), 0);
+    EXPECT_EQ(run.wait().exit_code, 130);
+    fs::copy(folder_.file("out.kerf-partial"), folder_.file("same.kerf-partial"), fs::copy_options::recursive);
+    const std::size_t finished = test::finished_parts(folder_.file("out"));
+
+    const ChildResult other = resume({"--timeout", "600"});
+    EXPECT_EQ(other.exit_code, 0) << other.log;
+    EXPECT_EQ(resumed_parts(), finished - 1);
+    EXPECT_EQ(other.log.find("time-out"), std::string::npos) << other.log;
+    EXPECT_TRUE(parts_of("out") == expected);
+
+    const ChildResult same = test::run_kerf({"mesh", "--resume", folder_.file("same")});
+    EXPECT_EQ(same.exit_code, 0) << same.log;
+    EXPECT_NE(same.log.find("after a time-out"), std::string::npos) << same.log;
+    EXPECT_NE(same.log.find("another order of the vertices"), std::string::npos) << same.log;
+    const std::string report = test::bytes_of_file(folder_.file("same/report.json"));
+    EXPECT_NE(report.find(fmt::format("ran longer than its {} s", limit)), std::string::npos);
+    EXPECT_NE(report.find("may differ from those of an undisturbed run"), std::string::npos);
+    EXPECT_FALSE(parts_of("same") == expected);
 }
 
 TEST_F(Resume, NothingOfARunWithOtherOptionsSurvives) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -23,6 +24,14 @@ std::string normal(const std::string& path) {
     return (clean.has_filename() ? clean : clean.parent_path()).string();
 }
 
+// What is written by who is given `path`: a run that goes on is named by its partial folder, too.
+std::string output_of(const std::string& path) {
+    constexpr std::string_view partial = ".kerf-partial";
+    std::string output = normal(path);
+    if (output.ends_with(partial)) output.resize(output.size() - partial.size());
+    return output;
+}
+
 }  // namespace
 
 Surroundings::Surroundings(const std::vector<std::string>& arguments) {
@@ -32,7 +41,7 @@ Surroundings::Surroundings(const std::vector<std::string>& arguments) {
         const bool is_output = i > 0 && output_options.contains(arguments[i - 1]);
         if (argument.empty() || argument.starts_with("/dev/") || argument.starts_with("/proc/")) continue;
         if (is_output) {
-            outputs_.push_back(normal(argument));
+            outputs_.push_back(output_of(argument));
             if (fs::is_symlink(argument, ignored) && !fs::exists(argument, ignored))
                 outputs_.push_back(normal((fs::path(argument).parent_path() / fs::read_symlink(argument)).string()));
         }

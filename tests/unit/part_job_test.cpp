@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "run/journal.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"
 
@@ -44,6 +45,26 @@ TEST(PartJob, IsTheSameFromOutsideWhenCutInTwo) {
         EXPECT_NE(b.hash, a.hash);
         EXPECT_EQ(hash_part_file(folder.file("halves.vtu")).written, b.file_hash);
     }
+}
+
+// What a limit of time has shaped is not taken over by who has another one; everything else is by everybody.
+TEST(Journal, FindsAPartThatNoOtherTimeLimitHasShaped) {
+    const test::TemporaryFolder folder;
+    const std::string part = folder.file("part.vtu"), journal = folder.file("1");
+    PartOutcome outcome;
+    outcome.result = run_part_job(job_of(test::box()), {}, part);
+    const FileHash job = {3, 4}, other = {3, 5};
+    EXPECT_FALSE(find_finished_part(journal, part, job, 0));
+    for (const double shaped_by : {0.0, 5.0})
+        for (const double limit : {0.0, 4.0, 5.0, 600.0}) {
+            SCOPED_TRACE(testing::Message() << shaped_by << ", " << limit);
+            outcome.timed_out = shaped_by > 0;
+            write_journal_entry(journal, {job, shaped_by, outcome});
+            const auto found = find_finished_part(journal, part, job, limit);
+            EXPECT_EQ(found.has_value(), shaped_by == 0 || limit == shaped_by);
+            EXPECT_TRUE(!found || found->timed_out == outcome.timed_out);
+            EXPECT_FALSE(find_finished_part(journal, part, other, limit));
+        }
 }
 
 // Boxes that touch in a point: TetGen returns tetrahedra, but not with these facets. A mesh that is thrown away must
