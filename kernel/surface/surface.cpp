@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "core/error.h"
 
@@ -88,7 +89,7 @@ ManifoldDefect edge_defect(ManifoldDefect::Kind kind, std::int32_t low, std::spa
 enum class VertexCheck : char {
     none,
     fan,   // the facets around the vertex have to be one fan
-    open,  // an edge without partner ends here, which is a defect of its own
+    open,  // an edge without partner ends here, which is a defect of its own; see is_pinched()
 };
 
 // Facets around a vertex that are joined over proper edges form one fan at a manifold vertex.
@@ -116,6 +117,49 @@ void find_vertex_defects(const std::vector<Triangle>& facets, const std::vector<
     for (std::size_t f = 0; f < facets.size(); ++f)
         for (std::int32_t v : facets[f])
             if (slot[v] >= 0) defects[slot[v]].facets.push_back(static_cast<std::int32_t>(f));
+}
+
+// True if one of the fans at a vertex has neither gap nor defect towards the others: whatever closes or parts those,
+// the surface is pinched here. Fans with a gap may be parts of one fan with several gaps. `around`: the vertex's
+// facets.
+bool is_pinched(const std::vector<Triangle>& facets, std::int32_t vertex, std::span<const std::int32_t> around) {
+    std::vector<std::pair<std::int32_t, std::size_t>> spokes;  // far end, place in `around`
+    for (std::size_t i = 0; i < around.size(); ++i)
+        for (std::int32_t v : facets[around[i]])
+            if (v != vertex) spokes.emplace_back(v, i);
+    std::sort(spokes.begin(), spokes.end());
+    std::vector<std::size_t> fan(around.size());  // a facet of the same fan, itself for one of each
+    std::iota(fan.begin(), fan.end(), std::size_t{0});
+    const auto first_of = [&](std::size_t i) {
+        while (fan[i] != i) i = fan[i] = fan[fan[i]];
+        return i;
+    };
+    std::vector<std::size_t> at_gap;
+    for (std::size_t i = 0, j = 0; i < spokes.size(); i = j) {
+        while (j < spokes.size() && spokes[j].first == spokes[i].first)
+            fan[first_of(spokes[j++].second)] = first_of(spokes[i].second);
+        if (j == i + 1) at_gap.push_back(spokes[i].second);
+    }
+    std::vector<char> has_gap(around.size(), 0);
+    for (const std::size_t i : at_gap) has_gap[first_of(i)] = 1;
+    std::size_t whole = 0;
+    for (std::size_t i = 0; i < fan.size(); ++i) whole += first_of(i) == i && !has_gap[i];
+    return whole + (at_gap.empty() ? 0 : 1) > 1;
+}
+
+void find_pinched_vertices(const std::vector<Triangle>& facets, const std::vector<VertexCheck>& check,
+                           std::vector<ManifoldDefect>& defects) {
+    std::vector<std::pair<std::int32_t, std::int32_t>> at;  // vertex, facet
+    for (std::size_t f = 0; f < facets.size(); ++f)
+        for (std::int32_t v : facets[f])
+            if (check[v] == VertexCheck::open) at.emplace_back(v, static_cast<std::int32_t>(f));
+    std::sort(at.begin(), at.end());
+    for (std::size_t i = 0, j = 0; i < at.size(); i = j) {
+        std::vector<std::int32_t> around;
+        for (; j < at.size() && at[j].first == at[i].first; ++j) around.push_back(at[j].second);
+        if (is_pinched(facets, at[i].first, around))
+            defects.push_back({ManifoldDefect::Kind::non_manifold_vertex, {at[i].first}, std::move(around)});
+    }
 }
 
 struct Pairing {
@@ -147,6 +191,7 @@ Pairing pair_corners(std::size_t vertex_count, const std::vector<Triangle>& face
         }
     });
     find_vertex_defects(facets, pairing.partner, check, pairing.defects);
+    if (!pairing.defects.empty()) find_pinched_vertices(facets, check, pairing.defects);
     return pairing;
 }
 

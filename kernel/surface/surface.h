@@ -47,7 +47,9 @@ struct ManifoldDefect {
 };
 
 /// Every place where `facets` over `vertex_count` vertices fail to be a closed, oriented 2-manifold, ordered by vertex.
-/// Requires indices in range and no facet with a repeated vertex. Vertices without facets are allowed. O(#V + #F).
+/// A vertex at an edge with a defect is named, too, if one of its fans of facets is closed by itself, so that the
+/// vertex stays pinched when the edges are mended. Requires indices in range and no facet with a repeated vertex.
+/// Vertices without facets are allowed. O(#V + #F).
 std::vector<ManifoldDefect> find_manifold_defects(std::size_t vertex_count, const std::vector<Triangle>& facets);
 
 /// Closed, oriented 2-manifold. Facet and vertex numbers are those of the arrays it was built from. Immutable; copies

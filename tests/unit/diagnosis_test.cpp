@@ -128,6 +128,59 @@ TEST(Diagnose, TwoBoxesThatShareAVertexHoweverTheyAreOriented) {
     }
 }
 
+// Two boxes share a vertex, where a facet of one or both is missing. What stays pinched when holes are closed is named.
+TEST(Diagnose, APinchedVertexIsNamedBesideOtherDefects) {
+    const std::vector<Soup> boxes = {box(), box(Vec3(1, 1, 1), Vec3(2, 2, 2))};
+    for (const bool first_open : {false, true})
+        for (const bool second_open : {false, true}) {
+            SCOPED_TRACE(testing::Message() << first_open << second_open);
+            Soup soup = join(boxes[0], boxes[1]);
+            weld_exactly(soup);
+            const auto corner = static_cast<std::int32_t>(
+                std::find(soup.vertices.begin(), soup.vertices.end(), Vec3(1, 1, 1)) - soup.vertices.begin());
+            const std::vector<std::int32_t> around = test::facets_with(soup, {corner});
+            if (second_open) remove_facet(soup, around.back());
+            if (first_open) remove_facet(soup, around.front());
+            const Diagnosis diagnosis = diagnose(soup);
+            EXPECT_EQ(diagnosis.count(DefectKind::open_edge), int{first_open} + int{second_open});
+            ASSERT_EQ(diagnosis.count(DefectKind::non_manifold_vertex), first_open && second_open ? 0 : 1);
+            for (const Defect& defect : diagnosis.defects) {
+                if (defect.kind != DefectKind::non_manifold_vertex) continue;
+                EXPECT_EQ(defect.vertices, std::vector<std::int32_t>{corner});
+                EXPECT_EQ(defect.facets, test::facets_with(soup, {corner}));
+            }
+        }
+    // The ends of an edge of four facets are no defects of their own, unless a third body touches one.
+    Soup edge = join(boxes[0], box(Vec3(1, 1, 0), Vec3(2, 2, 1)));
+    Soup above = tetrahedron();
+    for (Vec3& p : above.vertices)
+        p = Vec3(1 + 0.1 * (p.x() - p.y()), 1 + 0.1 * (p.y() - p.z()), 1 + p.x() + p.y() + p.z());
+    Soup third = join(edge, above);
+    weld_exactly(edge);
+    weld_exactly(third);
+    EXPECT_EQ(diagnose(edge).count(DefectKind::non_manifold_vertex), 0);
+    EXPECT_EQ(diagnose(third).count(DefectKind::non_manifold_vertex), 1);
+}
+
+TEST(Diagnose, HolesThatMeetAtAVertexAreNoPinch) {
+    Soup soup = box(Vec3::Zero(), Vec3::Ones(), 4);
+    const auto middle = static_cast<std::int32_t>(
+        std::find(soup.vertices.begin(), soup.vertices.end(), Vec3(0.5, 0.5, 1)) - soup.vertices.begin());
+    const std::vector<std::int32_t> around = test::facets_with(soup, {middle});
+    ASSERT_EQ(around.size(), 6u);
+    const Triangle& first = soup.facets[around.front()];
+    const auto shares_the_middle_only = [&](std::int32_t f) {
+        return std::count_if(first.begin(), first.end(), [&](std::int32_t v) {
+                   return std::count(soup.facets[f].begin(), soup.facets[f].end(), v) > 0;
+               }) == 1;
+    };
+    const auto other = std::find_if(around.begin(), around.end(), shares_the_middle_only);
+    ASSERT_NE(other, around.end());
+    remove_facet(soup, *other);
+    remove_facet(soup, around.front());
+    EXPECT_EQ(counts(diagnose(soup)), (Counts{{DefectKind::open_edge, 2}}));
+}
+
 // A band of n squares that is closed after half a turn.
 Soup moebius_strip(int n) {
     Soup soup;
