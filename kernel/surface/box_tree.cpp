@@ -39,18 +39,9 @@ void BoxTree::split(std::size_t node) {
 }
 
 std::vector<std::int32_t> BoxTree::around(const Eigen::AlignedBox3d& box) const {
-    std::vector<std::int32_t> found, open = {0};
-    while (!open.empty()) {
-        const Node& node = nodes_[open.back()];
-        open.pop_back();
-        if (!node.box.contains(box)) continue;
-        if (node.left > 0) {
-            open.insert(open.end(), {node.left, node.left + 1});
-            continue;
-        }
-        for (std::int32_t i = node.first; i < node.first + node.count; ++i)
-            if (boxes_[order_[i]].contains(box)) found.push_back(order_[i]);
-    }
+    std::vector<std::int32_t> found;
+    traverse([&](const Eigen::AlignedBox3d& other) { return other.contains(box); },
+             [&](std::int32_t i) { found.push_back(i); });
     std::sort(found.begin(), found.end());
     return found;
 }

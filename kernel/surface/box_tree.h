@@ -1,4 +1,4 @@
-// A hierarchy of boxes that finds those around a box without looking at all.
+// A hierarchy of boxes that finds those around a box, or those that meet it, without looking at all.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +17,14 @@ class BoxTree {
     /// The numbers of the boxes that contain `box`, borders included, ascending. O(log n) for each where few overlap.
     std::vector<std::int32_t> around(const Eigen::AlignedBox3d& box) const;
 
+    /// Calls visit(number) for each box that meets `box`, borders included, in an order that depends on the boxes
+    /// alone.
+    template <class Visit>
+    void for_each_meeting(const Eigen::AlignedBox3d& box, Visit visit) const {
+        const auto meets = [&](const Eigen::AlignedBox3d& other) { return other.intersects(box); };
+        traverse(meets, visit);
+    }
+
  private:
     struct Node {
         Eigen::AlignedBox3d box;    // of all below
@@ -24,6 +32,22 @@ class BoxTree {
         std::int32_t left = 0;      // 0: a leaf; the other child follows it
     };
     void split(std::size_t node);
+    // Visits the boxes for which `is_wanted` holds; it must hold for every box around one for which it does.
+    template <class IsWanted, class Visit>
+    void traverse(const IsWanted& is_wanted, const Visit& visit) const {
+        std::vector<std::int32_t> open = {0};
+        while (!open.empty()) {
+            const Node& node = nodes_[open.back()];
+            open.pop_back();
+            if (!is_wanted(node.box)) continue;
+            if (node.left > 0) {
+                open.insert(open.end(), {node.left, node.left + 1});
+                continue;
+            }
+            for (std::int32_t i = node.first; i < node.first + node.count; ++i)
+                if (is_wanted(boxes_[order_[i]])) visit(order_[i]);
+        }
+    }
 
     std::vector<Eigen::AlignedBox3d> boxes_;
     std::vector<std::int32_t> order_;  // numbers of boxes, those of a node side by side

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "surface/intersections.h"
 
@@ -40,21 +41,42 @@ Vec3 point_beyond(const Eigen::AlignedBox3d& box, const Vec3& point, int attempt
     return target;
 }
 
+// Calls visit(facet) for the facets whose boxes meet the box, and perhaps for others.
+template <class Visit>
+void for_each_facet_near(const Shell& shell, const Eigen::AlignedBox3d& box, Visit visit) {
+    if (shell.tree)
+        shell.tree->for_each_meeting(box, [&](std::int32_t f) { visit(shell.facets[f]); });
+    else
+        for (const Triangle& t : shell.facets) visit(t);
+}
+
 std::optional<bool> crosses_odd_times(const std::vector<Vec3>& vertices, const Shell& shell, const Vec3& s,
                                       const Vec3& t) {
     const Vec3 low = s.cwiseMin(t), high = s.cwiseMax(t);
-    bool odd = false;
-    for (const auto& [i, j, k] : shell.facets) {
-        const Vec3 &a = vertices[i], &b = vertices[j], &c = vertices[k];
-        bool apart = false;
+    bool odd = false, touches = false;
+    for_each_facet_near(shell, Eigen::AlignedBox3d(low, high), [&](const Triangle& facet) {
+        const Vec3 &a = vertices[facet[0]], &b = vertices[facet[1]], &c = vertices[facet[2]];
+        bool apart = touches;
         for (int x = 0; x < 3; ++x)
             apart |= std::max({a[x], b[x], c[x]}) < low[x] || std::min({a[x], b[x], c[x]}) > high[x];
-        if (apart) continue;
+        if (apart) return;
         const Crossing kind = crossing(s, t, a, b, c);
-        if (kind == Crossing::touching) return std::nullopt;
+        touches |= kind == Crossing::touching;
         odd ^= kind == Crossing::proper;
-    }
+    });
+    if (touches) return std::nullopt;
     return odd;
+}
+
+// A tree takes as long as some tens of questions without one.
+void prepare_for_questions(const std::vector<Vec3>& vertices, const Shell& shell) {
+    constexpr std::int32_t few = 32;
+    constexpr std::size_t small = 64;
+    if (shell.tree || shell.facets.size() < small || ++shell.questions <= few) return;
+    std::vector<Eigen::AlignedBox3d> boxes(shell.facets.size());
+    for (std::size_t f = 0; f < boxes.size(); ++f)
+        for (const std::int32_t v : shell.facets[f]) boxes[f].extend(vertices[v]);
+    shell.tree = std::make_shared<const BoxTree>(std::move(boxes));
 }
 
 }  // namespace
@@ -78,6 +100,7 @@ BoxTree boxes_of(const std::vector<Shell>& shells) {
 
 std::optional<bool> encloses(const std::vector<Vec3>& vertices, const Shell& shell, const Vec3& point) {
     if (!shell.box.contains(point)) return false;
+    prepare_for_questions(vertices, shell);
     for (int attempt = 0; attempt < attempts; ++attempt)
         if (const auto odd = crosses_odd_times(vertices, shell, point, point_beyond(shell.box, point, attempt)))
             return odd;

@@ -1,6 +1,8 @@
 // Inside or outside of a closed shell, by exact counting.
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -15,6 +17,10 @@ namespace kerf {
 struct Shell {
     std::vector<Triangle> facets;
     Eigen::AlignedBox3d box;
+
+    // What encloses() remembers: one that is asked often gets a tree of its facets. Not for several threads.
+    mutable std::int32_t questions = 0;
+    mutable std::shared_ptr<const BoxTree> tree;
 };
 
 /// Facets grouped by their shell number in [0, count), in ascending order of facets.
@@ -26,7 +32,8 @@ BoxTree boxes_of(const std::vector<Shell>& shells);
 
 /// Whether the point lies inside of the shell: a segment from it to the outside crosses the shell an odd number of
 /// times. Crossings are decided by exact predicates; a segment that touches an edge or a vertex says nothing and is
-/// replaced by the next of a fixed sequence. Nothing is returned if none decides, as for a point on the shell. O(#F).
+/// replaced by the next of a fixed sequence. Nothing is returned if none decides, as for a point on the shell. O(#F),
+/// and after some questions, which must have the same vertices, O(log #F) and the facets near the segment.
 std::optional<bool> encloses(const std::vector<Vec3>& vertices, const Shell& shell, const Vec3& point);
 
 }  // namespace kerf

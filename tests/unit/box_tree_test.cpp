@@ -18,7 +18,7 @@ std::vector<Eigen::AlignedBox3d> some_boxes(std::mt19937& random, std::size_t co
     return boxes;
 }
 
-TEST(BoxTree, FindsTheBoxesAroundEachBox) {
+TEST(BoxTree, FindsTheBoxesAroundEachBoxAndThoseThatMeetIt) {
     std::mt19937 random(1);
     for (const std::size_t count : {0, 1, 4, 5, 300}) {
         const std::vector<Eigen::AlignedBox3d> boxes = some_boxes(random, count);
@@ -28,6 +28,12 @@ TEST(BoxTree, FindsTheBoxesAroundEachBox) {
             for (std::size_t i = 0; i < count; ++i)
                 if (boxes[i].contains(box)) expected.push_back(static_cast<std::int32_t>(i));
             EXPECT_EQ(tree.around(box), expected);
+            std::vector<std::int32_t> meeting, found;
+            for (std::size_t i = 0; i < count; ++i)
+                if (boxes[i].intersects(box)) meeting.push_back(static_cast<std::int32_t>(i));
+            tree.for_each_meeting(box, [&](std::int32_t i) { found.push_back(i); });
+            std::sort(found.begin(), found.end());
+            EXPECT_EQ(found, meeting);
         }
         for (std::size_t i = 0; i < count; ++i) {
             const std::vector<std::int32_t> around = tree.around(boxes[i]);
