@@ -1,6 +1,8 @@
 #include "cli/check.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -54,25 +56,43 @@ void print_json(const std::string& path, const CheckedSoup& checked) {
                     {"defects", std::move(defects)}});
 }
 
-// One line for the defects of equal kind and severity; of needles, the worst is named.
-std::string kind_text(const CheckedSoup& checked, std::vector<Defect>::const_iterator first,
-                      std::vector<Defect>::const_iterator last) {
-    const auto worst = std::min_element(first, last, [](const Defect& a, const Defect& b) {
-        return a.kind == DefectKind::open_edge ? a.measure > b.measure : a.measure < b.measure;
+std::string place_and_measure(const Defect& defect, const Soup& soup) {
+    const std::string text = place(defect, soup);
+    if (defect.kind == DefectKind::needle) return fmt::format("{}, {:.3g} deg", text, defect.measure);
+    if (defect.kind == DefectKind::open_edge)
+        return fmt::format("{}, {} edges, length {:.6g}", text, defect.facets.size(), defect.measure);
+    if (defect.kind == DefectKind::short_edge) return fmt::format("{}, length {:.3g}", text, defect.measure);
+    return text;
+}
+
+// The defects of one kind and severity, in their order. A single one takes one line; of many, the worst are named: the
+// longest loops, the smallest angles, the shortest edges, the first of what has no measure.
+std::string group_text(const CheckedSoup& checked, std::vector<const Defect*> defects) {
+    constexpr std::size_t most_named = 10;
+    std::stable_sort(defects.begin(), defects.end(), [](const Defect* a, const Defect* b) {
+        return a->kind == DefectKind::open_edge ? a->measure > b->measure : a->measure < b->measure;
     });
-    const bool is_warning = first->severity == Severity::warning;
-    const std::int64_t count = is_warning ? checked.diagnosis.count(first->kind) : last - first;
-    const bool is_measured = first->measure > 0;
-    std::string measure;
-    if (first->kind == DefectKind::needle) measure = fmt::format(", {:.3g} deg", worst->measure);
-    if (first->kind == DefectKind::open_edge)
-        measure = fmt::format(", {} edges, length {:.6g}", worst->facets.size(), worst->measure);
-    if (first->kind == DefectKind::short_edge) measure = fmt::format(", length {:.3g}", worst->measure);
-    return fmt::format("  {:<9} {}: {}{}{}; {}.\n", name(first->severity), counted(count, first->kind),
-                       count == 1    ? ""
-                       : is_measured ? "the worst "
-                                     : "the first ",
-                       place(*worst, checked.soup), measure, remedy(*first));
+    const Defect& worst = *defects.front();
+    const auto listed = static_cast<std::int64_t>(defects.size());
+    const std::int64_t count =
+        worst.severity == Severity::warning ? checked.diagnosis.count(worst.kind) : listed;  // not all are listed
+    const std::string head = fmt::format("  {:<9} {}", name(worst.severity), counted(count, worst.kind));
+    if (count == 1) return fmt::format("{}: {}; {}.\n", head, place_and_measure(worst, checked.soup), remedy(worst));
+    std::string text = fmt::format("{}; {}:\n", head, remedy(worst));
+    const std::size_t named = std::min(defects.size(), most_named);
+    for (std::size_t i = 0; i < named; ++i)
+        text += fmt::format("{:12}{}\n", "", place_and_measure(*defects[i], checked.soup));
+    const std::int64_t more = count - static_cast<std::int64_t>(named);
+    return more > 0 ? fmt::format("{}{:12}and {} more\n", text, "", more) : text;
+}
+
+// By kind, and the errors of a kind before what is repaired.
+std::string defects_text(const CheckedSoup& checked) {
+    std::map<std::pair<DefectKind, Severity>, std::vector<const Defect*>> groups;
+    for (const Defect& defect : checked.diagnosis.defects) groups[{defect.kind, defect.severity}].push_back(&defect);
+    std::string text;
+    for (const auto& [kind, defects] : groups) text += group_text(checked, defects);
+    return text;
 }
 
 void print_text(const CheckRequest& request, CheckedSoup& checked) {
@@ -81,13 +101,7 @@ void print_text(const CheckRequest& request, CheckedSoup& checked) {
                                    checked.soup.vertices.size(), checked.soup.patch_names.size(),
                                    checked.soup.patch_names.size() == 1 ? "" : "es");
     for (const std::string& note : checked.soup.notes) text += fmt::format("  note      {}\n", note);
-    for (auto first = diagnosis.defects.begin(); first != diagnosis.defects.end();) {
-        const auto last = std::find_if(first, diagnosis.defects.end(), [&](const Defect& d) {
-            return d.kind != first->kind || d.severity != first->severity;
-        });
-        text += kind_text(checked, first, last);
-        first = last;
-    }
+    text += defects_text(checked);
     const bool clean = diagnosis.clean();
     const bool more = diagnosis.defects.size() > 1;
     text += clean ? "It can be meshed.\n" : "It cannot be meshed as it is.\n";

@@ -15,9 +15,9 @@ struct CheckRequest {
     std::string offenders_file;  ///< VTU of the offending facets and vertices; empty: none
 };
 
-/// Prints counts, the worst of each kind and what to do, or with `json` every defect, to standard output. Returns 0 for
-/// a surface that can be meshed, else 3, also for one that cannot be parsed; its defect is "unreadable" then. Throws
-/// Error for a file that cannot be opened or written.
+/// Prints counts, the ten worst of each kind and what to do, or with `json` every defect, to standard output. Returns 0
+/// for a surface that can be meshed, else 3, also for one that cannot be parsed; its defect is "unreadable" then.
+/// Throws Error for a file that cannot be opened or written.
 int check_surface(const CheckRequest& request);
 
 }  // namespace kerf

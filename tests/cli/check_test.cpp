@@ -2,8 +2,10 @@
 // them.
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <regex>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -74,9 +76,50 @@ TEST_F(Check, TextIsShortHoweverManyDefectsThereAre) {
     const ChildResult result = check(write(join(sphere, test::translated(sphere, Vec3(0.01, 0.02, 0.03)))));
     EXPECT_EQ(result.exit_code, 3);
     const std::string text = test::output_of(result);
-    EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 5) << text;
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1 + 12 + 2) << text;
+    const Json json = check_json(folder_.file("surface.off"));
+    EXPECT_NE(text.find(fmt::format("and {} more\n", json["defects"].size() - 10)), std::string::npos) << text;
     EXPECT_NE(text.find("It cannot be meshed as it is."), std::string::npos) << text;
     EXPECT_NE(text.find("--json"), std::string::npos) << text;
+}
+
+// Of a facet that is there twice one stays; but at the rim of a hole neither may belong there.
+TEST_F(Check, TextGroupsDefectsOfAKindBySeverity) {
+    const Soup whole = test::icosphere(3);
+    Soup soup = whole;
+    soup.facets.clear();
+    for (std::size_t f = 0; f < whole.facets.size(); ++f) {
+        const bool is_hole = f % 40 == 20;
+        for (int copy = 0; copy < (is_hole ? 0 : f % 4 ? 2 : 1); ++copy) soup.facets.push_back(whole.facets[f]);
+    }
+    const std::string path = write(soup);
+    std::map<std::string, int> of_severity;
+    const Json json = check_json(path);
+    for (const Json& defect : json["defects"])
+        if (defect["kind"] == "duplicate facet") ++of_severity[defect["severity"]];
+    ASSERT_GT(of_severity["repaired"], 10);
+    ASSERT_GT(of_severity["error"], 10);
+    const std::string text = test::output_of(check(path));
+    for (const auto& [severity, defects] : of_severity)
+        EXPECT_NE(text.find(fmt::format("  {:<9} {} duplicate facets; ", severity, defects)), std::string::npos)
+            << text;
+    std::size_t groups = 0;
+    for (std::size_t at = text.find("duplicate facets"); at != text.npos; at = text.find("duplicate facets", at + 1))
+        ++groups;
+    EXPECT_EQ(groups, 2u) << text;
+}
+
+TEST_F(Check, TextNamesTheWorst) {
+    const std::string cube = test::asset_path("cube");
+    const std::vector<std::string> angle = {"--needle-angle", "44.5"};
+    double worst = 60;
+    const Json json = check_json(cube, angle);
+    for (const Json& defect : json["defects"]) worst = std::min(worst, defect["angle_deg"].get<double>());
+    const std::string text = test::output_of(check(cube, angle));
+    const std::size_t first = text.find(" deg\n");
+    ASSERT_NE(first, std::string::npos) << text;
+    EXPECT_EQ(text.substr(text.rfind(' ', first - 1) + 1, first - text.rfind(' ', first - 1) - 1),
+              fmt::format("{:.3g}", worst));
 }
 
 TEST_F(Check, JsonHasAMemberForEverything) {
