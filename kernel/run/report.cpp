@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/words.h"
 #include "run/number_text.h"
 #include "run/path_text.h"
 #include "run/version.h"
@@ -205,7 +206,7 @@ std::string rungs_text(const std::vector<TreeNode>& nodes) {
         }
     std::string text = fmt::format("{} cut{}", cuts, cuts == 1 ? "" : "s");
     for (std::size_t i = 0; i < counts.size(); ++i)
-        if (counts[i]) text += fmt::format(", {} {}", counts[i], name(static_cast<Rung>(i)));
+        if (counts[i]) text += fmt::format(", {} {}", counts[i], in_words(name(static_cast<Rung>(i))));
     return text;
 }
 

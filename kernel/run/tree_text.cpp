@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "core/words.h"
+
 namespace kerf {
 
 namespace {
@@ -17,9 +19,9 @@ constexpr const char* node_legend =
     "whole body; section: area where the plane cuts; angle, dihedral: smallest of interface triangles\n"
     "and between interface and surface, in degrees.\n";
 constexpr const char* level_header =
-    "level   cuts  parts facets min      max vol % min    max first-try  soft whole tries angle dihedral\n";
+    "level   cuts  parts facets min      max vol % min    max first try  soft whole tries angle dihedral\n";
 constexpr const char* level_legend =
-    "vol %: of the whole body; first-try, soft, whole: cuts by their remedy; tries: mean of the cuts;\n"
+    "vol %: of the whole body; first try, soft, whole: cuts by their remedy; tries: mean of the cuts;\n"
     "angle, dihedral: smallest of interface triangles and between interface and surface, in degrees.\n"
     "-v prints every node.\n";
 
@@ -32,7 +34,7 @@ std::string node_line(const TreeNode& node, double volume) {
     const std::string products = node.cut_made ? fmt::format("{} {}", 2 * node.id, 2 * node.id + 1) : "part";
     std::string line = fmt::format("{:>5} {:>6} {:>6} {:>9} {:>8} {:>8} {:>6}", level_of(node), node.id, source,
                                    products, node.facets, node.vertices, percent(node.mass.volume, volume));
-    if (node.cut_tried) line += fmt::format("  {:<12} {:>5}", name(node.rung), node.tries);
+    if (node.cut_tried) line += fmt::format("  {:<12} {:>5}", in_words(name(node.rung)), node.tries);
     if (node.cut_made)
         line += fmt::format(" {:>8.3g} {:>5.1f} {:>8.1f}", node.section_area, node.quality.angle_deg,
                             node.quality.dihedral_deg);

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/words.h"
+
 namespace kerf {
 namespace {
 
@@ -77,7 +79,8 @@ TEST(TreeText, LinesNameSourceAndProducts) {
         EXPECT_EQ(found[2], node.id == 1 ? "-" : std::to_string(node.id / 2));
         EXPECT_EQ(found[3], node.cut_made ? std::to_string(2 * node.id) : "part");
         EXPECT_EQ(found[node.cut_made ? 7 : 6], "100.00") << "of the first node, which is the whole body";
-        EXPECT_EQ(found.size(), node.cut_made ? 13u : node.cut_tried ? 9u : 7u);
+        const bool two_words = node.cut_tried && in_words(name(node.rung)).find(' ') != std::string::npos;
+        EXPECT_EQ(found.size(), (node.cut_made ? 13u : node.cut_tried ? 9u : 7u) + (two_words ? 1 : 0));
     }
 }
 

@@ -182,10 +182,18 @@ TEST(Layers, HaveTheNumbersOfTheCut) {
             const auto interface = static_cast<std::int64_t>(cut->interface.triangles.size());
             switch (step.stage) {
                 case Stage::crossed_edges:
-                    EXPECT_EQ(driver.drawn("crossed").segments, std::ssize(cut->stages.crossed_edges)) << where;
+                    EXPECT_EQ(driver.drawn("crossed-edges").segments, std::ssize(cut->stages.crossed_edges)) << where;
                     break;
                 case Stage::hanging_removed:
-                    EXPECT_EQ(driver.drawn("contour").segments, std::ssize(cut->stages.hanging_edges_removed)) << where;
+                    EXPECT_EQ(driver.drawn("hanging-removed").segments, std::ssize(cut->stages.hanging_edges_removed))
+                        << where;
+                    break;
+                case Stage::closed_loops:
+                    EXPECT_EQ(driver.drawn("closed-loops").segments, std::ssize(cut->stages.closed_loops)) << where;
+                    break;
+                case Stage::paths_removed:
+                    EXPECT_EQ(driver.drawn("paths-removed").segments, std::ssize(cut->stages.multiple_paths_removed))
+                        << where;
                     break;
                 case Stage::contour:
                     EXPECT_EQ(driver.drawn("contour").segments, cut->contour_edges) << where;

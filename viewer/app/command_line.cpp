@@ -75,11 +75,10 @@ void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
         ->type_name("FILE");
     app.add_option("--node", texts.node, "Node of the tree: the root is 1, the children of i are 2i and 2i+1.")
         ->check(CLI::PositiveNumber);
-    app.add_option(
-        "--stage", texts.stage,
-        "input, plane, crossed-edges, hanging-removed, closed-loops, paths-removed, contour, projected, "
-        "triangulation, interface, split, tetrahedra, or try:0 for the first refused try. Default: input, or "
-        "tetrahedra where they are coloured or moved.");
+    app.add_option("--stage", texts.stage,
+                   fmt::format("{}, or try:0 for the first refused try. Default: input, or tetrahedra where they are "
+                               "coloured or moved.",
+                               names_of_stages()));
     app.add_option("--color", texts.color,
                    "part, rank, level, patch, kind, min-dihedral, radius-edge, aspect, shape, volume or edge-length.");
     app.add_option("--filter", texts.filter, "Only cells whose value of --color lies in LOW HIGH.")->expected(2);

@@ -1,58 +1,55 @@
 #include "viewer/model/stage.h"
 
+#include <cctype>
 #include <charconv>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/words.h"
 
 namespace kerf::view {
 
 namespace {
 
-struct StageText {
-    const char* name;
-    const char* title;
+constexpr std::array<const char*, stage_count> stage_names = {
+    "input",   "plane",     "crossed-edges", "hanging-removed", "closed-loops", "paths-removed",
+    "contour", "projected", "triangulation", "interface",       "split",        "tetrahedra",
 };
-constexpr std::array<StageText, stage_count> texts = {{
-    {"input", "Input"},
-    {"plane", "Cutting plane"},
-    {"crossed-edges", "Crossed edges"},
-    {"hanging-removed", "Hanging edges removed"},
-    {"closed-loops", "Closed loops"},
-    {"paths-removed", "Multiple paths removed"},
-    {"contour", "Smoothed contour"},
-    {"projected", "Projected contour"},
-    {"triangulation", "2D triangulation"},
-    {"interface", "Mapped to the surface"},
-    {"split", "Split halves"},
-    {"tetrahedra", "Tetrahedra"},
-}};
 constexpr std::string_view try_prefix = "try:";
 
 }  // namespace
 
-const char* name(Stage stage) { return texts[static_cast<std::size_t>(stage)].name; }
-const char* title(Stage stage) { return texts[static_cast<std::size_t>(stage)].title; }
+const char* name(Stage stage) { return stage_names[static_cast<std::size_t>(stage)]; }
+
+std::string title(Stage stage) {
+    std::string words = in_words(name(stage));
+    words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
+    return words;
+}
 
 std::string name(const Step& step) {
     return step.refused_try < 0 ? name(step.stage) : fmt::format("{}{}", try_prefix, step.refused_try);
 }
 
+std::string title(const Step& step) {
+    return step.refused_try < 0 ? title(step.stage) : fmt::format("Try {}", step.refused_try + 1);
+}
+
+std::string names_of_stages() { return fmt::format("{}", fmt::join(stage_names, ", ")); }
+
 Step step_from_name(const std::string& text) {
     for (int i = 0; i < stage_count; ++i)
-        if (text == texts[static_cast<std::size_t>(i)].name) return {static_cast<Stage>(i), -1};
+        if (text == name(static_cast<Stage>(i))) return {static_cast<Stage>(i), -1};
     if (text.starts_with(try_prefix)) {
         Step step{Stage::plane, -1};
         const char* end = text.data() + text.size();
         const auto [stop, error] = std::from_chars(text.data() + try_prefix.size(), end, step.refused_try);
         if (error == std::errc() && stop == end && step.refused_try >= 0) return step;
     }
-    std::string all;
-    for (const StageText& stage : texts) all += fmt::format("{}, ", stage.name);
-    throw Error(ErrorCode::usage, fmt::format("'{}' is no stage. There are {}and try:0, try:1, ... for tries that were "
-                                              "refused.",
-                                              text, all));
+    throw Error(ErrorCode::usage, fmt::format("'{}' is no stage. There are {}, and try:0, try:1, ... for tries that "
+                                              "were refused.",
+                                              text, names_of_stages()));
 }
 
 }  // namespace kerf::view

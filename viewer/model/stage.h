@@ -32,12 +32,18 @@ struct Step {
     bool operator==(const Step&) const = default;
 };
 
-/// As the command line and the state file spell it: "contour", "try:3" (counted from 0).
+/// The words of a stage, wherever it is named: "crossed-edges" for the command line, the state file and the layer of
+/// the scene that shows it; in_words() of that in legends; its title, "Crossed edges", on buttons and as a heading.
+const char* name(Stage stage);
+std::string title(Stage stage);
+
+/// The stage's name, or "try:3" (counted from 0).
 std::string name(const Step& step);
+/// The stage's title, or "Try 4" (counted from 1).
+std::string title(const Step& step);
 /// Throws Error(usage) naming all stages.
 Step step_from_name(const std::string& text);
-const char* name(Stage stage);
-/// For people: "Smoothed contour".
-const char* title(Stage stage);
+/// All names, as a list for people: "input, plane, ...".
+std::string names_of_stages();
 
 }  // namespace kerf::view

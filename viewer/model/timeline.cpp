@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/words.h"
 #include "run/number_text.h"
 
 namespace kerf::view {
@@ -49,7 +50,7 @@ bool is_meshed(const Document& document, NodeId node) {
 }
 
 std::string describe_try(const CutTry& attempt, std::size_t number, std::size_t count) {
-    std::string text = fmt::format("Refused: {}", name(attempt.refusal));
+    std::string text = fmt::format("Refused: {}", in_words(name(attempt.refusal)));
     if (!attempt.places.empty())
         text += fmt::format(" at {} place{}", attempt.places.size(), attempt.places.size() == 1 ? "" : "s");
     if (attempt.refusal == Refusal::soft)
@@ -72,7 +73,7 @@ std::string describe_input(const Document& document, const TreeRow* row) {
 std::string describe_plane(const TreeRow& row) {
     const Vec3& n = row.plane->normal;
     return fmt::format("Normal ({:.3f}, {:.3f}, {:.3f}) through ({:.4g}, {:.4g}, {:.4g}); {}.", n.x(), n.y(), n.z(),
-                       row.plane->origin.x(), row.plane->origin.y(), row.plane->origin.z(), row.rung);
+                       row.plane->origin.x(), row.plane->origin.y(), row.plane->origin.z(), in_words(row.rung));
 }
 
 std::string describe_edges(const Cut& cut, Stage stage) {

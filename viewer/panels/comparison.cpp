@@ -1,6 +1,7 @@
 // What a repetition with other options has changed: of one cut, or of the whole run.
 #include <fmt/format.h>
 
+#include "core/words.h"
 #include "viewer/panels/parts.h"
 
 namespace kerf::view {
@@ -57,7 +58,7 @@ class Table {
 
 void compare_cuts(const Cut& before, const Cut& now, const Palette& colors) {
     Table table(fmt::format("Cut of node {}", now.node).c_str(), colors);
-    table.add("cut by", name(before.rung), name(now.rung));
+    table.add("cut by", in_words(name(before.rung)), in_words(name(now.rung)));
     table.add("tries", static_cast<double>(before.tries.size()), static_cast<double>(now.tries.size()), Better::less);
     table.add("contour length", before.contour_length, now.contour_length, Better::less);
     table.add("contour edges", static_cast<double>(before.contour_edges), static_cast<double>(now.contour_edges));

@@ -51,11 +51,12 @@ Layout layout_of(const ViewState& state, const Document& document, float width, 
         layout.has_right ? std::round(std::min(std::clamp(0.22f * width, 20 * e, 24 * e), 0.34f * width)) : 0;
     const float timeline = layout.has_timeline ? std::round(6.5f * e) : 0;
     const float middle = std::max(0.f, height - menu - status);
-    layout.left = {0, menu, left, middle};
+    const float above = std::max(1.f, middle - timeline);
+    layout.left = {0, menu, left, above};
     layout.right = {width - right, menu, right, middle};
     layout.status = {0, height - status, width, status};
-    layout.scene = {left, menu, std::max(1.f, width - left - right), std::max(1.f, middle - timeline)};
-    layout.timeline = {left, menu + layout.scene.height, layout.scene.width, timeline};
+    layout.scene = {left, menu, std::max(1.f, width - left - right), above};
+    layout.timeline = {0, menu + above, std::max(1.f, width - right), timeline};  // the words of all steps are long
     return layout;
 }
 

@@ -9,13 +9,6 @@ namespace kerf::view {
 
 namespace {
 
-// One word for each stage, for a narrow button.
-const char* short_title(Stage stage) {
-    constexpr std::array<const char*, stage_count> words = {"Input",   "Plane", "Edges", "Hanging", "Loops",  "Paths",
-                                                            "Contour", "Flat",  "Mesh",  "Lifted",  "Halves", "Tets"};
-    return words[static_cast<std::size_t>(stage)];
-}
-
 class TimelineBar {
  public:
     explicit TimelineBar(UiContext& context)
@@ -66,20 +59,18 @@ class TimelineBar {
         const Step& step = steps_[current_];
         const bool refused = step.refused_try >= 0;
         ImGui::BeginGroup();
-        const std::string what = refused ? fmt::format("Try {}", step.refused_try + 1) : title(step.stage);
-        show(fmt::format("Node {}: {}", context_.state.node, what), colors_.text);
+        show(fmt::format("Node {}: {}", context_.state.node, title(step)), colors_.text);
         const std::string text = describe_step(context_.session.document(), context_.state.node, step);
         show(shortened(text, ImGui::GetContentRegionAvail().x), refused ? colors_.bad : colors_.dim);
         explain(text);
         ImGui::EndGroup();
     }
 
-    static const char* word_of(Stage stage, bool wide) { return wide ? title(stage) : short_title(stage); }
-    static float width_of(Stage stage, bool wide) { return ImGui::CalcTextSize(word_of(stage, wide)).x + 0.7f * em(); }
-    float words_width(bool wide) const {
+    static float width_of_button(const Step& step) { return width_of(title(step)) + 0.5f * em(); }
+    float width_of_buttons() const {
         float width = 0;
         for (const Step& step : steps_)
-            if (step.refused_try < 0) width += width_of(step.stage, wide);
+            if (step.refused_try < 0) width += width_of_button(step);
         return width;
     }
 
@@ -89,17 +80,17 @@ class TimelineBar {
             std::count_if(steps_.begin(), steps_.end(), [](const Step& step) { return step.refused_try >= 0; }));
         const float stages = static_cast<float>(steps_.size()) - tries;
         const float room = ImGui::GetContentRegionAvail().x;
-        wide_ = words_width(true) + 0.6f * em() * tries < room;
-        const float words = words_width(wide_);
+        const float words = width_of_buttons();
         const bool apart = words + 0.6f * em() * tries > room;
         const float tick = tries > 0 ? std::min(0.9f * em(), (apart ? room : room - words) / tries) : 0;
         const float left = room - words - (apart ? 0 : tick * tries);  // makes all of them wider, or narrower
-        const float more = stages > 0 ? std::min(left / stages, 3 * em()) : 0;
+        const float more = stages > 0 ? std::clamp(left / stages, 0.f, 3 * em()) : 0;
+        const float scale = left < 0 ? 1 + left / words : 1;
         const ImVec2 start = ImGui::GetCursorScreenPos();
         float x = start.x, tick_x = start.x;
         for (std::size_t i = 0; i < steps_.size(); ++i) {
             if (steps_[i].refused_try < 0) {
-                const float width = width_of(steps_[i].stage, wide_) + more;
+                const float width = scale * width_of_button(steps_[i]) + more;
                 draw_step(i, {x, start.y}, {x + width, start.y + step_height()});
                 x += width;
             } else {
@@ -126,9 +117,7 @@ class TimelineBar {
     }
 
     void explain_step(const Step& step) {
-        const std::string what =
-            step.refused_try >= 0 ? fmt::format("Try {}", step.refused_try + 1) : title(step.stage);
-        explain(what + "\n" + describe_step(context_.session.document(), context_.state.node, step));
+        explain(title(step) + "\n" + describe_step(context_.session.document(), context_.state.node, step));
     }
 
     // A red tick, taller if it is the current one.
@@ -149,7 +138,7 @@ class TimelineBar {
                               : index < current_ ? faded(colors_.accent, 0.2f)
                                                  : colors_.frame;
         list.AddRectFilled({from.x + 1, from.y}, {to.x - 1, to.y}, packed(ground), 0.2f * em());
-        const std::string text = shortened(word_of(step.stage, wide_), to.x - from.x - 0.2f * em());
+        const std::string text = shortened(title(step), to.x - from.x - 0.2f * em());
         const ImVec2 size = ImGui::CalcTextSize(text.c_str());
         list.AddText({(from.x + to.x - size.x) / 2, (from.y + to.y - size.y) / 2},
                      packed(current ? colors_.on_accent : colors_.text), text.c_str());
@@ -160,7 +149,6 @@ class TimelineBar {
     const Palette& colors_;
     std::size_t current_;
     bool explained_ = false;
-    bool wide_ = false;  // there is room for the full titles
 };
 
 }  // namespace

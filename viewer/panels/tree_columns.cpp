@@ -41,7 +41,7 @@ void TreeColumns::find_widths(const std::vector<const TreeRow*>& rows) {
         const auto digits = static_cast<float>(std::to_string(row->id).size());
         const float left = tree_indent * static_cast<float>(level_of(row->id));
         node_width = std::max(node_width, left + 1.3f + 0.56f * digits);
-        state_width = std::max(state_width, ImGui::CalcTextSize(word_of(*row, false)).x / em() + 0.9f);
+        state_width = std::max(state_width, width_of(word_of(*row, false)) / em() + 0.9f);
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/words.h"
 #include "viewer/panels/text.h"
 
 namespace kerf::view {
@@ -42,9 +43,10 @@ ImVec4 color_of(const TreeRow& row, const Palette& colors) {
     return colors.text;
 }
 
-const char* word_of(const TreeRow& row, bool running) {
+std::string word_of(const TreeRow& row, bool running) {
     if (row.state == NodeState::waiting && !running) return "not meshed";
-    return row.leaf() ? name(row.state) : row.rung.empty() ? "cut" : row.rung.c_str();
+    if (row.leaf()) return name(row.state);
+    return row.rung.empty() ? "cut" : in_words(row.rung);
 }
 
 std::string details(const TreeRow& row) {
@@ -59,7 +61,7 @@ std::string details(const TreeRow& row) {
     lines.add("load", row.load);
     lines.add(row.leaf() ? "meshed in" : "cut in", duration(row.seconds));
     lines.add("rank", static_cast<std::int64_t>(row.rank));
-    lines.add("cut by", row.rung);
+    lines.add("cut by", in_words(row.rung));
     if (row.tries > 0) lines.add("tries", static_cast<std::int64_t>(row.tries));
     lines.add("contour length", row.contour_length);
     lines.add("contour loops", static_cast<std::int64_t>(row.loops));

@@ -9,7 +9,7 @@
 namespace kerf::view {
 
 /// The state of a part, or how an inner node was cut.
-const char* word_of(const TreeRow& row, bool running);
+std::string word_of(const TreeRow& row, bool running);
 /// Of that word: what went well, is under way, or deserves a look.
 ImVec4 color_of(const TreeRow& row, const Palette& colors);
 /// All that is known, a line each.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <imgui_internal.h>  // whether any popup is open
 
 #include "viewer/panels/parts.h"
@@ -75,10 +76,8 @@ void draw_caption(UiContext& context, const Rectangle& scene) {
     if (has_tree(document)) {
         const std::size_t shown = context.steps.empty() ? 0 : nearest_step(context.steps, state.step);
         const Step step = context.steps.empty() ? state.step : context.steps[shown];
-        const bool refused = step.refused_try >= 0;
-        const std::string what = refused ? "try " + std::to_string(step.refused_try + 1) : title(step.stage);
-        lines.emplace_back("Node " + std::to_string(state.node) + " - " + what, colors.text);
-        if (refused) lines.emplace_back(describe_step(document, state.node, step), colors.bad);
+        lines.emplace_back(fmt::format("Node {} - {}", state.node, title(step)), colors.text);
+        if (step.refused_try >= 0) lines.emplace_back(describe_step(document, state.node, step), colors.bad);
     } else {
         lines.emplace_back(document.title, colors.text);
     }

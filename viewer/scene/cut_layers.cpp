@@ -46,6 +46,14 @@ const std::vector<SurfaceEdge>* edges_of(const Cut& cut, Stage stage) {
 
 }  // namespace
 
+// Of what the scene shows at the stage and not before.
+Color SceneBuild::color_of(Stage stage) const {
+    if (stage == Stage::plane) return colors_.plane;
+    if (stage < Stage::contour) return colors_.crossed;
+    if (stage == Stage::contour) return colors_.contour;
+    return stage == Stage::projected ? colors_.projected : colors_.interface;
+}
+
 // Along each axis twice the standard deviation of the vertices.
 void SceneBuild::add_axes(const TreeRow& row) {
     if (!state_.axes) return;
@@ -75,7 +83,7 @@ void SceneBuild::add_plane(const Plane& plane) {
     if (!state_.plane) return;
     const auto surface = session_.surface(state_.node);
     const Eigen::AlignedBox3d box = surface ? box_of(surface->vertices) : document_.box;
-    Layer& sheet = add("plane", plane_rectangle(plane, box, built_.frame), colors_.plane);
+    Layer& sheet = add(name(Stage::plane), plane_rectangle(plane, box, built_.frame), colors_.plane);
     sheet.opacity = plane_opacity;
     sheet.clipped = sheet.edges = sheet.smooth = false;
     sheet.two_sided = true;
@@ -94,36 +102,36 @@ void SceneBuild::add_try(const CutTry& attempt, const NodeSurface& surface) {
 
 Layer* SceneBuild::add_contour(const Cut& cut, const NodeSurface& surface) {
     if (!state_.contour) return nullptr;
-    return &add_lines("contour", loops_of(cut, surface, false), colors_.contour, contour_pixels);
+    return &add_lines(name(Stage::contour), loops_of(cut, surface, false), colors_.contour, contour_pixels);
 }
 
 // The stages from the crossed edges to the interface.
 void SceneBuild::add_stage(const Cut& cut, const NodeSurface& surface) {
     if (const std::vector<SurfaceEdge>* edges = edges_of(cut, step_.stage)) {
         if (state_.contour)
-            add_lines(step_.stage == Stage::crossed_edges ? "crossed" : "contour", ends_of(*edges, surface),
-                      colors_.crossed, step_.stage == Stage::crossed_edges ? 2.f : contour_pixels);
+            add_lines(name(step_.stage), ends_of(*edges, surface), color_of(step_.stage),
+                      step_.stage == Stage::crossed_edges ? 2.f : contour_pixels);
         return;
     }
     if (step_.stage < Stage::contour) return;
     if (step_.stage != Stage::triangulation) add_contour(cut, surface);
     if (state_.contour && (step_.stage == Stage::projected || step_.stage == Stage::triangulation))
-        add_lines("projected", loops_of(cut, surface, true), colors_.projected, contour_pixels);
+        add_lines(name(Stage::projected), loops_of(cut, surface, true), colors_.projected, contour_pixels);
     if (!state_.interfaces) return;
     if (step_.stage == Stage::triangulation) {
         std::vector<Vec3> places;
         for (const Vec2& q : cut.interface.planar) places.push_back(cut.plane.lift(q, 0));
-        Layer& layer =
-            add("triangulation", triangles(places, cut.interface.triangles, built_.frame), colors_.interface);
+        Layer& layer = add(name(Stage::triangulation), triangles(places, cut.interface.triangles, built_.frame),
+                           colors_.interface);
         layer.two_sided = true;
     }
     if (step_.stage == Stage::interface) {
-        Layer& layer =
-            add("interface", triangles(cut.interface.points, cut.interface.triangles, built_.frame), colors_.interface);
+        Layer& layer = add(name(Stage::interface),
+                           triangles(cut.interface.points, cut.interface.triangles, built_.frame), colors_.interface);
         layer.two_sided = true;
     }
     for (Layer& layer : built_.scene.layers)
-        if (layer.name == "triangulation" || layer.name == "interface") layer.smooth = false;
+        if (layer.name == name(Stage::triangulation) || layer.name == name(Stage::interface)) layer.smooth = false;
 }
 
 // Both halves take the contour along.

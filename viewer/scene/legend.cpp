@@ -5,6 +5,8 @@
 #include <limits>
 #include <set>
 
+#include "core/words.h"
+
 namespace kerf::view {
 
 Color SceneBuild::color_of(NodeId part) const {
@@ -96,23 +98,16 @@ void SceneBuild::set_legend() {
         return;
     }
     if (is_measure(state_.color) && step_.stage == Stage::tetrahedra) return;
-    const auto explain = [&](const char* layer, const char* text, const Color& color) {
+    const auto explain = [&](const char* layer, const std::string& text, const Color& color) {
         if (scene.find(layer)) categories.emplace_back(text, color);
     };
     explain("axes", "long axis", colors_.axes[0]);
     explain("axes", "middle axis", colors_.axes[1]);
     explain("axes", "short axis", colors_.axes[2]);
-    explain("plane", "cutting plane", colors_.plane);
-    explain("crossed", "crossed edges", colors_.crossed);
-    if (step_.stage < Stage::contour)
-        explain("contour", "contour, not smoothed", colors_.crossed);
-    else
-        explain("contour", "smoothed contour", colors_.contour);
-    explain("projected", "projected contour", colors_.projected);
+    for (int i = 0; i < stage_count; ++i)
+        explain(name(static_cast<Stage>(i)), in_words(name(static_cast<Stage>(i))), color_of(static_cast<Stage>(i)));
     explain("refused", "refused contour", colors_.refused);
     explain("places", "where it failed", colors_.error);
-    explain("triangulation", "interface", colors_.interface);
-    explain("interface", "interface", colors_.interface);
     explain("defect places", "errors", colors_.error);
     explain("warning places", "warnings", colors_.warning);
     for (const NodeId half : {2 * state_.node, 2 * state_.node + 1})

@@ -63,6 +63,7 @@ class SceneBuild {
         return explosion_offset(document_.tree, part, root, state_.explode, document_.box.diagonal().norm());
     }
     Color color_of(NodeId part) const;
+    Color color_of(Stage stage) const;
     Fill fill_of_values() const { return state_.color == ColorBy::kind ? Fill::categories : Fill::scale; }
     std::string clip_key() const;
     std::string value_key() const {

@@ -36,7 +36,7 @@ struct BuiltScene {
 ///     defects, defect edges, defect places   what kerf check found
 ///     axes, centre      principal axes and centre of gravity
 ///     plane, plane outline                   the cutting plane with its normal
-///     crossed, contour, projected            the contour at the stage
+///     crossed-edges, hanging-removed, closed-loops, paths-removed, contour, projected   the contour at the stage
 ///     refused, places                        a refused try's contour, and where it failed
 ///     triangulation, interface               the section in the plane, and on the surface
 ///     half N            of a split, by node
