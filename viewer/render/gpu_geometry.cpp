@@ -101,7 +101,7 @@ void GpuGeometry::upload_points(const Geometry& geometry) {
     gl_.VertexAttribPointer(attribute::center, 3, GL_FLOAT, GL_FALSE, sizeof(geometry.points[0]), buffer_offset(0));
 }
 
-const GpuGeometry& GeometryCache::get(const std::shared_ptr<const Geometry>& geometry) {
+const GpuGeometry& GpuGeometryCache::get(const std::shared_ptr<const Geometry>& geometry) {
     Entry& entry = entries_[geometry.get()];
     if (entry.source.lock() != geometry) {
         entry.copy = std::make_unique<GpuGeometry>(gl_, *geometry);
@@ -111,7 +111,7 @@ const GpuGeometry& GeometryCache::get(const std::shared_ptr<const Geometry>& geo
     return *entry.copy;
 }
 
-void GeometryCache::sweep() {
+void GpuGeometryCache::sweep() {
     ++picture_;
     std::erase_if(entries_, [&](const auto& item) {
         return item.second.source.expired() || item.second.last_use + patience < picture_;

@@ -43,9 +43,9 @@ class GpuGeometry {
 };
 
 /// Finds the copy of a geometry or makes it.
-class GeometryCache {
+class GpuGeometryCache {
  public:
-    explicit GeometryCache(const Gl& gl) : gl_(gl) {}
+    explicit GpuGeometryCache(const Gl& gl) : gl_(gl) {}
 
     const GpuGeometry& get(const std::shared_ptr<const Geometry>& geometry);
 

@@ -70,7 +70,7 @@ Projection narrow_to_pixel(const Projection& projection, int x, int y) {
 }
 
 std::optional<PickHit> Picker::pick(const Scene& scene, const Projection& projection, int x, int y,
-                                    GeometryCache& cache, TrianglePainter& triangles, StrokePainter& strokes) {
+                                    GpuGeometryCache& cache, TrianglePainter& triangles, StrokePainter& strokes) {
     const Projection pixel = narrow_to_pixel(projection, x, y);
     target_.bind();
     gl_.Viewport(0, 0, 1, 1);

@@ -23,7 +23,7 @@ class Picker {
     explicit Picker(const Gl& gl) : gl_(gl), target_(gl, GL_RGBA32UI, 1, 1) {}
 
     /// See Renderer::pick; (x, y) counts from the lower left corner of the viewport. Leaves another framebuffer bound.
-    std::optional<PickHit> pick(const Scene& scene, const Projection& projection, int x, int y, GeometryCache& cache,
+    std::optional<PickHit> pick(const Scene& scene, const Projection& projection, int x, int y, GpuGeometryCache& cache,
                                 TrianglePainter& triangles, StrokePainter& strokes);
 
  private:

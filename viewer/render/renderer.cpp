@@ -116,7 +116,7 @@ class Renderer::Impl {
     Framebuffer target_;
     ShaderProgram background_;
     GlObject no_vertices_;  // core profiles want an array even where the shader makes the vertices
-    GeometryCache cache_;
+    GpuGeometryCache cache_;
     TrianglePainter triangles_;
     StrokePainter strokes_;
     UiPainter ui_;
