@@ -135,6 +135,33 @@ inline Soup torus(double major_radius, double minor_radius, int n_major, int n_m
     return soup;
 }
 
+/// Ring about the z axis, 1.5 times as long along x and thicker at one end: 640 facets. Where it is cut for two parts
+/// and one, the plane touches the inside of the ring, so that a contour of edges meets itself there before it is
+/// cleaned.
+inline Soup uneven_ring() {
+    constexpr int n = 20, m = 16;
+    Soup soup;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < m; ++j) {
+            const double a = 2 * std::numbers::pi * i / n, b = 2 * std::numbers::pi * j / m,
+                         thickness = 1 - 0.3 * std::cos(a);
+            const double radius = 1.84 + thickness * std::cos(b);
+            soup.vertices.emplace_back(1.5 * radius * std::cos(a), radius * std::sin(a), thickness * std::sin(b));
+        }
+    const auto number = [](int i, int j) { return i % n * m + j % m; };
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < m; ++j) {
+            const int p = number(i, j), q = number(i + 1, j), s = number(i + 1, j + 1), t = number(i, j + 1);
+            if ((i + j) % 2 == 1)
+                soup.facets.insert(soup.facets.end(), {{p, q, t}, {q, s, t}});
+            else
+                soup.facets.insert(soup.facets.end(), {{p, q, s}, {p, s, t}});
+        }
+    soup.patch.assign(soup.facets.size(), 0);
+    soup.patch_names = {"ring"};
+    return soup;
+}
+
 /// Prism with n sides about the z axis: 4 n facets, of which the 2 n of the sides are as long as the part.
 inline Soup prism(int n, double radius, double height) {
     Soup soup;

@@ -23,6 +23,7 @@ view::AppOptions app_options(const Driver::Options& options) {
     app.auto_run = options.auto_run;
     app.volume = options.volume;
     app.run.decompose.parts = options.parts;
+    app.run.decompose.cut.contour = options.contour;
     app.run.workers = 2;
     return app;
 }
@@ -133,7 +134,7 @@ view::ItemRect Driver::item(const std::string& label) {
     throw std::runtime_error(fmt::format("there is no '{}', but {}", label, all));
 }
 
-void Driver::click(const std::string& label) {
+view::ItemRect Driver::item_in_sight(const std::string& label) {
     view::ItemRect rect = item(label);
     for (int i = 0; i < 200 && !rect.visible; ++i) {
         // The wheel scrolls the panel that the item belongs to; its column is where the item would be.
@@ -143,7 +144,18 @@ void Driver::click(const std::string& label) {
     }
     if (!rect.visible || !rect.enabled)
         throw std::runtime_error(fmt::format("'{}' is {}", label, rect.visible ? "disabled" : "not to be seen"));
+    return rect;
+}
+
+void Driver::click(const std::string& label) {
+    const view::ItemRect rect = item_in_sight(label);
     click_at((rect.left + rect.right) / 2, (rect.top + rect.bottom) / 2);
+}
+
+void Driver::drag_over(const std::string& label, float from, float to) {
+    const view::ItemRect rect = item_in_sight(label);
+    const float width = rect.right - rect.left, y = (rect.top + rect.bottom) / 2;
+    drag(rect.left + from * width, y, rect.left + to * width, y);
 }
 
 void Driver::key(int key, bool control) {

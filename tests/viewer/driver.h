@@ -18,6 +18,7 @@ class Driver {
         int width = 1280, height = 800;
         bool auto_run = true, volume = true;
         std::int32_t parts = 4;
+        ContourMethod contour = ContourMethod::min_cut;
         std::string config_folder, screenshot_folder = ".";
     };
     explicit Driver(const Options& options);
@@ -46,6 +47,8 @@ class Driver {
     void wheel(float x, float y, float notches);
     /// Clicks an item by its label. Scrolls to it if it is out of sight.
     void click(const std::string& label);
+    /// Drags over an item; places are fractions of its width.
+    void drag_over(const std::string& label, float from, float to);
     void key(int key, bool control = false);
     void type(const std::string& text);
     /// What the window does with a dropped file.
@@ -58,6 +61,7 @@ class Driver {
 
  private:
     view::ItemRect item(const std::string& label);
+    view::ItemRect item_in_sight(const std::string& label);
     void frames(int count);
 
     Options options_;

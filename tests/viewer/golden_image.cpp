@@ -1,8 +1,10 @@
 #include "viewer/golden_image.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 
 #include <fmt/format.h>
 
@@ -10,17 +12,50 @@ namespace kerf::test {
 
 namespace {
 
-std::string golden_path(const std::string& name) {
-    return fmt::format("{}/tests/golden/images/{}.png", KERF_SOURCE, name);
+namespace fs = std::filesystem;
+
+const fs::path goldens = fs::path(KERF_SOURCE) / "tests/golden/images";
+const fs::path candidates = fs::path(KERF_GOLDEN_CANDIDATES) / "images";
+
+// The driver of the golden pictures that are for all. Without one it is this one.
+std::string common_driver(const std::string& drawn_by) {
+    std::ifstream file(goldens / "driver.txt");
+    std::string line;
+    return std::getline(file, line) ? line : drawn_by;
 }
 
-std::string candidate_path(const std::string& name) {
-    const std::string folder = KERF_GOLDEN_CANDIDATES;
-    std::filesystem::create_directories(folder);
-    return fmt::format("{}/{}.png", folder, name);
+// Of a driver: "llvmpipe (LLVM 15)" gives "llvmpipe-llvm-15".
+std::string folder_of(const std::string& drawn_by) {
+    std::string folder;
+    for (const char c : drawn_by) {
+        if (std::isalnum(static_cast<unsigned char>(c)))
+            folder += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        else if (!folder.empty() && folder.back() != '-')
+            folder += '-';
+    }
+    return folder;
+}
+
+// Its own, if there is one.
+fs::path golden_path(const std::string& name, const std::string& drawn_by) {
+    const fs::path file = fmt::format("{}.png", name), own = goldens / folder_of(drawn_by) / file;
+    return fs::exists(own) ? own : goldens / file;
+}
+
+// What to know about a picture that is not as it should be.
+std::string about_drivers(const std::string& drawn_by) {
+    const std::string common = common_driver(drawn_by);
+    if (common == drawn_by) return fmt::format("Both were drawn by {}.", drawn_by);
+    return fmt::format("It was drawn by {}, the golden pictures by {}. If it looks right, it goes to {}.", drawn_by,
+                       common, (goldens / folder_of(drawn_by)).string());
 }
 
 }  // namespace
+
+std::string candidate_path(const std::string& name, const std::string& drawn_by) {
+    const fs::path folder = common_driver(drawn_by) == drawn_by ? candidates : candidates / folder_of(drawn_by);
+    return (folder / fmt::format("{}.png", name)).string();
+}
 
 ImageDifference compare(const view::Image& a, const view::Image& b) {
     ImageDifference difference;
@@ -39,20 +74,30 @@ ImageDifference compare(const view::Image& a, const view::Image& b) {
     return difference;
 }
 
-testing::AssertionResult is_golden(const std::string& name, const view::Image& picture) {
-    const std::string golden = golden_path(name), candidate = candidate_path(name);
-    std::filesystem::remove(candidate);
-    if (!std::filesystem::exists(golden)) {
+testing::AssertionResult is_golden(const std::string& name, const view::Image& picture, const std::string& drawn_by) {
+    const std::string golden = golden_path(name, drawn_by).string(), candidate = candidate_path(name, drawn_by);
+    fs::remove(candidate);
+    fs::create_directories(fs::path(candidate).parent_path());
+    if (!fs::exists(golden)) {
         view::write_png(candidate, picture);
         return testing::AssertionFailure() << golden << " is missing; the candidate is " << candidate;
     }
     const ImageDifference difference = compare(view::read_png(golden), picture);
     if (difference.same_size && difference.differing <= most_differing) return testing::AssertionSuccess();
     view::write_png(candidate, picture);
-    if (!difference.same_size) return testing::AssertionFailure() << golden << " has another size than " << candidate;
-    return testing::AssertionFailure() << fmt::format("{:.3f} % of the pixels of {} are off, by up to {}; see {}",
-                                                      100 * difference.differing, golden, difference.largest,
-                                                      candidate);
+    const std::string how = difference.same_size ? fmt::format("{:.3f} % of the pixels are off, by up to {}",
+                                                               100 * difference.differing, difference.largest)
+                                                 : "The size is another";
+    return testing::AssertionFailure() << fmt::format("{}: {}, see {}. {}", golden, how, candidate,
+                                                      about_drivers(drawn_by));
+}
+
+testing::AssertionResult is_golden(const std::string& name, Driver& driver) {
+    if (!fs::exists(goldens / "driver.txt")) {
+        fs::create_directories(candidates);
+        std::ofstream(candidates / "driver.txt") << driver.app().graphics_driver() << '\n';
+    }
+    return is_golden(name, driver.picture(), driver.app().graphics_driver());
 }
 
 }  // namespace kerf::test

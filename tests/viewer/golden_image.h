@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "viewer/driver.h"
 #include "viewer/render/image.h"
 
 namespace kerf::test {
@@ -25,6 +26,14 @@ inline constexpr double most_differing = 5e-4;
 
 /// Whether tests/golden/images/NAME.png is this picture. If not, or if there is none, the candidate is left in
 /// golden_candidates below the build folder; ./run goldens replaces the golden ones by all candidates.
-testing::AssertionResult is_golden(const std::string& name, const view::Image& picture);
+///
+/// driver.txt beside the golden pictures names the OpenGL driver that drew them. Where another one differs by more than
+/// the tolerance, its own pictures lie in a folder named after it, and its candidates go there; a failure says so.
+testing::AssertionResult is_golden(const std::string& name, const view::Image& picture, const std::string& drawn_by);
+/// The same of the picture as it is after settle().
+testing::AssertionResult is_golden(const std::string& name, Driver& driver);
+
+/// Where the candidate of a picture is left.
+std::string candidate_path(const std::string& name, const std::string& drawn_by);
 
 }  // namespace kerf::test

@@ -7,6 +7,9 @@
 #include "mesh/adjacency.h"
 #include "mesh/quality.h"
 #include "support/assets.h"
+#include "support/shapes.h"
+#include "support/temporary_folder.h"
+#include "support/write_off.h"
 #include "viewer/driver.h"
 #include "viewer/scene/shapes.h"
 
@@ -160,14 +163,27 @@ TEST(Explosion, SistersPartByTheirCut) {
     EXPECT_EQ(explosion_offset(tree, 7, 3, 1, 1), Vec3(0, 1, 0)) << "only cuts below the root that is shown";
 }
 
+// The layer of a step has these edges of the node's surface, each where it is.
+void expect_edges(Driver& driver, const Step& step, const std::vector<SurfaceEdge>& edges) {
+    const auto surface = driver.app().session().surface(driver.state().node);
+    const BuiltScene& built = driver.app().scene();
+    const Layer* layer = built.scene.find(name(step));
+    ASSERT_TRUE(surface && layer) << name(step);
+    const std::vector<Segment>& drawn = layer->geometry->segments;
+    ASSERT_EQ(drawn.size(), edges.size()) << name(step);
+    EXPECT_EQ(driver.drawn(name(step)).segments, std::ssize(edges)) << name(step);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const auto end = [&](std::size_t k) {
+            return built.frame.draw(surface->vertices[static_cast<std::size_t>(edges[i][k])]);
+        };
+        EXPECT_EQ(drawn[i].from, end(0)) << name(step) << " " << i;
+        EXPECT_EQ(drawn[i].to, end(1)) << name(step) << " " << i;
+    }
+}
+
 // What each layer draws at every stage of every node, against the numbers of the cut.
-TEST(Layers, HaveTheNumbersOfTheCut) {
-    Driver driver;
-    driver.show_panels(false);
-    driver.open(asset_path("hollow_box"));
+void expect_numbers_of_the_cuts(Driver& driver) {
     const Document& document = driver.document();
-    std::int64_t part_facets = 0;
-    for (const NodeId part : document.tree.parts_below(1)) part_facets += document.tree.find(part)->facets;
     for (const TreeRow& row : document.tree.rows) {
         driver.state().node = row.id;
         driver.state().step = {};
@@ -182,18 +198,16 @@ TEST(Layers, HaveTheNumbersOfTheCut) {
             const auto interface = static_cast<std::int64_t>(cut->interface.triangles.size());
             switch (step.stage) {
                 case Stage::crossed_edges:
-                    EXPECT_EQ(driver.drawn("crossed-edges").segments, std::ssize(cut->stages.crossed_edges)) << where;
+                    expect_edges(driver, step, cut->stages.crossed_edges);
                     break;
                 case Stage::hanging_removed:
-                    EXPECT_EQ(driver.drawn("hanging-removed").segments, std::ssize(cut->stages.hanging_edges_removed))
-                        << where;
+                    expect_edges(driver, step, cut->stages.hanging_edges_removed);
                     break;
                 case Stage::closed_loops:
-                    EXPECT_EQ(driver.drawn("closed-loops").segments, std::ssize(cut->stages.closed_loops)) << where;
+                    expect_edges(driver, step, cut->stages.closed_loops);
                     break;
                 case Stage::paths_removed:
-                    EXPECT_EQ(driver.drawn("paths-removed").segments, std::ssize(cut->stages.multiple_paths_removed))
-                        << where;
+                    expect_edges(driver, step, cut->stages.multiple_paths_removed);
                     break;
                 case Stage::contour:
                     EXPECT_EQ(driver.drawn("contour").segments, cut->contour_edges) << where;
@@ -215,10 +229,39 @@ TEST(Layers, HaveTheNumbersOfTheCut) {
             }
         }
     }
+}
+
+TEST(Layers, HaveTheNumbersOfTheCut) {
+    Driver driver;
+    driver.show_panels(false);
+    driver.open(asset_path("hollow_box"));
+    expect_numbers_of_the_cuts(driver);
+    const Document& document = driver.document();
+    std::int64_t part_facets = 0;
+    for (const NodeId part : document.tree.parts_below(1)) part_facets += document.tree.find(part)->facets;
     driver.state().node = 1;
     driver.state().step = {Stage::tetrahedra, -1};
     driver.settle();
     EXPECT_EQ(driver.drawn("part").triangles, part_facets);
+}
+
+// Here multiple paths are removed, and each stage shows its own edges.
+TEST(Layers, ShowEveryStageOfAContourThatMeetsItself) {
+    const TemporaryFolder folder;
+    const Soup ring = uneven_ring();
+    write_off(folder.file("ring.off"), ring.vertices, ring.facets);
+    Driver::Options options;
+    options.parts = 3;
+    options.contour = ContourMethod::edges;
+    options.volume = false;
+    Driver driver(options);
+    driver.show_panels(false);
+    driver.open(folder.file("ring.off"));
+    const ContourStages& stages = driver.document().trace->find(1)->stages;
+    EXPECT_GT(stages.crossed_edges.size(), stages.hanging_edges_removed.size());
+    EXPECT_GT(stages.hanging_edges_removed.size(), stages.closed_loops.size());
+    EXPECT_NE(stages.closed_loops, stages.multiple_paths_removed);
+    expect_numbers_of_the_cuts(driver);
 }
 
 TEST(Layers, GoingBackMakesNothingAgain) {

@@ -71,6 +71,7 @@ class App : private Actions {
     const Camera& camera() const { return camera_; }
     std::int64_t geometry_made() const { return builder_.geometry_made(); }
     std::string window_title() const;
+    std::string graphics_driver() const { return renderer_.driver(); }  ///< name and version
     bool wants_to_quit() const { return quit_; }
 
  private:
