@@ -1,12 +1,16 @@
 // The user interface as a user works with it: clicks by label, keys, drags, drops. Every step is checked on the state
 // and on what is drawn.
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <set>
 
 #include <gtest/gtest.h>
+#include <imgui.h>
 
+#include "core/words.h"
 #include "io/surface_reader.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
@@ -15,6 +19,7 @@
 #include "viewer/app/keys.h"
 #include "viewer/driver.h"
 #include "viewer/golden_image.h"
+#include "viewer/words_on_screen.h"
 
 namespace kerf::test {
 namespace {
@@ -105,6 +110,8 @@ TEST(Ui, ASession) {
     driver.settle();
     EXPECT_NE(driver.app().facts().selection.find("cell " + std::to_string(state.selection.index)), std::string::npos);
     EXPECT_EQ(driver.drawn("selection").segments, 6);
+    driver.click("Copy");
+    EXPECT_EQ(ImGui::GetClipboardText(), driver.app().facts().selection);
     EXPECT_TRUE(differ(exploded, driver.picture()));
     driver.key(key_escape);
     EXPECT_EQ(state.selection.kind, Selection::Kind::none);
@@ -119,6 +126,110 @@ TEST(Ui, ASession) {
     EXPECT_EQ(read.explode, state.explode);
     ASSERT_TRUE(read.camera);
     EXPECT_LT((read.camera->target - driver.app().camera().target).norm(), 1e-12);
+}
+
+// What the histogram is brushed over is what is shown, and a click on a bad cell goes there.
+TEST(Ui, ShowsSomeCellsAndTheWorst) {
+    Driver::Options options;
+    options.parts = 2;
+    Driver driver(options);
+    driver.open(asset_path("cube"));
+    ViewState& state = driver.state();
+    state.step = {Stage::tetrahedra, -1};
+    state.color = ColorBy::min_dihedral;
+    driver.click("Worst cells");
+    ASSERT_TRUE(driver.document().histograms[0]);
+    const MeasureHistogram& histogram = *driver.document().histograms[0];
+
+    // From the first bin that is not empty to the middle of all that are not.
+    const auto is_used = [](std::int64_t count) { return count > 0; };
+    const auto first = std::find_if(histogram.all.begin(), histogram.all.end(), is_used) - histogram.all.begin();
+    const auto last = histogram.all.rend() - std::find_if(histogram.all.rbegin(), histogram.all.rend(), is_used);
+    const auto bins = static_cast<float>(last - first), middle = std::floor(bins / 2);
+    driver.drag_over("histogram", 0.5f / bins, (middle + 0.5f) / bins);
+    ASSERT_TRUE(state.filter);
+    EXPECT_EQ(state.filter->low, histogram.edges[static_cast<std::size_t>(first)]);
+    EXPECT_EQ(state.filter->high,
+              histogram.edges[static_cast<std::size_t>(first) + static_cast<std::size_t>(middle) + 1]);
+    driver.settle();
+    EXPECT_GT(driver.drawn("cells").triangles, 0);
+    driver.click("Clear filter");
+    EXPECT_FALSE(state.filter);
+
+    driver.await("the worst cells", [&] { return driver.app().widgets().find("worst 1").has_value(); });
+    const WorstCell worst = driver.app().session().worst_cells(state.color, 100)->front();
+    EXPECT_NEAR(worst.value, histogram.min, 1e-4 * histogram.min);
+    const double height = driver.app().camera().height;
+    driver.click("worst 1");
+    EXPECT_EQ(state.selection, (Selection{Selection::Kind::cell, worst.part, worst.cell, worst.center}));
+    EXPECT_EQ(driver.app().camera().target, worst.center);
+    EXPECT_LT(driver.app().camera().height, height / 4);
+}
+
+TEST(Ui, HidesAndIsolatesFromTheTree) {
+    Driver::Options options;
+    options.volume = false;
+    Driver driver(options);
+    driver.open(asset_path("cube"));
+    ViewState& state = driver.state();
+    state.step = {Stage::split, -1};
+    const auto drawn_halves = [&] {
+        driver.settle();
+        return std::pair(driver.drawn("half 2").triangles, driver.drawn("half 3").triangles);
+    };
+    const std::int64_t below = driver.document().tree.find(2)->facets, above = driver.document().tree.find(3)->facets;
+    EXPECT_EQ(drawn_halves(), std::pair(below, above));
+    driver.click("isolate 3");
+    EXPECT_EQ(state.isolated, 3);
+    EXPECT_EQ(drawn_halves(), std::pair(std::int64_t{0}, above));
+    driver.click("isolate 3");
+    EXPECT_FALSE(state.isolated);
+    driver.click("show 3");
+    EXPECT_EQ(state.hidden, std::vector<NodeId>{3});
+    EXPECT_EQ(drawn_halves(), std::pair(below, std::int64_t{0}));
+    driver.click("isolate 2");
+    driver.click("Show all");
+    EXPECT_TRUE(state.hidden.empty() && !state.isolated);
+    EXPECT_EQ(drawn_halves(), std::pair(below, above));
+}
+
+TEST(Ui, LooksFromTheEndsOfTheGizmo) {
+    Driver::Options options;
+    options.auto_run = false;
+    Driver driver(options);
+    driver.open(asset_path("cube"));
+    for (const auto& [label, back] : {std::pair("view x", Vec3(1, 0, 0)), std::pair("view -x", Vec3(-1, 0, 0)),
+                                      std::pair("view y", Vec3(0, 1, 0)), std::pair("view -y", Vec3(0, -1, 0)),
+                                      std::pair("view z", Vec3(0, 0, 1)), std::pair("view -z", Vec3(0, 0, -1))}) {
+        driver.key(key_home);  // where no end hides another
+        driver.click(label);
+        EXPECT_LT((driver.app().camera().back() - back).norm(), 1e-9) << label;
+    }
+}
+
+// One table of words: the title over the scene and beside the steps, the button, the legend, and the command line.
+TEST(Ui, AStageIsCalledTheSameEverywhere) {
+    Driver::Options options;
+    options.volume = false;
+    Driver driver(options);
+    driver.open(asset_path("cube"));
+    std::set<std::string> in_legends;
+    for (const Step& step : driver.app().steps()) {
+        driver.state().step = step;
+        driver.settle();
+        const std::vector<std::string> words = words_on_screen();
+        const auto times = [&](const std::string& text) { return std::count(words.begin(), words.end(), text); };
+        EXPECT_EQ(times("Node 1 - " + title(step)), 1);
+        EXPECT_EQ(times("Node 1: " + title(step)), 1);
+        EXPECT_GE(times(title(step)), 1) << "the button";
+        EXPECT_EQ(step_from_name(name(step)), step);
+        EXPECT_EQ(in_words(name(step)),
+                  std::string(1, static_cast<char>(std::tolower(title(step)[0]))) + title(step).substr(1));
+        if (times(in_words(name(step))) == 1) in_legends.insert(name(step));
+    }
+    EXPECT_EQ(in_legends,
+              (std::set<std::string>{"plane", "crossed-edges", "hanging-removed", "closed-loops", "paths-removed",
+                                     "contour", "projected", "triangulation", "interface"}));
 }
 
 TEST(Ui, MouseMovesTheCamera) {

@@ -22,6 +22,8 @@ struct Camera {
     Vec3 up() const { return turn * Vec3::UnitY(); }
     Vec3 back() const { return turn * Vec3::UnitZ(); }  ///< from the target to the eye
     double distance() const;                            ///< of the eye from the target
+
+    bool operator==(const Camera&) const = default;
 };
 
 /// The file's coordinates in draw coordinates: the box is centred at the origin, its diagonal is 2 long.

@@ -27,10 +27,14 @@ struct Clip {
     Vec3 normal = Vec3::UnitX();
     double position = 0.5;  ///< along the normal, 0 and 1 at the ends of the body's bounding box
     bool flipped = false;
+
+    bool operator==(const Clip&) const = default;
 };
 
 struct ValueRange {
     double low = 0, high = 0;
+
+    bool operator==(const ValueRange&) const = default;
 };
 
 /// Of n.p over the points p of a box: what Clip::position is a fraction of.
@@ -66,11 +70,15 @@ struct Selection {
     NodeId owner = 0;           ///< node or part whose numbers follow
     std::int32_t index = -1;    ///< of the facet, cell or vertex there
     Vec3 place = Vec3::Zero();  ///< of the click, or of a defect
+
+    bool operator==(const Selection&) const = default;
 };
 
 struct Panels {
     bool tree = true, display = true, timeline = true, keys = false, parameters = false, quality = false,
          problems = true;
+
+    bool operator==(const Panels&) const = default;
 };
 
 struct ViewState {
@@ -102,6 +110,8 @@ struct ViewState {
 
     bool is_hidden(NodeId node) const;
     void set_hidden(NodeId node, bool hidden);
+
+    bool operator==(const ViewState&) const = default;
 };
 
 /// JSON as people write it; every field may be missing and then has its default.
