@@ -71,6 +71,8 @@ int run_command(const CommandLine& line) {
         RunReport report;
         {
             ProgressLine progress(line.quiet || !root, events.get());
+            if (const std::string note = binding_note(ranks, options.workers); root && !line.quiet && !note.empty())
+                tell(fmt::format("kerf: {}\n", note));
             report = run(options, ranks.cores_of_rank, *ranks.communicator, input, &progress);
         }
         if (events) events->on_end(report.exit_code, "");

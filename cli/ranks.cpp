@@ -3,9 +3,14 @@
 #include <algorithm>
 #include <cstdlib>
 #include <list>
-#include <thread>
+
+#include <fmt/format.h>
+
+#include "run/processors.h"
 
 #ifdef KERF_WITH_MPI
+#include <unistd.h>
+
 #include <mpi.h>
 #endif
 
@@ -13,16 +18,39 @@ namespace kerf {
 
 namespace {
 
-int host_cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+// All of the machine where the system tells of none.
+int count_of(const std::vector<int>& processors) {
+    return processors.empty() ? machine_processors() : static_cast<int>(processors.size());
+}
 
 #ifdef KERF_WITH_MPI
 
+// In pieces, because MPI counts are 32-bit.
+void broadcast(MPI_Comm comm, Bytes& bytes, int root) {
+    constexpr std::size_t piece = std::size_t{1} << 30;
+    for (std::size_t begin = 0; begin < bytes.size(); begin += piece)
+        MPI_Bcast(bytes.data() + begin, static_cast<int>(std::min(piece, bytes.size() - begin)), MPI_BYTE, root, comm);
+}
+
+// One broadcast per rank.
+std::vector<Bytes> gather(MPI_Comm comm, const Bytes& contribution) {
+    int rank = 0, size = 1;
+    MPI_Comm_rank(comm, &rank);
+    MPI_Comm_size(comm, &size);
+    const std::uint64_t own = contribution.size();
+    std::vector<std::uint64_t> sizes(static_cast<std::size_t>(size));
+    MPI_Allgather(&own, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, comm);
+    std::vector<Bytes> all;
+    for (int r = 0; r < size; ++r) {
+        all.push_back(r == rank ? contribution : Bytes(sizes[static_cast<std::size_t>(r)]));
+        broadcast(comm, all.back(), r);
+    }
+    return all;
+}
+
 class MpiRanks : public Communicator {
  public:
-    MpiRanks() {
-        MPI_Init(nullptr, nullptr);
-        sent_to_.assign(static_cast<std::size_t>(size()), 0);
-    }
+    MpiRanks();
     ~MpiRanks() override { MPI_Finalize(); }
     MpiRanks(const MpiRanks&) = delete;
     MpiRanks& operator=(const MpiRanks&) = delete;
@@ -41,10 +69,10 @@ class MpiRanks : public Communicator {
     void post(int rank, const Bytes& message) override;
     std::optional<Bytes> poll() override;
     void drop_messages() override;
-    int ranks_on_host() const;
+    /// Collective: what the ranks of this host contribute, and which of them this one is.
+    std::vector<Bytes> gather_on_host(const Bytes& contribution, std::size_t& own) const;
 
  private:
-    static void broadcast(Bytes& bytes, int root);
     static Bytes receive(const MPI_Status& announced);
 
     // A message on its way, which MPI reads until it has left.
@@ -57,25 +85,20 @@ class MpiRanks : public Communicator {
     int received_ = 0;
 };
 
-// One broadcast per rank, in pieces, because MPI counts are 32-bit.
-std::vector<Bytes> MpiRanks::all_gather(const Bytes& contribution) {
-    const std::uint64_t own = contribution.size();
-    std::vector<std::uint64_t> sizes(static_cast<std::size_t>(size()));
-    MPI_Allgather(&own, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD);
-    std::vector<Bytes> all;
-    for (int r = 0; r < size(); ++r) {
-        all.push_back(r == rank() ? contribution : Bytes(sizes[static_cast<std::size_t>(r)]));
-        broadcast(all.back(), r);
+// Only the first thread calls MPI, but cuts are made on others meanwhile.
+MpiRanks::MpiRanks() {
+    int provided = MPI_THREAD_SINGLE;
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+    if (provided < MPI_THREAD_FUNNELED) {
+        MPI_Finalize();
+        throw Error(ErrorCode::internal,
+                    "The MPI library supports no program with threads (MPI_THREAD_FUNNELED). Use one that was built "
+                    "with threads, or run kerf without mpirun.");
     }
-    return all;
+    sent_to_.assign(static_cast<std::size_t>(size()), 0);
 }
 
-void MpiRanks::broadcast(Bytes& bytes, int root) {
-    constexpr std::size_t piece = std::size_t{1} << 30;
-    for (std::size_t begin = 0; begin < bytes.size(); begin += piece)
-        MPI_Bcast(bytes.data() + begin, static_cast<int>(std::min(piece, bytes.size() - begin)), MPI_BYTE, root,
-                  MPI_COMM_WORLD);
-}
+std::vector<Bytes> MpiRanks::all_gather(const Bytes& contribution) { return gather(MPI_COMM_WORLD, contribution); }
 
 void MpiRanks::post(int rank, const Bytes& message) {
     posted_.remove_if([](Posted& posted) {
@@ -120,13 +143,34 @@ void MpiRanks::drop_messages() {
     received_ = 0;
 }
 
-int MpiRanks::ranks_on_host() const {
+std::vector<Bytes> MpiRanks::gather_on_host(const Bytes& contribution, std::size_t& own) const {
     MPI_Comm host = MPI_COMM_NULL;
     MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &host);
-    int count = 1;
-    MPI_Comm_size(host, &count);
+    int rank = 0;
+    MPI_Comm_rank(host, &rank);
+    own = static_cast<std::size_t>(rank);
+    std::vector<Bytes> all = gather(host, contribution);
     MPI_Comm_free(&host);
-    return count;
+    return all;
+}
+
+// What the launcher may use itself is what it could have given to its ranks: not all of the machine within the limits
+// of a batch system. Where a shell lies between, that is bound like the rank, and nothing is known.
+Ranks join_mpi_ranks() {
+    auto ranks = std::make_unique<MpiRanks>();
+    Ranks joined;
+    joined.launched = true;
+    std::size_t own = 0;
+    std::vector<std::vector<int>> allowed;
+    for (const Bytes& bytes : ranks->gather_on_host(to_bytes(allowed_processors()), own))
+        allowed.push_back(from_bytes<std::vector<int>>(bytes));
+    joined.cores_of_rank = share_of_processors(allowed, own);
+    joined.unbound_share = count_of(allowed_processors(::getppid())) / static_cast<int>(allowed.size());
+    joined.bound_to = count_of(allowed[own]);
+    for (const int processors : all_gather(*ranks, joined.bound_to))
+        joined.bound_to = std::min(joined.bound_to, processors);
+    joined.communicator = std::move(ranks);
+    return joined;
 }
 
 bool started_by_launcher() {
@@ -147,13 +191,25 @@ bool is_first_rank() {
 
 Ranks join_ranks() {
 #ifdef KERF_WITH_MPI
-    if (started_by_launcher()) {
-        auto ranks = std::make_unique<MpiRanks>();
-        const int cores = std::max(1, host_cores() / ranks->ranks_on_host());
-        return {std::move(ranks), cores};
-    }
+    if (started_by_launcher()) return join_mpi_ranks();
 #endif
-    return {std::make_unique<SingleRank>(), host_cores()};
+    const int cores = count_of(allowed_processors());
+    return {std::make_unique<SingleRank>(), cores, cores, cores};
+}
+
+std::string binding_note(const Ranks& ranks, int workers) {
+    const int machine = machine_processors();
+    if (workers > ranks.bound_to && machine > ranks.bound_to)
+        return fmt::format("The {} workers of a rank share {} of {} processors, because {}", workers, ranks.bound_to,
+                           machine,
+                           ranks.launched ? "mpirun has bound it to them; mpirun --bind-to none lifts that."
+                                          : "taskset or a batch system has bound it to them.");
+    if (workers == 0 && ranks.unbound_share > ranks.bound_to)
+        return fmt::format(
+            "mpirun has bound a rank to {} processor{}, so that it has no more workers; mpirun "
+            "--bind-to none gives it {}.",
+            ranks.bound_to, ranks.bound_to == 1 ? "" : "s", ranks.unbound_share);
+    return "";
 }
 
 }  // namespace kerf

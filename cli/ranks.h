@@ -2,18 +2,27 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "run/communicator.h"
 
 namespace kerf {
 
 /// The ranks that mpirun has started, or this process alone. MPI is initialised only where a launcher's environment is
-/// found, because that takes 0.3 s. `cores_of_rank`: cores of this host divided by the ranks on it.
+/// found, because that takes 0.3 s.
 struct Ranks {
     std::unique_ptr<Communicator> communicator;
-    int cores_of_rank = 1;
+    int cores_of_rank = 1;  ///< processors that it may use, divided by the ranks of this host that share them
+    int bound_to = 1;       ///< processors that the rank with the fewest of all ranks may use
+    int unbound_share = 1;  ///< what cores_of_rank would be if the launcher had bound no rank
+    bool launched = false;
 };
+/// Collective. Throws Error(internal) if the MPI library does not allow the threads that a rank has beside its first.
 Ranks join_ranks();
+
+/// A line for the user if the ranks are bound to fewer processors than there are for the workers: `workers` of each
+/// rank, 0 for the default. It says what lifts that. Empty if all is well, or nothing would lift it.
+std::string binding_note(const Ranks& ranks, int workers);
 
 /// Whether this process speaks for the job, told from the launcher's environment without starting MPI.
 bool is_first_rank();

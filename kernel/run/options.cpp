@@ -74,7 +74,7 @@ void OptionField::set_text(const std::string& text) const {
 void RunOptions::resolve(int cores_of_rank) {
     input_options.check();
     require(workers >= 0 && workers <= most_workers, "workers",
-            fmt::format("0 (share of the cores) to {}", most_workers), workers);
+            fmt::format("0 (share of the processors) to {}", most_workers), workers);
     if (workers == 0) workers = std::max(1, cores_of_rank);
     require(decompose.parts >= 0, "parts", "1 or more", decompose.parts);
     decompose.threads = workers;  // they have nothing to do yet
@@ -166,7 +166,8 @@ std::vector<OptionField> option_fields(RunOptions& o) {
         {"surface", "", "Whether facets may be split where no contour of edges exists. Default split.",
          choice(o.decompose.facets, {"keep", "split"})},
         {"mesher", "", "What fills the parts. Default tetgen.", choice(o.mesher.kind, {"tetgen"})},
-        {"workers", "", "Mesher processes of each rank. Default: its share of the cores.", &o.workers, false},
+        {"workers", "", "Mesher processes of each rank. Default: its share of the processors that it may use.",
+         &o.workers, false},
         {"timeout", "",
          "Seconds for one attempt at one part; 0: none. A part that took longer is marked in the report. Default 600.",
          &o.timeout_seconds, false},

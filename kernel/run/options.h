@@ -23,7 +23,7 @@ struct RunOptions {
     MesherOptions mesher;
     double size = 0;               ///< wanted edge length; sets mesher.max_volume unless that is given; 0: none
     InputOptions input_options;    ///< of the surface before all else
-    std::int32_t workers = 0;      ///< processes on this rank's host; 0: its share of the cores
+    std::int32_t workers = 0;      ///< processes of each rank; 0: its share of the processors
     double timeout_seconds = 600;  ///< of one attempt at one part; 0: none
     std::int64_t memory_mb = 0;    ///< address space of one worker; 0: unlimited
     std::int32_t attempts = 10;    ///< at one part, at most (volume/retries.h)

@@ -6,6 +6,7 @@
 
 #include "support/assets.h"
 #include "support/file_contents.h"
+#include "support/mpi.h"
 #include "support/program.h"
 #include "support/shapes.h"
 #include "support/slice.h"
@@ -16,23 +17,9 @@
 namespace kerf {
 namespace {
 
-// Of env. mpirun refuses the root user, as whom containers test, unless it is told twice.
-std::vector<std::string> mpirun_arguments(int ranks) {
-    return {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1", KERF_MPIRUN, "--oversubscribe", "-n",
-            std::to_string(ranks)};
-}
-
-ChildResult run_ranks(int ranks, const std::vector<std::string>& command) {
-    std::vector<std::string> arguments = mpirun_arguments(ranks);
-    arguments.insert(arguments.end(), command.begin(), command.end());
-    return test::run_program("/usr/bin/env", arguments);
-}
-
-std::int64_t count(const std::string& text, const std::string& word) {
-    std::int64_t n = 0;
-    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++n;
-    return n;
-}
+using test::count;
+using test::mpirun_arguments;
+using test::run_ranks;
 
 class MpiRuns : public testing::TestWithParam<std::pair<std::string, int>> {};
 INSTANTIATE_TEST_SUITE_P(Assets, MpiRuns,
@@ -238,6 +225,16 @@ TEST(MpiErrors, TraceThatCannotBeWrittenEndsEveryRank) {
     EXPECT_EQ(result.exit_code, 7) << result.log;
     EXPECT_EQ(count(result.log, "kerf: "), 1) << result.log;
     EXPECT_EQ(folder.names(), std::vector<std::string>());
+}
+
+TEST(MpiErrors, ALibraryWithoutThreadsIsRefused) {
+    const test::TemporaryFolder folder;
+    const ChildResult result = run_ranks(2, {"/usr/bin/env", std::string("LD_PRELOAD=") + KERF_SINGLE_THREADED_MPI,
+                                             "ASAN_OPTIONS=detect_leaks=0:verify_asan_link_order=0", KERF_PROGRAM,
+                                             "mesh", test::asset_path("cube"), "-o", folder.file("out"), "-n", "2"});
+    EXPECT_EQ(result.exit_code, 1) << result.log;
+    EXPECT_EQ(count(result.log, "kerf: The MPI library"), 1) << result.log;
+    EXPECT_TRUE(folder.names().empty());
 }
 
 TEST(MpiErrors, UsageErrorsNeedNoAgreement) {
