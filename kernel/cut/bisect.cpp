@@ -262,6 +262,15 @@ void PlaneTrial::raise_penalty() {
     for (const std::size_t i : bad_facets_) penalty_[i] *= penalty_factor_;
 }
 
+FileHash hash_of(const Attempt& attempt) {
+    Hasher hasher;
+    hasher.add(std::span<const Side>(attempt.side));
+    hasher.add(std::span<const std::int32_t>(attempt.interface.contour));
+    hasher.add(std::span<const Vec3>(attempt.interface.points));
+    hasher.add(std::span<const Triangle>(attempt.interface.triangles));
+    return hasher.digest();
+}
+
 Rung rung_of(const CutTry& record) {
     if (record.refusal == Refusal::soft) return Rung::soft;
     if (record.axis > 0) return Rung::other_axis;
@@ -358,6 +367,7 @@ Bisection bisect(const Surface& surface, const MassProperties& mass, NodeId node
     cut.place = place;
     const std::unique_ptr<Attempt> accepted = Ladder(surface, mass, node, place, options, record).climb(cut.tries);
     if (accepted) {
+        cut.hash = hash_of(*accepted);
         cut.rung = rung_of(accepted->record);
         cut.plane = accepted->record.plane;
         cut.quality = accepted->record.quality;

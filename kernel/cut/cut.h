@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/hash.h"
 #include "surface/surface.h"
 
 namespace kerf {
@@ -164,6 +165,7 @@ struct Cut {
     double section_area = 0;    ///< of the surface with the plane
     double interface_area = 0;  ///< of the lifted interface
     double seconds = 0;         ///< wall clock; goes into the report only
+    FileHash hash = {0, 0};     ///< of all that the halves follow from, bit for bit; {0, 0}: not made, or from a trace
 
     bool made() const { return rung != Rung::whole; }
     template <class Archive>

@@ -160,6 +160,14 @@ Refusal try_plane(const Surface& surface, const StraightPlane& plane, StraightCu
     return span_plane(result.parent, cut);
 }
 
+FileHash hash_of(const PlaneSplit& split) {
+    Hasher hasher;
+    hasher.add(std::span<const Side>(split.side));
+    hasher.add(std::span<const Vec3>(split.arrays.vertices));
+    hasher.add(std::span<const Triangle>(split.arrays.facets));
+    return hasher.digest();
+}
+
 }  // namespace
 
 std::vector<StraightPlane> straight_planes(const Surface& surface, double fraction, const CutOptions& options) {
@@ -191,6 +199,7 @@ std::optional<StraightCut> cut_straight(const Surface& surface, NodeId node, dou
         if (record.refusal != Refusal::none) continue;
         result.cut.rung = Rung::straight;
         result.cut.method = ContourMethod::straight;
+        result.cut.hash = hash_of(result.split);
         describe_contour(result.parent, result.cut);
         return result;
     }

@@ -87,6 +87,7 @@ void StraightDivision::divide(NodeId id) {
     }
     const auto [lower, upper] = children_of(id);
     const std::int32_t below = leaves_below({load(lower), load(upper)}, node.leaves, options_.cut);
+    add_to_cut_hash(node, std::span(&below, 1));
     add_child(lower, node.first_leaf, below);
     add_child(upper, node.first_leaf + below, node.leaves - below);
 }
@@ -98,6 +99,11 @@ void StraightDivision::finish_interfaces() {
         nodes_.at(id).interface_faces = cap.faces;
         nodes_.at(id).quality = cap.quality;
     }
+    std::map<NodeId, std::vector<Vec3>> corners;
+    for (const ComplexFace& face : complex_.faces())
+        if (face.cap != 0)
+            for (const std::int32_t v : face.corners) corners[face.cap].push_back(complex_.point(v));
+    for (const auto& [id, points] : corners) add_to_cut_hash(nodes_.at(id), std::span<const Vec3>(points));
 }
 
 Decomposition StraightDivision::take(LeafRange range) {

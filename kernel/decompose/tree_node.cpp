@@ -48,6 +48,7 @@ void describe_cut(const Cut& cut, TreeNode& node) {
     node.interface_vertices = static_cast<std::int32_t>(cut.interface.points.size() - cut.interface.contour.size());
     node.quality = cut.quality;
     node.seconds = cut.seconds;
+    node.cut_hash = cut.hash;
 }
 
 std::int32_t leaves_below(const std::array<double, 2>& load, std::int32_t leaves, const CutOptions& options) {

@@ -1,6 +1,8 @@
 // A node of the tree of a decomposition, without its surface.
 #pragma once
 
+#include <span>
+
 #include "cut/bisect.h"
 
 namespace kerf {
@@ -26,7 +28,8 @@ struct TreeNode {
     std::int32_t interface_faces = 0;
     std::int32_t interface_vertices = 0;  ///< interior ones, which this cut added
     InterfaceQuality quality;
-    double seconds = 0;  ///< wall clock of the cut; goes into the report only
+    double seconds = 0;          ///< wall clock of the cut; goes into the report only
+    FileHash cut_hash = {0, 0};  ///< of all below that follows from the cut: equal on all ranks; {0, 0}: none was made
 
     template <class Archive>
     void archive(Archive& a) {
@@ -34,7 +37,7 @@ struct TreeNode {
         for (int i = 0; i < 9; ++i) a(mass.inertia.data()[i], mass.axes.data()[i]);
         a(mass.eigenvalues, cut_made, cut_tried, place, plane, method, rung, tries, loops, contour_edges,
           contour_length, max_deviation, section_area, interface_area, interface_faces, interface_vertices, quality,
-          seconds);
+          seconds, cut_hash);
     }
 };
 
@@ -48,6 +51,15 @@ TreeNode describe_node(NodeId id, std::int32_t first_leaf, std::int32_t leaves, 
 
 /// Fills what a cut, made or not, tells of its node.
 void describe_cut(const Cut& cut, TreeNode& node);
+
+/// Adds to the hash of a cut what else follows from it.
+template <class T>
+void add_to_cut_hash(TreeNode& node, std::span<const T> items) {
+    Hasher hasher;
+    hasher.add(std::span<const std::uint64_t>(node.cut_hash));
+    hasher.add(items);
+    node.cut_hash = hasher.digest();
+}
 
 /// How many of `leaves` the half below gets: in proportion to the loads of the halves, at least one each. Equidistant
 /// cuts know no load and give it one half.

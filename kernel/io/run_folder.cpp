@@ -22,6 +22,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/host_name.h"
 #include "io/durable_file.h"
 #include "io/folder_files.h"
 #include "io/output_file.h"
@@ -97,12 +98,6 @@ void create_folder(const std::string& path) {
     std::error_code error;
     fs::create_directories(path, error);
     if (error) fail("create the folder", path, error);
-}
-
-std::string host_name() {
-    char name[256] = "";
-    ::gethostname(name, sizeof name - 1);
-    return name;
 }
 
 bool is_same_file(int fd, const std::string& path) {

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
+#include "core/host_name.h"
 #include "decompose/straight_division.h"
 #include "io/folder_files.h"
 #include "io/output_file.h"
@@ -21,6 +22,7 @@
 #include "io/stl_writer.h"
 #include "io/text_file.h"
 #include "run/forecast.h"
+#include "run/gathered_nodes.h"
 #include "run/input_cover.h"
 #include "run/interface_match.h"
 #include "run/mesh_hash.h"
@@ -70,16 +72,6 @@ RunFolder open_run_folder(const RunOptions& options, const std::string& input_ha
         if (!folder) folder.emplace(RunFolder::join(shared));
     });
     return std::move(*folder);
-}
-
-// All nodes of the tree, ascending by number; ranks that share a branch have found the same.
-std::vector<TreeNode> gather_nodes(Communicator& ranks, const std::vector<TreeNode>& own) {
-    std::map<NodeId, TreeNode> by_id;
-    for (const auto& nodes : all_gather(ranks, own))
-        for (const TreeNode& node : nodes) by_id.emplace(node.id, node);
-    std::vector<TreeNode> all;
-    for (const auto& [id, node] : by_id) all.push_back(node);
-    return all;
 }
 
 // What is known of a part before it is meshed.
@@ -214,7 +206,7 @@ void Run::divide_unfinished(CutListener* cuts) {
     const std::vector<char> ranks = all_gather(ranks_, static_cast<char>(own));
     if (std::none_of(ranks.begin(), ranks.end(), [](char any) { return any; })) return;
     Decomposition whole;
-    whole.nodes = gather_nodes(ranks_, own_.nodes);
+    whole.nodes = gather_nodes(ranks_, own_.nodes, host_name());
     for (std::vector<Leaf>& leaves : all_gather(ranks_, own_.leaves))
         std::move(leaves.begin(), leaves.end(), std::back_inserter(whole.leaves));
     const DecomposeOptions& options = report_.options.decompose;
@@ -224,7 +216,7 @@ void Run::divide_unfinished(CutListener* cuts) {
 
 void Run::join_interfaces() {
     const Stopwatch stopwatch;
-    report_.nodes = gather_nodes(ranks_, own_.nodes);
+    report_.nodes = gather_nodes(ranks_, own_.nodes, host_name());
     const InterfaceTable table(ranks_, own_.leaves);
     report_.verification.unmatched_interface_faces = table.unmatched();
     report_.verification.input_faces_missing = count_missing_input_facets(ranks_, input_.facets, own_);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/host_name.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/mpi.h"
@@ -179,6 +180,35 @@ TEST_F(MpiInterruptions, ASignalToAnyRankEndsAll) {
 TEST_F(MpiInterruptions, AKilledRankLeavesNoProcessAndLosesOnlyItsParts) {
     ASSERT_NO_FATAL_FAILURE(interrupt(SIGKILL, false));
     expect_same_when_resumed(4);
+}
+
+// The second rank has the libraries of another host.
+class MpiUnlikeHosts : public testing::Test {
+ protected:
+    // The shell swallows the code of each rank, so that mpirun neither stops the others nor adds words of its own.
+    ChildResult run_with(const std::string& library, const std::vector<std::string>& command) const {
+        const std::string script = "'" KERF_PROGRAM "' \"$@\"; echo \"code=$?;\"";
+        std::vector<std::string> arguments = mpirun_arguments(1);
+        const auto add = [&](const std::vector<std::string>& words) {
+            arguments.insert(arguments.end(), words.begin(), words.end());
+        };
+        add({"/bin/sh", "-c", script, "sh"});
+        add(command);
+        add({":", "-n", "1", "/usr/bin/env", "LD_PRELOAD=" + library,
+             "ASAN_OPTIONS=detect_leaks=0:verify_asan_link_order=0", "/bin/sh", "-c", script, "sh"});
+        add(command);
+        return test::run_program("/usr/bin/env", arguments);
+    }
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(MpiUnlikeHosts, UnlikeCutsEndEveryRank) {
+    const ChildResult result =
+        run_with(KERF_UNLIKE_ANGLES, {"mesh", test::asset_path("hollow_box"), "-o", folder_.file("out"), "-n", "4"});
+    EXPECT_EQ(count(test::output_of(result), "code=1;"), 2) << test::output_of(result) << result.log;
+    EXPECT_EQ(count(result.log, "kerf: Rank 0 on " + host_name() + " and rank 1 on " + host_name()), 1) << result.log;
+    EXPECT_NE(result.log.find("have cut node 1 "), std::string::npos) << result.log;
+    EXPECT_TRUE(folder_.names().empty());
 }
 
 struct Failure {

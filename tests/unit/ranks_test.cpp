@@ -9,9 +9,11 @@
 #include <gtest/gtest.h>
 
 #include "run/communicator.h"
+#include "run/gathered_nodes.h"
 #include "run/interface_match.h"
 #include "run/numbering.h"
 #include "support/assets.h"
+#include "support/decomposition_laws.h"
 
 namespace kerf {
 namespace {
@@ -137,6 +139,99 @@ Decomposition five_parts() {
 std::vector<TreeNode> by_number(std::vector<TreeNode> nodes) {
     std::sort(nodes.begin(), nodes.end(), [](const TreeNode& a, const TreeNode& b) { return a.id < b.id; });
     return nodes;
+}
+
+// What each of so many ranks has of the tree.
+std::vector<std::vector<TreeNode>> nodes_of_ranks(int size, std::int32_t parts) {
+    std::vector<std::vector<TreeNode>> nodes;
+    for (int rank = 0; rank < size; ++rank)
+        nodes.push_back(decompose(test::asset_surface("hollow_box"), test::in_parts(parts),
+                                  {parts * rank / size, parts * (rank + 1) / size})
+                            .nodes);
+    return nodes;
+}
+
+std::vector<std::pair<NodeId, FileHash>> hashes_of(const std::vector<TreeNode>& nodes) {
+    std::vector<std::pair<NodeId, FileHash>> hashes;
+    for (const TreeNode& node : nodes) hashes.emplace_back(node.id, node.cut_hash);
+    return hashes;
+}
+
+std::string host_of(int rank) { return "host_" + std::to_string(rank / 2); }
+
+// The error that every rank alike ends with; empty if none does.
+std::string error_of_gathering(const std::vector<std::vector<TreeNode>>& nodes) {
+    const int size = static_cast<int>(nodes.size());
+    std::vector<std::string> errors(size);
+    run_ranks(size, [&](Communicator& ranks) {
+        try {
+            gather_nodes(ranks, nodes[ranks.rank()], host_of(ranks.rank()));
+        } catch (const Error& error) {
+            errors[ranks.rank()] = error.what();
+            EXPECT_EQ(error.code(), ErrorCode::internal);
+        }
+        EXPECT_EQ(all_gather(ranks, ranks.rank()).back(), size - 1) << "the ranks are still in step";
+    });
+    EXPECT_EQ(errors, std::vector<std::string>(size, errors.front()));
+    return errors.front();
+}
+
+TEST(GatherNodes, GivesTheTreeOfOneRankWhereAllAgree) {
+    const auto expected = hashes_of(by_number(nodes_of_ranks(1, 7).front()));
+    for (const int size : {1, 2, 3, 7}) {
+        const auto nodes = nodes_of_ranks(size, 7);
+        run_ranks(size, [&](Communicator& ranks) {
+            EXPECT_EQ(hashes_of(gather_nodes(ranks, nodes[ranks.rank()], "host")), expected);
+        });
+    }
+}
+
+// Every node that several ranks have, and every rank of these but the first.
+TEST(GatherNodes, TellsWhichRankHasCutOtherwise) {
+    const auto nodes = nodes_of_ranks(4, 7);
+    const std::vector<void (*)(TreeNode&)> changes = {[](TreeNode& node) { node.cut_hash[1] ^= 1; },
+                                                      [](TreeNode& node) { node.cut_tried = !node.cut_tried; },
+                                                      [](TreeNode& node) { ++node.leaves; }};
+    std::map<NodeId, int> first_rank;
+    int shared = 0;
+    for (int rank = 0; rank < 4; ++rank)
+        for (std::size_t i = 0; i < nodes[rank].size(); ++i) {
+            const NodeId id = nodes[rank][i].id;
+            const auto [first, is_new] = first_rank.emplace(id, rank);
+            if (is_new) continue;
+            ++shared;
+            const std::string words = "Rank " + std::to_string(first->second) + " on " + host_of(first->second) +
+                                      " and rank " + std::to_string(rank) + " on " + host_of(rank) + " have cut node " +
+                                      std::to_string(id) + " ";
+            for (const auto& change : changes) {
+                auto unlike = nodes;
+                change(unlike[rank][i]);
+                const std::string error = error_of_gathering(unlike);
+                EXPECT_NE(error.find(words), std::string::npos) << error;
+            }
+        }
+    EXPECT_GE(shared, 3);
+    EXPECT_EQ(error_of_gathering(nodes), "");
+}
+
+TEST(CutHash, TellsTheLastBitOfACut) {
+    const SurfaceArrays box = test::asset_surface("hollow_box").arrays();
+    SurfaceArrays scaled = box;
+    for (Vec3& p : scaled.vertices) p *= 1 + 0x1p-51;
+    for (const ContourMethod contour : {ContourMethod::min_cut, ContourMethod::straight}) {
+        DecomposeOptions options = test::in_parts(5);
+        options.cut.contour = contour;
+        const auto hashes = [&](const SurfaceArrays& arrays) {
+            return hashes_of(by_number(test::decompose_whole(Surface(arrays), options).nodes));
+        };
+        const auto first = hashes(box), again = hashes(box), other = hashes(scaled);
+        EXPECT_EQ(first, again);
+        std::set<FileHash> of_cuts;
+        for (const auto& [id, hash] : first)
+            if (hash != FileHash{0, 0}) of_cuts.insert(hash);
+        EXPECT_EQ(of_cuts.size(), 4u);
+        for (const auto& [id, hash] : other) EXPECT_FALSE(of_cuts.contains(hash)) << "node " << id;
+    }
 }
 
 TEST(InterfaceTable, BothSidesNameEachOther) {

@@ -1,7 +1,5 @@
 #include "viewer/model/partial_run.h"
 
-#include <unistd.h>
-
 #include <cerrno>
 #include <charconv>
 #include <csignal>
@@ -9,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/host_name.h"
 #include "io/run_folder.h"
 #include "io/vtu_reader.h"
 #include "run/journal.h"
@@ -34,12 +33,6 @@ std::set<NodeId> numbers_in(const fs::path& folder, std::string_view prefix, std
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
         if (const NodeId number = number_in(entry->path().filename(), prefix, ending)) numbers.insert(number);
     return numbers;
-}
-
-std::string host_name() {
-    char name[256] = "";
-    ::gethostname(name, sizeof name - 1);
-    return name;
 }
 
 // The lock holds "process 123 on host". To try the lock itself could keep a run out that starts at this moment.
