@@ -151,16 +151,12 @@ class MpiInterruptions : public testing::Test {
         arguments.push_back(KERF_PROGRAM);
         for (const std::string& argument : command("out")) arguments.push_back(argument);
         test::StartedRun run("/usr/bin/env", arguments);
-        ASSERT_TRUE(
-            test::await([&] { return test::finished_parts(folder_.file("out")) >= 2 && !run.workers().empty(); }));
+        ASSERT_TRUE(test::await([&] { return test::finished_parts(folder_.file("out")) >= 2; }));
+        ASSERT_GT(run.stop_worker(), 0);
         const std::vector<pid_t> ranks = test::descendants_of(run.process(), "kerf"), workers = run.workers();
         ASSERT_EQ(ranks.size(), 3u);
         ASSERT_EQ(::kill(ranks.back(), signal), 0);
-        const auto start = std::chrono::steady_clock::now();
         for (const pid_t worker : workers) EXPECT_TRUE(test::await([&] { return test::has_ended(worker); }));
-        if (ranks_end_by_themselves) {
-            EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
-        }
         const ChildResult result = run.wait();
         EXPECT_NE(result.exit_code, 0);
         if (ranks_end_by_themselves) {

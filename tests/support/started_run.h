@@ -50,11 +50,28 @@ inline std::vector<pid_t> descendants_of(pid_t process, const std::string& name)
     return found;
 }
 
-/// Ended, or waiting for its parent to notice.
-inline bool has_ended(pid_t process) {
+/// What the system tells of a process behind its name: its state, its parent, ...; empty if there is none.
+inline std::string status_of(pid_t process) {
     const std::string stat = bytes_of_file("/proc/" + std::to_string(process) + "/stat");
     const std::size_t name_end = stat.rfind(')');
-    return name_end == std::string::npos || stat.substr(name_end + 2, 1) == "Z";
+    return name_end == std::string::npos ? "" : stat.substr(name_end + 2);
+}
+
+/// Ended, or waiting for its parent to notice.
+inline bool has_ended(pid_t process) {
+    const std::string status = status_of(process);
+    return status.empty() || status.front() == 'Z';
+}
+
+/// Seconds of processor time that a process has taken.
+inline double seconds_computed(pid_t process) {
+    std::istringstream status(status_of(process));
+    constexpr int fields_before = 11;
+    std::string other;
+    for (int i = 0; i < fields_before; ++i) status >> other;
+    double ticks = 0;
+    status >> ticks;
+    return ticks / static_cast<double>(::sysconf(_SC_CLK_TCK));
 }
 
 class StartedRun {
@@ -68,6 +85,21 @@ class StartedRun {
     }
     pid_t process() const { return process_; }
     std::vector<pid_t> workers() const { return descendants_of(process_, "kerf-worker"); }
+    /// Waits for a worker and stops it in the middle of its part. From then on it ends only if somebody ends it, and
+    /// the run cannot be complete, however slow the machine is. -1 if none comes.
+    pid_t stop_worker() const {
+        constexpr double well_begun_seconds = 0.05;  // it has asked to end with its parent, if nothing else
+        pid_t stopped = -1;
+        await([&] {
+            for (const pid_t worker : workers()) {
+                if (seconds_computed(worker) < well_begun_seconds || ::kill(worker, SIGSTOP) != 0) continue;
+                await([&] { return has_ended(worker) || status_of(worker).starts_with('T'); });
+                if (!has_ended(worker)) stopped = worker;
+            }
+            return stopped > 0;
+        });
+        return stopped;
+    }
     ChildResult wait() { return pool_.wait_any()->result; }
 
  private:
