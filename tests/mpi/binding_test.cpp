@@ -3,7 +3,7 @@
 
 #include "run/processors.h"
 #include "support/assets.h"
-#include "support/mpi.h"
+#include "support/mpirun.h"
 #include "support/temporary_folder.h"
 
 namespace kerf {

@@ -7,7 +7,7 @@
 #include "core/host_name.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
-#include "support/mpi.h"
+#include "support/mpirun.h"
 #include "support/program.h"
 #include "support/shapes.h"
 #include "support/slice.h"
