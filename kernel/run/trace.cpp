@@ -75,14 +75,6 @@ Surface replay(const Trace& trace, NodeId node) {
     return Surface(std::move(split(parent, cut->side, cut->interface, cut->node)[node % 2].arrays));
 }
 
-RunOptions options_of(const Trace& trace) {
-    RunOptions options;
-    set_options(options, trace.options, "The trace of " + trace.input);
-    options.input = trace.input;
-    options.resolve(1);
-    return options;
-}
-
 void write_trace(const std::string& path, const Trace& trace) {
     const Bytes record = to_bytes(trace);
     TraceHeader header;

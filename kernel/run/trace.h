@@ -32,10 +32,6 @@ struct Trace {
 /// the tree has no such node.
 Surface replay(const Trace& trace, NodeId node);
 
-/// The options of the run: with them and the surface the same cuts can be made again. Throws Error(usage) for a name
-/// or value that this version does not have.
-RunOptions options_of(const Trace& trace);
-
 /// Writes the file, replacing what was there. Throws Error(io).
 void write_trace(const std::string& path, const Trace& trace);
 

@@ -6,6 +6,7 @@
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/utility.h>
 
+#include "core/elements.h"
 #include "surface/open_loops.h"
 
 namespace kerf {
@@ -36,7 +37,7 @@ std::vector<Triangle> span_loop(const Soup& soup, const OpenLoop& loop) {
 HoleFilling fill_holes(Soup& soup, std::int32_t most_edges) {
     std::vector<Triangle> proper;
     for (const Triangle& t : soup.facets)
-        if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) proper.push_back(t);
+        if (!has_repeated_vertex(t)) proper.push_back(t);
     HoleFilling filling;
     const auto patch = static_cast<std::int32_t>(soup.patch_names.size());
     const auto next_polygon = soup.polygon.empty() ? 0 : soup.polygon.back() + 1;

@@ -166,7 +166,6 @@ OrientationReport orient(Soup& soup) {
                 "apart.");
         const bool is_void = shell.depth % 2;
         flip.push_back(shell.outward == is_void);
-        report.void_shells += is_void;
         report.shells_flipped += flip.back();
     }
     soup.facets = std::move(consistent.facets);

@@ -43,7 +43,6 @@ struct OrientationReport {
     std::int64_t facets_flipped = 0;  ///< facets turned to agree with the rest of their shell
     std::int64_t shells_flipped = 0;  ///< shells turned as a whole: outside out, void shells into the void
     std::int64_t shells = 0;
-    std::int64_t void_shells = 0;
 };
 
 /// Turns facets until normals point out of the material everywhere.

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/elements.h"
+
 namespace kerf {
 
 namespace {
@@ -18,8 +20,6 @@ Edge edge_of(const Triangle& t, std::size_t i) {
     const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
     return {low, high};
 }
-
-bool has_repeated_vertex(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
 // Groups of equal facets, single ones included; the first of a group stands for it.
 std::vector<std::vector<std::int32_t>> group_equal(const std::vector<Triangle>& facets) {

@@ -11,6 +11,7 @@
 #include "support/file_contents.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"
+#include "support/trace_options.h"
 
 namespace kerf {
 namespace {
@@ -77,7 +78,7 @@ TEST_P(TracedRun, EveryCutSurfaceIsReplayed) {
 
 // Both that the options are those of the run and that leaves are replayed.
 TEST_P(TracedRun, TheSamePartsCanBeMadeAgain) {
-    const RunOptions options = options_of(trace_);
+    const RunOptions options = test::options_of(trace_);
     EXPECT_EQ(options.decompose.parts, parts);
     EXPECT_GT(options.decompose.cut.max_volume, 0);
     const Decomposition again = decompose(Surface(trace_.surface), options.decompose, {0, parts});
@@ -186,11 +187,11 @@ TEST_F(TraceFile, EveryChangedByteIsNoticed) {
 
 TEST_F(TraceFile, UnknownOptionsAreNamed) {
     Trace trace = read_trace(path_);
-    EXPECT_EQ(options_of(trace).decompose.parts, 2);
+    EXPECT_EQ(test::options_of(trace).decompose.parts, 2);
     trace.options.push_back({"frobnicate", "1"});
-    EXPECT_THROW(options_of(trace), Error);
+    EXPECT_THROW(test::options_of(trace), Error);
     trace.options.back() = {"balance", "luck"};
-    EXPECT_THROW(options_of(trace), Error);
+    EXPECT_THROW(test::options_of(trace), Error);
 }
 
 // Files of an older layout must not be read as if they were new.

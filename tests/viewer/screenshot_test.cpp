@@ -36,7 +36,7 @@ TEST(Screenshot, OfASurfaceARunAndATraceShowTheSameCut) {
         const ChildResult result = screenshot({input, "--node", "1", "--stage", stage, "-n", "4"});
         EXPECT_EQ(result.exit_code, 0) << result.log;
         EXPECT_EQ(output_of(result), "");
-        return view::read_png(folder().file("a.png"));
+        return read_png(folder().file("a.png"));
     };
     const view::Image plane = picture(asset_path("cylinder"), "plane");
     EXPECT_EQ(plane.width, 320);

@@ -14,6 +14,7 @@
 #include "support/shapes.h"
 #include "support/started_run.h"
 #include "support/temporary_folder.h"
+#include "support/trace_options.h"
 #include "support/write_off.h"
 #include "surface/mass_properties.h"
 #include "viewer/model/loader.h"
@@ -580,8 +581,8 @@ TEST_F(Data, ACutMadeAgainWithTheSameOptionsIsTheSame) {
     const std::shared_ptr<const Trace> old = by_folder_.document().trace;
     ASSERT_TRUE(old);
     EXPECT_EQ(by_folder_.cut_before(2), nullptr);
-    by_folder_.redo_cut(2, options_of(*old));
-    by_folder_.redo_cut(1, options_of(*old));
+    by_folder_.redo_cut(2, test::options_of(*old));
+    by_folder_.redo_cut(1, test::options_of(*old));
     ASSERT_TRUE(settle(by_folder_));
     EXPECT_EQ(failures_of(by_folder_), "");
     const Document& d = by_folder_.document();
@@ -608,7 +609,7 @@ TEST_F(Data, ACutMadeAgainWithOtherOptionsTakesItsPlace) {
     const std::shared_ptr<const Trace> old = by_folder_.document().trace;
     ASSERT_TRUE(old && old->find(2));
     const std::size_t nodes = by_folder_.document().tree.rows.size();
-    RunOptions other = options_of(*old);
+    RunOptions other = test::options_of(*old);
     other.decompose.cut.criterion = Criterion::volume;
     other.decompose.cut.axis = 2;
     by_folder_.redo_cut(2, other);

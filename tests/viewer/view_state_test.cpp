@@ -13,6 +13,15 @@
 namespace kerf::view {
 namespace {
 
+// A point of the file on the screen: pixels from the upper left corner of the viewport; z is the depth in [-1, 1].
+Vec3 to_screen(const Projection& projection, const Frame& frame, const Vec3& point) {
+    Eigen::Vector4d q;
+    q << frame.to_draw(point), 1;
+    const Eigen::Vector4d clip = projection.projection.cast<double>() * (projection.view.cast<double>() * q);
+    const double w = std::abs(clip.w()) > 1e-12 ? clip.w() : 1e-12;
+    return {(clip.x() / w + 1) / 2 * projection.width, (1 - clip.y() / w) / 2 * projection.height, clip.z() / w};
+}
+
 ViewState unusual_state() {
     ViewState s;
     s.node = 13;

@@ -140,12 +140,4 @@ Projection project(const Camera& camera, const Frame& frame, const Eigen::Aligne
     return p;
 }
 
-Vec3 to_screen(const Projection& projection, const Frame& frame, const Vec3& point) {
-    Eigen::Vector4d q;
-    q << frame.to_draw(point), 1;
-    const Eigen::Vector4d clip = projection.projection.cast<double>() * (projection.view.cast<double>() * q);
-    const double w = std::abs(clip.w()) > 1e-12 ? clip.w() : 1e-12;
-    return {(clip.x() / w + 1) / 2 * projection.width, (1 - clip.y() / w) / 2 * projection.height, clip.z() / w};
-}
-
 }  // namespace kerf::view

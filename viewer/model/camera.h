@@ -69,7 +69,4 @@ void zoom_at(Camera& camera, double factor, double x, double y);
 /// near and far planes.
 Projection project(const Camera& camera, const Frame& frame, const Eigen::AlignedBox3d& box, int width, int height);
 
-/// A point of the file on the screen: pixels from the upper left corner of the viewport; z is the depth in [-1, 1].
-Vec3 to_screen(const Projection& projection, const Frame& frame, const Vec3& point);
-
 }  // namespace kerf::view

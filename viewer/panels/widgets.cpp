@@ -120,12 +120,6 @@ bool Widgets::combo(const char* label, int* index, const std::vector<std::string
     return changed;
 }
 
-bool Widgets::selectable(const char* label, bool selected) {
-    const bool pressed = ImGui::Selectable(label, selected);
-    record(label);
-    return pressed;
-}
-
 bool Widgets::menu_item(const char* label, const char* shortcut, bool* value) {
     const bool pressed = ImGui::MenuItem(label, shortcut, value);
     record(label);

@@ -32,7 +32,6 @@ class Widgets {
     bool radio(const char* label, bool active);
     bool slider(const char* label, double* value, double low, double high, const char* format = "%.2f");
     bool combo(const char* label, int* index, const std::vector<std::string>& names);
-    bool selectable(const char* label, bool selected);
     bool menu_item(const char* label, const char* shortcut = nullptr, bool* value = nullptr);
     bool header(const char* label, bool open_at_first);  ///< a collapsing section
     bool input_text(const char* label, std::string* text);

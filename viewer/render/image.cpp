@@ -1,14 +1,12 @@
 #include "viewer/render/image.h"
 
 #include <cstdlib>
-#include <limits>
 #include <memory>
 
 #include <fmt/format.h>
 #include <zlib.h>
 
 #include "core/error.h"
-#include "io/file_bytes.h"
 #include "io/output_file.h"
 
 namespace {
@@ -28,11 +26,6 @@ unsigned char* compress_best(unsigned char* data, int size, int* compressed_size
 }  // namespace
 
 // Static: programs that link Debian's libstb have these functions a second time.
-#define STB_IMAGE_STATIC
-#define STB_IMAGE_IMPLEMENTATION
-#define STBI_ONLY_PNG
-#define STBI_NO_STDIO
-#include <stb_image.h>
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STBI_WRITE_NO_STDIO
@@ -70,21 +63,6 @@ void write_png(const std::string& path, const Image& image) {
     const Bytes png(stbi_write_png_to_mem(image.rgb.data(), 3 * image.width, image.width, image.height, 3, &size));
     if (!png) throw Error(ErrorCode::memory, fmt::format("There is not enough memory to compress {}.", path));
     write_output_file(path, {reinterpret_cast<const char*>(png.get()), static_cast<std::size_t>(size)});
-}
-
-Image read_png(const std::string& path) {
-    const std::string file = read_file(path);
-    Image image;
-    const bool fits = file.size() <= static_cast<std::size_t>(std::numeric_limits<int>::max());
-    const Bytes pixels(fits ? stbi_load_from_memory(reinterpret_cast<const unsigned char*>(file.data()),
-                                                    static_cast<int>(file.size()), &image.width, &image.height, nullptr,
-                                                    3)
-                            : nullptr);
-    if (!pixels)
-        throw Error(ErrorCode::io, fmt::format("{} is not a PNG picture: {}.", path,
-                                               fits ? stbi_failure_reason() : "it is too large"));
-    image.rgb.assign(pixels.get(), pixels.get() + std::size_t{3} * image.width * image.height);
-    return image;
 }
 
 }  // namespace kerf::view

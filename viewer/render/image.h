@@ -20,7 +20,4 @@ Image averaged(const Image& image, int factor);
 /// Throws Error(io) naming the file if it cannot be written; an older file is replaced only by a complete one.
 void write_png(const std::string& path, const Image& image);
 
-/// Throws Error(io) if the file cannot be read or is no picture.
-Image read_png(const std::string& path);
-
 }  // namespace kerf::view

@@ -29,7 +29,6 @@ class GeometryCache {
 
     /// Called once per scene: what was not used for long is forgotten when there is much.
     void age();
-    void clear() { entries_.clear(); }
     /// How often something had to be made.
     std::int64_t made() const { return made_; }
 

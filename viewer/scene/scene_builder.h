@@ -50,7 +50,6 @@ class SceneBuilder {
     BuiltScene build(const ViewState& state, Session& session);
     /// How much geometry had to be made so far: stays as it is when one goes back.
     std::int64_t geometry_made() const { return cache_.made(); }
-    void forget() { cache_.clear(); }
 
  private:
     GeometryCache cache_;
