@@ -20,6 +20,8 @@ AppOptions options_beside_this_program() {
     AppOptions options;
     options.kerf_program = (folder / "kerf").string();
     options.shader_folder = (folder / "shaders").string();
+    if (!std::filesystem::exists(options.shader_folder))
+        options.shader_folder = (folder.parent_path() / "share" / "kerf" / "shaders").string();
     return options;
 }
 
