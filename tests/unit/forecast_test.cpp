@@ -1,8 +1,13 @@
 #include "run/forecast.h"
 
+#include <random>
+#include <sstream>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "run/number_text.h"
 
 namespace kerf {
 namespace {
@@ -45,14 +50,61 @@ TEST(ChooseParts, FollowTheMemoryOfAWorker) {
     EXPECT_THROW(choose_parts(with(2, 50, 0), 1e5, 1, 1, 100), Error);
 }
 
-TEST(PlanText, NamesPartsTetrahedraMemoryAndTime) {
-    std::vector<PartReport> parts(2);
-    parts[0].id = 2, parts[0].surface_facets = 1'000'000, parts[0].surface_volume = 1;
-    parts[1].id = 3, parts[1].surface_facets = 2'000'000, parts[1].surface_volume = 1;
-    EXPECT_EQ(plan_text(parts, with(2, 0, 0), 1, false),
-              "plan        2 parts for 2 workers, about 5.7 M tetrahedra in 19 s; the largest part 3.8 M, 811 MB\n");
-    const std::string table = plan_text(parts, with(2, 0, 1e-6), 1, true);
-    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4) << table;
+std::vector<PartReport> random_parts(unsigned seed) {
+    std::mt19937 random(seed);
+    std::vector<PartReport> parts(std::uniform_int_distribution<std::size_t>(1, 40)(random));
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        parts[i].id = static_cast<NodeId>(parts.size() + i);
+        parts[i].surface_facets = std::uniform_int_distribution<std::int64_t>(100, 3'000'000)(random);
+        parts[i].surface_volume = std::uniform_real_distribution<double>(0, 1)(random);
+    }
+    return parts;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+bool holds_words(const std::string& line, const std::string& words) {
+    return fmt::format(" {} ", line).find(fmt::format(" {}", words)) != std::string::npos;
+}
+
+// The plan is what the forecasts of the parts add up to: all tetrahedra, no less time than the largest part takes or
+// than the workers need together, and the memory of the largest part.
+TEST(PlanText, SaysWhatTheForecastsOfItsPartsAddUpTo) {
+    for (unsigned seed = 1; seed <= 40; ++seed) {
+        SCOPED_TRACE(seed);
+        const std::vector<PartReport> parts = random_parts(seed);
+        const RunOptions options = with(1 + static_cast<std::int32_t>(seed % 3), 0, seed % 2 ? 1e-5 : 0);
+        const int ranks = 1 + static_cast<int>(seed % 5);
+        Forecast all, largest;
+        std::vector<Forecast> each;
+        for (const PartReport& part : parts) {
+            const Forecast one = each.emplace_back(
+                forecast(static_cast<double>(part.surface_facets), part.surface_volume, options.mesher.max_volume));
+            all.tets += one.tets;
+            all.seconds += one.seconds;
+            if (one.tets > largest.tets) largest = one;
+        }
+        const double seconds = std::max(largest.seconds, all.seconds / (ranks * options.workers));
+        const std::vector<std::string> plan = lines_of(plan_text(parts, options, ranks, false));
+        ASSERT_EQ(plan.size(), 1U);
+        for (const std::string& words :
+             {fmt::format("{} parts", parts.size()), fmt::format("{} worker", ranks * options.workers),
+              short_number(all.tets), fmt::format("{:.0f} s", seconds), short_number(largest.tets),
+              fmt::format("{:.0f} MB", largest.memory_bytes / (1 << 20))})
+            EXPECT_TRUE(holds_words(plan[0], words)) << words << " in " << plan[0];
+
+        const std::vector<std::string> table = lines_of(plan_text(parts, options, ranks, true));
+        ASSERT_EQ(table.size(), 2 + parts.size());
+        EXPECT_EQ(table[0], plan[0]);
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            for (const std::string& words : {std::to_string(parts[i].id), fmt::format("{:.0f}", each[i].tets)})
+                EXPECT_TRUE(holds_words(table[2 + i], words)) << words << " in " << table[2 + i];
+    }
 }
 
 }  // namespace
