@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/check.h"
 #include "cut/angles.h"
 #include "cut/planar_grid.h"
 #include "surface/closest_point.h"
@@ -224,6 +225,8 @@ InterfaceQuality InterfaceJudge::measure(const CutOptions& options, std::vector<
 
 Verdict judge_interface(const Surface& surface, const Band& band, const Interface& interface,
                         const CutOptions& options) {
+    KERF_CHECK(band.fits(surface) && !interface.triangles.empty());
+    KERF_CHECK(interface.planar.size() == interface.points.size());
     Verdict verdict;
     InterfaceJudge judge(surface, band, interface);
     verdict.failed = judge.chords();
@@ -244,6 +247,7 @@ Verdict judge_interface(const Surface& surface, const Band& band, const Interfac
 }
 
 std::int32_t find_misplaced_shell(const Surface& half) {
+    KERF_CHECK(half.facet_count() > 0);
     const Shells components = find_shells(half);
     if (components.count == 1) return enclosed_volume(half) > 0 ? -1 : 0;
     const SurfaceArrays arrays = half.arrays();

@@ -15,10 +15,10 @@ struct Verdict {
     InterfaceQuality quality;          ///< set if the refusal is none or soft
 };
 
-/// Checks an interface against the surface that it cuts: no edge off the contour in common, no intersection of any
-/// interface triangle with the surface or another interface triangle (exact), then the smallest dihedral angle at the
-/// contour, interface angle and gap against the thresholds of `options` (else the refusal is soft).
-/// Cost follows the number of triangles near the interface.
+/// Checks an interface, which must have triangles, against the surface that it cuts: no edge off the contour in common,
+/// no intersection of any interface triangle with the surface or another interface triangle (exact), then the smallest
+/// dihedral angle at the contour, interface angle and gap against the thresholds of `options` (else the refusal is
+/// soft). Cost follows the number of triangles near the interface.
 Verdict judge_interface(const Surface& surface, const Band& band, const Interface& interface,
                         const CutOptions& options);
 

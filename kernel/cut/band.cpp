@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "core/check.h"
+
 namespace kerf {
 
 namespace {
@@ -50,6 +52,7 @@ double section_triangle(const Surface& surface, const Band& band, const std::arr
 }  // namespace
 
 Band make_band(const Surface& surface, const Plane& plane) {
+    KERF_CHECK(plane.is_orthonormal());
     Band band;
     band.plane = plane;
     band.distance = vertex_distances(surface, plane);

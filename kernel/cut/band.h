@@ -26,6 +26,11 @@ struct Band {
     std::vector<std::array<std::int32_t, 3>> half_edges;  ///< per band facet
     std::vector<SlabFacet> slab;  ///< facets that reach into |distance| <= half_width, ascending; all of the band do
 
+    /// Whether it has the sizes of a band of this surface: required wherever both are taken together.
+    bool fits(const Surface& surface) const {
+        return distance.size() == static_cast<std::size_t>(surface.vertex_count()) &&
+               index_of.size() == static_cast<std::size_t>(surface.facet_count());
+    }
     /// Mean of the distances of the facet's vertices.
     double facet_distance(const Surface& surface, std::int32_t facet) const {
         const Triangle t = surface.vertices(facet);
@@ -49,6 +54,11 @@ struct Band {
         return {facet, low, high};
     }
 };
+
+/// Whether there is a label for every facet of the surface: required wherever labels are taken.
+inline bool fit(const std::vector<Side>& side, const Surface& surface) {
+    return side.size() == static_cast<std::size_t>(surface.facet_count());
+}
 
 /// O(#V + #F).
 Band make_band(const Surface& surface, const Plane& plane);

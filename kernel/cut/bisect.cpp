@@ -11,6 +11,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/check.h"
 #include "cut/acceptance.h"
 #include "cut/contour.h"
 #include "cut/interface.h"
@@ -338,6 +339,7 @@ bool Ladder::try_plane(const PlaneCandidate& candidate, std::vector<CutTry>& tri
 
 std::unique_ptr<Attempt> Ladder::climb(std::vector<CutTry>& tries) {
     std::vector<Vec3> directions = cut_directions(surface_, mass_, options_);
+    KERF_CHECK(place_.axis >= 0 && static_cast<std::size_t>(place_.axis) < directions.size());
     std::rotate(directions.begin(), directions.begin() + place_.axis, directions.begin() + place_.axis + 1);
     std::vector<PlaneSequence> sequences;
     for (std::size_t axis = 0; axis < directions.size(); ++axis)
@@ -359,6 +361,8 @@ std::unique_ptr<Attempt> Ladder::climb(std::vector<CutTry>& tries) {
 
 Bisection bisect(const Surface& surface, const MassProperties& mass, NodeId node, const CutPlace& place,
                  const CutOptions& options, bool record) {
+    KERF_CHECK(surface.facet_count() > 0 && node >= 1);
+    KERF_CHECK(place.fraction > 0 && place.fraction < 1);
     const auto start = std::chrono::steady_clock::now();
     Bisection result;
     Cut& cut = result.cut;

@@ -14,7 +14,8 @@ struct Bisection {
     std::array<Surface, 2> halves;  ///< below, above; empty if !cut.made()
 };
 
-/// Cuts the surface at `place`: the fraction of the load below the first plane, and the axis that is tried first.
+/// Cuts the surface, which must not be empty, at `place`: the fraction in (0, 1) of the load below the first plane, and
+/// the number of the direction (cut_directions()) that is tried first. `mass`: of the surface.
 ///
 /// The ladder: minimum cut; local repair (the weights at the failed places are raised and the same plane is solved
 /// again); steps of the plane within the load window; the other axes; the best soft cut; none. Every accepted cut is

@@ -7,6 +7,9 @@
 
 #include <Eigen/Geometry>
 
+#include "core/check.h"
+#include "core/elements.h"
+
 namespace kerf {
 
 namespace {
@@ -221,6 +224,7 @@ bool LabelCleaner::close_pockets() {
 }  // namespace
 
 void clean_labels(const Surface& surface, const Band& band, std::vector<Side>& side, ContourStages* stages) {
+    KERF_CHECK(band.fits(surface) && fit(side, surface));
     LabelCleaner cleaner(surface, band, side);
     for (int pass = 0; pass < max_passes; ++pass) {
         bool changed = cleaner.turn_ears();
@@ -234,6 +238,7 @@ void clean_labels(const Surface& surface, const Band& band, std::vector<Side>& s
 }
 
 std::vector<SurfaceEdge> contour_edges(const Surface& surface, const Band& band, const std::vector<Side>& side) {
+    KERF_CHECK(band.fits(surface) && fit(side, surface));
     std::vector<SurfaceEdge> edges;
     for (std::size_t i = 0; i < band.facets.size(); ++i)
         for (std::int32_t h : band.half_edges[i]) {
@@ -248,6 +253,7 @@ std::vector<SurfaceEdge> contour_edges(const Surface& surface, const Band& band,
 }
 
 ContourLoops trace_loops(const Surface& surface, const std::vector<SurfaceEdge>& edges) {
+    KERF_CHECK(are_in_range(edges, static_cast<std::size_t>(surface.vertex_count())));
     ContourLoops result;
     std::vector<std::int32_t> next(surface.vertex_count(), -1);
     for (const SurfaceEdge& edge : edges) {

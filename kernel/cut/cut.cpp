@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include "core/check.h"
+
 namespace kerf {
 
 Plane::Plane(const Vec3& point, const Vec3& unit_normal) : origin(point), normal(unit_normal) {
@@ -9,6 +11,13 @@ Plane::Plane(const Vec3& point, const Vec3& unit_normal) : origin(point), normal
     normal.cwiseAbs().minCoeff(&smallest);
     u = Vec3::Unit(smallest).cross(normal).normalized();
     v = normal.cross(u);
+    KERF_CHECK(is_orthonormal());
+}
+
+bool Plane::is_orthonormal() const {
+    Eigen::Matrix3d axes;
+    axes << u, v, normal;
+    return (axes.transpose() * axes).isIdentity(1e-6) && axes.determinant() > 0;
 }
 
 Plane Plane::shifted(double distance) const {

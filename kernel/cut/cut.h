@@ -19,6 +19,8 @@ struct Plane {
 
     Plane() = default;
     Plane(const Vec3& point, const Vec3& unit_normal);
+    /// Up to 1e-6.
+    bool is_orthonormal() const;
     /// Signed distance: negative below, positive above.
     double distance(const Vec3& p) const { return normal.dot(p - origin); }
     Vec2 project(const Vec3& p) const { return {u.dot(p - origin), v.dot(p - origin)}; }

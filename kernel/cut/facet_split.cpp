@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "core/check.h"
+
 namespace kerf {
 
 namespace {
@@ -51,6 +53,7 @@ std::vector<std::int32_t> divide_edges(const Surface& surface, int axis, double 
 TrianglePieces split_triangle(const Triangle& t, const std::array<std::int32_t, 3>& on_edge,
                               const std::vector<Vec3>& vertices) {
     const auto divided = std::count_if(on_edge.begin(), on_edge.end(), [](std::int32_t v) { return v >= 0; });
+    KERF_CHECK(divided <= 2);
     if (divided == 0) return {{t}, 1};
     int i = 0;  // the divided edge, or the first of two that follow each other
     while (on_edge[i] < 0 || (divided == 2 && on_edge[(i + 1) % 3] < 0)) ++i;
@@ -65,6 +68,7 @@ TrianglePieces split_triangle(const Triangle& t, const std::array<std::int32_t, 
 }
 
 std::optional<PlaneSplit> split_at_plane(const Surface& surface, int axis, double height, NodeId node) {
+    KERF_CHECK(axis >= 0 && axis < 3 && node >= 1);
     for (std::int32_t v = 0; v < surface.vertex_count(); ++v)
         if (surface.point(v)[axis] == height) return std::nullopt;
     PlaneSplit split;

@@ -1,15 +1,14 @@
 // Obstacles are the vertices of the surface near the plane that do not touch the contour: tips and pockets that poke
 // through the section without changing a label.
-//
-// Where a contour steps up or down a steep wall along a slanted edge, its projection runs back on itself: a spike,
-// which the triangulation would cut off by a chord, flat upon the wall. Unfolded, the spikes are smoothed away before
-// the section is triangulated, and the points inside are moved back with the contour: harmonically, as they are lifted.
+// The points inside of an unfolded contour are moved back with it: harmonically, as they are lifted.
 #include "cut/interface.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
 
+#include "core/check.h"
 #include "cut/contour_layout.h"
 #include "cut/dihedral_ranges.h"
 #include "cut/lift.h"
@@ -68,12 +67,22 @@ std::vector<Obstacle> find_obstacles(const Surface& surface, const Band& band, c
     return obstacles;
 }
 
+bool is_closed_path(const Surface& surface, const std::vector<std::int32_t>& loop) {
+    for (std::size_t i = 0; i < loop.size(); ++i)
+        if (surface.find_half_edge(loop[i], loop[(i + 1) % loop.size()]) < 0) return false;
+    return loop.size() >= 3;
+}
+
 }  // namespace
 
 InterfaceAttempt build_interface(const Surface& surface, const Band& band, const std::vector<Side>& side,
                                  const std::vector<std::vector<std::int32_t>>& loops,
                                  const std::vector<std::int32_t>& hits, const CutOptions& options,
                                  ContourLayout layout) {
+    KERF_CHECK(band.fits(surface) && fit(side, surface));
+    KERF_CHECK(hits.size() == static_cast<std::size_t>(surface.vertex_count()));
+    KERF_CHECK(
+        std::all_of(loops.begin(), loops.end(), [&](const auto& loop) { return is_closed_path(surface, loop); }));
     InterfaceAttempt attempt;
     std::vector<std::int32_t>& contour = attempt.interface.contour;
     std::vector<double> contour_height;

@@ -16,9 +16,9 @@ struct InterfaceAttempt {
     Interface interface;
 };
 
-/// Spans the contour's loops with triangles as small as a volume bound of `options` asks for. `hits` (#V) counts how
-/// often an interface has run into a surface vertex before: its clearance grows with it. Unfolded, a contour that does
-/// not run back on itself is refused at no vertex: it has no other layout.
+/// Spans the contour's loops, each a closed path of edges of the surface, with triangles as small as a volume bound of
+/// `options` asks for. `hits` (#V) counts how often an interface has run into a surface vertex before: its clearance
+/// grows with it. An unfolded layout that would be the projection is refused as that was, at no vertex.
 InterfaceAttempt build_interface(const Surface& surface, const Band& band, const std::vector<Side>& side,
                                  const std::vector<std::vector<std::int32_t>>& loops,
                                  const std::vector<std::int32_t>& hits, const CutOptions& options,

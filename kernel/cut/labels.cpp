@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/check.h"
 #include "cut/max_flow.h"
 
 namespace kerf {
@@ -32,6 +33,7 @@ FacetTerms facet_terms(const Surface& surface, const Band& band, std::int32_t fa
 }  // namespace
 
 std::vector<Side> majority_labels(const Surface& surface, const Band& band) {
+    KERF_CHECK(band.fits(surface));
     std::vector<Side> side(surface.facet_count());
     for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
         int above = 0;
@@ -43,8 +45,12 @@ std::vector<Side> majority_labels(const Surface& surface, const Band& band) {
 
 bool minimum_cut_labels(const Surface& surface, const Band& band, const std::vector<double>& penalty,
                         std::vector<Side>& side, std::int64_t& step_budget) {
+    KERF_CHECK(band.fits(surface) && fit(side, surface));
+    KERF_CHECK(penalty.size() == band.facets.size());
+    KERF_CHECK(std::all_of(penalty.begin(), penalty.end(), [](double p) { return p >= 1; }));
     const auto count = static_cast<std::int32_t>(band.facets.size());
     const double h = band.edge_length;
+    if (h == 0) return true;  // the plane crosses no edge: there is no contour to be made shorter
     std::vector<FacetTerms> terms(count);
     for (std::int32_t i = 0; i < count; ++i) terms[i] = facet_terms(surface, band, band.facets[i]);
 

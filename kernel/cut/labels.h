@@ -13,9 +13,9 @@ std::vector<Side> majority_labels(const Surface& surface, const Band& band);
 /// Relabels the facets of the band by a minimum cut: a short contour near the plane that avoids facets parallel to it.
 ///
 /// An edge costs its length, times 1 + (distance / h)^2, times 1 + 3 |n_z|^4, times the larger `penalty` of its facets
-/// (#band facets, >= 1); a facet on the wrong side costs area times distance / h^2. Facets outside of the band keep
-/// their label. The steps of the flow are taken from `step_budget`; returns false, with `side` unchanged, if it took
-/// too many.
+/// (per band facet, >= 1); a facet on the wrong side costs area times distance / h^2. Facets outside of the band keep
+/// their label, and all do where the plane crosses no edge. The steps of the flow are taken from `step_budget`; returns
+/// false, with `side` unchanged, if it took too many.
 bool minimum_cut_labels(const Surface& surface, const Band& band, const std::vector<double>& penalty,
                         std::vector<Side>& side, std::int64_t& step_budget);
 

@@ -7,6 +7,8 @@
 
 #include <Eigen/SparseCholesky>
 
+#include "core/check.h"
+#include "core/elements.h"
 #include "cut/planar_grid.h"
 
 namespace kerf {
@@ -137,6 +139,9 @@ std::vector<double> lift_heights(const PlanarTriangulation& triangulation, const
                                  const std::vector<double>& contour_height, const std::vector<Obstacle>& obstacles,
                                  std::vector<HeightRange> ranges) {
     const std::size_t contour_count = contour_height.size();
+    KERF_CHECK(contour_count <= triangulation.points.size());
+    KERF_CHECK(ranges.empty() || ranges.size() == triangulation.points.size());
+    KERF_CHECK(are_in_range(triangulation.triangles, triangulation.points.size()));
     std::vector<double> height = contour_height;
     height.resize(triangulation.points.size(), 0);
     const WeightedGraph graph = cotangent_graph(triangulation);

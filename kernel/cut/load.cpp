@@ -11,6 +11,8 @@
 
 #include <Eigen/Geometry>
 
+#include "core/check.h"
+
 namespace kerf {
 
 namespace {
@@ -35,6 +37,7 @@ double LoadModel::load(double vertices, double facets, double volume) const {
 }
 
 LoadProfile::LoadProfile(const Surface& surface, const Plane& plane, const LoadModel& model) : model_(model) {
+    KERF_CHECK(surface.facet_count() > 0 && plane.is_orthonormal());
     std::vector<double> height(surface.vertex_count());
     for (std::int32_t v = 0; v < surface.vertex_count(); ++v) height[v] = plane.distance(surface.point(v));
     const auto [low, high] = std::minmax_element(height.begin(), height.end());
@@ -121,6 +124,7 @@ std::vector<double> LoadProfile::fractions_below(const std::vector<double>& heig
 
 // Items that fall out of the bracket are settled, so the work halves with every step.
 double LoadProfile::bisect(double fraction) const {
+    KERF_CHECK(fraction >= 0 && fraction <= 1);
     std::vector<Item> open = items_;
     Below below;
     double low = lowest_, high = highest_;

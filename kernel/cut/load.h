@@ -29,14 +29,15 @@ struct LoadModel {
 /// Load below the planes of one direction. Facets count by their centroid, volume is exact.
 class LoadProfile {
  public:
-    /// Heights are measured along `plane.normal` from `plane.origin`, second moments about `plane`.
+    /// Heights are measured along `plane.normal` from `plane.origin`, second moments about `plane`. The surface must
+    /// not be empty.
     LoadProfile(const Surface& surface, const Plane& plane, const LoadModel& model);
 
     /// Fraction of the whole load below the given height. O(#V + #F).
     double fraction_below(double height) const;
     /// The same for many heights. O(#V + #F + n m) with m facets between the lowest and the highest of n heights.
     std::vector<double> fractions_below(const std::vector<double>& heights) const;
-    /// Height below which the given fraction of the load lies. Expected O(#V + #F).
+    /// Height below which the given fraction, in [0, 1], of the load lies. Expected O(#V + #F).
     double bisect(double fraction) const;
     double lowest() const { return lowest_; }
     double highest() const { return highest_; }

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/check.h"
+
 namespace kerf {
 
 namespace {
@@ -26,10 +28,12 @@ MaxFlow::MaxFlow(std::int32_t node_count)
       is_active_(node_count, 0) {}
 
 void MaxFlow::add_terminal(std::int32_t node, double from_source, double to_sink) {
+    KERF_CHECK(from_source >= 0 && to_sink >= 0);
     terminal_[node] += from_source - to_sink;  // what passes straight through does not move the cut
 }
 
 void MaxFlow::add_edge(std::int32_t a, std::int32_t b, double capacity) {
+    KERF_CHECK(a != b && capacity >= 0);
     const auto arc = static_cast<std::int32_t>(arcs_.size());
     arcs_.push_back({b, first_arc_[a], capacity});
     arcs_.push_back({a, first_arc_[b], capacity});

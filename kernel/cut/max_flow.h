@@ -14,7 +14,7 @@ class MaxFlow {
 
     /// Adds capacity from the source to the node and from the node to the sink; both >= 0.
     void add_terminal(std::int32_t node, double from_source, double to_sink);
-    /// Adds an edge with the same capacity >= 0 in both directions.
+    /// Adds an edge between two different nodes with the same capacity >= 0 in both directions.
     void add_edge(std::int32_t a, std::int32_t b, double capacity);
 
     /// False if more than `step_limit` arcs had to be looked at; the labels are then meaningless.

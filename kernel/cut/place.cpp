@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/check.h"
 #include "cut/plane.h"
 
 namespace kerf {
@@ -62,6 +63,7 @@ SectionProfile section_profile(const Surface& surface, const Vec3& direction, co
 
 CutPlace choose_place(const Surface& surface, const MassProperties& mass, std::int32_t leaves,
                       const CutOptions& options) {
+    KERF_CHECK(leaves >= 2);
     CutPlace place{static_cast<double>(leaves / 2) / leaves};
     const bool free = options.criterion == Criterion::inertia && options.load.balance != Balance::inertia;
     if (!free || options.axis >= 0 || leaves < least_leaves) return place;

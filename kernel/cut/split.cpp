@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/check.h"
+#include "core/elements.h"
+#include "cut/band.h"
+
 namespace kerf {
 
 namespace {
@@ -88,6 +92,9 @@ Half build_half(const Surface& surface, const std::vector<Side>& sides, Side sid
 
 std::array<Half, 2> split(const Surface& surface, const std::vector<Side>& side, const Interface& interface,
                           NodeId node) {
+    KERF_CHECK(fit(side, surface) && node >= 1);
+    KERF_CHECK(interface.contour.size() <= interface.points.size());
+    KERF_CHECK(are_in_range(interface.triangles, interface.points.size()));
     return {build_half(surface, side, Side::below, interface, node),
             build_half(surface, side, Side::above, interface, node)};
 }

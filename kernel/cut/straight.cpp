@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/check.h"
 #include "cut/contour.h"
 #include "cut/triangulation.h"
 #include "surface/intersections.h"
@@ -99,7 +100,8 @@ void rate_planes(const Surface& surface, int axis, double largest_extent, double
     for (std::size_t i = 1; i < x.size(); ++i) {
         if (x[i] < window.low || x[i - 1] > window.high) continue;
         const double margin = std::min(x[i] - x[i - 1], wide_gap * extent) / 2;
-        const double height = std::clamp(window.wanted, x[i - 1] + margin, x[i] - margin);
+        // Rounding may exchange the two bounds, which std::clamp() does not allow.
+        const double height = std::min(std::max(window.wanted, x[i - 1] + margin), x[i] - margin);
         if (!(x[i - 1] < height && height < x[i])) continue;  // neighbouring numbers
         const double score = 2 * margin / (wide_gap * extent) -
                              load_weight * std::abs(height - window.wanted) / half_window -
@@ -171,6 +173,8 @@ FileHash hash_of(const PlaneSplit& split) {
 }  // namespace
 
 std::vector<StraightPlane> straight_planes(const Surface& surface, double fraction, const CutOptions& options) {
+    KERF_CHECK(surface.facet_count() > 0);
+    KERF_CHECK(fraction > 0 && fraction < 1);
     Eigen::AlignedBox3d box;
     for (std::int32_t v = 0; v < surface.vertex_count(); ++v) box.extend(surface.point(v));
     std::vector<RatedPlane> rated;

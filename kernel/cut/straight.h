@@ -16,10 +16,10 @@ struct StraightPlane {
     double height = 0;
 };
 
-/// Planes for a straight cut, best first, at most twelve. Each runs through a gap between the vertices' coordinates
-/// inside of the load window: wide gaps are preferred, for short new edges are what harms, then planes near the wanted
-/// load, planes that cross few facets and the long directions of the body. Coordinate axes only, so that every decision
-/// about the plane is exact. O(#F log #F).
+/// Planes for a straight cut that leaves about `fraction`, in (0, 1), of the load below, best first, at most twelve.
+/// Each runs through a gap between the vertices' coordinates inside of the load window: wide gaps are preferred, for
+/// short new edges are what harms, then planes near the wanted load, planes that cross few facets and the long
+/// directions of the body. Coordinate axes only, so that every decision about the plane is exact. O(#F log #F).
 std::vector<StraightPlane> straight_planes(const Surface& surface, double fraction, const CutOptions& options);
 
 /// A straight cut that was made.

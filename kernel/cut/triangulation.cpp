@@ -13,6 +13,8 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <fmt/format.h>
 
+#include "core/check.h"
+#include "core/elements.h"
 #include "core/error.h"
 
 namespace kerf {
@@ -293,9 +295,22 @@ void smooth(PlanarTriangulation& t, std::size_t contour_count) {
         }
 }
 
+// As many edges leave a contour point as arrive there.
+bool has_closed_loops(const PlanarRegion& region) {
+    if (!are_in_range(region.edges, region.contour.size())) return false;
+    std::vector<int> surplus(region.contour.size(), 0);
+    for (const auto& [from, to] : region.edges) {
+        ++surplus[from];
+        --surplus[to];
+    }
+    return std::all_of(surplus.begin(), surplus.end(), [](int s) { return s == 0; });
+}
+
 }  // namespace
 
 PlanarTriangulation triangulate(const PlanarRegion& region) {
+    KERF_CHECK(has_closed_loops(region));
+    KERF_CHECK(region.max_edge >= 0 && region.least_edge >= 0);
     PlanarTriangulation result;
     result.failed = find_crossings(region);
     if (!result.failed.empty()) {

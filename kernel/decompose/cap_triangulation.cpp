@@ -8,6 +8,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/check.h"
 #include "cut/triangulation.h"
 
 namespace kerf {
@@ -251,6 +252,7 @@ bool CapTriangulator::triangulate_regions() {
 }  // namespace
 
 void triangulate_caps(FaceComplex& complex, double max_edge) {
+    KERF_CHECK(max_edge >= 0);
     CapTriangulator triangulator(complex, max_edge);
     triangulator.find_borders();
     triangulator.measure_sizes();

@@ -5,6 +5,7 @@
 #include <future>
 #include <mutex>
 
+#include "core/check.h"
 #include "core/error.h"
 
 namespace kerf {
@@ -119,6 +120,8 @@ void Decomposer::descend_halves(Halves halves, const std::array<Branch, 2>& bran
 }  // namespace
 
 Decomposition decompose(Surface surface, const DecomposeOptions& options, LeafRange range, CutListener* listener) {
+    KERF_CHECK(surface.facet_count() > 0);
+    KERF_CHECK(options.parts >= 1 && options.threads >= 1);
     return Decomposer(options, range, listener).descend(std::move(surface), {1, 0, options.parts}, options.threads);
 }
 

@@ -71,12 +71,12 @@ struct Decomposition {
     std::vector<DividedFacet> divided_facets;  ///< ascending by facet
 };
 
-/// Cuts the surface into options.parts subdomains and returns those of `range`; only branches that lead to them are
-/// descended. A node that wants k leaves is cut at floor(k/2)/k of the load; the halves then get leaves in proportion
-/// to the load that they have. A part that cannot be cut stays whole, so that there may be fewer leaves than wanted; it
-/// belongs to whoever owns its first leaf. The result depends on surface and options only, not on the range, listener
-/// or threads. Cost n + n/2 + n/4 + ... for a single leaf, n log K for all; the first cut runs on one thread, the
-/// halves of a cut share the threads.
+/// Cuts the surface, which must not be empty, into options.parts subdomains and returns those of `range`; only branches
+/// that lead to them are descended. A node that wants k leaves is cut at floor(k/2)/k of the load; the halves then get
+/// leaves in proportion to the load that they have. A part that cannot be cut stays whole, so that there may be fewer
+/// leaves than wanted; it belongs to whoever owns its first leaf. The result depends on surface and options only, not
+/// on the range, listener or threads. Cost n + n/2 + n/4 + ... for a single leaf, n log K for all; the first cut runs
+/// on one thread, the halves of a cut share the threads.
 Decomposition decompose(Surface surface, const DecomposeOptions& options, LeafRange range,
                         CutListener* listener = nullptr);
 

@@ -83,6 +83,7 @@ FaceComplex::Part FaceComplex::part(NodeId id) const {
         part.arrays.patch.push_back(face.patch);
         part.face.push_back(static_cast<std::int32_t>(f));
     }
+    KERF_CHECK(!part.face.empty());
     return part;
 }
 
@@ -102,6 +103,7 @@ void FaceComplex::note_division(const ComplexFace& face) {
 
 void FaceComplex::divide(NodeId id, const Part& whole, const StraightCut& cut) {
     const PlaneSplit& split = cut.split;
+    KERF_CHECK(cut.cut.node == id && split.parent.back() + 1 == static_cast<std::int32_t>(whole.face.size()));
     const std::array<NodeId, 2> children = children_of(id);
     std::vector<std::int32_t> vertex = whole.vertex;
     for (std::size_t i = vertex.size(); i < split.arrays.vertices.size(); ++i)
@@ -168,7 +170,9 @@ void FaceComplex::split_others(NodeId id, std::vector<SplitEdge> edges) {
 }
 
 const Plane& FaceComplex::plane(NodeId cut) const {
-    return std::find_if(planes_.begin(), planes_.end(), [&](const auto& p) { return p.first == cut; })->second;
+    const auto found = std::find_if(planes_.begin(), planes_.end(), [&](const auto& p) { return p.first == cut; });
+    KERF_CHECK(found != planes_.end());
+    return found->second;
 }
 
 void FaceComplex::replace_caps(const std::vector<ComplexFace>& caps) {

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/check.h"
 #include "cut/straight.h"
 #include "decompose/decomposition.h"
 
@@ -33,17 +34,20 @@ class FaceComplex {
         std::vector<std::int32_t> vertex;
         std::vector<std::int32_t> face;
     };
-    Part part(NodeId id) const;
+    Part part(NodeId id) const;  ///< which must be one of the parts
 
     /// Replaces part `id` by 2 id and 2 id + 1. `whole` is what part(id) returned, `cut` a straight cut of its surface.
     /// Pieces of a split facet have the owners of the facet; faces of other parts that hold a crossed edge are split
     /// too. O(#faces).
     void divide(NodeId id, const Part& whole, const StraightCut& cut);
 
-    const Vec3& point(std::int32_t vertex) const { return points_[vertex]; }
+    const Vec3& point(std::int32_t vertex) const {
+        KERF_CHECK(vertex >= 0 && vertex < vertex_count());
+        return points_[vertex];
+    }
     std::int32_t vertex_count() const { return static_cast<std::int32_t>(points_.size()); }
     const std::vector<ComplexFace>& faces() const { return faces_; }
-    /// The plane of a straight cut.
+    /// The plane of a straight cut that was made.
     const Plane& plane(NodeId cut) const;
     const std::vector<DividedFacet>& divided_facets() const { return divided_facets_; }
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <map>
 
+#include "core/check.h"
 #include "core/error.h"
 #include "decompose/cap_quality.h"
 #include "decompose/cap_triangulation.h"
@@ -126,6 +127,7 @@ Decomposition StraightDivision::take(LeafRange range) {
 
 Decomposition divide_straight(Decomposition whole, const DecomposeOptions& options, LeafRange range,
                               CutListener* listener) {
+    KERF_CHECK(!whole.nodes.empty() && !whole.leaves.empty());
     std::vector<NodeId> leaves;
     for (const Leaf& leaf : whole.leaves) leaves.push_back(leaf.id);
     StraightDivision division(std::move(whole), options, listener);

@@ -8,6 +8,8 @@
 
 #include "core/error.h"
 
+#include "core/check.h"
+
 namespace kerf {
 
 std::array<NodeId, 2> children_of(NodeId node) {
@@ -20,6 +22,7 @@ std::array<NodeId, 2> children_of(NodeId node) {
 
 TreeNode describe_node(NodeId id, std::int32_t first_leaf, std::int32_t leaves, const Surface& surface,
                        const MassProperties& mass) {
+    KERF_CHECK(id >= 1 && first_leaf >= 0 && leaves >= 1);
     TreeNode node;
     node.id = id;
     node.first_leaf = first_leaf;
@@ -52,6 +55,8 @@ void describe_cut(const Cut& cut, TreeNode& node) {
 }
 
 std::int32_t leaves_below(const std::array<double, 2>& load, std::int32_t leaves, const CutOptions& options) {
+    KERF_CHECK(leaves >= 2);
+    KERF_CHECK(load[0] >= 0 && load[1] >= 0 && load[0] + load[1] > 0);
     if (options.criterion == Criterion::equidistant) return leaves / 2;
     const auto share = static_cast<std::int32_t>(std::lround(leaves * load[0] / (load[0] + load[1])));
     return std::clamp(share, 1, leaves - 1);

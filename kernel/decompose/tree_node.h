@@ -61,8 +61,8 @@ void add_to_cut_hash(TreeNode& node, std::span<const T> items) {
     node.cut_hash = hasher.digest();
 }
 
-/// How many of `leaves` the half below gets: in proportion to the loads of the halves, at least one each. Equidistant
-/// cuts know no load and give it one half.
+/// How many of `leaves` >= 2 the half below gets: in proportion to the loads of the halves, at least one each.
+/// Equidistant cuts know no load and give it one half.
 std::int32_t leaves_below(const std::array<double, 2>& load, std::int32_t leaves, const CutOptions& options);
 
 /// The share of the load that a node with this many leaves leaves below its cut.

@@ -10,6 +10,8 @@
 
 #include <Eigen/Geometry>
 
+#include "core/check.h"
+
 namespace kerf {
 
 namespace {
@@ -79,6 +81,7 @@ bool fan_is_polygon(const ScaledPolygon& polygon, const Vec3& normal, std::size_
 }  // namespace
 
 PolygonFan find_fan(const std::vector<Vec3>& vertices, std::span<const std::int64_t> corners) {
+    KERF_CHECK(corners.size() >= 4);
     const ScaledPolygon polygon(vertices, corners);
     if (!polygon.is_finite()) return {};
     const Vec3 normal = polygon.has_size() ? newell_normal(polygon) : Vec3(Vec3::Zero());

@@ -2,9 +2,12 @@
 #include "io/stl_writer.h"
 
 #include <array>
+#include <limits>
 
 #include <Eigen/Geometry>
 
+#include "core/check.h"
+#include "core/elements.h"
 #include "io/checked_file.h"
 #include "io/stl_format.h"
 
@@ -26,6 +29,8 @@ void append_point(std::string& bytes, const Vec3& p) {
 }  // namespace
 
 void write_stl(const std::string& path, const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
+    KERF_CHECK(facets.size() <= std::numeric_limits<std::uint32_t>::max());
+    KERF_CHECK(are_in_range(facets, vertices.size()));
     std::string bytes(header_text);
     bytes.reserve(stl_header_size + stl_facet_size * facets.size());
     bytes.resize(stl_header_size - sizeof(std::uint32_t), ' ');

@@ -39,7 +39,8 @@ struct PartCellCounts {
 PartCellCounts read_cell_counts(const std::string& path);
 
 /// The values `first` to `first + count - 1` of a Float32 array over the cells of a part file, of which nothing else
-/// but the header is read. Throws Error(io), also if the file has no such array or not so many values.
+/// but the header is read; both numbers >= 0. Throws Error(io), also if the file has no such array or not so many
+/// values.
 std::vector<float> read_cell_values(const std::string& path, const std::string& array, std::int64_t first,
                                     std::int64_t count);
 

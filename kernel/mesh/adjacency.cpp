@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/check.h"
+#include "core/elements.h"
+
 namespace kerf {
 
 namespace {
@@ -29,6 +32,7 @@ void join(TetMesh& mesh, const Face& a, const Face& b) {
 }  // namespace
 
 void connect_tets(TetMesh& mesh) {
+    KERF_CHECK(are_in_range(mesh.tets, mesh.vertices.size()));
     mesh.neighbours.assign(mesh.tets.size(), {-1, -1, -1, -1});
     std::vector<std::int64_t> first(mesh.vertices.size() + 1, 0);
     for (const Tetrahedron& tet : mesh.tets)

@@ -16,6 +16,8 @@
 
 #include <Eigen/Geometry>
 
+#include "core/check.h"
+#include "core/elements.h"
 #include "core/error.h"
 
 namespace kerf {
@@ -76,6 +78,7 @@ TetQuality tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& 
 }
 
 std::vector<TetQuality> tet_qualities(const TetMesh& mesh) {
+    KERF_CHECK(are_in_range(mesh.tets, mesh.vertices.size()));
     std::vector<TetQuality> qualities;
     qualities.reserve(mesh.tets.size());
     const std::vector<Vec3>& p = mesh.vertices;
@@ -85,6 +88,7 @@ std::vector<TetQuality> tet_qualities(const TetMesh& mesh) {
 
 Distribution::Distribution(Scale scale, double low, double high)
     : scale_(scale), low_(low), high_(high), bins_per_unit_(1), bins_(bin_count, 0) {
+    KERF_CHECK(low < high && (scale == Scale::linear || low > 0));
     bins_per_unit_ = bin_count / position(high);
 }
 
@@ -100,6 +104,7 @@ double Distribution::value_at(double position) const {
 }
 
 void Distribution::add(double value) {
+    KERF_CHECK(!bins_.empty() && !std::isnan(value));
     min_ = std::min(min_, value);
     max_ = std::max(max_, value);
     ++count_;
@@ -121,6 +126,7 @@ void Distribution::add(const Distribution& other) {
 }
 
 double Distribution::percentile(double fraction) const {
+    KERF_CHECK(fraction >= 0 && fraction <= 1);
     if (fraction <= 0) return min();
     if (!count_ || fraction >= 1) return max();
     const double rank = fraction * static_cast<double>(count_);
@@ -150,6 +156,7 @@ Distribution::Histogram Distribution::histogram(int bins) const {
 }
 
 QualityDistributions::QualityDistributions(double length_scale) {
+    KERF_CHECK(length_scale > 0);
     using enum Distribution::Scale;
     const double volume_scale = length_scale * length_scale * length_scale;
     measures = {Distribution(linear, 0, 180),

@@ -26,7 +26,7 @@ struct TetQuality {
 /// tetrahedron has angles 0 and 180, infinite radius_edge and aspect, shape 0. About 100 ns.
 TetQuality tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
-/// The measures of every tetrahedron.
+/// The measures of every tetrahedron, whose corners must be in range.
 std::vector<TetQuality> tet_qualities(const TetMesh& mesh);
 
 /// Distribution of one measure over many cells. Counts lie in fixed fine bins, so that the sum over parts is exact and
@@ -35,11 +35,11 @@ class Distribution {
  public:
     enum class Scale { linear, logarithmic };
     Distribution() = default;
-    /// 1440 bins cover [low, high]; values beyond are counted in the first or last bin. 0 < low for a logarithmic
-    /// scale.
+    /// 1440 bins cover [low, high], low < high; values beyond are counted in the first or last bin. 0 < low for a
+    /// logarithmic scale.
     Distribution(Scale scale, double low, double high);
 
-    void add(double value);
+    void add(double value);               ///< must not be NaN
     void add(const Distribution& other);  ///< requires the same scale and range, else throws Error(internal)
 
     std::int64_t count() const { return count_; }
@@ -82,7 +82,8 @@ struct QualityDistributions {
     std::vector<Distribution> measures;
 
     QualityDistributions() = default;
-    /// `length_scale`: bounding-box diagonal of the whole input, to which the bins of volume and edges are relative.
+    /// `length_scale` > 0: bounding-box diagonal of the whole input, to which the bins of volume and edges are
+    /// relative.
     explicit QualityDistributions(double length_scale);
     void add(const TetQuality& quality);
     void add(const QualityDistributions& other);

@@ -11,6 +11,8 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include "core/check.h"
+#include "core/elements.h"
 #include "surface/mass_properties.h"
 
 namespace kerf {
@@ -77,6 +79,8 @@ struct BoundaryMatch {
 };
 
 BoundaryMatch match_boundary(const TetMesh& mesh, const SurfaceArrays& surface) {
+    KERF_CHECK(are_in_range(mesh.tets, mesh.vertices.size()) && mesh.neighbours.size() == mesh.tets.size());
+    KERF_CHECK(are_in_range(surface.facets, surface.vertices.size()));
     const std::size_t vertex_count = std::max(mesh.vertices.size(), surface.vertices.size());
     const std::vector<OwnedFace> faces = sorted_boundary_faces(mesh, vertex_count);
     BoundaryMatch match;

@@ -26,8 +26,8 @@ struct MeshLaws {
     }
 };
 
-/// Compares facet by facet and face by face. Requires vertex indices in range; neighbours may be anything. Exact but
-/// for the volumes. O(#T + #F).
+/// Compares facet by facet and face by face. Requires vertex indices in range, in the mesh and in the surface, and
+/// neighbours (#T), which may be anything. Exact but for the volumes. O(#T + #F).
 MeshLaws verify_mesh(const TetMesh& mesh, const SurfaceArrays& surface);
 
 /// For each facet of the surface the tetrahedron behind it, -1 if there is none. O(#T + #F).

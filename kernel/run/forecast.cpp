@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/check.h"
 #include "core/error.h"
 #include "core/regular_tet.h"
 #include "io/folder_files.h"
@@ -42,11 +43,13 @@ Forecast forecast_of(const PartReport& part, const RunOptions& options) {
 }  // namespace
 
 Forecast forecast(double facets, double volume, double max_volume) {
+    KERF_CHECK(facets >= 0 && volume >= 0 && max_volume >= 0);
     const double tets = tets_per_facet * facets + (max_volume > 0 ? tets_per_volume_bound * volume / max_volume : 0);
     return {tets, seconds_per_tet * tets, bytes_of_worker + bytes_per_tet * tets};
 }
 
 std::int32_t choose_parts(const RunOptions& options, double facets, double volume, int ranks, std::int32_t most) {
+    KERF_CHECK(ranks >= 1 && options.workers >= 1 && most >= 1);
     const double tets = forecast(facets, volume, options.mesher.max_volume).tets;
     double parts = std::min<double>(parts_per_worker * ranks * options.workers, tets / least_tets_per_part);
     if (options.memory_mb > 0) {
@@ -76,6 +79,7 @@ double bytes_waiting(const std::string& output) {
 }  // namespace
 
 void check_budget(const RunOptions& options, double facets, double volume) {
+    KERF_CHECK(options.decompose.parts >= 1);
     const double bound = options.mesher.max_volume, parts = options.decompose.parts;
     const double tets = forecast(facets, volume, bound).tets;
     // The bound that would make so many tetrahedra, as a size.
@@ -110,6 +114,7 @@ void check_budget(const RunOptions& options, double facets, double volume) {
 }
 
 std::string plan_text(const std::vector<PartReport>& parts, const RunOptions& options, int ranks, bool every_part) {
+    KERF_CHECK(ranks >= 1 && options.workers >= 1);
     Forecast all, largest;
     std::string table;
     if (every_part) table = fmt::format("{:>10} {:>10} {:>12} {:>10} {:>9}\n", "part", "facets", "tets", "MB", "s");

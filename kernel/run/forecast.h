@@ -21,8 +21,8 @@ struct Forecast {
 Forecast forecast(double facets, double volume, double max_volume);
 
 /// K where the user gives none: four parts for each worker of all ranks, fewer if they would be tiny, more where
-/// a worker with options.memory_mb would otherwise have too little for its part; never more than `most`. Throws
-/// Error(usage) if no number of parts would do.
+/// a worker with options.memory_mb would otherwise have too little for its part; never more than `most` >= 1. The
+/// options must be resolved. Throws Error(usage) if no number of parts would do.
 std::int32_t choose_parts(const RunOptions& options, double facets, double volume, int ranks, std::int32_t most);
 
 /// Refuses what cannot end well before anything is cut: Error(memory), with the number of tetrahedra and the way out,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/check.h"
 #include "surface/facet_cover.h"
 
 namespace kerf {
@@ -52,6 +53,8 @@ std::int64_t count_uncovered(const std::vector<DividedFacet>& facets, const std:
 
 std::int64_t count_missing_input_facets(Communicator& ranks, std::int64_t facets, const Decomposition& own) {
     std::vector<char> divided(static_cast<std::size_t>(facets), 0);
+    KERF_CHECK(std::is_sorted(own.divided_facets.begin(), own.divided_facets.end(),
+                              [](const DividedFacet& a, const DividedFacet& b) { return a.facet < b.facet; }));
     for (const DividedFacet& facet : own.divided_facets) divided[facet.facet] = 1;
     std::vector<std::uint8_t> owners(static_cast<std::size_t>(facets), 0);
     for (const Leaf& leaf : own.leaves)

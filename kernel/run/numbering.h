@@ -15,6 +15,7 @@ class VertexNumbering {
     /// `nodes`: all nodes of the tree, ascending by number.
     VertexNumbering(std::int64_t input_vertices, std::span<const TreeNode> nodes);
 
+    /// The key must be that of an input's vertex or of one that a cut has made.
     std::int64_t global_id(Key key) const { return offset_of(key_node(key)) + key_index(key); }
     std::vector<std::int64_t> global_ids(const std::vector<Key>& keys) const;
     /// Number of the first interior vertex of all leaves.

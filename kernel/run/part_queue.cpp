@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/bytes.h"
+#include "core/check.h"
 #include "core/error.h"
 
 namespace kerf {
@@ -55,6 +56,7 @@ PartQueue::PartQueue(std::vector<QueuedPart> parts, QueueOptions options, std::f
       take_(std::move(take)),
       calls_(mesher_calls(options_.mesher)),
       progress_(parts_.size()) {
+    KERF_CHECK(options_.workers >= 1 && options_.attempts >= 1);
     for (std::int32_t worker = options_.workers; worker-- > 0;) idle_.push_back(worker);
 }
 
@@ -65,6 +67,7 @@ std::optional<PartQueue::Finished> PartQueue::step(double wait_seconds) {
         idle_.pop_back();
         start(next_);
     }
+    KERF_CHECK(wait_seconds >= 0);
     if (pool_.running() == 0) {
         std::this_thread::sleep_for(std::chrono::duration<double>(wait_seconds));
         return {};

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/check.h"
 #include "core/words.h"
 
 namespace kerf {
@@ -102,6 +103,8 @@ std::string lines_of_levels(std::span<const TreeNode> nodes) {
 }  // namespace
 
 std::string tree_text(std::span<const TreeNode> nodes, bool every_node) {
+    const auto by_number = [](const TreeNode& a, const TreeNode& b) { return a.id < b.id; };
+    KERF_CHECK(!nodes.empty() && std::is_sorted(nodes.begin(), nodes.end(), by_number));
     const auto parts = std::count_if(nodes.begin(), nodes.end(), [](const TreeNode& node) { return !node.cut_made; });
     const bool few = static_cast<std::size_t>(parts) <= most_parts_of_node_lines;
     return every_node || few ? lines_of_nodes(nodes) : lines_of_levels(nodes);

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/check.h"
+
 namespace kerf {
 
 namespace {
@@ -13,6 +15,7 @@ constexpr std::int32_t boxes_of_leaf = 4;
 }  // namespace
 
 BoxTree::BoxTree(std::vector<Eigen::AlignedBox3d> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
+    KERF_CHECK(std::none_of(boxes_.begin(), boxes_.end(), [](const auto& box) { return box.isEmpty(); }));
     std::iota(order_.begin(), order_.end(), 0);
     nodes_.push_back({{}, 0, static_cast<std::int32_t>(boxes_.size())});
     for (std::size_t node = 0; node < nodes_.size(); ++node) split(node);

@@ -11,6 +11,8 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
+#include "core/check.h"
+#include "core/elements.h"
 #include "surface/intersections.h"
 #include "surface/open_loops.h"
 #include "surface/orientation.h"
@@ -355,6 +357,11 @@ std::string Diagnosis::summary(const Soup& soup) const {
                        errors > 1 ? "the first at " : "at ", place(*first, soup), remedy(*first));
 }
 
-Diagnosis diagnose(const Soup& soup, const DiagnosisOptions& options) { return Examination(soup, options).run(); }
+Diagnosis diagnose(const Soup& soup, const DiagnosisOptions& options) {
+    KERF_CHECK(are_in_range(soup.facets, soup.vertices.size()));
+    KERF_CHECK(soup.polygon.empty() || soup.polygon.size() == soup.facets.size());
+    KERF_CHECK(std::is_sorted(soup.polygon.begin(), soup.polygon.end()));
+    return Examination(soup, options).run();
+}
 
 }  // namespace kerf

@@ -20,6 +20,9 @@
 #include <CGAL/box_intersection_d.h>
 #include <Eigen/Geometry>
 
+#include "core/check.h"
+#include "core/elements.h"
+
 namespace kerf {
 
 namespace {
@@ -187,6 +190,8 @@ bool triangles_intersect(const std::array<Vec3, 3>& p, const Triangle& p_id, con
 std::vector<std::pair<std::int32_t, std::int32_t>> find_self_intersections(const std::vector<Vec3>& vertices,
                                                                            const std::vector<Triangle>& facets,
                                                                            std::size_t limit) {
+    KERF_CHECK(limit > 0);
+    KERF_CHECK(are_in_range(facets, vertices.size()) && have_distinct_corners(facets));
     using Pair = std::pair<std::int32_t, std::int32_t>;
     using Box = CGAL::Box_intersection_d::Box_with_handle_d<double, 3, const Triangle*>;
     const auto corners = [&](const Triangle& t) { return Corners{vertices[t[0]], vertices[t[1]], vertices[t[2]]}; };

@@ -25,8 +25,8 @@ bool triangles_intersect(const std::array<Vec3, 3>& p, const Triangle& p_id, con
 
 /// All intersecting pairs (smaller number first, ascending) of a triangle soup; the first `limit` of them if there are
 /// more, or of those found so far when 20 times `limit` are found: then the search ends. Expected O(#F log #F).
-/// Requires finite coordinates and facets with three distinct, non-collinear vertices; a facet with collinear corners
-/// counts as the segment that it is, but may be reported with its neighbours.
+/// Requires limit > 0, finite coordinates and facets with three distinct, non-collinear vertices; a facet with
+/// collinear corners counts as the segment that it is, but may be reported with its neighbours.
 std::vector<std::pair<std::int32_t, std::int32_t>> find_self_intersections(const std::vector<Vec3>& vertices,
                                                                            const std::vector<Triangle>& facets,
                                                                            std::size_t limit = 1000);

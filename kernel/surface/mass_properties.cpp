@@ -7,6 +7,9 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "core/check.h"
+#include "core/elements.h"
+
 namespace kerf {
 
 namespace {
@@ -63,6 +66,7 @@ class VolumeSum {
 }  // namespace
 
 double enclosed_volume(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
+    KERF_CHECK(are_in_range(facets, vertices.size()));
     if (facets.empty()) return 0;
     const Vec3& base = vertices[facets[0][0]];
     VolumeSum sum;

@@ -7,6 +7,9 @@
 #include <tuple>
 #include <utility>
 
+#include "core/check.h"
+#include "core/elements.h"
+
 namespace kerf {
 
 namespace {
@@ -121,6 +124,7 @@ class LoopTracer {
 }  // namespace
 
 std::vector<OpenLoop> find_open_loops(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
+    KERF_CHECK(are_in_range(facets, vertices.size()) && have_distinct_corners(facets));
     return LoopTracer(vertices, open_edges(facets)).run();
 }
 

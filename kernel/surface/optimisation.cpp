@@ -20,6 +20,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "core/check.h"
+#include "core/elements.h"
 #include "surface/closest_point.h"
 
 namespace kerf {
@@ -331,6 +333,9 @@ bool NodeOptimiser::keeps_near(std::int32_t v) const {
 std::vector<Vec3> optimise_nodes(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                                  const std::vector<std::int32_t>& patch, const std::vector<char>& fixed,
                                  const OptimisationOptions& options) {
+    KERF_CHECK(are_in_range(facets, vertices.size()) && have_distinct_corners(facets));
+    KERF_CHECK(patch.size() == facets.size() && (fixed.empty() || fixed.size() == vertices.size()));
+    KERF_CHECK(options.spring > 0);
     NodeOptimiser optimiser(vertices, facets, patch, fixed, options);
     for (int i = 0; i < options.sweeps && optimiser.sweep(); ++i) {
     }

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "core/check.h"
+#include "core/elements.h"
 #include "core/error.h"
 #include "surface/edge_partners.h"
 #include "surface/mass_properties.h"
@@ -119,6 +121,11 @@ void mark_shell_around(const std::vector<Vec3>& vertices, const std::vector<Shel
     if (innermost) innermost->has_hole = true;
 }
 
+bool is_closed(const std::vector<Triangle>& facets) {
+    const std::vector<std::int32_t> partner = edge_partners(facets);
+    return std::find(partner.begin(), partner.end(), -1) == partner.end();
+}
+
 [[noreturn]] void refuse(const Soup& soup, std::int32_t facet, const char* what) {
     const Vec3& p = soup.vertices[soup.facets[facet][0]];
     throw Error(ErrorCode::input, fmt::format("The shell of facet {} near ({:.9g}, {:.9g}, {:.9g}) {}",
@@ -127,7 +134,10 @@ void mark_shell_around(const std::vector<Vec3>& vertices, const std::vector<Shel
 
 }  // namespace
 
-ConsistentFacets make_consistent(const std::vector<Triangle>& facets) { return Propagation(facets).run(); }
+ConsistentFacets make_consistent(const std::vector<Triangle>& facets) {
+    KERF_CHECK(have_distinct_corners(facets));
+    return Propagation(facets).run();
+}
 
 std::vector<ShellPlace> locate_shells(const std::vector<Vec3>& vertices, const ConsistentFacets& consistent,
                                       const std::vector<Vec3>& holes) {
@@ -150,6 +160,8 @@ std::vector<ShellPlace> locate_shells(const std::vector<Vec3>& vertices, const C
 }
 
 OrientationReport orient(Soup& soup) {
+    KERF_CHECK(are_in_range(soup.facets, soup.vertices.size()));
+    KERF_CHECK(is_closed(soup.facets));
     ConsistentFacets consistent = make_consistent(soup.facets);
     if (!consistent.contradictions.empty())
         refuse(soup, consistent.contradictions[0],

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/check.h"
+#include "core/elements.h"
 #include "surface/intersections.h"
 
 namespace kerf {
@@ -83,8 +85,11 @@ void prepare_for_questions(const std::vector<Vec3>& vertices, const Shell& shell
 
 std::vector<Shell> collect_shells(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                                   const std::vector<std::int32_t>& shell_of_facet, std::int32_t count) {
+    KERF_CHECK(shell_of_facet.size() == facets.size());
+    KERF_CHECK(are_in_range(facets, vertices.size()));
     std::vector<Shell> shells(count);
     for (std::size_t f = 0; f < facets.size(); ++f) {
+        KERF_CHECK(shell_of_facet[f] >= 0 && shell_of_facet[f] < count);
         Shell& shell = shells[shell_of_facet[f]];
         shell.facets.push_back(facets[f]);
         for (std::int32_t v : facets[f]) shell.box.extend(vertices[v]);

@@ -23,11 +23,11 @@ struct Shell {
     mutable std::shared_ptr<const BoxTree> tree;
 };
 
-/// Facets grouped by their shell number in [0, count), in ascending order of facets.
+/// Facets grouped by their shell number in [0, count), in ascending order of facets. `shell_of_facet`: #F.
 std::vector<Shell> collect_shells(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                                   const std::vector<std::int32_t>& shell_of_facet, std::int32_t count);
 
-/// The boxes of the shells.
+/// The boxes of the shells, none of which may be without facets.
 BoxTree boxes_of(const std::vector<Shell>& shells);
 
 /// Whether the point lies inside of the shell: a segment from it to the outside crosses the shell an odd number of

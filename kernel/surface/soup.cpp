@@ -10,6 +10,9 @@
 #include <numeric>
 #include <utility>
 
+#include "core/check.h"
+#include "core/elements.h"
+
 namespace kerf {
 
 namespace {
@@ -124,6 +127,7 @@ std::vector<std::int32_t> Soup::file_vertices(const std::vector<std::int32_t>& o
 }
 
 std::int64_t weld_within(Soup& soup, double tolerance) {
+    KERF_CHECK(tolerance > 0);
     WeldGrid grid(soup.vertices, tolerance);
     std::vector<std::int32_t> representative(soup.vertices.size());
     for (std::size_t v = 0; v < soup.vertices.size(); ++v) {
@@ -136,6 +140,7 @@ std::int64_t weld_within(Soup& soup, double tolerance) {
 }
 
 void drop_facets(Soup& soup, const std::vector<char>& drop) {
+    KERF_CHECK(drop.size() == soup.facets.size() && soup.patch.size() == soup.facets.size());
     if (std::none_of(drop.begin(), drop.end(), [](char d) { return d; })) return;
     if (soup.polygon.empty()) {
         soup.polygon.resize(soup.facets.size());
@@ -156,6 +161,7 @@ void drop_facets(Soup& soup, const std::vector<char>& drop) {
 std::int64_t weld_exactly(Soup& soup) { return renumber(soup, find_representatives(soup.vertices)); }
 
 std::int64_t drop_unused_vertices(Soup& soup) {
+    KERF_CHECK(are_in_range(soup.facets, soup.vertices.size()));
     std::vector<std::int32_t> representative(soup.vertices.size(), -1);
     for (const Triangle& t : soup.facets)
         for (std::int32_t v : t) representative[v] = v;

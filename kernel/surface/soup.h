@@ -33,8 +33,8 @@ struct Soup {
 /// NaN equals nothing. Returns the number of vertices removed. O(#V), deterministic.
 std::int64_t weld_exactly(Soup& soup);
 
-/// Merges vertices that lie within `tolerance` of the first of their group, in the order of the vertices; facets may
-/// become degenerate. Changes the geometry. Returns the number of vertices removed. Expected O(#V), deterministic.
+/// Merges vertices that lie within `tolerance` > 0 of the first of their group, in the order of the vertices; facets
+/// may become degenerate. Changes the geometry. Returns the number of vertices removed. Expected O(#V), deterministic.
 std::int64_t weld_within(Soup& soup, double tolerance);
 
 /// Removes facets; the others keep their order and their numbers in the file. `drop`: #F.

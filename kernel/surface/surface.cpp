@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "core/elements.h"
 #include "core/error.h"
 
 namespace kerf {
@@ -242,9 +243,29 @@ std::shared_ptr<const HalfEdgeMesh> build_half_edges(const std::vector<Vec3>& ve
     return shared;
 }
 
+// Whether the partners that are known are each other's, over the same edge in opposite directions.
+bool are_partners(const std::vector<Triangle>& facets, const std::vector<std::int32_t>& partner) {
+    const auto corners = static_cast<std::int32_t>(3 * facets.size());
+    if (partner.size() != 3 * facets.size()) return false;
+    for (std::int32_t c = 0; c < corners; ++c) {
+        const std::int32_t other = partner[c];
+        if (other == -1) continue;
+        if (other < 0 || other >= corners || partner[other] != c) return false;
+        if (start_vertex(facets, c) != start_vertex(facets, next_corner(other))) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
+bool is_well_formed(const SurfaceArrays& arrays) {
+    return arrays.vertex_key.size() == arrays.vertices.size() && arrays.facet_key.size() == arrays.facets.size() &&
+           arrays.patch.size() == arrays.facets.size() && are_in_range(arrays.facets, arrays.vertices.size()) &&
+           have_distinct_corners(arrays.facets);
+}
+
 std::vector<ManifoldDefect> find_manifold_defects(std::size_t vertex_count, const std::vector<Triangle>& facets) {
+    KERF_CHECK(are_in_range(facets, vertex_count) && have_distinct_corners(facets));
     std::vector<ManifoldDefect> defects = pair_corners(vertex_count, facets).defects;
     std::stable_sort(defects.begin(), defects.end(),
                      [](const auto& a, const auto& b) { return a.vertices < b.vertices; });
@@ -266,6 +287,8 @@ std::variant<Surface, ManifoldDefect> Surface::build(SurfaceArrays&& arrays) {
 }
 
 std::variant<Surface, ManifoldDefect> Surface::build(SurfaceArrays&& arrays, std::vector<std::int32_t> partner) {
+    KERF_CHECK(is_well_formed(arrays));
+    KERF_CHECK(are_partners(arrays.facets, partner));
     Pairing pairing = pair_corners(arrays.vertices.size(), arrays.facets, std::move(partner));
     if (!pairing.defects.empty()) return std::move(pairing.defects.front());
     return Surface(Paired(), std::move(arrays), std::move(pairing.partner));
@@ -285,6 +308,7 @@ Surface::Surface(SurfaceArrays arrays) {
 
 std::int32_t Surface::find_half_edge(std::int32_t from, std::int32_t to) const {
     const std::int32_t first = outgoing(from);
+    KERF_CHECK(first >= 0);
     std::int32_t h = first;
     do {
         if (to_vertex(h) == to) return h;

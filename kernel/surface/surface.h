@@ -10,6 +10,7 @@
 // Specialises what the header above declares.
 #include <OpenMesh/Core/Geometry/EigenVectorT.hh>
 
+#include "core/check.h"
 #include "core/types.h"
 
 namespace kerf {
@@ -27,6 +28,9 @@ struct SurfaceArrays {
         a(vertices, facets, vertex_key, facet_key, patch);
     }
 };
+
+/// Whether the sizes fit together, and every facet has three different vertices in range. O(#F).
+bool is_well_formed(const SurfaceArrays& arrays);
 
 struct SurfaceTraits : OpenMesh::DefaultTraits {
     using Point = Vec3;
@@ -53,16 +57,18 @@ struct ManifoldDefect {
 std::vector<ManifoldDefect> find_manifold_defects(std::size_t vertex_count, const std::vector<Triangle>& facets);
 
 /// Closed, oriented 2-manifold. Facet and vertex numbers are those of the arrays it was built from. Immutable; copies
-/// share the half-edges.
+/// share the half-edges. Numbers of vertices, facets and half-edges that are given to it must be in range.
 class Surface {
  public:
     Surface();
 
-    /// Builds the half-edges in O(#V + #F), or returns the first manifold defect and leaves the arrays as they are.
+    /// Builds the half-edges in O(#V + #F), or returns the first manifold defect and leaves the arrays as they are,
+    /// which must be well-formed.
     static std::variant<Surface, ManifoldDefect> build(SurfaceArrays&& arrays);
     /// As build(), where the neighbours of most facets are known. Corner 3 f + i is the half-edge of facet f from its
     /// vertex i to the next; `partner` (3 #F) is the opposite corner, or -1 where it has to be found. Known partners
-    /// are trusted; only the others are paired, and only the vertices at them are proven to be manifold.
+    /// must be each other's over the same edge; only the others are paired, and only the vertices at them are proven to
+    /// be manifold.
     static std::variant<Surface, ManifoldDefect> build(SurfaceArrays&& arrays, std::vector<std::int32_t> partner);
     /// As build(), for arrays that are known to be a closed 2-manifold. Throws Error(internal) naming the defect.
     explicit Surface(SurfaceArrays arrays);
@@ -71,13 +77,26 @@ class Surface {
     std::int32_t vertex_count() const { return static_cast<std::int32_t>(vertex_key_.size()); }
     std::int32_t facet_count() const { return static_cast<std::int32_t>(facet_key_.size()); }
 
-    const Vec3& point(std::int32_t vertex) const { return points_[vertex]; }
-    Key vertex_key(std::int32_t vertex) const { return vertex_key_[vertex]; }
-    Key facet_key(std::int32_t facet) const { return facet_key_[facet]; }
-    std::int32_t patch(std::int32_t facet) const { return patch_[facet]; }
+    const Vec3& point(std::int32_t vertex) const {
+        KERF_CHECK(has_vertex(vertex));
+        return points_[vertex];
+    }
+    Key vertex_key(std::int32_t vertex) const {
+        KERF_CHECK(has_vertex(vertex));
+        return vertex_key_[vertex];
+    }
+    Key facet_key(std::int32_t facet) const {
+        KERF_CHECK(has_facet(facet));
+        return facet_key_[facet];
+    }
+    std::int32_t patch(std::int32_t facet) const {
+        KERF_CHECK(has_facet(facet));
+        return patch_[facet];
+    }
 
     /// Half-edges of a facet in the order of its vertices: half-edge i runs from vertex i to vertex i+1.
     std::array<std::int32_t, 3> half_edges(std::int32_t facet) const {
+        KERF_CHECK(has_facet(facet));
         const std::int32_t h = mesh_->halfedge_handle(HalfEdgeMesh::FaceHandle(facet)).idx();
         const std::int32_t n = next(h);
         return {h, n, next(n)};
@@ -93,28 +112,36 @@ class Surface {
     }
     std::int32_t from_vertex(std::int32_t half_edge) const { return to_vertex(half_edge ^ 1); }
     std::int32_t to_vertex(std::int32_t half_edge) const {
+        KERF_CHECK(has_half_edge(half_edge));
         return mesh_->to_vertex_handle(HalfEdgeMesh::HalfedgeHandle(half_edge)).idx();
     }
     std::int32_t facet_of(std::int32_t half_edge) const {
+        KERF_CHECK(has_half_edge(half_edge));
         return mesh_->face_handle(HalfEdgeMesh::HalfedgeHandle(half_edge)).idx();
     }
     std::int32_t next(std::int32_t half_edge) const {
+        KERF_CHECK(has_half_edge(half_edge));
         return mesh_->next_halfedge_handle(HalfEdgeMesh::HalfedgeHandle(half_edge)).idx();
     }
     static std::int32_t opposite(std::int32_t half_edge) { return half_edge ^ 1; }
     /// Some half-edge that starts at the vertex, -1 for a vertex without facets.
     std::int32_t outgoing(std::int32_t vertex) const {
+        KERF_CHECK(has_vertex(vertex));
         return mesh_->halfedge_handle(HalfEdgeMesh::VertexHandle(vertex)).idx();
     }
     /// Turns to the next half-edge around its start vertex (clockwise seen from outside).
     std::int32_t rotate(std::int32_t half_edge) const { return next(opposite(half_edge)); }
 
-    /// The half-edge between two vertices, -1 if there is none. O(degree).
+    /// The half-edge between two vertices, -1 if there is none. `from` must have facets. O(degree).
     std::int32_t find_half_edge(std::int32_t from, std::int32_t to) const;
 
     SurfaceArrays arrays() const;
 
  private:
+    bool has_vertex(std::int32_t vertex) const { return vertex >= 0 && vertex < vertex_count(); }
+    bool has_facet(std::int32_t facet) const { return facet >= 0 && facet < facet_count(); }
+    bool has_half_edge(std::int32_t half_edge) const { return half_edge >= 0 && half_edge < 3 * facet_count(); }
+
     struct Paired {};  // every corner has its partner
     Surface(Paired, SurfaceArrays&& arrays, std::vector<std::int32_t> partner);
 

@@ -25,6 +25,7 @@ extern "C" {
 
 #include <fmt/format.h>
 
+#include "core/check.h"
 #include "core/error.h"
 
 namespace kerf {
@@ -280,6 +281,7 @@ void ChildPool::start(int tag, const std::string& program, const std::vector<std
 }
 
 std::optional<ChildPool::Finished> ChildPool::wait_any(double wait_seconds) {
+    KERF_CHECK(running() > 0);
     const Clock::time_point start = Clock::now();
     const double limit = wait_seconds < 0 ? forever : wait_seconds;
     std::vector<pollfd> polled;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/check.h"
 #include "core/error.h"
 #include "volume/tetgen_adapter.h"
 
@@ -22,6 +23,7 @@ void check_mesher_options(const MesherOptions& options) {
 }
 
 TetMesh mesh_volume(const SurfaceArrays& surface, const MesherOptions& options, std::uint32_t vertex_order_seed) {
+    KERF_CHECK(is_well_formed(surface) && !surface.facets.empty());
     check_mesher_options(options);
     switch (options.kind) {
         case MesherKind::tetgen:

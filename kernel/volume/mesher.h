@@ -27,7 +27,7 @@ struct MesherOptions {
 /// Throws Error(usage), naming the option, for values out of range and switches that cannot be used.
 void check_mesher_options(const MesherOptions& options);
 
-/// Fills the closed surface with tetrahedra; every facet of it is kept and none is added.
+/// Fills the closed surface, which must be well-formed, with tetrahedra; every facet of it is kept and none is added.
 ///
 /// The result's boundary vertices are those of the surface, bit for bit and in its order. `vertex_order_seed` 0 hands
 /// the vertices over as they are, any other value in a fixed shuffle: the usual cure when TetGen fails. Throws

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/check.h"
+
 namespace kerf {
 
 namespace {
@@ -49,6 +51,7 @@ std::vector<MesherCall> mesher_calls(const MesherOptions& wanted) {
 }
 
 std::optional<std::size_t> next_call(const std::vector<MesherCall>& calls, std::size_t call, MesherFailure failure) {
+    KERF_CHECK(call < calls.size());
     const bool any = failure == MesherFailure::failed || call == 0;
     for (std::size_t next = call + 1; next < calls.size(); ++next)
         if (any || calls[next].easier) return next;

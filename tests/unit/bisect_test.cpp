@@ -124,6 +124,20 @@ TEST(Bisect, BodyThatCannotBeCutStaysWhole) {
     for (const CutTry& attempt : result.cut.tries) EXPECT_NE(attempt.refusal, Refusal::none);
 }
 
+// The plane touches the upper box from below and crosses no edge, so no length of edges says how wide the band is.
+TEST(Bisect, PlaneInAGapThatTouchesABodyParts) {
+    const Surface surface =
+        test::to_surface(test::join(test::box({0, 0, 0}, {1, 1, 1}, 3), test::box({2, 0, 0}, {4, 2, 2}, 3)));
+    CutOptions options;
+    options.criterion = Criterion::equidistant;
+    options.axis = 0;
+    const Bisection result = bisect(surface, mass_properties(surface), 1, {}, options, false);
+    EXPECT_EQ(result.cut.rung, Rung::first_try);
+    EXPECT_TRUE(result.cut.loops.empty());
+    EXPECT_DOUBLE_EQ(enclosed_volume(result.halves[0]), 1);
+    EXPECT_DOUBLE_EQ(enclosed_volume(result.halves[1]), 8);
+}
+
 TEST(Decompose, RangeOfLeavesIsThatOfTheWhole) {
     DecomposeOptions options;
     options.parts = 7;

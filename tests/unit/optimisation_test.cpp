@@ -250,6 +250,7 @@ TEST(Optimisation, HoldsOpenNonManifoldAndTurnedEdges) {
         const Soup sphere = disturbed_sphere(2, random);
         Soup open = sphere, doubled = sphere, turned = sphere;
         open.facets.pop_back();
+        open.patch.pop_back();
         doubled.facets.push_back(sphere.facets.back());
         doubled.patch.push_back(0);
         std::swap(turned.facets.back()[1], turned.facets.back()[2]);
