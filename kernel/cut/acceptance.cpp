@@ -248,11 +248,10 @@ Verdict judge_interface(const Surface& surface, const Band& band, const Interfac
 
 std::int32_t find_misplaced_shell(const Surface& half) {
     KERF_CHECK(half.facet_count() > 0);
-    const Shells components = find_shells(half);
+    const Components components = find_shells(half);
     if (components.count == 1) return enclosed_volume(half) > 0 ? -1 : 0;
     const SurfaceArrays arrays = half.arrays();
-    const std::vector<Shell> shells =
-        collect_shells(arrays.vertices, arrays.facets, components.of_facet, components.count);
+    const std::vector<Shell> shells = collect_shells(arrays.vertices, arrays.facets, components.of, components.count);
     const BoxTree boxes = boxes_of(shells);
     for (std::size_t i = 0; i < shells.size(); ++i) {
         const std::int32_t vertex = shells[i].facets[0][0];

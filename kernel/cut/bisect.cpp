@@ -214,11 +214,9 @@ void PlaneTrial::complete(Attempt& attempt) const {
     };
     std::array<Half, 2> halves = split(surface_, attempt.side, attempt.interface, node_);
     for (std::size_t i = 0; i < halves.size() && attempt.valid(); ++i) {
-        SurfaceArrays& arrays = halves[i].arrays;
-        auto built = Surface::build(std::move(arrays), std::move(halves[i].partner));
+        auto built = Surface::build(std::move(halves[i].arrays), std::move(halves[i].partner));
         if (const auto* defect = std::get_if<ManifoldDefect>(&built)) {
-            // NOLINTNEXTLINE(bugprone-use-after-move): build() leaves arrays with a defect as they are
-            refuse_half(Refusal::not_manifold, arrays.vertices[defect->vertices.front()]);
+            refuse_half(Refusal::not_manifold, defect->where);
             continue;
         }
         attempt.halves[i] = std::move(std::get<Surface>(built));

@@ -3,12 +3,13 @@
 #include "surface/open_loops.h"
 
 #include <algorithm>
-#include <array>
+#include <span>
 #include <tuple>
 #include <utility>
 
 #include "core/check.h"
 #include "core/elements.h"
+#include "surface/edge_corners.h"
 
 namespace kerf {
 
@@ -20,25 +21,12 @@ struct OpenEdge {
 };
 
 std::vector<OpenEdge> open_edges(const std::vector<Triangle>& facets) {
-    struct Side {
-        std::int32_t low, high;
-        OpenEdge edge;
-    };
-    std::vector<Side> sides;
-    sides.reserve(3 * facets.size());
-    for (std::size_t f = 0; f < facets.size(); ++f)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::int32_t a = facets[f][i], b = facets[f][(i + 1) % 3];
-            sides.push_back({std::min(a, b), std::max(a, b), {b, a, static_cast<std::int32_t>(f)}});
-        }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-        return std::tie(a.low, a.high, a.edge.facet) < std::tie(b.low, b.high, b.edge.facet);
-    });
     std::vector<OpenEdge> open;
-    for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
-        while (j < sides.size() && sides[j].low == sides[i].low && sides[j].high == sides[i].high) ++j;
-        if (j == i + 1) open.push_back(sides[i].edge);
-    }
+    EdgeCorners(facets).for_each_edge([&](std::int32_t, std::span<const EdgeCorners::Corner> corners) {
+        if (corners.size() != 1) return;
+        const std::int32_t corner = corners[0].corner;
+        open.push_back({start_vertex(facets, next_corner(corner)), start_vertex(facets, corner), corner / 3});
+    });
     std::sort(open.begin(), open.end(), [](const OpenEdge& a, const OpenEdge& b) {
         return std::tie(a.from, a.facet) < std::tie(b.from, b.facet);
     });

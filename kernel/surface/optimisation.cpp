@@ -15,7 +15,6 @@
 #include <cmath>
 #include <numbers>
 #include <span>
-#include <tuple>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -23,6 +22,7 @@
 #include "core/check.h"
 #include "core/elements.h"
 #include "surface/closest_point.h"
+#include "surface/edge_corners.h"
 
 namespace kerf {
 
@@ -72,37 +72,15 @@ std::vector<Vec3> unit_normals(const std::vector<Vec3>& points, const std::vecto
     return normals;
 }
 
-// An edge as one facet sees it.
-struct FacetEdge {
-    std::int32_t low, high, facet;
-    bool ascending;  // the facet runs from `low` to `high`
-    bool same_ends(const FacetEdge& o) const { return low == o.low && high == o.high; }
-    bool operator<(const FacetEdge& o) const { return std::tie(low, high, facet) < std::tie(o.low, o.high, o.facet); }
-};
-
-std::vector<FacetEdge> sorted_edges(const std::vector<Triangle>& facets) {
-    std::vector<FacetEdge> edges;
-    edges.reserve(3 * facets.size());
-    for (std::size_t f = 0; f < facets.size(); ++f)
-        for (int i = 0; i < 3; ++i) {
-            const auto [low, high] = std::minmax(facets[f][i], facets[f][(i + 1) % 3]);
-            edges.push_back({low, high, static_cast<std::int32_t>(f), low == facets[f][i]});
-        }
-    std::sort(edges.begin(), edges.end());
-    return edges;
-}
-
 // Both ends of every feature edge are marked.
 void mark_features(const std::vector<Triangle>& facets, const std::vector<Vec3>& normals,
                    const std::vector<std::int32_t>& patch, double feature_cosine, std::vector<char>& marked) {
-    const std::vector<FacetEdge> edges = sorted_edges(facets);
-    for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-        while (end < edges.size() && edges[end].same_ends(edges[begin])) ++end;
-        const FacetEdge &a = edges[begin], &b = edges[end - 1];
-        const bool is_smooth = end - begin == 2 && a.ascending != b.ascending && patch[a.facet] == patch[b.facet] &&
-                               normals[a.facet].dot(normals[b.facet]) >= feature_cosine;
-        if (!is_smooth) marked[a.low] = marked[a.high] = 1;
-    }
+    EdgeCorners(facets).for_each_edge([&](std::int32_t low, std::span<const EdgeCorners::Corner> corners) {
+        const std::int32_t a = corners.front().corner, b = corners.back().corner;
+        const bool is_smooth = corners.size() == 2 && start_vertex(facets, a) != start_vertex(facets, b) &&
+                               patch[a / 3] == patch[b / 3] && normals[a / 3].dot(normals[b / 3]) >= feature_cosine;
+        if (!is_smooth) marked[low] = marked[corners.front().high] = 1;
+    });
 }
 
 // At each vertex, over the edges by which its facets leave it; 0 without facets.

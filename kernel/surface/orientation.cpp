@@ -13,7 +13,7 @@
 #include "core/check.h"
 #include "core/elements.h"
 #include "core/error.h"
-#include "surface/edge_partners.h"
+#include "surface/edge_corners.h"
 #include "surface/mass_properties.h"
 #include "surface/ray_parity.h"
 
@@ -55,7 +55,7 @@ class Propagation {
     }
     void cross(std::int32_t corner) {
         const std::int32_t facet = corner / 3, other = partner_[corner] / 3;
-        const bool disagree = start_vertex(corner) == start_vertex(partner_[corner]);
+        const bool disagree = start_vertex(facets_, corner) == start_vertex(facets_, partner_[corner]);
         const char turned = turned_[facet] ^ static_cast<char>(disagree);
         if (result_.shell[other] < 0) {
             result_.shell[other] = result_.shell_count;
@@ -75,7 +75,6 @@ class Propagation {
             result_.turned.push_back(f);
         }
     }
-    std::int32_t start_vertex(std::int32_t corner) const { return facets_[corner / 3][corner % 3]; }
 
     const std::vector<Triangle>& facets_;
     std::vector<std::int32_t> partner_;

@@ -5,21 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numeric>
+#include <span>
 #include <utility>
 
 #include "core/elements.h"
+#include "surface/edge_corners.h"
+#include "surface/union_find.h"
 
 namespace kerf {
 
 namespace {
-
-using Edge = std::array<std::int32_t, 2>;
-
-Edge edge_of(const Triangle& t, std::size_t i) {
-    const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
-    return {low, high};
-}
 
 // Groups of equal facets, single ones included; the first of a group stands for it.
 std::vector<std::vector<std::int32_t>> group_equal(const std::vector<Triangle>& facets) {
@@ -39,51 +34,36 @@ std::vector<std::vector<std::int32_t>> group_equal(const std::vector<Triangle>& 
     return groups;
 }
 
-struct Side {
-    Edge edge;
-    std::int32_t group;
-    friend auto operator<=>(const Side&, const Side&) = default;
-};
-
-// The groups at every edge, sorted by edge.
-std::vector<Side> sides_of(const std::vector<Triangle>& facets, const std::vector<std::vector<std::int32_t>>& groups) {
-    std::vector<Side> sides;
-    sides.reserve(3 * groups.size());
-    for (std::size_t g = 0; g < groups.size(); ++g)
-        for (std::size_t i = 0; i < 3; ++i)
-            sides.push_back({edge_of(facets[groups[g].front()], i), static_cast<std::int32_t>(g)});
-    std::sort(sides.begin(), sides.end());
-    return sides;
+// One facet of every group.
+std::vector<Triangle> one_of_each(const std::vector<Triangle>& facets,
+                                  const std::vector<std::vector<std::int32_t>>& groups) {
+    std::vector<Triangle> single;
+    single.reserve(groups.size());
+    for (const auto& group : groups) single.push_back(facets[group.front()]);
+    return single;
 }
 
-std::int64_t groups_at(const std::vector<Side>& sides, const Edge& edge) {
-    return std::upper_bound(sides.begin(), sides.end(), Side{edge, INT32_MAX}) -
-           std::lower_bound(sides.begin(), sides.end(), Side{edge, 0});
+// How many facets meet at the edges of each.
+std::vector<std::array<std::size_t, 3>> facets_at_edges(const EdgeCorners& edges, std::size_t facet_count) {
+    std::vector<std::array<std::size_t, 3>> at(facet_count);
+    edges.for_each_edge([&](std::int32_t, std::span<const EdgeCorners::Corner> corners) {
+        for (const auto& c : corners) at[c.corner / 3][c.corner % 3] = corners.size();
+    });
+    return at;
 }
 
-std::int32_t number_to_keep(const Triangle& facet, const std::vector<Side>& sides) {
-    std::array<std::int64_t, 3> at{};
-    for (std::size_t i = 0; i < 3; ++i) at[i] = groups_at(sides, edge_of(facet, i));
+std::int32_t number_to_keep(const std::array<std::size_t, 3>& at) {
     const auto all = [&](auto good) { return std::all_of(at.begin(), at.end(), good); };
-    if (all([](std::int64_t n) { return n == 2; })) return 1;
-    return all([](std::int64_t n) { return n == 1 || n == 3; }) ? 0 : -1;
+    if (all([](std::size_t n) { return n == 2; })) return 1;
+    return all([](std::size_t n) { return n == 1 || n == 3; }) ? 0 : -1;
 }
 
-// The shell of every group: a representative group.
-std::vector<std::int32_t> shells_of(const std::vector<Side>& sides, std::size_t group_count) {
-    std::vector<std::int32_t> parent(group_count);
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&](std::int32_t g) {
-        while (parent[g] != g) g = parent[g] = parent[parent[g]];
-        return g;
-    };
-    for (std::size_t i = 1; i < sides.size(); ++i) {
-        if (sides[i].edge != sides[i - 1].edge) continue;
-        const auto [low, high] = std::minmax({root(sides[i].group), root(sides[i - 1].group)});
-        parent[high] = low;
-    }
-    for (std::size_t g = 0; g < group_count; ++g) parent[g] = root(static_cast<std::int32_t>(g));
-    return parent;
+std::vector<std::int32_t> shells_of(const EdgeCorners& edges, std::size_t facet_count) {
+    UnionFind facets(facet_count);
+    edges.for_each_edge([&](std::int32_t, std::span<const EdgeCorners::Corner> corners) {
+        for (const auto& c : corners) facets.join(corners[0].corner / 3, c.corner / 3);
+    });
+    return facets.take().of;
 }
 
 }  // namespace
@@ -95,8 +75,9 @@ SuperfluousFacets find_superfluous_facets(const std::vector<Triangle>& facets) {
     const auto groups = group_equal(facets);
     if (groups.size() + found.repeated_vertex.size() == facets.size()) return found;
 
-    const std::vector<Side> sides = sides_of(facets, groups);
-    const std::vector<std::int32_t> shell = shells_of(sides, groups.size());
+    const EdgeCorners edges(one_of_each(facets, groups));
+    const auto at_edges = facets_at_edges(edges, groups.size());
+    const std::vector<std::int32_t> shell = shells_of(edges, groups.size());
     std::vector<char> only_copies(groups.size(), 1);
     for (std::size_t g = 0; g < groups.size(); ++g)
         if (groups[g].size() == 1) only_copies[shell[g]] = 0;
@@ -105,7 +86,7 @@ SuperfluousFacets find_superfluous_facets(const std::vector<Triangle>& facets) {
         if (groups[g].size() == 1) continue;
         FacetCopies& copies = found.copies.emplace_back();
         copies.facets = groups[g];
-        copies.keep = number_to_keep(facets[groups[g].front()], sides);
+        copies.keep = number_to_keep(at_edges[g]);
         // A single facet with a copy is a flat pocket, not a body.
         if (!only_copies[shell[g]] || copies.keep == 0) continue;
         const auto [it, is_new] = number.try_emplace(shell[g], static_cast<std::int32_t>(number.size()));

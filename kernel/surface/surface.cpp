@@ -1,89 +1,21 @@
-// Half-edges from facets by counting sort: the half-edges of every facet whose partners are not known yet are bucketed
-// by their smaller end vertex, and within a bucket (six entries on average) those with the same larger end are
-// partners. No hashing, so the order of edges, and with it everything that follows, depends on the input alone.
+// Half-edges from facets: those at one edge are partners (edge_corners.h), if they are two and opposite.
 #include "surface/surface.h"
 
 #include <algorithm>
-#include <numeric>
 #include <span>
 #include <utility>
 
 #include "core/elements.h"
 #include "core/error.h"
+#include "surface/edge_corners.h"
 
 namespace kerf {
 
 namespace {
 
-// A half-edge of facet `corner / 3` from its vertex `corner % 3` to the next one.
-struct Corner {
-    std::int32_t far_end;  // larger end vertex of the edge
-    std::int32_t corner;
-};
-
-// Half-edges bucketed by the smaller end vertex: those of vertex v are [first[v], first[v + 1]), sorted by larger end,
-// then by corner.
-struct CornerBuckets {
-    std::vector<std::int32_t> first;
-    std::vector<Corner> corners;
-};
-
-// Calls visit(corner, smaller end vertex, larger end vertex) for the corners without a partner, ascending.
-template <class Visit>
-void for_each_open_corner(const std::vector<Triangle>& facets, const std::vector<std::int32_t>& partner, Visit visit) {
-    for (std::size_t c = 0; c < partner.size(); ++c) {
-        if (partner[c] >= 0) continue;
-        const Triangle& t = facets[c / 3];
-        const auto [low, high] = std::minmax(t[c % 3], t[(c + 1) % 3]);
-        visit(static_cast<std::int32_t>(c), low, high);
-    }
-}
-
-CornerBuckets bucket_corners(std::size_t vertex_count, const std::vector<Triangle>& facets,
-                             const std::vector<std::int32_t>& partner) {
-    CornerBuckets buckets;
-    buckets.first.assign(vertex_count + 1, 0);
-    for_each_open_corner(facets, partner,
-                         [&](std::int32_t, std::int32_t low, std::int32_t) { ++buckets.first[low + 1]; });
-    for (std::size_t v = 0; v < vertex_count; ++v) buckets.first[v + 1] += buckets.first[v];
-
-    buckets.corners.resize(buckets.first.back());
-    std::vector<std::int32_t> end(buckets.first.begin(), buckets.first.end() - 1);
-    for_each_open_corner(facets, partner, [&](std::int32_t corner, std::int32_t low, std::int32_t high) {
-        buckets.corners[end[low]++] = {high, corner};
-    });
-    for (std::size_t v = 0; v < vertex_count; ++v) {
-        // Corners arrive in ascending order, so a stable sort by the far end suffices.
-        const auto begin = buckets.corners.begin() + buckets.first[v];
-        const auto stop = buckets.corners.begin() + buckets.first[v + 1];
-        for (auto it = begin; it != stop; ++it)
-            std::rotate(std::upper_bound(begin, it, *it, [](auto& a, auto& b) { return a.far_end < b.far_end; }), it,
-                        it + 1);
-    }
-    return buckets;
-}
-
-// Calls visit(low vertex, corners of one edge) for every edge in ascending order.
-template <class Visit>
-void for_each_edge(const CornerBuckets& buckets, Visit visit) {
-    for (std::size_t v = 0; v + 1 < buckets.first.size(); ++v)
-        for (std::int32_t i = buckets.first[v]; i < buckets.first[v + 1];) {
-            std::int32_t j = i + 1;
-            while (j < buckets.first[v + 1] && buckets.corners[j].far_end == buckets.corners[i].far_end) ++j;
-            visit(static_cast<std::int32_t>(v), std::span(buckets.corners).subspan(i, j - i));
-            i = j;
-        }
-}
-
-std::int32_t start_vertex(const std::vector<Triangle>& facets, std::int32_t corner) {
-    return facets[corner / 3][corner % 3];
-}
-
-std::int32_t next_corner(std::int32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
-
-ManifoldDefect edge_defect(ManifoldDefect::Kind kind, std::int32_t low, std::span<const Corner> corners) {
-    ManifoldDefect defect{kind, {low, corners[0].far_end}, {}};
-    for (const Corner& c : corners) defect.facets.push_back(c.corner / 3);
+ManifoldDefect edge_defect(ManifoldDefect::Kind kind, std::int32_t low, std::span<const EdgeCorners::Corner> corners) {
+    ManifoldDefect defect{kind, {low, corners[0].high}, {}};
+    for (const EdgeCorners::Corner& c : corners) defect.facets.push_back(c.corner / 3);
     return defect;
 }
 
@@ -171,16 +103,16 @@ struct Pairing {
 // Pairs the corners that have no partner yet, and looks for defects at them.
 Pairing pair_corners(std::size_t vertex_count, const std::vector<Triangle>& facets, std::vector<std::int32_t> known) {
     std::vector<VertexCheck> check(vertex_count, VertexCheck::none);
-    for_each_open_corner(facets, known, [&](std::int32_t, std::int32_t low, std::int32_t high) {
-        check[low] = check[high] = VertexCheck::fan;
-    });
+    for (std::size_t c = 0; c < known.size(); ++c)
+        if (known[c] < 0) check[facets[c / 3][c % 3]] = check[facets[c / 3][(c + 1) % 3]] = VertexCheck::fan;
     Pairing pairing{std::move(known), {}};
-    const auto note_defect = [&](ManifoldDefect::Kind kind, std::int32_t low, std::span<const Corner> corners) {
+    const auto note_defect = [&](ManifoldDefect::Kind kind, std::int32_t low,
+                                 std::span<const EdgeCorners::Corner> corners) {
         pairing.defects.push_back(edge_defect(kind, low, corners));
-        check[low] = check[corners[0].far_end] = VertexCheck::open;
+        check[low] = check[corners[0].high] = VertexCheck::open;
     };
-    const CornerBuckets buckets = bucket_corners(vertex_count, facets, pairing.partner);
-    for_each_edge(buckets, [&](std::int32_t low, std::span<const Corner> corners) {
+    const EdgeCorners edges(facets, pairing.partner);
+    edges.for_each_edge([&](std::int32_t low, std::span<const EdgeCorners::Corner> corners) {
         using Kind = ManifoldDefect::Kind;
         if (corners.size() != 2) {
             note_defect(corners.size() == 1 ? Kind::open_edge : Kind::non_manifold_edge, low, corners);
@@ -281,24 +213,27 @@ Surface::Surface(Paired, SurfaceArrays&& arrays, std::vector<std::int32_t> partn
       facet_key_(std::move(arrays.facet_key)),
       patch_(std::move(arrays.patch)) {}
 
-std::variant<Surface, ManifoldDefect> Surface::build(SurfaceArrays&& arrays) {
+std::variant<Surface, ManifoldDefect> Surface::build(SurfaceArrays arrays) {
     std::vector<std::int32_t> none_known(3 * arrays.facets.size(), -1);
     return build(std::move(arrays), std::move(none_known));
 }
 
-std::variant<Surface, ManifoldDefect> Surface::build(SurfaceArrays&& arrays, std::vector<std::int32_t> partner) {
+std::variant<Surface, ManifoldDefect> Surface::build(SurfaceArrays arrays, std::vector<std::int32_t> partner) {
     KERF_CHECK(is_well_formed(arrays));
     KERF_CHECK(are_partners(arrays.facets, partner));
     Pairing pairing = pair_corners(arrays.vertices.size(), arrays.facets, std::move(partner));
-    if (!pairing.defects.empty()) return std::move(pairing.defects.front());
+    if (!pairing.defects.empty()) {
+        ManifoldDefect& first = pairing.defects.front();
+        first.where = arrays.vertices[first.vertices.front()];
+        return std::move(first);
+    }
     return Surface(Paired(), std::move(arrays), std::move(pairing.partner));
 }
 
 Surface::Surface(SurfaceArrays arrays) {
     auto built = build(std::move(arrays));
     if (const auto* defect = std::get_if<ManifoldDefect>(&built)) {
-        // NOLINTNEXTLINE(bugprone-use-after-move): build() leaves arrays with a defect as they are
-        const Vec3& p = arrays.vertices[defect->vertices.front()];
+        const Vec3& p = defect->where;
         throw Error(ErrorCode::internal, std::string("The surface has ") + name(defect->kind) + " at vertex " +
                                              std::to_string(defect->vertices.front()) + " (" + std::to_string(p.x()) +
                                              ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) + ").");
@@ -329,22 +264,11 @@ SurfaceArrays Surface::arrays() const {
     return arrays;
 }
 
-Shells find_shells(const Surface& surface) {
-    Shells shells;
-    std::vector<std::int32_t>& parent = shells.of_facet;  // of the same shell and not larger; roots are their own
-    parent.resize(surface.facet_count());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&](std::int32_t facet) {
-        while (parent[facet] != facet) facet = parent[facet] = parent[parent[facet]];
-        return facet;
-    };
-    for (std::int32_t h = 0; h < 3 * surface.facet_count(); h += 2) {
-        const auto [low, high] = std::minmax({root(surface.facet_of(h)), root(surface.facet_of(Surface::opposite(h)))});
-        parent[high] = low;
-    }
-    for (std::int32_t f = 0; f < surface.facet_count(); ++f)  // parents come first, so theirs are shell numbers already
-        parent[f] = parent[f] == f ? shells.count++ : parent[parent[f]];
-    return shells;
+Components find_shells(const Surface& surface) {
+    UnionFind facets(static_cast<std::size_t>(surface.facet_count()));
+    for (std::int32_t h = 0; h < 3 * surface.facet_count(); h += 2)
+        facets.join(surface.facet_of(h), surface.facet_of(Surface::opposite(h)));
+    return facets.take();
 }
 
 }  // namespace kerf

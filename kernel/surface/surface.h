@@ -12,6 +12,7 @@
 
 #include "core/check.h"
 #include "core/types.h"
+#include "surface/union_find.h"
 
 namespace kerf {
 
@@ -48,6 +49,7 @@ struct ManifoldDefect {
     Kind kind;
     std::vector<std::int32_t> vertices;  ///< the two ends of the edge, or the vertex
     std::vector<std::int32_t> facets;    ///< facets at the place, ascending
+    Vec3 where = Vec3::Zero();           ///< the first vertex; of Surface::build() alone, which knows the points
 };
 
 /// Every place where `facets` over `vertex_count` vertices fail to be a closed, oriented 2-manifold, ordered by vertex.
@@ -62,14 +64,13 @@ class Surface {
  public:
     Surface();
 
-    /// Builds the half-edges in O(#V + #F), or returns the first manifold defect and leaves the arrays as they are,
-    /// which must be well-formed.
-    static std::variant<Surface, ManifoldDefect> build(SurfaceArrays&& arrays);
+    /// Builds the half-edges in O(#V + #F), or returns the first manifold defect. The arrays must be well-formed.
+    static std::variant<Surface, ManifoldDefect> build(SurfaceArrays arrays);
     /// As build(), where the neighbours of most facets are known. Corner 3 f + i is the half-edge of facet f from its
     /// vertex i to the next; `partner` (3 #F) is the opposite corner, or -1 where it has to be found. Known partners
     /// must be each other's over the same edge; only the others are paired, and only the vertices at them are proven to
     /// be manifold.
-    static std::variant<Surface, ManifoldDefect> build(SurfaceArrays&& arrays, std::vector<std::int32_t> partner);
+    static std::variant<Surface, ManifoldDefect> build(SurfaceArrays arrays, std::vector<std::int32_t> partner);
     /// As build(), for arrays that are known to be a closed 2-manifold. Throws Error(internal) naming the defect.
     explicit Surface(SurfaceArrays arrays);
 
@@ -152,11 +153,7 @@ class Surface {
     std::vector<std::int32_t> patch_;
 };
 
-/// Connected components of facets (shells): component per facet, numbered by smallest facet, and their number. O(#F).
-struct Shells {
-    std::vector<std::int32_t> of_facet;
-    std::int32_t count = 0;
-};
-Shells find_shells(const Surface& surface);
+/// Connected components of facets (shells). O(#F).
+Components find_shells(const Surface& surface);
 
 }  // namespace kerf

@@ -26,8 +26,8 @@ struct NestedShells {
 };
 
 NestedShells split_into_shells(const SurfaceArrays& surface) {
-    const Shells components = find_shells(Surface(surface));
-    std::vector<Shell> shells = collect_shells(surface.vertices, surface.facets, components.of_facet, components.count);
+    const Components components = find_shells(Surface(surface));
+    std::vector<Shell> shells = collect_shells(surface.vertices, surface.facets, components.of, components.count);
     std::vector<char> is_void;
     for (const Shell& shell : shells) is_void.push_back(!is_outward(surface.vertices, shell.facets));
     BoxTree boxes = boxes_of(shells);

@@ -157,15 +157,15 @@ TEST(SurfaceConstructor, NamesTheFirstDefect) {
 
 TEST(FindShells, NumbersComponentsBySmallestFacet) {
     const Soup soup = test::join(test::tetrahedron(), test::join(test::torus(3, 1, 8, 5), test::box()));
-    const Shells shells = find_shells(Surface(to_arrays(soup)));
+    const Components shells = find_shells(Surface(to_arrays(soup)));
     EXPECT_EQ(shells.count, 3);
-    for (std::int32_t f = 0; f < 96; ++f) EXPECT_EQ(shells.of_facet[f], f < 4 ? 0 : f < 84 ? 1 : 2) << f;
+    for (std::int32_t f = 0; f < 96; ++f) EXPECT_EQ(shells.of[f], f < 4 ? 0 : f < 84 ? 1 : 2) << f;
 
     const Soup mixed = shuffled(soup, 3);
-    const Shells found = find_shells(Surface(to_arrays(mixed)));
+    const Components found = find_shells(Surface(to_arrays(mixed)));
     EXPECT_EQ(found.count, 3);
     std::int32_t next = 0;  // a new number is always the next one
-    for (std::int32_t shell : found.of_facet) {
+    for (std::int32_t shell : found.of) {
         ASSERT_LE(shell, next);
         next = std::max(next, shell + 1);
     }

@@ -1,0 +1,43 @@
+// What hangs together, when it is joined pair by pair.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace kerf {
+
+/// A component per item, numbered by their smallest items, and how many there are.
+struct Components {
+    std::vector<std::int32_t> of;
+    std::int32_t count = 0;
+};
+
+/// Items 0, 1, ... in sets, of which the smallest item is the root. Near O(1) for each call.
+class UnionFind {
+ public:
+    explicit UnionFind(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+    std::int32_t root(std::int32_t item) {
+        while (parent_[item] != item) item = parent_[item] = parent_[parent_[item]];
+        return item;
+    }
+    void join(std::int32_t a, std::int32_t b) {
+        const auto [low, high] = std::minmax({root(a), root(b)});
+        parent_[high] = low;
+    }
+    /// The sets in the memory of the object, which is used up.
+    Components take() {
+        std::int32_t count = 0;
+        for (std::size_t i = 0; i < parent_.size(); ++i)  // parents come first, so theirs are numbers already
+            parent_[i] = parent_[i] == static_cast<std::int32_t>(i) ? count++ : parent_[parent_[i]];
+        return {std::move(parent_), count};
+    }
+
+ private:
+    std::vector<std::int32_t> parent_;  // not larger than the item; roots are their own
+};
+
+}  // namespace kerf
