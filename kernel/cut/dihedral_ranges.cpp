@@ -54,7 +54,7 @@ std::vector<HeightRange> dihedral_ranges(const Surface& surface, const Band& ban
                                          const std::vector<Triangle>& triangles, const std::vector<Vec2>& places,
                                          double angle_deg) {
     KERF_CHECK(band.fits(surface) && fit(side, surface));
-    KERF_CHECK(contour.size() <= planar.points.size());
+    KERF_CHECK(contour.size() <= places.size());
     const auto contour_count = static_cast<std::int32_t>(contour.size());
     const double wanted = angle_deg * std::numbers::pi / 180;
     std::vector<HeightRange> ranges(places.size());
