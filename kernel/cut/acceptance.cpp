@@ -221,6 +221,11 @@ InterfaceQuality InterfaceJudge::measure(const CutOptions& options, std::vector<
     return quality;
 }
 
+bool is_good(const InterfaceQuality& quality, const CutOptions& options) {
+    return quality.angle_deg >= options.good_angle_deg && quality.dihedral_deg >= options.good_dihedral_deg &&
+           quality.gap_rel >= options.good_gap_rel;
+}
+
 }  // namespace
 
 Verdict judge_interface(const Surface& surface, const Band& band, const Interface& interface,
@@ -242,7 +247,7 @@ Verdict judge_interface(const Surface& surface, const Band& band, const Interfac
         return verdict;
     }
     verdict.quality = judge.measure(options, verdict.failed);
-    if (!verdict.failed.empty()) verdict.refusal = Refusal::soft;
+    if (!is_good(verdict.quality, options)) verdict.refusal = Refusal::soft;  // at a vertex of the surface or within
     return verdict;
 }
 

@@ -180,6 +180,33 @@ inline Soup prism(int n, double radius, double height) {
     return soup;
 }
 
+/// A cylinder along z, from 0 to `height`, whose n vertices of each ring are turned by `twist` of a facet against those
+/// of the ring below: contours across it go against the grain of its edges.
+inline Soup twisted_cylinder(int n, int rings, double radius, double height, double twist) {
+    Soup soup;
+    for (int i = 0; i <= rings; ++i)
+        for (int j = 0; j < n; ++j) {
+            const double angle = 2 * std::numbers::pi * (j + twist * i) / n;
+            soup.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), height * i / rings);
+        }
+    const std::int32_t bottom = n * (rings + 1), top = bottom + 1;
+    soup.vertices.emplace_back(0, 0, 0);
+    soup.vertices.emplace_back(0, 0, height);
+    for (int j = 0; j < n; ++j) {
+        const int next = (j + 1) % n;
+        for (int i = 0; i < rings; ++i) {
+            const int a = n * i + j, b = n * i + next;
+            soup.facets.push_back({a, b, b + n});
+            soup.facets.push_back({a, b + n, a + n});
+        }
+        soup.facets.push_back({next, j, bottom});
+        soup.facets.push_back({n * rings + j, n * rings + next, top});
+    }
+    soup.patch.assign(soup.facets.size(), 0);
+    soup.patch_names = {"cylinder"};
+    return soup;
+}
+
 /// Square plate with a round hole of n vertices, n a multiple of 4: every facet of the upper and lower side runs from
 /// the hole to a corner or from an outer edge to the hole. 4 n + 16 facets.
 inline Soup plate_with_hole(int n) {

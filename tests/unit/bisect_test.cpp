@@ -6,12 +6,14 @@
 #include <numeric>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "core/bytes.h"
 #include "core/error.h"
 #include "decompose/decomposition.h"
 #include "support/assets.h"
 #include "support/shapes.h"
+#include "support/slice.h"
 
 namespace kerf {
 namespace {
@@ -70,6 +72,24 @@ TEST_P(Bisections, CutsOfMajorityAndFixedAxesAreValid) {
         if (!result.cut.made()) continue;  // both may fail; whatever they return is valid
         expect_valid(result);
         EXPECT_TRUE(options.axis < 0 || result.cut.plane.normal == Vec3::UnitZ());
+    }
+}
+
+// Steps of the contour along slanted edges run back on themselves where the wall is steep.
+TEST(Bisect, GoesAgainstTheGrainOfEdges) {
+    for (int i = 0; i < 40; i += test::in_slices() ? 8 : 2) {
+        SCOPED_TRACE(testing::Message() << "tilt and twist number " << i);
+        Soup soup = test::twisted_cylinder(48, 64, 1, 8, 0.1 * (i % 10));
+        const Eigen::AngleAxisd tilt(0.05 + 0.02 * i, Vec3(1, 0.3, 0).normalized());
+        for (Vec3& v : soup.vertices) v = tilt * v;
+        const Surface surface = test::to_surface(soup);
+        CutOptions across_z;
+        across_z.axis = 2;
+        const Cut cut = bisect(surface, mass_properties(surface), 1, {0.5}, across_z, false).cut;
+        EXPECT_TRUE(cut.rung == Rung::first_try || cut.rung == Rung::local_repair) << name(cut.rung);
+        EXPECT_LE(cut.tries.size(), 3U);
+        EXPECT_GE(cut.quality.dihedral_deg, across_z.good_dihedral_deg);
+        EXPECT_GE(cut.quality.angle_deg, across_z.good_angle_deg);
     }
 }
 
