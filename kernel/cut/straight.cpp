@@ -147,14 +147,25 @@ Refusal span_plane(const Surface& parent, Cut& cut) {
     return planar.refusal;
 }
 
-Refusal try_plane(const Surface& surface, const StraightPlane& plane, StraightCut& result) {
+// Whether a piece of a split or of an untested facet meets another facet.
+bool intersects(const PlaneSplit& split, const std::vector<char>& untested) {
+    const std::vector<std::int32_t>& parent = split.parent;
+    std::vector<char> chosen(parent.size(), 0);
+    for (std::size_t i = 0; i < parent.size(); ++i)
+        chosen[i] = (!untested.empty() && untested[parent[i]]) || (i > 0 && parent[i - 1] == parent[i]) ||
+                    (i + 1 < parent.size() && parent[i + 1] == parent[i]);
+    return !find_intersections_of(chosen, split.arrays.vertices, split.arrays.facets, 1).empty();
+}
+
+Refusal try_plane(const Surface& surface, const StraightPlane& plane, const std::vector<char>& untested,
+                  StraightCut& result) {
     Cut& cut = result.cut;
     cut.plane = coordinate_plane(plane.axis, plane.height);
     std::optional<PlaneSplit> split = split_at_plane(surface, plane.axis, plane.height, cut.node);
     if (!split) return Refusal::coincident_vertices;
     result.split = std::move(*split);
     const SurfaceArrays& arrays = result.split.arrays;
-    if (!find_self_intersections(arrays.vertices, arrays.facets, 1).empty()) return Refusal::intersection;
+    if (intersects(result.split, untested)) return Refusal::intersection;
     result.parent = Surface(SurfaceArrays(arrays));
     const std::vector<SurfaceEdge> edges = contour_of(result.parent, result.split);
     if (edges.empty()) return Refusal::empty_side;
@@ -189,13 +200,13 @@ std::vector<StraightPlane> straight_planes(const Surface& surface, double fracti
 }
 
 std::optional<StraightCut> cut_straight(const Surface& surface, NodeId node, double fraction, const CutOptions& options,
-                                        std::vector<CutTry>& tries) {
+                                        std::vector<CutTry>& tries, const std::vector<char>& untested) {
     std::int32_t step = 0;
     for (const StraightPlane& plane : straight_planes(surface, fraction, options)) {
         StraightCut result;
         result.cut.node = node;
         CutTry record;
-        record.refusal = try_plane(surface, plane, result);
+        record.refusal = try_plane(surface, plane, untested, result);
         record.plane = result.cut.plane;
         record.axis = plane.axis;
         record.step = step++;

@@ -82,6 +82,7 @@ FaceComplex::Part FaceComplex::part(NodeId id) const {
         part.arrays.facet_key.push_back(face.key);
         part.arrays.patch.push_back(face.patch);
         part.face.push_back(static_cast<std::int32_t>(f));
+        part.untested.push_back(face.untested[face.owner[0] == id ? 0 : 1]);
     }
     KERF_CHECK(!part.face.empty());
     return part;
@@ -119,7 +120,9 @@ void FaceComplex::divide(NodeId id, const Part& whole, const StraightCut& cut) {
         if (end - i > 1) {
             note_division(face);
             face.divided = true;
+            face.untested[1 - own] = 1;
         }
+        face.untested[own] = 0;
         for (std::size_t piece = i; piece < end; ++piece) {
             const Triangle& t = split.arrays.facets[piece];
             face.corners = {vertex[t[0]], vertex[t[1]], vertex[t[2]]};
@@ -159,6 +162,7 @@ void FaceComplex::split_others(NodeId id, std::vector<SplitEdge> edges) {
         if (pieces.count == 1) continue;
         note_division(face);
         face.divided = true;
+        face.untested = {1, 1};
         for (int i = 0; i < pieces.count; ++i) {
             face.corners = pieces.pieces[i];
             if (i == 0)

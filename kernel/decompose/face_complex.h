@@ -16,8 +16,9 @@ struct ComplexFace {
     std::array<NodeId, 2> owner = {0, 0};  ///< owner[1] is 0 for facets of the input
     Key key = 0;                           ///< as in SurfaceArrays
     std::int32_t patch = -1;
-    NodeId cap = 0;        ///< the straight cut in whose plane it lies, owner[0] below; 0: none
-    bool divided = false;  ///< a piece of a facet that was split
+    NodeId cap = 0;                         ///< the straight cut in whose plane it lies, owner[0] below; 0: none
+    bool divided = false;                   ///< a piece of a facet that was split
+    std::array<char, 2> untested = {0, 0};  ///< per owner: not known to be free of the owner's other faces
 
     bool bounds(NodeId part) const { return owner[0] == part || owner[1] == part; }
 };
@@ -33,6 +34,7 @@ class FaceComplex {
         SurfaceArrays arrays;
         std::vector<std::int32_t> vertex;
         std::vector<std::int32_t> face;
+        std::vector<char> untested;  ///< per facet, as ComplexFace::untested
     };
     Part part(NodeId id) const;  ///< which must be one of the parts
 

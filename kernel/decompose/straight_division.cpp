@@ -57,7 +57,7 @@ bool StraightDivision::cut(TreeNode& node) {
     const FaceComplex::Part part = complex_.part(node.id);
     std::vector<CutTry> tries;
     std::optional<StraightCut> made =
-        cut_straight(Surface(part.arrays), node.id, fraction_below(node.leaves), options_.cut, tries);
+        cut_straight(Surface(part.arrays), node.id, fraction_below(node.leaves), options_.cut, tries, part.untested);
     node.cut_tried = true;
     if (!made) {
         node.tries += static_cast<std::int32_t>(tries.size());

@@ -162,6 +162,57 @@ struct Hopeless {};
 
 Corners rotated(const Corners& p, int first) { return {p[first], p[(first + 1) % 3], p[(first + 2) % 3]}; }
 
+using FacetBox = CGAL::Box_intersection_d::Box_with_handle_d<double, 3, const Triangle*>;
+
+std::vector<FacetBox> facet_boxes(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
+    std::vector<FacetBox> boxes;
+    boxes.reserve(facets.size());
+    for (const Triangle& t : facets) {
+        const Vec3 &a = vertices[t[0]], &b = vertices[t[1]], &c = vertices[t[2]];
+        const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+        boxes.emplace_back(CGAL::Bbox_3(low.x(), low.y(), low.z(), high.x(), high.y(), high.z()), &t);
+    }
+    return boxes;
+}
+
+// Collects the intersecting ones of the pairs of boxes that it is given, the first of them, until there are too many.
+class PairSearch {
+ public:
+    PairSearch(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, std::size_t limit)
+        : vertices_(vertices), facets_(facets), limit_(limit) {}
+
+    // `for_each_pair` calls what it is given with each pair.
+    template <class ForEachPair>
+    std::vector<std::pair<std::int32_t, std::int32_t>> run(ForEachPair for_each_pair) {
+        try {
+            for_each_pair([this](const FacetBox& a, const FacetBox& b) { test(*a.handle(), *b.handle()); });
+        } catch (const Hopeless&) {
+            // there are enough of them
+        }
+        keep_first();
+        return std::move(pairs_);
+    }
+
+ private:
+    Corners corners(const Triangle& t) const { return {vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]}; }
+    std::int32_t number(const Triangle& t) const { return static_cast<std::int32_t>(&t - facets_.data()); }
+    void keep_first() {
+        std::sort(pairs_.begin(), pairs_.end());
+        if (pairs_.size() > limit_) pairs_.resize(limit_);
+    }
+    void test(const Triangle& s, const Triangle& t) {
+        if (!triangles_intersect(corners(s), s, corners(t), t)) return;
+        pairs_.push_back(std::minmax(number(s), number(t)));
+        if (pairs_.size() > 2 * limit_ + 1000) keep_first();  // the boxes come in no particular order
+        if (++found_ == hopeless_factor * limit_) throw Hopeless();
+    }
+
+    const std::vector<Vec3>& vertices_;
+    const std::vector<Triangle>& facets_;
+    std::size_t limit_, found_ = 0;
+    std::vector<std::pair<std::int32_t, std::int32_t>> pairs_;
+};
+
 }  // namespace
 
 int orientation_sign(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
@@ -190,41 +241,26 @@ bool triangles_intersect(const std::array<Vec3, 3>& p, const Triangle& p_id, con
 std::vector<std::pair<std::int32_t, std::int32_t>> find_self_intersections(const std::vector<Vec3>& vertices,
                                                                            const std::vector<Triangle>& facets,
                                                                            std::size_t limit) {
-    KERF_CHECK(limit > 0);
-    KERF_CHECK(are_in_range(facets, vertices.size()) && have_distinct_corners(facets));
-    using Pair = std::pair<std::int32_t, std::int32_t>;
-    using Box = CGAL::Box_intersection_d::Box_with_handle_d<double, 3, const Triangle*>;
-    const auto corners = [&](const Triangle& t) { return Corners{vertices[t[0]], vertices[t[1]], vertices[t[2]]}; };
-
-    std::vector<Box> boxes;
-    boxes.reserve(facets.size());
-    for (const Triangle& t : facets) {
-        const Corners p = corners(t);
-        const Vec3 low = p[0].cwiseMin(p[1]).cwiseMin(p[2]), high = p[0].cwiseMax(p[1]).cwiseMax(p[2]);
-        boxes.emplace_back(CGAL::Bbox_3(low.x(), low.y(), low.z(), high.x(), high.y(), high.z()), &t);
-    }
-
-    std::vector<Pair> pairs;
-    std::size_t found = 0;
-    const auto keep_first = [&] {
-        std::sort(pairs.begin(), pairs.end());
-        if (pairs.size() > limit) pairs.resize(limit);
-    };
-    const auto test_pair = [&](const Box& a, const Box& b) {
-        const Triangle &s = *a.handle(), &t = *b.handle();
-        if (!triangles_intersect(corners(s), s, corners(t), t)) return;
-        pairs.push_back(
-            std::minmax(static_cast<std::int32_t>(&s - facets.data()), static_cast<std::int32_t>(&t - facets.data())));
-        if (pairs.size() > 2 * limit + 1000) keep_first();  // the boxes come in no particular order
-        if (++found == hopeless_factor * limit) throw Hopeless();
-    };
-    try {
+    std::vector<FacetBox> boxes = facet_boxes(vertices, facets);
+    return PairSearch(vertices, facets, limit).run([&](const auto& test_pair) {
         CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), test_pair);
-    } catch (const Hopeless&) {
-        // there are enough of them
-    }
-    keep_first();
-    return pairs;
+    });
+}
+
+std::vector<std::pair<std::int32_t, std::int32_t>> find_intersections_of(const std::vector<char>& chosen,
+                                                                         const std::vector<Vec3>& vertices,
+                                                                         const std::vector<Triangle>& facets,
+                                                                         std::size_t limit) {
+    KERF_CHECK(chosen.size() == facets.size());
+    std::vector<FacetBox> all = facet_boxes(vertices, facets), few;
+    const auto is_chosen = [&](const FacetBox& box) { return chosen[box.handle() - facets.data()] != 0; };
+    std::copy_if(all.begin(), all.end(), std::back_inserter(few), is_chosen);
+    return PairSearch(vertices, facets, limit).run([&](const auto& test_pair) {
+        const auto test_once = [&](const FacetBox& a, const FacetBox& b) {  // two chosen ones come in both orders
+            if (a.handle() != b.handle() && (a.handle() < b.handle() || !is_chosen(b))) test_pair(a, b);
+        };
+        CGAL::box_intersection_d(few.begin(), few.end(), all.begin(), all.end(), test_once);
+    });
 }
 
 }  // namespace kerf

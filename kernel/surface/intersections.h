@@ -31,4 +31,11 @@ std::vector<std::pair<std::int32_t, std::int32_t>> find_self_intersections(const
                                                                            const std::vector<Triangle>& facets,
                                                                            std::size_t limit = 1000);
 
+/// The same, but only of pairs of which at least one facet is `chosen` (#F): what is to be asked where few facets of a
+/// surface without intersections have changed.
+std::vector<std::pair<std::int32_t, std::int32_t>> find_intersections_of(const std::vector<char>& chosen,
+                                                                         const std::vector<Vec3>& vertices,
+                                                                         const std::vector<Triangle>& facets,
+                                                                         std::size_t limit = 1000);
+
 }  // namespace kerf

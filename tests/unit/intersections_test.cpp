@@ -239,6 +239,24 @@ TEST(FindSelfIntersections, KeepsToItsLimitInASoupThatIsNoSurface) {
     }
 }
 
+TEST(FindIntersectionsOf, AreThoseOfAllPairsWithAChosenFacet) {
+    for (unsigned seed = 1; seed <= 10; ++seed) {
+        SCOPED_TRACE(seed);
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<double> coordinate(0, 1);
+        std::vector<Vec3> vertices;
+        for (int i = 0; i < 150; ++i) vertices.emplace_back(coordinate(random), coordinate(random), coordinate(random));
+        std::vector<Triangle> facets;
+        for (int i = 0; i < 150; i += 3) facets.push_back({i, i + 1, i + 2});
+        std::vector<char> chosen(facets.size());
+        for (char& c : chosen) c = random() % 4 < seed % 5;  // none to all
+        auto expected = find_self_intersections(vertices, facets, 100'000);
+        ASSERT_FALSE(expected.empty());
+        std::erase_if(expected, [&](const auto& pair) { return !chosen[pair.first] && !chosen[pair.second]; });
+        EXPECT_EQ(find_intersections_of(chosen, vertices, facets, 100'000), expected);
+    }
+}
+
 TEST(ExactPredicates, FollowTheSignOfTheDeterminant) {
     RandomTriangles random(23, 2);
     for (int i = 0; i < 2000; ++i) {

@@ -70,7 +70,7 @@ view::Image read_png(const std::string& path) {
     const std::string file = bytes_of_file(path);
     view::Image image;
     stbi_uc* pixels = stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(file.data()),
-                                             static_cast<int>(file.size()), &image.width, &image.height, nullptr, 3);
+                                            static_cast<int>(file.size()), &image.width, &image.height, nullptr, 3);
     if (pixels == nullptr) return {};
     image.rgb.assign(pixels, pixels + std::size_t{3} * image.width * image.height);
     stbi_image_free(pixels);
