@@ -24,7 +24,7 @@ namespace kerf {
 
 namespace {
 
-constexpr double least_softness = 0.02;         // worse cuts make tetrahedra that are of no use
+constexpr double least_goodness = 0.02;         // worse cuts make tetrahedra that are of no use
 constexpr std::int32_t planes_before_soft = 3;  // tried before a soft cut is good enough
 constexpr std::int32_t soft_rounds = 6;         // of local repair of a valid cut
 constexpr int max_stalled = 2;                  // rounds of repair that change nothing
@@ -65,7 +65,7 @@ double penalty_factor(Refusal refusal) {
 }
 
 // The smallest measure over its threshold: 1 and more is good.
-double softness(const InterfaceQuality& quality, const CutOptions& options) {
+double goodness(const InterfaceQuality& quality, const CutOptions& options) {
     return std::min({quality.dihedral_deg / options.good_dihedral_deg, quality.angle_deg / options.good_angle_deg,
                      quality.gap_rel / options.good_gap_rel});
 }
@@ -73,7 +73,7 @@ double softness(const InterfaceQuality& quality, const CutOptions& options) {
 // 0 if the interface is not valid; 1 and more if it is good.
 double rating(const Verdict& verdict, const CutOptions& options) {
     if (verdict.refusal == Refusal::none) return 1;
-    return verdict.refusal == Refusal::soft ? softness(verdict.quality, options) : 0;
+    return verdict.refusal == Refusal::soft ? goodness(verdict.quality, options) : 0;
 }
 
 bool divides(const std::vector<Side>& side) {
@@ -305,7 +305,7 @@ class Ladder {
     bool record_;
     std::int64_t step_budget_;
     std::unique_ptr<Attempt> best_;
-    double best_softness_ = least_softness;
+    double best_goodness_ = least_goodness;
 };
 
 bool Ladder::try_plane(const PlaneCandidate& candidate, std::vector<CutTry>& tries) {
@@ -314,8 +314,8 @@ bool Ladder::try_plane(const PlaneCandidate& candidate, std::vector<CutTry>& tri
     for (std::int32_t repair = 0, soft = 0; repair <= rounds && soft < soft_rounds; ++repair) {
         if (options_.poll) options_.poll();
         auto attempt = std::make_unique<Attempt>(trial.attempt(repair));
-        const double value = attempt->valid() ? softness(attempt->record.quality, options_) : 0;
-        const bool wanted = attempt->record.refusal == Refusal::none || value > best_softness_;
+        const double value = attempt->valid() ? goodness(attempt->record.quality, options_) : 0;
+        const bool wanted = attempt->record.refusal == Refusal::none || value > best_goodness_;
         if (attempt->valid() && wanted) trial.complete(*attempt);
         tries.push_back(attempt->record);
         if (attempt->record.refusal == Refusal::none) {
@@ -326,7 +326,7 @@ bool Ladder::try_plane(const PlaneCandidate& candidate, std::vector<CutTry>& tri
         if (attempt->valid()) {
             ++soft;
             if (wanted) {
-                best_softness_ = value;
+                best_goodness_ = value;
                 best_ = std::move(attempt);
             }
         }

@@ -88,6 +88,23 @@ const char* name(Refusal refusal) {
     return "";
 }
 
+CutSummary summary_of(const Cut& cut) {
+    return {cut.plane,
+            cut.method,
+            cut.rung,
+            static_cast<std::int32_t>(cut.tries.size()),
+            static_cast<std::int32_t>(cut.loops.size()),
+            cut.contour_edges,
+            cut.contour_length,
+            cut.max_deviation,
+            cut.place,
+            cut.section_area,
+            cut.interface_area,
+            static_cast<std::int32_t>(cut.interface.triangles.size()),
+            cut.quality,
+            cut.seconds};
+}
+
 void describe_contour(const Surface& parent, Cut& cut) {
     for (const auto& loop : cut.loops)
         for (std::size_t i = 0; i < loop.size(); ++i) {

@@ -124,7 +124,7 @@ struct ContourStages {
 /// Triangulation of the section inside of the contour, in the plane and lifted to meet the surface.
 struct Interface {
     std::vector<std::int32_t> contour;  ///< #C; vertex of the parent surface of each contour vertex
-    std::vector<Vec2> planar;           ///< #P; contour vertices first; plane coordinates
+    std::vector<Vec2> planar;           ///< #P; contour vertices first; plane coordinates while it was triangulated
     std::vector<Vec3> points;           ///< #P; contour vertices at their place on the surface
     std::vector<Triangle> triangles;    ///< indices into `planar`; counter-clockwise seen from above
 
@@ -176,6 +176,31 @@ struct Cut {
           contour_length, max_deviation, section_area, interface_area, seconds);
     }
 };
+
+/// What a cut, made or not, came to in numbers: kept by the tree, listed by the report, compared by the viewer.
+struct CutSummary {
+    Plane plane;
+    ContourMethod method = ContourMethod::min_cut;
+    Rung rung = Rung::whole;
+    std::int32_t tries = 0;
+    std::int32_t loops = 0;
+    std::int64_t contour_edges = 0;
+    double contour_length = 0;
+    double max_deviation = 0;  ///< as in Cut
+    CutPlace place;
+    double section_area = 0, interface_area = 0;
+    std::int32_t interface_faces = 0;
+    InterfaceQuality quality;
+    double seconds = 0;  ///< wall clock; goes into the report only
+
+    bool made() const { return rung != Rung::whole; }
+    template <class Archive>
+    void archive(Archive& a) {
+        a(plane, method, rung, tries, loops, contour_edges, contour_length, max_deviation, place, section_area,
+          interface_area, interface_faces, quality, seconds);
+    }
+};
+CutSummary summary_of(const Cut& cut);
 
 /// Fills contour_edges, contour_length and max_deviation from the loops and the plane. `parent` is the surface whose
 /// vertices the loops name.

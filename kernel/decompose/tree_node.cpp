@@ -36,21 +36,8 @@ TreeNode describe_node(NodeId id, std::int32_t first_leaf, std::int32_t leaves, 
 void describe_cut(const Cut& cut, TreeNode& node) {
     node.cut_tried = true;
     node.cut_made = cut.made();
-    node.plane = cut.plane;
-    node.place = cut.place;
-    node.method = cut.method;
-    node.rung = cut.rung;
-    node.tries = static_cast<std::int32_t>(cut.tries.size());
-    node.loops = static_cast<std::int32_t>(cut.loops.size());
-    node.contour_edges = cut.contour_edges;
-    node.contour_length = cut.contour_length;
-    node.max_deviation = cut.max_deviation;
-    node.section_area = cut.section_area;
-    node.interface_area = cut.interface_area;
-    node.interface_faces = static_cast<std::int32_t>(cut.interface.triangles.size());
+    static_cast<CutSummary&>(node) = summary_of(cut);
     node.interface_vertices = static_cast<std::int32_t>(cut.interface.points.size() - cut.interface.contour.size());
-    node.quality = cut.quality;
-    node.seconds = cut.seconds;
     node.cut_hash = cut.hash;
 }
 

@@ -7,8 +7,8 @@
 
 namespace kerf {
 
-/// What is kept of a node of the tree once it has been cut.
-struct TreeNode {
+/// What is kept of a node of the tree once it has been cut; of a part, the summary is that of cuts tried in vain.
+struct TreeNode : CutSummary {
     NodeId id = 1;
     std::int32_t first_leaf = 0;  ///< of the leaves below it, in the order of the tree
     std::int32_t leaves = 1;      ///< wanted below it
@@ -17,27 +17,15 @@ struct TreeNode {
     MassProperties mass;
     bool cut_made = false;
     bool cut_tried = false;
-    CutPlace place;
-    Plane plane;
-    ContourMethod method = ContourMethod::min_cut;
-    Rung rung = Rung::whole;
-    std::int32_t tries = 0;
-    std::int32_t loops = 0;
-    std::int64_t contour_edges = 0;
-    double contour_length = 0, max_deviation = 0, section_area = 0, interface_area = 0;
-    std::int32_t interface_faces = 0;
     std::int32_t interface_vertices = 0;  ///< interior ones, which this cut added
-    InterfaceQuality quality;
-    double seconds = 0;          ///< wall clock of the cut; goes into the report only
     FileHash cut_hash = {0, 0};  ///< of all below that follows from the cut: equal on all ranks; {0, 0}: none was made
 
     template <class Archive>
     void archive(Archive& a) {
         a(id, first_leaf, leaves, vertices, facets, mass.volume, mass.area, mass.centroid);
         for (int i = 0; i < 9; ++i) a(mass.inertia.data()[i], mass.axes.data()[i]);
-        a(mass.eigenvalues, cut_made, cut_tried, place, plane, method, rung, tries, loops, contour_edges,
-          contour_length, max_deviation, section_area, interface_area, interface_faces, interface_vertices, quality,
-          seconds, cut_hash);
+        a(mass.eigenvalues, cut_made, cut_tried, interface_vertices, cut_hash);
+        CutSummary::archive(a);
     }
 };
 

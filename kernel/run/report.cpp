@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/words.h"
+#include "run/cut_json.h"
 #include "run/number_text.h"
 #include "run/path_text.h"
 #include "run/version.h"
@@ -91,27 +92,6 @@ Json options_json(RunOptions options) {
     return json;
 }
 
-Json cut_json(const TreeNode& node) {
-    return {{"plane", {{"point", to_json(node.plane.origin)}, {"normal", to_json(node.plane.normal)}}},
-            {"method", name(node.method)},
-            {"rung", name(node.rung)},
-            {"tries", node.tries},
-            {"loops", node.loops},
-            {"contour_edges", node.contour_edges},
-            {"contour_length", node.contour_length},
-            {"max_deviation", node.max_deviation},
-            {"load_fraction", node.place.fraction},
-            {"axis", node.place.axis},
-            {"section_gain", node.place.section_gain},
-            {"section_area", node.section_area},
-            {"interface_area", node.interface_area},
-            {"interface_faces", node.interface_faces},
-            {"min_interface_angle_deg", node.quality.angle_deg},
-            {"min_dihedral_deg", node.quality.dihedral_deg},
-            {"min_gap_rel", node.quality.gap_rel},
-            {"seconds", node.seconds}};
-}
-
 Json node_json(const TreeNode& node) {
     Json json = {{"id", node.id},
                  {"parent", node.id / 2},
@@ -125,7 +105,7 @@ Json node_json(const TreeNode& node) {
                  {"inertia", rows(node.mass.inertia)},
                  {"eigenvalues", to_json(node.mass.eigenvalues)},
                  {"axes", columns(node.mass.axes)}};
-    if (node.cut_tried) json["cut"] = cut_json(node);
+    if (node.cut_tried) json["cut"] = json_of_cut(node);
     return json;
 }
 

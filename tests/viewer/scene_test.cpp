@@ -155,7 +155,9 @@ TEST(Explosion, SistersPartByTheirCut) {
         TreeRow& row = tree.at(id);
         row.state = id < 4 ? NodeState::divided : NodeState::done;
         row.volume = 8;
-        if (id < 4) row.plane = Plane(Vec3::Zero(), id == 1 ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitY()));
+        if (id >= 4) continue;
+        row.cut.emplace().rung = Rung::first_try;
+        row.cut->plane = Plane(Vec3::Zero(), id == 1 ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitY()));
     }
     EXPECT_EQ(explosion_offset(tree, 6, 1, 0, 1), Vec3::Zero());
     EXPECT_EQ(explosion_offset(tree, 4, 1, 1, 1), Vec3(-1, -1, 0));

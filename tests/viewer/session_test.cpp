@@ -226,7 +226,7 @@ TEST_F(OwnRun, FillsTheDocumentAsItGoes) {
     for (const TreeRow& row : d.tree.rows) {
         SCOPED_TRACE(row.id);
         EXPECT_EQ(row.state, row.id < 4 ? NodeState::divided : NodeState::done);
-        EXPECT_EQ(row.plane.has_value(), row.id < 4);
+        EXPECT_EQ(row.plane() != nullptr, row.id < 4);
         EXPECT_EQ(row.tets > 0, row.id >= 4);
         EXPECT_GT(row.facets, 0);
         EXPECT_GT(row.volume, 0);
@@ -392,15 +392,18 @@ TEST_F(Data, SurfacesOfTraceAndFolderAgree) {
         EXPECT_EQ(other->facets, row.facets);
         EXPECT_LT((*other->centroid - *row.centroid).norm(), 1e-9);
         EXPECT_LT((other->axes - row.axes).norm(), 1e-9);
-        EXPECT_EQ(other->plane.has_value(), row.plane.has_value());
-        EXPECT_EQ(other->rung, row.rung);
-        EXPECT_EQ(other->interface_faces, row.interface_faces);
+        EXPECT_EQ(other->plane() != nullptr, row.plane() != nullptr);
+        ASSERT_EQ(other->cut.has_value(), row.cut.has_value());
+        if (row.cut) {
+            EXPECT_EQ(other->cut->rung, row.cut->rung);
+            EXPECT_EQ(other->cut->interface_faces, row.cut->interface_faces);
+        }
         EXPECT_EQ(other->leaves, row.leaves);
     }
     // The facets of the input are shared out; each interface is there twice.
     std::int64_t facets = 0, interfaces = 0;
     for (const NodeId part : tree.parts_below(1)) facets += tree.find(part)->facets;
-    for (const TreeRow& row : tree.rows) interfaces += row.leaf() ? 0 : row.interface_faces;
+    for (const TreeRow& row : tree.rows) interfaces += row.leaf() ? 0 : row.cut->interface_faces;
     EXPECT_EQ(facets, by_folder_.document().input_facets + 2 * interfaces);
 }
 
@@ -413,7 +416,7 @@ TEST_F(SessionTest, SurfacesOfStraightCutsAreClosed) {
     ASSERT_TRUE(settle(session_));
     ASSERT_TRUE(document().trace) << document().progress.message;
     ASSERT_EQ(document().tree.parts_below(1).size(), 6u);
-    EXPECT_EQ(document().tree.find(1)->rung, name(Rung::straight));
+    EXPECT_EQ(document().tree.find(1)->cut->rung, Rung::straight);
     Session folder{KERF_PROGRAM};
     folder.open(document().folder);
     ASSERT_TRUE(settle(folder));
@@ -621,7 +624,7 @@ TEST_F(Data, ACutMadeAgainWithOtherOptionsTakesItsPlace) {
     EXPECT_NE(d.trace->find(2)->plane.normal, old->find(2)->plane.normal);
     EXPECT_TRUE(to_bytes(*by_folder_.cut_before(2)) == to_bytes(*old->find(2)));
     EXPECT_LE(d.tree.rows.size(), nodes);
-    EXPECT_EQ(d.tree.find(2)->plane->normal, d.trace->find(2)->plane.normal);
+    EXPECT_EQ(d.tree.find(2)->plane()->normal, d.trace->find(2)->plane.normal);
     double volume = 0;
     for (const NodeId half : {4, 5}) {
         const auto surface = get(by_folder_, [&] { return by_folder_.surface(half); });
@@ -725,7 +728,7 @@ TEST_F(SessionTest, ShowsAnInterruptedRun) {
     EXPECT_GE(document().progress.parts_done, 2);
     EXPECT_EQ(document().tree.parts_below(1).size(), 12u);
     EXPECT_TRUE(document().trace);
-    EXPECT_TRUE(document().tree.find(1)->plane);
+    EXPECT_TRUE(document().tree.find(1)->plane());
     int done = 0;
     for (const NodeId part : document().tree.parts_below(1)) {
         EXPECT_TRUE(get(session_, [&] { return session_.part_surface(part); }));

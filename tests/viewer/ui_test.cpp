@@ -84,7 +84,7 @@ TEST(Ui, ASession) {
     EXPECT_GT(driver.drawn("cells").triangles, 0);
     driver.click("Snap to cut of node 1");
     const TreeRow& root = *driver.document().tree.find(1);
-    EXPECT_LT((state.clip.normal - root.plane->normal).norm(), 1e-12);
+    EXPECT_LT((state.clip.normal - root.plane()->normal).norm(), 1e-12);
     const Image snapped = driver.picture();
     EXPECT_TRUE(differ(clipped, snapped));
 

@@ -171,10 +171,10 @@ Clip clip_from_text(const std::string& text, const Clip& before, const Document&
         NodeId node = 0;
         if (!parse_number(value, node) || node < 1) refuse_clip(text);
         const TreeRow* row = document.tree.find(node);
-        if (!row || !row->plane)
+        if (!row || !row->plane())
             throw Error(ErrorCode::usage,
                         fmt::format("Node {} was not cut, so that there is no plane to clip at.", node));
-        snap_to(clip, *row->plane, document.box);
+        snap_to(clip, *row->plane(), document.box);
         return clip;
     }
     if (!parse_normal(place, clip.normal, clip.flipped) || !parse_number(value, clip.position)) refuse_clip(text);

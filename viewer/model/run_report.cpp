@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "io/file_bytes.h"
 #include "mesh/quality.h"
+#include "run/cut_json.h"
 #include "run/path_text.h"
 
 namespace kerf::view {
@@ -29,21 +30,6 @@ Vec3 vector_of(const Json& json) {
     return v;
 }
 
-void read_cut(const Json& cut, TreeRow& row) {
-    row.rung = cut.at("rung").get<std::string>();
-    row.tries = cut.at("tries").get<std::int32_t>();
-    row.seconds = number(cut, "seconds");
-    if (row.state != NodeState::divided) return;
-    row.plane = Plane(vector_of(cut.at("plane").at("point")), vector_of(cut.at("plane").at("normal")));
-    row.contour_length = number(cut, "contour_length");
-    row.section_area = number(cut, "section_area");
-    row.interface_area = number(cut, "interface_area");
-    row.interface_faces = cut.at("interface_faces").get<std::int32_t>();
-    row.loops = cut.at("loops").get<std::int32_t>();
-    row.min_angle_deg = number(cut, "min_interface_angle_deg");
-    row.min_dihedral_deg = number(cut, "min_dihedral_deg");
-}
-
 void read_node(const Json& node, Tree& tree) {
     TreeRow& row = tree.at(node.at("id").get<NodeId>());
     row.state = node.at("children").empty() ? NodeState::waiting : NodeState::divided;
@@ -54,7 +40,9 @@ void read_node(const Json& node, Tree& tree) {
     row.centroid = vector_of(node.at("centroid"));
     row.eigenvalues = vector_of(node.at("eigenvalues"));
     for (int i = 0; i < 3; ++i) row.axes.col(i) = vector_of(node.at("axes").at(static_cast<std::size_t>(i)));
-    if (node.contains("cut")) read_cut(node.at("cut"), row);
+    if (!node.contains("cut")) return;
+    row.cut = cut_of_json(node.at("cut"));
+    row.seconds = row.cut->seconds;
 }
 
 // Straight cuts of neighbours change a part after its node was described.
@@ -168,8 +156,8 @@ bool is_trace_of(const Trace& trace, const Tree& tree) {
         ++divided;
         const Cut* cut = trace.find(row.id);
         if (!cut || !cut->made()) return false;
-        if (row.plane && (cut->plane.origin != row.plane->origin || cut->plane.normal != row.plane->normal))
-            return false;
+        const Plane* plane = row.plane();
+        if (plane && (cut->plane.origin != plane->origin || cut->plane.normal != plane->normal)) return false;
     }
     return divided == static_cast<std::size_t>(std::count_if(trace.cuts.begin(), trace.cuts.end(),
                                                              [](const Cut& cut) { return cut.made(); }));

@@ -198,7 +198,7 @@ void Session::Impl::use_trace(std::shared_ptr<Replayer> replayer) {
 void Session::Impl::describe_cuts() {
     for (const Cut& cut : document_.trace->cuts) {
         TreeRow* row = document_.tree.find(cut.node);
-        if (!row || !row->rung.empty()) continue;
+        if (!row || row->cut) continue;
         const NodeState state = row->state;
         describe_cut(cut, *row);
         row->state = state;

@@ -71,9 +71,10 @@ std::string describe_input(const Document& document, const TreeRow* row) {
 }
 
 std::string describe_plane(const TreeRow& row) {
-    const Vec3& n = row.plane->normal;
+    const Vec3& n = row.plane()->normal;
     return fmt::format("Normal ({:.3f}, {:.3f}, {:.3f}) through ({:.4g}, {:.4g}, {:.4g}); {}.", n.x(), n.y(), n.z(),
-                       row.plane->origin.x(), row.plane->origin.y(), row.plane->origin.z(), in_words(row.rung));
+                       row.plane()->origin.x(), row.plane()->origin.y(), row.plane()->origin.z(),
+                       in_words(name(row.cut->rung)));
 }
 
 std::string describe_edges(const Cut& cut, Stage stage) {
@@ -133,7 +134,7 @@ std::vector<Step> steps_of(const Document& document, NodeId node) {
     const TreeRow* row = document.tree.find(node);
     if (cut) {
         add_cut(*cut, steps);
-    } else if (row && row->plane) {
+    } else if (row && row->plane()) {
         steps.push_back({Stage::plane, -1});
         if (!document.folder.empty()) steps.push_back({Stage::split, -1});
     }
@@ -163,7 +164,7 @@ std::string describe_step(const Document& document, NodeId node, const Step& ste
         case Stage::input:
             return describe_input(document, row);
         case Stage::plane:
-            return row && row->plane ? describe_plane(*row) : "";
+            return row && row->plane() ? describe_plane(*row) : "";
         case Stage::triangulation:
         case Stage::interface:
             return cut ? describe_interface(*cut) : "";

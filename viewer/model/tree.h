@@ -27,18 +27,15 @@ struct TreeRow {
     double volume = -1, load = -1;
     double seconds = -1;     ///< of meshing a part, of cutting an inner node
     std::int32_t rank = -1;  ///< that meshed it
-    std::string rung;        ///< how it was cut, as Rung is named
-    std::int32_t tries = 0;
-    std::string message;  ///< why it failed
+    std::string message;     ///< why it failed
     std::optional<Vec3> centroid;
     Vec3 eigenvalues = Vec3::Zero();
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns, in the order of the eigenvalues
-    std::optional<Plane> plane;                          ///< of the cut, if one was made
-    double contour_length = -1, interface_area = -1, section_area = -1;
-    std::int32_t interface_faces = -1, loops = -1;
-    double min_angle_deg = -1, min_dihedral_deg = -1;
+    std::optional<CutSummary> cut;                       ///< made, or tried in vain
 
     bool leaf() const { return state != NodeState::divided; }
+    /// That of the cut, if one was made and is known; else null.
+    const Plane* plane() const { return cut && cut->made() ? &cut->plane : nullptr; }
 };
 
 constexpr int level_of(NodeId node) {

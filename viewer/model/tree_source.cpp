@@ -4,18 +4,8 @@ namespace kerf::view {
 
 void describe_cut(const Cut& cut, TreeRow& row) {
     row.state = cut.made() ? NodeState::divided : NodeState::waiting;
-    row.rung = name(cut.rung);
-    row.tries = static_cast<std::int32_t>(cut.tries.size());
+    row.cut = summary_of(cut);
     if (cut.seconds > 0) row.seconds = cut.seconds;
-    if (!cut.made()) return;
-    row.plane = cut.plane;
-    row.contour_length = cut.contour_length;
-    row.section_area = cut.section_area;
-    row.interface_area = cut.interface_area;
-    row.interface_faces = static_cast<std::int32_t>(cut.interface.triangles.size());
-    row.loops = static_cast<std::int32_t>(cut.loops.size());
-    row.min_angle_deg = cut.quality.angle_deg;
-    row.min_dihedral_deg = cut.quality.dihedral_deg;
 }
 
 void describe_surface(std::int64_t vertices, std::int64_t facets, const MassProperties& mass, TreeRow& row) {

@@ -79,7 +79,7 @@ Sums sums_of(const Tree& tree) {
         sums.parts += row.leaf();
         sums.failed += row.state == NodeState::failed;
         if (row.leaf() && row.tets > 0) sums.tets += static_cast<double>(row.tets);
-        if (row.interface_area > 0) sums.area += row.interface_area;
+        if (row.plane()) sums.area += row.cut->interface_area;
     }
     return sums;
 }

@@ -25,14 +25,30 @@ class Lines {
     std::string text_;
 };
 
+void add_cut(const CutSummary& cut, Lines& lines) {
+    lines.add("cut by", in_words(name(cut.rung)));
+    if (cut.tries > 0) lines.add("tries", static_cast<std::int64_t>(cut.tries));
+    if (!cut.made()) return;
+    lines.add("contour length", cut.contour_length);
+    lines.add("contour loops", static_cast<std::int64_t>(cut.loops));
+    lines.add("interface triangles", static_cast<std::int64_t>(cut.interface_faces));
+    lines.add("interface area", cut.interface_area);
+    if (cut.section_area > 0 && cut.interface_area >= 0)
+        lines.add("interface over section area", cut.interface_area / cut.section_area);
+    lines.add("smallest angle", cut.quality.angle_deg, " deg");
+    lines.add("smallest dihedral angle", cut.quality.dihedral_deg, " deg");
+}
+
+bool is_cut_by(const TreeRow& row, Rung rung) { return row.cut && row.cut->rung == rung; }
+
 }  // namespace
 
 ImVec4 color_of(const TreeRow& row, const Palette& colors) {
     switch (row.state) {
         case NodeState::divided:
-            return row.rung == "soft" || row.rung == "straight" ? colors.warning : colors.dim;
+            return is_cut_by(row, Rung::soft) || is_cut_by(row, Rung::straight) ? colors.warning : colors.dim;
         case NodeState::waiting:
-            return row.rung == "whole" ? colors.warning : colors.waiting;
+            return is_cut_by(row, Rung::whole) ? colors.warning : colors.waiting;
         case NodeState::meshing:
             return colors.busy;
         case NodeState::done:
@@ -46,7 +62,7 @@ ImVec4 color_of(const TreeRow& row, const Palette& colors) {
 std::string word_of(const TreeRow& row, bool running) {
     if (row.state == NodeState::waiting && !running) return "not meshed";
     if (row.leaf()) return name(row.state);
-    return row.rung.empty() ? "cut" : in_words(row.rung);
+    return row.cut ? in_words(name(row.cut->rung)) : "cut";
 }
 
 std::string details(const TreeRow& row) {
@@ -61,16 +77,7 @@ std::string details(const TreeRow& row) {
     lines.add("load", row.load);
     lines.add(row.leaf() ? "meshed in" : "cut in", duration(row.seconds));
     lines.add("rank", static_cast<std::int64_t>(row.rank));
-    lines.add("cut by", in_words(row.rung));
-    if (row.tries > 0) lines.add("tries", static_cast<std::int64_t>(row.tries));
-    lines.add("contour length", row.contour_length);
-    lines.add("contour loops", static_cast<std::int64_t>(row.loops));
-    lines.add("interface triangles", static_cast<std::int64_t>(row.interface_faces));
-    lines.add("interface area", row.interface_area);
-    if (row.section_area > 0 && row.interface_area >= 0)
-        lines.add("interface over section area", row.interface_area / row.section_area);
-    lines.add("smallest angle", row.min_angle_deg, " deg");
-    lines.add("smallest dihedral angle", row.min_dihedral_deg, " deg");
+    if (row.cut) add_cut(*row.cut, lines);
     lines.add("message", row.message);
     return lines.text();
 }

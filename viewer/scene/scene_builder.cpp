@@ -137,8 +137,8 @@ void SceneBuild::add_node(const std::shared_ptr<const NodeSurface>& surface) {
     const auto attempt = static_cast<std::size_t>(step_.refused_try);
     if (step_.refused_try >= 0 && cut && attempt < cut->tries.size())
         add_try(cut->tries[attempt], *surface);
-    else if (step_.stage >= Stage::plane && row && row->plane)
-        add_plane(*row->plane);
+    else if (step_.stage >= Stage::plane && row && row->plane())
+        add_plane(*row->plane());
     if (cut && step_.refused_try < 0) add_stage(*cut, *surface);
     if (step_.stage == Stage::input && row) add_axes(*row);
 }
@@ -215,10 +215,10 @@ Vec3 explosion_offset(const Tree& tree, NodeId part, NodeId root, double explode
     if (!(explode > 0)) return offset;
     for (NodeId node = part; node > root; node /= 2) {
         const TreeRow* parent = tree.find(node / 2);
-        if (!parent || !parent->plane) continue;
+        if (!parent || !parent->plane()) continue;
         // As long as a cube of the parent's volume; without a volume, less with every level.
         const double length = parent->volume > 0 ? std::cbrt(parent->volume) : diagonal / (2 + level_of(node));
-        offset += (node % 2 == 0 ? -0.5 : 0.5) * explode * length * parent->plane->normal;
+        offset += (node % 2 == 0 ? -0.5 : 0.5) * explode * length * parent->plane()->normal;
     }
     return offset;
 }
