@@ -214,7 +214,8 @@ TEST(Ui, AStageIsCalledTheSameEverywhere) {
     Driver driver(options);
     driver.open(asset_path("cube"));
     std::set<std::string> in_legends;
-    for (const Step& step : driver.app().steps()) {
+    const std::vector<Step> steps = driver.app().steps();  // which the app makes anew
+    for (const Step& step : steps) {
         driver.state().step = step;
         driver.settle();
         const std::vector<std::string> words = words_on_screen();
