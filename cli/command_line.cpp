@@ -137,6 +137,12 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     for (const OptionField& field : input_option_fields(line.check.options)) add_field(*check, field);
     CLI::App* verify = app.add_subcommand("verify", "Check every law of a finished run again, from its files.");
     verify->add_option("folder", line.options.output, "Folder of the run.")->required()->type_name("DIR");
+    CLI::App* to_export = app.add_subcommand("export", "Write a finished run in the formats of solvers.");
+    to_export->add_option("folder", line.export_.folder, "Folder of the run.")->required()->type_name("DIR");
+    to_export->add_option("--format", line.export_.formats, "Formats, with commas between.")
+        ->required()
+        ->type_name("LIST");
+    to_export->add_option("-o,--output", line.export_.output, "Folder for them.")->type_name("OUT");
     // Only for the list of commands: main() has passed these on to kerf-view.
     app.add_subcommand("view", "Open the viewer: every cut step by step, every cell.");
     app.add_subcommand("screenshot", "The same as a picture, without a display.");
@@ -172,6 +178,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         line.command = Command::check;
     } else if (verify->parsed()) {
         line.command = Command::verify;
+    } else if (to_export->parsed()) {
+        line.command = Command::export_;
     }
     return line;
 }

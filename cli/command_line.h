@@ -5,11 +5,12 @@
 #include <vector>
 
 #include "cli/check.h"
+#include "cli/export.h"
 #include "run/options.h"
 
 namespace kerf {
 
-enum class Command { none, mesh, decompose, check, verify };
+enum class Command { none, mesh, decompose, check, verify, export_ };
 
 struct CommandLine {
     Command command = Command::none;
@@ -18,6 +19,7 @@ struct CommandLine {
     bool verbose = false;  ///< print every node of the tree of cuts
     std::string resume;    ///< output folder of an interrupted run that is to be continued; empty: a new run
     CheckRequest check;
+    ExportRequest export_;
     bool print_config = false;  ///< print the effective options and end
     std::string config_file;    ///< options that the command line does not give
     std::string config;         ///< them, in the form of a config file

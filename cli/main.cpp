@@ -107,6 +107,8 @@ int run_program(int argc, char** argv) {
     switch (line.command) {
         case Command::check:
             return check_surface(line.check);
+        case Command::export_:
+            return export_run(line.export_);
         case Command::verify:
             return verify_run(line.options.output);
         default:

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "io/vtu_writer.h"
 #include "mesh/quality.h"
 #include "mesh/verification.h"
+#include "part/vtu_writer.h"
 #include "volume/retries.h"
 
 namespace kerf {

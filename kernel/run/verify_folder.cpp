@@ -16,10 +16,10 @@
 #include "io/folder_files.h"
 #include "io/run_folder.h"
 #include "io/run_manifest.h"
-#include "io/vtu_reader.h"
-#include "io/vtu_writer.h"
 #include "mesh/adjacency.h"
 #include "mesh/quality.h"
+#include "part/vtu_reader.h"
+#include "part/vtu_writer.h"
 #include "run/oriented_triangle.h"
 #include "run/path_text.h"
 #include "run/version.h"
@@ -55,7 +55,7 @@ std::string read_report(const std::string& folder) {
 }
 
 // The keys say only what the file has: the facet of the input, or that there is none.
-SurfaceArrays surface_of(const PartFile& part) {
+SurfaceArrays surface_of(const Part& part) {
     constexpr NodeId some_cut = 1;
     SurfaceArrays surface;
     surface.vertices.assign(part.mesh.vertices.begin(), part.mesh.vertices.begin() + part.mesh.boundary_vertex_count);
@@ -94,12 +94,12 @@ class FolderVerifier {
     void differs(std::string what) { result_.differences.push_back(std::move(what)); }
     void check_files();
     void check_part(const nlohmann::json& of_report);
-    void check_boundary_arrays(const PartFile& part, const std::string& path);
-    void check_what_follows(const PartFile& part, const SurfaceArrays& surface, const std::string& path,
+    void check_boundary_arrays(const Part& part, const std::string& path);
+    void check_what_follows(const Part& part, const SurfaceArrays& surface, const std::string& path,
                             const std::string& surface_path);
     void check_pvtu();
     void check_totals();
-    void keep_boundary(const PartFile& part);
+    void keep_boundary(const Part& part);
     void check_shared_vertices();
     void check_interfaces();
     void check_numbering();
@@ -145,7 +145,7 @@ void FolderVerifier::check_part(const nlohmann::json& of_report) {
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored))
         throw Error(ErrorCode::io, fmt::format("{} is missing: the part was not meshed. Run kerf mesh again.", path));
-    PartFile part = read_part(path);
+    Part part = read_part(path);
     SurfaceArrays surface = surface_of(part);
     connect_tets(part.mesh);
     const MeshLaws laws = verify_mesh(part.mesh, surface);
@@ -156,7 +156,7 @@ void FolderVerifier::check_part(const nlohmann::json& of_report) {
     result_.tets += static_cast<std::int64_t>(part.mesh.tets.size());
     ++result_.parts;
     volume_ += laws.volume;
-    if (part.part != leaf) differs(fmt::format("{} says that it is part {}", name, part.part));
+    if (part.id != leaf) differs(fmt::format("{} says that it is part {}", name, part.id));
     if (of_report.at("tets") != part.mesh.tets.size() || of_report.at("vertices") != part.mesh.vertices.size())
         differs(fmt::format("report.json has other numbers of part {}", leaf));
     check_boundary_arrays(part, name);
@@ -164,7 +164,7 @@ void FolderVerifier::check_part(const nlohmann::json& of_report) {
     keep_boundary(part);
 }
 
-void FolderVerifier::check_boundary_arrays(const PartFile& part, const std::string& path) {
+void FolderVerifier::check_boundary_arrays(const Part& part, const std::string& path) {
     const auto patches = static_cast<std::int32_t>(part.patch_names.size());
     for (std::size_t f = 0; f < part.facets.size(); ++f) {
         const bool is_interface = part.neighbour[f] >= 0, has_facet = part.facet[f] >= 0;
@@ -175,10 +175,10 @@ void FolderVerifier::check_boundary_arrays(const PartFile& part, const std::stri
 }
 
 // The arrays that follow from the mesh, and all headers: the bytes are those that the mesh would be written as.
-void FolderVerifier::check_what_follows(const PartFile& part, const SurfaceArrays& surface, const std::string& path,
+void FolderVerifier::check_what_follows(const Part& part, const SurfaceArrays& surface, const std::string& path,
                                         const std::string& surface_path) {
     PartArrays arrays;
-    arrays.part = part.part;
+    arrays.part = part.id;
     arrays.boundary_id.assign(part.global_id.begin(), part.global_id.begin() + part.mesh.boundary_vertex_count);
     arrays.neighbour = part.neighbour;
     arrays.patch_names = part.patch_names;
@@ -212,7 +212,7 @@ void FolderVerifier::check_totals() {
         differs("report.json is that of a run that has failed");
 }
 
-void FolderVerifier::keep_boundary(const PartFile& part) {
+void FolderVerifier::keep_boundary(const Part& part) {
     const auto boundary = static_cast<std::size_t>(part.mesh.boundary_vertex_count);
     for (std::size_t v = 0; v < boundary; ++v) boundary_.push_back({part.global_id[v], part.mesh.vertices[v]});
     if (boundary < part.global_id.size()) {
@@ -228,7 +228,7 @@ void FolderVerifier::keep_boundary(const PartFile& part) {
         if (part.neighbour[f] < 0)
             pieces_.push_back({part.facet[f], part.patch[f], g});
         else
-            interfaces_.push_back({part.part < part.neighbour[f] ? g : reversed(g), part.part, part.neighbour[f]});
+            interfaces_.push_back({part.id < part.neighbour[f] ? g : reversed(g), part.id, part.neighbour[f]});
     }
 }
 

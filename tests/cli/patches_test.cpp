@@ -21,7 +21,7 @@ class Patches : public testing::Test {
         std::ofstream(folder_.file(name), std::ios::binary) << bytes;
         return folder_.file(name);
     }
-    std::vector<PartFile> mesh(const std::string& path, std::vector<std::string> more = {}) const {
+    std::vector<Part> mesh(const std::string& path, std::vector<std::string> more = {}) const {
         more.insert(more.begin(), {"mesh", path, "-o", folder_.file("out"), "-n", "3", "-q"});
         const ChildResult result = test::run_kerf(more);
         EXPECT_EQ(result.exit_code, 0) << result.log;
@@ -32,11 +32,11 @@ class Patches : public testing::Test {
 };
 
 // Every boundary triangle that a facet of the input holds has the patch of that facet.
-void expect_patches(const std::vector<PartFile>& parts, const std::vector<std::int32_t>& patch,
+void expect_patches(const std::vector<Part>& parts, const std::vector<std::int32_t>& patch,
                     const std::vector<std::string>& names) {
     EXPECT_EQ(parts.size(), 3u);
     std::set<std::int32_t> seen;
-    for (const PartFile& part : parts) {
+    for (const Part& part : parts) {
         EXPECT_EQ(part.patch_names, names);
         for (std::size_t f = 0; f < part.facets.size(); ++f) {
             if (part.facet[f] < 0) continue;

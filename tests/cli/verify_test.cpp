@@ -8,8 +8,8 @@
 
 #include "io/folder_files.h"
 #include "io/run_manifest.h"
-#include "io/vtu_reader.h"
-#include "io/vtu_writer.h"
+#include "part/vtu_reader.h"
+#include "part/vtu_writer.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/program.h"

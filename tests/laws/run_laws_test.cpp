@@ -127,20 +127,20 @@ TEST(RunLaws, EveryDamageIsFound) {
     const test::TemporaryFolder folder;
     Input read;
     test::run_parts(test::asset_path("hollow_box"), folder.file("out"), 3, read);
-    const std::vector<PartFile> good = test::read_parts(folder.file("out"));
+    const std::vector<Part> good = test::read_parts(folder.file("out"));
     const SurfaceArrays input = test::asset_surface("hollow_box").arrays();
     ASSERT_EQ(test::broken_laws(good, input), "");
     const auto expect_found = [&](const char* law, const auto& damage) {
-        std::vector<PartFile> parts = good;
+        std::vector<Part> parts = good;
         damage(parts);
         EXPECT_NE(test::broken_laws(parts, input).find(law), std::string::npos) << law;
     };
-    const auto first_interface_facet = [](const PartFile& part) {
+    const auto first_interface_facet = [](const Part& part) {
         return std::find_if(part.neighbour.begin(), part.neighbour.end(), [](int n) { return n >= 0; }) -
                part.neighbour.begin();
     };
     expect_found("at different places", [](auto& parts) {
-        for (PartFile& part : parts) part.mesh.vertices[part.facets.back()[0]].x() += 1e-12 * part.part;
+        for (Part& part : parts) part.mesh.vertices[part.facets.back()[0]].x() += 1e-12 * part.id;
     });
     expect_found("gaps", [](auto& parts) { parts[0].global_id.back() += 1000000; });
     expect_found("not positive", [](auto& parts) { std::swap(parts[1].mesh.tets[0][0], parts[1].mesh.tets[0][1]); });

@@ -47,10 +47,10 @@ void expect_laws(const std::string& command, const std::string& asset, const Pla
     ASSERT_EQ(run.exit_code, 0) << run.log;
 
     const bool is_meshed = command == "mesh";
-    const std::vector<PartFile> parts = is_meshed ? test::read_parts(out) : test::read_part_surfaces(out);
+    const std::vector<Part> parts = is_meshed ? test::read_parts(out) : test::read_part_surfaces(out);
     EXPECT_EQ(parts.size(), 4u);
     std::vector<char> found(soup.vertices.size(), 0);
-    for (const PartFile& part : parts)
+    for (const Part& part : parts)
         for (std::size_t v = 0; v < part.global_id.size(); ++v) {
             const auto id = static_cast<std::size_t>(part.global_id[v]);
             if (id >= soup.vertices.size()) continue;  // made by a cut or by the mesher
@@ -77,7 +77,7 @@ TEST(Scale, SurfacesOfAnySizeAndPlaceAreMeshed) {
 TEST(Scale, PowersOfTwoChangeNothingButTheCoordinates) {
     const test::TemporaryFolder folder;
     const Soup soup = read_surface(test::asset_path("cube"));
-    std::vector<std::vector<PartFile>> runs;
+    std::vector<std::vector<Part>> runs;
     for (const double scale : {1.0, std::ldexp(1, -40), std::ldexp(1, 40)}) {
         const Soup scaled = placed(soup, {scale, Vec3::Zero()});
         test::write_off(folder.file("cube.off"), scaled.vertices, scaled.facets);
@@ -87,7 +87,7 @@ TEST(Scale, PowersOfTwoChangeNothingButTheCoordinates) {
         runs.push_back(test::read_part_surfaces(folder.file("out")));
         ASSERT_EQ(runs.back().size(), 4u);
         for (std::size_t p = 0; p < runs.back().size(); ++p) {
-            const PartFile &part = runs.back()[p], &original = runs.front()[p];
+            const Part &part = runs.back()[p], &original = runs.front()[p];
             EXPECT_EQ(part.facets, original.facets) << scale;
             EXPECT_EQ(part.global_id, original.global_id) << scale;
             for (std::size_t v = 0; v < part.mesh.vertices.size(); ++v)

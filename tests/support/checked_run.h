@@ -28,7 +28,7 @@ inline void expect_verified(const RunReport& report, std::int32_t parts) {
 
 struct FinishedRun {
     RunReport report;
-    std::vector<PartFile> parts;
+    std::vector<Part> parts;
 };
 
 /// Runs, checks the report, reads the files back and checks them against the input as it is read anew.
@@ -43,7 +43,7 @@ inline FinishedRun run_and_check(const std::string& input, std::int32_t parts, R
     EXPECT_EQ(run.parts.size(), run.report.parts.size());
     EXPECT_EQ(broken_laws(run.parts, read_input(input).surface.arrays()), "");
     std::int64_t tets = 0, last_id = -1;
-    for (const PartFile& part : run.parts) {
+    for (const Part& part : run.parts) {
         tets += static_cast<std::int64_t>(part.mesh.tets.size());
         last_id = std::max(last_id, *std::max_element(part.global_id.begin(), part.global_id.end()));
     }

@@ -27,12 +27,12 @@ struct BoundaryFace {
 
 class RunLaws {
  public:
-    RunLaws(const std::vector<PartFile>& parts, const SurfaceArrays& input) : parts_(parts), input_(input) {}
+    RunLaws(const std::vector<Part>& parts, const SurfaceArrays& input) : parts_(parts), input_(input) {}
 
     std::string broken() {
         check_numbers();
         if (!text_.empty()) return text_;  // what follows is told by global numbers
-        for (const PartFile& part : parts_) check_tetrahedra(part);
+        for (const Part& part : parts_) check_tetrahedra(part);
         check_volume();
         check_boundary();
         return text_;
@@ -43,13 +43,13 @@ class RunLaws {
         if (count) text_ += std::to_string(count) + " " + law + "; ";
     }
     void check_numbers();
-    void check_tetrahedra(const PartFile& part);
+    void check_tetrahedra(const Part& part);
     void check_volume();
     void check_facets();
     void check_boundary();
     std::vector<BoundaryFace> boundary(bool interface) const;
 
-    const std::vector<PartFile>& parts_;
+    const std::vector<Part>& parts_;
     const SurfaceArrays& input_;
     std::string text_;
     std::vector<Vec3> points_;  // by global number
@@ -61,7 +61,7 @@ void RunLaws::check_numbers() {
         Vec3 point;
     };
     std::vector<Numbered> all;
-    for (const PartFile& part : parts_)
+    for (const Part& part : parts_)
         for (std::size_t v = 0; v < part.global_id.size(); ++v)
             all.push_back({part.global_id[v], part.mesh.vertices[v]});
     std::sort(all.begin(), all.end(), [](const Numbered& a, const Numbered& b) { return a.id < b.id; });
@@ -93,7 +93,7 @@ void RunLaws::check_numbers() {
     add(doubled, "vertices with different numbers at the same place");
 }
 
-void RunLaws::check_tetrahedra(const PartFile& part) {
+void RunLaws::check_tetrahedra(const Part& part) {
     std::int64_t inverted = 0;
     std::vector<Face> faces, facets;
     for (const Tetrahedron& t : part.mesh.tets) {
@@ -117,7 +117,7 @@ void RunLaws::check_tetrahedra(const PartFile& part) {
 
 void RunLaws::check_volume() {
     double sum = 0;
-    for (const PartFile& part : parts_)
+    for (const Part& part : parts_)
         for (const Tetrahedron& t : part.mesh.tets) {
             const std::vector<Vec3>& p = part.mesh.vertices;
             sum += (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).dot(p[t[3]] - p[t[0]]) / 6;
@@ -128,11 +128,11 @@ void RunLaws::check_volume() {
 
 std::vector<BoundaryFace> RunLaws::boundary(bool interface) const {
     std::vector<BoundaryFace> faces;
-    for (const PartFile& part : parts_)
+    for (const Part& part : parts_)
         for (std::size_t f = 0; f < part.facets.size(); ++f) {
             if ((part.neighbour[f] >= 0) != interface) continue;
             const Triangle& t = part.facets[f];
-            faces.push_back({rotated({part.global_id[t[0]], part.global_id[t[1]], part.global_id[t[2]]}), part.part,
+            faces.push_back({rotated({part.global_id[t[0]], part.global_id[t[1]], part.global_id[t[2]]}), part.id,
                              part.neighbour[f], part.patch[f]});
         }
     std::sort(faces.begin(), faces.end());
@@ -143,7 +143,7 @@ std::vector<BoundaryFace> RunLaws::boundary(bool interface) const {
 void RunLaws::check_facets() {
     std::vector<std::vector<std::pair<Face, std::int32_t>>> pieces(input_.facets.size());
     std::int64_t foreign = 0, changed = 0;
-    for (const PartFile& part : parts_)
+    for (const Part& part : parts_)
         for (std::size_t f = 0; f < part.facets.size(); ++f) {
             if (part.neighbour[f] >= 0) continue;
             const Triangle& t = part.facets[f];
@@ -152,7 +152,7 @@ void RunLaws::check_facets() {
                 ++foreign;
             else
                 pieces[facet].push_back(
-                    {rotated({part.global_id[t[0]], part.global_id[t[1]], part.global_id[t[2]]}), part.part});
+                    {rotated({part.global_id[t[0]], part.global_id[t[1]], part.global_id[t[2]]}), part.id});
         }
     for (std::size_t f = 0; f < pieces.size(); ++f) {
         const Triangle& t = input_.facets[f];
@@ -183,23 +183,23 @@ void RunLaws::check_boundary() {
     add(doubled, "interface faces that are there twice");
 }
 
-std::vector<PartFile> read_files(const std::string& folder, bool surfaces) {
-    std::vector<PartFile> parts;
+std::vector<Part> read_files(const std::string& folder, bool surfaces) {
+    std::vector<Part> parts;
     for (const auto& entry : std::filesystem::directory_iterator(folder + "/parts")) {
         const bool is_surface = entry.path().string().ends_with(".surface.vtu");
         if (is_surface == surfaces) parts.push_back(read_part(entry.path()));
     }
-    std::sort(parts.begin(), parts.end(), [](const PartFile& a, const PartFile& b) { return a.part < b.part; });
+    std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.id < b.id; });
     return parts;
 }
 
 }  // namespace
 
-std::vector<PartFile> read_parts(const std::string& folder) { return read_files(folder, false); }
+std::vector<Part> read_parts(const std::string& folder) { return read_files(folder, false); }
 
-std::vector<PartFile> read_part_surfaces(const std::string& folder) { return read_files(folder, true); }
+std::vector<Part> read_part_surfaces(const std::string& folder) { return read_files(folder, true); }
 
-std::string broken_laws(const std::vector<PartFile>& parts, const SurfaceArrays& input) {
+std::string broken_laws(const std::vector<Part>& parts, const SurfaceArrays& input) {
     return RunLaws(parts, input).broken();
 }
 

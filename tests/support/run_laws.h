@@ -4,16 +4,16 @@
 #include <string>
 #include <vector>
 
-#include "io/vtu_reader.h"
+#include "part/vtu_reader.h"
 #include "surface/surface.h"
 
 namespace kerf::test {
 
 /// The part files of a run folder, ascending by leaf number.
-std::vector<PartFile> read_parts(const std::string& folder);
+std::vector<Part> read_parts(const std::string& folder);
 
 /// The surfaces of the parts of a run that stopped at them, as meshes without tetrahedra; ascending by leaf number.
-std::vector<PartFile> read_part_surfaces(const std::string& folder);
+std::vector<Part> read_part_surfaces(const std::string& folder);
 
 /// The laws that the parts break, each with a count; empty if all hold.
 ///
@@ -21,6 +21,6 @@ std::vector<PartFile> read_part_surfaces(const std::string& folder);
 /// vertices, orientation and patch; interface faces lie once on each side, turned round, and each names the other's
 /// part; the boundary of the tetrahedra is what the file says; all tetrahedra are positive; GlobalVertexId is dense,
 /// input vertices keep their numbers, and equal numbers mean equal coordinates, bit for bit, and the reverse.
-std::string broken_laws(const std::vector<PartFile>& parts, const SurfaceArrays& input);
+std::string broken_laws(const std::vector<Part>& parts, const SurfaceArrays& input);
 
 }  // namespace kerf::test

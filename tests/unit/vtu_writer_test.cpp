@@ -1,4 +1,4 @@
-#include "io/vtu_writer.h"
+#include "part/vtu_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 
 #include "core/error.h"
 #include "io/file_bytes.h"
-#include "io/vtu_reader.h"
 #include "mesh/quality.h"
+#include "part/vtu_reader.h"
 #include "support/io_error.h"
 #include "support/temporary_folder.h"
 
@@ -30,18 +30,18 @@ class VtuWriter : public testing::Test {
 };
 
 // Arrays of the right sizes with random content: the writer has no opinion about geometry.
-struct Part {
+struct WrittenPart {
     TetMesh mesh;
     SurfaceArrays surface;
     std::vector<std::int32_t> tet_at_facet;
     PartArrays arrays;
 };
 
-Part random_part(unsigned seed) {
+WrittenPart random_part(unsigned seed) {
     std::mt19937 engine(seed);
     const auto number = [&](std::int32_t below) { return static_cast<std::int32_t>(engine() % below); };
     const auto coordinate = [&] { return std::uniform_real_distribution<double>(-1e3, 1e3)(engine); };
-    Part part;
+    WrittenPart part;
     const std::int32_t boundary = 4 + number(50), interior = number(40), tets = 1 + number(300),
                        facets = 1 + number(90);
     for (std::int32_t v = 0; v < boundary + interior; ++v)
@@ -68,17 +68,17 @@ Part random_part(unsigned seed) {
     return part;
 }
 
-void write(const std::string& path, const Part& part) {
+void write(const std::string& path, const WrittenPart& part) {
     write_part(path, part.mesh, part.surface, tet_qualities(part.mesh), part.tet_at_facet, part.arrays);
 }
 
-std::vector<std::int64_t> expected_ids(const Part& part, std::int64_t first_interior) {
+std::vector<std::int64_t> expected_ids(const WrittenPart& part, std::int64_t first_interior) {
     std::vector<std::int64_t> ids = part.arrays.boundary_id;
     for (std::int32_t i = 0; i < part.mesh.interior_vertex_count(); ++i) ids.push_back(first_interior + i);
     return ids;
 }
 
-void expect_surface(const PartFile& file, const Part& part) {
+void expect_surface(const Part& file, const WrittenPart& part) {
     EXPECT_EQ(file.facets, part.surface.facets);
     EXPECT_EQ(file.patch, part.surface.patch);
     EXPECT_EQ(file.neighbour, part.arrays.neighbour);
@@ -86,7 +86,7 @@ void expect_surface(const PartFile& file, const Part& part) {
         const Key key = part.surface.facet_key[f];
         EXPECT_EQ(file.facet[f], key_node(key) == 0 ? key_index(key) : -1);
     }
-    EXPECT_EQ(file.part, part.arrays.part);
+    EXPECT_EQ(file.id, part.arrays.part);
     EXPECT_EQ(file.patch_names, part.arrays.patch_names);
     EXPECT_EQ(file.mesh.boundary_vertex_count, part.mesh.boundary_vertex_count);
 }
@@ -104,9 +104,9 @@ std::vector<T> array_values(const std::string& file, const std::string& bytes, c
 TEST_F(VtuWriter, PartsComeBackAsTheyWere) {
     for (unsigned seed = 1; seed <= 60; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
-        const Part part = random_part(seed);
+        const WrittenPart part = random_part(seed);
         write(path("part.vtu"), part);
-        const PartFile file = read_part(path("part.vtu"));
+        const Part file = read_part(path("part.vtu"));
         expect_surface(file, part);
         EXPECT_EQ(file.mesh.vertices, part.mesh.vertices);
         EXPECT_EQ(file.mesh.tets, part.mesh.tets);
@@ -117,9 +117,9 @@ TEST_F(VtuWriter, PartsComeBackAsTheyWere) {
 TEST_F(VtuWriter, SurfacesComeBackAsTheyWere) {
     for (unsigned seed = 1; seed <= 60; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
-        const Part part = random_part(seed);
+        const WrittenPart part = random_part(seed);
         write_part_surface(path("part.surface.vtu"), part.surface, part.arrays);
-        const PartFile file = read_part(path("part.surface.vtu"));
+        const Part file = read_part(path("part.surface.vtu"));
         expect_surface(file, part);
         EXPECT_EQ(file.mesh.vertices, part.surface.vertices);
         EXPECT_TRUE(file.mesh.tets.empty());
@@ -130,7 +130,7 @@ TEST_F(VtuWriter, SurfacesComeBackAsTheyWere) {
 TEST_F(VtuWriter, SomeValuesOfACellArrayAreThoseOfTheWhole) {
     for (unsigned seed = 1; seed <= 60; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
-        const Part part = random_part(seed);
+        const WrittenPart part = random_part(seed);
         const std::string file = path("part.vtu");
         write(file, part);
         const PartCellCounts counts = read_cell_counts(file);
@@ -166,7 +166,7 @@ TEST_F(VtuWriter, SomeValuesOfACellArrayAreThoseOfTheWhole) {
 TEST_F(VtuWriter, NumberingTouchesTheInteriorIdsAlone) {
     for (unsigned seed = 1; seed <= 60; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
-        const Part part = random_part(seed);
+        const WrittenPart part = random_part(seed);
         const std::string file = path("part.vtu");
         write(file, part);
         const std::string before = read_file(file);
@@ -185,14 +185,14 @@ TEST_F(VtuWriter, NumberingTouchesTheInteriorIdsAlone) {
 }
 
 TEST_F(VtuWriter, SameInputGivesTheSameBytes) {
-    const Part part = random_part(5);
+    const WrittenPart part = random_part(5);
     write(path("a.vtu"), part);
     write(path("b.vtu"), part);
     EXPECT_EQ(read_file(path("a.vtu")), read_file(path("b.vtu")));
 }
 
 TEST_F(VtuWriter, QualityIsThatOfTheTetrahedronAndOfTheOneBehindAFacet) {
-    const Part part = random_part(9);
+    const WrittenPart part = random_part(9);
     write(path("part.vtu"), part);
     const std::string bytes = read_file(path("part.vtu"));
     const auto expect = [&](const char* name, double TetQuality::*measure) {
@@ -221,12 +221,12 @@ TEST_F(VtuWriter, QualityIsThatOfTheTetrahedronAndOfTheOneBehindAFacet) {
 }
 
 TEST_F(VtuWriter, LargeArraysAreWrittenInSeveralChunks) {
-    Part part = random_part(3);
+    WrittenPart part = random_part(3);
     const Tetrahedron tet = part.mesh.tets.front();
     part.mesh.tets.assign(300'001, tet);
     part.mesh.vertices.resize(200'003, Vec3(1, 2, 3));
     write(path("part.vtu"), part);
-    const PartFile file = read_part(path("part.vtu"));
+    const Part file = read_part(path("part.vtu"));
     EXPECT_EQ(file.mesh.tets, part.mesh.tets);
     EXPECT_EQ(file.mesh.vertices, part.mesh.vertices);
     EXPECT_EQ(file.global_id, expected_ids(part, 0));
@@ -234,7 +234,7 @@ TEST_F(VtuWriter, LargeArraysAreWrittenInSeveralChunks) {
 }
 
 TEST_F(VtuWriter, PvtuNamesItsPiecesAndTheArraysOfThePieces) {
-    const Part part = random_part(4);
+    const WrittenPart part = random_part(4);
     write(path("part.vtu"), part);
     write_pvtu(path("mesh.pvtu"), {"parts/part_0002.vtu", "parts/a&\"<.vtu"});
     const std::string pvtu = read_file(path("mesh.pvtu"));
@@ -248,7 +248,7 @@ TEST_F(VtuWriter, PvtuNamesItsPiecesAndTheArraysOfThePieces) {
 }
 
 TEST_F(VtuWriter, AFullDiskIsAnErrorThatNamesTheFile) {
-    const Part part = random_part(1);
+    const WrittenPart part = random_part(1);
     for (const std::string& message : {test::io_error([&] { write("/dev/full", part); }), test::io_error([&] {
                                            write_part_surface("/dev/full", part.surface, part.arrays);
                                        }),
@@ -270,7 +270,7 @@ TEST_F(VtuWriter, AMissingFolderIsAnErrorThatNamesTheFile) {
 TEST_F(VtuWriter, ArraysOfOtherSizesAreABug) {
     for (int which = 0; which < 5; ++which) {
         SCOPED_TRACE(which);
-        Part part = random_part(2);
+        WrittenPart part = random_part(2);
         if (which == 0) part.arrays.boundary_id.pop_back();
         if (which == 1) part.arrays.neighbour.pop_back();
         if (which == 2) part.surface.patch.pop_back();
@@ -292,7 +292,7 @@ TEST_F(VtuWriter, FilesThatEndTooEarlyAreRefused) {
 }
 
 TEST_F(VtuWriter, TellsFilesThatAreStillBeingWritten) {
-    const Part part = random_part(9);
+    const WrittenPart part = random_part(9);
     write(path("part.vtu"), part);
     write_part_surface(path("surface.vtu"), part.surface, part.arrays);
     for (const char* name : {"part.vtu", "surface.vtu"}) {

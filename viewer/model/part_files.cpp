@@ -6,23 +6,23 @@
 #include <unordered_map>
 
 #include "io/run_folder.h"
-#include "io/vtu_reader.h"
 #include "mesh/adjacency.h"
 #include "mesh/quality.h"
 #include "mesh/verification.h"
+#include "part/vtu_reader.h"
 
 namespace kerf::view {
 
 namespace {
 
-SurfaceArrays surface_arrays_of(const PartFile& file) {
+SurfaceArrays surface_arrays_of(const Part& file) {
     SurfaceArrays arrays;
     arrays.vertices.assign(file.mesh.vertices.begin(), file.mesh.vertices.begin() + file.mesh.boundary_vertex_count);
     arrays.facets = file.facets;
     return arrays;
 }
 
-std::vector<char> tets_at_interfaces(const PartFile& file) {
+std::vector<char> tets_at_interfaces(const Part& file) {
     std::vector<char> is_on_interface(file.mesh.vertices.size(), 0);
     for (std::size_t f = 0; f < file.facets.size(); ++f)
         if (file.neighbour[f] >= 0)
@@ -80,7 +80,7 @@ NodeId common_ancestor(NodeId a, NodeId b) {
 }
 
 NodeSurface read_part_surface(const std::string& folder, NodeId part, std::vector<std::string>* patch_names) {
-    PartFile file = read_part(part_surface_file_of(folder, part));
+    Part file = read_part(part_surface_file_of(folder, part));
     if (patch_names) *patch_names = std::move(file.patch_names);
     NodeSurface surface;
     surface.interface_of.reserve(file.facets.size());
@@ -124,7 +124,7 @@ NodeSurface join_part_surfaces(const std::string& folder, NodeId node, const std
 }
 
 PartCells read_part_cells(const std::string& folder, NodeId part) {
-    PartFile file = read_part(part_file_of(folder, part));
+    Part file = read_part(part_file_of(folder, part));
     connect_tets(file.mesh);
     PartCells cells;
     cells.part = part;
@@ -165,7 +165,7 @@ std::vector<float> read_values_of_cells(const std::string& folder, NodeId part, 
     const std::string path = part_file_of(folder, part);
     if (const char* array = stored_array(color)) return read_cell_values(path, array, 0, read_cell_counts(path).tets);
     if (cells) return values_of_cells(*cells, color);
-    const PartFile file = read_part(path);
+    const Part file = read_part(path);
     if (color != ColorBy::kind) return values_of_tets(file.mesh, color);
     const std::vector<char> at_interface = tets_at_interfaces(file);
     return {at_interface.begin(), at_interface.end()};
@@ -216,7 +216,7 @@ std::vector<WorstCell> find_worst_cells(const std::string& folder, const std::ve
         const auto is_in_part = [part](const WorstCell& cell) { return cell.part == part; };
         if (std::none_of(worst.begin(), worst.end(), is_in_part)) continue;
         if (is_stale()) return {};
-        const PartFile file = read_part(part_file_of(folder, part));
+        const Part file = read_part(part_file_of(folder, part));
         for (WorstCell& cell : worst) {
             if (!is_in_part(cell)) continue;
             for (const std::int32_t v : file.mesh.tets.at(static_cast<std::size_t>(cell.cell)))

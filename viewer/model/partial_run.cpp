@@ -9,7 +9,7 @@
 
 #include "core/host_name.h"
 #include "io/run_folder.h"
-#include "io/vtu_reader.h"
+#include "part/vtu_reader.h"
 #include "run/journal.h"
 
 namespace kerf::view {

@@ -4,27 +4,16 @@
 #include <string>
 #include <vector>
 
-#include "mesh/tet_mesh.h"
+#include "part/part.h"
 
 namespace kerf {
 
-/// The content of a part file but for the quality arrays, which follow from the mesh.
-struct PartFile {
-    TetMesh mesh;                         ///< without `neighbours`
-    std::vector<Triangle> facets;         ///< #F; boundary triangles, over the boundary vertices of the mesh
-    std::vector<std::int32_t> patch;      ///< #F
-    std::vector<std::int32_t> facet;      ///< #F; the facet of the input that holds it, -1 on interfaces
-    std::vector<std::int32_t> neighbour;  ///< #F
-    std::int32_t part = 0;
-    std::vector<std::int64_t> global_id;  ///< #V; GlobalVertexId
-    std::vector<std::string> patch_names;
-};
-
-/// Reads a file of write_part() or, as a mesh without tetrahedra, of write_part_surface().
+/// Reads a file of write_part() or, as a mesh without tetrahedra, of write_part_surface(): a part but for its shared
+/// vertices and the neighbours of its tetrahedra, which follow from the other parts and from the mesh.
 ///
 /// Checks that sizes, offsets, cell types and vertex numbers fit together and that the file is complete; whether the
 /// mesh obeys its laws is verify_mesh()'s question. Throws Error(io) naming the file and what is wrong with it.
-PartFile read_part(const std::string& path);
+Part read_part(const std::string& path);
 
 /// Whether the file ends as write_part() and write_part_surface() end theirs: one that is still being written, or was
 /// when its run was killed, does not, nor does one that cannot be read.

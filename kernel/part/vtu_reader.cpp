@@ -1,6 +1,6 @@
 // The header names each array and its place, where the array's size comes first. Every array is checked against both
 // and against the numbers of cells and vertices. The cells are T tetrahedra, then F triangles.
-#include "io/vtu_reader.h"
+#include "part/vtu_reader.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "io/checked_file.h"
 #include "io/file_bytes.h"
 #include "io/vtk_cell_types.h"
-#include "io/vtu_writer.h"
+#include "part/vtu_writer.h"
 
 namespace kerf {
 
@@ -127,20 +127,20 @@ std::vector<std::string> read_names(const PartBytes& file) {
 
 }  // namespace
 
-PartFile read_part(const std::string& path) {
+Part read_part(const std::string& path) {
     const PartBytes file(path);
     const VtuHeader& header = file.header();
     const std::int64_t tet_count = count_tets(file), facet_count = header.cell_count - tet_count;
     check_offsets(file, tet_count);
 
-    PartFile part;
+    Part part;
     part.mesh.vertices = file.values<Vec3>("Points", header.point_count);
     part.mesh.boundary_vertex_count = static_cast<std::int32_t>(header.boundary_vertex_count);
     const auto connectivity = file.values<std::int32_t>("connectivity", 4 * tet_count + 3 * facet_count);
     std::span<const std::int32_t> corners = connectivity;
     part.mesh.tets = take_cells<Tetrahedron>(file, corners, tet_count, header.point_count);
     part.facets = take_cells<Triangle>(file, corners, facet_count, header.boundary_vertex_count);
-    part.part = common_part(file);
+    part.id = common_part(file);
     part.patch = facet_values(file, "Patch", tet_count, -1);
     part.facet = facet_values(file, "Facet", tet_count, -1);
     part.neighbour = facet_values(file, "Neighbour", tet_count, -1);

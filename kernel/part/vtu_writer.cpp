@@ -3,7 +3,7 @@
 // the header follows from the sizes alone, and only the quality measures are ever stored as a whole.
 //
 // The cells are the tetrahedra, then the boundary triangles. A grid without tetrahedra is a part's surface.
-#include "io/vtu_writer.h"
+#include "part/vtu_writer.h"
 
 #include <fmt/format.h>
 

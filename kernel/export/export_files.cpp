@@ -1,0 +1,111 @@
+#include "export/export_files.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr std::size_t buffer_size = std::size_t{1} << 20;
+constexpr std::size_t longest_number = 32;
+
+}  // namespace
+
+ExportFile::ExportFile(ExportFiles& files, std::string name, const std::string& path)
+    : files_(&files),
+      name_(std::move(name)),
+      file_(std::make_unique<CheckedFile>(path, "wb")),
+      hasher_(std::make_unique<Hasher>()),
+      buffer_(buffer_size) {
+    file_->hash_into(*hasher_);
+}
+
+void ExportFile::flush() {
+    file_->write(buffer_.data(), used_);
+    written_ += static_cast<std::int64_t>(used_);
+    used_ = 0;
+}
+
+// At least `size` bytes behind what is in the buffer.
+char* ExportFile::room(std::size_t size) {
+    if (buffer_.size() - used_ < size) flush();
+    return buffer_.data() + used_;
+}
+
+void ExportFile::bytes(const void* data, std::size_t size) {
+    if (size >= buffer_.size()) {
+        flush();
+        file_->write(data, size);
+        written_ += static_cast<std::int64_t>(size);
+        return;
+    }
+    if (size == 0) return;  // no data may be a null pointer
+    std::memcpy(room(size), data, size);
+    used_ += size;
+}
+
+void ExportFile::text(std::string_view text) { bytes(text.data(), text.size()); }
+
+void ExportFile::number(std::int64_t number) {
+    char* begin = room(longest_number);
+    used_ += static_cast<std::size_t>(std::to_chars(begin, begin + longest_number, number).ptr - begin);
+}
+
+void ExportFile::number(double number) {
+    char* begin = room(longest_number);
+    used_ += static_cast<std::size_t>(std::to_chars(begin, begin + longest_number, number).ptr - begin);
+}
+
+void ExportFile::point(const Vec3& p) {
+    number(p.x());
+    text(" ");
+    number(p.y());
+    text(" ");
+    number(p.z());
+}
+
+void ExportFile::close() {
+    flush();
+    file_->close();
+    files_->add({name_, written_, hash_text(hasher_->digest())});
+}
+
+std::string ExportFiles::path_of(const std::string& name) {
+    const std::filesystem::path path = std::filesystem::path(folder_) / name;
+    std::error_code error;
+    std::filesystem::create_directories(path.parent_path(), error);
+    if (error)
+        throw Error(ErrorCode::io, fmt::format("Cannot create the folder {}: {}. Check the permissions and the free "
+                                               "space there, or choose another one.",
+                                               path.parent_path().string(), error.message()));
+    return path.string();
+}
+
+ExportFile ExportFiles::create(const std::string& name) { return {*this, name, path_of(name)}; }
+
+void ExportFiles::add(const std::string& name) { add(RunFile{name, -1, ""}); }
+
+void ExportFiles::add(RunFile file) {
+    const std::lock_guard lock(mutex_);
+    files_.push_back(std::move(file));
+}
+
+std::vector<RunFile> ExportFiles::list() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<RunFile> files = files_;
+    std::sort(files.begin(), files.end(), [](const RunFile& a, const RunFile& b) { return a.path < b.path; });
+    files.erase(
+        std::unique(files.begin(), files.end(), [](const RunFile& a, const RunFile& b) { return a.path == b.path; }),
+        files.end());
+    for (RunFile& file : files)
+        if (file.bytes < 0) file = describe_file(folder_, file.path);
+    return files;
+}
+
+}  // namespace kerf

@@ -1,0 +1,84 @@
+// Where an export goes, and what it has written.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/types.h"
+#include "io/checked_file.h"
+#include "io/run_manifest.h"
+
+namespace kerf {
+
+class ExportFiles;
+
+/// A new file that is written from its beginning to its end, through a buffer of its own. Throws Error(io).
+class ExportFile {
+ public:
+    ExportFile(ExportFile&&) = default;
+
+    void text(std::string_view text);
+    void bytes(const void* data, std::size_t size);
+    template <class T>
+    void values(std::span<const T> values) {
+        bytes(values.data(), values.size_bytes());
+    }
+    template <class T>
+    void value(const T& value) {
+        bytes(&value, sizeof value);
+    }
+    /// Decimal; a double with as few digits as give it back exactly.
+    void number(std::int64_t number);
+    void number(double number);
+    /// x y z with a space between.
+    void point(const Vec3& p);
+
+    /// The file is complete, and listed. Buffered bytes may meet a full disk only here.
+    void close();
+
+ private:
+    friend class ExportFiles;
+    ExportFile(ExportFiles& files, std::string name, const std::string& path);
+    char* room(std::size_t size);
+    void flush();
+
+    ExportFiles* files_;
+    std::string name_;
+    std::unique_ptr<CheckedFile> file_;
+    std::unique_ptr<Hasher> hasher_;
+    std::vector<char> buffer_;
+    std::size_t used_ = 0;
+    std::int64_t written_ = 0;
+};
+
+/// The files of one export, below a folder. May be used by several threads.
+class ExportFiles {
+ public:
+    explicit ExportFiles(std::string folder) : folder_(std::move(folder)) {}
+
+    const std::string& folder() const { return folder_; }
+    /// A file of this name below the folder, which may have '/' in it: folders are made. What was there is replaced.
+    ExportFile create(const std::string& name);
+    /// Its path, with the folders made: for files that are not written from beginning to end.
+    std::string path_of(const std::string& name);
+    /// Lists such a file; its hash is found when list() is called.
+    void add(const std::string& name);
+
+    /// What was written, ascending by path, each file once.
+    std::vector<RunFile> list() const;
+
+ private:
+    friend class ExportFile;
+    void add(RunFile file);
+
+    std::string folder_;
+    mutable std::mutex mutex_;
+    std::vector<RunFile> files_;
+};
+
+}  // namespace kerf

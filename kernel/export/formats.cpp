@@ -1,0 +1,60 @@
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "export/format.h"
+#include "mesh/adjacency.h"
+
+// A line for each file of this folder that defines `const Format NAME_format`.
+#define KERF_FORMATS(format) format(vtu)
+
+namespace kerf {
+
+#define KERF_DECLARE(name) extern const Format name##_format;
+KERF_FORMATS(KERF_DECLARE)
+
+namespace {
+#define KERF_ADDRESS(name) &name##_format,
+constexpr std::array table = {KERF_FORMATS(KERF_ADDRESS)};
+}  // namespace
+
+std::span<const Format* const> formats() { return table; }
+
+const Format& find_format(std::string_view name) {
+    std::string names;
+    for (const Format* format : table) {
+        if (format->name == name) return *format;
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", format->name);
+    }
+    throw Error(ErrorCode::usage, fmt::format("'{}' is no format. There are {}.", name, names));
+}
+
+std::vector<const Format*> parse_formats(std::string_view list) {
+    std::vector<const Format*> chosen;
+    while (true) {
+        const std::size_t comma = list.find(',');
+        chosen.push_back(&find_format(list.substr(0, comma)));
+        if (comma == list.npos) break;
+        list.remove_prefix(comma + 1);
+    }
+    std::vector<const Format*> ordered;
+    for (const Format* format : table)
+        if (std::find(chosen.begin(), chosen.end(), format) != chosen.end()) ordered.push_back(format);
+    return ordered;
+}
+
+void write_format(const Format& format, const PartSource& parts, ExportFiles& files) {
+    if (format.is_merged_only()) return format.write_merged(parts, {}, files, "mesh");
+    if (format.write_whole) format.write_whole(parts, files);
+    if (!format.write_part) return;
+    const auto count = static_cast<std::int32_t>(parts.outline().parts.size());
+    for (std::int32_t rank = 0; rank < count; ++rank) {
+        Part part = parts.load(rank);
+        if (format.needs_face_neighbours) connect_tets(part.mesh);
+        format.write_part(parts, rank, part, files);
+    }
+}
+
+}  // namespace kerf

@@ -1,0 +1,61 @@
+#include "export/whole_mesh.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace kerf {
+
+namespace {
+
+constexpr std::int64_t vertices_at_once = std::int64_t{1} << 21;  // 48 MB
+
+// Which numbers a part has: those of its boundary may be anywhere in their range, those inside, too.
+struct IdRanges {
+    struct Range {
+        std::int64_t first = std::numeric_limits<std::int64_t>::max(), last = -1;
+        bool meets(std::int64_t begin, std::int64_t end) const { return first < end && last >= begin; }
+        void add(std::int64_t id) {
+            first = std::min(first, id);
+            last = std::max(last, id);
+        }
+    };
+    Range boundary, interior;
+};
+
+IdRanges ranges_of(const Part& part) {
+    IdRanges ranges;
+    const auto boundary = static_cast<std::size_t>(part.mesh.boundary_vertex_count);
+    for (std::size_t v = 0; v < part.global_id.size(); ++v)
+        (v < boundary ? ranges.boundary : ranges.interior).add(part.global_id[v]);
+    return ranges;
+}
+
+}  // namespace
+
+void for_each_vertex(const PartSource& parts,
+                     const std::function<void(std::int64_t first, std::span<const Vec3> points)>& take) {
+    const std::int64_t count = parts.outline().vertices;
+    std::vector<IdRanges> ranges;  // known after the first piece
+    std::vector<Vec3> points(static_cast<std::size_t>(std::min(count, vertices_at_once)));
+    for (std::int64_t begin = 0; begin < count; begin += vertices_at_once) {
+        const std::int64_t end = std::min(count, begin + vertices_at_once);
+        const bool is_first = begin == 0;
+        for (std::size_t rank = 0; rank < parts.outline().parts.size(); ++rank) {
+            if (!is_first && !ranges[rank].boundary.meets(begin, end) && !ranges[rank].interior.meets(begin, end))
+                continue;
+            const Part part = parts.load(static_cast<std::int32_t>(rank));
+            if (is_first) ranges.push_back(ranges_of(part));
+            for (std::size_t v = 0; v < part.global_id.size(); ++v)
+                if (const std::int64_t id = part.global_id[v]; id >= begin && id < end)
+                    points[static_cast<std::size_t>(id - begin)] = part.mesh.vertices[v];
+        }
+        take(begin, std::span(points).first(static_cast<std::size_t>(end - begin)));
+    }
+}
+
+void for_each_part(const PartSource& parts, const std::function<void(std::int32_t rank, const Part& part)>& take) {
+    for (std::size_t rank = 0; rank < parts.outline().parts.size(); ++rank)
+        take(static_cast<std::int32_t>(rank), parts.load(static_cast<std::int32_t>(rank)));
+}
+
+}  // namespace kerf

@@ -1,0 +1,72 @@
+// The mesh of one subdomain with all that says how it belongs to the whole.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mesh/tet_mesh.h"
+
+namespace kerf {
+
+/// Boundary vertices that the same parts hold.
+struct SharedGroup {
+    std::vector<NodeId> parts;           ///< two or more, in the order of the tree; the first one owns the vertices
+    std::vector<std::int32_t> vertices;  ///< of this part, ascending by global number: the same order in every part
+};
+
+/// One part of a distributed mesh. Its boundary triangles lie on the user's surface, or on an interface, where another
+/// part has the same triangle in opposite orientation over the same global numbers.
+struct Part {
+    NodeId id = 1;                        ///< leaf of the tree
+    TetMesh mesh;                         ///< vertices of the boundary first
+    std::vector<Triangle> facets;         ///< #F; boundary triangles, over the boundary vertices, seen from outside
+    std::vector<std::int32_t> patch;      ///< #F; of the user's surface, -1 on interfaces
+    std::vector<std::int32_t> facet;      ///< #F; of the input, that is or contains this triangle, -1 on interfaces
+    std::vector<NodeId> neighbour;        ///< #F; part on the other side of an interface, else -1
+    std::vector<std::int64_t> global_id;  ///< #V; dense over the whole mesh, the same in every part that has the vertex
+    std::vector<std::string> patch_names;
+    std::vector<SharedGroup> shared;  ///< all vertices that other parts have, too; ascending by SharedGroup::parts,
+                                      ///< compared in the order of the tree
+
+    bool is_interface(std::size_t f) const { return neighbour[f] >= 0; }
+    std::int64_t tet_count() const { return static_cast<std::int64_t>(mesh.tets.size()); }
+    std::int64_t vertex_count() const { return static_cast<std::int64_t>(mesh.vertices.size()); }
+};
+
+/// For each vertex of the part the one that owns it: the first, in the order of the tree, of those that hold it. O(#V).
+std::vector<NodeId> owners_of_vertices(const Part& part);
+
+/// A part with the files of others in mind: who writes it knows how large the whole is.
+struct PartExtent {
+    NodeId id = 1;
+    std::int64_t vertices = 0, tets = 0;
+    std::int64_t patch_facets = 0;      ///< boundary triangles on the user's surface
+    std::int64_t interface_facets = 0;  ///< the other ones
+};
+
+/// The whole mesh without its cells.
+struct MeshOutline {
+    std::vector<PartExtent> parts;  ///< in the order of the tree; the place of a part here is its rank, from 0
+    std::int64_t vertices = 0;      ///< distinct ones
+    std::vector<std::string> patch_names;
+
+    /// Throws Error(internal) for a part that is none. O(K).
+    std::int32_t rank_of(NodeId id) const;
+    std::int64_t tets() const;
+    /// Tetrahedra of all parts before the rank: the first of its own in a numbering of all.
+    std::int64_t first_tet(std::int32_t rank) const;
+    /// The same for triangles on the user's surface.
+    std::int64_t first_patch_facet(std::int32_t rank) const;
+};
+
+/// Parts of one mesh that can be had one at a time.
+class PartSource {
+ public:
+    virtual ~PartSource() = default;
+    virtual const MeshOutline& outline() const = 0;
+    /// The part of this rank, with face neighbours in its mesh. From any thread. Throws Error(io).
+    virtual Part load(std::int32_t rank) const = 0;
+};
+
+}  // namespace kerf

@@ -1,0 +1,81 @@
+#include "part/run_parts.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "io/file_bytes.h"
+#include "io/run_folder.h"
+#include "mesh/adjacency.h"
+#include "part/vtu_reader.h"
+
+namespace kerf {
+
+namespace {
+
+nlohmann::json read_report(const std::string& folder) {
+    const std::string path = folder + "/report.json";
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored))
+        throw Error(ErrorCode::io,
+                    fmt::format("{} is not a finished run: it holds no report.json. Name the folder that "
+                                "kerf mesh -o was given.",
+                                folder));
+    return nlohmann::json::parse(read_file(path));
+}
+
+// What the report says of the whole; triangles are not counted in it.
+MeshOutline read_outline(const std::string& folder) {
+    MeshOutline outline;
+    try {
+        const nlohmann::json report = read_report(folder);
+        outline.vertices = report.at("totals").at("vertices");
+        for (const auto& of_part : report.at("parts"))
+            outline.parts.push_back({of_part.at("id"), of_part.at("vertices"), of_part.at("tets")});
+    } catch (const nlohmann::json::exception& e) {
+        throw Error(ErrorCode::io,
+                    fmt::format("{}/report.json is damaged: {}. Run kerf mesh again.", folder, e.what()));
+    }
+    for (const PartExtent& part : outline.parts)
+        if (part.tets == 0)
+            throw Error(ErrorCode::io,
+                        fmt::format("Part {} of {} has no tetrahedra. Finish the run with kerf mesh --resume {}.",
+                                    part.id, folder, folder));
+    return outline;
+}
+
+}  // namespace
+
+RunParts::RunParts(std::string folder) : folder_(std::move(folder)), outline_(read_outline(folder_)) {
+    std::vector<SharedVertices::Held> held;
+    std::vector<NodeId> ids;
+    for (PartExtent& extent : outline_.parts) {
+        const auto rank = static_cast<std::int32_t>(ids.size());
+        ids.push_back(extent.id);
+        Part surface = read_part(folder_ + "/parts/" + part_surface_file_name(extent.id));
+        for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+            if (!surface.is_interface(f)) continue;
+            ++extent.interface_facets;
+            for (const std::int32_t v : surface.facets[f])
+                held.push_back({surface.global_id[static_cast<std::size_t>(v)], rank});
+        }
+        extent.patch_facets = static_cast<std::int64_t>(surface.facets.size()) - extent.interface_facets;
+        outline_.patch_names = std::move(surface.patch_names);
+    }
+    shared_ = SharedVertices(std::move(held), std::move(ids));
+}
+
+Part RunParts::load(std::int32_t rank) const {
+    const NodeId id = outline_.parts[static_cast<std::size_t>(rank)].id;
+    Part part = read_part(folder_ + "/parts/" + part_file_name(id));
+    connect_tets(part.mesh);
+    part.shared = shared_.groups_of(
+        rank, std::span(part.global_id).first(static_cast<std::size_t>(part.mesh.boundary_vertex_count)));
+    return part;
+}
+
+Part load_part(const RunParts& run, NodeId id) { return run.load(run.outline().rank_of(id)); }
+
+}  // namespace kerf

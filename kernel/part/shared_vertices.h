@@ -1,0 +1,34 @@
+// Which vertices the parts of a mesh have in common.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "part/part.h"
+
+namespace kerf {
+
+/// The vertices on interfaces, each with the parts that hold it. Of all vertices that several parts hold, each lies on
+/// an interface of each of them, because a body that is cut at a vertex is cut through it.
+class SharedVertices {
+ public:
+    /// A vertex of an interface and the rank of a part that has it there; may be named more than once.
+    struct Held {
+        std::int64_t vertex;  ///< global number
+        std::int32_t rank;
+    };
+
+    SharedVertices() = default;
+    /// `ids`: of the parts, by rank. O(n log n).
+    SharedVertices(std::vector<Held> held, std::vector<NodeId> ids);
+
+    /// As Part::shared. `boundary_ids`: global numbers of the part's boundary vertices.
+    std::vector<SharedGroup> groups_of(std::int32_t rank, std::span<const std::int64_t> boundary_ids) const;
+
+ private:
+    std::vector<Held> held_;  // ascending by vertex, then rank; without vertices of one part alone
+    std::vector<NodeId> ids_;
+};
+
+}  // namespace kerf
