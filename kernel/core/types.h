@@ -41,6 +41,8 @@ constexpr Key make_key(NodeId node, std::int32_t index) {
     return (static_cast<Key>(node) << 32) | static_cast<Key>(static_cast<std::uint32_t>(index));
 }
 constexpr NodeId key_node(Key key) { return static_cast<NodeId>(key >> 32); }
+/// Whether a vertex or facet is one of the input surface, or a piece of one; else a cut has made it.
+constexpr bool is_of_input(Key key) { return key_node(key) == 0; }
 constexpr std::int32_t key_index(Key key) { return static_cast<std::int32_t>(key & 0xffffffff); }
 
 }  // namespace kerf

@@ -97,7 +97,7 @@ std::int32_t FaceComplex::add_point(const Vec3& point, NodeId cut) {
 }
 
 void FaceComplex::note_division(const ComplexFace& face) {
-    if (face.divided || face.cap != 0 || key_node(face.key) != 0) return;
+    if (face.divided || face.cap != 0 || !is_of_input(face.key)) return;
     const Triangle& t = face.corners;
     divided_facets_.push_back({key_index(face.key), {points_[t[0]], points_[t[1]], points_[t[2]]}});
 }

@@ -99,12 +99,7 @@ void ExportFiles::add(RunFile file) {
 std::vector<RunFile> ExportFiles::list() const {
     const std::lock_guard lock(mutex_);
     std::vector<RunFile> files = files_;
-    std::sort(files.begin(), files.end(), [](const RunFile& a, const RunFile& b) { return a.path < b.path; });
-    files.erase(
-        std::unique(files.begin(), files.end(), [](const RunFile& a, const RunFile& b) { return a.path == b.path; }),
-        files.end());
-    for (RunFile& file : files)
-        if (file.bytes < 0) file = describe_file(folder_, file.path);
+    sort_files(files);
     return files;
 }
 

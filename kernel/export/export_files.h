@@ -66,16 +66,15 @@ class ExportFiles {
     ExportFile create(const std::string& name);
     /// Its path, with the folders made: for files that are not written from beginning to end.
     std::string path_of(const std::string& name);
-    /// Lists such a file; its hash is found when list() is called.
+    /// Lists such a file: without its size and hash (-1 and empty), because others may still be writing it.
     void add(const std::string& name);
+    /// Lists a file of which everything is known.
+    void add(RunFile file);
 
     /// What was written, ascending by path, each file once.
     std::vector<RunFile> list() const;
 
  private:
-    friend class ExportFile;
-    void add(RunFile file);
-
     std::string folder_;
     mutable std::mutex mutex_;
     std::vector<RunFile> files_;

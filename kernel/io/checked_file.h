@@ -49,9 +49,16 @@ class CheckedFile {
         check(!std::ferror(file_.get()), "read");
         return data;
     }
+    /// Reads so many bytes; false if the file ends before.
+    bool read_into(void* data, std::size_t size) {
+        const bool whole = size == 0 || std::fread(data, 1, size, file_.get()) == size;
+        check(!std::ferror(file_.get()), "read");
+        if (hasher_ && whole) hasher_->add_bytes(data, size);
+        return whole;
+    }
     void seek(std::int64_t position) { check(::fseeko(file_.get(), position, SEEK_SET) == 0, "read"); }
 
-    /// What is written from now on is added to `hasher`, too.
+    /// What is written, or read by read_into(), from now on is added to `hasher`, too.
     void hash_into(Hasher& hasher) { hasher_ = &hasher; }
 
     void flush() { check(std::fflush(file_.get()) == 0, "write"); }

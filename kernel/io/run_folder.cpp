@@ -233,7 +233,7 @@ void RunFolder::take_over_finished_parts(const std::string& failed) {
         const char* end = entry.data() + entry.size();
         const auto [stop, error] = std::from_chars(entry.data(), end, leaf);
         if (error != std::errc() || stop != end) continue;  // no entry
-        const std::string part = "parts/" + part_file_name(leaf);
+        const std::string part = "parts/" + stored_part_file_name(leaf);
         for (const std::string& name : {part, journal}) fs::rename(fs::path(failed) / name, file(name), ignored);
     }
 }
@@ -285,7 +285,7 @@ void RunFolder::keep_only(const std::vector<int>& leaves) const {
     std::set<std::string> kept;
     for (const int leaf : leaves) {
         kept.insert("work/journal/" + fs::path(journal_file(leaf)).filename().string());
-        kept.insert("parts/" + part_file_name(leaf));
+        kept.insert("parts/" + stored_part_file_name(leaf));
     }
     remove_run_files(partial_, [&](const std::string& name) {
         return (name.starts_with("parts/") || name.starts_with("work/journal/")) && !kept.contains(name);
@@ -305,7 +305,7 @@ RunFolder RunFolder::join(const std::string& partial_path) {
 }
 
 std::string RunFolder::file(const std::string& name) const { return (fs::path(partial_) / name).string(); }
-std::string RunFolder::part_file(int leaf) const { return file("parts/" + part_file_name(leaf)); }
+std::string RunFolder::stored_part_file(int leaf) const { return file("parts/" + stored_part_file_name(leaf)); }
 std::string RunFolder::part_surface_file(int leaf) const { return file("parts/" + part_surface_file_name(leaf)); }
 std::string RunFolder::part_stl_file(int leaf) const { return file("parts/" + part_stl_file_name(leaf)); }
 std::string RunFolder::saved_run_file() const { return file("work/run.json"); }
@@ -362,6 +362,7 @@ std::string RunFolder::commit(bool valid) {
     return place;
 }
 
+std::string stored_part_file_name(int leaf) { return fmt::format("part_{:04}.part", leaf); }
 std::string part_file_name(int leaf) { return fmt::format("part_{:04}.vtu", leaf); }
 std::string part_surface_file_name(int leaf) { return fmt::format("part_{:04}.surface.vtu", leaf); }
 std::string part_stl_file_name(int leaf) { return fmt::format("part_{:04}.stl", leaf); }

@@ -48,7 +48,7 @@ class RunFolder {
 
     const std::string& partial_path() const { return partial_; }
     const std::string& final_path() const { return final_; }  ///< empty if another rank has created the folder
-    std::string part_file(int leaf) const;                    ///< .../parts/part_0008.vtu
+    std::string stored_part_file(int leaf) const;             ///< .../parts/part_0008.part
     std::string part_surface_file(int leaf) const;            ///< .../parts/part_0008.surface.vtu
     std::string part_stl_file(int leaf) const;                ///< .../parts/part_0008.stl
     std::string file(const std::string& name) const;
@@ -91,7 +91,8 @@ class RunFolder {
     int lock_ = -1, ranks_lock_ = -1;  // open files
 };
 
-/// part_0008.vtu, part_0008.surface.vtu, part_0008.stl: names relative to the folder `parts`.
+/// part_0008.part, part_0008.vtu, part_0008.surface.vtu, part_0008.stl: names relative to the folder `parts`.
+std::string stored_part_file_name(int leaf);
 std::string part_file_name(int leaf);
 std::string part_surface_file_name(int leaf);
 std::string part_stl_file_name(int leaf);

@@ -71,6 +71,12 @@ std::string first_name_in(const std::string& folder) {
 
 std::string hash_text(const FileHash& hash) { return fmt::format("{:016x}{:016x}", hash[0], hash[1]); }
 
+void sort_files(std::vector<RunFile>& files) {
+    std::stable_sort(files.begin(), files.end(), [](const RunFile& a, const RunFile& b) { return a.path < b.path; });
+    const auto same = [](const RunFile& a, const RunFile& b) { return a.path == b.path; };
+    files.erase(std::unique(files.begin(), files.end(), same), files.end());
+}
+
 RunFile describe_file(const std::string& folder, const std::string& path) {
     constexpr std::size_t chunk_size = std::size_t{1} << 20;
     const std::string whole = (fs::path(folder) / path).string();
@@ -103,9 +109,14 @@ bool is_named_like_run_file(const std::string& path) {
     for (const std::string_view whole :
          {"report.json", "mesh.pvtu", "parts/", "failed/", "work/", "work/journal/", "work/jobs/", "work/taken/"})
         if (name == whole) return true;
-    if (take_prefix(name, "parts/")) return is_part_name(name, {".vtu", ".surface.vtu", ".stl"});
+    if (take_prefix(name, "parts/")) return is_part_name(name, {".part", ".vtu", ".surface.vtu", ".stl"});
     if (take_prefix(name, "failed/")) return is_part_name(name, {".smesh", ".txt"});
     return take_prefix(name, "work/") && is_work_name(name);
+}
+
+bool is_stored_part(const std::string& path) {
+    std::string_view name = path;
+    return take_prefix(name, "parts/") && is_part_name(name, {".part"});
 }
 
 FolderContent inspect_run_folder(const std::string& folder) {

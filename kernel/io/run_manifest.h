@@ -25,6 +25,9 @@ struct RunFile {
     }
 };
 
+/// Ascending by path, each path once.
+void sort_files(std::vector<RunFile>& files);
+
 /// Reads FOLDER/path as a whole, in pieces. Throws Error(io), also for what is no file.
 RunFile describe_file(const std::string& folder, const std::string& path);
 
@@ -37,6 +40,9 @@ bool is_sealed(const std::string& report);
 /// Whether a path below a run folder is named like a file that Kerf writes there, finished or not:
 /// "parts/part_0008.vtu", "report.json", "work/journal/8"; folders, which end with '/', too.
 bool is_named_like_run_file(const std::string& path);
+
+/// Whether it is named like parts/part_0008.part, in which a part waits for the writers of formats.
+bool is_stored_part(const std::string& path);
 
 /// What a folder holds that may be a run.
 struct FolderContent {

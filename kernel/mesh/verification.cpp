@@ -64,16 +64,43 @@ std::vector<OwnedFace> sorted_boundary_faces(const TetMesh& mesh, std::size_t ve
     return sorted_faces(std::move(faces), vertex_count);
 }
 
-std::vector<OwnedFace> sorted_facets(const SurfaceArrays& surface, std::size_t vertex_count) {
+std::vector<OwnedFace> sorted_facets(const std::vector<Triangle>& facets, std::size_t vertex_count) {
     std::vector<OwnedFace> faces;
-    faces.reserve(surface.facets.size());
-    for (std::size_t f = 0; f < surface.facets.size(); ++f)
-        faces.push_back({smallest_first(surface.facets[f]), static_cast<std::int32_t>(f)});
+    faces.reserve(facets.size());
+    for (std::size_t f = 0; f < facets.size(); ++f)
+        faces.push_back({smallest_first(facets[f]), static_cast<std::int32_t>(f)});
     return sorted_faces(std::move(faces), vertex_count);
 }
 
+// Faces of which all corners lie on the boundary: those of the boundary are among them.
+std::vector<OwnedFace> sorted_faces_over_boundary(const TetMesh& mesh) {
+    std::vector<OwnedFace> faces;
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        const Tetrahedron& tet = mesh.tets[t];
+        const auto is_inside = [&](std::int32_t v) { return v >= mesh.boundary_vertex_count; };
+        if (std::count_if(tet.begin(), tet.end(), is_inside) > 1) continue;
+        for (int i = 0; i < 4; ++i) {
+            const Triangle face = corners_of_face(tet, i);
+            if (std::none_of(face.begin(), face.end(), is_inside))
+                faces.push_back({smallest_first(face), static_cast<std::int32_t>(t)});
+        }
+    }
+    return sorted_faces(std::move(faces), static_cast<std::size_t>(mesh.boundary_vertex_count));
+}
+
+// Calls found(facet, face) for every facet that is a face, both sorted.
+template <class Found>
+void match_facets(const std::vector<OwnedFace>& facets, const std::vector<OwnedFace>& faces, Found found) {
+    auto face = faces.begin();
+    for (const OwnedFace& facet : facets) {
+        while (face != faces.end() && face->corners < facet.corners) ++face;
+        if (face == faces.end() || face->corners != facet.corners) continue;
+        found(facet, *face);
+        ++face;
+    }
+}
+
 struct BoundaryMatch {
-    std::vector<std::int32_t> tet_at_facet;  // -1: no boundary face is this facet
     std::int64_t matched = 0;
     std::int64_t boundary_faces = 0;
 };
@@ -84,16 +111,9 @@ BoundaryMatch match_boundary(const TetMesh& mesh, const SurfaceArrays& surface) 
     const std::size_t vertex_count = std::max(mesh.vertices.size(), surface.vertices.size());
     const std::vector<OwnedFace> faces = sorted_boundary_faces(mesh, vertex_count);
     BoundaryMatch match;
-    match.tet_at_facet.assign(surface.facets.size(), -1);
     match.boundary_faces = static_cast<std::int64_t>(faces.size());
-    auto face = faces.begin();
-    for (const OwnedFace& facet : sorted_facets(surface, vertex_count)) {
-        while (face != faces.end() && face->corners < facet.corners) ++face;
-        if (face == faces.end() || face->corners != facet.corners) continue;
-        match.tet_at_facet[facet.owner] = face->owner;
-        ++match.matched;
-        ++face;
-    }
+    match_facets(sorted_facets(surface.facets, vertex_count), faces,
+                 [&](const OwnedFace&, const OwnedFace&) { ++match.matched; });
     return match;
 }
 
@@ -168,8 +188,16 @@ MeshLaws verify_mesh(const TetMesh& mesh, const SurfaceArrays& surface) {
     return laws;
 }
 
-std::vector<std::int32_t> tets_at_facets(const TetMesh& mesh, const SurfaceArrays& surface) {
-    return match_boundary(mesh, surface).tet_at_facet;
+std::vector<std::int32_t> tets_at_facets(const TetMesh& mesh, const std::vector<Triangle>& facets) {
+    KERF_CHECK(are_in_range(mesh.tets, mesh.vertices.size()));
+    const auto boundary = static_cast<std::size_t>(mesh.boundary_vertex_count);
+    KERF_CHECK(are_in_range(facets, boundary) && boundary <= mesh.vertices.size());
+    std::vector<std::int32_t> tet_at_facet(facets.size(), -1);
+    match_facets(sorted_facets(facets, boundary), sorted_faces_over_boundary(mesh),
+                 [&](const OwnedFace& facet, const OwnedFace& face) {
+                     tet_at_facet[static_cast<std::size_t>(facet.owner)] = face.owner;
+                 });
+    return tet_at_facet;
 }
 
 }  // namespace kerf

@@ -8,6 +8,23 @@
 
 namespace kerf {
 
+Part boundary_of(const Part& part) {
+    const std::ptrdiff_t boundary = part.mesh.boundary_vertex_count;
+    Part surface;
+    surface.id = part.id;
+    surface.mesh.vertices.assign(part.mesh.vertices.begin(), part.mesh.vertices.begin() + boundary);
+    surface.mesh.boundary_vertex_count = part.mesh.boundary_vertex_count;
+    surface.facets = part.facets;
+    surface.patch = part.patch;
+    surface.facet = part.facet;
+    surface.neighbour = part.neighbour;
+    surface.tet_at_facet.assign(part.facets.size(), -1);
+    surface.global_id.assign(part.global_id.begin(), part.global_id.begin() + boundary);
+    surface.patch_names = part.patch_names;
+    surface.shared = part.shared;
+    return surface;
+}
+
 std::vector<NodeId> owners_of_vertices(const Part& part) {
     std::vector<NodeId> owner(part.mesh.vertices.size(), part.id);
     for (const SharedGroup& group : part.shared)

@@ -13,17 +13,23 @@ namespace kerf {
 struct SharedGroup {
     std::vector<NodeId> parts;           ///< two or more, in the order of the tree; the first one owns the vertices
     std::vector<std::int32_t> vertices;  ///< of this part, ascending by global number: the same order in every part
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(parts, vertices);
+    }
 };
 
 /// One part of a distributed mesh. Its boundary triangles lie on the user's surface, or on an interface, where another
 /// part has the same triangle in opposite orientation over the same global numbers.
 struct Part {
-    NodeId id = 1;                        ///< leaf of the tree
-    TetMesh mesh;                         ///< vertices of the boundary first
-    std::vector<Triangle> facets;         ///< #F; boundary triangles, over the boundary vertices, seen from outside
-    std::vector<std::int32_t> patch;      ///< #F; of the user's surface, -1 on interfaces
-    std::vector<std::int32_t> facet;      ///< #F; of the input, that is or contains this triangle, -1 on interfaces
-    std::vector<NodeId> neighbour;        ///< #F; part on the other side of an interface, else -1
+    NodeId id = 1;                           ///< leaf of the tree
+    TetMesh mesh;                            ///< vertices of the boundary first
+    std::vector<Triangle> facets;            ///< #F; boundary triangles, over the boundary vertices, seen from outside
+    std::vector<std::int32_t> patch;         ///< #F; of the user's surface, -1 on interfaces
+    std::vector<std::int32_t> facet;         ///< #F; of the input, that is or contains this triangle, -1 on interfaces
+    std::vector<NodeId> neighbour;           ///< #F; part on the other side of an interface, else -1
+    std::vector<std::int32_t> tet_at_facet;  ///< #F; the tetrahedron behind the triangle, -1 if there is none
     std::vector<std::int64_t> global_id;  ///< #V; dense over the whole mesh, the same in every part that has the vertex
     std::vector<std::string> patch_names;
     std::vector<SharedGroup> shared;  ///< all vertices that other parts have, too; ascending by SharedGroup::parts,
@@ -33,6 +39,9 @@ struct Part {
     std::int64_t tet_count() const { return static_cast<std::int64_t>(mesh.tets.size()); }
     std::int64_t vertex_count() const { return static_cast<std::int64_t>(mesh.vertices.size()); }
 };
+
+/// What the part's surface file holds: the boundary without the cells.
+Part boundary_of(const Part& part);
 
 /// For each vertex of the part the one that owns it: the first, in the order of the tree, of those that hold it. O(#V).
 std::vector<NodeId> owners_of_vertices(const Part& part);
@@ -65,7 +74,8 @@ class PartSource {
  public:
     virtual ~PartSource() = default;
     virtual const MeshOutline& outline() const = 0;
-    /// The part of this rank, with face neighbours in its mesh. From any thread. Throws Error(io).
+    /// The part of this rank; the face neighbours of its mesh are for who asks to find them (mesh/adjacency.h). From
+    /// any thread. Throws Error(io).
     virtual Part load(std::int32_t rank) const = 0;
 };
 

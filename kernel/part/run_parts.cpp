@@ -8,7 +8,8 @@
 #include "core/error.h"
 #include "io/file_bytes.h"
 #include "io/run_folder.h"
-#include "mesh/adjacency.h"
+#include "mesh/verification.h"
+#include "part/part_store.h"
 #include "part/vtu_reader.h"
 
 namespace kerf {
@@ -51,6 +52,7 @@ MeshOutline read_outline(const std::string& folder) {
 RunParts::RunParts(std::string folder) : folder_(std::move(folder)), outline_(read_outline(folder_)) {
     std::vector<SharedVertices::Held> held;
     std::vector<NodeId> ids;
+    std::int64_t interior = 0;
     for (PartExtent& extent : outline_.parts) {
         const auto rank = static_cast<std::int32_t>(ids.size());
         ids.push_back(extent.id);
@@ -63,19 +65,35 @@ RunParts::RunParts(std::string folder) : folder_(std::move(folder)), outline_(re
         }
         extent.patch_facets = static_cast<std::int64_t>(surface.facets.size()) - extent.interface_facets;
         outline_.patch_names = std::move(surface.patch_names);
+        first_interior_ids_.push_back(interior);
+        interior += extent.vertices - surface.mesh.boundary_vertex_count;
     }
+    for (std::int64_t& first : first_interior_ids_) first += outline_.vertices - interior;
     shared_ = SharedVertices(std::move(held), std::move(ids));
 }
 
 Part RunParts::load(std::int32_t rank) const {
-    const NodeId id = outline_.parts[static_cast<std::size_t>(rank)].id;
-    Part part = read_part(folder_ + "/parts/" + part_file_name(id));
-    connect_tets(part.mesh);
+    const auto r = static_cast<std::size_t>(rank);
+    Part part = load_part(folder_, outline_.parts[r].id, first_interior_ids_[r]);
     part.shared = shared_.groups_of(
         rank, std::span(part.global_id).first(static_cast<std::size_t>(part.mesh.boundary_vertex_count)));
     return part;
 }
 
-Part load_part(const RunParts& run, NodeId id) { return run.load(run.outline().rank_of(id)); }
+std::string path_of_part(const std::string& folder, NodeId id) {
+    const std::string vtu = folder + "/parts/" + part_file_name(id);
+    const std::string stored = folder + "/parts/" + stored_part_file_name(id);
+    std::error_code ignored;
+    return std::filesystem::exists(vtu, ignored) || !std::filesystem::exists(stored, ignored) ? vtu : stored;
+}
+
+Part load_part(const std::string& folder, NodeId id, std::int64_t first_interior_id) {
+    const std::string path = path_of_part(folder, id);
+    FileHash hash;
+    if (path.ends_with(".part")) return read_stored_part(path, first_interior_id, hash);
+    Part part = read_part(path);
+    part.tet_at_facet = tets_at_facets(part.mesh, part.facets);
+    return part;
+}
 
 }  // namespace kerf

@@ -21,10 +21,15 @@ class RunParts : public PartSource {
  private:
     std::string folder_;
     MeshOutline outline_;
+    std::vector<std::int64_t> first_interior_ids_;  // by rank
     SharedVertices shared_;
 };
 
-/// load() of RunParts, by the number of the leaf.
-Part load_part(const RunParts& run, NodeId id);
+/// Where a finished run has a part: FOLDER/parts/part_0008.vtu, or part_0008.part of a run without that format.
+std::string path_of_part(const std::string& folder, NodeId id);
+
+/// The part in that file, with the tetrahedra behind its facets, but without its shared vertices.
+/// `first_interior_id`: global number of the first interior vertex, which a VTU file says itself. Throws Error(io).
+Part load_part(const std::string& folder, NodeId id, std::int64_t first_interior_id);
 
 }  // namespace kerf

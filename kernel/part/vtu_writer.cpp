@@ -9,14 +9,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <charconv>
-#include <cstdio>
-#include <cstring>
 #include <functional>
 #include <limits>
-#include <memory>
-#include <optional>
 #include <system_error>
 
 #include "core/error.h"
@@ -84,8 +79,6 @@ Array computed_array(std::string name, std::size_t count, Value value) {
             }};
 }
 
-std::int32_t input_facet(Key key) { return key_node(key) == 0 ? key_index(key) : -1; }
-
 // An array with one value per cell: of_tet(t) for the tetrahedra, then of_facet(f).
 template <class T, class OfTet, class OfFacet>
 Array cell_array(std::string name, std::size_t tet_count, std::size_t facet_count, OfTet of_tet, OfFacet of_facet) {
@@ -103,10 +96,10 @@ Array string_array(std::string name, const std::vector<std::string>& strings) {
             }};
 }
 
-Array point_array(const std::vector<Vec3>& vertices) {
+Array point_array(std::span<const Vec3> vertices) {
     static_assert(sizeof(Vec3) == 3 * sizeof(double));
-    const std::size_t bytes = vertices.size() * sizeof(Vec3);
-    const auto write_values = [&vertices, bytes](CheckedFile& file) { file.write(vertices.data(), bytes); };
+    const std::size_t bytes = vertices.size_bytes();
+    const auto write_values = [vertices](CheckedFile& file) { file.write(vertices.data(), vertices.size_bytes()); };
     return {"Points", vtk_type<double>, 3, vertices.size(), bytes, write_values};
 }
 
@@ -122,34 +115,34 @@ void require_sizes(bool sizes_agree) {
     if (!sizes_agree) throw Error(ErrorCode::internal, "The arrays of a part do not have the sizes of its mesh.");
 }
 
-// What files of parts and of their surfaces have in common. The arguments must outlive the grid.
-Grid make_grid(const std::vector<Vec3>& vertices, const std::vector<Tetrahedron>& tets, const SurfaceArrays& surface,
-               const PartArrays& arrays) {
-    const std::size_t vertex_count = vertices.size(), boundary_count = surface.vertices.size();
-    const std::size_t tet_count = tets.size(), facet_count = surface.facets.size();
-    require_sizes(boundary_count <= vertex_count && arrays.boundary_id.size() == boundary_count &&
-                  arrays.neighbour.size() == facet_count && surface.patch.size() == facet_count &&
-                  surface.facet_key.size() == facet_count);
+// What files of parts and of their surfaces have in common. The part must outlive the grid.
+Grid make_grid(const Part& part, bool with_cells) {
+    static const std::vector<Tetrahedron> no_tets;
+    const auto boundary_count = static_cast<std::size_t>(part.mesh.boundary_vertex_count);
+    const std::vector<Tetrahedron>& tets = with_cells ? part.mesh.tets : no_tets;
+    const std::size_t vertex_count = with_cells ? part.mesh.vertices.size() : boundary_count;
+    const std::size_t tet_count = tets.size(), facet_count = part.facets.size();
+    require_sizes(boundary_count <= vertex_count && part.global_id.size() == part.mesh.vertices.size() &&
+                  part.neighbour.size() == facet_count && part.patch.size() == facet_count &&
+                  part.facet.size() == facet_count);
     const auto none = [](std::size_t) { return -1; };
-    const auto part = [part = arrays.part](std::size_t) { return part; };
+    const auto of_part = [id = part.id](std::size_t) { return id; };
+    const auto of_facet = [](const std::vector<std::int32_t>& values) {
+        return [&values](std::size_t f) { return values[f]; };
+    };
 
     Grid grid{
         .point_count = vertex_count, .cell_count = tet_count + facet_count, .boundary_vertex_count = boundary_count};
-    grid.field_data.arrays = {string_array("PatchNames", arrays.patch_names)};
-    grid.point_data().arrays = {
-        computed_array<std::int64_t>("GlobalVertexId", vertex_count, [boundary_count, &arrays](std::size_t v) {
-            return v < boundary_count ? arrays.boundary_id[v] : static_cast<std::int64_t>(v - boundary_count);
-        })};
+    grid.field_data.arrays = {string_array("PatchNames", part.patch_names)};
+    grid.point_data().arrays = {computed_array<std::int64_t>("GlobalVertexId", vertex_count,
+                                                             [&part](std::size_t v) { return part.global_id[v]; })};
     grid.cell_data().arrays = {
-        cell_array<std::int32_t>("Part", tet_count, facet_count, part, part),
-        cell_array<std::int32_t>("Patch", tet_count, facet_count, none,
-                                 [&](std::size_t f) { return surface.patch[f]; }),
-        cell_array<std::int32_t>("Facet", tet_count, facet_count, none,
-                                 [&](std::size_t f) { return input_facet(surface.facet_key[f]); }),
-        cell_array<std::int32_t>("Neighbour", tet_count, facet_count, none,
-                                 [&](std::size_t f) { return arrays.neighbour[f]; })};
-    grid.points().arrays = {point_array(vertices)};
-    grid.cells().arrays = {connectivity_array(tets, surface.facets),
+        cell_array<std::int32_t>("Part", tet_count, facet_count, of_part, of_part),
+        cell_array<std::int32_t>("Patch", tet_count, facet_count, none, of_facet(part.patch)),
+        cell_array<std::int32_t>("Facet", tet_count, facet_count, none, of_facet(part.facet)),
+        cell_array<std::int32_t>("Neighbour", tet_count, facet_count, none, of_facet(part.neighbour))};
+    grid.points().arrays = {point_array(std::span(part.mesh.vertices).first(vertex_count))};
+    grid.cells().arrays = {connectivity_array(tets, part.facets),
                            cell_array<std::int64_t>(
                                "offsets", tet_count, facet_count, [](std::size_t t) { return 4 * (t + 1); },
                                [tet_count](std::size_t f) { return 4 * tet_count + 3 * (f + 1); }),
@@ -169,16 +162,30 @@ constexpr std::array<QualityArray, 5> quality_arrays = {{{"MinDihedralAngle", &T
                                                          {"AspectRatio", &TetQuality::aspect},
                                                          {"Shape", &TetQuality::shape}}};
 
-void add_quality(Grid& grid, std::span<const TetQuality> quality, std::span<const std::int32_t> tet_at_facet) {
-    for (const auto& [name, measure] : quality_arrays) {
-        const auto of_tet = [quality, measure = measure](std::size_t t) {
-            return static_cast<float>(quality[t].*measure);
-        };
+using StoredQuality = std::array<float, quality_arrays.size()>;
+
+std::vector<StoredQuality> stored_qualities(const TetMesh& mesh) {
+    std::vector<StoredQuality> stored;
+    stored.reserve(mesh.tets.size());
+    for (const Tetrahedron& t : mesh.tets) {
+        const std::vector<Vec3>& p = mesh.vertices;
+        const TetQuality quality = tet_quality(p[t[0]], p[t[1]], p[t[2]], p[t[3]]);
+        StoredQuality& values = stored.emplace_back();
+        for (std::size_t i = 0; i < values.size(); ++i)
+            values[i] = static_cast<float>(quality.*quality_arrays[i].measure);
+    }
+    return stored;
+}
+
+// The arguments must outlive the grid.
+void add_quality(Grid& grid, std::span<const StoredQuality> quality, std::span<const std::int32_t> tet_at_facet) {
+    for (std::size_t i = 0; i < quality_arrays.size(); ++i) {
+        const auto of_tet = [quality, i](std::size_t t) { return quality[t][i]; };
         const auto of_facet = [=](std::size_t f) {
             return tet_at_facet[f] < 0 ? std::numeric_limits<float>::quiet_NaN() : of_tet(tet_at_facet[f]);
         };
         grid.cell_data().arrays.push_back(
-            cell_array<float>(name, quality.size(), tet_at_facet.size(), of_tet, of_facet));
+            cell_array<float>(quality_arrays[i].name, quality.size(), tet_at_facet.size(), of_tet, of_facet));
     }
 }
 
@@ -231,21 +238,14 @@ void write_grid(CheckedFile& file, const Grid& grid) {
     file.write(file_end);
 }
 
-Grid make_part_grid(const TetMesh& mesh, const SurfaceArrays& surface, std::span<const TetQuality> quality,
-                    std::span<const std::int32_t> tet_at_facet, const PartArrays& arrays) {
-    require_sizes(quality.size() == mesh.tets.size() && tet_at_facet.size() == surface.facets.size() &&
-                  static_cast<std::size_t>(mesh.boundary_vertex_count) == surface.vertices.size());
-    Grid grid = make_grid(mesh.vertices, mesh.tets, surface, arrays);
-    add_quality(grid, quality, tet_at_facet);
-    return grid;
-}
-
-FileHash hash_grid(const Grid& grid) {
-    Hasher hasher;
-    CheckedFile nowhere("/dev/null", "wb");
-    nowhere.hash_into(hasher);
-    write_grid(nowhere, grid);
-    return hasher.digest();
+// Calls take(grid) with that of the part, or of its surface.
+template <class Take>
+FileHash with_part_grid(const Part& part, Take take) {
+    require_sizes(part.tet_at_facet.size() == part.facets.size());
+    const std::vector<StoredQuality> quality = stored_qualities(part.mesh);
+    Grid grid = make_grid(part, true);
+    add_quality(grid, quality, part.tet_at_facet);
+    return take(grid);
 }
 
 FileHash write_grid_file(const std::string& path, const Grid& grid) {
@@ -253,10 +253,11 @@ FileHash write_grid_file(const std::string& path, const Grid& grid) {
     CheckedFile file(path, "wb");
     file.hash_into(hasher);
     write_grid(file, grid);
-    file.sync();
     file.close();
     return hasher.digest();
 }
+
+FileHash hash_grid(const Grid& grid) { return write_grid_file("/dev/null", grid); }
 
 // The names and types of a section's arrays, as each piece of a PVTU has them.
 std::string parallel_section(const Section& section) {
@@ -340,50 +341,24 @@ class HeaderParser {
     const std::string& path_;
 };
 
-// Where a part file has the numbers of its interior vertices.
-struct InteriorIds {
-    std::int64_t position, count;
-};
-
-InteriorIds find_interior_ids(CheckedFile& file, const std::string& path) {
-    const VtuHeader header = parse_vtu_header(file.read(vtu_header_limit), path);
-    const VtuHeader::Array* id = header.find("GlobalVertexId");
-    if (!id || id->type != vtk_type<std::int64_t> || id->tuples != header.point_count)
-        fail_damaged_vtu(path, "it has no GlobalVertexId for every vertex");
-    constexpr std::int64_t item_size = sizeof(std::int64_t);
-    return {id->position + item_size + header.boundary_vertex_count * item_size,  // behind the size of the array
-            header.point_count - header.boundary_vertex_count};
-}
-
 }  // namespace
 
-FileHash write_part(const std::string& path, const TetMesh& mesh, const SurfaceArrays& surface,
-                    std::span<const TetQuality> quality, std::span<const std::int32_t> tet_at_facet,
-                    const PartArrays& arrays) {
-    return write_grid_file(path, make_part_grid(mesh, surface, quality, tet_at_facet, arrays));
+FileHash write_part(const std::string& path, const Part& part) {
+    return with_part_grid(part, [&](const Grid& grid) { return write_grid_file(path, grid); });
 }
 
-FileHash hash_of_part(const TetMesh& mesh, const SurfaceArrays& surface, std::span<const TetQuality> quality,
-                      std::span<const std::int32_t> tet_at_facet, const PartArrays& arrays) {
-    return hash_grid(make_part_grid(mesh, surface, quality, tet_at_facet, arrays));
+FileHash hash_of_part(const Part& part) { return with_part_grid(part, hash_grid); }
+
+FileHash write_part_surface(const std::string& path, const Part& part) {
+    return write_grid_file(path, make_grid(part, false));
 }
 
-FileHash write_part_surface(const std::string& path, const SurfaceArrays& surface, const PartArrays& arrays) {
-    const std::vector<Tetrahedron> no_tets;
-    return write_grid_file(path, make_grid(surface.vertices, no_tets, surface, arrays));
-}
-
-FileHash hash_of_part_surface(const SurfaceArrays& surface, const PartArrays& arrays) {
-    const std::vector<Tetrahedron> no_tets;
-    return hash_grid(make_grid(surface.vertices, no_tets, surface, arrays));
-}
+FileHash hash_of_part_surface(const Part& part) { return hash_grid(make_grid(part, false)); }
 
 std::string pvtu_text(const std::vector<std::string>& pieces) {
     // Only the names and types of the arrays are asked for, so that they are those of the pieces.
-    const TetMesh no_mesh;
-    const SurfaceArrays no_surface;
-    const PartArrays no_arrays;
-    Grid grid = make_grid(no_mesh.vertices, no_mesh.tets, no_surface, no_arrays);
+    const Part no_part;
+    Grid grid = make_grid(no_part, true);
     add_quality(grid, {}, {});
 
     std::string xml = fmt::format(file_begin, "PUnstructuredGrid") + "<PUnstructuredGrid GhostLevel=\"0\">\n";
@@ -413,57 +388,6 @@ VtuHeader parse_vtu_header(std::string_view begin_of_file, const std::string& pa
     if (!begin_of_file.starts_with(fmt::format(file_begin, "UnstructuredGrid")) || end == begin_of_file.npos)
         fail_damaged_vtu(path, "it does not begin with a complete XML header");
     return HeaderParser(begin_of_file.substr(0, end), path).parse(static_cast<std::int64_t>(end + data_begin.size()));
-}
-
-PartFileHashes hash_part_file(const std::string& path) {
-    CheckedFile file(path, "rb");
-    const InteriorIds ids = find_interior_ids(file, path);
-    const std::int64_t ids_end = ids.position + ids.count * static_cast<std::int64_t>(sizeof(std::int64_t));
-    PartFileHashes hashes;
-    Hasher written, present;
-    std::optional<std::int64_t> next_id;
-    const auto check_ids = [&](const std::string& chunk) {
-        for (std::size_t at = 0; at + sizeof(std::int64_t) <= chunk.size(); at += sizeof(std::int64_t)) {
-            std::int64_t id = 0;
-            std::memcpy(&id, chunk.data() + at, sizeof id);
-            if (id != next_id.value_or(id)) fail_damaged_vtu(path, "its interior vertices are not numbered in a row");
-            next_id = id + 1;
-        }
-    };
-    // Reads up to `end`, or to the end of the file.
-    const auto read_until = [&](std::int64_t end, bool as_written) {
-        constexpr std::int64_t chunk_size = std::int64_t{1} << 20;
-        while (hashes.bytes < end) {
-            const std::string chunk = file.read(static_cast<std::size_t>(std::min(chunk_size, end - hashes.bytes)));
-            if (chunk.empty()) return;
-            present.add_bytes(chunk.data(), chunk.size());
-            if (as_written)
-                written.add_bytes(chunk.data(), chunk.size());
-            else
-                check_ids(chunk);
-            hashes.bytes += static_cast<std::int64_t>(chunk.size());
-        }
-    };
-    file.seek(0);
-    read_until(ids.position, true);
-    read_until(ids_end, false);
-    for (std::int64_t i = 0; i < ids.count; ++i) written.add_bytes(&i, sizeof i);
-    read_until(std::numeric_limits<std::int64_t>::max(), true);
-    hashes.written = written.digest();
-    hashes.present = present.digest();
-    return hashes;
-}
-
-void number_interior_vertices(const std::string& path, std::int64_t first) {
-    CheckedFile file(path, "r+b");
-    const InteriorIds place = find_interior_ids(file, path);
-    const Array ids =
-        computed_array<std::int64_t>("GlobalVertexId", static_cast<std::size_t>(place.count),
-                                     [first](std::size_t i) { return first + static_cast<std::int64_t>(i); });
-    file.seek(place.position);
-    ids.write_values(file);
-    file.sync();
-    file.close();
 }
 
 }  // namespace kerf

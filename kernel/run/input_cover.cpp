@@ -26,7 +26,7 @@ std::vector<Piece> gather_pieces(Communicator& ranks, const std::vector<char>& d
     for (const Leaf& leaf : leaves)
         for (std::size_t f = 0; f < leaf.surface.facets.size(); ++f) {
             const Key key = leaf.surface.facet_key[f];
-            if (key_node(key) != 0 || !divided[key_index(key)]) continue;
+            if (!is_of_input(key) || !divided[key_index(key)]) continue;
             const Triangle& t = leaf.surface.facets[f];
             const std::vector<Vec3>& p = leaf.surface.vertices;
             own.push_back({key_index(key), {p[t[0]], p[t[1]], p[t[2]]}});
@@ -59,7 +59,7 @@ std::int64_t count_missing_input_facets(Communicator& ranks, std::int64_t facets
     std::vector<std::uint8_t> owners(static_cast<std::size_t>(facets), 0);
     for (const Leaf& leaf : own.leaves)
         for (const Key key : leaf.surface.facet_key)
-            if (key_node(key) == 0 && owners[key_index(key)] < 255) ++owners[key_index(key)];
+            if (is_of_input(key) && owners[key_index(key)] < 255) ++owners[key_index(key)];
     std::vector<std::int32_t> total(owners.size(), 0);
     for (const auto& of_rank : all_gather(ranks, owners))
         for (std::size_t f = 0; f < total.size(); ++f) total[f] += of_rank[f];

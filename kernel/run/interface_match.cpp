@@ -1,6 +1,7 @@
 #include "run/interface_match.h"
 
 #include <algorithm>
+#include <map>
 #include <tuple>
 
 namespace kerf {
@@ -27,7 +28,7 @@ InterfaceTable::InterfaceTable(Communicator& ranks, const std::vector<Leaf>& lea
     std::vector<InterfaceSide> own;
     for (const Leaf& leaf : leaves)
         for (std::size_t f = 0; f < leaf.surface.facets.size(); ++f)
-            if (key_node(leaf.surface.facet_key[f]) != 0)
+            if (!is_of_input(leaf.surface.facet_key[f]))
                 own.push_back({leaf.surface.facet_key[f], corner_keys(leaf.surface, f), leaf.id});
     for (const std::vector<InterfaceSide>& sides : all_gather(ranks, own))
         sides_.insert(sides_.end(), sides.begin(), sides.end());
@@ -39,7 +40,7 @@ InterfaceTable::InterfaceTable(Communicator& ranks, const std::vector<Leaf>& lea
 std::vector<NodeId> InterfaceTable::neighbours(const Leaf& leaf) const {
     std::vector<NodeId> neighbours(leaf.surface.facets.size(), -1);
     for (std::size_t f = 0; f < neighbours.size(); ++f) {
-        if (key_node(leaf.surface.facet_key[f]) == 0) continue;
+        if (is_of_input(leaf.surface.facet_key[f])) continue;
         const auto wanted = name_of({leaf.surface.facet_key[f], corner_keys(leaf.surface, f), leaf.id});
         for (auto it = std::lower_bound(sides_.begin(), sides_.end(), wanted,
                                         [](const InterfaceSide&side, const auto&name) { return name_of(side) < name; });
@@ -47,6 +48,17 @@ std::vector<NodeId> InterfaceTable::neighbours(const Leaf& leaf) const {
             if (it->leaf != leaf.id) neighbours[f] = it->leaf;
     }
     return neighbours;
+}
+
+SharedVertices InterfaceTable::shared_vertices(const VertexNumbering& numbering,
+                                               const std::vector<NodeId>& leaves) const {
+    std::map<NodeId, std::int32_t> rank_of;
+    for (const NodeId leaf : leaves) rank_of.emplace(leaf, static_cast<std::int32_t>(rank_of.size()));
+    std::vector<SharedVertices::Held> held;
+    held.reserve(3 * sides_.size());
+    for (const InterfaceSide& side : sides_)
+        for (const Key vertex : side.vertices) held.push_back({numbering.global_id(vertex), rank_of.at(side.leaf)});
+    return {std::move(held), leaves};
 }
 
 std::int64_t InterfaceTable::unmatched() const {

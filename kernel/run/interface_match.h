@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "decompose/decomposition.h"
+#include "part/shared_vertices.h"
 #include "run/communicator.h"
+#include "run/numbering.h"
 #include "run/oriented_triangle.h"
 
 namespace kerf {
@@ -25,6 +27,8 @@ class InterfaceTable {
 
     /// For each facet of the leaf the leaf on the other side, -1 for facets of the input.
     std::vector<NodeId> neighbours(const Leaf& leaf) const;
+    /// The vertices of all interfaces. `leaves`: all of the run, in the order of the tree.
+    SharedVertices shared_vertices(const VertexNumbering& numbering, const std::vector<NodeId>& leaves) const;
     /// Facets that do not appear exactly twice, on two leaves, with the same vertices in opposite order.
     std::int64_t unmatched() const;
 

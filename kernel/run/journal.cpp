@@ -6,6 +6,7 @@
 #include "core/record.h"
 #include "io/durable_file.h"
 #include "io/file_bytes.h"
+#include "io/run_manifest.h"
 
 namespace kerf {
 
@@ -39,7 +40,7 @@ std::optional<PartOutcome> find_finished_part(const std::string& journal_file, c
     if (!entry || entry->job_hash != job_hash) return {};
     if (entry->timeout_seconds > 0 && entry->timeout_seconds != timeout_seconds) return {};
     try {
-        if (hash_part_file(part_file).written == entry->outcome.result.file_hash) return entry->outcome;
+        if (describe_file("", part_file).hash == hash_text(entry->outcome.result.file_hash)) return entry->outcome;
     } catch (const Error&) {  // missing or damaged
     }
     return {};

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/regular_tet.h"
+#include "export/format.h"
 #include "io/output_file.h"
 #include "io/run_folder.h"
 
@@ -89,6 +90,8 @@ void RunOptions::resolve(int cores_of_rank) {
     require(attempts >= 1, "attempts", "1 or more", attempts);
     if (decompose.facets == FacetPolicy::keep && decompose.cut.contour == ContourMethod::straight)
         throw Error(ErrorCode::usage, "--contour straight splits facets, and --surface keep forbids it. Drop one.");
+    if (formats.empty()) formats = "vtu";
+    parse_formats(formats);
     check_files();
     if (mesher.max_volume == 0 && size > 0) mesher.max_volume = regular_tet_volume(size);
     decompose.cut.max_volume = decompose.cut.load.max_volume = mesher.max_volume;
@@ -176,6 +179,8 @@ std::vector<OptionField> option_fields(RunOptions& o) {
         {"attempts", "", "Attempts at a part, at most: with other orders, tolerances, weaker bounds. Default 10.",
          &o.attempts},
         {"tetgen", "", "Expert: TetGen switches instead of q and a (p, Y are always on).", &o.mesher.tetgen_switches},
+        {"format", "", "Formats of the result, with commas between; kerf export --help lists them. Default vtu.",
+         &o.formats, false},
         {"stl", "", "Write the closed surface of every part as binary STL, too.", &o.stl, false},
         {"report", "", "Write the report to this file too.", &o.report_file, false},
         {"events", "", "Write progress as one JSON object per line to this file, or to fd:N.", &o.events_file, false},

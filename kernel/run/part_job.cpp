@@ -33,19 +33,19 @@ auto timed(double& seconds, Stage stage) {
 std::vector<char> interface_vertices(const SurfaceArrays& surface, std::size_t vertex_count) {
     std::vector<char> on_interface(vertex_count, 0);
     for (std::size_t f = 0; f < surface.facets.size(); ++f)
-        if (key_node(surface.facet_key[f]) != 0)
+        if (!is_of_input(surface.facet_key[f]))
             for (std::int32_t v : surface.facets[f]) on_interface[v] = 1;
     return on_interface;
 }
 
-PartQuality measure_quality(const TetMesh& mesh, const SurfaceArrays& surface, const std::vector<TetQuality>& qualities,
-                            double length_scale) {
+PartQuality measure_quality(const TetMesh& mesh, const SurfaceArrays& surface, double length_scale) {
     PartQuality quality(length_scale);
     const std::vector<char> on_interface = interface_vertices(surface, mesh.vertices.size());
     for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
         const Tetrahedron& t = mesh.tets[i];
         const bool touches = on_interface[t[0]] || on_interface[t[1]] || on_interface[t[2]] || on_interface[t[3]];
-        (touches ? quality.interface : quality.interior).add(qualities[i]);
+        const std::vector<Vec3>& p = mesh.vertices;
+        (touches ? quality.interface : quality.interior).add(tet_quality(p[t[0]], p[t[1]], p[t[2]], p[t[3]]));
     }
     quality.all.add(quality.interface);
     quality.all.add(quality.interior);
@@ -66,7 +66,7 @@ std::string broken_laws(const MeshLaws& laws) {
 }
 
 void fill_result(const PartJob& job, const MesherCall& call, const std::string& part_file, PartResult& result) {
-    const TetMesh mesh = timed(result.mesh_seconds, [&] {
+    TetMesh mesh = timed(result.mesh_seconds, [&] {
         return call.cut_first ? mesh_in_two(job.surface, call.options)
                               : mesh_volume(job.surface, call.options, call.vertex_order_seed);
     });
@@ -76,15 +76,37 @@ void fill_result(const PartJob& job, const MesherCall& call, const std::string& 
     result.interior_vertices = mesh.interior_vertex_count();
     result.tets = static_cast<std::int64_t>(mesh.tets.size());
     timed(result.verify_seconds, [&] { result.hash = hash_part(mesh, job.surface); });
-    timed(result.write_seconds, [&] {
-        const std::vector<TetQuality> quality = tet_qualities(mesh);
-        result.quality = measure_quality(mesh, job.surface, quality, job.length_scale);
-        result.file_hash =
-            write_part(part_file, mesh, job.surface, quality, tets_at_facets(mesh, job.surface), job.arrays);
+    timed(result.store_seconds, [&] {
+        result.quality = measure_quality(mesh, job.surface, job.length_scale);
+        result.file_hash = write_stored_part(part_file, part_of_job(job, std::move(mesh)));
     });
 }
 
 }  // namespace
+
+Part part_of_job(const PartJob& job) {
+    TetMesh boundary;
+    boundary.vertices = job.surface.vertices;
+    boundary.boundary_vertex_count = static_cast<std::int32_t>(boundary.vertices.size());
+    return part_of_job(job, std::move(boundary));
+}
+
+Part part_of_job(const PartJob& job, TetMesh mesh) {
+    Part part;
+    part.id = job.part;
+    part.facets = job.surface.facets;
+    part.patch = job.surface.patch;
+    part.facet.reserve(part.facets.size());
+    for (const Key key : job.surface.facet_key) part.facet.push_back(is_of_input(key) ? key_index(key) : -1);
+    part.neighbour = job.neighbour;
+    part.tet_at_facet = tets_at_facets(mesh, part.facets);
+    part.global_id = job.boundary_id;
+    part.global_id.resize(mesh.vertices.size(), -1);
+    part.patch_names = job.patch_names;
+    part.shared = job.shared;
+    part.mesh = std::move(mesh);
+    return part;
+}
 
 void write_job(const std::string& path, const PartJob& job) {
     const Bytes record = to_record(job);

@@ -5,27 +5,38 @@
 
 #include "mesh/quality.h"
 #include "mesh/verification.h"
-#include "part/vtu_writer.h"
+#include "part/part_store.h"
+#include "surface/surface.h"
 #include "volume/retries.h"
 
 namespace kerf {
 
 /// What is known of a part before it is meshed. The mesh depends on this alone.
 struct PartJob {
+    NodeId part = 1;
     SurfaceArrays surface;
-    PartArrays arrays;
+    std::vector<std::int64_t> boundary_id;  ///< #V; global numbers
+    std::vector<NodeId> neighbour;          ///< #F; the part on the other side of an interface facet, else -1
+    std::vector<SharedGroup> shared;
+    std::vector<std::string> patch_names;
     double length_scale = 1;  ///< diagonal of the whole input, for the bins of the distributions
 
     template <class Archive>
     void archive(Archive& a) {
-        a(surface, arrays.part, arrays.boundary_id, arrays.neighbour, arrays.patch_names, length_scale);
+        a(part, surface, boundary_id, neighbour, shared, patch_names, length_scale);
     }
 };
+
+/// The part as it is before it is meshed: its boundary alone.
+Part part_of_job(const PartJob& job);
+/// The same with its cells, of which the boundary is the job's surface. Interior vertices have no global numbers yet:
+/// they are -1.
+Part part_of_job(const PartJob& job, TetMesh mesh);
 
 /// One attempt at a part: what a worker is told.
 struct PartAttempt {
     std::string job_file;   ///< of write_job()
-    std::string part_file;  ///< is written
+    std::string part_file;  ///< is written by write_stored_part()
     MesherCall call;
 
     template <class Archive>
@@ -42,14 +53,14 @@ struct PartResult {
     MeshLaws laws;
     PartQuality quality;
     std::array<std::uint64_t, 2> hash = {0, 0};  ///< of surface, keys and mesh
-    FileHash file_hash = {0, 0};                 ///< of the part's file, as write_part() returned it
-    double load_seconds = 0, mesh_seconds = 0, verify_seconds = 0, write_seconds = 0;
+    FileHash file_hash = {0, 0};                 ///< of the stored part
+    double load_seconds = 0, mesh_seconds = 0, verify_seconds = 0, store_seconds = 0;
     std::int64_t peak_rss_bytes = 0;
 
     template <class Archive>
     void archive(Archive& a) {
         a(code, message, vertices, interior_vertices, tets, laws, quality, hash, file_hash, load_seconds, mesh_seconds,
-          verify_seconds, write_seconds, peak_rss_bytes);
+          verify_seconds, store_seconds, peak_rss_bytes);
     }
 };
 
@@ -61,7 +72,7 @@ void write_job(const std::string& path, const PartJob& job);
 /// Throws Error(io) if the file cannot be read or is damaged.
 PartJob read_job(const std::string& path);
 
-/// Meshes, verifies, measures and writes a part. Never throws kerf::Error: it comes back as the result's code and
+/// Meshes, verifies, measures and stores a part. Never throws kerf::Error: it comes back as the result's code and
 /// message. A part whose laws do not hold is not written and has code `subdomain`. Deterministic but for seconds and
 /// memory.
 PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::string& part_file);

@@ -10,6 +10,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -21,6 +22,8 @@
 #include "io/run_folder.h"
 #include "io/stl_writer.h"
 #include "io/text_file.h"
+#include "part/part_store.h"
+#include "part/vtu_writer.h"
 #include "run/forecast.h"
 #include "run/gathered_nodes.h"
 #include "run/input_cover.h"
@@ -28,9 +31,11 @@
 #include "run/mesh_hash.h"
 #include "run/numbering.h"
 #include "run/peak_memory.h"
+#include "run/range_of_rank.h"
 #include "run/saved_run.h"
 #include "run/trace.h"
 #include "run/volume_stage.h"
+#include "run/write_stage.h"
 
 namespace kerf {
 
@@ -51,13 +56,6 @@ double longest(Communicator& ranks, double seconds) {
     return most;
 }
 
-LeafRange range_of_rank(std::int32_t parts, const Communicator& ranks) {
-    const auto begin = [&](int rank) {
-        return static_cast<std::int32_t>(static_cast<std::int64_t>(parts) * rank / ranks.size());
-    };
-    return {begin(ranks.rank()), begin(ranks.rank() + 1)};
-}
-
 RunFolder open_run_folder(const RunOptions& options, const std::string& input_hash, Communicator& ranks) {
     std::optional<RunFolder> folder;
     const std::string partial = in_agreement(ranks, [&] {
@@ -74,27 +72,37 @@ RunFolder open_run_folder(const RunOptions& options, const std::string& input_ha
     return std::move(*folder);
 }
 
+// A part that this rank has cut: what is known of it, and what is to be done.
+struct OwnPart {
+    PartReport report;
+    PartJob job;
+};
+
 // What is known of a part before it is meshed.
-PartReport describe_part(const Leaf& leaf, const std::vector<NodeId>& neighbours, int rank, const LoadModel& model) {
+PartReport describe_part(const PartJob& job, double volume, int rank, const LoadModel& model) {
     PartReport part;
-    part.id = leaf.id;
+    part.id = job.part;
     part.rank = rank;
-    part.surface_volume = leaf.volume;
-    part.surface_vertices = static_cast<std::int64_t>(leaf.surface.vertices.size());
-    part.surface_facets = static_cast<std::int64_t>(leaf.surface.facets.size());
-    for (std::size_t f = 0; f < neighbours.size(); ++f) {
-        if (neighbours[f] < 0) continue;
+    part.surface_volume = volume;
+    part.surface_vertices = static_cast<std::int64_t>(job.surface.vertices.size());
+    part.surface_facets = static_cast<std::int64_t>(job.surface.facets.size());
+    for (std::size_t f = 0; f < job.neighbour.size(); ++f) {
+        if (job.neighbour[f] < 0) continue;
         ++part.interface_facets;
-        const Triangle& t = leaf.surface.facets[f];
-        const std::vector<Vec3>& p = leaf.surface.vertices;
+        const Triangle& t = job.surface.facets[f];
+        const std::vector<Vec3>& p = job.surface.vertices;
         part.interface_area += (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / 2;
-        part.neighbours.push_back(neighbours[f]);
+        part.neighbours.push_back(job.neighbour[f]);
     }
     part.load = model.load(static_cast<double>(part.surface_vertices), static_cast<double>(part.surface_facets),
                            part.surface_volume);
     std::sort(part.neighbours.begin(), part.neighbours.end());
     part.neighbours.erase(std::unique(part.neighbours.begin(), part.neighbours.end()), part.neighbours.end());
     return part;
+}
+
+std::int32_t rank_of_leaf(const std::vector<NodeId>& leaves, NodeId leaf) {
+    return static_cast<std::int32_t>(std::find(leaves.begin(), leaves.end(), leaf) - leaves.begin());
 }
 
 // Fewer facets leave no contour of edges; fewer than a tetrahedron has make no part.
@@ -120,6 +128,18 @@ std::int32_t part_count(const Input& input, const RunOptions& options, int ranks
     return wanted;
 }
 
+// 0 if every part was meshed; `memory` if all that failed ran out of it, else `subdomain`.
+int failure_code(const std::vector<PartReport>& parts) {
+    int code = 0;
+    for (const PartReport& part : parts) {
+        if (part.result.code == 0) continue;
+        const bool memory = part.result.code == static_cast<int>(ErrorCode::memory);
+        if (!memory) return static_cast<int>(ErrorCode::subdomain);
+        code = part.result.code;
+    }
+    return code;
+}
+
 // One rank's share of the run.
 class Run {
  public:
@@ -139,7 +159,7 @@ class Run {
     void announce_parts();
     void hand_over_parts();
     void mesh_parts();
-    void number_interiors();
+    void write_formats();
     RunReport finish(const Stopwatch& whole, double read_seconds);
     const RunReport& report() const { return report_; }
     Error with_way_to_go_on(const Error& error);
@@ -152,10 +172,11 @@ class Run {
         listener_->on_progress(stage, done, total);
     }
     void save() const { save_run(folder_->saved_run_file(), report_.options, input_.file_hash); }
+    StoredParts number_parts();
     void verify();
     void measure_workers();
-    std::vector<RunFile> describe_files();
-    RunFile describe_part_file(const std::string& path, const PartReport& part) const;
+    void remove_stored_parts();
+    void describe_other_files();
 
     Communicator& ranks_;
     std::string worker_hash_;
@@ -164,8 +185,7 @@ class Run {
     std::optional<RunFolder> folder_;  // none for a dry run
     RunReport report_;
     Decomposition own_;
-    std::vector<PartReport> own_parts_;
-    std::vector<PartArrays> own_arrays_;
+    std::vector<OwnPart> own_parts_;
     std::optional<VolumeStage> volume_;
     std::int64_t surface_vertices_ = 0;
 };
@@ -222,14 +242,22 @@ void Run::join_interfaces() {
     report_.verification.input_faces_missing = count_missing_input_facets(ranks_, input_.facets, own_);
     const VertexNumbering numbering(input_.vertices, report_.nodes);
     surface_vertices_ = numbering.surface_vertices();
-    for (const Leaf& leaf : own_.leaves) {
-        PartArrays arrays;
-        arrays.part = leaf.id;
-        arrays.boundary_id = numbering.global_ids(leaf.surface.vertex_key);
-        arrays.neighbour = table.neighbours(leaf);
-        arrays.patch_names = input_.patch_names;
-        own_parts_.push_back(describe_part(leaf, arrays.neighbour, ranks_.rank(), report_.options.decompose.cut.load));
-        own_arrays_.push_back(std::move(arrays));
+    std::vector<NodeId> own_leaves, leaves;
+    for (const Leaf& leaf : own_.leaves) own_leaves.push_back(leaf.id);
+    for (const auto& of_rank : all_gather(ranks_, own_leaves))
+        leaves.insert(leaves.end(), of_rank.begin(), of_rank.end());
+    const SharedVertices shared = table.shared_vertices(numbering, leaves);
+    for (Leaf& leaf : own_.leaves) {
+        PartJob job;
+        job.part = leaf.id;
+        job.boundary_id = numbering.global_ids(leaf.surface.vertex_key);
+        job.neighbour = table.neighbours(leaf);
+        job.shared = shared.groups_of(rank_of_leaf(leaves, leaf.id), job.boundary_id);
+        job.patch_names = input_.patch_names;
+        job.length_scale = input_.diagonal;
+        job.surface = std::exchange(leaf.surface, {});
+        PartReport report = describe_part(job, leaf.volume, ranks_.rank(), report_.options.decompose.cut.load);
+        own_parts_.push_back({std::move(report), std::move(job)});
     }
     gather_parts();
     report_.seconds.prepare = longest(ranks_, stopwatch.seconds());
@@ -246,7 +274,9 @@ void Run::announce_parts() {
 
 void Run::gather_parts() {
     report_.parts.clear();
-    for (const auto& parts : all_gather(ranks_, own_parts_))
+    std::vector<PartReport> own;
+    for (const OwnPart& part : own_parts_) own.push_back(part.report);
+    for (const auto& parts : all_gather(ranks_, own))
         report_.parts.insert(report_.parts.end(), parts.begin(), parts.end());
 }
 
@@ -265,15 +295,14 @@ void Run::hand_over_parts() {
     });
     if (volume) volume_.emplace(ranks_, *folder_, report_.options, worker_hash_, input_.diagonal, listener_);
     in_agreement(ranks_, [&] {
-        for (std::size_t i = 0; i < own_.leaves.size(); ++i) {
-            progress("prepare", i, own_.leaves.size());
-            const Leaf leaf = std::exchange(own_.leaves[i], {});
-            PartJob job{leaf.surface, std::exchange(own_arrays_[i], {}), input_.diagonal};
-            own_parts_[i].surface_hash =
-                write_part_surface(folder_->part_surface_file(leaf.id), job.surface, job.arrays);
+        for (std::size_t i = 0; i < own_parts_.size(); ++i) {
+            progress("prepare", i, own_parts_.size());
+            PartReport& report = own_parts_[i].report;
+            const PartJob job = std::exchange(own_parts_[i].job, {});
+            report.surface_hash = write_part_surface(folder_->part_surface_file(job.part), part_of_job(job));
             if (report_.options.stl)
-                write_stl(folder_->part_stl_file(leaf.id), job.surface.vertices, job.surface.facets);
-            if (volume) volume_->hand_over(job, own_parts_[i]);
+                write_stl(folder_->part_stl_file(job.part), job.surface.vertices, job.surface.facets);
+            if (volume) volume_->hand_over(job, report);
         }
     });
     gather_parts();
@@ -309,24 +338,32 @@ Error Run::with_way_to_go_on(const Error& error) {
                                       finished, report_.options.output)};
 }
 
-void Run::number_interiors() {
-    const Stopwatch stopwatch;
-    std::int64_t first = surface_vertices_;
-    std::map<NodeId, std::int64_t> first_of;
+// The parts that were meshed, as they lie in the folder, with the numbers of all vertices.
+StoredParts Run::number_parts() {
+    MeshOutline outline;
+    std::vector<StoredParts::Place> places;
+    outline.patch_names = input_.patch_names;
+    std::int64_t next = surface_vertices_;
     for (const PartReport& part : report_.parts) {
-        first_of[part.id] = first;
-        first += part.result.interior_vertices;
-    }
-    report_.vertices = first;
-    const LeafRange share = range_of_rank(static_cast<std::int32_t>(report_.parts.size()), ranks_);
-    in_agreement(ranks_, [&] {
-        for (std::int32_t i = share.first; i < share.last; ++i) {
-            progress("number", static_cast<std::size_t>(i - share.first), static_cast<std::size_t>(share.last));
-            const PartReport& part = report_.parts[static_cast<std::size_t>(i)];
-            if (part.result.code == 0) number_interior_vertices(folder_->part_file(part.id), first_of[part.id]);
+        if (part.result.code == 0) {
+            outline.parts.push_back({part.id, part.result.vertices, part.result.tets,
+                                     part.surface_facets - part.interface_facets, part.interface_facets});
+            places.push_back({folder_->stored_part_file(part.id), next, part.result.file_hash});
         }
-    });
-    report_.seconds.number = longest(ranks_, stopwatch.seconds());
+        next += part.result.interior_vertices;
+    }
+    report_.vertices = outline.vertices = next;
+    return {std::move(outline), std::move(places)};
+}
+
+// Solvers cannot read a mesh with parts missing, people can look at it.
+void Run::write_formats() {
+    const Stopwatch stopwatch;
+    const StoredParts parts = number_parts();
+    std::vector<const Format*> formats = parse_formats(report_.options.formats);
+    if (failure_code(report_.parts) != 0) formats = {&find_format("vtu")};
+    report_.files = write_parts(ranks_, parts, formats, folder_->partial_path(), report_.options.workers, listener_);
+    report_.seconds.write = longest(ranks_, stopwatch.seconds());
 }
 
 void Run::verify() {
@@ -357,74 +394,58 @@ void Run::measure_workers() {
         busy[static_cast<std::size_t>(part.rank * report_.options.workers + part.worker)] += part.seconds;
         mean.mesher += part.result.mesh_seconds;
         mean.verify += part.result.verify_seconds;
-        mean.write += part.result.write_seconds;
+        mean.store += part.result.store_seconds;
     }
     const double sum = std::accumulate(busy.begin(), busy.end(), 0.0);
     if (sum > 0) report_.imbalance = *std::max_element(busy.begin(), busy.end()) * static_cast<double>(workers) / sum;
-    for (double* seconds : {&mean.mesher, &mean.verify, &mean.write}) *seconds /= static_cast<double>(workers);
-    mean.start = sum / static_cast<double>(workers) - mean.mesher - mean.verify - mean.write;
+    for (double* seconds : {&mean.mesher, &mean.verify, &mean.store}) *seconds /= static_cast<double>(workers);
+    mean.start = sum / static_cast<double>(workers) - mean.mesher - mean.verify - mean.store;
     mean.idle = std::max(0.0, report_.seconds.mesh - sum / static_cast<double>(workers));
 }
 
-// 0 if every part was meshed; `memory` if all that failed ran out of it, else `subdomain`.
-int failure_code(const std::vector<PartReport>& parts) {
-    int code = 0;
-    for (const PartReport& part : parts) {
-        if (part.result.code == 0) continue;
-        const bool memory = part.result.code == static_cast<int>(ErrorCode::memory);
-        if (!memory) return static_cast<int>(ErrorCode::subdomain);
-        code = part.result.code;
-    }
-    return code;
+// Files of vtu hold all that those of the store do; a run with failed parts is continued from the latter.
+void Run::remove_stored_parts() {
+    const std::vector<const Format*> formats = parse_formats(report_.options.formats);
+    const bool has_vtu = std::find(formats.begin(), formats.end(), &find_format("vtu")) != formats.end();
+    if (!has_vtu || report_.exit_code != 0) return;
+    remove_run_files(folder_->partial_path(), [](const std::string& file) { return is_stored_part(file); });
 }
 
-// The file as it is now, of which the worker has said what it has written.
-RunFile Run::describe_part_file(const std::string& path, const PartReport& part) const {
-    const PartFileHashes hashes = hash_part_file(folder_->file(path));
-    if (hashes.written != part.result.file_hash)
-        throw Error(ErrorCode::io, fmt::format("{} is not what its worker has written: the disk or the memory has "
-                                               "damaged it. That part is meshed again when the run is continued.",
-                                               folder_->file(path)));
-    return {path, hashes.bytes, hash_text(hashes.present)};
-}
-
-// All files of the folder but the report. Each rank reads a share.
-std::vector<RunFile> Run::describe_files() {
+// Adds the files of the folder that no format has written, but the report. Each rank reads a share.
+void Run::describe_other_files() {
     const std::vector<std::string> found = in_agreement(ranks_, [&] {
         std::vector<std::string> files = is_root() ? list_files(folder_->partial_path()) : std::vector<std::string>();
-        std::erase_if(files, [](const std::string& file) {
-            return file.starts_with("work/") || file.ends_with('/') || !is_named_like_run_file(file);
+        std::set<std::string> known;
+        for (const RunFile& file : report_.files) known.insert(file.path);
+        std::erase_if(files, [&](const std::string& file) {
+            return known.contains(file) || file.starts_with("work/") || file.ends_with('/') ||
+                   !is_named_like_run_file(file);
         });
         return files;
     });
     const std::vector<std::string> files = all_gather(ranks_, found).front();
-    std::map<std::string, const PartReport*> part_of, part_of_surface;  // by the names of the files
+    std::map<std::string, FileHash> written;  // by the names of the files
     for (const PartReport& part : report_.parts) {
-        part_of_surface["parts/" + part_surface_file_name(part.id)] = &part;
-        if (part.result.code == 0) part_of["parts/" + part_file_name(part.id)] = &part;
+        written["parts/" + part_surface_file_name(part.id)] = part.surface_hash;
+        if (part.result.code == 0) written["parts/" + stored_part_file_name(part.id)] = part.result.file_hash;
     }
     const LeafRange share = range_of_rank(static_cast<std::int32_t>(files.size()), ranks_);
     const std::vector<RunFile> own = in_agreement(ranks_, [&] {
         std::vector<RunFile> described;
         for (std::int32_t i = share.first; i < share.last; ++i) {
             progress("hash", static_cast<std::size_t>(i), files.size());
-            const std::string& path = files[static_cast<std::size_t>(i)];
-            if (const auto part = part_of.find(path); part != part_of.end()) {
-                described.push_back(describe_part_file(path, *part->second));
-                continue;
-            }
-            described.push_back(describe_file(folder_->partial_path(), path));
-            if (const auto part = part_of_surface.find(path);
-                part != part_of_surface.end() && described.back().hash != hash_text(part->second->surface_hash))
+            described.push_back(describe_file(folder_->partial_path(), files[static_cast<std::size_t>(i)]));
+            const auto expected = written.find(described.back().path);
+            if (expected != written.end() && described.back().hash != hash_text(expected->second))
                 throw Error(ErrorCode::io, fmt::format("{} is not what was written: the disk or the memory has damaged "
                                                        "it. Continue the run to write it again.",
-                                                       folder_->file(path)));
+                                                       folder_->file(expected->first)));
         }
         return described;
     });
-    std::vector<RunFile> all;
-    for (const auto& of_rank : all_gather(ranks_, own)) all.insert(all.end(), of_rank.begin(), of_rank.end());
-    return all;
+    for (const auto& of_rank : all_gather(ranks_, own))
+        report_.files.insert(report_.files.end(), of_rank.begin(), of_rank.end());
+    sort_files(report_.files);
 }
 
 RunReport Run::finish(const Stopwatch& whole, double read_seconds) {
@@ -446,13 +467,9 @@ RunReport Run::finish(const Stopwatch& whole, double read_seconds) {
         report_.exit_code = static_cast<int>(ErrorCode::verification);
     report_.seconds.read = read_seconds;
     in_agreement(ranks_, [&] {
-        if (!is_root() || !report_.options.volume) return;
-        std::vector<std::string> pieces;
-        for (const PartReport& part : report_.parts)
-            if (part.result.code == 0) pieces.push_back("parts/" + part_file_name(part.id));
-        write_pvtu(folder_->file("mesh.pvtu"), pieces);
+        if (is_root() && report_.options.volume) remove_stored_parts();
     });
-    report_.files = describe_files();
+    describe_other_files();
     report_.seconds.hash = longest(ranks_, stopwatch.seconds());
     if (!is_root()) folder_.reset();  // nobody uses it when it moves
     report_.seconds.wall = longest(ranks_, whole.seconds());
@@ -501,7 +518,7 @@ RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input&
         run.announce_parts();
         if (volume) {
             run.mesh_parts();
-            run.number_interiors();
+            run.write_formats();
         }
         return run.finish(whole, read_seconds);
     } catch (const Error& error) {

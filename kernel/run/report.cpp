@@ -128,7 +128,7 @@ Json part_json(const PartReport& part) {
                  {"load_seconds", part.result.load_seconds},
                  {"mesh_seconds", part.result.mesh_seconds},
                  {"verify_seconds", part.result.verify_seconds},
-                 {"write_seconds", part.result.write_seconds},
+                 {"store_seconds", part.result.store_seconds},
                  {"peak_rss_bytes", part.result.peak_rss_bytes}};
     if (!part.failures.empty()) json["failures"] = part.failures;
     if (!part.remedy.empty()) json["remedy"] = part.remedy;
@@ -157,10 +157,10 @@ Json totals_json(const RunReport& report) {
             {"mesh_seconds", report.seconds.mesh},
             {"mesher_seconds", report.worker_seconds.mesher},
             {"verify_seconds", report.worker_seconds.verify},
-            {"write_seconds", report.worker_seconds.write},
+            {"store_seconds", report.worker_seconds.store},
             {"start_seconds", report.worker_seconds.start},
             {"idle_seconds", report.worker_seconds.idle},
-            {"number_seconds", report.seconds.number},
+            {"write_seconds", report.seconds.write},
             {"hash_seconds", report.seconds.hash},
             {"wall_seconds", report.seconds.wall},
             {"imbalance", report.imbalance},
@@ -272,9 +272,9 @@ std::string time_text(const RunReport& report) {
     if (!report.options.volume) return text;
     const WorkerSeconds& w = report.worker_seconds;
     return text + fmt::format(
-                      ", prepare {:.2f}, mesh {:.2f} (mesher {:.2f}, verify {:.2f}, write {:.2f}, start {:.2f}, "
-                      "idle {:.2f}), number {:.2f}, hash {:.2f}",
-                      s.prepare, s.mesh, w.mesher, w.verify, w.write, w.start, w.idle, s.number, s.hash);
+                      ", prepare {:.2f}, mesh {:.2f} (mesher {:.2f}, verify {:.2f}, store {:.2f}, start {:.2f}, "
+                      "idle {:.2f}), write {:.2f}, hash {:.2f}",
+                      s.prepare, s.mesh, w.mesher, w.verify, w.store, w.start, w.idle, s.write, s.hash);
 }
 
 std::string to_text(const RunReport& report) {

@@ -52,15 +52,15 @@ struct StageSeconds {
     double read = 0, decompose = 0;
     double prepare = 0;  ///< both sides of interfaces brought together, surfaces and jobs written
     double mesh = 0;     ///< of the stage
-    double number = 0;   ///< global numbers of interior vertices
-    double hash = 0;     ///< all files read again for the list of their hashes
+    double write = 0;    ///< the files of all formats
+    double hash = 0;     ///< other files read again for the list of their hashes
     double wall = 0;     ///< of the run
 };
 
 /// How the workers spent the meshing stage, each a mean over all of them: the terms add up to StageSeconds::mesh.
 struct WorkerSeconds {
     double mesher = 0;  ///< calls of the mesher
-    double verify = 0, write = 0;
+    double verify = 0, store = 0;
     double start = 0;  ///< starting processes, handing over jobs and answers, attempts that failed
     double idle = 0;   ///< nothing left to do
 };

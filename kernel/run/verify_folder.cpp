@@ -18,7 +18,7 @@
 #include "io/run_manifest.h"
 #include "mesh/adjacency.h"
 #include "mesh/quality.h"
-#include "part/vtu_reader.h"
+#include "part/run_parts.h"
 #include "part/vtu_writer.h"
 #include "run/oriented_triangle.h"
 #include "run/path_text.h"
@@ -66,6 +66,8 @@ SurfaceArrays surface_of(const Part& part) {
     return surface;
 }
 
+bool is_vtu(const std::string& path) { return path.ends_with(".vtu"); }
+
 bool has_repeated_vertex(const Tetrahedron& t) {
     return t[0] == t[1] || t[0] == t[2] || t[0] == t[3] || t[1] == t[2] || t[1] == t[3] || t[2] == t[3];
 }
@@ -95,11 +97,11 @@ class FolderVerifier {
     void check_files();
     void check_part(const nlohmann::json& of_report);
     void check_boundary_arrays(const Part& part, const std::string& path);
-    void check_what_follows(const Part& part, const SurfaceArrays& surface, const std::string& path,
-                            const std::string& surface_path);
+    void check_what_follows(const Part& part, const std::string& path, const std::string& surface_path);
     void check_pvtu();
     void check_totals();
     void keep_boundary(const Part& part);
+    void keep_interior(const Part& part, bool is_numbered);
     void check_shared_vertices();
     void check_interfaces();
     void check_numbering();
@@ -114,6 +116,7 @@ class FolderVerifier {
     double volume_ = 0;
     std::vector<PlacedVertex> boundary_;                  // of all parts; after check_shared_vertices() each once
     std::vector<std::array<std::int64_t, 2>> interiors_;  // first and last + 1 number of every part
+    std::int64_t unnumbered_interior_ = 0;                // vertices of files that leave the numbers to who reads them
     std::vector<InputPiece> pieces_;
     std::vector<InterfaceFacet> interfaces_;
 };
@@ -141,11 +144,11 @@ void FolderVerifier::check_files() {
 
 void FolderVerifier::check_part(const nlohmann::json& of_report) {
     const auto leaf = of_report.at("id").get<std::int32_t>();
-    const std::string name = "parts/" + part_file_name(leaf), path = folder_ + "/" + name;
+    const std::string path = path_of_part(folder_, leaf), name = path.substr(folder_.size() + 1);
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored))
         throw Error(ErrorCode::io, fmt::format("{} is missing: the part was not meshed. Run kerf mesh again.", path));
-    Part part = read_part(path);
+    Part part = load_part(folder_, leaf, 0);
     SurfaceArrays surface = surface_of(part);
     connect_tets(part.mesh);
     const MeshLaws laws = verify_mesh(part.mesh, surface);
@@ -160,8 +163,9 @@ void FolderVerifier::check_part(const nlohmann::json& of_report) {
     if (of_report.at("tets") != part.mesh.tets.size() || of_report.at("vertices") != part.mesh.vertices.size())
         differs(fmt::format("report.json has other numbers of part {}", leaf));
     check_boundary_arrays(part, name);
-    if (is_of_this_version_) check_what_follows(part, surface, name, "parts/" + part_surface_file_name(leaf));
+    if (is_of_this_version_) check_what_follows(part, name, "parts/" + part_surface_file_name(leaf));
     keep_boundary(part);
+    keep_interior(part, is_vtu(name));
 }
 
 void FolderVerifier::check_boundary_arrays(const Part& part, const std::string& path) {
@@ -175,21 +179,13 @@ void FolderVerifier::check_boundary_arrays(const Part& part, const std::string& 
 }
 
 // The arrays that follow from the mesh, and all headers: the bytes are those that the mesh would be written as.
-void FolderVerifier::check_what_follows(const Part& part, const SurfaceArrays& surface, const std::string& path,
-                                        const std::string& surface_path) {
-    PartArrays arrays;
-    arrays.part = part.id;
-    arrays.boundary_id.assign(part.global_id.begin(), part.global_id.begin() + part.mesh.boundary_vertex_count);
-    arrays.neighbour = part.neighbour;
-    arrays.patch_names = part.patch_names;
+void FolderVerifier::check_what_follows(const Part& part, const std::string& path, const std::string& surface_path) {
     const bool is_valid = std::none_of(part.mesh.tets.begin(), part.mesh.tets.end(), has_repeated_vertex);
-    if (is_valid &&
-        hash_part_file(folder_ + "/" + path).written !=
-            hash_of_part(part.mesh, surface, tet_qualities(part.mesh), tets_at_facets(part.mesh, surface), arrays))
+    if (is_vtu(path) && is_valid && describe_file(folder_, path).hash != hash_text(hash_of_part(part)))
         differs(path + " has arrays that do not follow from its mesh");
     std::error_code ignored;
     if (!std::filesystem::exists(folder_ + "/" + surface_path, ignored)) return;  // the list of files says so
-    if (describe_file(folder_, surface_path).hash != hash_text(hash_of_part_surface(surface, arrays)))
+    if (describe_file(folder_, surface_path).hash != hash_text(hash_of_part_surface(part)))
         differs(surface_path + " is not the surface of its part");
 }
 
@@ -215,13 +211,6 @@ void FolderVerifier::check_totals() {
 void FolderVerifier::keep_boundary(const Part& part) {
     const auto boundary = static_cast<std::size_t>(part.mesh.boundary_vertex_count);
     for (std::size_t v = 0; v < boundary; ++v) boundary_.push_back({part.global_id[v], part.mesh.vertices[v]});
-    if (boundary < part.global_id.size()) {
-        const std::int64_t first = part.global_id[boundary];
-        const auto count = static_cast<std::int64_t>(part.global_id.size() - boundary);
-        for (std::int64_t i = 0; i < count; ++i)
-            result_.misnumbered += part.global_id[boundary + static_cast<std::size_t>(i)] != first + i;
-        interiors_.push_back({first, first + count});
-    }
     for (std::size_t f = 0; f < part.facets.size(); ++f) {
         const Triangle& t = part.facets[f];
         const NamedTriangle g = rotated_to_smallest({part.global_id[t[0]], part.global_id[t[1]], part.global_id[t[2]]});
@@ -230,6 +219,17 @@ void FolderVerifier::keep_boundary(const Part& part) {
         else
             interfaces_.push_back({part.id < part.neighbour[f] ? g : reversed(g), part.id, part.neighbour[f]});
     }
+}
+
+void FolderVerifier::keep_interior(const Part& part, bool is_numbered) {
+    const auto boundary = static_cast<std::size_t>(part.mesh.boundary_vertex_count);
+    const auto count = static_cast<std::int64_t>(part.global_id.size() - boundary);
+    if (!is_numbered) unnumbered_interior_ += count;
+    if (!is_numbered || count == 0) return;
+    const std::int64_t first = part.global_id[boundary];
+    for (std::int64_t i = 0; i < count; ++i)
+        result_.misnumbered += part.global_id[boundary + static_cast<std::size_t>(i)] != first + i;
+    interiors_.push_back({first, first + count});
 }
 
 // The same number means the same coordinates, bit for bit.
@@ -271,7 +271,7 @@ void FolderVerifier::check_numbering() {
         result_.misnumbered += std::abs(first - next);
         next = last;
     }
-    result_.vertices = next;
+    result_.vertices = next + unnumbered_interior_;
 }
 
 // True if the pieces are the facet itself, or cover it with new vertices on the way.

@@ -81,13 +81,13 @@ def projected(report, on_one_core, processes):
     totals = report["totals"]
     cuts = sum(node["cut"]["seconds"] for node in on_one_core["tree"] if "cut" in node)
     outside_of_cuts = on_one_core["totals"]["decompose_seconds"] / cuts
-    stages = ("read", "decompose", "prepare", "mesh", "number", "hash")
+    stages = ("read", "decompose", "prepare", "mesh", "write", "hash")
     return {
         "read": totals["read_seconds"],
         "decompose": slowest_descent(on_one_core, processes) * outside_of_cuts,
         "prepare": totals["prepare_seconds"],
         "mesh": makespan(report["parts"], processes),
-        "number": totals["number_seconds"] / processes,
+        "write": totals["write_seconds"] / processes,
         "hash": totals["hash_seconds"] / processes,
         "report": totals["wall_seconds"] - sum(totals[stage + "_seconds"] for stage in stages),
     }

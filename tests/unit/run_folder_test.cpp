@@ -41,7 +41,7 @@ std::string get(const std::string& file) {
 // A finished run that can be told from others by its mark.
 void fill(const RunFolder& folder, const std::string& mark, int exit_code = 0) {
     nlohmann::ordered_json report = {{"mark", mark}, {"files", nlohmann::json::array()}, {"exit_code", exit_code}};
-    for (const std::string file : {"mesh.pvtu", "parts/part_0008.vtu"}) {
+    for (const std::string file : {"mesh.pvtu", "parts/part_0008.part"}) {
         put(folder.file(file), mark);
         report["files"].push_back({{"path", file}});
     }
@@ -56,7 +56,7 @@ std::string run(const std::string& path, const std::string& mark, int exit_code 
 
 void expect_run(const std::string& path, const std::string& mark) {
     EXPECT_NE(get(path + "/report.json").find("\"mark\": \"" + mark + '"'), std::string::npos);
-    EXPECT_EQ(get(path + "/parts/part_0008.vtu"), mark);
+    EXPECT_EQ(get(path + "/parts/part_0008.part"), mark);
     EXPECT_EQ(get(path + "/mesh.pvtu"), mark);
     EXPECT_EQ(std::distance(fs::directory_iterator(path), fs::directory_iterator()), 3)
         << "files of two runs are mixed";
@@ -146,10 +146,10 @@ TEST_F(RunFolderTest, AForeignFileIsNamedAndKept) {
             fs::remove_all(folder);
         }
     run(path("run"), "old");
-    put(path("run/parts/part_0009.vtu"), "named like a part, but on no list");
+    put(path("run/parts/part_0009.part"), "named like a part, but on no list");
     const std::string message = test::io_error([&] { RunFolder::create(path("run")); });
-    EXPECT_NE(message.find("parts/part_0009.vtu"), message.npos) << message;
-    fs::remove(path("run/parts/part_0009.vtu"));
+    EXPECT_NE(message.find("parts/part_0009.part"), message.npos) << message;
+    fs::remove(path("run/parts/part_0009.part"));
     put(path("run/report.json"), get(path("run/report.json")) + " ");
     EXPECT_NE(test::io_error([&] { RunFolder::create(path("run")); }), "") << "somebody has changed the report";
 }
@@ -167,7 +167,7 @@ TEST_F(RunFolderTest, AFailedRunLeavesAValidOneAlone) {
 }
 
 void expect_failed_run(const std::string& path) {
-    EXPECT_EQ(get(path + "/parts/part_0008.vtu"), "failed");
+    EXPECT_EQ(get(path + "/parts/part_0008.part"), "failed");
     EXPECT_EQ(get(path + "/work/journal/8"), "finished");
 }
 
@@ -193,7 +193,7 @@ TEST_F(RunFolderTest, FinishedPartsOfAFailedRunAreTakenOver) {
         expect_failed_run(place);
         RunFolder folder = RunFolder::create(path("run"), options_are("options"));
         EXPECT_EQ(folder.finished_parts(), 1u);
-        EXPECT_EQ(get(folder.part_file(8)), "failed");
+        EXPECT_EQ(get(folder.stored_part_file(8)), "failed");
         EXPECT_EQ(get(place + "/report.json").substr(0, 1), "{") << "until the next run is complete";
         fill(folder, "valid");
         folder.commit(true);
@@ -211,7 +211,7 @@ TEST_F(RunFolderTest, NothingIsTakenFromAValidRun) {
     {
         EXPECT_EQ(RunFolder::create(path("run"), [](const std::string&) { return true; }).finished_parts(), 0u);
     }
-    EXPECT_EQ(get(path("run/parts/part_0008.vtu")), "valid");
+    EXPECT_EQ(get(path("run/parts/part_0008.part")), "valid");
     EXPECT_EQ(RunFolder::saved_run_file(path("run")), path("run.kerf-partial/work/run.json"));
 }
 
@@ -259,7 +259,7 @@ TEST_F(RunFolderTest, OneRunAtATimeWrites) {
         const std::string message = test::io_error([&] { RunFolder::create(path("run")); });
         EXPECT_NE(message.find("Another run (process " + std::to_string(::getpid())), message.npos) << message;
         run(path("other"), "a");
-        EXPECT_EQ(get(first.part_file(8)), "first") << "the refused run has changed nothing";
+        EXPECT_EQ(get(first.stored_part_file(8)), "first") << "the refused run has changed nothing";
     }
     run(path("run"), "new");
     expect_run(path("run"), "new");
@@ -271,7 +271,7 @@ TEST_F(RunFolderTest, PartsAndJournalOfAnInterruptedRunWaitForTheNext) {
         RunFolder folder = RunFolder::create(path("run"));
         fill(folder, "a");
         for (const int leaf : {8, 9}) put(folder.journal_file(leaf), "finished");
-        put(folder.part_file(9), "part 9");
+        put(folder.stored_part_file(9), "part 9");
         put(folder.part_surface_file(8), "surface");
         put(folder.job_file(10), "waits");
         EXPECT_TRUE(folder.take(10));
@@ -285,9 +285,9 @@ TEST_F(RunFolderTest, PartsAndJournalOfAnInterruptedRunWaitForTheNext) {
     EXPECT_FALSE(fs::exists(folder.job_file(10)));
     EXPECT_FALSE(fs::exists(folder.file("report.json")));
     folder.keep_only({8, 10});
-    EXPECT_EQ(get(folder.part_file(8)), "a");
+    EXPECT_EQ(get(folder.stored_part_file(8)), "a");
     EXPECT_EQ(get(folder.journal_file(8)), "finished");
-    for (const std::string& stale : {folder.part_file(9), folder.journal_file(9), folder.part_surface_file(8)})
+    for (const std::string& stale : {folder.stored_part_file(9), folder.journal_file(9), folder.part_surface_file(8)})
         EXPECT_FALSE(fs::exists(stale)) << stale;
     fill(folder, "b");
     folder.commit(true);
@@ -325,12 +325,12 @@ TEST_F(RunFolderTest, OtherRanksWriteIntoTheSameFolder) {
     fill(root, "a");
     {
         RunFolder other = RunFolder::join(root.partial_path());
-        EXPECT_EQ(other.part_file(9), root.part_file(9));
-        put(other.part_file(9), "from another rank");
+        EXPECT_EQ(other.stored_part_file(9), root.stored_part_file(9));
+        put(other.stored_part_file(9), "from another rank");
         EXPECT_THROW(other.commit(true), Error);
     }
     root.commit(true);
-    EXPECT_EQ(get(path("run/parts/part_0009.vtu")), "from another rank");
+    EXPECT_EQ(get(path("run/parts/part_0009.part")), "from another rank");
     const std::string message = test::io_error([&] { RunFolder::join(path("nowhere")); });
     EXPECT_NE(message.find(path("nowhere")), message.npos) << message;
 }

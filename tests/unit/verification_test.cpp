@@ -125,7 +125,7 @@ TEST(Verification, DoesNotDependOnOrderAndRotation) {
                         cube.surface.facets[f].end());
         }
         EXPECT_EQ(counts(cube), Counts{});
-        const auto behind = tets_at_facets(cube.mesh, cube.surface);
+        const auto behind = tets_at_facets(cube.mesh, cube.surface.facets);
         for (std::size_t f = 0; f < behind.size(); ++f) {
             ASSERT_GE(behind[f], 0);
             int same = 0;
@@ -218,7 +218,7 @@ TEST(Verification, FindsADeletedDoubledOrTurnedFacet) {
         EXPECT_EQ(counts(doubled), (Counts{0, 1, 0, 0, 0}));
         std::swap(turned.surface.facets[f][0], turned.surface.facets[f][1]);
         EXPECT_EQ(counts(turned), (Counts{0, 1, 1, 0, 0}));
-        EXPECT_EQ(tets_at_facets(turned.mesh, turned.surface)[f], -1);
+        EXPECT_EQ(tets_at_facets(turned.mesh, turned.surface.facets)[f], -1);
     }
 }
 

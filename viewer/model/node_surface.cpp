@@ -13,7 +13,7 @@ NodeSurface node_surface_of(const Surface& surface) {
     for (std::int32_t v = 0; v < surface.vertex_count(); ++v) {
         const Key key = surface.vertex_key(v);
         result.vertices.push_back(surface.point(v));
-        result.vertex_number.push_back(key_node(key) == 0 ? key_index(key) : -1);
+        result.vertex_number.push_back(is_of_input(key) ? key_index(key) : -1);
     }
     result.facets.reserve(facets);
     result.patch.reserve(facets);
@@ -24,7 +24,7 @@ NodeSurface node_surface_of(const Surface& surface) {
         result.facets.push_back(surface.vertices(f));
         result.patch.push_back(surface.patch(f));
         result.interface_of.push_back(key_node(key));
-        result.facet_number.push_back(key_node(key) == 0 ? key_index(key) : -1);
+        result.facet_number.push_back(is_of_input(key) ? key_index(key) : -1);
     }
     return result;
 }

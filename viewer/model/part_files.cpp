@@ -15,13 +15,6 @@ namespace kerf::view {
 
 namespace {
 
-SurfaceArrays surface_arrays_of(const Part& file) {
-    SurfaceArrays arrays;
-    arrays.vertices.assign(file.mesh.vertices.begin(), file.mesh.vertices.begin() + file.mesh.boundary_vertex_count);
-    arrays.facets = file.facets;
-    return arrays;
-}
-
 std::vector<char> tets_at_interfaces(const Part& file) {
     std::vector<char> is_on_interface(file.mesh.vertices.size(), 0);
     for (std::size_t f = 0; f < file.facets.size(); ++f)
@@ -128,7 +121,7 @@ PartCells read_part_cells(const std::string& folder, NodeId part) {
     connect_tets(file.mesh);
     PartCells cells;
     cells.part = part;
-    cells.tet_at_facet = tets_at_facets(file.mesh, surface_arrays_of(file));
+    cells.tet_at_facet = tets_at_facets(file.mesh, file.facets);
     cells.at_interface = tets_at_interfaces(file);
     cells.vertices = std::move(file.mesh.vertices);
     cells.boundary_vertex_count = file.mesh.boundary_vertex_count;

@@ -1,0 +1,121 @@
+// A fixed head with the sizes, the boundary as one block of bytes, the points, the tetrahedra.
+#include "part/part_store.h"
+
+#include <array>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "core/bytes.h"
+#include "core/elements.h"
+#include "core/error.h"
+#include "io/checked_file.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr std::array<char, 8> magic = {'K', 'E', 'R', 'F', 'P', 'A', 'R', '1'};
+constexpr std::uint64_t most_elements = std::uint64_t{1} << 31;
+
+struct Head {
+    std::array<char, 8> kind = magic;
+    std::uint64_t boundary_bytes = 0, vertices = 0, tets = 0;
+};
+
+// All of a part that grows with its boundary.
+struct Boundary {
+    Part& part;
+    std::vector<std::int64_t> ids;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(part.id, part.mesh.boundary_vertex_count, part.facets, part.patch, part.facet, part.neighbour,
+          part.tet_at_facet, ids, part.patch_names, part.shared);
+    }
+};
+
+[[noreturn]] void fail_damaged(const std::string& path) {
+    throw Error(ErrorCode::io, fmt::format("{} is damaged: the disk or the memory has changed it. Its part is meshed "
+                                           "again when the run is continued.",
+                                           path));
+}
+
+bool is_consistent(const Part& part, std::size_t ids) {
+    const std::size_t facets = part.facets.size();
+    const auto boundary = static_cast<std::size_t>(part.mesh.boundary_vertex_count);
+    const auto is_tet = [&](std::int32_t t) { return t >= -1 && t < part.tet_count(); };
+    bool holds = part.mesh.boundary_vertex_count >= 0 && boundary <= part.mesh.vertices.size() && ids == boundary &&
+                 part.patch.size() == facets && part.facet.size() == facets && part.neighbour.size() == facets &&
+                 part.tet_at_facet.size() == facets && are_in_range(part.facets, boundary) &&
+                 are_in_range(part.mesh.tets, part.mesh.vertices.size()) &&
+                 std::all_of(part.tet_at_facet.begin(), part.tet_at_facet.end(), is_tet);
+    for (const SharedGroup& group : part.shared)
+        for (const std::int32_t v : group.vertices)
+            holds = holds && v >= 0 && v < part.mesh.boundary_vertex_count && group.parts.size() > 1;
+    return holds;
+}
+
+template <class T>
+void read_all(CheckedFile& file, const std::string& path, std::vector<T>& values, std::uint64_t count) {
+    if (count > most_elements) fail_damaged(path);
+    values.resize(count);
+    if (!file.read_into(static_cast<void*>(values.data()), count * sizeof(T))) fail_damaged(path);
+}
+
+}  // namespace
+
+FileHash write_stored_part(const std::string& path, const Part& part) {
+    const auto boundary_count = static_cast<std::ptrdiff_t>(part.mesh.boundary_vertex_count);
+    const Bytes boundary =
+        to_bytes(Boundary{const_cast<Part&>(part), {part.global_id.begin(), part.global_id.begin() + boundary_count}});
+    const Head head{magic, boundary.size(), part.mesh.vertices.size(), part.mesh.tets.size()};
+    Hasher hasher;
+    CheckedFile file(path, "wb");
+    file.hash_into(hasher);
+    file.write(&head, sizeof head);
+    file.write(boundary.data(), boundary.size());
+    file.write(part.mesh.vertices.data(), part.mesh.vertices.size() * sizeof(Vec3));
+    file.write(part.mesh.tets.data(), part.mesh.tets.size() * sizeof(Tetrahedron));
+    file.sync();
+    file.close();
+    return hasher.digest();
+}
+
+Part read_stored_part(const std::string& path, std::int64_t first_interior_id, FileHash& hash) {
+    Hasher hasher;
+    CheckedFile file(path, "rb");
+    file.hash_into(hasher);
+    Head head;
+    if (!file.read_into(&head, sizeof head) || head.kind != magic) fail_damaged(path);
+    Part part;
+    Bytes bytes;
+    read_all(file, path, bytes, head.boundary_bytes);
+    read_all(file, path, part.mesh.vertices, head.vertices);
+    read_all(file, path, part.mesh.tets, head.tets);
+    if (!file.read(1).empty()) fail_damaged(path);
+    hash = hasher.digest();
+    Boundary boundary{part, {}};
+    try {
+        ByteReader{bytes}(boundary);
+    } catch (const Error&) {
+        fail_damaged(path);
+    }
+    if (!is_consistent(part, boundary.ids.size())) fail_damaged(path);
+    part.global_id = std::move(boundary.ids);
+    const std::size_t boundary_count = part.global_id.size();
+    part.global_id.resize(part.mesh.vertices.size());
+    std::iota(part.global_id.begin() + static_cast<std::ptrdiff_t>(boundary_count), part.global_id.end(),
+              first_interior_id);
+    return part;
+}
+
+Part StoredParts::load(std::int32_t rank) const {
+    const Place& place = places_[static_cast<std::size_t>(rank)];
+    FileHash hash;
+    Part part = read_stored_part(place.path, place.first_interior_id, hash);
+    if (hash != place.hash) fail_damaged(place.path);
+    return part;
+}
+
+}  // namespace kerf

@@ -1,0 +1,42 @@
+// How parts travel from the worker that has made them to the writers of all formats: compact files of this program.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/hash.h"
+#include "part/part.h"
+
+namespace kerf {
+
+/// Writes a part but for the global numbers of its interior vertices, which depend on the other parts: 24 bytes a
+/// vertex and 16 a tetrahedron. Returns the hash of the bytes, which depend on the part alone. The file outlives a
+/// power cut after the return. Throws Error(io).
+FileHash write_stored_part(const std::string& path, const Part& part);
+
+/// The part, its interior vertices numbered from `first_interior_id` on. `hash` receives that of the bytes. Throws
+/// Error(io) if the file cannot be read, is no such file, or not whole; its numbers are in range when it returns.
+Part read_stored_part(const std::string& path, std::int64_t first_interior_id, FileHash& hash);
+
+/// Stored parts of one mesh, of which the outline is known.
+class StoredParts : public PartSource {
+ public:
+    struct Place {
+        std::string path;
+        std::int64_t first_interior_id = 0;
+        FileHash hash = {0, 0};
+    };
+    /// `places`: by rank.
+    StoredParts(MeshOutline outline, std::vector<Place> places)
+        : outline_(std::move(outline)), places_(std::move(places)) {}
+
+    const MeshOutline& outline() const override { return outline_; }
+    /// Throws Error(io) naming the way out if the file is not as it was written.
+    Part load(std::int32_t rank) const override;
+
+ private:
+    MeshOutline outline_;
+    std::vector<Place> places_;
+};
+
+}  // namespace kerf

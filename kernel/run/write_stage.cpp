@@ -1,0 +1,155 @@
+#include "run/write_stage.h"
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "mesh/adjacency.h"
+#include "run/range_of_rank.h"
+
+namespace kerf {
+
+namespace {
+
+// One format and the files that this rank has written of it.
+struct FormatFiles {
+    const Format* format;
+    std::unique_ptr<ExportFiles> files;
+};
+
+std::vector<FormatFiles> open_formats(std::span<const Format* const> formats, const std::string& folder) {
+    std::vector<FormatFiles> opened;
+    for (const Format* format : formats)
+        opened.push_back({format, std::make_unique<ExportFiles>(folder_of_format(*format, folder))});
+    return opened;
+}
+
+void write_part(const PartSource& parts, std::int32_t rank, const std::vector<FormatFiles>& formats) {
+    Part part = parts.load(rank);
+    for (const auto& [format, files] : formats) {
+        if (!format->write_part) continue;
+        if (format->needs_face_neighbours && part.mesh.neighbours.empty()) connect_tets(part.mesh);
+        format->write_part(parts, rank, part, *files);
+    }
+}
+
+// The threads of one rank that write its share of the parts; the first error of any of them ends all.
+class PartWriters {
+ public:
+    PartWriters(const PartSource& parts, const std::vector<FormatFiles>& formats, LeafRange share)
+        : parts_(parts), formats_(formats), share_(share), next_(share.first) {}
+
+    /// Returns when all are written. `while_waiting` is called now and then, with the number that is done.
+    template <class WhileWaiting>
+    void run(int threads, WhileWaiting while_waiting) {
+        {
+            std::vector<std::jthread> running;
+            const JoinAtEnd stop_at_end{*this};
+            for (int i = 0; i < std::min(threads, share_.last - share_.first); ++i)
+                running.emplace_back([this] { write_some(); });
+            std::unique_lock lock(mutex_);
+            while (!error_ && done_ < share_.last - share_.first) {
+                changed_.wait_for(lock, std::chrono::milliseconds(100));
+                const std::int32_t done = done_;
+                lock.unlock();
+                while_waiting(done);
+                lock.lock();
+            }
+        }
+        if (error_) std::rethrow_exception(error_);
+    }
+
+ private:
+    // Before the threads are joined, also when `while_waiting` throws.
+    struct JoinAtEnd {
+        PartWriters& writers;
+        ~JoinAtEnd() { writers.next_ = writers.share_.last; }
+    };
+
+    void write_some() {
+        for (std::int32_t rank = next_++; rank < share_.last; rank = next_++) {
+            std::exception_ptr error;
+            try {
+                write_part(parts_, rank, formats_);
+            } catch (...) {
+                error = std::current_exception();
+            }
+            const std::lock_guard lock(mutex_);
+            ++done_;
+            if (error && !error_) error_ = error;
+            if (error_) next_ = share_.last;
+            changed_.notify_one();
+        }
+    }
+
+    const PartSource& parts_;
+    const std::vector<FormatFiles>& formats_;
+    LeafRange share_;
+    std::atomic<std::int32_t> next_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::int32_t done_ = 0;
+    std::exception_ptr error_;
+};
+
+// With paths relative to the run folder.
+std::vector<RunFile> list_files_of(const std::vector<FormatFiles>& formats, const std::string& folder) {
+    std::vector<RunFile> all;
+    for (const auto& [format, files] : formats)
+        for (RunFile& file : files->list()) {
+            file.path = std::filesystem::path(files->folder() + "/" + file.path).lexically_relative(folder).string();
+            all.push_back(std::move(file));
+        }
+    return all;
+}
+
+}  // namespace
+
+std::string folder_of_format(const Format& format, const std::string& run_folder) {
+    return std::string_view(format.name) == "vtu" ? run_folder : run_folder + "/" + format.name;
+}
+
+std::vector<RunFile> write_parts(Communicator& ranks, const PartSource& parts, std::span<const Format* const> formats,
+                                 const std::string& folder, int threads, RunListener* listener) {
+    const std::vector<FormatFiles> opened = open_formats(formats, folder);
+    const auto check = [&](std::int32_t done, std::int32_t total) {
+        if (!listener) return;
+        if (listener->cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
+        listener->on_progress("write", static_cast<std::size_t>(done), static_cast<std::size_t>(total));
+    };
+    in_agreement(ranks, [&] {
+        if (ranks.rank() != 0) return;
+        for (const auto& [format, files] : opened)
+            if (format->write_whole) format->write_whole(parts, *files);
+    });
+    const LeafRange share = range_of_rank(static_cast<std::int32_t>(parts.outline().parts.size()), ranks);
+    const bool any_in_parts =
+        std::any_of(formats.begin(), formats.end(), [](const Format* f) { return f->write_part; });
+    const std::vector<RunFile> own = in_agreement(ranks, [&] {
+        if (any_in_parts)
+            PartWriters(parts, opened, share).run(threads, [&](std::int32_t done) {
+                check(done, share.last - share.first);
+            });
+        if (ranks.rank() == 0)
+            for (const auto& [format, files] : opened) {
+                check(0, 1);
+                if (format->is_merged_only()) format->write_merged(parts, {}, *files, "mesh");
+            }
+        return list_files_of(opened, folder);
+    });
+    std::vector<RunFile> all;
+    for (const auto& of_rank : all_gather(ranks, own)) all.insert(all.end(), of_rank.begin(), of_rank.end());
+    sort_files(all);
+    in_agreement(ranks, [&] {
+        if (ranks.rank() != 0) return;
+        for (RunFile& file : all)
+            if (file.bytes < 0) file = describe_file(folder, file.path);  // several ranks have written it
+    });
+    return all;
+}
+
+}  // namespace kerf

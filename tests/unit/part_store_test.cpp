@@ -1,0 +1,90 @@
+#include "part/part_store.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "io/file_bytes.h"
+#include "support/io_error.h"
+#include "support/random_part.h"
+#include "support/temporary_folder.h"
+
+namespace kerf {
+namespace {
+
+constexpr std::int64_t first_interior = 7'000'000'000;
+
+class PartStore : public testing::Test {
+ protected:
+    test::TemporaryFolder folder_;
+    std::string file_ = folder_.file("part_0008.part");
+    FileHash hash_;
+};
+
+TEST_F(PartStore, PartsComeBackAsTheyWere) {
+    for (unsigned seed = 1; seed <= 60; ++seed) {
+        SCOPED_TRACE(seed);
+        const Part part = test::random_part(seed);
+        const FileHash written = write_stored_part(file_, part);
+        const Part back = read_stored_part(file_, first_interior, hash_);
+        EXPECT_EQ(hash_, written);
+        EXPECT_EQ(written, digest_of(read_file(file_)));
+        EXPECT_EQ(back.id, part.id);
+        EXPECT_EQ(back.mesh.vertices, part.mesh.vertices);
+        EXPECT_EQ(back.mesh.boundary_vertex_count, part.mesh.boundary_vertex_count);
+        EXPECT_EQ(back.mesh.tets, part.mesh.tets);
+        EXPECT_EQ(back.facets, part.facets);
+        EXPECT_EQ(back.patch, part.patch);
+        EXPECT_EQ(back.facet, part.facet);
+        EXPECT_EQ(back.neighbour, part.neighbour);
+        EXPECT_EQ(back.tet_at_facet, part.tet_at_facet);
+        EXPECT_EQ(back.global_id, part.global_id);
+        EXPECT_EQ(back.patch_names, part.patch_names);
+        ASSERT_EQ(back.shared.size(), part.shared.size());
+        for (std::size_t g = 0; g < part.shared.size(); ++g) {
+            EXPECT_EQ(back.shared[g].parts, part.shared[g].parts);
+            EXPECT_EQ(back.shared[g].vertices, part.shared[g].vertices);
+        }
+    }
+}
+
+TEST_F(PartStore, InteriorNumbersAreThoseOfTheReader) {
+    const Part part = test::random_part(4);
+    write_stored_part(file_, part);
+    Part renumbered = part;
+    for (std::size_t v = static_cast<std::size_t>(part.mesh.boundary_vertex_count); v < part.global_id.size(); ++v)
+        renumbered.global_id[v] += 100;
+    EXPECT_EQ(write_stored_part(folder_.file("other"), renumbered), write_stored_part(file_, part));
+    EXPECT_EQ(read_stored_part(file_, first_interior + 100, hash_).global_id, renumbered.global_id);
+}
+
+TEST_F(PartStore, WhatIsNotAsItWasIsRefused) {
+    const Part part = test::random_part(5);
+    const FileHash written = write_stored_part(file_, part);
+    const std::string bytes = read_file(file_);
+    const StoredParts parts({{{part.id}}, part.vertex_count(), {}}, {{file_, first_interior, written}});
+    EXPECT_EQ(parts.load(0).global_id, part.global_id);
+    for (std::size_t at = 0; at < bytes.size(); at += at < 40 ? 1 : 61) {
+        SCOPED_TRACE(at);
+        std::string damaged = bytes;
+        damaged[at] = static_cast<char>(damaged[at] ^ 16);
+        std::ofstream(file_, std::ios::binary) << damaged;
+        EXPECT_NE(test::io_error([&] { parts.load(0); }).find(file_), std::string::npos);
+        std::ofstream(file_, std::ios::binary) << bytes.substr(0, at);
+        EXPECT_NE(test::io_error([&] { parts.load(0); }).find(file_), std::string::npos);
+    }
+    std::ofstream(file_, std::ios::binary) << bytes << 'x';
+    EXPECT_NE(test::io_error([&] { parts.load(0); }), "");
+    std::filesystem::remove(file_);
+    EXPECT_NE(test::io_error([&] { parts.load(0); }), "");
+}
+
+TEST_F(PartStore, AFullDiskIsAnErrorThatNamesTheFile) {
+    const std::string message = test::io_error([&] { write_stored_part("/dev/full", test::random_part(1)); });
+    EXPECT_NE(message.find("/dev/full"), message.npos) << message;
+}
+
+}  // namespace
+}  // namespace kerf
