@@ -244,7 +244,7 @@ TEST(EventsFile, TellsOfEveryPartAndTheEnd) {
         }
     }
     EXPECT_EQ(kinds, (std::vector<std::string>{"run", "read", "decompose", "prepare", "parts", "volume", "part", "part",
-                                               "part", "number", "hash", "end"}));
+                                               "part", "write", "hash", "end"}));
     const auto report = nlohmann::json::parse(test::bytes_of_file(folder.file("out/report.json")));
     EXPECT_EQ(report["totals"]["tets"], tets);
     const ChildResult unwritable = test::run_kerf(

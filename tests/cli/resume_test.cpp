@@ -213,7 +213,7 @@ TEST_F(Resume, DamagedJournalsAndPartsAreMeshedAgain) {
         const std::size_t finished = test::finished_parts(folder_.file("out"));
         const std::string leaf = some_finished_leaf();
         damage(folder_.file("out.kerf-partial/" + sub_folder + "/" +
-                            (sub_folder == "parts" ? part_file_name(std::stoi(leaf)) : leaf)));
+                            (sub_folder == "parts" ? stored_part_file_name(std::stoi(leaf)) : leaf)));
         EXPECT_EQ(resume().exit_code, 0);
         EXPECT_EQ(resumed_parts(), finished - 1);
         EXPECT_TRUE(parts_of("out") == expected);

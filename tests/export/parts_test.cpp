@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "export/cases.h"
+#include "mesh/adjacency.h"
+#include "mesh/verification.h"
+#include "part/joined_parts.h"
 #include "part/run_parts.h"
 
 namespace kerf {
@@ -20,17 +23,32 @@ Holders holders_of_boundary(const std::vector<Part>& parts) {
     return holders;
 }
 
-std::vector<Part> load_all(const RunParts& run) {
+std::vector<Part> load_all(const PartSource& run) {
     std::vector<Part> parts;
     for (std::size_t rank = 0; rank < run.outline().parts.size(); ++rank)
         parts.push_back(run.load(static_cast<std::int32_t>(rank)));
     return parts;
 }
 
-TEST(Parts, GroupsHoldEveryVertexThatSeveralPartsHave) {
+// Calls check(source) with the parts of every case as they are, and joined into fewer pieces.
+template <class Check>
+void for_each_source(Check check) {
     for (const test::ExportCase& each : test::export_cases()) {
-        SCOPED_TRACE(each.name);
         const RunParts run(test::run_of(each));
+        {
+            SCOPED_TRACE(each.name);
+            check(run);
+        }
+        for (const std::int32_t pieces : {1, 2, 3, 5, 7, each.parts}) {
+            if (pieces > each.parts) continue;
+            SCOPED_TRACE(each.name + " into " + std::to_string(pieces));
+            check(JoinedParts(run, pieces));
+        }
+    }
+}
+
+TEST(Parts, GroupsHoldEveryVertexThatSeveralPartsHave) {
+    for_each_source([](const PartSource& run) {
         const std::vector<Part> parts = load_all(run);
         const Holders holders = holders_of_boundary(parts);
         for (const Part& part : parts) {
@@ -50,13 +68,11 @@ TEST(Parts, GroupsHoldEveryVertexThatSeveralPartsHave) {
                 EXPECT_EQ(grouped.contains(id), holders.at(id).size() > 1) << "vertex " << id;
             }
         }
-    }
+    });
 }
 
 TEST(Parts, TheOutlineHasTheNumbersOfTheParts) {
-    for (const test::ExportCase& each : test::export_cases()) {
-        SCOPED_TRACE(each.name);
-        const RunParts run(test::run_of(each));
+    for_each_source([](const PartSource& run) {
         std::int64_t owned = 0;
         for (std::size_t rank = 0; rank < run.outline().parts.size(); ++rank) {
             const PartExtent& extent = run.outline().parts[rank];
@@ -71,7 +87,43 @@ TEST(Parts, TheOutlineHasTheNumbersOfTheParts) {
             for (const NodeId owner : owners_of_vertices(part)) owned += owner == part.id;
         }
         EXPECT_EQ(owned, run.outline().vertices) << "every vertex has one owner";
-    }
+    });
+}
+
+// Each part obeys the laws of a mesh by itself, with its facets as boundary and each with the tetrahedron behind it;
+// together they fill the body.
+TEST(Parts, AreMeshesWithTheirFacetsAsBoundary) {
+    for_each_source([](const PartSource& run) {
+        double volume = 0, area = 0;
+        std::map<std::array<std::int64_t, 3>, int> sides;
+        for (Part& part : load_all(run)) {
+            SurfaceArrays surface;
+            surface.vertices = boundary_of(part).mesh.vertices;
+            surface.facets = part.facets;
+            connect_tets(part.mesh);
+            const MeshLaws laws = verify_mesh(part.mesh, surface);
+            EXPECT_TRUE(laws.hold());
+            EXPECT_EQ(part.tet_at_facet, tets_at_facets(part.mesh, part.facets));
+            EXPECT_EQ(std::count(part.tet_at_facet.begin(), part.tet_at_facet.end(), -1), 0);
+            volume += laws.volume;
+            for (std::size_t f = 0; f < part.facets.size(); ++f) {
+                const Triangle& t = part.facets[f];
+                const std::vector<Vec3>& p = part.mesh.vertices;
+                EXPECT_EQ(part.is_interface(f), part.patch[f] < 0);
+                if (!part.is_interface(f)) area += (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / 2;
+                std::array<std::int64_t, 3> corners;
+                for (std::size_t i = 0; i < 3; ++i) corners[i] = part.global_id[static_cast<std::size_t>(t[i])];
+                std::sort(corners.begin(), corners.end());
+                sides[corners] += part.is_interface(f) ? 1 : 2;
+            }
+        }
+        for (const auto& [corners, count] : sides) EXPECT_EQ(count, 2) << "each triangle is a patch's or two sides";
+        const RunParts* whole = dynamic_cast<const RunParts*>(&run);
+        static double volume_of_run = 0, area_of_run = 0;
+        if (whole) volume_of_run = volume, area_of_run = area;
+        EXPECT_NEAR(volume, volume_of_run, 1e-12 * volume);
+        EXPECT_NEAR(area, area_of_run, 1e-12 * area);
+    });
 }
 
 // What the cases are there for.

@@ -1,0 +1,206 @@
+#include "part/joined_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "core/check.h"
+#include "core/error.h"
+
+namespace kerf {
+
+namespace {
+
+bool lies_below(NodeId node, NodeId ancestor) {
+    while (node > ancestor) node /= 2;
+    return node == ancestor;
+}
+
+void divide(const std::vector<NodeId>& leaves, PieceOfTree node, std::int32_t pieces,
+            std::vector<PieceOfTree>& divided) {
+    if (pieces == 1) return divided.push_back(node);
+    const std::int32_t count = node.last - node.first;
+    const auto begin = leaves.begin() + node.first, end = leaves.begin() + node.last;
+    const auto middle = std::partition_point(begin, end, [&](NodeId leaf) { return lies_below(leaf, 2 * node.id); });
+    const auto on_left = static_cast<std::int32_t>(middle - begin), on_right = count - on_left;
+    const auto fair = static_cast<std::int32_t>(std::lround(static_cast<double>(pieces) * on_left / count));
+    const std::int32_t left = std::clamp(fair, std::max(1, pieces - on_right), std::min(on_left, pieces - 1));
+    divide(leaves, {2 * node.id, node.first, node.first + on_left}, left, divided);
+    divide(leaves, {2 * node.id + 1, node.first + on_left, node.last}, pieces - left, divided);
+}
+
+// The vertices of a piece: of those that several of its parts have, the first stands for all.
+class PieceVertices {
+ public:
+    PieceVertices(const std::vector<Part>& parts) : parts_(parts) {
+        for (std::size_t p = 0; p < parts.size(); ++p) {
+            place_.emplace_back(parts[p].mesh.vertices.size(), -1);
+            for (const SharedGroup& group : parts[p].shared)
+                for (const std::int32_t v : group.vertices)
+                    shared_.push_back({parts[p].global_id[static_cast<std::size_t>(v)], -1});
+        }
+        std::sort(shared_.begin(), shared_.end());
+        shared_.erase(std::unique(shared_.begin(), shared_.end()), shared_.end());
+        for (const Part& part : parts) mark_shared(part);
+    }
+
+    /// The number of vertex v of part p in the piece, which it gets when it is first asked for.
+    std::int32_t operator()(std::size_t p, std::int32_t v, Part& piece) {
+        const auto i = static_cast<std::size_t>(v);
+        std::int32_t& place = place_[p][i];
+        if (place >= 0) return place;
+        const std::int64_t id = parts_[p].global_id[i];
+        std::int32_t* const of_shared = is_shared_[p][i] ? &find(id)->second : nullptr;
+        if (of_shared && *of_shared >= 0) return place = *of_shared;
+        place = static_cast<std::int32_t>(piece.mesh.vertices.size());
+        if (of_shared) *of_shared = place;
+        piece.mesh.vertices.push_back(parts_[p].mesh.vertices[i]);
+        piece.global_id.push_back(id);
+        return place;
+    }
+
+ private:
+    using Shared = std::pair<std::int64_t, std::int32_t>;  // global number, place in the piece
+
+    void mark_shared(const Part& part) {
+        std::vector<char>& marks = is_shared_.emplace_back(part.mesh.vertices.size(), 0);
+        for (const SharedGroup& group : part.shared)
+            for (const std::int32_t v : group.vertices) marks[static_cast<std::size_t>(v)] = 1;
+    }
+    std::vector<Shared>::iterator find(std::int64_t id) {
+        return std::lower_bound(shared_.begin(), shared_.end(), id,
+                                [](const Shared& s, std::int64_t wanted) { return s.first < wanted; });
+    }
+
+    const std::vector<Part>& parts_;
+    std::vector<std::vector<std::int32_t>> place_;
+    std::vector<std::vector<char>> is_shared_;
+    std::vector<Shared> shared_;  // ascending
+};
+
+// The triangles of the part that bound the piece, too.
+std::vector<std::size_t> facets_of_piece(const Part& part, const std::vector<NodeId>& piece_of_neighbour,
+                                         NodeId piece) {
+    std::vector<std::size_t> facets;
+    for (std::size_t f = 0; f < part.facets.size(); ++f)
+        if (!part.is_interface(f) || piece_of_neighbour[f] != piece) facets.push_back(f);
+    return facets;
+}
+
+}  // namespace
+
+std::vector<PieceOfTree> divide_leaves(const std::vector<NodeId>& leaves, std::int32_t pieces) {
+    const auto count = static_cast<std::int32_t>(leaves.size());
+    KERF_CHECK(pieces >= 1 && pieces <= count);
+    std::vector<PieceOfTree> divided;
+    divide(leaves, {1, 0, count}, pieces, divided);
+    return divided;
+}
+
+JoinedParts::JoinedParts(const PartSource& parts, std::int32_t pieces) : parts_(parts) {
+    const MeshOutline& whole = parts.outline();
+    const auto count = static_cast<std::int32_t>(whole.parts.size());
+    if (pieces < 1 || pieces > count)
+        throw Error(ErrorCode::usage,
+                    fmt::format("--into is {}, but {} parts can be joined into 1 to {} pieces.", pieces, count, count));
+    std::vector<NodeId> leaves;
+    for (const PartExtent& part : whole.parts) leaves.push_back(part.id);
+    pieces_ = divide_leaves(leaves, pieces);
+    for (const PieceOfTree& piece : pieces_)
+        for (std::int32_t r = piece.first; r < piece.last; ++r)
+            piece_of_leaf_.emplace_back(leaves[static_cast<std::size_t>(r)], piece.id);
+    std::sort(piece_of_leaf_.begin(), piece_of_leaf_.end());
+    outline_.vertices = whole.vertices;
+    outline_.patch_names = whole.patch_names;
+    for (const PieceOfTree& piece : pieces_) {
+        PartExtent& extent = outline_.parts.emplace_back();
+        extent.id = piece.id;
+        for (std::int32_t r = piece.first; r < piece.last; ++r) {
+            const Part part = parts.load(r);
+            extent.tets += part.tet_count();
+            extent.vertices += part.vertex_count();
+            const std::vector<NodeId> beside = pieces_of(part.neighbour);
+            for (std::size_t f = 0; f < part.facets.size(); ++f)
+                (part.is_interface(f) ? extent.interface_facets : extent.patch_facets) +=
+                    !part.is_interface(f) || beside[f] != piece.id;
+            // A vertex counts in the first part of the piece that has it.
+            for (const SharedGroup& group : part.shared) {
+                const std::vector<NodeId> held_by = pieces_of(group.parts);
+                const auto first = std::find(held_by.begin(), held_by.end(), piece.id) - held_by.begin();
+                if (group.parts[static_cast<std::size_t>(first)] != part.id)
+                    extent.vertices -= static_cast<std::int64_t>(group.vertices.size());
+            }
+        }
+    }
+}
+
+// -1 where there is no leaf.
+std::vector<NodeId> JoinedParts::pieces_of(const std::vector<NodeId>& leaves) const {
+    std::vector<NodeId> pieces;
+    pieces.reserve(leaves.size());
+    for (const NodeId leaf : leaves) {
+        const auto found = std::lower_bound(piece_of_leaf_.begin(), piece_of_leaf_.end(), leaf,
+                                            [](const auto& entry, NodeId wanted) { return entry.first < wanted; });
+        pieces.push_back(leaf < 0 ? -1 : found->second);
+    }
+    return pieces;
+}
+
+Part JoinedParts::load(std::int32_t rank) const {
+    const PieceOfTree& range = pieces_[static_cast<std::size_t>(rank)];
+    std::vector<Part> parts;
+    for (std::int32_t r = range.first; r < range.last; ++r) parts.push_back(parts_.load(r));
+    Part piece;
+    piece.id = range.id;
+    piece.patch_names = outline_.patch_names;
+    PieceVertices vertex_in_piece(parts);
+    std::int32_t first_tet = 0;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        const Part& part = parts[p];
+        const std::vector<NodeId> beside = pieces_of(part.neighbour);
+        for (const std::size_t f : facets_of_piece(part, beside, range.id)) {
+            Triangle& facet = piece.facets.emplace_back(part.facets[f]);
+            for (std::int32_t& v : facet) v = vertex_in_piece(p, v, piece);
+            piece.patch.push_back(part.patch[f]);
+            piece.facet.push_back(part.facet[f]);
+            piece.neighbour.push_back(beside[f]);
+            piece.tet_at_facet.push_back(part.tet_at_facet[f] < 0 ? -1 : first_tet + part.tet_at_facet[f]);
+        }
+        first_tet += static_cast<std::int32_t>(part.tet_count());
+    }
+    piece.mesh.boundary_vertex_count = static_cast<std::int32_t>(piece.mesh.vertices.size());
+    for (std::size_t p = 0; p < parts.size(); ++p)
+        for (Tetrahedron tet : parts[p].mesh.tets) {
+            for (std::int32_t& v : tet) v = vertex_in_piece(p, v, piece);
+            piece.mesh.tets.push_back(tet);
+        }
+    // The vertices of the piece that other pieces have, by the ranks of all that have them.
+    std::map<std::vector<std::int32_t>, std::vector<std::int32_t>> vertices_of;
+    for (std::size_t p = 0; p < parts.size(); ++p)
+        for (const SharedGroup& group : parts[p].shared) {
+            std::vector<std::int32_t> ranks;
+            for (const NodeId holder : pieces_of(group.parts)) ranks.push_back(outline_.rank_of(holder));
+            ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+            if (ranks.size() < 2) continue;
+            std::vector<std::int32_t>& vertices = vertices_of[ranks];
+            for (const std::int32_t v : group.vertices) vertices.push_back(vertex_in_piece(p, v, piece));
+        }
+    for (auto& [ranks, vertices] : vertices_of) piece.shared.push_back(group_of(ranks, std::move(vertices), piece));
+    return piece;
+}
+
+// `vertices`: of the piece; those that several of its parts have come several times.
+SharedGroup JoinedParts::group_of(const std::vector<std::int32_t>& ranks, std::vector<std::int32_t> vertices,
+                                  const Part& piece) const {
+    const auto id = [&](std::int32_t v) { return piece.global_id[static_cast<std::size_t>(v)]; };
+    std::sort(vertices.begin(), vertices.end(), [&](std::int32_t a, std::int32_t b) { return id(a) < id(b); });
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    SharedGroup group;
+    for (const std::int32_t rank : ranks) group.parts.push_back(outline_.parts[static_cast<std::size_t>(rank)].id);
+    group.vertices = std::move(vertices);
+    return group;
+}
+
+}  // namespace kerf

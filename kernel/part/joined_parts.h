@@ -1,0 +1,42 @@
+// Parts joined into fewer pieces, for who has fewer processes.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "part/part.h"
+
+namespace kerf {
+
+/// Leaves [first, last) of the tree, in its order, that make one piece, and the node that they lie below.
+struct PieceOfTree {
+    NodeId id = 1;
+    std::int32_t first = 0, last = 0;
+};
+
+/// Divides the leaves, in the order of the tree, into so many pieces, 1 to the number of leaves: from the root down,
+/// each node's pieces are shared among its children in proportion to their leaves.
+std::vector<PieceOfTree> divide_leaves(const std::vector<NodeId>& leaves, std::int32_t pieces);
+
+/// The pieces as parts of a mesh: the interfaces inside of a piece are gone, global numbers are as they were. A piece
+/// is joined anew whenever it is loaded; memory: its parts. `parts` must outlive this.
+class JoinedParts : public PartSource {
+ public:
+    /// Loads every part once. Throws Error(usage) for less than one piece or more than there are parts.
+    JoinedParts(const PartSource& parts, std::int32_t pieces);
+
+    const MeshOutline& outline() const override { return outline_; }
+    Part load(std::int32_t rank) const override;
+
+ private:
+    std::vector<NodeId> pieces_of(const std::vector<NodeId>& leaves) const;
+    SharedGroup group_of(const std::vector<std::int32_t>& ranks, std::vector<std::int32_t> vertices,
+                         const Part& piece) const;
+
+    const PartSource& parts_;
+    std::vector<PieceOfTree> pieces_;
+    std::vector<std::pair<NodeId, NodeId>> piece_of_leaf_;  // ascending by leaf
+    MeshOutline outline_;
+};
+
+}  // namespace kerf
