@@ -143,6 +143,13 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         ->required()
         ->type_name("LIST");
     to_export->add_option("-o,--output", line.export_.output, "Folder for them.")->type_name("OUT");
+    CLI::App* to_merge = app.add_subcommand("merge", "Write a finished run as one mesh.");
+    to_merge->add_option("folder", line.merge.folder, "Folder of the run.")->required()->type_name("DIR");
+    to_merge->add_option("-o,--output", line.merge.output, "File, whose ending chooses the format.")
+        ->required()
+        ->type_name("FILE");
+    to_merge->add_option("--msh-version", line.merge.options.msh_version, "Of Gmsh's files.")
+        ->check(CLI::IsMember({"4.1", "2.2"}));
     // Only for the list of commands: main() has passed these on to kerf-view.
     app.add_subcommand("view", "Open the viewer: every cut step by step, every cell.");
     app.add_subcommand("screenshot", "The same as a picture, without a display.");
@@ -180,6 +187,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         line.command = Command::verify;
     } else if (to_export->parsed()) {
         line.command = Command::export_;
+    } else if (to_merge->parsed()) {
+        line.command = Command::merge;
     }
     return line;
 }

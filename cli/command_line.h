@@ -6,11 +6,12 @@
 
 #include "cli/check.h"
 #include "cli/export.h"
+#include "cli/merge.h"
 #include "run/options.h"
 
 namespace kerf {
 
-enum class Command { none, mesh, decompose, check, verify, export_ };
+enum class Command { none, mesh, decompose, check, verify, export_, merge };
 
 struct CommandLine {
     Command command = Command::none;
@@ -20,6 +21,7 @@ struct CommandLine {
     std::string resume;    ///< output folder of an interrupted run that is to be continued; empty: a new run
     CheckRequest check;
     ExportRequest export_;
+    MergeRequest merge;
     bool print_config = false;  ///< print the effective options and end
     std::string config_file;    ///< options that the command line does not give
     std::string config;         ///< them, in the form of a config file

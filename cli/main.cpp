@@ -109,6 +109,8 @@ int run_program(int argc, char** argv) {
             return check_surface(line.check);
         case Command::export_:
             return export_run(line.export_);
+        case Command::merge:
+            return merge_run(line.merge);
         case Command::verify:
             return verify_run(line.options.output);
         default:

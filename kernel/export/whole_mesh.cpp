@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <limits>
 
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "export/by_patch.h"
+
 namespace kerf {
 
 namespace {
@@ -30,6 +35,12 @@ IdRanges ranges_of(const Part& part) {
     return ranges;
 }
 
+void for_each_content(const PartSource& parts, PartContent content,
+                      const std::function<void(std::int32_t rank, const Part& part)>& take) {
+    const auto count = static_cast<std::int32_t>(parts.outline().parts.size());
+    for (std::int32_t rank = 0; rank < count; ++rank) take(rank, parts.load_only(rank, content));
+}
+
 }  // namespace
 
 void for_each_vertex(const PartSource& parts,
@@ -43,7 +54,7 @@ void for_each_vertex(const PartSource& parts,
         for (std::size_t rank = 0; rank < parts.outline().parts.size(); ++rank) {
             if (!is_first && !ranges[rank].boundary.meets(begin, end) && !ranges[rank].interior.meets(begin, end))
                 continue;
-            const Part part = parts.load(static_cast<std::int32_t>(rank));
+            const Part part = parts.load_only(static_cast<std::int32_t>(rank), PartContent::vertices);
             if (is_first) ranges.push_back(ranges_of(part));
             for (std::size_t v = 0; v < part.global_id.size(); ++v)
                 if (const std::int64_t id = part.global_id[v]; id >= begin && id < end)
@@ -54,8 +65,47 @@ void for_each_vertex(const PartSource& parts,
 }
 
 void for_each_part(const PartSource& parts, const std::function<void(std::int32_t rank, const Part& part)>& take) {
-    for (std::size_t rank = 0; rank < parts.outline().parts.size(); ++rank)
-        take(static_cast<std::int32_t>(rank), parts.load(static_cast<std::int32_t>(rank)));
+    for_each_content(parts, PartContent::cells, take);
+}
+
+void for_each_surface(const PartSource& parts, const std::function<void(std::int32_t rank, const Part& part)>& take) {
+    for_each_content(parts, PartContent::surface, take);
+}
+
+std::vector<std::int64_t> patch_sizes(const PartSource& parts) {
+    std::vector<std::int64_t> sizes(parts.outline().patch_names.size(), 0);
+    for_each_surface(parts, [&](std::int32_t, const Part& part) {
+        for (const std::int32_t patch : part.patch)
+            if (patch >= 0) ++sizes.at(static_cast<std::size_t>(patch));
+    });
+    return sizes;
+}
+
+void for_each_patch_triangle(
+    const PartSource& parts, std::span<const std::int64_t> sizes,
+    const std::function<void(std::int32_t patch, std::span<const PatchTriangle> triangles)>& take) {
+    for_each_by_patch<PatchTriangle>(
+        sizes,
+        [&](const auto& add) {
+            for_each_surface(parts, [&](std::int32_t, const Part& part) {
+                for (std::size_t f = 0; f < part.facets.size(); ++f)
+                    if (!part.is_interface(f)) add({part.patch[f], global_corners(part, part.facets[f])});
+            });
+        },
+        take);
+}
+
+void require_numbers_fit(const MeshOutline& outline, std::string_view format, std::int64_t most) {
+    const auto require = [&](std::int64_t count, const char* what) {
+        if (count <= most) return;
+        throw Error(ErrorCode::usage,
+                    fmt::format("The mesh has {} {}, but {} can number no more than {}. Write vtu or msh, or mesh "
+                                "with a larger --size.",
+                                count, what, format, most));
+    };
+    require(outline.vertices, "vertices");
+    require(outline.tets(), "tetrahedra");
+    require(outline.patch_facets(), "boundary triangles");
 }
 
 }  // namespace kerf

@@ -1,20 +1,52 @@
 // All parts as one mesh, without ever holding more than one of them.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
+#include <string_view>
+#include <vector>
 
 #include "part/part.h"
 
 namespace kerf {
+
+// Memory, whatever the size of the mesh: 48 MB of points and 6 bytes a tetrahedron of the largest part in
+// for_each_vertex(), 18 bytes a tetrahedron in for_each_part(), 48 MB in for_each_patch_triangle(); so parts of 2.5e6
+// tetrahedra are merged below 100 MB beside what the PartSource holds.
 
 /// Calls take(first, points) with the vertices of the whole mesh in the order of their global numbers: a piece at a
 /// time, the first of which has the number `first`. Parts are loaded as often as pieces need them.
 void for_each_vertex(const PartSource& parts,
                      const std::function<void(std::int64_t first, std::span<const Vec3> points)>& take);
 
-/// Calls take(rank, part) with every part, in the order of the tree.
+/// Calls take(rank, part) with every part, in the order of the tree: PartContent::cells, so without coordinates.
 void for_each_part(const PartSource& parts, const std::function<void(std::int32_t rank, const Part& part)>& take);
+
+/// The same with PartContent::surface.
+void for_each_surface(const PartSource& parts, const std::function<void(std::int32_t rank, const Part& part)>& take);
+
+/// For every patch how many triangles all parts have on it.
+std::vector<std::int64_t> patch_sizes(const PartSource& parts);
+
+/// A boundary triangle on the user's surface.
+struct PatchTriangle {
+    std::int32_t patch;
+    std::array<std::int64_t, 3> corners;  ///< global numbers; seen from outside
+};
+
+/// Calls take(patch, triangles) with the triangles of patch after patch, in the order of the tree within a patch; those
+/// of a large patch come in several calls in a row. `sizes`: patch_sizes(). Surfaces are read once for each 1e6
+/// triangles.
+void for_each_patch_triangle(
+    const PartSource& parts, std::span<const std::int64_t> sizes,
+    const std::function<void(std::int32_t patch, std::span<const PatchTriangle> triangles)>& take);
+
+/// Throws Error(usage), naming the format, if the mesh has more than `most` vertices, tetrahedra or boundary triangles.
+void require_numbers_fit(const MeshOutline& outline, std::string_view format, std::int64_t most);
+inline constexpr std::int64_t most_of_32_bits = std::numeric_limits<std::int32_t>::max();
 
 /// Corners of a cell of the part as global numbers.
 template <std::size_t n>

@@ -45,20 +45,20 @@ class CheckedFile {
     /// Reads up to `size` bytes, less at the end of the file.
     std::string read(std::size_t size) {
         std::string data(size, '\0');
-        data.resize(std::fread(data.data(), 1, size, file_.get()));
-        check(!std::ferror(file_.get()), "read");
+        data.resize(read_into(data.data(), size));
         return data;
     }
-    /// Reads so many bytes; false if the file ends before.
-    bool read_into(void* data, std::size_t size) {
-        const bool whole = size == 0 || std::fread(data, 1, size, file_.get()) == size;
+    /// The same; returns how many bytes there were.
+    std::size_t read_into(void* data, std::size_t size) {
+        // No room may be a null pointer, which fread must not get.
+        const std::size_t got = size == 0 ? 0 : std::fread(data, 1, size, file_.get());
         check(!std::ferror(file_.get()), "read");
-        if (hasher_ && whole) hasher_->add_bytes(data, size);
-        return whole;
+        if (hasher_ && got > 0) hasher_->add_bytes(data, got);
+        return got;
     }
     void seek(std::int64_t position) { check(::fseeko(file_.get(), position, SEEK_SET) == 0, "read"); }
 
-    /// What is written, or read by read_into(), from now on is added to `hasher`, too.
+    /// What is written or read from now on is added to `hasher`, too.
     void hash_into(Hasher& hasher) { hasher_ = &hasher; }
 
     void flush() { check(std::fflush(file_.get()) == 0, "write"); }

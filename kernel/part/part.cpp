@@ -53,4 +53,6 @@ std::int64_t MeshOutline::first_patch_facet(std::int32_t rank) const {
     return first;
 }
 
+std::int64_t MeshOutline::patch_facets() const { return first_patch_facet(static_cast<std::int32_t>(parts.size())); }
+
 }  // namespace kerf

@@ -67,6 +67,15 @@ struct MeshOutline {
     std::int64_t first_tet(std::int32_t rank) const;
     /// The same for triangles on the user's surface.
     std::int64_t first_patch_facet(std::int32_t rank) const;
+    std::int64_t patch_facets() const;
+};
+
+/// What is asked for of a part whose memory matters.
+enum class PartContent {
+    all,
+    surface,   ///< nothing of the inside: boundary vertices, facets and what belongs to them, global numbers of both
+    cells,     ///< tetrahedra, facets and what belongs to them, global numbers: 18 bytes a tetrahedron
+    vertices,  ///< mesh.vertices and global numbers: 6 bytes a tetrahedron
 };
 
 /// Parts of one mesh that can be had one at a time.
@@ -77,6 +86,9 @@ class PartSource {
     /// The part of this rank; the face neighbours of its mesh are for who asks to find them (mesh/adjacency.h). From
     /// any thread. Throws Error(io).
     virtual Part load(std::int32_t rank) const = 0;
+    /// The part without what is not asked for, where that spares time or memory; Part::shared and the neighbours of
+    /// tetrahedra are asked for by PartContent::all alone. As load().
+    virtual Part load_only(std::int32_t rank, PartContent) const { return load(rank); }
 };
 
 }  // namespace kerf

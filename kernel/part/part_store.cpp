@@ -41,14 +41,14 @@ struct Boundary {
                                            path));
 }
 
-bool is_consistent(const Part& part, std::size_t ids) {
+bool is_consistent(const Part& part, std::size_t ids, std::uint64_t vertices, std::uint64_t tets) {
     const std::size_t facets = part.facets.size();
     const auto boundary = static_cast<std::size_t>(part.mesh.boundary_vertex_count);
-    const auto is_tet = [&](std::int32_t t) { return t >= -1 && t < part.tet_count(); };
-    bool holds = part.mesh.boundary_vertex_count >= 0 && boundary <= part.mesh.vertices.size() && ids == boundary &&
+    const auto is_tet = [&](std::int32_t t) { return t >= -1 && t < static_cast<std::int64_t>(tets); };
+    bool holds = part.mesh.boundary_vertex_count >= 0 && boundary <= vertices && ids == boundary &&
                  part.patch.size() == facets && part.facet.size() == facets && part.neighbour.size() == facets &&
                  part.tet_at_facet.size() == facets && are_in_range(part.facets, boundary) &&
-                 are_in_range(part.mesh.tets, part.mesh.vertices.size()) &&
+                 are_in_range(part.mesh.tets, vertices) &&
                  std::all_of(part.tet_at_facet.begin(), part.tet_at_facet.end(), is_tet);
     for (const SharedGroup& group : part.shared)
         for (const std::int32_t v : group.vertices)
@@ -60,7 +60,15 @@ template <class T>
 void read_all(CheckedFile& file, const std::string& path, std::vector<T>& values, std::uint64_t count) {
     if (count > most_elements) fail_damaged(path);
     values.resize(count);
-    if (!file.read_into(static_cast<void*>(values.data()), count * sizeof(T))) fail_damaged(path);
+    if (file.read_into(static_cast<void*>(values.data()), count * sizeof(T)) != count * sizeof(T)) fail_damaged(path);
+}
+
+void number_vertices(Part& part, std::vector<std::int64_t> boundary_ids, std::uint64_t vertices,
+                     std::int64_t first_interior_id) {
+    const auto boundary = static_cast<std::ptrdiff_t>(boundary_ids.size());
+    part.global_id = std::move(boundary_ids);
+    part.global_id.resize(vertices);
+    std::iota(part.global_id.begin() + boundary, part.global_id.end(), first_interior_id);
 }
 
 }  // namespace
@@ -82,40 +90,47 @@ FileHash write_stored_part(const std::string& path, const Part& part) {
     return hasher.digest();
 }
 
-Part read_stored_part(const std::string& path, std::int64_t first_interior_id, FileHash& hash) {
+Part read_stored_part(const std::string& path, std::int64_t first_interior_id, PartContent content, FileHash* hash) {
     Hasher hasher;
     CheckedFile file(path, "rb");
     file.hash_into(hasher);
     Head head;
-    if (!file.read_into(&head, sizeof head) || head.kind != magic) fail_damaged(path);
+    if (file.read_into(&head, sizeof head) != sizeof head || head.kind != magic) fail_damaged(path);
     Part part;
     Bytes bytes;
     read_all(file, path, bytes, head.boundary_bytes);
-    read_all(file, path, part.mesh.vertices, head.vertices);
-    read_all(file, path, part.mesh.tets, head.tets);
-    if (!file.read(1).empty()) fail_damaged(path);
-    hash = hasher.digest();
     Boundary boundary{part, {}};
     try {
         ByteReader{bytes}(boundary);
     } catch (const Error&) {
         fail_damaged(path);
     }
-    if (!is_consistent(part, boundary.ids.size())) fail_damaged(path);
-    part.global_id = std::move(boundary.ids);
-    const std::size_t boundary_count = part.global_id.size();
-    part.global_id.resize(part.mesh.vertices.size());
-    std::iota(part.global_id.begin() + static_cast<std::ptrdiff_t>(boundary_count), part.global_id.end(),
-              first_interior_id);
+    const std::uint64_t vertices = content == PartContent::surface ? boundary.ids.size() : head.vertices;
+    if (vertices > head.vertices) fail_damaged(path);
+    if (content != PartContent::cells) read_all(file, path, part.mesh.vertices, vertices);
+    if (content == PartContent::cells)
+        file.seek(static_cast<std::int64_t>(sizeof head + head.boundary_bytes + head.vertices * sizeof(Vec3)));
+    if (content == PartContent::all || content == PartContent::cells) {
+        read_all(file, path, part.mesh.tets, head.tets);
+        if (!file.read(1).empty()) fail_damaged(path);
+    }
+    if (!is_consistent(part, boundary.ids.size(), vertices, head.tets)) fail_damaged(path);
+    if (hash) *hash = hasher.digest();
+    number_vertices(part, std::move(boundary.ids), vertices, first_interior_id);
     return part;
 }
 
 Part StoredParts::load(std::int32_t rank) const {
     const Place& place = places_[static_cast<std::size_t>(rank)];
     FileHash hash;
-    Part part = read_stored_part(place.path, place.first_interior_id, hash);
+    Part part = read_stored_part(place.path, place.first_interior_id, PartContent::all, &hash);
     if (hash != place.hash) fail_damaged(place.path);
     return part;
+}
+
+Part StoredParts::load_only(std::int32_t rank, PartContent content) const {
+    const Place& place = places_[static_cast<std::size_t>(rank)];
+    return content == PartContent::all ? load(rank) : read_stored_part(place.path, place.first_interior_id, content);
 }
 
 }  // namespace kerf

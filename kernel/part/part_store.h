@@ -14,9 +14,11 @@ namespace kerf {
 /// power cut after the return. Throws Error(io).
 FileHash write_stored_part(const std::string& path, const Part& part);
 
-/// The part, its interior vertices numbered from `first_interior_id` on. `hash` receives that of the bytes. Throws
-/// Error(io) if the file cannot be read, is no such file, or not whole; its numbers are in range when it returns.
-Part read_stored_part(const std::string& path, std::int64_t first_interior_id, FileHash& hash);
+/// What is asked for of the part, its interior vertices numbered from `first_interior_id` on. Throws Error(io) if the
+/// file cannot be read, is no such file, or not whole; its numbers are in range when it returns. `hash`, unless null,
+/// receives that of the file of which PartContent::all was read.
+Part read_stored_part(const std::string& path, std::int64_t first_interior_id, PartContent content = PartContent::all,
+                      FileHash* hash = nullptr);
 
 /// Stored parts of one mesh, of which the outline is known.
 class StoredParts : public PartSource {
@@ -33,6 +35,8 @@ class StoredParts : public PartSource {
     const MeshOutline& outline() const override { return outline_; }
     /// Throws Error(io) naming the way out if the file is not as it was written.
     Part load(std::int32_t rank) const override;
+    /// Only the whole part is compared with what was written.
+    Part load_only(std::int32_t rank, PartContent content) const override;
 
  private:
     MeshOutline outline_;

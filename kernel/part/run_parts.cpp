@@ -80,6 +80,14 @@ Part RunParts::load(std::int32_t rank) const {
     return part;
 }
 
+Part RunParts::load_only(std::int32_t rank, PartContent content) const {
+    if (content == PartContent::all) return load(rank);
+    const auto r = static_cast<std::size_t>(rank);
+    const NodeId id = outline_.parts[r].id;
+    if (content == PartContent::surface) return read_part(folder_ + "/parts/" + part_surface_file_name(id), content);
+    return load_part(folder_, id, first_interior_ids_[r], content);
+}
+
 std::string path_of_part(const std::string& folder, NodeId id) {
     const std::string vtu = folder + "/parts/" + part_file_name(id);
     const std::string stored = folder + "/parts/" + stored_part_file_name(id);
@@ -87,13 +95,12 @@ std::string path_of_part(const std::string& folder, NodeId id) {
     return std::filesystem::exists(vtu, ignored) || !std::filesystem::exists(stored, ignored) ? vtu : stored;
 }
 
-Part load_part(const std::string& folder, NodeId id, std::int64_t first_interior_id) {
+Part load_part(const std::string& folder, NodeId id, std::int64_t first_interior_id, PartContent content) {
     const std::string path = path_of_part(folder, id);
-    FileHash hash;
-    if (path.ends_with(".part")) return read_stored_part(path, first_interior_id, hash);
-    Part part = read_part(path);
-    part.tet_at_facet = tets_at_facets(part.mesh, part.facets);
+    if (path.ends_with(".part")) return read_stored_part(path, first_interior_id, content);
+    Part part = read_part(path, content);
+    if (content == PartContent::all || content == PartContent::cells)
+        part.tet_at_facet = tets_at_facets(part.mesh, part.facets);
     return part;
 }
-
 }  // namespace kerf

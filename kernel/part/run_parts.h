@@ -17,6 +17,7 @@ class RunParts : public PartSource {
 
     const MeshOutline& outline() const override { return outline_; }
     Part load(std::int32_t rank) const override;
+    Part load_only(std::int32_t rank, PartContent content) const override;
 
  private:
     std::string folder_;
@@ -28,8 +29,9 @@ class RunParts : public PartSource {
 /// Where a finished run has a part: FOLDER/parts/part_0008.vtu, or part_0008.part of a run without that format.
 std::string path_of_part(const std::string& folder, NodeId id);
 
-/// The part in that file, with the tetrahedra behind its facets, but without its shared vertices.
+/// What is asked for of the part in that file, with the tetrahedra behind its facets, but without its shared vertices.
 /// `first_interior_id`: global number of the first interior vertex, which a VTU file says itself. Throws Error(io).
-Part load_part(const std::string& folder, NodeId id, std::int64_t first_interior_id);
+Part load_part(const std::string& folder, NodeId id, std::int64_t first_interior_id,
+               PartContent content = PartContent::all);
 
 }  // namespace kerf

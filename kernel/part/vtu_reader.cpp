@@ -6,12 +6,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
-#include <span>
 #include <string_view>
 
 #include "io/checked_file.h"
-#include "io/file_bytes.h"
 #include "io/vtk_cell_types.h"
 #include "part/vtu_writer.h"
 
@@ -21,101 +20,121 @@ namespace {
 
 constexpr std::string_view closing_tag = "</VTKFile>\n";
 
-class PartBytes {
+// The arrays of a part file, opened one at a time and taken from front to back, so that what nobody asks for costs no
+// memory.
+class PartArraysFile {
  public:
-    explicit PartBytes(const std::string& path)
-        : path_(path),
-          bytes_(read_file(path)),
-          header_(parse_vtu_header(std::string_view(bytes_).substr(0, vtu_header_limit), path)) {
-        if (!bytes_.ends_with(closing_tag)) fail("it does not end with the closing tag");
+    explicit PartArraysFile(const std::string& path)
+        : path_(path), file_(path, "rb"), header_(parse_vtu_header(file_.read(vtu_header_limit), path)) {
+        if (!is_complete_part_file(path)) fail("it does not end with the closing tag");
+        std::error_code ignored;
+        size_ = std::filesystem::file_size(path, ignored);
     }
 
     const VtuHeader& header() const { return header_; }
     [[noreturn]] void fail(const std::string& what) const { fail_damaged_vtu(path_, what); }
 
-    std::string_view raw(const char* name) const {
+    /// Stands before the first value of an array from now on. Returns its bytes.
+    std::uint64_t open(const char* name) {
         const VtuHeader::Array* array = header_.find(name);
         if (!array) fail(fmt::format("it has no array {}", name));
-        const std::size_t position = std::min(bytes_.size(), static_cast<std::size_t>(array->position));
-        const std::string_view rest = std::string_view(bytes_).substr(position);
+        name_ = name;
         std::uint64_t size = 0;
-        if (rest.size() < sizeof size) fail(fmt::format("it ends before the array {}", name));
-        std::memcpy(&size, rest.data(), sizeof size);
-        if (size > rest.size() - sizeof size) fail(fmt::format("it ends within the array {}", name));
-        return rest.substr(sizeof size, size);
+        const std::uint64_t position = std::min(size_, static_cast<std::uint64_t>(array->position));
+        if (size_ - position < sizeof size) fail(fmt::format("it ends before the array {}", name));
+        file_.seek(static_cast<std::int64_t>(position));
+        read(&size, sizeof size);
+        if (size > size_ - position - sizeof size) fail(fmt::format("it ends within the array {}", name));
+        return size;
+    }
+    /// The same for an array that must have `count` values.
+    template <class T>
+    void open(const char* name, std::int64_t count) {
+        const std::uint64_t size = open(name);
+        if (size % sizeof(T) || size / sizeof(T) != static_cast<std::uint64_t>(count))
+            fail(fmt::format("its array {} has {} bytes, which are not {} values", name, size, count));
     }
 
     template <class T>
-    std::vector<T> values(const char* name, std::int64_t count) const {
-        const std::string_view data = raw(name);
-        if (data.size() % sizeof(T) || data.size() / sizeof(T) != static_cast<std::size_t>(count))
-            fail(fmt::format("its array {} has {} bytes, which are not {} values", name, data.size(), count));
-        std::vector<T> result(data.size() / sizeof(T));
-        if (!data.empty()) std::memcpy(static_cast<void*>(result.data()), data.data(), data.size());
-        return result;
+    std::vector<T> take(std::int64_t count) {
+        std::vector<T> values(static_cast<std::size_t>(count));
+        read(static_cast<void*>(values.data()), values.size() * sizeof(T));
+        return values;
+    }
+    /// Takes `count` values and calls visit(value) with each.
+    template <class T, class Visit>
+    void visit(std::int64_t count, Visit visit) {
+        constexpr std::int64_t at_once = std::int64_t{1} << 16;
+        for (; count > 0; count -= at_once)
+            for (const T& value : take<T>(std::min(count, at_once))) visit(value);
     }
 
  private:
+    void read(void* data, std::size_t size) {
+        if (file_.read_into(data, size) != size) fail(fmt::format("it ends within the array {}", name_));
+    }
+
     const std::string& path_;
-    std::string bytes_;
+    CheckedFile file_;
     VtuHeader header_;
+    std::uint64_t size_ = 0;
+    const char* name_ = "";
 };
 
-std::int64_t count_tets(const PartBytes& file) {
-    const auto types = file.values<std::uint8_t>("types", file.header().cell_count);
-    const auto is = [](std::uint8_t type) { return [type](std::uint8_t other) { return other == type; }; };
-    const auto first_facet = std::find_if_not(types.begin(), types.end(), is(vtk_tetra));
-    if (!std::all_of(first_facet, types.end(), is(vtk_triangle)))
-        file.fail("its cells are not tetrahedra and then triangles");
-    return first_facet - types.begin();
+std::int64_t count_tets(PartArraysFile& file) {
+    std::int64_t tets = 0, facets = 0;
+    file.open<std::uint8_t>("types", file.header().cell_count);
+    file.visit<std::uint8_t>(file.header().cell_count, [&](std::uint8_t type) {
+        if (type != vtk_triangle && (type != vtk_tetra || facets > 0))
+            file.fail("its cells are not tetrahedra and then triangles");
+        ++(type == vtk_tetra ? tets : facets);
+    });
+    return tets;
 }
 
-void check_offsets(const PartBytes& file, std::int64_t tet_count) {
-    const auto offsets = file.values<std::int64_t>("offsets", file.header().cell_count);
-    std::int64_t end = 0;
-    for (std::int64_t cell = 0; cell < file.header().cell_count; ++cell) {
+void check_offsets(PartArraysFile& file, std::int64_t tet_count) {
+    std::int64_t cell = 0, end = 0;
+    file.open<std::int64_t>("offsets", file.header().cell_count);
+    file.visit<std::int64_t>(file.header().cell_count, [&](std::int64_t offset) {
         end += cell < tet_count ? 4 : 3;
-        if (offsets[cell] != end)
-            file.fail(fmt::format("the offset of cell {} is {}, not {}", cell, offsets[cell], end));
-    }
+        if (offset != end) file.fail(fmt::format("the offset of cell {} is {}, not {}", cell, offset, end));
+        ++cell;
+    });
 }
 
-// Takes cells from the front of the corners; every corner must be one of the first `vertex_count` vertices.
+// The next cells of the array that is open; every corner must be one of the first `vertex_count` vertices.
 template <class Cell>
-std::vector<Cell> take_cells(const PartBytes& file, std::span<const std::int32_t>& corners, std::int64_t count,
-                             std::int64_t vertex_count) {
-    std::vector<Cell> cells(count);
-    for (Cell& cell : cells) {
-        std::copy_n(corners.begin(), cell.size(), cell.begin());
-        corners = corners.subspan(cell.size());
+std::vector<Cell> take_cells(PartArraysFile& file, std::int64_t count, std::int64_t vertex_count) {
+    std::vector<Cell> cells = file.take<Cell>(count);
+    for (const Cell& cell : cells)
         for (const std::int32_t v : cell)
             if (v < 0 || v >= vertex_count) file.fail(fmt::format("a cell names vertex {} of {}", v, vertex_count));
-    }
     return cells;
 }
 
-// The values of the facets in an array over all cells; every tetrahedron must have `of_tets`.
-std::vector<std::int32_t> facet_values(const PartBytes& file, const char* name, std::int64_t tet_count,
-                                       std::int32_t of_tets) {
-    auto values = file.values<std::int32_t>(name, file.header().cell_count);
-    const auto first_facet = values.begin() + tet_count;
-    if (std::count(values.begin(), first_facet, of_tets) != tet_count)
-        file.fail(fmt::format("a tetrahedron has a value of {} other than {}", name, of_tets));
-    values.erase(values.begin(), first_facet);
-    return values;
+// The values of the facets in an array over all cells; every tetrahedron must have -1.
+std::vector<std::int32_t> facet_values(PartArraysFile& file, const char* name, std::int64_t tet_count) {
+    file.open<std::int32_t>(name, file.header().cell_count);
+    file.visit<std::int32_t>(tet_count, [&](std::int32_t value) {
+        if (value != -1) file.fail(fmt::format("a tetrahedron has a value of {} other than -1", name));
+    });
+    return file.take<std::int32_t>(file.header().cell_count - tet_count);
 }
 
-std::int32_t common_part(const PartBytes& file) {
-    const auto parts = file.values<std::int32_t>("Part", file.header().cell_count);
-    if (parts.empty()) file.fail("it has no cells");
-    if (std::count(parts.begin(), parts.end(), parts.front()) != file.header().cell_count)
-        file.fail("its cells belong to several parts");
-    return parts.front();
+std::int32_t common_part(PartArraysFile& file) {
+    if (file.header().cell_count == 0) file.fail("it has no cells");
+    file.open<std::int32_t>("Part", file.header().cell_count);
+    const std::int32_t part = file.take<std::int32_t>(1).front();
+    file.visit<std::int32_t>(file.header().cell_count - 1, [&](std::int32_t value) {
+        if (value != part) file.fail("its cells belong to several parts");
+    });
+    return part;
 }
 
-std::vector<std::string> read_names(const PartBytes& file) {
+std::vector<std::string> read_names(PartArraysFile& file) {
+    const auto bytes = file.take<char>(static_cast<std::int64_t>(file.open("PatchNames")));
     std::vector<std::string> names;
-    std::string_view rest = file.raw("PatchNames");
+    std::string_view rest(bytes.data(), bytes.size());
     while (!rest.empty()) {
         const std::size_t end = rest.find('\0');
         if (end == rest.npos) file.fail("the last of its PatchNames is not complete");
@@ -125,27 +144,39 @@ std::vector<std::string> read_names(const PartBytes& file) {
     return names;
 }
 
-}  // namespace
+void read_vertices(PartArraysFile& file, Part& part) {
+    file.open<Vec3>("Points", file.header().point_count);
+    part.mesh.vertices = file.take<Vec3>(file.header().point_count);
+}
 
-Part read_part(const std::string& path) {
-    const PartBytes file(path);
+void read_global_ids(PartArraysFile& file, Part& part) {
+    part.mesh.boundary_vertex_count = static_cast<std::int32_t>(file.header().boundary_vertex_count);
+    file.open<std::int64_t>("GlobalVertexId", file.header().point_count);
+    part.global_id = file.take<std::int64_t>(file.header().point_count);
+}
+
+void read_cells(PartArraysFile& file, Part& part) {
     const VtuHeader& header = file.header();
     const std::int64_t tet_count = count_tets(file), facet_count = header.cell_count - tet_count;
     check_offsets(file, tet_count);
-
-    Part part;
-    part.mesh.vertices = file.values<Vec3>("Points", header.point_count);
-    part.mesh.boundary_vertex_count = static_cast<std::int32_t>(header.boundary_vertex_count);
-    const auto connectivity = file.values<std::int32_t>("connectivity", 4 * tet_count + 3 * facet_count);
-    std::span<const std::int32_t> corners = connectivity;
-    part.mesh.tets = take_cells<Tetrahedron>(file, corners, tet_count, header.point_count);
-    part.facets = take_cells<Triangle>(file, corners, facet_count, header.boundary_vertex_count);
+    file.open<std::int32_t>("connectivity", 4 * tet_count + 3 * facet_count);
+    part.mesh.tets = take_cells<Tetrahedron>(file, tet_count, header.point_count);
+    part.facets = take_cells<Triangle>(file, facet_count, header.boundary_vertex_count);
     part.id = common_part(file);
-    part.patch = facet_values(file, "Patch", tet_count, -1);
-    part.facet = facet_values(file, "Facet", tet_count, -1);
-    part.neighbour = facet_values(file, "Neighbour", tet_count, -1);
-    part.global_id = file.values<std::int64_t>("GlobalVertexId", header.point_count);
+    part.patch = facet_values(file, "Patch", tet_count);
+    part.facet = facet_values(file, "Facet", tet_count);
+    part.neighbour = facet_values(file, "Neighbour", tet_count);
     part.patch_names = read_names(file);
+}
+
+}  // namespace
+
+Part read_part(const std::string& path, PartContent content) {
+    PartArraysFile file(path);
+    Part part;
+    if (content != PartContent::cells) read_vertices(file, part);
+    read_global_ids(file, part);
+    if (content != PartContent::vertices) read_cells(file, part);
     return part;
 }
 

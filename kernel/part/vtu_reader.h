@@ -9,11 +9,12 @@
 namespace kerf {
 
 /// Reads a file of write_part() or, as a mesh without tetrahedra, of write_part_surface(): a part but for its shared
-/// vertices and the neighbours of its tetrahedra, which follow from the other parts and from the mesh.
+/// vertices and the neighbours of its tetrahedra, which follow from the other parts and from the mesh. Memory: what is
+/// asked for.
 ///
 /// Checks that sizes, offsets, cell types and vertex numbers fit together and that the file is complete; whether the
 /// mesh obeys its laws is verify_mesh()'s question. Throws Error(io) naming the file and what is wrong with it.
-Part read_part(const std::string& path);
+Part read_part(const std::string& path, PartContent content = PartContent::all);
 
 /// Whether the file ends as write_part() and write_part_surface() end theirs: one that is still being written, or was
 /// when its run was killed, does not, nor does one that cannot be read.

@@ -28,7 +28,7 @@ TEST_F(PartStore, PartsComeBackAsTheyWere) {
         SCOPED_TRACE(seed);
         const Part part = test::random_part(seed);
         const FileHash written = write_stored_part(file_, part);
-        const Part back = read_stored_part(file_, first_interior, hash_);
+        const Part back = read_stored_part(file_, first_interior, PartContent::all, &hash_);
         EXPECT_EQ(hash_, written);
         EXPECT_EQ(written, digest_of(read_file(file_)));
         EXPECT_EQ(back.id, part.id);
@@ -57,7 +57,25 @@ TEST_F(PartStore, InteriorNumbersAreThoseOfTheReader) {
     for (std::size_t v = static_cast<std::size_t>(part.mesh.boundary_vertex_count); v < part.global_id.size(); ++v)
         renumbered.global_id[v] += 100;
     EXPECT_EQ(write_stored_part(folder_.file("other"), renumbered), write_stored_part(file_, part));
-    EXPECT_EQ(read_stored_part(file_, first_interior + 100, hash_).global_id, renumbered.global_id);
+    EXPECT_EQ(read_stored_part(file_, first_interior + 100).global_id, renumbered.global_id);
+}
+
+TEST_F(PartStore, SomeContentIsThatOfTheWhole) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        SCOPED_TRACE(seed);
+        const Part part = test::random_part(seed);
+        write_stored_part(file_, part);
+        const auto read = [&](PartContent content) { return read_stored_part(file_, first_interior, content); };
+        EXPECT_EQ(read(PartContent::surface).mesh.vertices, boundary_of(part).mesh.vertices);
+        EXPECT_EQ(read(PartContent::surface).global_id, boundary_of(part).global_id);
+        EXPECT_EQ(read(PartContent::surface).facets, part.facets);
+        EXPECT_TRUE(read(PartContent::surface).mesh.tets.empty());
+        EXPECT_EQ(read(PartContent::cells).mesh.tets, part.mesh.tets);
+        EXPECT_EQ(read(PartContent::cells).global_id, part.global_id);
+        EXPECT_TRUE(read(PartContent::cells).mesh.vertices.empty());
+        EXPECT_EQ(read(PartContent::vertices).mesh.vertices, part.mesh.vertices);
+        EXPECT_EQ(read(PartContent::vertices).global_id, part.global_id);
+    }
 }
 
 TEST_F(PartStore, WhatIsNotAsItWasIsRefused) {

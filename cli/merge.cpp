@@ -1,0 +1,107 @@
+#include "cli/merge.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <numeric>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "io/output_file.h"
+#include "io/standard_streams.h"
+#include "part/run_parts.h"
+
+namespace kerf {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const Format& format_of(const fs::path& file) {
+    std::string endings;
+    for (const Format* format : formats()) {
+        if (!format->ending) continue;
+        if (file.extension() == format->ending) return *format;
+        endings += fmt::format("{}{}", endings.empty() ? "" : ", ", format->ending);
+    }
+    throw Error(ErrorCode::usage, fmt::format("--output is {}, whose ending is that of no format. There are {}.",
+                                              file.string(), endings));
+}
+
+// A folder for files that are not complete yet, on the disk where they will lie. Removed with what is in it.
+class FolderBeside {
+ public:
+    explicit FolderBeside(const fs::path& file) : path_(file.string() + ".XXXXXX") {
+        if (::mkdtemp(path_.data())) return;
+        const std::string reason = std::generic_category().message(errno);
+        throw Error(ErrorCode::io, fmt::format("Cannot write beside {}: {}. Choose another place for --output.",
+                                               file.string(), reason));
+    }
+    ~FolderBeside() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    FolderBeside(const FolderBeside&) = delete;
+    FolderBeside& operator=(const FolderBeside&) = delete;
+
+    const std::string& path() const { return path_; }
+
+ private:
+    std::string path_;
+};
+
+// Where a file goes: behind links, to a place that is free or has a file, and outside of the run.
+fs::path place_for(const fs::path& file, const std::string& run) {
+    if (lies_inside(file.string(), run))
+        throw Error(ErrorCode::io, fmt::format("--output is {}, which lies in the run {}, whose files it would mix "
+                                               "with others. Choose another place.",
+                                               file.string(), run));
+    require_writable("--output", file.string());
+    const fs::path place = behind_links(file.string());
+    std::error_code ignored;
+    if (fs::exists(place, ignored) && !fs::is_regular_file(place, ignored))
+        throw Error(ErrorCode::io,
+                    fmt::format("--output is {}, which is no file. Choose another place.", file.string()));
+    return place;
+}
+
+// An older file gives its permissions to the one that replaces it.
+void move_to(const fs::path& from, const fs::path& place) {
+    std::error_code error, ignored;
+    if (fs::exists(place, ignored)) fs::permissions(from, fs::status(place).permissions(), ignored);
+    fs::rename(from, place, error);
+    if (error)
+        throw Error(ErrorCode::io, fmt::format("Cannot rename {} to {}: {}. Choose another place for --output.",
+                                               from.string(), place.string(), error.message()));
+}
+
+}  // namespace
+
+int merge_run(const MergeRequest& request) {
+    const fs::path output = request.output;
+    const Format& format = format_of(output);
+    const fs::path main_place = place_for(output, request.folder);
+    const RunParts parts(request.folder);
+    const FolderBeside beside(main_place);
+    ExportFiles files(beside.path());
+    format.write_merged(parts, request.options, files, output.stem().string());
+
+    const std::vector<RunFile> written = files.list();
+    std::vector<fs::path> places;
+    for (const RunFile& file : written)
+        places.push_back(fs::path(file.path) == output.filename()
+                             ? main_place
+                             : place_for(output.parent_path() / file.path, request.folder));
+    for (std::size_t i = 0; i < written.size(); ++i) move_to(fs::path(beside.path()) / written[i].path, places[i]);
+
+    const MeshOutline& outline = parts.outline();
+    const std::int64_t bytes = std::accumulate(written.begin(), written.end(), std::int64_t{0},
+                                               [](std::int64_t sum, const RunFile& file) { return sum + file.bytes; });
+    tell(fmt::format("kerf: {}: {} vertices, {} tetrahedra, {:.1f} MB\n", request.output, outline.vertices,
+                     outline.tets(), static_cast<double>(bytes) * 1e-6));
+    return 0;
+}
+
+}  // namespace kerf

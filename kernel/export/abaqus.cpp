@@ -1,0 +1,209 @@
+// Abaqus input (.inp) as CalculiX reads it, too: nodes, linear tetrahedra, and sets; no materials, no steps. Nodes and
+// elements are numbered from 1.
+//
+// NALL and EALL hold all nodes and elements, PART_1, PART_2, ... the elements of the parts in the order of the tree.
+// For a patch INLET there are the node set INLET, the element-based surface INLET, and the element sets INLET_S1 to
+// INLET_S4 of which it consists: those with the patch at this face. Names are words (export/word_names.h) that differ
+// by more than case. A line is shorter than the 132 characters that old readers see, and a coordinate has no more than
+// the 20 that a reader may look at, so that few of them lose their last digits.
+#include <algorithm>
+#include <charconv>
+
+#include <fmt/format.h>
+
+#include "export/by_patch.h"
+#include "export/format.h"
+#include "export/text_rows.h"
+#include "export/whole_mesh.h"
+#include "export/word_names.h"
+
+namespace kerf {
+
+namespace abaqus {
+
+constexpr std::int64_t most_labels = 999'999'999;
+constexpr int most_digits = 20;  // of a number, with its sign, point and exponent
+constexpr std::size_t longest_name = 80, longest_ending = 3;
+
+// A triangle on a patch as a face of an element.
+struct ElementFace {
+    std::int32_t patch;
+    std::int32_t face;  // 1 to 4
+    std::int64_t element;
+};
+
+// Names of patches in the file; that of a patch without triangles is not used.
+struct Names {
+    std::vector<std::string> words;
+    std::vector<std::int64_t> sizes;
+};
+
+// The faces are numbered 1-2-3, 1-4-2, 2-4-3, 3-4-1 in the manual of CalculiX; here by the corner that they lack.
+constexpr std::array<std::int32_t, 4> face_opposite_to = {3, 4, 2, 1};
+
+template <std::size_t n>
+std::array<std::int32_t, n> ascending(std::array<std::int32_t, n> corners) {
+    std::sort(corners.begin(), corners.end());
+    return corners;
+}
+
+struct Facet {
+    Triangle corners;  // ascending
+    std::int32_t patch;
+};
+
+std::vector<Facet> sorted_patch_facets(const Part& part) {
+    std::vector<Facet> facets;
+    for (std::size_t f = 0; f < part.facets.size(); ++f)
+        if (!part.is_interface(f)) facets.push_back({ascending(part.facets[f]), part.patch[f]});
+    std::sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) { return a.corners < b.corners; });
+    return facets;
+}
+
+// Calls found(tet, opposite corner, patch) with the tetrahedron behind every triangle on a patch.
+template <class Found>
+void find_patch_faces(const Part& part, const Found& found) {
+    const std::vector<Facet> facets = sorted_patch_facets(part);
+    const auto is_inside = [&](std::int32_t v) { return v >= part.mesh.boundary_vertex_count; };
+    for (std::size_t t = 0; t < part.mesh.tets.size(); ++t) {
+        const Tetrahedron& tet = part.mesh.tets[t];
+        if (std::count_if(tet.begin(), tet.end(), is_inside) > 1) continue;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const Triangle face = ascending(Triangle{tet[(i + 1) % 4], tet[(i + 2) % 4], tet[(i + 3) % 4]});
+            const auto facet = std::lower_bound(facets.begin(), facets.end(), face,
+                                                [](const Facet& f, const Triangle& key) { return f.corners < key; });
+            if (facet != facets.end() && facet->corners == face) found(t, i, facet->patch);
+        }
+    }
+}
+
+// As exact as a field can hold it.
+void write_coordinate(ExportFile& file, double x) {
+    std::array<char, 32> text;
+    char* const begin = text.data();
+    char* end = std::to_chars(begin, begin + text.size(), x).ptr;
+    for (int precision = 15; end - begin > most_digits; --precision)
+        end = std::to_chars(begin, begin + text.size(), x, std::chars_format::scientific, precision).ptr;
+    file.text({begin, static_cast<std::size_t>(end - begin)});
+}
+
+void write_nodes(const PartSource& parts, ExportFile& file) {
+    file.text("*NODE, NSET=NALL\n");
+    for_each_vertex(parts, [&](std::int64_t first, std::span<const Vec3> points) {
+        for (const Vec3& p : points) {
+            file.number(++first);
+            for (const double x : {p.x(), p.y(), p.z()}) {
+                file.text(",");
+                write_coordinate(file, x);
+            }
+            file.text("\n");
+        }
+    });
+}
+
+void write_elements(const PartSource& parts, ExportFile& file) {
+    std::int64_t element = 0;
+    for_each_part(parts, [&](std::int32_t rank, const Part& part) {
+        file.text(fmt::format("** part {}\n*ELEMENT, TYPE=C3D4, ELSET=PART_{}\n", part.id, rank + 1));
+        for (const Tetrahedron& tet : part.mesh.tets) {
+            const auto [a, b, c, d] = global_corners(part, tet);
+            write_row(file, {++element, a + 1, b + 1, c + 1, d + 1}, ",");
+        }
+    });
+    file.text(fmt::format("*ELSET, ELSET=EALL, GENERATE\n1,{},1\n", element));
+}
+
+void write_list(ExportFile& file, std::span<const std::int64_t> labels) {
+    constexpr std::size_t in_a_line = 12;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (i > 0) file.text(i % in_a_line ? "," : "\n");
+        file.number(labels[i]);
+    }
+    file.text("\n");
+}
+
+// The nodes of each patch, each once, ascending in each piece of a large patch.
+void write_node_sets(const PartSource& parts, const Names& names, ExportFile& file) {
+    std::vector<bool> is_written;  // in an earlier piece of the patch
+    std::vector<std::int64_t> nodes;
+    std::int32_t current = -1;
+    for_each_patch_triangle(parts, names.sizes, [&](std::int32_t patch, std::span<const PatchTriangle> triangles) {
+        const auto p = static_cast<std::size_t>(patch);
+        nodes.clear();
+        for (const PatchTriangle& triangle : triangles)
+            for (const std::int64_t corner : triangle.corners) nodes.push_back(corner + 1);
+        std::sort(nodes.begin(), nodes.end());
+        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+        if (patch != current) {
+            file.text(fmt::format("** patch {}: {}\n*NSET, NSET={}\n", patch + 1,
+                                  comment_text(parts.outline().patch_names[p]), names.words[p]));
+            is_written.clear();
+        } else {
+            std::erase_if(nodes, [&](std::int64_t node) { return is_written[static_cast<std::size_t>(node)]; });
+        }
+        if (names.sizes[p] > static_cast<std::int64_t>(triangles.size())) {
+            is_written.resize(static_cast<std::size_t>(parts.outline().vertices + 1));
+            for (const std::int64_t node : nodes) is_written[static_cast<std::size_t>(node)] = true;
+        }
+        current = patch;
+        if (!nodes.empty()) write_list(file, nodes);
+    });
+}
+
+// Sets that are named again are continued.
+void write_face_sets(const PartSource& parts, const Names& names, ExportFile& file, std::vector<unsigned>& faces_of) {
+    const auto visit = [&](const auto& add) {
+        for_each_part(parts, [&](std::int32_t rank, const Part& part) {
+            const std::int64_t first = parts.outline().first_tet(rank) + 1;
+            find_patch_faces(part, [&](std::size_t t, std::size_t opposite, std::int32_t patch) {
+                add({patch, face_opposite_to[opposite], first + static_cast<std::int64_t>(t)});
+            });
+        });
+    };
+    std::vector<std::int64_t> elements;
+    for_each_by_patch<ElementFace>(names.sizes, visit, [&](std::int32_t patch, std::span<const ElementFace> faces) {
+        for (std::int32_t face = 1; face <= 4; ++face) {
+            elements.clear();
+            for (const ElementFace& each : faces)
+                if (each.face == face) elements.push_back(each.element);
+            if (elements.empty()) continue;
+            const auto p = static_cast<std::size_t>(patch);
+            faces_of[p] |= 1U << face;
+            file.text(fmt::format("*ELSET, ELSET={}_S{}\n", names.words[p], face));
+            write_list(file, elements);
+        }
+    });
+}
+
+void write_surfaces(const PartSource& parts, const Names& names, ExportFile& file) {
+    std::vector<unsigned> faces_of(names.words.size(), 0);  // bits 1 to 4
+    write_face_sets(parts, names, file, faces_of);
+    for (std::size_t patch = 0; patch < names.words.size(); ++patch) {
+        if (faces_of[patch] == 0) continue;
+        const std::string& word = names.words[patch];
+        file.text(fmt::format("*SURFACE, NAME={}, TYPE=ELEMENT\n", word));
+        for (unsigned face = 1; face <= 4; ++face)
+            if (faces_of[patch] >> face & 1U) file.text(fmt::format("{}_S{},S{}\n", word, face, face));
+    }
+}
+
+void write_merged(const PartSource& parts, const MergeOptions&, ExportFiles& files, const std::string& stem) {
+    require_numbers_fit(parts.outline(), "abaqus", most_labels);
+    const WordRules rules{.most_characters = longest_name - longest_ending, .ignores_case = true, .taken = {"NALL"}};
+    const Names names{word_names(parts.outline().patch_names, rules), patch_sizes(parts)};
+    ExportFile file = files.create(stem + ".inp");
+    write_nodes(parts, file);
+    write_elements(parts, file);
+    write_node_sets(parts, names, file);
+    write_surfaces(parts, names, file);
+    file.close();
+}
+
+}  // namespace abaqus
+
+extern const Format abaqus_format = {.name = "abaqus",
+                                     .help = "Abaqus input with sets: CalculiX, Abaqus",
+                                     .ending = ".inp",
+                                     .write_merged = abaqus::write_merged};
+
+}  // namespace kerf

@@ -1,0 +1,43 @@
+// What lies on patches in the order of the patches, a limited number of items at a time.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace kerf {
+
+/// Calls visit(add), which calls add(item) with all items in some order, and then take(patch, items) with those of
+/// patch after patch, in that order within a patch; those of a large patch come in several calls in a row. Item has a
+/// member `patch`; `sizes`: how many items each patch has. Holds 2^20 items at most, for which visit() is called again
+/// where all together are more.
+template <class Item, class Visit, class Take>
+void for_each_by_patch(std::span<const std::int64_t> sizes, const Visit& visit, const Take& take) {
+    constexpr std::int64_t items_at_once = std::int64_t{1} << 20;
+    std::vector<Item> items;
+    const auto take_all = [&] {
+        std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.patch < b.patch; });
+        for (std::size_t begin = 0, end = 0; begin < items.size(); begin = end) {
+            while (end < items.size() && items[end].patch == items[begin].patch) ++end;
+            take(items[begin].patch, std::span<const Item>(items).subspan(begin, end - begin));
+        }
+        items.clear();
+    };
+    std::size_t last = 0;
+    for (std::size_t first = 0; first < sizes.size(); first = last) {
+        // One patch, or several that are held together.
+        std::int64_t together = sizes[first];
+        for (last = first + 1; last < sizes.size() && together + sizes[last] <= items_at_once; ++last)
+            together += sizes[last];
+        visit([&](const Item& item) {
+            const auto patch = static_cast<std::size_t>(item.patch);
+            if (patch < first || patch >= last) return;
+            if (items.size() == static_cast<std::size_t>(items_at_once)) take_all();
+            items.push_back(item);
+        });
+        take_all();
+    }
+}
+
+}  // namespace kerf

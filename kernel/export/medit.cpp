@@ -1,0 +1,73 @@
+// The text format of Medit (.mesh, version 2: numbers of 32 bits, coordinates as doubles), which MMG, ParMmg, FreeFEM
+// and gmsh read. References count from 1: that of a tetrahedron is the place of its part in the tree, that of a
+// triangle its patch; comments say what they mean.
+#include <fmt/format.h>
+
+#include "export/format.h"
+#include "export/text_rows.h"
+#include "export/whole_mesh.h"
+#include "export/word_names.h"
+
+namespace kerf {
+
+namespace medit {
+
+void write_head(const MeshOutline& outline, ExportFile& file) {
+    file.text("MeshVersionFormatted 2\nDimension 3\n");
+    for (std::size_t rank = 0; rank < outline.parts.size(); ++rank)
+        file.text(fmt::format("# reference {} of tetrahedra: part {}\n", rank + 1, outline.parts[rank].id));
+    for (std::size_t patch = 0; patch < outline.patch_names.size(); ++patch)
+        file.text(
+            fmt::format("# reference {} of triangles: {}\n", patch + 1, comment_text(outline.patch_names[patch])));
+}
+
+void write_vertices(const PartSource& parts, ExportFile& file) {
+    file.text(fmt::format("Vertices\n{}\n", parts.outline().vertices));
+    for_each_vertex(parts, [&](std::int64_t, std::span<const Vec3> points) {
+        for (const Vec3& p : points) {
+            file.point(p);
+            file.text(" 0\n");
+        }
+    });
+}
+
+void write_tetrahedra(const PartSource& parts, ExportFile& file) {
+    file.text(fmt::format("Tetrahedra\n{}\n", parts.outline().tets()));
+    for_each_part(parts, [&](std::int32_t rank, const Part& part) {
+        for (const Tetrahedron& tet : part.mesh.tets) {
+            const auto [a, b, c, d] = global_corners(part, tet);
+            write_row(file, {a + 1, b + 1, c + 1, d + 1, rank + 1});
+        }
+    });
+}
+
+void write_triangles(const PartSource& parts, ExportFile& file) {
+    file.text(fmt::format("Triangles\n{}\n", parts.outline().patch_facets()));
+    for_each_surface(parts, [&](std::int32_t, const Part& part) {
+        for (std::size_t f = 0; f < part.facets.size(); ++f) {
+            if (part.is_interface(f)) continue;
+            const auto [a, b, c] = global_corners(part, part.facets[f]);
+            write_row(file, {a + 1, b + 1, c + 1, part.patch[f] + 1});
+        }
+    });
+}
+
+void write_merged(const PartSource& parts, const MergeOptions&, ExportFiles& files, const std::string& stem) {
+    require_numbers_fit(parts.outline(), "medit", most_of_32_bits);
+    ExportFile file = files.create(stem + ".mesh");
+    write_head(parts.outline(), file);
+    write_vertices(parts, file);
+    write_tetrahedra(parts, file);
+    write_triangles(parts, file);
+    file.text("End\n");
+    file.close();
+}
+
+}  // namespace medit
+
+extern const Format medit_format = {.name = "medit",
+                                    .help = "Medit's .mesh: MMG, FreeFEM, gmsh",
+                                    .ending = ".mesh",
+                                    .write_merged = medit::write_merged};
+
+}  // namespace kerf

@@ -1,0 +1,78 @@
+// SU2's native text format: a marker for every patch that has triangles, named by a word (export/word_names.h), because
+// SU2's lists of markers separate them by commas and blanks. Which part a tetrahedron is of is not said. SU2 counts
+// with 64 bits.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "export/format.h"
+#include "export/text_rows.h"
+#include "export/whole_mesh.h"
+#include "export/word_names.h"
+#include "io/vtk_cell_types.h"
+
+namespace kerf {
+
+namespace su2 {
+
+void write_elements(const PartSource& parts, ExportFile& file) {
+    file.text(fmt::format("NDIME= 3\nNELEM= {}\n", parts.outline().tets()));
+    std::int64_t number = 0;
+    for_each_part(parts, [&](std::int32_t, const Part& part) {
+        for (const Tetrahedron& tet : part.mesh.tets) {
+            const auto [a, b, c, d] = global_corners(part, tet);
+            write_row(file, {vtk_tetra, a, b, c, d, number++});
+        }
+    });
+}
+
+void write_points(const PartSource& parts, ExportFile& file) {
+    file.text(fmt::format("NPOIN= {}\n", parts.outline().vertices));
+    for_each_vertex(parts, [&](std::int64_t first, std::span<const Vec3> points) {
+        for (const Vec3& p : points) {
+            file.point(p);
+            file.text(" ");
+            file.number(first++);
+            file.text("\n");
+        }
+    });
+}
+
+// Keywords are looked for anywhere in a line, and each ends with '='.
+std::string marker_comment(const std::string& name) {
+    std::string text = comment_text(name);
+    std::replace(text.begin(), text.end(), '=', ' ');
+    return text;
+}
+
+void write_markers(const PartSource& parts, ExportFile& file) {
+    const std::vector<std::string>& names = parts.outline().patch_names;
+    const std::vector<std::string> words = word_names(names);
+    const std::vector<std::int64_t> sizes = patch_sizes(parts);
+    file.text(
+        fmt::format("NMARK= {}\n", std::count_if(sizes.begin(), sizes.end(), [](std::int64_t n) { return n > 0; })));
+    std::int32_t current = -1;
+    for_each_patch_triangle(parts, sizes, [&](std::int32_t patch, std::span<const PatchTriangle> triangles) {
+        const auto p = static_cast<std::size_t>(patch);
+        if (patch != current)
+            file.text(
+                fmt::format("% {}\nMARKER_TAG= {}\nMARKER_ELEMS= {}\n", marker_comment(names[p]), words[p], sizes[p]));
+        current = patch;
+        for (const auto& [of, corners] : triangles) write_row(file, {vtk_triangle, corners[0], corners[1], corners[2]});
+    });
+}
+
+void write_merged(const PartSource& parts, const MergeOptions&, ExportFiles& files, const std::string& stem) {
+    ExportFile file = files.create(stem + ".su2");
+    write_elements(parts, file);
+    write_points(parts, file);
+    write_markers(parts, file);
+    file.close();
+}
+
+}  // namespace su2
+
+extern const Format su2_format = {
+    .name = "su2", .help = "SU2's native mesh", .ending = ".su2", .write_merged = su2::write_merged};
+
+}  // namespace kerf

@@ -1,0 +1,72 @@
+// The files of TetGen (.node, .ele, .face), numbered from 0. The attribute of a tetrahedron is the place of its part in
+// the tree, from 1; the boundary marker of a face its patch, from 1; faces between parts are not among them.
+#include <fmt/format.h>
+
+#include "export/format.h"
+#include "export/text_rows.h"
+#include "export/whole_mesh.h"
+#include "export/word_names.h"
+
+namespace kerf {
+
+namespace tetgen {
+
+void write_nodes(const PartSource& parts, ExportFile file) {
+    file.text(fmt::format("{} 3 0 0\n", parts.outline().vertices));
+    for_each_vertex(parts, [&](std::int64_t first, std::span<const Vec3> points) {
+        for (const Vec3& p : points) {
+            file.number(first++);
+            file.text(" ");
+            file.point(p);
+            file.text("\n");
+        }
+    });
+    file.close();
+}
+
+void write_elements(const PartSource& parts, ExportFile file) {
+    const MeshOutline& outline = parts.outline();
+    for (std::size_t rank = 0; rank < outline.parts.size(); ++rank)
+        file.text(fmt::format("# attribute {}: part {}\n", rank + 1, outline.parts[rank].id));
+    file.text(fmt::format("{} 4 1\n", outline.tets()));
+    std::int64_t number = 0;
+    for_each_part(parts, [&](std::int32_t rank, const Part& part) {
+        for (const Tetrahedron& tet : part.mesh.tets) {
+            const auto [a, b, c, d] = global_corners(part, tet);
+            write_row(file, {number++, a, b, c, d, rank + 1});
+        }
+    });
+    file.close();
+}
+
+void write_faces(const PartSource& parts, ExportFile file) {
+    const MeshOutline& outline = parts.outline();
+    for (std::size_t patch = 0; patch < outline.patch_names.size(); ++patch)
+        file.text(fmt::format("# marker {}: {}\n", patch + 1, comment_text(outline.patch_names[patch])));
+    file.text(fmt::format("{} 1\n", outline.patch_facets()));
+    std::int64_t number = 0;
+    for_each_surface(parts, [&](std::int32_t, const Part& part) {
+        for (std::size_t f = 0; f < part.facets.size(); ++f) {
+            if (part.is_interface(f)) continue;
+            const auto [a, b, c] = global_corners(part, part.facets[f]);
+            write_row(file, {number++, a, b, c, part.patch[f] + 1});
+        }
+    });
+    file.close();
+}
+
+void write_merged(const PartSource& parts, const MergeOptions&, ExportFiles& files, const std::string& stem) {
+    require_numbers_fit(parts.outline(), "tetgen", most_of_32_bits);
+    write_nodes(parts, files.create(stem + ".node"));
+    write_elements(parts, files.create(stem + ".ele"));
+    write_faces(parts, files.create(stem + ".face"));
+}
+
+}  // namespace tetgen
+
+extern const Format tetgen_format = {.name = "tetgen",
+                                     .help = "TetGen's .node, .ele and .face",
+                                     .ending = ".node",
+                                     .write_merged = tetgen::write_merged};
+
+}  // namespace kerf
