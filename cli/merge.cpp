@@ -54,12 +54,12 @@ class FolderBeside {
 
 // Where a file goes: behind links, to a place that is free or has a file, and outside of the run.
 fs::path place_for(const fs::path& file, const std::string& run) {
-    if (lies_inside(file.string(), run))
+    const fs::path place = behind_links(file.string());
+    if (lies_inside(place.string(), run))
         throw Error(ErrorCode::io, fmt::format("--output is {}, which lies in the run {}, whose files it would mix "
                                                "with others. Choose another place.",
                                                file.string(), run));
     require_writable("--output", file.string());
-    const fs::path place = behind_links(file.string());
     std::error_code ignored;
     if (fs::exists(place, ignored) && !fs::is_regular_file(place, ignored))
         throw Error(ErrorCode::io,
