@@ -1,0 +1,413 @@
+// OpenFOAM: a case with a folder processorN for each part, or a serial case of a single one.
+//
+// The polyMesh of a part is what "OpenFOAM User Guide: Mesh description" asks for: cells are the tetrahedra in their
+// order; faces come in upper-triangular order (those between two cells by owner, the lower cell, then by neighbour),
+// then the patches one after the other. Every processor lists all patches of the surface, in the same order. After
+// them come its processor patches, ascending by the other processor. Both sides sort the faces between them by their
+// global vertex numbers and start each at its smallest one: then OpenFOAM finds vertex i of a face as vertex n - i of
+// the same face there. Lists are binary, with labels of 32 bits, which an OpenFOAM of 64-bit labels reads, too.
+//
+// reconstructParMesh -constant joins the processors along their patches and makes the addressing that reconstructPar
+// asks for; it needs none, so none is written.
+//
+// A patch is named by an OpenFOAM word: each run of characters other than ASCII letters, digits, '_', '-' and '.'
+// becomes one '_', which is dropped at the end; "patch" stands for nothing left; a '_' goes before what does not begin
+// with a letter or '_', and before the names of processor patches and of their group. A name that is a word keeps it;
+// of others with the same word the first gets it if it is free, the next ones _2, _3 ... behind it. The name itself is
+// in a comment.
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/check.h"
+#include "core/error.h"
+#include "export/format.h"
+#include "io/file_bytes.h"
+
+namespace kerf {
+
+namespace {
+namespace openfoam {
+
+using Label = std::int32_t;
+using Labels = std::vector<Label>;
+
+// The last entry of the list of offsets into the corners of faces is a label.
+constexpr std::int64_t most_faces = std::numeric_limits<Label>::max() / 3;
+
+std::string header(std::string_view kind, std::string_view object, bool is_binary, const std::string& note = "") {
+    return fmt::format(
+        "FoamFile\n{{\n    version     2.0;\n    format      {};\n{}    class       {};\n{}"
+        "    location    \"constant/polyMesh\";\n    object      {};\n}}\n\n",
+        is_binary ? "binary" : "ascii", is_binary ? "    arch        \"LSB;label=32;scalar=64\";\n" : "", kind,
+        note.empty() ? "" : fmt::format("    note        \"{}\";\n", note), object);
+}
+
+// ---- Names of patches
+
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+bool is_of_word(char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.'; }
+
+std::string to_word(std::string_view name) {
+    std::string word;
+    bool is_replaced = false;  // the last character of the word
+    for (const char c : name) {
+        if (is_of_word(c))
+            word += c;
+        else if (!is_replaced)
+            word += '_';
+        is_replaced = !is_of_word(c);
+    }
+    if (is_replaced) word.pop_back();
+    if (word.empty()) return "patch";
+    const bool is_taken = word.starts_with("procBoundary") || word == "processor";
+    return is_taken || !(is_letter(word[0]) || word[0] == '_') ? "_" + word : word;
+}
+
+std::string free_word(const std::string& word, const std::set<std::string>& taken) {
+    std::string free = word;
+    for (int count = 2; taken.contains(free); ++count) free = fmt::format("{}_{}", word, count);
+    return free;
+}
+
+std::vector<std::string> words_of(const std::vector<std::string>& names) {
+    std::vector<std::string> words(names.size());
+    std::set<std::string> taken;
+    for (const bool keeps_its_name : {true, false})
+        for (std::size_t p = 0; p < names.size(); ++p) {
+            const std::string word = to_word(names[p]);
+            if (!words[p].empty() || (keeps_its_name && (word != names[p] || taken.contains(word)))) continue;
+            words[p] = free_word(word, taken);
+            taken.insert(words[p]);
+        }
+    return words;
+}
+
+std::string comment_of(const std::string& name) {
+    std::string line = name;
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+    return fmt::format("    // {}\n", line);
+}
+
+// ---- Boundary
+
+// Faces of one patch of a processor.
+struct Patch {
+    std::string name, comment;
+    std::int64_t start = 0, faces = 0;
+    std::int32_t other = -1;  // processor on the other side, -1 for patches of the surface
+};
+
+struct Boundary {
+    std::vector<Patch> patches;
+    std::vector<Triangle> faces;
+    Labels owner;
+};
+
+struct Side {
+    Triangle corners;  // ascending
+    std::int32_t place;
+};
+
+Side side_of(Triangle corners, std::size_t place) {
+    std::sort(corners.begin(), corners.end());
+    return {corners, static_cast<std::int32_t>(place)};
+}
+
+void sort_by_corners(std::vector<Side>& sides) {
+    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.corners < b.corners; });
+}
+
+Triangle face_of(const TetMesh& mesh, std::size_t t, std::size_t opposite) {
+    const auto& [a, b, c] = tet_faces[opposite];
+    const Tetrahedron& tet = mesh.tets[t];
+    return {tet[static_cast<std::size_t>(a)], tet[static_cast<std::size_t>(b)], tet[static_cast<std::size_t>(c)]};
+}
+
+// The tetrahedron of each boundary triangle. O(#T + #F log #F).
+Labels cells_behind(const Part& part) {
+    std::vector<Side> of_facets, of_cells;
+    for (std::size_t f = 0; f < part.facets.size(); ++f) of_facets.push_back(side_of(part.facets[f], f));
+    for (std::size_t t = 0; t < part.mesh.tets.size(); ++t)
+        for (std::size_t i = 0; i < 4; ++i)
+            if (part.mesh.neighbours[t][i] < 0) of_cells.push_back(side_of(face_of(part.mesh, t, i), t));
+    sort_by_corners(of_facets);
+    sort_by_corners(of_cells);
+    const auto is_same = [](const Side& a, const Side& b) { return a.corners == b.corners; };
+    if (!std::equal(of_facets.begin(), of_facets.end(), of_cells.begin(), of_cells.end(), is_same))
+        throw Error(ErrorCode::internal,
+                    fmt::format("The boundary of part {} is not that of its tetrahedra.", part.id));
+    Labels cells(part.facets.size());
+    for (std::size_t k = 0; k < cells.size(); ++k)
+        cells[static_cast<std::size_t>(of_facets[k].place)] = of_cells[k].place;
+    return cells;
+}
+
+// The number of the patch that each triangle belongs to; those of processors are numbered after those of the surface.
+Labels patches_of_facets(const Part& part, const MeshOutline& outline) {
+    std::vector<NodeId> others = part.neighbour;
+    std::sort(others.begin(), others.end());
+    others.erase(std::unique(others.begin(), others.end()), others.end());
+    Labels ranks;
+    for (const NodeId other : others) ranks.push_back(other < 0 ? -1 : outline.rank_of(other));
+    const auto first = static_cast<std::int32_t>(part.patch_names.size());
+    Labels patches = part.patch;
+    for (std::size_t f = 0; f < patches.size(); ++f) {
+        if (!part.is_interface(f)) continue;
+        const auto found = std::lower_bound(others.begin(), others.end(), part.neighbour[f]);
+        patches[f] = first + ranks[static_cast<std::size_t>(found - others.begin())];
+    }
+    return patches;
+}
+
+struct PlacedFacet {
+    std::int32_t patch;
+    std::array<std::int64_t, 3> ids;  // ascending; zeros on the surface, whose order stays
+    std::int32_t facet;
+    auto operator<=>(const PlacedFacet&) const = default;
+};
+
+// The boundary triangles in the order of their patches.
+std::vector<PlacedFacet> place_facets(const Part& part, const MeshOutline& outline) {
+    const Labels patches = patches_of_facets(part, outline);
+    std::vector<PlacedFacet> placed(part.facets.size());
+    for (std::size_t f = 0; f < placed.size(); ++f) {
+        placed[f] = {patches[f], {}, static_cast<std::int32_t>(f)};
+        if (!part.is_interface(f)) continue;
+        for (std::size_t i = 0; i < 3; ++i)
+            placed[f].ids[i] = part.global_id[static_cast<std::size_t>(part.facets[f][i])];
+        std::sort(placed[f].ids.begin(), placed[f].ids.end());
+    }
+    std::sort(placed.begin(), placed.end());
+    return placed;
+}
+
+Triangle starting_at_smallest_id(Triangle triangle, const Part& part) {
+    const auto smallest = std::min_element(triangle.begin(), triangle.end(), [&](std::int32_t a, std::int32_t b) {
+        return part.global_id[static_cast<std::size_t>(a)] < part.global_id[static_cast<std::size_t>(b)];
+    });
+    std::rotate(triangle.begin(), smallest, triangle.end());
+    return triangle;
+}
+
+std::vector<Patch> patches_of_surface(const std::vector<std::string>& names) {
+    const std::vector<std::string> words = words_of(names);
+    std::vector<Patch> patches(names.size());
+    for (std::size_t p = 0; p < names.size(); ++p) {
+        patches[p].name = words[p];
+        if (words[p] != names[p]) patches[p].comment = comment_of(names[p]);
+    }
+    return patches;
+}
+
+Patch between(std::int32_t rank, std::int32_t other) {
+    Patch patch;
+    patch.name = fmt::format("procBoundary{}to{}", rank, other);
+    patch.other = other;
+    return patch;
+}
+
+Boundary boundary_of(const Part& part, const MeshOutline& outline, std::int32_t rank) {
+    Boundary boundary;
+    boundary.patches = patches_of_surface(part.patch_names);
+    const auto of_surface = static_cast<std::int32_t>(part.patch_names.size());
+    const Labels cells = cells_behind(part);
+    for (const PlacedFacet& placed : place_facets(part, outline)) {
+        const auto f = static_cast<std::size_t>(placed.facet);
+        const bool is_of_surface = placed.patch < of_surface;
+        const std::int32_t other = placed.patch - of_surface;
+        if (!is_of_surface && boundary.patches.back().other != other) boundary.patches.push_back(between(rank, other));
+        Patch& patch =
+            is_of_surface ? boundary.patches[static_cast<std::size_t>(placed.patch)] : boundary.patches.back();
+        ++patch.faces;
+        boundary.faces.push_back(is_of_surface ? part.facets[f] : starting_at_smallest_id(part.facets[f], part));
+        boundary.owner.push_back(cells[f]);
+    }
+    std::int64_t start = static_cast<std::int64_t>(4 * part.mesh.tets.size() - part.facets.size()) / 2;
+    for (Patch& patch : boundary.patches) {
+        patch.start = start;
+        start += patch.faces;
+    }
+    return boundary;
+}
+
+// ---- Files
+
+// A list of known length that is written an entry at a time.
+class ListFile {
+ public:
+    ListFile(ExportFile file, std::string_view beginning) : file_(std::move(file)) { file_.text(beginning); }
+    void begin(std::int64_t length) {
+        file_.number(length);
+        file_.text("\n(");
+    }
+    template <class T>
+    void entry(const T& value) {
+        file_.value(value);
+    }
+    template <class T>
+    void entries(const std::vector<T>& values) {
+        file_.values(std::span(values));
+    }
+    void end() { file_.text(")\n"); }
+    void close() { file_.close(); }
+
+ private:
+    ExportFile file_;
+};
+
+std::string mesh_folder(std::size_t parts, std::int32_t rank) {
+    return (parts == 1 ? "" : fmt::format("processor{}/", rank)) + "constant/polyMesh/";
+}
+
+void write_points(const Part& part, ExportFiles& files, const std::string& folder) {
+    ListFile points(files.create(folder + "points"), header("vectorField", "points", true));
+    points.begin(part.vertex_count());
+    points.entries(part.mesh.vertices);
+    points.end();
+    points.close();
+}
+
+std::int64_t face_count(std::int64_t tets, std::int64_t boundary_faces) { return (4 * tets + boundary_faces) / 2; }
+
+void begin_corners(ListFile& faces, std::int64_t count) {
+    faces.begin(count + 1);
+    for (std::int64_t f = 0; f <= count; ++f) faces.entry(static_cast<Label>(3 * f));
+    faces.end();
+    faces.begin(3 * count);
+}
+
+// Faces between cells, upper-triangular.
+void write_inner_faces(const TetMesh& mesh, ListFile& faces, ListFile& owner, ListFile& neighbour) {
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        const std::array<std::int32_t, 4>& across = mesh.neighbours[t];
+        std::array<std::size_t, 4> order = {0, 1, 2, 3};
+        std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return across[a] < across[b]; });
+        const auto cell = static_cast<Label>(t);
+        for (const std::size_t i : order) {
+            if (across[i] <= cell) continue;
+            faces.entry(face_of(mesh, t, i));
+            owner.entry(cell);
+            neighbour.entry(across[i]);
+        }
+    }
+}
+
+void write_faces(const Part& part, const Boundary& boundary, ExportFiles& files, const std::string& folder) {
+    const auto outer = static_cast<std::int64_t>(boundary.faces.size());
+    const std::int64_t count = face_count(part.tet_count(), outer), inner = count - outer;
+    const std::string note = fmt::format("nPoints:{}  nCells:{}  nFaces:{}  nInternalFaces:{}", part.vertex_count(),
+                                         part.tet_count(), count, inner);
+    ListFile faces(files.create(folder + "faces"), header("faceCompactList", "faces", true));
+    ListFile owner(files.create(folder + "owner"), header("labelList", "owner", true, note));
+    ListFile neighbour(files.create(folder + "neighbour"), header("labelList", "neighbour", true, note));
+    begin_corners(faces, count);
+    owner.begin(count);
+    neighbour.begin(inner);
+    write_inner_faces(part.mesh, faces, owner, neighbour);
+    faces.entries(boundary.faces);
+    owner.entries(boundary.owner);
+    for (ListFile* file : {&faces, &owner, &neighbour}) {
+        file->end();
+        file->close();
+    }
+}
+
+void write_boundary(const std::vector<Patch>& patches, std::int32_t rank, ExportFiles& files,
+                    const std::string& folder) {
+    ExportFile file = files.create(folder + "boundary");
+    file.text(header("polyBoundaryMesh", "boundary", false));
+    file.text(fmt::format("{}\n(\n", patches.size()));
+    for (const Patch& patch : patches) {
+        const bool is_between = patch.other >= 0;
+        file.text(fmt::format("{}    {}\n    {{\n        type            {};\n", patch.comment, patch.name,
+                              is_between ? "processor" : "patch"));
+        file.text(fmt::format("        nFaces          {};\n        startFace       {};\n", patch.faces, patch.start));
+        if (is_between)
+            file.text(fmt::format("        myProcNo        {};\n        neighbProcNo    {};\n", rank, patch.other));
+        file.text("    }\n");
+    }
+    file.text(")\n");
+    file.close();
+}
+
+void write_part(const PartSource& parts, std::int32_t rank, const Part& part, ExportFiles& files) {
+    KERF_CHECK(part.mesh.neighbours.size() == part.mesh.tets.size());
+    const MeshOutline& outline = parts.outline();
+    const std::string folder = mesh_folder(outline.parts.size(), rank);
+    const Boundary boundary = boundary_of(part, outline, rank);
+    write_points(part, files, folder);
+    write_faces(part, boundary, files, folder);
+    write_boundary(boundary.patches, rank, files, folder);
+}
+
+// ---- The case around the meshes
+
+void require_labels(const MeshOutline& outline) {
+    for (const PartExtent& part : outline.parts) {
+        const std::int64_t faces = face_count(part.tets, part.patch_facets + part.interface_facets);
+        if (faces > most_faces)
+            throw Error(ErrorCode::usage,
+                        fmt::format("Part {} has {} faces, more than the {} that OpenFOAM's 32-bit labels can number. "
+                                    "Make more parts: kerf mesh -n.",
+                                    part.id, faces, most_faces));
+    }
+}
+
+// OpenFOAM takes every folder processorN for a part.
+void require_no_more_processors(const MeshOutline& outline, const ExportFiles& files) {
+    const std::string next = fmt::format("{}/processor{}", files.folder(), outline.parts.size());
+    std::error_code ignored;
+    if (outline.parts.size() > 1 && std::filesystem::exists(next, ignored))
+        throw Error(ErrorCode::usage, fmt::format("{} belongs to a case in more parts than these. Remove the folders "
+                                                  "processor* there, or choose another folder.",
+                                                  next));
+}
+
+// A dictionary without which no program of OpenFOAM opens the case. One of the user's stays; the beginning of ours is
+// what an interrupted export has left.
+void write_dictionary(ExportFiles& files, const std::string& object, std::string_view entries) {
+    const std::string name = "system/" + object, path = files.path_of(name);
+    const std::string text = fmt::format(
+        "FoamFile\n{{\n    version     2.0;\n    format      ascii;\n    class       dictionary;\n"
+        "    location    \"system\";\n    object      {};\n}}\n\n{}",
+        object, entries);
+    std::error_code ignored;
+    if (std::filesystem::exists(path, ignored) && !text.starts_with(read_file(path))) return;
+    ExportFile file = files.create(name);
+    file.text(text);
+    file.close();
+}
+
+void write_whole(const PartSource& parts, ExportFiles& files) {
+    const MeshOutline& outline = parts.outline();
+    require_labels(outline);
+    require_no_more_processors(outline, files);
+    write_dictionary(files, "controlDict",
+                     "startTime       0;\nendTime         0;\ndeltaT          1;\nwriteInterval   1;\n"
+                     "writeFormat     binary;\n");
+    write_dictionary(files, "fvSchemes",
+                     "gradSchemes\n{\n    default         Gauss linear;\n}\n"
+                     "divSchemes\n{\n    default         none;\n}\n"
+                     "laplacianSchemes\n{\n    default         Gauss linear corrected;\n}\n");
+    write_dictionary(files, "fvSolution", "");
+    if (outline.parts.size() > 1)
+        write_dictionary(files, "decomposeParDict",
+                         fmt::format("numberOfSubdomains {};\nmethod          scotch;\n", outline.parts.size()));
+}
+
+}  // namespace openfoam
+}  // namespace
+
+extern const Format openfoam_format = {.name = "openfoam",
+                                       .help = "OpenFOAM: a case with a folder processorN for each part",
+                                       .ending = nullptr,
+                                       .needs_face_neighbours = true,
+                                       .write_whole = openfoam::write_whole,
+                                       .write_part = openfoam::write_part};
+
+}  // namespace kerf
