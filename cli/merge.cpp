@@ -1,9 +1,9 @@
 #include "cli/merge.h"
 
 #include <cerrno>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
-#include <numeric>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -94,11 +94,13 @@ int merge_run(const MergeRequest& request) {
         places.push_back(fs::path(file.path) == output.filename()
                              ? main_place
                              : place_for(output.parent_path() / file.path, request.folder));
-    for (std::size_t i = 0; i < written.size(); ++i) move_to(fs::path(beside.path()) / written[i].path, places[i]);
+    std::uintmax_t bytes = 0;
+    for (std::size_t i = 0; i < written.size(); ++i) {
+        move_to(fs::path(beside.path()) / written[i].path, places[i]);
+        bytes += fs::file_size(places[i]);
+    }
 
     const MeshOutline& outline = parts.outline();
-    const std::int64_t bytes = std::accumulate(written.begin(), written.end(), std::int64_t{0},
-                                               [](std::int64_t sum, const RunFile& file) { return sum + file.bytes; });
     tell(fmt::format("kerf: {}: {} vertices, {} tetrahedra, {:.1f} MB\n", request.output, outline.vertices,
                      outline.tets(), static_cast<double>(bytes) * 1e-6));
     return 0;

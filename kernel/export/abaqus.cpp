@@ -41,40 +41,13 @@ struct Names {
 // The faces are numbered 1-2-3, 1-4-2, 2-4-3, 3-4-1 in the manual of CalculiX; here by the corner that they lack.
 constexpr std::array<std::int32_t, 4> face_opposite_to = {3, 4, 2, 1};
 
-template <std::size_t n>
-std::array<std::int32_t, n> ascending(std::array<std::int32_t, n> corners) {
-    std::sort(corners.begin(), corners.end());
-    return corners;
-}
-
-struct Facet {
-    Triangle corners;  // ascending
-    std::int32_t patch;
-};
-
-std::vector<Facet> sorted_patch_facets(const Part& part) {
-    std::vector<Facet> facets;
-    for (std::size_t f = 0; f < part.facets.size(); ++f)
-        if (!part.is_interface(f)) facets.push_back({ascending(part.facets[f]), part.patch[f]});
-    std::sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) { return a.corners < b.corners; });
-    return facets;
-}
-
-// Calls found(tet, opposite corner, patch) with the tetrahedron behind every triangle on a patch.
-template <class Found>
-void find_patch_faces(const Part& part, const Found& found) {
-    const std::vector<Facet> facets = sorted_patch_facets(part);
-    const auto is_inside = [&](std::int32_t v) { return v >= part.mesh.boundary_vertex_count; };
-    for (std::size_t t = 0; t < part.mesh.tets.size(); ++t) {
-        const Tetrahedron& tet = part.mesh.tets[t];
-        if (std::count_if(tet.begin(), tet.end(), is_inside) > 1) continue;
-        for (std::size_t i = 0; i < 4; ++i) {
-            const Triangle face = ascending(Triangle{tet[(i + 1) % 4], tet[(i + 2) % 4], tet[(i + 3) % 4]});
-            const auto facet = std::lower_bound(facets.begin(), facets.end(), face,
-                                                [](const Facet& f, const Triangle& key) { return f.corners < key; });
-            if (facet != facets.end() && facet->corners == face) found(t, i, facet->patch);
-        }
-    }
+// The face of the tetrahedron that the triangle is.
+std::int32_t face_of(const Tetrahedron& tet, const Triangle& triangle) {
+    const auto is_of_triangle = [&](std::int32_t v) {
+        return std::find(triangle.begin(), triangle.end(), v) != triangle.end();
+    };
+    const auto opposite = std::find_if_not(tet.begin(), tet.end(), is_of_triangle) - tet.begin();
+    return face_opposite_to[static_cast<std::size_t>(opposite)];
 }
 
 // As exact as a field can hold it.
@@ -155,9 +128,12 @@ void write_face_sets(const PartSource& parts, const Names& names, ExportFile& fi
     const auto visit = [&](const auto& add) {
         for_each_part(parts, [&](std::int32_t rank, const Part& part) {
             const std::int64_t first = parts.outline().first_tet(rank) + 1;
-            find_patch_faces(part, [&](std::size_t t, std::size_t opposite, std::int32_t patch) {
-                add({patch, face_opposite_to[opposite], first + static_cast<std::int64_t>(t)});
-            });
+            for (std::size_t f = 0; f < part.facets.size(); ++f) {
+                if (part.is_interface(f)) continue;
+                const std::int32_t t = part.tet_at_facet[f];
+                const Tetrahedron& tet = part.mesh.tets.at(static_cast<std::size_t>(t));
+                add({part.patch[f], face_of(tet, part.facets[f]), first + t});
+            }
         });
     };
     std::vector<std::int64_t> elements;
@@ -167,6 +143,7 @@ void write_face_sets(const PartSource& parts, const Names& names, ExportFile& fi
             for (const ElementFace& each : faces)
                 if (each.face == face) elements.push_back(each.element);
             if (elements.empty()) continue;
+            std::sort(elements.begin(), elements.end());
             const auto p = static_cast<std::size_t>(patch);
             faces_of[p] |= 1U << face;
             file.text(fmt::format("*ELSET, ELSET={}_S{}\n", names.words[p], face));

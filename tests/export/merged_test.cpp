@@ -208,6 +208,7 @@ Part one_tet(const std::array<Vec3, 4>& corners, const std::vector<std::string>&
         part.patch.push_back(static_cast<std::int32_t>(f % names.size()));
         part.facet.push_back(static_cast<std::int32_t>(f));
         part.neighbour.push_back(-1);
+        part.tet_at_facet.push_back(0);
         part.global_id.push_back(static_cast<std::int64_t>(f));
     }
     part.patch_names = names;
