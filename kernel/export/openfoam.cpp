@@ -5,7 +5,7 @@
 // then the patches one after the other. Every processor lists all patches of the surface, in the same order. After
 // them come its processor patches, ascending by the other processor. Both sides sort the faces between them by their
 // global vertex numbers and start each at its smallest one: then OpenFOAM finds vertex i of a face as vertex n - i of
-// the same face there. Lists are binary, with labels of 32 bits, which an OpenFOAM of 64-bit labels reads, too.
+// the same face there. Lists are binary, with labels of 32 bits, as their headers say.
 //
 // reconstructParMesh -constant joins the processors along their patches and makes the addressing that reconstructPar
 // asks for; it needs none, so none is written.
@@ -108,45 +108,6 @@ struct Boundary {
     Labels owner;
 };
 
-struct Side {
-    Triangle corners;  // ascending
-    std::int32_t place;
-};
-
-Side side_of(Triangle corners, std::size_t place) {
-    std::sort(corners.begin(), corners.end());
-    return {corners, static_cast<std::int32_t>(place)};
-}
-
-void sort_by_corners(std::vector<Side>& sides) {
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.corners < b.corners; });
-}
-
-Triangle face_of(const TetMesh& mesh, std::size_t t, std::size_t opposite) {
-    const auto& [a, b, c] = tet_faces[opposite];
-    const Tetrahedron& tet = mesh.tets[t];
-    return {tet[static_cast<std::size_t>(a)], tet[static_cast<std::size_t>(b)], tet[static_cast<std::size_t>(c)]};
-}
-
-// The tetrahedron of each boundary triangle. O(#T + #F log #F).
-Labels cells_behind(const Part& part) {
-    std::vector<Side> of_facets, of_cells;
-    for (std::size_t f = 0; f < part.facets.size(); ++f) of_facets.push_back(side_of(part.facets[f], f));
-    for (std::size_t t = 0; t < part.mesh.tets.size(); ++t)
-        for (std::size_t i = 0; i < 4; ++i)
-            if (part.mesh.neighbours[t][i] < 0) of_cells.push_back(side_of(face_of(part.mesh, t, i), t));
-    sort_by_corners(of_facets);
-    sort_by_corners(of_cells);
-    const auto is_same = [](const Side& a, const Side& b) { return a.corners == b.corners; };
-    if (!std::equal(of_facets.begin(), of_facets.end(), of_cells.begin(), of_cells.end(), is_same))
-        throw Error(ErrorCode::internal,
-                    fmt::format("The boundary of part {} is not that of its tetrahedra.", part.id));
-    Labels cells(part.facets.size());
-    for (std::size_t k = 0; k < cells.size(); ++k)
-        cells[static_cast<std::size_t>(of_facets[k].place)] = of_cells[k].place;
-    return cells;
-}
-
 // The number of the patch that each triangle belongs to; those of processors are numbered after those of the surface.
 Labels patches_of_facets(const Part& part, const MeshOutline& outline) {
     std::vector<NodeId> others = part.neighbour;
@@ -211,11 +172,10 @@ Patch between(std::int32_t rank, std::int32_t other) {
     return patch;
 }
 
-Boundary boundary_of(const Part& part, const MeshOutline& outline, std::int32_t rank) {
+Boundary boundary_faces_of(const Part& part, const MeshOutline& outline, std::int32_t rank) {
     Boundary boundary;
     boundary.patches = patches_of_surface(part.patch_names);
     const auto of_surface = static_cast<std::int32_t>(part.patch_names.size());
-    const Labels cells = cells_behind(part);
     for (const PlacedFacet& placed : place_facets(part, outline)) {
         const auto f = static_cast<std::size_t>(placed.facet);
         const bool is_of_surface = placed.patch < of_surface;
@@ -225,7 +185,7 @@ Boundary boundary_of(const Part& part, const MeshOutline& outline, std::int32_t 
             is_of_surface ? boundary.patches[static_cast<std::size_t>(placed.patch)] : boundary.patches.back();
         ++patch.faces;
         boundary.faces.push_back(is_of_surface ? part.facets[f] : starting_at_smallest_id(part.facets[f], part));
-        boundary.owner.push_back(cells[f]);
+        boundary.owner.push_back(part.tet_at_facet[f]);
     }
     std::int64_t start = static_cast<std::int64_t>(4 * part.mesh.tets.size() - part.facets.size()) / 2;
     for (Patch& patch : boundary.patches) {
@@ -279,6 +239,12 @@ void begin_corners(ListFile& faces, std::int64_t count) {
     for (std::int64_t f = 0; f <= count; ++f) faces.entry(static_cast<Label>(3 * f));
     faces.end();
     faces.begin(3 * count);
+}
+
+Triangle face_of(const TetMesh& mesh, std::size_t t, std::size_t opposite) {
+    const auto& [a, b, c] = tet_faces[opposite];
+    const Tetrahedron& tet = mesh.tets[t];
+    return {tet[static_cast<std::size_t>(a)], tet[static_cast<std::size_t>(b)], tet[static_cast<std::size_t>(c)]};
 }
 
 // Faces between cells, upper-triangular.
@@ -337,9 +303,10 @@ void write_boundary(const std::vector<Patch>& patches, std::int32_t rank, Export
 
 void write_part(const PartSource& parts, std::int32_t rank, const Part& part, ExportFiles& files) {
     KERF_CHECK(part.mesh.neighbours.size() == part.mesh.tets.size());
+    KERF_CHECK(part.tet_at_facet.size() == part.facets.size());
     const MeshOutline& outline = parts.outline();
     const std::string folder = mesh_folder(outline.parts.size(), rank);
-    const Boundary boundary = boundary_of(part, outline, rank);
+    const Boundary boundary = boundary_faces_of(part, outline, rank);
     write_points(part, files, folder);
     write_faces(part, boundary, files, folder);
     write_boundary(boundary.patches, rank, files, folder);

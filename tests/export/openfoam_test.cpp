@@ -350,6 +350,7 @@ class MadeUpPart : public PartSource {
         part_.patch = {0, 0, 0, 0};
         part_.facet = {0, 1, 2, 3};
         part_.neighbour = {-1, -1, -1, -1};
+        part_.tet_at_facet = {0, 0, 0, 0};
         part_.global_id = {0, 1, 2, 3};
         part_.patch_names = names;
         outline_ = {{{1, 4, 1, 4, 0}}, 4, names};
