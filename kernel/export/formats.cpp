@@ -9,7 +9,7 @@
 
 // A line for each file of this folder that defines `const Format NAME_format`.
 #define KERF_FORMATS(format) \
-    format(vtu) format(openfoam) format(medit) format(tetgen) format(abaqus) format(su2)
+    format(vtu) format(msh) format(openfoam) format(medit) format(tetgen) format(abaqus) format(su2)
 
 namespace kerf {
 

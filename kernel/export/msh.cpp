@@ -1,0 +1,482 @@
+// Gmsh's MSH, after "MSH file format" in the reference manual of Gmsh: 4.1 binary in parts and merged, 2.2 binary
+// merged.
+//
+// Nodes and elements have the same tags in all files. Tags count from 1, numbers in Kerf from 0. Nodes have their
+// global numbers; elements are all tetrahedra, in the order of the parts, and then all triangles on patches. Triangles
+// on interfaces are not written, as Gmsh leaves them out without Mesh.PartitionCreateTopology. A node belongs to its
+// first patch, or else to the volume.
+//
+// A part's file says of which whole it is a part ($Entities: volume 1 and a surface for each patch), which entities the
+// part has ($PartitionedEntities), and which cells of other parts touch it ($GhostElements).
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "export/format.h"
+#include "export/ghosts.h"
+#include "export/patch_pieces.h"
+#include "export/whole_mesh.h"
+
+namespace kerf {
+
+namespace {
+
+namespace msh {
+
+constexpr std::int32_t triangle_type = 2, tet_type = 4;
+constexpr std::int64_t most_int32 = std::numeric_limits<std::int32_t>::max();
+
+// ---- tags ----
+
+struct Entity {
+    std::int32_t dimension, tag;
+};
+
+// All entities have tags of their own, those of the whole and those of every part.
+class Tags {
+ public:
+    explicit Tags(const MeshOutline& outline)
+        : parts_(static_cast<std::int32_t>(outline.parts.size())),
+          patches_(static_cast<std::int32_t>(outline.patch_names.size())) {
+        const std::int64_t volumes = std::int64_t{2} * parts_ + 1;
+        const std::int64_t surfaces = (std::int64_t{parts_} + 1) * patches_;
+        if (std::max(volumes, surfaces) >= most_int32)
+            throw Error(ErrorCode::usage,
+                        fmt::format("{} patches in {} parts are more than Gmsh's 32-bit tags can tell apart. Use fewer "
+                                    "parts, or another format.",
+                                    patches_, parts_));
+    }
+
+    static Entity surface(std::int32_t patch) { return {2, patch + 1}; }
+    static Entity whole() { return {3, 1}; }
+    Entity surface_of_part(std::int32_t rank, std::int32_t patch) const {
+        return {2, (rank + 1) * patches_ + patch + 1};
+    }
+    Entity volume_of_part(std::int32_t rank) const { return {3, 2 + rank}; }
+    Entity ghosts_of_part(std::int32_t rank) const { return {3, 2 + parts_ + rank}; }
+    // Merged, the parts are the volumes.
+    static Entity merged_volume(std::int32_t rank) { return {3, rank + 1}; }
+
+    // Physical tags are different in all dimensions, as Gmsh chooses them itself.
+    static std::int32_t physical_patch(std::int32_t patch) { return patch + 1; }
+    std::int32_t physical_volume() const { return patches_ + 1; }
+
+    std::int32_t parts() const { return parts_; }
+
+ private:
+    std::int32_t parts_, patches_;
+};
+
+std::int64_t tag_of(std::int64_t number) { return number + 1; }
+
+// Among all elements.
+std::int64_t first_triangle(const MeshOutline& outline, std::int32_t rank) {
+    return outline.tets() + outline.first_patch_facet(rank);
+}
+
+std::int64_t element_count(const MeshOutline& outline) {
+    return first_triangle(outline, static_cast<std::int32_t>(outline.parts.size()));
+}
+
+// ---- names ----
+
+constexpr std::size_t longest_name = 251;  // bytes; Gmsh refuses files with 253
+
+// Without what ends a name or a line, and not inside of a character that takes several bytes.
+std::string readable(std::string name, std::size_t most) {
+    for (char& c : name) {
+        if (c == '"') c = '\'';
+        if (static_cast<unsigned char>(c) < ' ') c = ' ';
+    }
+    if (name.size() <= most) return name;
+    const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; };
+    while (most > 0 && continues(name[most])) --most;
+    return name.substr(0, most);
+}
+
+// Gmsh has no escapes: quotes become apostrophes. Names that are alike then get the number of their patch.
+std::vector<std::string> names_of_patches(const std::vector<std::string>& patch_names) {
+    std::vector<std::string> names;
+    std::set<std::string> used;
+    for (const std::string& given : patch_names) {
+        std::string name = readable(given, longest_name);
+        for (std::size_t number = names.size() + 1; !used.insert(name).second; number += patch_names.size()) {
+            const std::string suffix = fmt::format(" ({})", number);
+            name = readable(given, longest_name - suffix.size()) + suffix;
+        }
+        names.push_back(name);
+    }
+    return names;
+}
+
+void write_names(ExportFile& file, const Tags& tags, const std::vector<std::string>& patch_names) {
+    file.text(fmt::format("$PhysicalNames\n{}\n", patch_names.size() + 1));
+    std::int32_t patch = 0;
+    for (const std::string& name : names_of_patches(patch_names))
+        file.text(fmt::format("2 {} \"{}\"\n", Tags::physical_patch(patch++), name));
+    file.text(fmt::format("3 {} \"volume\"\n$EndPhysicalNames\n", tags.physical_volume()));
+}
+
+// ---- 4.1 ----
+
+struct Numbers {
+    std::int64_t first, last;
+
+    void add(std::int64_t number) {
+        first = std::min(first, number);
+        last = std::max(last, number);
+    }
+};
+
+class Writer {
+ public:
+    Writer(ExportFile file, const char* version) : file_(std::move(file)) {
+        file_.text(fmt::format("$MeshFormat\n{} 1 8\n", version));
+        file_.value(std::int32_t{1});
+        file_.text("\n$EndMeshFormat\n");
+    }
+
+    ExportFile& file() { return file_; }
+    void begin(const char* section) { file_.text(fmt::format("${}\n", section)); }
+    void end(const char* section) { file_.text(fmt::format("\n$End{}\n", section)); }
+    void size(std::int64_t value) { file_.value(value); }
+    void number(std::int32_t value) { file_.value(value); }
+
+    // Of the whole, or of a part; none has a boundary of its own.
+    void entity(const Entity& entity, const Eigen::AlignedBox3d& box, std::int32_t physical) {
+        number(entity.tag);
+        box_and_physical(box, physical);
+    }
+    void entity_of_part(const Entity& entity, const Entity& of, std::int32_t rank, const Eigen::AlignedBox3d& box,
+                        std::int32_t physical) {
+        number(entity.tag);
+        number(of.dimension);
+        number(of.tag);
+        size(1);
+        number(rank + 1);
+        box_and_physical(box, physical);
+    }
+    void counts_of_entities(std::size_t surfaces, std::size_t volumes) {
+        for (const std::size_t count : {std::size_t{0}, std::size_t{0}, surfaces, volumes})
+            size(static_cast<std::int64_t>(count));
+    }
+
+    // What $Nodes and $Elements begin with.
+    void extent(std::size_t blocks, std::size_t count, const Numbers& numbers) {
+        size(static_cast<std::int64_t>(blocks));
+        size(static_cast<std::int64_t>(count));
+        size(tag_of(numbers.first));
+        size(tag_of(numbers.last));
+    }
+
+    void nodes(const Entity& entity, const Part& part, const std::vector<std::int32_t>& vertices) {
+        block(entity, 0, vertices.size());
+        for (const std::int32_t v : vertices) size(tag_of(part.global_id[static_cast<std::size_t>(v)]));
+        for (const std::int32_t v : vertices) point(part.mesh.vertices[static_cast<std::size_t>(v)]);
+    }
+    void nodes(const Entity& entity, const std::vector<GhostVertex>& vertices) {
+        block(entity, 0, vertices.size());
+        for (const GhostVertex& vertex : vertices) size(tag_of(vertex.id));
+        for (const GhostVertex& vertex : vertices) point(vertex.point);
+    }
+    void triangles(const Entity& entity, const Part& part, const PatchPiece& piece, std::int64_t first) {
+        block(entity, triangle_type, piece.facets.size());
+        for (std::size_t i = 0; i < piece.facets.size(); ++i)
+            element(first + piece.places[i],
+                    global_corners(part, part.facets[static_cast<std::size_t>(piece.facets[i])]));
+    }
+    void tets(const Entity& entity, const Part& part, std::int64_t first) {
+        block(entity, tet_type, part.mesh.tets.size());
+        for (const Tetrahedron& tet : part.mesh.tets) element(first++, global_corners(part, tet));
+    }
+    void tets(const Entity& entity, const std::vector<GhostCell>& cells) {
+        block(entity, tet_type, cells.size());
+        for (const GhostCell& cell : cells) element(cell.number, cell.corners);
+    }
+
+ private:
+    void box_and_physical(const Eigen::AlignedBox3d& box, std::int32_t physical) {
+        point(box.min());
+        point(box.max());
+        size(1);
+        number(physical);
+        size(0);
+    }
+    void point(const Vec3& p) { file_.bytes(p.data(), 3 * sizeof(double)); }
+    void block(const Entity& entity, std::int32_t kind, std::size_t count) {
+        number(entity.dimension);
+        number(entity.tag);
+        number(kind);
+        size(static_cast<std::int64_t>(count));
+    }
+    template <std::size_t n>
+    void element(std::int64_t number, const std::array<std::int64_t, n>& corners) {
+        std::array<std::int64_t, n + 1> record{tag_of(number)};
+        for (std::size_t i = 0; i < n; ++i) record[i + 1] = tag_of(corners[i]);
+        file_.value(record);
+    }
+
+    ExportFile file_;
+};
+
+// ---- the file of a part ----
+
+class PartFile {
+ public:
+    PartFile(const PartSource& parts, std::int32_t rank, const Part& part)
+        : outline_(parts.outline()),
+          rank_(rank),
+          part_(part),
+          tags_(outline_),
+          pieces_(patch_pieces(part)),
+          ghosts_(ghosts_of(parts, part)),
+          volume_(tags_.volume_of_part(rank)),
+          ghost_volume_(tags_.ghosts_of_part(rank)) {}
+
+    void write(Writer writer) const {
+        write_names(writer.file(), tags_, part_.patch_names);
+        write_entities(writer);
+        write_partitioned_entities(writer);
+        write_nodes(writer);
+        write_elements(writer);
+        if (has_ghosts()) write_ghosts(writer);
+        writer.file().close();
+    }
+
+ private:
+    bool has_ghosts() const { return !ghosts_.cells.empty(); }
+
+    // Boxes are those of this part: the whole is not known here.
+    void write_entities(Writer& writer) const {
+        writer.begin("Entities");
+        writer.counts_of_entities(pieces_.on_patches.size(), 1);
+        for (const PatchPiece& piece : pieces_.on_patches)
+            writer.entity(Tags::surface(piece.patch), piece.box, Tags::physical_patch(piece.patch));
+        writer.entity(Tags::whole(), pieces_.box, tags_.physical_volume());
+        writer.end("Entities");
+    }
+
+    void write_partitioned_entities(Writer& writer) const {
+        writer.begin("PartitionedEntities");
+        writer.size(tags_.parts());
+        writer.size(has_ghosts());
+        if (has_ghosts()) {
+            writer.number(ghost_volume_.tag);
+            writer.number(rank_ + 1);
+        }
+        writer.counts_of_entities(pieces_.on_patches.size(), 1);
+        for (const PatchPiece& piece : pieces_.on_patches)
+            writer.entity_of_part(surface_of(piece), Tags::surface(piece.patch), rank_, piece.box,
+                                  Tags::physical_patch(piece.patch));
+        writer.entity_of_part(volume_, Tags::whole(), rank_, pieces_.box, tags_.physical_volume());
+        writer.end("PartitionedEntities");
+    }
+
+    std::size_t block_count() const { return pieces_.on_patches.size() + 1 + has_ghosts(); }
+
+    void write_nodes(Writer& writer) const {
+        const auto [smallest, largest] = std::minmax_element(part_.global_id.begin(), part_.global_id.end());
+        Numbers numbers{*smallest, *largest};
+        for (const GhostVertex& vertex : ghosts_.vertices) numbers.add(vertex.id);
+        writer.begin("Nodes");
+        writer.extent(block_count(), part_.global_id.size() + ghosts_.vertices.size(), numbers);
+        for (const PatchPiece& piece : pieces_.on_patches) writer.nodes(surface_of(piece), part_, piece.vertices);
+        writer.nodes(volume_, part_, pieces_.inside);
+        if (has_ghosts()) writer.nodes(ghost_volume_, ghosts_.vertices);
+        writer.end("Nodes");
+    }
+
+    void write_elements(Writer& writer) const {
+        const std::int64_t tet = outline_.first_tet(rank_), triangle = first_triangle(outline_, rank_);
+        const std::int64_t triangles = outline_.parts[static_cast<std::size_t>(rank_)].patch_facets;
+        Numbers numbers{tet, tet + part_.tet_count() - 1};
+        if (triangles > 0) numbers.add(triangle + triangles - 1);
+        for (const GhostCell& cell : ghosts_.cells) numbers.add(cell.number);
+        writer.begin("Elements");
+        writer.extent(block_count(),
+                      part_.mesh.tets.size() + static_cast<std::size_t>(triangles) + ghosts_.cells.size(), numbers);
+        for (const PatchPiece& piece : pieces_.on_patches) writer.triangles(surface_of(piece), part_, piece, triangle);
+        writer.tets(volume_, part_, tet);
+        if (has_ghosts()) writer.tets(ghost_volume_, ghosts_.cells);
+        writer.end("Elements");
+    }
+
+    void write_ghosts(Writer& writer) const {
+        writer.begin("GhostElements");
+        writer.size(static_cast<std::int64_t>(ghosts_.cells.size()));
+        for (const GhostCell& cell : ghosts_.cells) {
+            writer.size(tag_of(cell.number));
+            writer.number(cell.rank + 1);
+            writer.size(1);
+            writer.number(rank_ + 1);
+        }
+        writer.end("GhostElements");
+    }
+
+    Entity surface_of(const PatchPiece& piece) const { return tags_.surface_of_part(rank_, piece.patch); }
+
+    const MeshOutline& outline_;
+    std::int32_t rank_;
+    const Part& part_;
+    Tags tags_;
+    PatchPieces pieces_;
+    Ghosts ghosts_;
+    Entity volume_, ghost_volume_;
+};
+
+// As Gmsh calls them: a mesh in one piece has no number.
+std::string file_name(std::size_t parts, std::int32_t rank) {
+    return parts == 1 ? "mesh.msh" : fmt::format("mesh_{}.msh", rank + 1);
+}
+
+void write_part(const PartSource& parts, std::int32_t rank, const Part& part, ExportFiles& files) {
+    const PartFile content(parts, rank, part);
+    content.write(Writer(files.create(file_name(parts.outline().parts.size(), rank)), "4.1"));
+}
+
+// ---- merged ----
+
+// What the entities of the whole mesh need to be known of before they are written.
+struct Whole {
+    std::vector<Eigen::AlignedBox3d> surfaces, volumes;  // by patch, by rank
+    std::size_t blocks = 0;
+};
+
+Whole survey(const PartSource& parts) {
+    Whole whole;
+    whole.surfaces.resize(parts.outline().patch_names.size());
+    for_each_part(parts, [&](std::int32_t, const Part& part) {
+        const PatchPieces pieces = patch_pieces(part);
+        for (const PatchPiece& piece : pieces.on_patches)
+            whole.surfaces[static_cast<std::size_t>(piece.patch)].extend(piece.box);
+        whole.volumes.push_back(pieces.box);
+        whole.blocks += pieces.on_patches.size() + 1;
+    });
+    return whole;
+}
+
+void write_merged_entities(Writer& writer, const Whole& whole, const Tags& tags) {
+    const auto used = static_cast<std::size_t>(
+        std::count_if(whole.surfaces.begin(), whole.surfaces.end(), [](const auto& box) { return !box.isEmpty(); }));
+    writer.begin("Entities");
+    writer.counts_of_entities(used, whole.volumes.size());
+    for (std::size_t p = 0; p < whole.surfaces.size(); ++p) {
+        const auto patch = static_cast<std::int32_t>(p);
+        if (!whole.surfaces[p].isEmpty())
+            writer.entity(Tags::surface(patch), whole.surfaces[p], Tags::physical_patch(patch));
+    }
+    std::int32_t rank = 0;
+    for (const Eigen::AlignedBox3d& box : whole.volumes)
+        writer.entity(Tags::merged_volume(rank++), box, tags.physical_volume());
+    writer.end("Entities");
+}
+
+void write_merged_4_1(const PartSource& parts, const Tags& tags, ExportFiles& files, const std::string& name) {
+    const MeshOutline& outline = parts.outline();
+    const Whole whole = survey(parts);
+    Writer writer(files.create(name), "4.1");
+    write_names(writer.file(), tags, outline.patch_names);
+    write_merged_entities(writer, whole, tags);
+
+    writer.begin("Nodes");
+    writer.extent(whole.blocks, static_cast<std::size_t>(outline.vertices), {0, outline.vertices - 1});
+    for_each_part(parts, [&](std::int32_t rank, const Part& part) {
+        const PatchPieces pieces = owned_patch_pieces(part);
+        for (const PatchPiece& piece : pieces.on_patches)
+            writer.nodes(Tags::surface(piece.patch), part, piece.vertices);
+        writer.nodes(Tags::merged_volume(rank), part, pieces.inside);
+    });
+    writer.end("Nodes");
+
+    const std::int64_t elements = element_count(outline);
+    writer.begin("Elements");
+    writer.extent(whole.blocks, static_cast<std::size_t>(elements), {0, elements - 1});
+    for_each_part(parts, [&](std::int32_t rank, const Part& part) {
+        for (const PatchPiece& piece : patch_pieces(part).on_patches)
+            writer.triangles(Tags::surface(piece.patch), part, piece, first_triangle(outline, rank));
+        writer.tets(Tags::merged_volume(rank), part, outline.first_tet(rank));
+    });
+    writer.end("Elements");
+    writer.file().close();
+}
+
+// ---- merged, 2.2 ----
+
+// Every element has its physical group, its entity and its corners, all in 32 bits.
+template <std::size_t n>
+void write_element_2_2(ExportFile& file, std::int64_t number, std::int32_t physical, std::int32_t entity,
+                       const std::array<std::int64_t, n>& corners) {
+    std::array<std::int32_t, n + 3> record{static_cast<std::int32_t>(tag_of(number)), physical, entity};
+    for (std::size_t i = 0; i < n; ++i) record[i + 3] = static_cast<std::int32_t>(tag_of(corners[i]));
+    file.value(record);
+}
+
+void begin_elements_2_2(ExportFile& file, std::int32_t type, std::int64_t count) {
+    file.value(std::array<std::int32_t, 3>{type, static_cast<std::int32_t>(count), 2});
+}
+
+void write_triangles_2_2(ExportFile& file, const Part& part, const PartExtent& extent, std::int64_t number) {
+    if (extent.patch_facets == 0) return;
+    begin_elements_2_2(file, triangle_type, extent.patch_facets);
+    for (std::size_t f = 0; f < part.facets.size(); ++f)
+        if (part.patch[f] >= 0)
+            write_element_2_2(file, number++, Tags::physical_patch(part.patch[f]), Tags::surface(part.patch[f]).tag,
+                              global_corners(part, part.facets[f]));
+}
+
+void write_merged_2_2(const PartSource& parts, const Tags& tags, ExportFiles& files, const std::string& name) {
+    const MeshOutline& outline = parts.outline();
+    if (std::max(outline.vertices, element_count(outline)) > most_int32)
+        throw Error(ErrorCode::usage,
+                    fmt::format("{} nodes and {} elements are more than the 32-bit numbers of MSH 2.2 can tell apart. "
+                                "Take MSH 4.1, or the mesh in parts.",
+                                outline.vertices, element_count(outline)));
+    Writer writer(files.create(name), "2.2");
+    ExportFile& file = writer.file();
+    write_names(file, tags, outline.patch_names);
+
+    file.text(fmt::format("$Nodes\n{}\n", outline.vertices));
+    for_each_vertex(parts, [&](std::int64_t first, std::span<const Vec3> points) {
+        for (const Vec3& point : points) {
+            file.value(static_cast<std::int32_t>(tag_of(first++)));
+            file.bytes(point.data(), 3 * sizeof(double));
+        }
+    });
+    writer.end("Nodes");
+
+    file.text(fmt::format("$Elements\n{}\n", element_count(outline)));
+    for_each_part(parts, [&](std::int32_t rank, const Part& part) {
+        write_triangles_2_2(file, part, outline.parts[static_cast<std::size_t>(rank)], first_triangle(outline, rank));
+        begin_elements_2_2(file, tet_type, part.tet_count());
+        std::int64_t number = outline.first_tet(rank);
+        for (const Tetrahedron& tet : part.mesh.tets)
+            write_element_2_2(file, number++, tags.physical_volume(), Tags::merged_volume(rank).tag,
+                              global_corners(part, tet));
+    });
+    writer.end("Elements");
+    file.close();
+}
+
+void write_merged(const PartSource& parts, const MergeOptions& options, ExportFiles& files, const std::string& stem) {
+    const Tags tags(parts.outline());
+    if (options.msh_version == "4.1") return write_merged_4_1(parts, tags, files, stem + ".msh");
+    if (options.msh_version == "2.2") return write_merged_2_2(parts, tags, files, stem + ".msh");
+    throw Error(ErrorCode::usage,
+                fmt::format("'{}' is no version of MSH that Kerf writes. There are 4.1 and 2.2.", options.msh_version));
+}
+
+}  // namespace msh
+
+}  // namespace
+
+extern const Format msh_format = {.name = "msh",
+                                  .help = "Gmsh MSH: gmsh, deal.II, DOLFINx, meshio",
+                                  .ending = ".msh",
+                                  .write_part = msh::write_part,
+                                  .write_merged = msh::write_merged};
+
+}  // namespace kerf

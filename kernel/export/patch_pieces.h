@@ -1,0 +1,34 @@
+// What a part has of each patch.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "part/part.h"
+
+namespace kerf {
+
+/// The triangles of a part on one patch, and the vertices that count as lying there.
+struct PatchPiece {
+    std::int32_t patch = -1;
+    std::vector<std::int32_t> facets;    ///< of the part, ascending
+    std::vector<std::int32_t> places;    ///< of the same among all facets of the part on patches, from 0
+    std::vector<std::int32_t> vertices;  ///< that are on no patch before this one
+    Eigen::AlignedBox3d box;             ///< of the triangles
+};
+
+/// Every vertex is listed once: on its first patch, or else inside.
+struct PatchPieces {
+    std::vector<PatchPiece> on_patches;  ///< ascending by patch, none without facets
+    std::vector<std::int32_t> inside;    ///< vertices on no patch
+    Eigen::AlignedBox3d box;             ///< of the part
+};
+
+/// O(#V + #F + patches).
+PatchPieces patch_pieces(const Part& part);
+/// With those vertices alone that the part owns: the pieces of all parts list every vertex of the whole once.
+PatchPieces owned_patch_pieces(const Part& part);
+
+}  // namespace kerf
