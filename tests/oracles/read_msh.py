@@ -72,6 +72,7 @@ class GmshFile:
         gmsh.logger.stop()
         require(not complaints, f"Gmsh reads {path} without {complaints[:1]}")
         tags, points, _ = gmsh.model.mesh.getNodes()
+        require(len(tags) > 0, f"{path} has nodes")
         require(len(np.unique(tags)) == len(tags), f"nodes of {path} have different tags")
         self.tags = tags.astype(np.int64)
         self.points = np.zeros((int(tags.max()) + 1, 3))
