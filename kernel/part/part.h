@@ -20,6 +20,13 @@ struct SharedGroup {
     }
 };
 
+/// Edges that the same parts hold.
+struct SharedEdgeGroup {
+    std::vector<NodeId> parts;          ///< two or more, in the order of the tree
+    std::vector<UndirectedEdge> edges;  ///< of this part, the end with the smaller global number first; ascending by
+                                        ///< global numbers: the same order in every part
+};
+
 /// One part of a distributed mesh. Its boundary triangles lie on the user's surface, or on an interface, where another
 /// part has the same triangle in opposite orientation over the same global numbers.
 struct Part {
@@ -34,6 +41,7 @@ struct Part {
     std::vector<std::string> patch_names;
     std::vector<SharedGroup> shared;  ///< all vertices that other parts have, too; ascending by SharedGroup::parts,
                                       ///< compared in the order of the tree
+    std::vector<SharedEdgeGroup> shared_edges;  ///< all edges that other parts have, too; in the same order
 
     bool is_interface(std::size_t f) const { return neighbour[f] >= 0; }
     std::int64_t tet_count() const { return static_cast<std::int64_t>(mesh.tets.size()); }

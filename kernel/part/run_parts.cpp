@@ -51,6 +51,7 @@ MeshOutline read_outline(const std::string& folder) {
 
 RunParts::RunParts(std::string folder) : folder_(std::move(folder)), outline_(read_outline(folder_)) {
     std::vector<SharedVertices::Held> held;
+    std::vector<SharedEdges::Held> told;
     std::vector<NodeId> ids;
     std::int64_t interior = 0;
     for (PartExtent& extent : outline_.parts) {
@@ -63,12 +64,15 @@ RunParts::RunParts(std::string folder) : folder_(std::move(folder)), outline_(re
             for (const std::int32_t v : surface.facets[f])
                 held.push_back({surface.global_id[static_cast<std::size_t>(v)], rank});
         }
+        const std::vector<SharedEdges::Held> told_here = SharedEdges::told_by(surface);
+        told.insert(told.end(), told_here.begin(), told_here.end());
         extent.patch_facets = static_cast<std::int64_t>(surface.facets.size()) - extent.interface_facets;
         outline_.patch_names = std::move(surface.patch_names);
         first_interior_ids_.push_back(interior);
         interior += extent.vertices - surface.mesh.boundary_vertex_count;
     }
     for (std::int64_t& first : first_interior_ids_) first += outline_.vertices - interior;
+    shared_edges_ = SharedEdges(std::move(told), ids);
     shared_ = SharedVertices(std::move(held), std::move(ids));
 }
 
@@ -77,6 +81,7 @@ Part RunParts::load(std::int32_t rank) const {
     Part part = load_part(folder_, outline_.parts[r].id, first_interior_ids_[r]);
     part.shared = shared_.groups_of(
         rank, std::span(part.global_id).first(static_cast<std::size_t>(part.mesh.boundary_vertex_count)));
+    part.shared_edges = shared_edges_.groups_of(part);
     return part;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "part/part.h"
+#include "part/shared_edges.h"
 #include "part/shared_vertices.h"
 
 namespace kerf {
@@ -24,6 +25,7 @@ class RunParts : public PartSource {
     MeshOutline outline_;
     std::vector<std::int64_t> first_interior_ids_;  // by rank
     SharedVertices shared_;
+    SharedEdges shared_edges_;
 };
 
 /// Where a finished run has a part: FOLDER/parts/part_0008.vtu, or part_0008.part of a run without that format.

@@ -1,0 +1,163 @@
+// MFEM's parallel mesh, "MFEM mesh v1.2": a file a rank, as its class ParMesh prints and reads it. A rank lists the
+// groups of ranks that it shares vertices, edges or faces with, itself alone as the first. All ranks of a group list
+// its entities in the same order, and name the corners of an edge or face in the same order, too: MFEM orients the
+// unknowns of edges and faces by that. Here all are in the order of global numbers. Names of attributes are comments,
+// because only version 1.3 of the format has them, which older releases of MFEM refuse.
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "export/format.h"
+#include "export/whole_mesh.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr int mfem_triangle = 2, mfem_tetrahedron = 4;  // MFEM's numbers of geometries
+
+// What the ranks of a group have in common, by the numbers of one of them.
+struct MfemGroup {
+    std::vector<std::int32_t> vertices;
+    std::vector<UndirectedEdge> edges;
+    std::vector<Triangle> faces;
+};
+
+class MfemFile {
+ public:
+    MfemFile(const MeshOutline& outline, std::int32_t rank, const Part& part, ExportFiles& files)
+        : outline_(outline), rank_(rank), part_(part), file_(files.create(fmt::format("mesh.{:06}", rank))) {}
+
+    void write() {
+        file_.text("MFEM mesh v1.2\n\ndimension\n3\n");
+        write_cells();
+        write_vertices();
+        file_.text("\nmfem_serial_mesh_end\n");
+        find_groups();
+        write_groups();
+        file_.text("\nmfem_mesh_end\n");
+        file_.close();
+    }
+
+ private:
+    template <std::size_t n>
+    void write_numbers(const std::array<std::int32_t, n>& numbers) {
+        for (std::size_t i = 0; i < n; ++i) {
+            if (i > 0) file_.text(" ");
+            file_.number(std::int64_t{numbers[i]});
+        }
+        file_.text("\n");
+    }
+
+    void write_entry(const char* name, std::size_t number) { file_.text(fmt::format("{} {}\n", name, number)); }
+
+    void write_cells() {
+        file_.text(fmt::format("\nelements\n{}\n", part_.mesh.tets.size()));
+        const std::string tetrahedron = fmt::format("1 {} ", mfem_tetrahedron);
+        for (const Tetrahedron& tet : part_.mesh.tets) {
+            file_.text(tetrahedron);
+            write_numbers(tet);
+        }
+        file_.text("\n");
+        write_names();
+        file_.text(fmt::format("boundary\n{}\n", outline_.parts[static_cast<std::size_t>(rank_)].patch_facets));
+        for (std::size_t f = 0; f < part_.facets.size(); ++f) {
+            if (part_.is_interface(f)) continue;
+            file_.text(fmt::format("{} {} ", part_.patch[f] + 1, mfem_triangle));
+            write_numbers(part_.facets[f]);
+        }
+    }
+
+    void write_names() {
+        for (std::size_t patch = 0; patch < part_.patch_names.size(); ++patch) {
+            std::string name = part_.patch_names[patch];
+            std::replace_if(
+                name.begin(), name.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+            file_.text(fmt::format("# boundary attribute {}: {}\n", patch + 1, name));
+        }
+    }
+
+    void write_vertices() {
+        file_.text(fmt::format("\nvertices\n{}\n3\n", part_.mesh.vertices.size()));
+        for (const Vec3& p : part_.mesh.vertices) {
+            file_.point(p);
+            file_.text("\n");
+        }
+    }
+
+    MfemGroup& group_of(const std::vector<NodeId>& parts) {
+        std::vector<std::int32_t> ranks;
+        for (const NodeId part : parts) ranks.push_back(outline_.rank_of(part));
+        std::sort(ranks.begin(), ranks.end());
+        return groups_[ranks];
+    }
+
+    void find_groups() {
+        for (const SharedGroup& group : part_.shared) group_of(group.parts).vertices = group.vertices;
+        for (const SharedEdgeGroup& group : part_.shared_edges) group_of(group.parts).edges = group.edges;
+        std::map<NodeId, std::vector<Triangle>> faces_of;  // by neighbour
+        for (std::size_t f = 0; f < part_.facets.size(); ++f)
+            if (part_.is_interface(f)) faces_of[part_.neighbour[f]].push_back(by_global_id(part_.facets[f]));
+        for (auto& [neighbour, faces] : faces_of) {
+            std::sort(faces.begin(), faces.end(), [this](const Triangle& a, const Triangle& b) {
+                return global_corners(part_, a) < global_corners(part_, b);
+            });
+            group_of({part_.id, neighbour}).faces = std::move(faces);
+        }
+    }
+
+    Triangle by_global_id(Triangle face) const {
+        std::sort(face.begin(), face.end(), [this](std::int32_t a, std::int32_t b) {
+            return part_.global_id[static_cast<std::size_t>(a)] < part_.global_id[static_cast<std::size_t>(b)];
+        });
+        return face;
+    }
+
+    void write_groups() {
+        write_entry("\ncommunication_groups\nnumber_of_groups", groups_.size() + 1);
+        file_.text(fmt::format("\n# number of ranks in each group, followed by the ranks\n1 {}\n", rank_));
+        std::size_t vertices = 0, edges = 0, faces = 0;
+        for (const auto& [ranks, group] : groups_) {
+            file_.text(fmt::format("{} {}\n", ranks.size(), fmt::join(ranks, " ")));
+            vertices += group.vertices.size();
+            edges += group.edges.size();
+            faces += group.faces.size();
+        }
+        write_entry("\ntotal_shared_vertices", vertices);
+        write_entry("total_shared_edges", edges);
+        write_entry("total_shared_faces", faces);
+        std::int32_t number = 0;
+        for (const auto& [ranks, group] : groups_) write_group(++number, group);
+    }
+
+    void write_group(std::int32_t number, const MfemGroup& group) {
+        file_.text(fmt::format("\n# group {}\n", number));
+        write_entry("shared_vertices", group.vertices.size());
+        for (const std::int32_t v : group.vertices) write_numbers(std::array{v});
+        write_entry("\nshared_edges", group.edges.size());
+        for (const UndirectedEdge& edge : group.edges) write_numbers(edge);
+        write_entry("\nshared_faces", group.faces.size());
+        for (const Triangle& face : group.faces) {
+            file_.text(fmt::format("{} ", mfem_triangle));
+            write_numbers(face);
+        }
+    }
+
+    const MeshOutline& outline_;
+    std::int32_t rank_;
+    const Part& part_;
+    ExportFile file_;
+    std::map<std::vector<std::int32_t>, MfemGroup> groups_;  // by ranks
+};
+
+void write_mfem_part(const PartSource& parts, std::int32_t rank, const Part& part, ExportFiles& files) {
+    MfemFile(parts.outline(), rank, part, files).write();
+}
+
+}  // namespace
+
+extern const Format mfem_format = {
+    .name = "mfem", .help = "MFEM's parallel mesh, a file a rank", .ending = nullptr, .write_part = write_mfem_part};
+
+}  // namespace kerf

@@ -1,0 +1,101 @@
+#include "part/shared_edges.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace kerf {
+
+namespace {
+
+// An edge of an interface with the part on the other side of one of its two triangles.
+struct InterfaceEdge {
+    std::array<std::int64_t, 2> edge;  // global numbers
+    NodeId neighbour;
+    UndirectedEdge corners;  // of the part, as the global numbers
+
+    auto key() const { return std::tie(edge, neighbour); }
+};
+
+InterfaceEdge interface_edge(const Part& part, std::size_t f, std::size_t corner) {
+    std::int32_t a = part.facets[f][corner], b = part.facets[f][(corner + 1) % 3];
+    std::int64_t id_a = part.global_id[static_cast<std::size_t>(a)], id_b = part.global_id[static_cast<std::size_t>(b)];
+    if (id_b < id_a) {
+        std::swap(a, b);
+        std::swap(id_a, id_b);
+    }
+    return {{id_a, id_b}, part.neighbour[f], {a, b}};
+}
+
+// Ascending by edge, then neighbour; each pair once.
+std::vector<InterfaceEdge> interface_edges(const Part& part) {
+    std::vector<InterfaceEdge> edges;
+    for (std::size_t f = 0; f < part.facets.size(); ++f)
+        if (part.is_interface(f))
+            for (std::size_t corner = 0; corner < 3; ++corner) edges.push_back(interface_edge(part, f, corner));
+    const auto less = [](const InterfaceEdge& a, const InterfaceEdge& b) { return a.key() < b.key(); };
+    const auto same = [](const InterfaceEdge& a, const InterfaceEdge& b) { return a.key() == b.key(); };
+    std::sort(edges.begin(), edges.end(), less);
+    edges.erase(std::unique(edges.begin(), edges.end(), same), edges.end());
+    return edges;
+}
+
+// Calls take(begin, end) with the range of each edge.
+template <class Take>
+void for_each_edge(const std::vector<InterfaceEdge>& edges, Take take) {
+    for (auto begin = edges.begin(), end = begin; begin != edges.end(); begin = end) {
+        end = std::find_if(begin, edges.end(), [&](const InterfaceEdge& other) { return other.edge != begin->edge; });
+        take(begin, end);
+    }
+}
+
+}  // namespace
+
+std::vector<SharedEdges::Held> SharedEdges::told_by(const Part& part) {
+    std::vector<Held> told;
+    for_each_edge(interface_edges(part), [&](auto begin, auto end) {
+        if (end - begin < 2) return;
+        told.push_back({begin->edge, part.id});
+        for (auto met = begin; met != end; ++met) told.push_back({met->edge, met->neighbour});
+    });
+    return told;
+}
+
+SharedEdges::SharedEdges(std::vector<Held> told, const std::vector<NodeId>& ids) : told_(std::move(told)), ids_(ids) {
+    const auto key = [](const Held& held) { return std::tie(held.edge, held.part); };
+    std::sort(told_.begin(), told_.end(), [&](const Held& a, const Held& b) { return key(a) < key(b); });
+    told_.erase(std::unique(told_.begin(), told_.end(), [&](const Held& a, const Held& b) { return key(a) == key(b); }),
+                told_.end());
+    for (const NodeId id : ids_) ranks_.push_back({id, static_cast<std::int32_t>(ranks_.size())});
+    std::sort(ranks_.begin(), ranks_.end(), [](const Rank& a, const Rank& b) { return a.id < b.id; });
+}
+
+std::int32_t SharedEdges::rank_of(NodeId id) const {
+    return std::lower_bound(ranks_.begin(), ranks_.end(), id,
+                            [](const Rank& r, NodeId wanted) { return r.id < wanted; })
+        ->rank;
+}
+
+std::vector<SharedEdgeGroup> SharedEdges::groups_of(const Part& part) const {
+    std::map<std::vector<std::int32_t>, std::vector<UndirectedEdge>> edges_of;  // by the ranks that hold them
+    std::vector<std::int32_t> ranks;
+    for_each_edge(interface_edges(part), [&](auto begin, auto end) {
+        ranks.assign(1, rank_of(part.id));
+        for (auto met = begin; met != end; ++met) ranks.push_back(rank_of(met->neighbour));
+        auto told = std::lower_bound(told_.begin(), told_.end(), begin->edge,
+                                     [](const Held& held, const auto& wanted) { return held.edge < wanted; });
+        for (; told != told_.end() && told->edge == begin->edge; ++told) ranks.push_back(rank_of(told->part));
+        std::sort(ranks.begin(), ranks.end());
+        ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+        edges_of[ranks].push_back(begin->corners);
+    });
+    std::vector<SharedEdgeGroup> groups;
+    for (auto& [of_ranks, edges] : edges_of) {
+        SharedEdgeGroup& group = groups.emplace_back();
+        for (const std::int32_t r : of_ranks) group.parts.push_back(ids_[static_cast<std::size_t>(r)]);
+        group.edges = std::move(edges);
+    }
+    return groups;
+}
+
+}  // namespace kerf

@@ -1,0 +1,47 @@
+// Which edges the parts of a mesh have in common.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "part/part.h"
+
+namespace kerf {
+
+/// The edges on interfaces, each with the parts that hold it. Two parts may have both ends of an edge in common and not
+/// the edge. Around an edge that several parts hold each of them meets the next one in an interface, so that a part
+/// knows its neighbours there, but not theirs: only edges that some part shares with two others, or more, have to be
+/// told.
+class SharedEdges {
+ public:
+    /// An edge and a part that holds it; may be named more than once.
+    struct Held {
+        std::array<std::int64_t, 2> edge;  ///< global numbers of its ends, the smaller one first
+        NodeId part;
+    };
+
+    /// What the others have to know of a part: the edges where it meets several, with all that it meets there and
+    /// itself. Of a part or its surface. O(#F log #F).
+    static std::vector<Held> told_by(const Part& part);
+
+    SharedEdges() = default;
+    /// `told`: what all parts tell. `ids`: of the parts, by rank. O(n log n).
+    SharedEdges(std::vector<Held> told, const std::vector<NodeId>& ids);
+
+    /// As Part::shared_edges. O(#F log #F).
+    std::vector<SharedEdgeGroup> groups_of(const Part& part) const;
+
+ private:
+    std::int32_t rank_of(NodeId id) const;
+
+    struct Rank {
+        NodeId id;
+        std::int32_t rank;
+    };
+    std::vector<Held> told_;   // ascending by edge, then part
+    std::vector<NodeId> ids_;  // by rank
+    std::vector<Rank> ranks_;  // ascending by id
+};
+
+}  // namespace kerf
