@@ -1,0 +1,72 @@
+// HDF5 files whose arrays are written as raw bytes, by many threads and processes at once.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace kerf {
+
+enum class Hdf5Type { byte, int32, int64, real };
+
+constexpr std::int64_t size_of(Hdf5Type type) { return type == Hdf5Type::byte ? 1 : type == Hdf5Type::int32 ? 4 : 8; }
+
+struct Hdf5Array {
+    const char* name;  ///< with its groups
+    Hdf5Type type;
+    std::int64_t rows;
+    std::int64_t columns = 0;  ///< 0: of one dimension
+};
+
+struct Hdf5Attribute {
+    const char* object;  ///< group or array
+    const char* name;
+    std::variant<std::string, std::vector<std::int32_t>> value;
+};
+
+struct Hdf5Names {
+    const char* name;
+    std::vector<std::string> names;  ///< UTF-8
+};
+
+struct Hdf5Content {
+    std::vector<const char*> groups;
+    std::vector<Hdf5Array> arrays;
+    std::vector<Hdf5Attribute> attributes;
+    Hdf5Names names;
+};
+
+/// Makes the file with its arrays contiguous, allocated and not filled. The bytes depend on the content alone, not on
+/// the time nor on the default version of the format. What was there is replaced. From any thread. Throws Error(io).
+void make_hdf5_file(const std::string& path, const Hdf5Content& content);
+
+/// The arrays of such a file as bytes.
+class Hdf5Bytes {
+ public:
+    /// From any thread. Throws Error(io).
+    Hdf5Bytes(const std::string& path, const std::vector<Hdf5Array>& arrays);
+    Hdf5Bytes(const Hdf5Bytes&) = delete;
+    Hdf5Bytes& operator=(const Hdf5Bytes&) = delete;
+    ~Hdf5Bytes();
+
+    /// Where the row of the array is.
+    std::int64_t place_of(std::string_view name, std::int64_t row) const;
+    /// Throws Error(io).
+    void write(const void* data, std::size_t size, std::int64_t place) const;
+    /// What was written may meet a full disk only here.
+    void close();
+
+ private:
+    struct Place {
+        std::string_view name;
+        std::int64_t begin, row_size;
+    };
+
+    std::string path_;
+    int file_;
+    std::vector<Place> places_;
+};
+
+}  // namespace kerf
