@@ -22,6 +22,7 @@ Part boundary_of(const Part& part) {
     surface.global_id.assign(part.global_id.begin(), part.global_id.begin() + boundary);
     surface.patch_names = part.patch_names;
     surface.shared = part.shared;
+    surface.shared_edges = part.shared_edges;
     return surface;
 }
 

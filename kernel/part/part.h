@@ -25,6 +25,11 @@ struct SharedEdgeGroup {
     std::vector<NodeId> parts;          ///< two or more, in the order of the tree
     std::vector<UndirectedEdge> edges;  ///< of this part, the end with the smaller global number first; ascending by
                                         ///< global numbers: the same order in every part
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(parts, edges);
+    }
 };
 
 /// One part of a distributed mesh. Its boundary triangles lie on the user's surface, or on an interface, where another

@@ -31,7 +31,7 @@ struct Boundary {
     template <class Archive>
     void archive(Archive& a) {
         a(part.id, part.mesh.boundary_vertex_count, part.facets, part.patch, part.facet, part.neighbour,
-          part.tet_at_facet, ids, part.patch_names, part.shared);
+          part.tet_at_facet, ids, part.patch_names, part.shared, part.shared_edges);
     }
 };
 
@@ -53,6 +53,8 @@ bool is_consistent(const Part& part, std::size_t ids, std::uint64_t vertices, st
     for (const SharedGroup& group : part.shared)
         for (const std::int32_t v : group.vertices)
             holds = holds && v >= 0 && v < part.mesh.boundary_vertex_count && group.parts.size() > 1;
+    for (const SharedEdgeGroup& group : part.shared_edges)
+        holds = holds && are_in_range(group.edges, boundary) && group.parts.size() > 1;
     return holds;
 }
 

@@ -104,6 +104,7 @@ Part part_of_job(const PartJob& job, TetMesh mesh) {
     part.global_id.resize(mesh.vertices.size(), -1);
     part.patch_names = job.patch_names;
     part.shared = job.shared;
+    part.shared_edges = job.shared_edges;
     part.mesh = std::move(mesh);
     return part;
 }

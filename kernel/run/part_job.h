@@ -18,12 +18,13 @@ struct PartJob {
     std::vector<std::int64_t> boundary_id;  ///< #V; global numbers
     std::vector<NodeId> neighbour;          ///< #F; the part on the other side of an interface facet, else -1
     std::vector<SharedGroup> shared;
+    std::vector<SharedEdgeGroup> shared_edges;
     std::vector<std::string> patch_names;
     double length_scale = 1;  ///< diagonal of the whole input, for the bins of the distributions
 
     template <class Archive>
     void archive(Archive& a) {
-        a(part, surface, boundary_id, neighbour, shared, patch_names, length_scale);
+        a(part, surface, boundary_id, neighbour, shared, shared_edges, patch_names, length_scale);
     }
 };
 

@@ -23,6 +23,7 @@
 #include "io/stl_writer.h"
 #include "io/text_file.h"
 #include "part/part_store.h"
+#include "part/shared_edges.h"
 #include "part/vtu_writer.h"
 #include "run/forecast.h"
 #include "run/gathered_nodes.h"
@@ -155,6 +156,7 @@ class Run {
     void decompose_surface();
     void divide_unfinished(CutListener* cuts);
     void join_interfaces();
+    void find_shared_edges(const std::vector<NodeId>& leaves);
     void gather_parts();
     void announce_parts();
     void hand_over_parts();
@@ -259,8 +261,20 @@ void Run::join_interfaces() {
         PartReport report = describe_part(job, leaf.volume, ranks_.rank(), report_.options.decompose.cut.load);
         own_parts_.push_back({std::move(report), std::move(job)});
     }
+    find_shared_edges(leaves);
     gather_parts();
     report_.seconds.prepare = longest(ranks_, stopwatch.seconds());
+}
+
+void Run::find_shared_edges(const std::vector<NodeId>& leaves) {
+    std::vector<SharedEdges::Held> own, told;
+    const auto append = [](std::vector<SharedEdges::Held>& all, const std::vector<SharedEdges::Held>& more) {
+        all.insert(all.end(), more.begin(), more.end());
+    };
+    for (const OwnPart& part : own_parts_) append(own, SharedEdges::told_by(part_of_job(part.job)));
+    for (const auto& of_rank : all_gather(ranks_, own)) append(told, of_rank);
+    const SharedEdges shared(std::move(told), leaves);
+    for (OwnPart& part : own_parts_) part.job.shared_edges = shared.groups_of(part_of_job(part.job));
 }
 
 // What is ahead.

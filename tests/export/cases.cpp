@@ -43,17 +43,19 @@ const std::vector<ExportCase>& export_cases() {
     return cases;
 }
 
-std::string run_of(const ExportCase& wanted) {
+std::string run_of(const ExportCase& wanted, const std::string& formats) {
     static const TemporaryFolder folder;
     static std::map<std::string, std::string> runs;
-    std::string& run_folder = runs[wanted.name];
+    const std::string name = formats.empty() ? wanted.name : wanted.name + "." + formats;
+    std::string& run_folder = runs[name];
     if (!run_folder.empty()) return run_folder;
-    const std::string input = folder.file(wanted.name + ".stl");
+    const std::string input = folder.file(name + ".stl");
     std::ofstream(input, std::ios::binary) << to_ascii_stl(wanted.surface);
-    run_folder = folder.file(wanted.name);
+    run_folder = folder.file(name);
     RunOptions options;
     options.input = input;
     options.output = run_folder;
+    options.formats = formats;
     options.worker_program = KERF_WORKER;
     options.workers = 2;
     options.decompose.parts = wanted.parts;

@@ -19,8 +19,8 @@ struct ExportCase {
 /// triangle on a patch and some touch at an edge or a vertex only.
 const std::vector<ExportCase>& export_cases();
 
-/// The folder of the finished run of a case, which is meshed when it is first asked for and removed when the program
-/// ends.
-std::string run_of(const ExportCase& wanted);
+/// The folder of the finished run of a case, in the default format or those of the list. It is meshed when it is first
+/// asked for and removed when the program ends.
+std::string run_of(const ExportCase& wanted, const std::string& formats = "");
 
 }  // namespace kerf::test

@@ -37,6 +37,8 @@ inline Part random_part(unsigned seed) {
                         "d <&\">",
                         std::string(seed * 100, 'x')};
     for (std::int32_t g = 0; g < number(4); ++g) part.shared.push_back({{1, 2 + g}, {number(boundary)}});
+    for (std::int32_t g = 0; g < number(4); ++g)
+        part.shared_edges.push_back({{1, 2 + g}, {{number(boundary), number(boundary)}}});
     return part;
 }
 

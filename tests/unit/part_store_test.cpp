@@ -47,6 +47,11 @@ TEST_F(PartStore, PartsComeBackAsTheyWere) {
             EXPECT_EQ(back.shared[g].parts, part.shared[g].parts);
             EXPECT_EQ(back.shared[g].vertices, part.shared[g].vertices);
         }
+        ASSERT_EQ(back.shared_edges.size(), part.shared_edges.size());
+        for (std::size_t g = 0; g < part.shared_edges.size(); ++g) {
+            EXPECT_EQ(back.shared_edges[g].parts, part.shared_edges[g].parts);
+            EXPECT_EQ(back.shared_edges[g].edges, part.shared_edges[g].edges);
+        }
     }
 }
 
