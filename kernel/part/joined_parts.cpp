@@ -180,15 +180,38 @@ Part JoinedParts::load(std::int32_t rank) const {
     std::map<std::vector<std::int32_t>, std::vector<std::int32_t>> vertices_of;
     for (std::size_t p = 0; p < parts.size(); ++p)
         for (const SharedGroup& group : parts[p].shared) {
-            std::vector<std::int32_t> ranks;
-            for (const NodeId holder : pieces_of(group.parts)) ranks.push_back(outline_.rank_of(holder));
-            ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+            const std::vector<std::int32_t> ranks = ranks_of(group.parts);
             if (ranks.size() < 2) continue;
             std::vector<std::int32_t>& vertices = vertices_of[ranks];
             for (const std::int32_t v : group.vertices) vertices.push_back(vertex_in_piece(p, v, piece));
         }
     for (auto& [ranks, vertices] : vertices_of) piece.shared.push_back(group_of(ranks, std::move(vertices), piece));
+    // The same for edges.
+    std::map<std::vector<std::int32_t>, std::vector<UndirectedEdge>> edges_of;
+    for (std::size_t p = 0; p < parts.size(); ++p)
+        for (const SharedEdgeGroup& group : parts[p].shared_edges) {
+            const std::vector<std::int32_t> ranks = ranks_of(group.parts);
+            if (ranks.size() < 2) continue;
+            std::vector<UndirectedEdge>& edges = edges_of[ranks];
+            for (const auto& [a, b] : group.edges)
+                edges.push_back({vertex_in_piece(p, a, piece), vertex_in_piece(p, b, piece)});
+        }
+    for (auto& [ranks, edges] : edges_of) piece.shared_edges.push_back(group_of(ranks, std::move(edges), piece));
     return piece;
+}
+
+// Of the pieces that the leaves, in the order of the tree, lie in; each once.
+std::vector<std::int32_t> JoinedParts::ranks_of(const std::vector<NodeId>& leaves) const {
+    std::vector<std::int32_t> ranks;
+    for (const NodeId holder : pieces_of(leaves)) ranks.push_back(outline_.rank_of(holder));
+    ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+    return ranks;
+}
+
+std::vector<NodeId> JoinedParts::ids_of(const std::vector<std::int32_t>& ranks) const {
+    std::vector<NodeId> ids;
+    for (const std::int32_t rank : ranks) ids.push_back(outline_.parts[static_cast<std::size_t>(rank)].id);
+    return ids;
 }
 
 // `vertices`: of the piece; those that several of its parts have come several times.
@@ -197,10 +220,20 @@ SharedGroup JoinedParts::group_of(const std::vector<std::int32_t>& ranks, std::v
     const auto id = [&](std::int32_t v) { return piece.global_id[static_cast<std::size_t>(v)]; };
     std::sort(vertices.begin(), vertices.end(), [&](std::int32_t a, std::int32_t b) { return id(a) < id(b); });
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    SharedGroup group;
-    for (const std::int32_t rank : ranks) group.parts.push_back(outline_.parts[static_cast<std::size_t>(rank)].id);
-    group.vertices = std::move(vertices);
-    return group;
+    return {ids_of(ranks), std::move(vertices)};
+}
+
+// The same with edges.
+SharedEdgeGroup JoinedParts::group_of(const std::vector<std::int32_t>& ranks, std::vector<UndirectedEdge> edges,
+                                      const Part& piece) const {
+    const auto id = [&](const UndirectedEdge& edge) {
+        return std::pair(piece.global_id[static_cast<std::size_t>(edge[0])],
+                         piece.global_id[static_cast<std::size_t>(edge[1])]);
+    };
+    std::sort(edges.begin(), edges.end(),
+              [&](const UndirectedEdge& a, const UndirectedEdge& b) { return id(a) < id(b); });
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return {ids_of(ranks), std::move(edges)};
 }
 
 }  // namespace kerf

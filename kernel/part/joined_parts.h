@@ -30,8 +30,12 @@ class JoinedParts : public PartSource {
 
  private:
     std::vector<NodeId> pieces_of(const std::vector<NodeId>& leaves) const;
+    std::vector<std::int32_t> ranks_of(const std::vector<NodeId>& leaves) const;
+    std::vector<NodeId> ids_of(const std::vector<std::int32_t>& ranks) const;
     SharedGroup group_of(const std::vector<std::int32_t>& ranks, std::vector<std::int32_t> vertices,
                          const Part& piece) const;
+    SharedEdgeGroup group_of(const std::vector<std::int32_t>& ranks, std::vector<UndirectedEdge> edges,
+                             const Part& piece) const;
 
     const PartSource& parts_;
     std::vector<PieceOfTree> pieces_;

@@ -9,6 +9,7 @@
 
 #include "export/format.h"
 #include "export/input_sums.h"
+#include "part/joined_parts.h"
 #include "part/run_parts.h"
 #include "support/temporary_folder.h"
 
@@ -149,8 +150,7 @@ struct MfemMesh {
     std::vector<Part> parts;
 };
 
-MfemMesh export_and_read(const test::ExportCase& each) {
-    const RunParts run(test::run_of(each));
+MfemMesh export_and_read(const PartSource& run) {
     const test::TemporaryFolder folder;
     ExportFiles files(folder.file("mfem"));
     write_format(find_format("mfem"), run, files);
@@ -162,6 +162,18 @@ MfemMesh export_and_read(const test::ExportCase& each) {
         mesh.parts.push_back(run.load(static_cast<std::int32_t>(r)));
     }
     return mesh;
+}
+
+// Calls take(case, mesh) for the parts of all cases, and for about a third as many pieces that they are joined into.
+template <class Take>
+void for_each_mesh(Take take) {
+    for (const test::ExportCase& each : test::export_cases()) {
+        SCOPED_TRACE(each.name);
+        const RunParts run(test::run_of(each));
+        take(each, export_and_read(run));
+        SCOPED_TRACE("joined");
+        take(each, export_and_read(JoinedParts(run, (each.parts + 2) / 3)));
+    }
 }
 
 template <std::size_t n>
@@ -205,9 +217,7 @@ struct Holders {
 };
 
 TEST(Mfem, EveryRankIsItsPart) {
-    for (const test::ExportCase& each : test::export_cases()) {
-        SCOPED_TRACE(each.name);
-        const MfemMesh mesh = export_and_read(each);
+    for_each_mesh([](const test::ExportCase&, const MfemMesh& mesh) {
         for (std::size_t r = 0; r < mesh.ranks.size(); ++r) {
             SCOPED_TRACE("rank " + std::to_string(r));
             const MfemRank& rank = mesh.ranks[r];
@@ -222,14 +232,12 @@ TEST(Mfem, EveryRankIsItsPart) {
             }
             EXPECT_EQ(used.size(), rank.vertices.size()) << "MFEM would renumber others";
         }
-    }
+    });
 }
 
 // Oriented as in the tetrahedron behind it, and there is none in front of it.
 TEST(Mfem, TheBoundaryIsTheUsersSurface) {
-    for (const test::ExportCase& each : test::export_cases()) {
-        SCOPED_TRACE(each.name);
-        const MfemMesh mesh = export_and_read(each);
+    for_each_mesh([](const test::ExportCase&, const MfemMesh& mesh) {
         std::map<Ids<3>, int> sides;  // of triangles without a second tetrahedron
         for (std::size_t r = 0; r < mesh.ranks.size(); ++r)
             for (const MfemCell& cell : mesh.ranks[r].elements)
@@ -251,15 +259,14 @@ TEST(Mfem, TheBoundaryIsTheUsersSurface) {
                 ++listed;
             }
         EXPECT_EQ(listed, outer);
-    }
+    });
 }
 
 TEST(Mfem, VolumeAndAreasAreThoseOfTheInput) {
-    for (const test::ExportCase& each : test::export_cases()) {
-        SCOPED_TRACE(each.name);
+    for_each_mesh([](const test::ExportCase& each, const MfemMesh& mesh) {
         double volume = 0;
         std::map<std::string, double> areas;
-        for (const MfemRank& rank : export_and_read(each).ranks) {
+        for (const MfemRank& rank : mesh.ranks) {
             const auto& p = rank.vertices;
             for (const MfemCell& cell : rank.elements) {
                 const std::vector<int>& v = cell.corners;
@@ -273,13 +280,11 @@ TEST(Mfem, VolumeAndAreasAreThoseOfTheInput) {
         }
         EXPECT_NEAR(volume, test::volume_of(each.surface), 1e-9 * volume);
         test::expect_same_areas(areas, test::area_by_patch(each.surface));
-    }
+    });
 }
 
 TEST(Mfem, GroupsAreSetsOfRanksThatAllOfThemList) {
-    for (const test::ExportCase& each : test::export_cases()) {
-        SCOPED_TRACE(each.name);
-        const MfemMesh mesh = export_and_read(each);
+    for_each_mesh([](const test::ExportCase&, const MfemMesh& mesh) {
         for (std::size_t r = 0; r < mesh.ranks.size(); ++r) {
             SCOPED_TRACE("rank " + std::to_string(r));
             const int rank = static_cast<int>(r);
@@ -297,7 +302,7 @@ TEST(Mfem, GroupsAreSetsOfRanksThatAllOfThemList) {
                 }
             }
         }
-    }
+    });
 }
 
 // The entities of a group, with their corners in the order of the file, must be the same list in all of its ranks.
@@ -325,21 +330,17 @@ void expect_shared(const MfemMesh& mesh, const std::map<Ids<n>, Ranks>& holders,
 }
 
 TEST(Mfem, GroupsListWhatTheirRanksShareInOneOrder) {
-    for (const test::ExportCase& each : test::export_cases()) {
-        SCOPED_TRACE(each.name);
-        const MfemMesh mesh = export_and_read(each);
+    for_each_mesh([](const test::ExportCase&, const MfemMesh& mesh) {
         const Holders holders(mesh);
         expect_shared(mesh, holders.vertices, &MfemGroupRead::vertices);
         expect_shared(mesh, holders.edges, &MfemGroupRead::edges);
         expect_shared(mesh, holders.faces, &MfemGroupRead::faces);
-    }
+    });
 }
 
 // Ranks count what they hold, except for what a rank before them shares with them.
 TEST(Mfem, EulersCountOfTheRanksIsThatOfTheWhole) {
-    for (const test::ExportCase& each : test::export_cases()) {
-        SCOPED_TRACE(each.name);
-        MfemMesh mesh = export_and_read(each);
+    for_each_mesh([](const test::ExportCase&, const MfemMesh& mesh) {
         const Holders holders(mesh);
         const auto count = [](auto a, auto b, auto c, auto d) {
             return static_cast<std::int64_t>(a) - static_cast<std::int64_t>(b) + static_cast<std::int64_t>(c) -
@@ -357,7 +358,7 @@ TEST(Mfem, EulersCountOfTheRanksIsThatOfTheWhole) {
                     of_ranks -= count(group.vertices.size(), group.edges.size(), group.faces.size(), 0);
         }
         EXPECT_EQ(of_ranks, count(holders.vertices.size(), holders.edges.size(), holders.faces.size(), holders.cells));
-    }
+    });
 }
 
 // What the case of 64 parts is there for: two ends in common, and not the edge between them.
@@ -366,7 +367,7 @@ TEST(Mfem, PartsMayShareBothEndsOfAnEdgeAndNotTheEdge) {
     const auto inner =
         std::find_if(cases.begin(), cases.end(), [](const test::ExportCase& c) { return c.name == "inner_parts"; });
     ASSERT_NE(inner, cases.end());
-    const Holders holders(export_and_read(*inner));
+    const Holders holders(export_and_read(RunParts(test::run_of(*inner))));
     std::int64_t many = 0, without_edge = 0;
     for (const auto& [ids, ranks] : holders.edges) {
         const Ranks &a = holders.vertices.at({ids[0]}), &b = holders.vertices.at({ids[1]});
