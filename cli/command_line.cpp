@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "core/error.h"
+#include "quality/quality_gate.h"
 #include "run/config_file.h"
 #include "run/saved_run.h"
 #include "run/version.h"
@@ -18,7 +19,8 @@ constexpr const char* description =
 
 constexpr const char* exit_codes =
     "Exit codes: 0 done and verified, 1 internal error, 2 usage, 3 input rejected, 4 a part could not be meshed,\n"
-    "5 out of memory, 7 reading or writing failed, 8 verification failed, 130 cancelled.";
+    "5 out of memory, 6 a limit of quality was missed, 7 reading or writing failed, 8 verification failed, 130 "
+    "cancelled.";
 
 const char* type_name(const OptionField& field) {
     if (std::holds_alternative<double*>(field.value)) return "FLOAT";
@@ -59,6 +61,32 @@ CLI::App* add_run_command(CLI::App& app, const char* name, const char* text, Com
     command->add_flag("--print-config", line.print_config, "Print the options as a config file and end.");
     command->add_option("--config", line.config_file, "Read options from a TOML file; the command line wins.")
         ->type_name("FILE");
+    return command;
+}
+
+CLI::App* add_quality_command(CLI::App& app, QualityRequest& request) {
+    CLI::App* command = app.add_subcommand("quality", "Measure the cells of a mesh, alone or beside another one.");
+    command
+        ->add_option("mesh", request.mesh,
+                     "Folder of a run, or .msh (Gmsh), .mesh (MEDIT), .vtu, .node or .ele (TetGen) of any program.")
+        ->required()
+        ->type_name("DIR|FILE");
+    command->add_flag("--json", request.json, "Print everything as JSON.");
+    command
+        ->add_option("--picture", request.picture,
+                     "Write the distributions and accumulated distributions of all measures as SVG.")
+        ->type_name("FILE");
+    command->add_option("--compare", request.compare, "Another mesh, to be put beside this one.")->type_name("OTHER");
+    command
+        ->add_option("--fail-below", request.fail_below,
+                     fmt::format("Limits, with commas between, as min-dihedral=5: exit with 6 if a cell or boundary "
+                                 "triangle has less. For {}.",
+                                 limit_names(BadEnd::small)))
+        ->type_name("LIST");
+    command
+        ->add_option("--fail-above", request.fail_above,
+                     fmt::format("The same for what has more, as radius-edge=10. For {}.", limit_names(BadEnd::large)))
+        ->type_name("LIST");
     return command;
 }
 
@@ -150,6 +178,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         ->type_name("FILE");
     to_merge->add_option("--msh-version", line.merge.options.msh_version, "Of Gmsh's files.")
         ->check(CLI::IsMember({"4.1", "2.2"}));
+    CLI::App* quality = add_quality_command(app, line.quality);
     // Only for the list of commands: main() has passed these on to kerf-view.
     app.add_subcommand("view", "Open the viewer: every cut step by step, every cell.");
     app.add_subcommand("screenshot", "The same as a picture, without a display.");
@@ -189,6 +218,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         line.command = Command::export_;
     } else if (to_merge->parsed()) {
         line.command = Command::merge;
+    } else if (quality->parsed()) {
+        line.command = Command::quality;
     }
     return line;
 }

@@ -7,11 +7,12 @@
 #include "cli/check.h"
 #include "cli/export.h"
 #include "cli/merge.h"
+#include "cli/quality.h"
 #include "run/options.h"
 
 namespace kerf {
 
-enum class Command { none, mesh, decompose, check, verify, export_, merge };
+enum class Command { none, mesh, decompose, check, verify, export_, merge, quality };
 
 struct CommandLine {
     Command command = Command::none;
@@ -22,6 +23,7 @@ struct CommandLine {
     CheckRequest check;
     ExportRequest export_;
     MergeRequest merge;
+    QualityRequest quality;
     bool print_config = false;  ///< print the effective options and end
     std::string config_file;    ///< options that the command line does not give
     std::string config;         ///< them, in the form of a config file

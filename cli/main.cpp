@@ -9,6 +9,7 @@
 #include "cli/check.h"
 #include "cli/command_line.h"
 #include "cli/progress.h"
+#include "cli/quality.h"
 #include "cli/ranks.h"
 #include "cli/verify.h"
 #include "cli/viewer.h"
@@ -111,6 +112,8 @@ int run_program(int argc, char** argv) {
             return export_run(line.export_);
         case Command::merge:
             return merge_run(line.merge);
+        case Command::quality:
+            return show_quality(line.quality);
         case Command::verify:
             return verify_run(line.options.output);
         default:

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "core/number_text.h"
 #include "io/standard_streams.h"
-#include "run/number_text.h"
 
 namespace kerf {
 

@@ -125,6 +125,21 @@ std::string decompress(std::string bytes, const std::string& path) {
     return bytes;
 }
 
+std::string inflate_block(std::string_view block, std::size_t size, const std::string& path) {
+    constexpr std::size_t most_growth = 1032, smallest_block = 16;  // of the method
+    const auto fail = [&]() {
+        throw Error(ErrorCode::input, path + ": a compressed block is damaged. Save or copy the file again.");
+    };
+    if (size > (block.size() + smallest_block) * most_growth) fail();
+    std::string content(size, '\0');
+    auto written = static_cast<uLongf>(size);
+    const int status = uncompress(reinterpret_cast<Bytef*>(content.data()), &written,
+                                  reinterpret_cast<const Bytef*>(block.data()), static_cast<uLong>(block.size()));
+    if (status == Z_MEM_ERROR) throw std::bad_alloc();
+    if (status != Z_OK || written != size) fail();
+    return content;
+}
+
 std::string name_in_archive(const std::string& path) {
     const std::filesystem::path file(path);
     const bool is_archive = file.extension() == ".gz" || file.extension() == ".zst";

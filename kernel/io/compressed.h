@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace kerf {
 
@@ -12,6 +13,10 @@ namespace kerf {
 /// for one that grows more than 1000-fold or beyond 64 GB: memory is bounded by what the archive holds, whatever its
 /// header claims, and by these limits.
 std::string decompress(std::string bytes, const std::string& path);
+
+/// The content of one block of zlib's format, which must be `size` bytes. Throws Error(input) naming the file, also for
+/// a size that no such block can have, before memory is taken for it.
+std::string inflate_block(std::string_view block, std::size_t size, const std::string& path);
 
 /// The name of what is in an archive: "part.poly" for "part.poly.gz" or "part.poly.zst"; other names as they are.
 std::string name_in_archive(const std::string& path);

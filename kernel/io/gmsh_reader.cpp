@@ -15,6 +15,7 @@
 
 #include "core/error.h"
 #include "io/binary_scanner.h"
+#include "io/mesh_scanners.h"
 #include "io/soup_builder.h"
 #include "io/surface_reader.h"
 #include "io/text_scanner.h"
@@ -227,7 +228,7 @@ ElementType element_type(std::int64_t number) {
     return number > 0 && number < static_cast<std::int64_t>(types.size()) ? types[number] : ElementType{};
 }
 
-// Takes the elements one by one; what is no part of a surface is only counted.
+// Takes the elements one by one: faces and, if they are wanted, tetrahedra. What is neither is only counted.
 class Elements {
  public:
     Elements(Source& source, SoupBuilder& builder, const Model& model)
@@ -236,9 +237,10 @@ class Elements {
     /// Elements to come are of this type.
     void set_type(std::int64_t number) {
         type_ = element_type(number);
-        if (type_.shape == Shape::unknown || (is_face() && type_.nodes > 4))
-            source_.fail("elements of type " + std::to_string(number) + " (" + describe() +
-                         ") cannot be read. Save the surface with triangles of three nodes.");
+        if (type_.shape == Shape::unknown || (is_taken() && type_.nodes > 4))
+            source_.fail("elements of type " + std::to_string(number) + " (" + describe() + ") cannot be read. " +
+                         (builder_.wants_tets() ? "Save the mesh with elements of first order: gmsh -order 1."
+                                                : "Save the surface with triangles of three nodes."));
     }
     /// So many of them follow.
     void announce(std::int64_t count) const {
@@ -260,35 +262,45 @@ class Elements {
         corners_.clear();
         for (std::int64_t i = 0; i < type_.nodes; ++i) {
             const std::int64_t node = next_node();
-            if (is_face()) corners_.push_back(to_vertex(tag, node));
+            if (is_taken()) corners_.push_back(to_vertex(tag, node));
         }
-        if (is_face() && !repeats_last()) add_face();
+        if (is_taken() && !repeats_last()) add_element();
     }
     void note_ignored() const {
         for (const Shape shape :
              {Shape::tetrahedron, Shape::hexahedron, Shape::prism, Shape::pyramid, Shape::line, Shape::point}) {
             const auto i = static_cast<std::size_t>(shape);
+            if (shape == Shape::tetrahedron && builder_.wants_tets()) continue;
             builder_.note_ignored(counts_[i], shape_names[i][0], shape_names[i][1]);
         }
     }
 
  private:
     bool is_face() const { return type_.shape == Shape::triangle || type_.shape == Shape::quadrangle; }
+    bool is_taken() const { return is_face() || (type_.shape == Shape::tetrahedron && builder_.wants_tets()); }
     // MSH 2 writes an element of several groups once for each, one directly behind the other.
     bool repeats_last() const {
         return corners_ == last_corners_ && patch_.second == last_patch_.second && patch_.first != last_patch_.first;
     }
-    void add_face() {
+    void add_element() {
         last_patch_ = patch_;
-        builder_.add_polygon(corners_, [&](const std::string& what) { source_.fail(what); });
+        const auto fail = [&](const std::string& what) { source_.fail(what); };
+        is_face() ? builder_.add_polygon(corners_, fail) : builder_.add_tet(corners_, fail);
     }
     std::string describe() const {
         if (type_.shape == Shape::unknown) return "unknown";
         return std::string(shape_names[static_cast<std::size_t>(type_.shape)][1]) + " with " +
                std::to_string(type_.nodes) + " nodes";
     }
+    // Tags mostly count from 1 without gaps, and need no search then.
+    const std::int64_t* find_vertex(std::int64_t node) const {
+        const auto& nodes = model_.vertex_of_node;
+        const auto place =
+            static_cast<std::uint64_t>(node) - (nodes.empty() ? 0 : static_cast<std::uint64_t>(nodes.front().first));
+        return place < nodes.size() && nodes[place].first == node ? &nodes[place].second : find(nodes, node);
+    }
     std::int64_t to_vertex(std::int64_t element, std::int64_t node) const {
-        const std::int64_t* vertex = find(model_.vertex_of_node, node);
+        const std::int64_t* vertex = find_vertex(node);
         if (!vertex)
             source_.fail("element " + std::to_string(element) + " names node " + std::to_string(node) +
                          ", which the file does not have. Save the mesh again.");
@@ -363,9 +375,8 @@ std::string_view read_section_name(TextScanner& text) {
 
 }  // namespace
 
-Soup read_gmsh(std::string_view bytes, const std::string& path) {
+void scan_gmsh(std::string_view bytes, const std::string& path, SoupBuilder& builder) {
     Source source(bytes, path);
-    SoupBuilder builder(path);
     Model model;
     Elements elements(source, builder, model);
     std::optional<Version> version;
@@ -387,6 +398,11 @@ Soup read_gmsh(std::string_view bytes, const std::string& path) {
         finish_section(source.text(), name);
     }
     elements.note_ignored();
+}
+
+Soup read_gmsh(std::string_view bytes, const std::string& path) {
+    SoupBuilder builder(path);
+    scan_gmsh(bytes, path, builder);
     return builder.finish();
 }
 

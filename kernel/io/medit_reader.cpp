@@ -1,12 +1,13 @@
 // MEDIT's .mesh as text: sections of a capitalised keyword, a count and as many lines of numbers, up to the word End.
 // Vertices are x y z and a reference, Triangles and Quadrilaterals their corners (from 1) and a reference, which is
-// their patch. Every other section is passed over up to the next keyword: tetrahedra, edges, ridges, normals, required
-// elements.
+// their patch; so are Tetrahedra, where they are wanted. Every other section is passed over up to the next keyword:
+// edges, ridges, normals, required elements.
 #include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
 
+#include "io/mesh_scanners.h"
 #include "io/soup_builder.h"
 #include "io/surface_reader.h"
 #include "io/text_scanner.h"
@@ -42,6 +43,16 @@ void read_faces(TextScanner& scanner, std::size_t corner_count, SoupBuilder& bui
     }
 }
 
+void read_tets(TextScanner& scanner, SoupBuilder& builder) {
+    const std::int64_t count = scanner.next_count();
+    std::array<std::int64_t, 4> corners{};
+    for (std::int64_t t = 0; t < count; ++t) {
+        for (std::int64_t& corner : corners) corner = scanner.next_index(1);
+        scanner.next_integer();  // the reference
+        builder.add_tet(corners, [&](const std::string& what) { scanner.fail(what); });
+    }
+}
+
 // Of volume elements the user should know that they were not used.
 void note_volume_elements(TextScanner& scanner, std::string_view keyword, SoupBuilder& builder) {
     struct Kind {
@@ -62,8 +73,10 @@ void pass_over_section(TextScanner& scanner, std::string_view keyword, SoupBuild
 }
 
 void read_section(TextScanner& scanner, std::string_view keyword, SoupBuilder& builder) {
-    if (keyword.starts_with("TrianglesP") || keyword.starts_with("QuadrilateralsQ"))
-        scanner.fail("curved elements (" + std::string(keyword) + ") cannot be read. Export straight triangles.");
+    if (keyword.starts_with("TrianglesP") || keyword.starts_with("QuadrilateralsQ") ||
+        (builder.wants_tets() && keyword.starts_with("TetrahedraP")))
+        scanner.fail("curved elements (" + std::string(keyword) + ") cannot be read. Export straight triangles" +
+                     (builder.wants_tets() ? " and tetrahedra." : "."));
     if (keyword == "Dimension")
         read_dimension(scanner);
     else if (keyword == "Vertices")
@@ -72,15 +85,16 @@ void read_section(TextScanner& scanner, std::string_view keyword, SoupBuilder& b
         read_faces(scanner, 3, builder);
     else if (keyword == "Quadrilaterals")
         read_faces(scanner, 4, builder);
+    else if (keyword == "Tetrahedra" && builder.wants_tets())
+        read_tets(scanner, builder);
     else
         pass_over_section(scanner, keyword, builder);
 }
 
 }  // namespace
 
-Soup read_medit(std::string_view bytes, const std::string& path) {
+void scan_medit(std::string_view bytes, const std::string& path, SoupBuilder& builder) {
     TextScanner scanner(bytes, path, '#');
-    SoupBuilder builder(path);
     while (!scanner.at_end()) {
         const std::string_view keyword = scanner.next_word();
         if (keyword == "End") break;
@@ -89,6 +103,11 @@ Soup read_medit(std::string_view bytes, const std::string& path) {
                          "\". Correct the number of elements before it or export the surface again.");
         read_section(scanner, keyword, builder);
     }
+}
+
+Soup read_medit(std::string_view bytes, const std::string& path) {
+    SoupBuilder builder(path);
+    scan_medit(bytes, path, builder);
     return builder.finish();
 }
 

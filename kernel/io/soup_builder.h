@@ -1,4 +1,4 @@
-// Collects what a surface file says: vertices, polygons, named patches.
+// Collects what a file says: vertices, polygons, named patches and, if they are wanted, tetrahedra.
 #pragma once
 
 #include <limits>
@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "io/polygon_fan.h"
@@ -17,8 +18,11 @@ namespace kerf {
 
 class SoupBuilder {
  public:
-    /// `path` only serves messages.
-    explicit SoupBuilder(const std::string& path) : path_(path) {}
+    enum class Wanted { surface, tets };
+    /// `path` only serves messages. A reader that meets tetrahedra adds them if they are wanted, else passes over them.
+    explicit SoupBuilder(const std::string& path, Wanted wanted = Wanted::surface) : path_(path), wanted_(wanted) {}
+
+    bool wants_tets() const { return wanted_ == Wanted::tets; }
 
     std::int64_t vertex_count() const { return static_cast<std::int64_t>(soup_.vertices.size()); }
 
@@ -65,6 +69,21 @@ class SoupBuilder {
         add_facet({end - 3, end - 2, end - 1});
         ++polygon_count_;
     }
+    /// Of any orientation. Calls `fail(message)`, which must throw, for a corner that is no vertex so far.
+    template <class Fail>
+    void add_tet(std::span<const std::int64_t> corners, const Fail& fail) {
+        Tetrahedron tet{};
+        for (std::size_t i = 0; i < tet.size(); ++i) {
+            if (corners[i] < 0 || corners[i] >= vertex_count())
+                fail("a tetrahedron names vertex number " + std::to_string(corners[i]) +
+                     " (counted from 0), but there are " + std::to_string(vertex_count()) +
+                     " vertices. Correct it or save the mesh again.");
+            tet[i] = static_cast<std::int32_t>(corners[i]);
+        }
+        if (tets_.size() == std::numeric_limits<std::int32_t>::max())
+            throw Error(ErrorCode::input, path_ + ": the file has more than 2^31 - 1 tetrahedra. Split the mesh.");
+        tets_.push_back(tet);
+    }
     /// A point in a void.
     void add_hole(const Vec3& point) { soup_.holes.push_back(point); }
     /// Says that something of the file was not used; nothing if `count` is 0.
@@ -79,6 +98,14 @@ class SoupBuilder {
             throw Error(ErrorCode::input, path_ + ": the file holds no facets. Export the surface again.");
         return std::move(soup_);
     }
+    /// The tetrahedra; throws Error(input) if there are none.
+    std::vector<Tetrahedron> finish_tets() {
+        if (tets_.empty())
+            throw Error(ErrorCode::input, path_ + ": the file holds no tetrahedra. Name a file of a volume mesh.");
+        return std::move(tets_);
+    }
+    /// What came beside the tetrahedra, which may be no facets.
+    Soup finish_beside_tets() { return std::move(soup_); }
 
  private:
     void add_facet(const Triangle& facet) {
@@ -107,7 +134,9 @@ class SoupBuilder {
     static constexpr std::size_t longest_name = 255;  // bytes that are kept
 
     const std::string& path_;
+    Wanted wanted_;
     Soup soup_;
+    std::vector<Tetrahedron> tets_;
     std::string patch_name_ = "surface";
     std::int32_t polygon_count_ = 0;
     bool has_fans_ = false;

@@ -1,13 +1,17 @@
-// TetGen's .smesh and .poly: four lists of lines, each behind a line with its length. Nodes are a number (from 0 or
+// TetGen's .smesh and .poly, and .node with .ele.
+//
+// .smesh and .poly are four lists of lines, each behind a line with its length. Nodes are a number (from 0 or
 // 1), x y z and what may follow; if there are none, they are in the .node file beside. A facet of .smesh is its number
 // of corners, the corners and a boundary marker; one of .poly says on a line of its own how many polygons and holes it
 // has and its marker. Hole points are kept, regions passed over.
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "io/compressed.h"
 #include "io/file_bytes.h"
+#include "io/mesh_scanners.h"
 #include "io/soup_builder.h"
 #include "io/surface_reader.h"
 #include "io/text_scanner.h"
@@ -124,6 +128,24 @@ Soup read_tetgen(std::string_view bytes, const std::string& path) {
     builder.note_ignored(read_points(scanner, [](const Vec3&) {}), "region", "regions");
     scanner.expect_end("its lists of nodes, facets, holes and regions");
     return builder.finish();
+}
+
+void scan_tetgen_cells(std::string_view elements, const std::string& path, SoupBuilder& builder) {
+    const std::int64_t first_node = read_node_file(fs::path(path).replace_extension("node"), builder);
+    TextScanner scanner(elements, path, '#');
+    const std::int64_t count = scanner.next_count(), nodes = scanner.at_line_end() ? 4 : scanner.next_count();
+    if (nodes != 4)
+        scanner.fail("tetrahedra with " + std::to_string(nodes) +
+                     " nodes cannot be read. Save the mesh with four nodes each: tetgen without -o2.");
+    scanner.skip_line();  // number of attributes
+    std::array<std::int64_t, 4> corners{};
+    for (std::int64_t t = 0; t < count; ++t) {
+        scanner.next_integer();
+        for (std::int64_t& corner : corners) corner = scanner.next_index(first_node);
+        scanner.skip_line();  // attributes
+        builder.add_tet(corners, [&](const std::string& what) { scanner.fail(what); });
+    }
+    scanner.expect_end("its tetrahedra");
 }
 
 }  // namespace kerf

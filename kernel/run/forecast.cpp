@@ -8,10 +8,10 @@
 
 #include "core/check.h"
 #include "core/error.h"
+#include "core/number_text.h"
 #include "core/regular_tet.h"
 #include "io/folder_files.h"
 #include "io/run_folder.h"
-#include "run/number_text.h"
 
 namespace kerf {
 

@@ -38,20 +38,6 @@ std::vector<char> interface_vertices(const SurfaceArrays& surface, std::size_t v
     return on_interface;
 }
 
-PartQuality measure_quality(const TetMesh& mesh, const SurfaceArrays& surface, double length_scale) {
-    PartQuality quality(length_scale);
-    const std::vector<char> on_interface = interface_vertices(surface, mesh.vertices.size());
-    for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
-        const Tetrahedron& t = mesh.tets[i];
-        const bool touches = on_interface[t[0]] || on_interface[t[1]] || on_interface[t[2]] || on_interface[t[3]];
-        const std::vector<Vec3>& p = mesh.vertices;
-        (touches ? quality.interface : quality.interior).add(tet_quality(p[t[0]], p[t[1]], p[t[2]], p[t[3]]));
-    }
-    quality.all.add(quality.interface);
-    quality.all.add(quality.interior);
-    return quality;
-}
-
 std::string broken_laws(const MeshLaws& laws) {
     std::string text = "The mesher returned a mesh that breaks the laws:";
     const auto add = [&](std::int64_t count, const char* what) {
@@ -77,7 +63,7 @@ void fill_result(const PartJob& job, const MesherCall& call, const std::string& 
     result.tets = static_cast<std::int64_t>(mesh.tets.size());
     timed(result.verify_seconds, [&] { result.hash = hash_part(mesh, job.surface); });
     timed(result.store_seconds, [&] {
-        result.quality = measure_quality(mesh, job.surface, job.length_scale);
+        result.quality = measure_quality(mesh, interface_vertices(job.surface, mesh.vertices.size()), job.length_scale);
         result.file_hash = write_stored_part(part_file, part_of_job(job, std::move(mesh)));
     });
 }

@@ -9,9 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/number_text.h"
 #include "core/words.h"
+#include "quality/quality_json.h"
 #include "run/cut_json.h"
-#include "run/number_text.h"
 #include "run/path_text.h"
 #include "run/version.h"
 
@@ -20,8 +21,6 @@ namespace kerf {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr int histogram_bins = 36;
 
 Json to_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -32,24 +31,6 @@ Json rows(const Eigen::Matrix3d& m) {
 }
 
 Json columns(const Eigen::Matrix3d& m) { return rows(m.transpose()); }
-
-Json to_json(const Distribution& d) {
-    const Distribution::Histogram histogram = d.histogram(histogram_bins);
-    return {{"min", d.min()},
-            {"p0_1", d.percentile(0.001)},
-            {"p1", d.percentile(0.01)},
-            {"p5", d.percentile(0.05)},
-            {"median", d.percentile(0.5)},
-            {"p95", d.percentile(0.95)},
-            {"max", d.max()},
-            {"histogram", {{"edges", histogram.edges}, {"counts", histogram.counts}}}};
-}
-
-Json to_json(const QualityDistributions& quality) {
-    Json json = Json::object();
-    for (std::size_t i = 0; i < quality.measures.size(); ++i) json[quality_measures[i]] = to_json(quality.measures[i]);
-    return json;
-}
 
 Json input_json(const Input& input) {
     Json json = {{"path", path_text(std::filesystem::absolute(input.path).lexically_normal().string())},
@@ -206,10 +187,7 @@ std::string to_json(const RunReport& report) {
                  {"tree", array_of(report.nodes, node_json)},
                  {"parts", array_of(report.parts, part_json)},
                  {"totals", totals_json(report)},
-                 {"quality",
-                  {{"all", to_json(report.quality.all)},
-                   {"interface", to_json(report.quality.interface)},
-                   {"interior", to_json(report.quality.interior)}}},
+                 {"quality", quality_json(report.quality)},
                  {"verification",
                   {{"passed", v.passed},
                    {"volume_rel_error", v.volume_rel_error},

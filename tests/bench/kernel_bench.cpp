@@ -1,4 +1,9 @@
 // Where the time before the volume meshes goes: the steps of the kernel one by one, on the largest asset.
+#include <array>
+#include <cmath>
+#include <random>
+#include <utility>
+
 #include <benchmark/benchmark.h>
 
 #include "cut/max_flow.h"
@@ -41,6 +46,39 @@ void quality_of_one_tet(benchmark::State& state) {
     }
 }
 BENCHMARK(quality_of_one_tet);
+
+// The six tetrahedra of a cube along its diagonal: the axes in the order in which an edge each follows them.
+constexpr std::array<std::array<int, 3>, 6> diagonal_paths = {
+    {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {1, 0, 2}, {2, 1, 0}}};
+
+// The unit cube in n^3 cubes whose corners are moved a little.
+TetMesh uneven_cube(std::int32_t n) {
+    const std::int32_t row = n + 1;
+    TetMesh mesh;
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> shift(-0.2, 0.2);
+    for (std::int32_t v = 0; v < row * row * row; ++v) {
+        const Vec3 moved(shift(random), shift(random), shift(random));
+        mesh.vertices.push_back((Vec3(v / (row * row), v / row % row, v % row) + moved) / n);
+    }
+    const std::array<std::int32_t, 3> along = {row * row, row, 1};
+    for (std::int32_t cube = 0; cube < n * n * n; ++cube)
+        for (std::size_t path = 0; path < diagonal_paths.size(); ++path) {
+            Tetrahedron tet = {cube / (n * n) * along[0] + cube / n % n * along[1] + cube % n, 0, 0, 0};
+            for (std::size_t i = 0; i < 3; ++i) tet[i + 1] = tet[i] + along[diagonal_paths[path][i]];
+            if (path >= 3) std::swap(tet[2], tet[3]);
+            mesh.tets.push_back(tet);
+        }
+    return mesh;
+}
+
+void quality_of_a_mesh(benchmark::State& state) {
+    constexpr std::int32_t cubes_along_an_edge = 87;  // 4 million tetrahedra
+    const TetMesh mesh = uneven_cube(cubes_along_an_edge);
+    for (auto _ : state) benchmark::DoNotOptimize(measure_quality(mesh, {}, 2));
+    state.counters["tets"] = static_cast<double>(mesh.tets.size());
+}
+BENCHMARK(quality_of_a_mesh)->Unit(benchmark::kMillisecond);
 
 // A ring of facets as wide as the band around a plane: terminals on the rims, capacities that vary along the ring.
 void minimum_cut_of_a_band(benchmark::State& state) {

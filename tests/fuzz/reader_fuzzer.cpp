@@ -6,6 +6,7 @@
 #include "fuzzed.h"
 #include "io/compressed.h"
 #include "io/surface_reader.h"
+#include "io/tet_mesh_reader.h"
 
 namespace kerf {
 
@@ -14,6 +15,16 @@ namespace {
 [[maybe_unused]] Soup read_archive(std::string_view bytes, const std::string& path) {
     decompress(std::string(bytes), path);
     return {};
+}
+
+// Tetrahedra as the faces that they have.
+[[maybe_unused]] Soup read_tets(std::string_view bytes, const std::string& path) {
+    const TetFile file = read_tet_bytes(std::string(bytes), path);
+    if (file.is_interface.size() != file.facets.size() || file.mesh.tets.empty()) std::abort();
+    Soup faces{file.mesh.vertices, file.facets, {}, {"all"}};
+    for (const auto& [a, b, c, d] : file.mesh.tets) faces.facets.insert(faces.facets.end(), {{a, b, c}, {b, c, d}});
+    faces.patch.assign(faces.facets.size(), 0);
+    return faces;
 }
 
 // Touches what the reader promises, so that the address sanitizer sees indices out of range.

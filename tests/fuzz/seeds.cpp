@@ -41,6 +41,9 @@ void write_seeds(const fs::path& folder, const Soup& soup, const std::string& na
         write(folder / fuzzer_of(file.name), seed, file.bytes);
         write(folder / "check", seed, file.bytes);
     }
+    const std::vector<Tetrahedron> tets = {{0, 1, 2, 3}};
+    for (const test::SurfaceFile& file : test::to_all_mesh_formats(soup, tets))
+        write(folder / "tets", name + "_" + file.name, file.bytes);
     const std::string text = test::to_off(soup);
     for (const char* fuzzer : {"archive", "check"}) {
         write(folder / fuzzer, name + ".gz", test::gzip(text));

@@ -1,6 +1,9 @@
 #include "support/surface_files.h"
 
+#include <zlib.h>
+
 #include <sstream>
+#include <stdexcept>
 
 namespace kerf::test {
 
@@ -51,6 +54,110 @@ class MshText {
     std::ostringstream out_;
 };
 
+std::string base64_of(const std::string& bytes) {
+    constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t group = 0;
+        for (std::size_t k = i; k < i + 3; ++k) group = group << 8 | (k < bytes.size() ? std::uint8_t(bytes[k]) : 0U);
+        for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : digits[group >> (18 - 6 * k) & 63];
+    }
+    return text;
+}
+
+std::string deflated(const std::string& bytes) {
+    uLongf size = compressBound(bytes.size());
+    std::string block(size, '\0');
+    if (compress(reinterpret_cast<Bytef*>(block.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                 bytes.size()) != Z_OK)
+        throw std::runtime_error("zlib compresses no block");
+    return block.substr(0, size);
+}
+
+// One piece of VTU, array by array.
+class VtuText {
+ public:
+    explicit VtuText(const VtuStyle& style) : style_(style) { text_.precision(17); }
+    void begin(std::size_t points, std::size_t cells) {
+        text_ << "<?xml version=\"1.0\"?>\n<!-- a > b -->\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+                 "byte_order='"
+              << (style_.is_big_endian ? "Big" : "Little") << "Endian'"
+              << (style_.has_long_headers ? " header_type=\"UInt64\"" : "")
+              << (is_compressed() ? " compressor=\"vtkZLibDataCompressor\"" : "")
+              << ">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" << points << "\" NumberOfCells=\"" << cells
+              << "\">\n";
+    }
+    template <class Write>
+    void section(const std::string& name, const Write& write) {
+        text_ << "<" << name << ">\n";
+        write();
+        text_ << "</" << name << ">\n";
+    }
+    /// In a section of its own unless that has no name.
+    template <class Value>
+    void array(const std::string& section_name, const std::string& type, const std::string& name,
+               const std::vector<Value>& values) {
+        if (!section_name.empty()) return section(section_name, [&] { array("", type, name, values); });
+        text_ << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\""
+              << (name == "Points" ? 3 : 1) << "\" format=\"";
+        using enum VtuStyle::Values;
+        if (style_.values == text) {
+            text_ << "ascii\">\n";
+            for (const Value& value : values) text_ << +value << " ";
+        } else if (style_.values == base64 || style_.values == compressed_base64) {
+            text_ << "binary\">\n" << encoded(values, true);
+        } else {
+            text_ << "appended\" offset=\"" << appended_.size() << "\">";
+            appended_ += encoded(values, style_.values == appended_base64);
+        }
+        text_ << "</DataArray>\n";
+    }
+    std::string finish() {
+        text_ << "</Piece>\n</UnstructuredGrid>\n";
+        if (!appended_.empty())
+            text_ << "<AppendedData encoding=\""
+                  << (style_.values == VtuStyle::Values::appended_base64 ? "base64" : "raw") << "\">\n_" << appended_
+                  << "</AppendedData>\n";
+        text_ << "</VTKFile>\n";
+        return text_.str();
+    }
+
+ private:
+    bool is_compressed() const {
+        return style_.values == VtuStyle::Values::compressed_base64 ||
+               style_.values == VtuStyle::Values::compressed_appended;
+    }
+    std::string size(std::size_t value) const {
+        std::string bytes;
+        if (style_.has_long_headers)
+            append(bytes, std::uint64_t{value}, style_.is_big_endian);
+        else
+            append(bytes, static_cast<std::uint32_t>(value), style_.is_big_endian);
+        return bytes;
+    }
+    // Compressed in blocks of 256 bytes. Header and data are one text if there is no compression, else two.
+    template <class Value>
+    std::string encoded(const std::vector<Value>& values, bool as_base64) const {
+        std::string bytes;
+        for (const Value& value : values) append(bytes, value, style_.is_big_endian);
+        const auto encode = [&](const std::string& raw) { return as_base64 ? base64_of(raw) : raw; };
+        if (!is_compressed()) return encode(size(bytes.size()) + bytes);
+        constexpr std::size_t block_size = 256;
+        std::string sizes, blocks;
+        for (std::size_t begin = 0; begin < bytes.size(); begin += block_size) {
+            const std::string block = deflated(bytes.substr(begin, block_size));
+            sizes += size(block.size());
+            blocks += block;
+        }
+        const std::size_t count = (bytes.size() + block_size - 1) / block_size;
+        return encode(size(count) + size(block_size) + size(bytes.size() % block_size) + sizes) + encode(blocks);
+    }
+
+    VtuStyle style_;
+    std::ostringstream text_;
+    std::string appended_;
+};
+
 std::int32_t node_tag(std::size_t vertex) { return 1000000 - 7 * static_cast<std::int32_t>(vertex); }
 
 void write_element_2(MshText& out, int number, int type, int patch, const std::vector<std::int32_t>& nodes) {
@@ -63,19 +170,22 @@ void write_element_2(MshText& out, int number, int type, int patch, const std::v
     out.end_line();
 }
 
-void write_msh2(const Soup& soup, MshText& out) {
+void write_tet_2(MshText& out, const Tetrahedron& tet) { write_element_2(out, 3, 4, 0, {tet.begin(), tet.end()}); }
+
+void write_msh2(const Soup& soup, const std::vector<Tetrahedron>& tets, MshText& out) {
     out.text("$Nodes\n" + std::to_string(soup.vertices.size()) + "\n");
     for (std::size_t v = 0; v < soup.vertices.size(); ++v) {
         out.integer(node_tag(v));
         for (const double x : soup.vertices[v]) out.real(x);
         out.end_line();
     }
-    out.text("\n$EndNodes\n$Elements\n" + std::to_string(soup.facets.size() + 4) + "\n");
+    out.text("\n$EndNodes\n$Elements\n" + std::to_string(soup.facets.size() + 2 + tets.size()) + "\n");
     write_element_2(out, 1, 15, 0, {0});
     write_element_2(out, 2, 1, 0, {0, 1});
     for (std::size_t f = 0; f < soup.facets.size(); ++f) {
-        if (f == 1) write_element_2(out, 3, 4, 0, {0, 1, 2, 3});
-        if (f == 2) write_element_2(out, 4, 4, 0, {0, 1, 2, 3});
+        if (f == 1) write_tet_2(out, tets.front());
+        if (f == 2)
+            for (std::size_t t = 1; t < tets.size(); ++t) write_tet_2(out, tets[t]);
         const Triangle& t = soup.facets[f];
         write_element_2(out, static_cast<int>(f + 5), 2, soup.patch[f], {t[0], t[1], t[2]});
     }
@@ -129,14 +239,16 @@ void write_block_41(MshText& out, int dimension, int entity, int type,
 }
 
 // A block for every run of facets of one patch, so that the order stays.
-void write_elements_41(const Soup& soup, MshText& out) {
+void write_elements_41(const Soup& soup, const std::vector<Tetrahedron>& tets, MshText& out) {
     std::vector<std::size_t> runs;
     for (std::size_t f = 0; f <= soup.facets.size(); ++f)
         if (f == 0 || f == soup.facets.size() || soup.patch[f] != soup.patch[f - 1]) runs.push_back(f);
-    out.text("$Elements\n").size(runs.size() + 2).size(soup.facets.size() + 4).size(1).size(1).end_line();
+    out.text("$Elements\n").size(runs.size() + 2).size(soup.facets.size() + 2 + tets.size()).size(1).size(1).end_line();
     write_block_41(out, 0, 1, 15, {{0}});
     write_block_41(out, 1, 1, 1, {{0, 1}});
-    write_block_41(out, 3, 1, 4, {{0, 1, 2, 3}, {0, 1, 2, 3}});
+    std::vector<std::vector<std::int32_t>> cells;
+    for (const Tetrahedron& tet : tets) cells.emplace_back(tet.begin(), tet.end());
+    write_block_41(out, 3, 1, 4, cells);
     for (std::size_t r = 0; r + 1 < runs.size(); ++r) {
         std::vector<std::vector<std::int32_t>> triangles;
         for (std::size_t f = runs[r]; f < runs[r + 1]; ++f)
@@ -146,10 +258,10 @@ void write_elements_41(const Soup& soup, MshText& out) {
     out.text("\n$EndElements\n");
 }
 
-void write_msh41(const Soup& soup, MshText& out) {
+void write_msh41(const Soup& soup, const std::vector<Tetrahedron>& tets, MshText& out) {
     write_entities_41(soup, out);
     write_nodes_41(soup, out);
-    write_elements_41(soup, out);
+    write_elements_41(soup, tets, out);
 }
 
 }  // namespace
@@ -200,7 +312,7 @@ std::string to_off(const Soup& soup) {
     return out.str();
 }
 
-std::string to_medit(const Soup& soup) {
+std::string to_medit(const Soup& soup, const std::vector<Tetrahedron>& tets) {
     auto out = precise_stream();
     out << "MeshVersionFormatted 2\nDimension 3\nVertices\n" << soup.vertices.size() << "\n";
     for (const Vec3& p : soup.vertices) out << p.transpose() << " 0\n";
@@ -209,7 +321,9 @@ std::string to_medit(const Soup& soup) {
         for (std::int32_t v : soup.facets[f]) out << v + 1 << " ";
         out << reference(soup, f) << "\n";
     }
-    out << "Tetrahedra\n1\n1 2 3 4 0\nEnd\n";
+    out << "Tetrahedra\n" << tets.size() << "\n";
+    for (const auto& [a, b, c, d] : tets) out << a + 1 << " " << b + 1 << " " << c + 1 << " " << d + 1 << " 0\n";
+    out << "End\n";
     return out.str();
 }
 
@@ -259,7 +373,7 @@ std::string to_binary_ply(const Soup& soup, bool big_endian) {
     return bytes;
 }
 
-std::string to_msh(const Soup& soup, const MshStyle& style) {
+std::string to_msh(const Soup& soup, const MshStyle& style, const std::vector<Tetrahedron>& tets) {
     MshText out(style);
     out.text(style.is_msh41 ? "$MeshFormat\n4.1 " : "$MeshFormat\n2.2 ").text(style.is_binary ? "1 8\n" : "0 8\n");
     if (style.is_binary) out.integer(1);
@@ -267,8 +381,63 @@ std::string to_msh(const Soup& soup, const MshStyle& style) {
     for (std::size_t p = 0; p < soup.patch_names.size(); ++p)
         out.text("2 " + std::to_string(10 - p) + " \"" + soup.patch_names[p] + "\"\n");
     out.text("3 10 \"volume\"\n$EndPhysicalNames\n");
-    style.is_msh41 ? write_msh41(soup, out) : write_msh2(soup, out);
+    style.is_msh41 ? write_msh41(soup, tets, out) : write_msh2(soup, tets, out);
     return out.bytes();
+}
+
+std::string to_element_list(const std::vector<Tetrahedron>& tets, int first) {
+    std::ostringstream out;
+    out << tets.size() << " 4 1 # elements\n";
+    for (std::size_t t = 0; t < tets.size(); ++t) {
+        out << static_cast<int>(t) + first;
+        for (const std::int32_t v : tets[t]) out << " " << v + first;
+        out << " 7\n";
+    }
+    return out.str();
+}
+
+std::string to_vtu(const Soup& soup, const std::vector<Tetrahedron>& tets, const VtuStyle& style,
+                   const std::vector<std::int32_t>& neighbours) {
+    std::vector<double> points;
+    for (const Vec3& p : soup.vertices) points.insert(points.end(), p.begin(), p.end());
+    std::vector<std::int64_t> corners, ends;
+    std::vector<std::uint8_t> types;
+    const auto add = [&](std::uint8_t type, const auto& cell) {
+        corners.insert(corners.end(), cell.begin(), cell.end());
+        ends.push_back(static_cast<std::int64_t>(corners.size()));
+        types.push_back(type);
+    };
+    for (const Tetrahedron& tet : tets) add(10, tet);
+    add(3, UndirectedEdge{0, 1});
+    for (const Triangle& facet : soup.facets) add(5, facet);
+    VtuText out(style);
+    out.begin(soup.vertices.size(), types.size());
+    out.array("Points", "Float64", "Points", points);
+    out.section("Cells", [&] {
+        out.array("", "Int64", "connectivity", corners);
+        out.array("", "Int64", "offsets", ends);
+        out.array("", "UInt8", "types", types);
+    });
+    std::vector<std::int32_t> of_cells(types.size() - soup.facets.size(), -1);
+    of_cells.insert(of_cells.end(), neighbours.begin(), neighbours.end());
+    if (!neighbours.empty()) out.array("CellData", "Int32", "Neighbour", of_cells);
+    return out.finish();
+}
+
+std::vector<SurfaceFile> to_all_mesh_formats(const Soup& boundary, const std::vector<Tetrahedron>& tets) {
+    std::vector<SurfaceFile> files = {{"medit.mesh", to_medit(boundary, tets)}};
+    for (const bool is_msh41 : {false, true})
+        for (const MshStyle& style :
+             {MshStyle{is_msh41, false, false}, {is_msh41, true, false}, {is_msh41, true, true}})
+            files.push_back({std::string(is_msh41 ? "msh41" : "msh22") + (style.is_binary ? "_binary" : "_text") +
+                                 (style.is_big_endian ? "_big.msh" : ".msh"),
+                             to_msh(boundary, style, tets)});
+    using enum VtuStyle::Values;
+    for (const auto values : {text, base64, compressed_base64, appended, compressed_appended, appended_base64})
+        for (const bool is_big_endian : {false, true})
+            files.push_back({"vtu_" + std::to_string(static_cast<int>(values)) + (is_big_endian ? "_big.vtu" : ".vtu"),
+                             to_vtu(boundary, tets, {values, is_big_endian, !is_big_endian})});
+    return files;
 }
 
 std::vector<SurfaceFile> to_all_formats(const Soup& soup) {

@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::set<std::string> output_options = {"-o",       "--output", "--report",   "--trace",
-                                              "--events", "--resume", "--offenders"};
+const std::set<std::string> output_options = {"-o",       "--output", "--report",    "--trace",
+                                              "--events", "--resume", "--offenders", "--picture"};
 
 // Behind all links, as far as it exists.
 std::string normal(const std::string& path) {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "run/number_text.h"
+#include "core/number_text.h"
 
 namespace kerf {
 namespace {

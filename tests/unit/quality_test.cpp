@@ -307,7 +307,7 @@ TEST(QualityDistributions, HoldTheMeasuresInTheOrderOfTheirNames) {
     const std::array<double, 8> expected = {q.min_dihedral_deg, q.max_dihedral_deg, q.radius_edge, q.aspect, q.shape,
                                             q.volume,           q.min_edge,         q.max_edge};
     for (std::size_t i = 0; i < expected.size(); ++i) {
-        SCOPED_TRACE(quality_measures[i]);
+        SCOPED_TRACE(quality_measures[i].name);
         EXPECT_EQ(distributions.measures[i].max(), expected[i]);
         EXPECT_EQ(distributions.measures[i].count(), 1);
     }

@@ -109,7 +109,7 @@ RunReportFile report_from_json(const Json& json) {
     report.options.volume = meshed;
     for (const Json& part : parts) read_part_row(part, meshed, report.tree);
     for (std::size_t i = 0; i < quality_measures.size(); ++i)
-        report.histograms[i] = read_histogram(json.at("quality"), quality_measures[i]);
+        report.histograms[i] = read_histogram(json.at("quality"), quality_measures[i].name);
     report.seconds = number(json.at("totals"), "wall_seconds");
     report.exit_code = json.at("exit_code").get<int>();
     if (report.exit_code == static_cast<int>(ErrorCode::verification))

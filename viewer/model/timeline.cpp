@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "core/number_text.h"
 #include "core/words.h"
-#include "run/number_text.h"
 
 namespace kerf::view {
 

@@ -1,0 +1,27 @@
+// Formats of meshes that hold surfaces, tetrahedra or both.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace kerf {
+
+class SoupBuilder;
+
+/// Give the builder what the bytes of a file, without compression, say: see read_surface() for the formats and errors.
+/// Tetrahedra are added if the builder wants them, and those of higher order are refused then; else they are noted as
+/// ignored. `path` serves messages.
+void scan_gmsh(std::string_view bytes, const std::string& path, SoupBuilder& builder);
+void scan_medit(std::string_view bytes, const std::string& path, SoupBuilder& builder);
+
+/// The bytes of TetGen's .ele; reads the .node file beside it, too.
+void scan_tetgen_cells(std::string_view elements, const std::string& path, SoupBuilder& builder);
+
+/// VTK's XML unstructured grids (VTU): tetrahedra and triangles of all pieces; numbers as text, base64 or appended,
+/// plain or compressed by zlib, in both orders of bytes. Other cells are noted as ignored, those of higher order and
+/// other compressions refused. The patch of a triangle is "interface" in parts of Kerf where another part is on the
+/// other side, else "surface".
+void scan_vtu(std::string_view bytes, const std::string& path, SoupBuilder& builder);
+inline constexpr const char* interface_patch = "interface";
+
+}  // namespace kerf

@@ -1,0 +1,103 @@
+#include "io/tet_mesh_reader.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "core/error.h"
+#include "io/compressed.h"
+#include "io/file_bytes.h"
+#include "io/mesh_scanners.h"
+#include "io/soup_builder.h"
+#include "io/text_scanner.h"
+
+namespace kerf {
+
+namespace {
+
+std::string_view without_byte_order_mark(std::string_view bytes) {
+    if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
+    return bytes;
+}
+
+void scan_by_content(std::string_view bytes, const std::string& path, SoupBuilder& builder) {
+    TextScanner scanner(bytes, path, '#');
+    const std::string_view word = scanner.at_end() ? std::string_view() : scanner.next_word();
+    if (word.starts_with('$')) return scan_gmsh(bytes, path, builder);
+    if (word == "MeshVersionFormatted") return scan_medit(bytes, path, builder);
+    if (word.starts_with('<')) return scan_vtu(bytes, path, builder);
+    throw Error(ErrorCode::input, path +
+                                      ": this is no volume mesh that can be read. Give Gmsh's .msh, MEDIT's .mesh as "
+                                      "text, VTK's .vtu, TetGen's .node or .ele, or the folder of a run.");
+}
+
+// The cube of the extent must be a normal number, and so must that of a billionth of it.
+void check_extent(const std::vector<Vec3>& vertices, const std::string& path) {
+    constexpr double smallest = 1e-90, largest = 1e90;
+    Eigen::AlignedBox3d box;
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+        if (!vertices[v].allFinite())
+            throw Error(ErrorCode::input, path + ": a coordinate of vertex " + std::to_string(v) +
+                                              " (counted from 0) is not finite. Correct it or save the mesh again.");
+        box.extend(vertices[v]);
+    }
+    const double diagonal = box.diagonal().stableNorm();
+    if (!(diagonal > smallest && diagonal < largest))
+        throw Error(ErrorCode::input, path + ": the mesh has an extent of " + std::to_string(diagonal) +
+                                          ", which is too small or too large. Save it in another unit.");
+}
+
+std::int64_t turn_negative_tets(TetMesh& mesh) {
+    std::int64_t turned = 0;
+    for (Tetrahedron& tet : mesh.tets) {
+        const Vec3& origin = mesh.vertices[tet[0]];
+        const Vec3 u = mesh.vertices[tet[1]] - origin, v = mesh.vertices[tet[2]] - origin;
+        if (u.cross(v).dot(mesh.vertices[tet[3]] - origin) >= 0) continue;
+        std::swap(tet[2], tet[3]);
+        ++turned;
+    }
+    return turned;
+}
+
+std::vector<char> facets_of_interface(const Soup& soup) {
+    std::vector<char> is_interface(soup.facets.size(), 0);
+    for (std::size_t f = 0; f < soup.facets.size(); ++f)
+        is_interface[f] = soup.patch_names[soup.patch[f]] == interface_patch;
+    return is_interface;
+}
+
+TetFile finish(SoupBuilder& builder, const std::string& path) {
+    TetFile file;
+    file.mesh.tets = builder.finish_tets();
+    Soup soup = builder.finish_beside_tets();
+    file.is_interface = facets_of_interface(soup);
+    file.mesh.vertices = std::move(soup.vertices);
+    file.facets = std::move(soup.facets);
+    file.notes = std::move(soup.notes);
+    check_extent(file.mesh.vertices, path);
+    file.turned_tets = turn_negative_tets(file.mesh);
+    return file;
+}
+
+}  // namespace
+
+TetFile read_tet_file(const std::string& path) {
+    std::filesystem::path file(path);
+    if (file.extension() != ".node" && file.extension() != ".ele") return read_tet_bytes(read_file(path), path);
+    const std::string elements = file.replace_extension("ele");
+    SoupBuilder builder(elements, SoupBuilder::Wanted::tets);
+    scan_tetgen_cells(read_file(elements), elements, builder);
+    return finish(builder, elements);
+}
+
+TetFile read_tet_bytes(std::string file, const std::string& path) {
+    const std::string content = decompress(std::move(file), path);
+    SoupBuilder builder(path, SoupBuilder::Wanted::tets);
+    scan_by_content(without_byte_order_mark(content), path, builder);
+    return finish(builder, path);
+}
+
+}  // namespace kerf

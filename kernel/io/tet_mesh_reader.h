@@ -1,0 +1,32 @@
+// Volume meshes of Kerf and of other programs.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mesh/tet_mesh.h"
+
+namespace kerf {
+
+/// What a file says of a volume mesh.
+struct TetFile {
+    TetMesh mesh;                         ///< without neighbours; no vertex counts as one of the boundary
+    std::vector<Triangle> facets;         ///< triangles of the file; none where it lists tetrahedra alone
+    std::vector<char> is_interface;       ///< #F; of a part of Kerf: another part is on the other side
+    std::int64_t turned_tets = 0;         ///< that had negative orientation in the file
+    std::vector<std::string> notes = {};  ///< what was passed over: "12 hexahedra were ignored."
+};
+
+/// Reads Gmsh MSH 2 or 4.1 (text, binary of both orders of bytes), MEDIT .mesh (text) and VTK's VTU (see scan_vtu()),
+/// each also compressed with gzip or zstd, and TetGen's .node and .ele, of which either may be named.
+///
+/// Tetrahedra of negative orientation are turned. Throws Error(io) for a file that cannot be opened, Error(input) for
+/// content that is truncated or malformed, has no tetrahedra, has cells of second or higher order, coordinates that are
+/// not finite or an extent that no double holds the cube of, each naming the file, the place and the way out.
+TetFile read_tet_file(const std::string& path);
+
+/// The same for the bytes of a file that is already in memory, but not for TetGen's.
+TetFile read_tet_bytes(std::string file, const std::string& path);
+
+}  // namespace kerf

@@ -1,0 +1,50 @@
+// The quality of a whole mesh: of a run, or of a file of any program.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/tet_mesh_reader.h"
+#include "mesh/quality.h"
+#include "part/run_parts.h"
+
+namespace kerf {
+
+struct MeshQuality {
+    std::string name;  ///< for people
+    std::int64_t parts = 1;
+    std::int64_t vertices = 0;  ///< distinct ones
+    PartQuality cells;
+    TriangleDistributions boundary;       ///< of the triangles on the user's surface; may be empty
+    std::int64_t turned_tets = 0;         ///< that had negative orientation in their file
+    std::vector<std::string> notes = {};  ///< what the file held besides
+
+    std::int64_t tets() const { return cells.all.measures.front().count(); }
+};
+
+/// A mesh that is known to be one, but not measured yet. Memory: of a run one part at a time, of a file the whole.
+class MeasurableMesh {
+ public:
+    /// The folder of a finished run, or a file as read_tet_file() reads them. Throws Error(io) or Error(input).
+    explicit MeasurableMesh(const std::string& path);
+
+    /// Of the bounding box. Distributions that are to be compared need one length scale: the larger diagonal.
+    double diagonal() const { return diagonal_; }
+
+    /// A file without triangles has as its boundary the faces that only one tetrahedron has.
+    MeshQuality measure(double length_scale) const;
+
+ private:
+    void add(const Part& part, double length_scale, MeshQuality& quality) const;
+    void open_run();
+    void open_file();
+
+    std::string path_;
+    std::unique_ptr<RunParts> run_;
+    TetFile file_;  // if it is no run
+    double diagonal_ = 0;
+};
+
+}  // namespace kerf

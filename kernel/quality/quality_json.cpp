@@ -1,0 +1,58 @@
+#include "quality/quality_json.h"
+
+#include <span>
+
+#include <nlohmann/json.hpp>
+
+namespace kerf {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int json_bins = 36;
+
+Json distribution_json(const Distribution& d) {
+    const Distribution::Histogram histogram = d.histogram(json_bins);
+    return {{"min", d.min()},
+            {"p0_1", d.percentile(0.001)},
+            {"p1", d.percentile(0.01)},
+            {"p5", d.percentile(0.05)},
+            {"median", d.percentile(0.5)},
+            {"p95", d.percentile(0.95)},
+            {"max", d.max()},
+            {"histogram", {{"edges", histogram.edges}, {"counts", histogram.counts}}}};
+}
+
+Json distributions_json(std::span<const Measure> measures, const std::vector<Distribution>& distributions) {
+    Json json = Json::object();
+    for (std::size_t i = 0; i < distributions.size(); ++i) json[measures[i].name] = distribution_json(distributions[i]);
+    return json;
+}
+
+}  // namespace
+
+Json quality_json(const QualityDistributions& quality) {
+    return distributions_json(quality_measures, quality.measures);
+}
+
+Json quality_json(const PartQuality& quality) {
+    return {{"all", quality_json(quality.all)},
+            {"interface", quality_json(quality.interface)},
+            {"interior", quality_json(quality.interior)}};
+}
+
+Json quality_json(const MeshQuality& quality) {
+    return {{"path", quality.name},
+            {"parts", quality.parts},
+            {"vertices", quality.vertices},
+            {"tets", quality.tets()},
+            {"interface_tets", quality.cells.interface.measures.front().count()},
+            {"boundary_triangles", quality.boundary.measures.front().count()},
+            {"turned_tets", quality.turned_tets},
+            {"notes", quality.notes},
+            {"quality", quality_json(quality.cells)},
+            {"boundary", distributions_json(triangle_measures, quality.boundary.measures)}};
+}
+
+}  // namespace kerf

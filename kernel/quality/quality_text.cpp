@@ -1,0 +1,165 @@
+#include "quality/quality_text.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/number_text.h"
+#include "quality/histogram_rows.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr std::array<double, 7> fractions = {0, 0.001, 0.01, 0.05, 0.5, 0.95, 1};
+constexpr std::array<const char*, 7> fraction_names = {"min", "0.1 %", "1 %", "5 %", "median", "95 %", "max"};
+
+std::string title_of(const Measure& measure) {
+    return *measure.unit ? fmt::format("{}, {}", measure.title, measure.unit) : measure.title;
+}
+
+std::string percent(std::int64_t count, std::int64_t of) {
+    return fmt::format("{:.2f} %", of ? 100.0 * static_cast<double>(count) / static_cast<double>(of) : 0.0);
+}
+
+std::string percentile_head(const std::string& title) {
+    std::string head = fmt::format("{:<48}", title);
+    for (const char* name : fraction_names) head += fmt::format("{:>11}", name);
+    return head + "\n";
+}
+
+std::string percentile_row(const std::string& title, const Distribution& distribution) {
+    std::string row = fmt::format("  {:<46}", title);
+    for (const double fraction : fractions)
+        row += fmt::format("{:>11}", four_digits(distribution.percentile(fraction)));
+    return row + "\n";
+}
+
+std::string percentile_table(const std::string& title, std::span<const Measure> measures,
+                             const std::vector<Distribution>& distributions) {
+    std::string text = "\n" + percentile_head(title);
+    for (std::size_t i = 0; i < distributions.size(); ++i)
+        text += percentile_row(title_of(measures[i]), distributions[i]);
+    return text;
+}
+
+std::string cells_table(const char* which, const QualityDistributions& cells, std::int64_t of) {
+    const std::int64_t count = cells.measures.front().count();
+    if (count == 0) return "";
+    return percentile_table(fmt::format("{}: {} ({})", which, grouped(count), percent(count, of)), quality_measures,
+                            cells.measures);
+}
+
+std::string interval_text(double low, double high) {
+    return fmt::format("{:>9} - {:<9}", four_digits(low), four_digits(high));
+}
+
+// As many lines as half of the intervals: the second half stands beside the first.
+std::string histogram_text(const Measure& measure, const Distribution& distribution) {
+    const Distribution* all[] = {&distribution};
+    const HistogramRows rows = choose_rows(all, {});
+    const Distribution::Histogram histogram = distribution.histogram(rows.first, rows.group, rows.groups);
+    const auto cell = [&](std::size_t i) {
+        return fmt::format("{}{:>13}{:>10}", interval_text(histogram.edges[i], histogram.edges[i + 1]),
+                           grouped(histogram.counts[i]), percent(histogram.counts[i], distribution.count()));
+    };
+    std::string text = fmt::format("\n{}\n", title_of(measure));
+    const std::size_t half = (histogram.counts.size() + 1) / 2;
+    for (std::size_t i = 0; i < half; ++i)
+        text +=
+            half + i < histogram.counts.size() ? fmt::format("{}   |{}\n", cell(i), cell(half + i)) : cell(i) + "\n";
+    return text;
+}
+
+std::string histogram_texts(std::span<const Measure> measures, const std::vector<Distribution>& distributions) {
+    std::string text;
+    for (std::size_t i = 0; i < distributions.size(); ++i)
+        if (distributions[i].count() > 0) text += histogram_text(measures[i], distributions[i]);
+    return text;
+}
+
+std::string head_text(const MeshQuality& quality) {
+    std::string text = fmt::format("{}: {} part{}, {} tetrahedra, {} vertices, {} boundary triangles\n", quality.name,
+                                   quality.parts, quality.parts == 1 ? "" : "s", grouped(quality.tets()),
+                                   grouped(quality.vertices), grouped(quality.boundary.measures.front().count()));
+    if (quality.turned_tets > 0)
+        text += fmt::format("  note      {} tetrahedra of negative orientation were turned.\n",
+                            grouped(quality.turned_tets));
+    for (const std::string& note : quality.notes) text += fmt::format("  note      {}\n", note);
+    return text;
+}
+
+std::string side_by_side_text(const Measure& measure, const Distribution& first, const Distribution& second) {
+    const Distribution* both[] = {&first, &second};
+    const HistogramRows rows = choose_rows(both, {});
+    const std::array<Distribution::Histogram, 2> histograms = {first.histogram(rows.first, rows.group, rows.groups),
+                                                               second.histogram(rows.first, rows.group, rows.groups)};
+    std::string text =
+        fmt::format("\n{}\n{:<21}  |{:>12}{:>12}  |{:>12}{:>12}\n", title_of(measure), "", "A", "B", "A", "B");
+    std::array<std::int64_t, 2> below = {0, 0};
+    for (int i = 0; i < rows.groups; ++i) {
+        const auto row = static_cast<std::size_t>(i);
+        for (std::size_t k = 0; k < below.size(); ++k) below[k] += histograms[k].counts[row];
+        text += fmt::format(
+            "{}  |{:>12}{:>12}  |{:>12}{:>12}\n", interval_text(histograms[0].edges[row], histograms[0].edges[row + 1]),
+            percent(histograms[0].counts[row], first.count()), percent(histograms[1].counts[row], second.count()),
+            percent(below[0], first.count()), percent(below[1], second.count()));
+    }
+    return text;
+}
+
+std::string compared_percentiles(std::span<const Measure> measures, const std::vector<Distribution>& first,
+                                 const std::vector<Distribution>& second) {
+    std::string text;
+    for (std::size_t i = 0; i < measures.size(); ++i)
+        text += percentile_row(title_of(measures[i]) + ": A", first[i]) +
+                percentile_row(fmt::format("{:>{}}B", "", title_of(measures[i]).size() + 2), second[i]);
+    return text;
+}
+
+std::string compared_histograms(std::span<const Measure> measures, const std::vector<Distribution>& first,
+                                const std::vector<Distribution>& second) {
+    std::string text;
+    for (std::size_t i = 0; i < measures.size(); ++i) text += side_by_side_text(measures[i], first[i], second[i]);
+    return text;
+}
+
+}  // namespace
+
+std::string four_digits(double value) { return fmt::format("{:.4g}", value); }
+
+std::string quality_text(const MeshQuality& quality) {
+    std::string text = head_text(quality);
+    text += cells_table("All cells", quality.cells.all, quality.tets());
+    text += cells_table("Cells with a vertex on an interface", quality.cells.interface, quality.tets());
+    if (quality.cells.interface.measures.front().count() > 0)
+        text += cells_table("Other cells", quality.cells.interior, quality.tets());
+    if (quality.boundary.measures.front().count() > 0)
+        text += percentile_table("Boundary triangles", triangle_measures, quality.boundary.measures);
+    text += "\nHistograms: from, to, number and percentage of all cells, or of boundary triangles.\n";
+    text += histogram_texts(quality_measures, quality.cells.all.measures);
+    text += histogram_texts(triangle_measures, quality.boundary.measures);
+    return text;
+}
+
+std::string comparison_text(const MeshQuality& first, const MeshQuality& second) {
+    for (std::size_t i = 0; i < quality_measures.size(); ++i)
+        if (!first.cells.all.measures[i].has_range_of(second.cells.all.measures[i]))
+            throw Error(ErrorCode::internal, "Meshes that were measured with different length scales are compared.");
+    const bool have_boundaries =
+        first.boundary.measures.front().count() > 0 && second.boundary.measures.front().count() > 0;
+    std::string text = fmt::format("A {}B {}\n", head_text(first), head_text(second)) + percentile_head("All cells");
+    text += compared_percentiles(quality_measures, first.cells.all.measures, second.cells.all.measures);
+    if (have_boundaries)
+        text += compared_percentiles(triangle_measures, first.boundary.measures, second.boundary.measures);
+    text += "\nPercentages of cells, or of boundary triangles: in the interval, then accumulated up to its end.\n";
+    text += compared_histograms(quality_measures, first.cells.all.measures, second.cells.all.measures);
+    if (have_boundaries)
+        text += compared_histograms(triangle_measures, first.boundary.measures, second.boundary.measures);
+    return text;
+}
+
+}  // namespace kerf
