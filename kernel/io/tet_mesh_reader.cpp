@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include <fmt/format.h>
 #include <Eigen/Geometry>
 
 #include "core/error.h"
@@ -46,8 +47,10 @@ void check_extent(const std::vector<Vec3>& vertices, const std::string& path) {
     }
     const double diagonal = box.diagonal().stableNorm();
     if (!(diagonal > smallest && diagonal < largest))
-        throw Error(ErrorCode::input, path + ": the mesh has an extent of " + std::to_string(diagonal) +
-                                          ", which is too small or too large. Save it in another unit.");
+        throw Error(ErrorCode::input,
+                    fmt::format("{}: the mesh has an extent of {:.3g}, which is too small or too large. Save it in "
+                                "another unit.",
+                                path, diagonal));
 }
 
 std::int64_t turn_negative_tets(TetMesh& mesh) {

@@ -114,6 +114,20 @@ TEST_F(Quality, OfAPartIsTheSameInEveryFormat) {
     }
 }
 
+TEST_F(Quality, OfAMergedMeshIsThatOfItsParts) {
+    const Json expected = quality_json({path("straight")});
+    for (const char* ending : {"vtu", "mesh", "node"}) {
+        SCOPED_TRACE(ending);
+        const std::string file = path(std::string("merged.") + ending);
+        ASSERT_EQ(test::run_program(KERF_PROGRAM, {"merge", path("straight"), "-o", file}).exit_code, 0);
+        const Json found = quality_json({file});
+        EXPECT_EQ(found.at("quality").at("all"), expected.at("quality").at("all"));
+        EXPECT_EQ(found.at("vertices"), expected.at("vertices"));
+        EXPECT_EQ(found.at("boundary_triangles"), expected.at("boundary_triangles"));
+        EXPECT_EQ(found.at("turned_tets"), 0);
+    }
+}
+
 TEST_F(Quality, SaysHowManyCellsWereTurned) {
     PartMesh mesh = mesh_of(read_part(path("run") + "/parts/part_0002.vtu"));
     const Json expected = quality_json({write("good.mesh", test::to_medit(mesh.boundary, mesh.tets))});
