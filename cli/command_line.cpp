@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "core/error.h"
+#include "export/format.h"
 #include "quality/quality_gate.h"
 #include "run/config_file.h"
 #include "run/saved_run.h"
@@ -90,6 +91,30 @@ CLI::App* add_quality_command(CLI::App& app, QualityRequest& request) {
     return command;
 }
 
+CLI::App* add_export_command(CLI::App& app, CommandLine& line) {
+    ExportRequest& request = line.export_;
+    request.threads = 0;
+    CLI::App* command = app.add_subcommand("export", "Write a finished run in the formats of solvers, part by part.");
+    std::string list = "Formats:\n";
+    for (const Format* format : formats()) list += fmt::format("  {:<10} {}\n", format->name, format->help);
+    command->footer(list +
+                    "A single format goes into OUT itself, several go into sub-folders. mpirun -n P kerf export\n"
+                    "shares the parts among P ranks.");
+    command->add_option("folder", request.folder, "Folder of the run.")->required()->type_name("DIR");
+    command->add_option("-f,--format", request.formats, "Formats, with commas between.")->required()->type_name("LIST");
+    command
+        ->add_option("-o,--output", request.output,
+                     "Folder for them. Default: DIR/export/NAME, so that they become part of the run.")
+        ->type_name("OUT");
+    command->add_option("--into", request.into, "Join the parts along the tree into so many pieces.")
+        ->type_name("N")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--workers", request.threads, "Parts that each rank writes at once. Default: its processors.")
+        ->check(CLI::Range(1, 4096));
+    command->add_flag("-q,--quiet", line.quiet, "Print nothing but errors.");
+    return command;
+}
+
 // Sets what the command line has not given. Throws Error.
 void apply_config(const CLI::App& command, CommandLine& line) {
     const std::vector<OptionField> fields = config_fields(line);
@@ -165,12 +190,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     for (const OptionField& field : input_option_fields(line.check.options)) add_field(*check, field);
     CLI::App* verify = app.add_subcommand("verify", "Check every law of a finished run again, from its files.");
     verify->add_option("folder", line.options.output, "Folder of the run.")->required()->type_name("DIR");
-    CLI::App* to_export = app.add_subcommand("export", "Write a finished run in the formats of solvers.");
-    to_export->add_option("folder", line.export_.folder, "Folder of the run.")->required()->type_name("DIR");
-    to_export->add_option("--format", line.export_.formats, "Formats, with commas between.")
-        ->required()
-        ->type_name("LIST");
-    to_export->add_option("-o,--output", line.export_.output, "Folder for them.")->type_name("OUT");
+    CLI::App* to_export = add_export_command(app, line);
     CLI::App* to_merge = app.add_subcommand("merge", "Write a finished run as one mesh.");
     to_merge->add_option("folder", line.merge.folder, "Folder of the run.")->required()->type_name("DIR");
     to_merge->add_option("-o,--output", line.merge.output, "File, whose ending chooses the format.")

@@ -109,7 +109,7 @@ int run_program(int argc, char** argv) {
         case Command::check:
             return check_surface(line.check);
         case Command::export_:
-            return export_run(line.export_);
+            return export_formats(line.export_, line.quiet);
         case Command::merge:
             return merge_run(line.merge);
         case Command::quality:

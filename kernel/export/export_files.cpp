@@ -79,7 +79,7 @@ void ExportFile::close() {
 std::string ExportFiles::path_of(const std::string& name) {
     const std::filesystem::path path = std::filesystem::path(folder_) / name;
     std::error_code error;
-    std::filesystem::create_directories(path.parent_path(), error);
+    if (!path.parent_path().empty()) std::filesystem::create_directories(path.parent_path(), error);
     if (error)
         throw Error(ErrorCode::io, fmt::format("Cannot create the folder {}: {}. Check the permissions and the free "
                                                "space there, or choose another one.",

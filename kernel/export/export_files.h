@@ -59,9 +59,13 @@ class ExportFile {
 /// The files of one export, below a folder. May be used by several threads.
 class ExportFiles {
  public:
-    explicit ExportFiles(std::string folder) : folder_(std::move(folder)) {}
+    /// `place`: the folder to which the files are moved when all are complete; `folder` itself if empty.
+    explicit ExportFiles(std::string folder, std::string place = "")
+        : folder_(std::move(folder)), place_(place.empty() ? folder_ : std::move(place)) {}
 
     const std::string& folder() const { return folder_; }
+    /// Where files of others may lie already.
+    const std::string& place() const { return place_; }
     /// A file of this name below the folder, which may have '/' in it: folders are made. What was there is replaced.
     ExportFile create(const std::string& name);
     /// Its path, with the folders made: for files that are not written from beginning to end.
@@ -75,7 +79,7 @@ class ExportFiles {
     std::vector<RunFile> list() const;
 
  private:
-    std::string folder_;
+    std::string folder_, place_;
     mutable std::mutex mutex_;
     std::vector<RunFile> files_;
 };

@@ -327,7 +327,7 @@ void require_labels(const MeshOutline& outline) {
 
 // OpenFOAM takes every folder processorN for a part.
 void require_no_more_processors(const MeshOutline& outline, const ExportFiles& files) {
-    const std::string next = fmt::format("{}/processor{}", files.folder(), outline.parts.size());
+    const std::string next = fmt::format("{}/processor{}", files.place(), outline.parts.size());
     std::error_code ignored;
     if (outline.parts.size() > 1 && std::filesystem::exists(next, ignored))
         throw Error(ErrorCode::usage, fmt::format("{} belongs to a case in more parts than these. Remove the folders "
@@ -338,7 +338,7 @@ void require_no_more_processors(const MeshOutline& outline, const ExportFiles& f
 // A dictionary without which no program of OpenFOAM opens the case. One of the user's stays; the beginning of ours is
 // what an interrupted export has left.
 void write_dictionary(ExportFiles& files, const std::string& object, std::string_view entries) {
-    const std::string name = "system/" + object, path = files.path_of(name);
+    const std::string name = "system/" + object, path = files.place() + "/" + name;
     const std::string text = fmt::format(
         "FoamFile\n{{\n    version     2.0;\n    format      ascii;\n    class       dictionary;\n"
         "    location    \"system\";\n    object      {};\n}}\n\n{}",

@@ -110,6 +110,7 @@ bool is_named_like_run_file(const std::string& path) {
          {"report.json", "mesh.pvtu", "parts/", "failed/", "work/", "work/journal/", "work/jobs/", "work/taken/"})
         if (name == whole) return true;
     if (take_prefix(name, "parts/")) return is_part_name(name, {".part", ".vtu", ".surface.vtu", ".stl"});
+    if (take_prefix(name, "export/")) return true;
     if (take_prefix(name, "failed/")) return is_part_name(name, {".smesh", ".txt"});
     return take_prefix(name, "work/") && is_work_name(name);
 }

@@ -38,7 +38,7 @@ std::string sealed(const std::string& report);
 bool is_sealed(const std::string& report);
 
 /// Whether a path below a run folder is named like a file that Kerf writes there, finished or not:
-/// "parts/part_0008.vtu", "report.json", "work/journal/8"; folders, which end with '/', too.
+/// "parts/part_0008.vtu", "export/su2/mesh.su2", "report.json", "work/journal/8"; folders, which end with '/', too.
 bool is_named_like_run_file(const std::string& path);
 
 /// Whether it is named like parts/part_0008.part, in which a part waits for the writers of formats.

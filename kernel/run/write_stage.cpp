@@ -8,6 +8,8 @@
 #include <mutex>
 #include <thread>
 
+#include <fmt/format.h>
+
 #include "mesh/adjacency.h"
 #include "run/range_of_rank.h"
 
@@ -21,10 +23,15 @@ struct FormatFiles {
     std::unique_ptr<ExportFiles> files;
 };
 
-std::vector<FormatFiles> open_formats(std::span<const Format* const> formats, const std::string& folder) {
+std::string below(const std::string& folder, const std::string& sub_folder) {
+    return sub_folder.empty() ? folder : folder + "/" + sub_folder;
+}
+
+std::vector<FormatFiles> open_formats(std::span<const FormatPlace> formats, const std::string& folder,
+                                      const std::string& place) {
     std::vector<FormatFiles> opened;
-    for (const Format* format : formats)
-        opened.push_back({format, std::make_unique<ExportFiles>(folder_of_format(*format, folder))});
+    for (const auto& [format, sub_folder] : formats)
+        opened.push_back({format, std::make_unique<ExportFiles>(below(folder, sub_folder), below(place, sub_folder))});
     return opened;
 }
 
@@ -109,13 +116,17 @@ std::vector<RunFile> list_files_of(const std::vector<FormatFiles>& formats, cons
 
 }  // namespace
 
-std::string folder_of_format(const Format& format, const std::string& run_folder) {
-    return std::string_view(format.name) == "vtu" ? run_folder : run_folder + "/" + format.name;
+std::vector<FormatPlace> places_in_run_folder(const std::vector<const Format*>& formats) {
+    std::vector<FormatPlace> places;
+    for (const Format* format : formats)
+        places.push_back({format, format == &find_format("vtu") ? "" : fmt::format("export/{}", format->name)});
+    return places;
 }
 
-std::vector<RunFile> write_parts(Communicator& ranks, const PartSource& parts, std::span<const Format* const> formats,
-                                 const std::string& folder, int threads, RunListener* listener) {
-    const std::vector<FormatFiles> opened = open_formats(formats, folder);
+std::vector<RunFile> write_parts(Communicator& ranks, const PartSource& parts, std::span<const FormatPlace> formats,
+                                 const std::string& folder, const std::string& place, int threads,
+                                 RunListener* listener) {
+    const std::vector<FormatFiles> opened = open_formats(formats, folder, place);
     const auto check = [&](std::int32_t done, std::int32_t total) {
         if (!listener) return;
         if (listener->cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
@@ -128,7 +139,7 @@ std::vector<RunFile> write_parts(Communicator& ranks, const PartSource& parts, s
     });
     const LeafRange share = range_of_rank(static_cast<std::int32_t>(parts.outline().parts.size()), ranks);
     const bool any_in_parts =
-        std::any_of(formats.begin(), formats.end(), [](const Format* f) { return f->write_part; });
+        std::any_of(formats.begin(), formats.end(), [](const FormatPlace& f) { return f.format->write_part; });
     const std::vector<RunFile> own = in_agreement(ranks, [&] {
         if (any_in_parts)
             PartWriters(parts, opened, share).run(threads, [&](std::int32_t done) {

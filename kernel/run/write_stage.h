@@ -11,14 +11,22 @@
 
 namespace kerf {
 
-/// Where a run keeps the files of a format: its own folder, but for `vtu`, whose names are those of the run folder.
-std::string folder_of_format(const Format& format, const std::string& run_folder);
+/// A format and where its files lie.
+struct FormatPlace {
+    const Format* format;
+    std::string sub_folder;  ///< of the folder of the whole export; may be empty
+};
 
-/// Writes all parts in all formats below `folder`. Collective: every rank writes its share of the parts with so many
-/// `threads`, each of which holds one part at a time; what belongs to no part, and formats that are read in one piece,
-/// are the root rank's. Returns what was written, with paths relative to the folder, with sizes and hashes on the
-/// root rank; the bytes depend on the parts alone. Throws Error on every rank alike.
-std::vector<RunFile> write_parts(Communicator& ranks, const PartSource& parts, std::span<const Format* const> formats,
-                                 const std::string& folder, int threads, RunListener* listener);
+/// Where a run folder has the files of formats: export/NAME, but those of `vtu` in the folder itself.
+std::vector<FormatPlace> places_in_run_folder(const std::vector<const Format*>& formats);
+
+/// Writes all parts in all formats below `folder`, whose files are to be moved to `place`. Collective: every rank
+/// writes its share of the parts with so many `threads`, each of which holds one part at a time; what belongs to no
+/// part, and formats that are read in one piece, are the root rank's. Returns what was written, with paths relative to
+/// the folder, on every rank; with sizes and hashes on the root rank. The bytes depend on the parts alone. Throws Error
+/// on every rank alike.
+std::vector<RunFile> write_parts(Communicator& ranks, const PartSource& parts, std::span<const FormatPlace> formats,
+                                 const std::string& folder, const std::string& place, int threads,
+                                 RunListener* listener);
 
 }  // namespace kerf

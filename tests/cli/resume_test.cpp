@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/run_folder.h"
+#include "support/all_formats.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/program.h"
@@ -24,14 +25,15 @@ class Resume : public testing::Test {
  protected:
     // About a third of a second for each of six parts.
     std::vector<std::string> command(const std::string& output) const {
-        return {"mesh", input_, "-o", folder_.file(output), "-n", "6", "--max-volume", "6e-6", "--workers", "1"};
+        return {"mesh",      input_, "-o",       folder_.file(output), "-n", "6", "--max-volume", "6e-6",
+                "--workers", "1",    "--format", test::all_formats()};
     }
     std::map<std::string, std::string> undisturbed() const {
         EXPECT_EQ(test::run_kerf(command("undisturbed")).exit_code, 0);
-        return parts_of("undisturbed");
+        return files_of("undisturbed");
     }
-    std::map<std::string, std::string> parts_of(const std::string& output) const {
-        return test::contents(folder_.file(output + "/parts"));
+    std::map<std::string, std::string> files_of(const std::string& output) const {
+        return test::result_of_run(folder_.file(output));
     }
 
     // Starts a run and ends it by the signal when two parts are finished and a third is under way, whose worker does
@@ -91,12 +93,26 @@ TEST_F(Resume, GivesTheBytesOfAnUndisturbedRun) {
         const ChildResult result = resume({"--workers", workers});
         EXPECT_EQ(result.exit_code, 0) << result.log;
         EXPECT_GE(resumed_parts(), 2u);
-        EXPECT_TRUE(parts_of("out") == expected);
+        EXPECT_TRUE(files_of("out") == expected);
         EXPECT_EQ(folder_.names(), (std::vector<std::string>{"out", "undisturbed"}));
         EXPECT_FALSE(fs::exists(folder_.file("out/work")));
         EXPECT_EQ(test::run_kerf({"verify", folder_.file("out")}).exit_code, 0);
         fs::remove_all(folder_.file("out"));
     }
+}
+
+// All parts are meshed, and some files of some formats are there.
+TEST_F(Resume, WritesTheFormatsThatAreMissing) {
+    const auto expected = undisturbed();
+    test::StartedRun run(KERF_PROGRAM, command("out"));
+    EXPECT_TRUE(test::await([&] { return fs::exists(folder_.file("out.kerf-partial/export")); }));
+    EXPECT_EQ(::kill(run.process(), SIGKILL), 0);
+    run.wait();
+    ASSERT_FALSE(fs::exists(folder_.file("out"))) << "the run was faster than the signal";
+    const ChildResult result = resume();
+    EXPECT_EQ(result.exit_code, 0) << result.log;
+    EXPECT_EQ(resumed_parts(), 6u);
+    EXPECT_TRUE(files_of("out") == expected);
 }
 
 // The folder that a user sees after an interruption.
@@ -117,7 +133,7 @@ TEST_F(Resume, TheSameCommandFindsWhatIsFinishedToo) {
     EXPECT_EQ(result.exit_code, 0) << result.log;
     EXPECT_NE(result.log.find("were finished by an interrupted run"), std::string::npos) << result.log;
     EXPECT_GE(resumed_parts(), 2u);
-    EXPECT_TRUE(parts_of("out") == expected);
+    EXPECT_TRUE(files_of("out") == expected);
 }
 
 // Without -n K follows from the machine, but not where parts of an interrupted run wait.
@@ -135,7 +151,7 @@ TEST_F(Resume, AnInterruptedRunMayBeMoved) {
     fs::rename(folder_.file("before.kerf-partial"), folder_.file("out.kerf-partial"));
     EXPECT_EQ(resume().exit_code, 0);
     EXPECT_GE(resumed_parts(), 2u);
-    EXPECT_TRUE(parts_of("out") == expected);
+    EXPECT_TRUE(files_of("out") == expected);
     EXPECT_EQ(folder_.names(), (std::vector<std::string>{"out", "undisturbed"}));
 }
 
@@ -173,7 +189,7 @@ TEST_F(Resume, APartThatATimeLimitHasShapedIsSaidAndNotTakenOverUnderAnotherLimi
     EXPECT_EQ(other.exit_code, 0) << other.log;
     EXPECT_EQ(resumed_parts(), finished - 1);
     EXPECT_EQ(other.log.find("time-out"), std::string::npos) << other.log;
-    EXPECT_TRUE(parts_of("out") == expected);
+    EXPECT_TRUE(files_of("out") == expected);
 
     const ChildResult same = test::run_kerf({"mesh", "--resume", folder_.file("same")});
     EXPECT_EQ(same.exit_code, 0) << same.log;
@@ -182,7 +198,7 @@ TEST_F(Resume, APartThatATimeLimitHasShapedIsSaidAndNotTakenOverUnderAnotherLimi
     const std::string report = test::bytes_of_file(folder_.file("same/report.json"));
     EXPECT_NE(report.find(fmt::format("ran longer than its {} s", limit)), std::string::npos);
     EXPECT_NE(report.find("may differ from those of an undisturbed run"), std::string::npos);
-    EXPECT_FALSE(parts_of("same") == expected);
+    EXPECT_FALSE(files_of("same") == expected);
 }
 
 TEST_F(Resume, NothingOfARunWithOtherOptionsSurvives) {
@@ -195,7 +211,7 @@ TEST_F(Resume, NothingOfARunWithOtherOptionsSurvives) {
     EXPECT_EQ(result.exit_code, 0) << result.log;
     EXPECT_EQ(resumed_parts(), 0u);
     EXPECT_NE(result.log.find("parts of an interrupted run were no longer of use"), std::string::npos) << result.log;
-    EXPECT_TRUE(parts_of("out") == parts_of("coarse"));
+    EXPECT_TRUE(files_of("out") == files_of("coarse"));
     EXPECT_FALSE(fs::exists(folder_.file("out/work")));
 }
 
@@ -216,7 +232,7 @@ TEST_F(Resume, DamagedJournalsAndPartsAreMeshedAgain) {
                             (sub_folder == "parts" ? stored_part_file_name(std::stoi(leaf)) : leaf)));
         EXPECT_EQ(resume().exit_code, 0);
         EXPECT_EQ(resumed_parts(), finished - 1);
-        EXPECT_TRUE(parts_of("out") == expected);
+        EXPECT_TRUE(files_of("out") == expected);
         fs::remove_all(folder_.file("out"));
     }
 }

@@ -2,13 +2,13 @@
 #include <filesystem>
 #include <map>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "export/cases.h"
 #include "export/format.h"
 #include "io/file_bytes.h"
 #include "part/run_parts.h"
+#include "support/all_formats.h"
 #include "support/temporary_folder.h"
 
 namespace kerf::run_formats_test {
@@ -26,9 +26,7 @@ TEST(RunFormats, ARunWritesWhatAnExportWrites) {
     const auto& cases = test::export_cases();
     const auto voids = std::find_if(cases.begin(), cases.end(), [](const auto& each) { return each.name == "voids"; });
     ASSERT_NE(voids, cases.end());
-    std::string names;
-    for (const Format* format : formats()) names += fmt::format("{}{}", names.empty() ? "" : ",", format->name);
-    const std::string run_folder = test::run_of(*voids, names);
+    const std::string run_folder = test::run_of(*voids, test::all_formats());
     const RunParts run(run_folder);
     for (const Format* format : formats()) {
         if (std::string_view(format->name) == "vtu") continue;  // its files are what the export reads
@@ -37,7 +35,7 @@ TEST(RunFormats, ARunWritesWhatAnExportWrites) {
         ExportFiles files(folder.file("export"));
         write_format(*format, run, files);
         const auto exported = bytes_by_name(folder.file("export"));
-        const auto written = bytes_by_name(run_folder + "/" + format->name);
+        const auto written = bytes_by_name(run_folder + "/export/" + format->name);
         EXPECT_FALSE(exported.empty());
         ASSERT_EQ(written.size(), exported.size());
         for (const auto& [name, bytes] : exported)

@@ -2,9 +2,11 @@
 #include <filesystem>
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/host_name.h"
+#include "support/all_formats.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/mpirun.h"
@@ -33,12 +35,17 @@ TEST_P(MpiRuns, PartFilesAreTheSameForAnyRanksAndWorkers) {
     const auto& [asset, parts] = GetParam();
     const test::TemporaryFolder folder;
     const auto arguments = [&, parts = parts, path = test::asset_path(asset)](const std::string& out, int workers) {
-        return std::vector<std::string>{
-            "mesh", path, "-o", folder.file(out), "-n", std::to_string(parts), "--workers", std::to_string(workers)};
+        return std::vector<std::string>{"mesh",      path,
+                                        "-o",        folder.file(out),
+                                        "-n",        std::to_string(parts),
+                                        "--workers", std::to_string(workers),
+                                        "--format",  test::all_formats()};
     };
     ASSERT_EQ(test::run_kerf(arguments("alone", 1)).exit_code, 0);
-    const auto expected = test::contents(folder.file("alone/parts"));
-    EXPECT_EQ(expected.size(), 2 * static_cast<std::size_t>(parts));
+    const auto expected = test::result_of_run(folder.file("alone"));
+    EXPECT_EQ(test::contents(folder.file("alone/parts")).size(), 2 * static_cast<std::size_t>(parts));
+    for (const Format* format : formats())
+        EXPECT_TRUE(format->name == std::string("vtu") || expected.contains(fmt::format("export/{}/", format->name)));
     for (const int ranks : test::slice({1, 2, 3, 4, 7}, {2, 7}))
         for (const int workers : {1, 2}) {
             SCOPED_TRACE(testing::Message() << ranks << " ranks, " << workers << " workers");
@@ -46,9 +53,31 @@ TEST_P(MpiRuns, PartFilesAreTheSameForAnyRanksAndWorkers) {
             command.insert(command.begin(), KERF_PROGRAM);
             const ChildResult result = run_ranks(ranks, command);
             ASSERT_EQ(result.exit_code, 0) << result.log;
-            EXPECT_TRUE(test::contents(folder.file("ranks/parts")) == expected);
+            EXPECT_TRUE(test::result_of_run(folder.file("ranks")) == expected);
             EXPECT_EQ(folder.names(), (std::vector<std::string>{"alone", "ranks"}));
         }
+}
+
+// Of the parts as they are, and joined.
+TEST(MpiExports, FilesAreTheSameForAnyRanks) {
+    const test::TemporaryFolder folder;
+    ASSERT_EQ(test::run_kerf({"mesh", test::asset_path("hollow_box"), "-o", folder.file("run"), "-n", "5"}).exit_code,
+              0);
+    for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--into", "3"}}) {
+        std::map<std::string, std::string> expected;
+        for (int ranks = 1; ranks <= 3; ++ranks) {
+            SCOPED_TRACE(testing::Message() << ranks << " ranks, " << more.size());
+            std::vector<std::string> command = {KERF_PROGRAM,        "export", folder.file("run"), "--format",
+                                                test::all_formats(), "-o",     folder.file("out")};
+            command.insert(command.end(), more.begin(), more.end());
+            const ChildResult result = run_ranks(ranks, command);
+            ASSERT_EQ(result.exit_code, 0) << result.log;
+            if (ranks == 1) expected = test::contents_below(folder.file("out"));
+            EXPECT_GT(expected.size(), 20u);
+            EXPECT_TRUE(test::contents_below(folder.file("out")) == expected);
+            std::filesystem::remove_all(folder.file("out"));
+        }
+    }
 }
 
 TEST_P(MpiRuns, TracesAreTheSameForAnyRanks) {

@@ -37,4 +37,11 @@ inline std::map<std::string, std::string> contents_below(const std::string& fold
     return files;
 }
 
+/// contents_below() without the report, which has what ranks, workers and time make.
+inline std::map<std::string, std::string> result_of_run(const std::string& folder) {
+    auto files = contents_below(folder);
+    files.erase("report.json");
+    return files;
+}
+
 }  // namespace kerf::test

@@ -46,9 +46,9 @@ Outer sample() {
 PartJob job() {
     PartJob job;
     job.surface = test::to_arrays(test::icosphere(1));
-    job.arrays.part = 9;
-    job.arrays.neighbour.assign(job.surface.facets.size(), -1);
-    job.arrays.patch_names = {"sphere"};
+    job.part = 9;
+    job.neighbour.assign(job.surface.facets.size(), -1);
+    job.patch_names = {"sphere"};
     job.length_scale = 0.25;
     return job;
 }
@@ -58,7 +58,7 @@ TEST(Bytes, RoundTrip) {
     EXPECT_EQ(from_bytes<Outer>(to_bytes(Outer())), Outer());
     const Bytes bytes = to_bytes(job());
     EXPECT_TRUE(to_bytes(from_bytes<PartJob>(bytes)) == bytes);
-    EXPECT_EQ(from_bytes<PartJob>(bytes).arrays.patch_names, job().arrays.patch_names);
+    EXPECT_EQ(from_bytes<PartJob>(bytes).patch_names, job().patch_names);
 }
 
 TEST(Bytes, EveryShortBufferThrows) {

@@ -1,0 +1,37 @@
+// A finished run in further formats.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "run/communicator.h"
+#include "run/listener.h"
+
+namespace kerf {
+
+struct ExportRequest {
+    std::string folder;     ///< of the run
+    std::string formats;    ///< names with commas between
+    std::string output;     ///< folder for them; empty: export/NAME in that of the run
+    std::int32_t into = 0;  ///< pieces into which the parts are joined; 0: as they are
+    int threads = 1;        ///< of each rank
+};
+
+/// What an export has written.
+struct ExportSummary {
+    std::string folder;
+    std::vector<RunFile> files;
+    std::int32_t pieces = 0;
+    std::int64_t vertices = 0, tets = 0;
+};
+
+/// Writes the parts of a finished run in all formats of the request. Collective.
+///
+/// A single format goes into the output folder itself, several go into sub-folders with their names. The folder may
+/// hold other files: what an earlier export has listed in kerf_export.json is replaced or removed, a file of anybody
+/// else in the way is refused, before anything has changed there. Without an output folder the files become part of the
+/// run, and its report lists them. Files get their places when all of them are complete. Throws Error on every rank
+/// alike: `io` for what is no finished run or cannot be written, `usage` for a format that cannot hold the mesh.
+ExportSummary export_run(const ExportRequest& request, Communicator& ranks, RunListener* listener);
+
+}  // namespace kerf
