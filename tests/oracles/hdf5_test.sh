@@ -13,7 +13,7 @@ for surface in "$folder"/*.stl; do
     name=${surface%.stl}
     read -ra arguments <"$name.args"
     "$kerf" mesh "$surface" -o "$name" "${arguments[@]}" -q
-    "$kerf" export "$name" --format hdf5 -o "$name/hdf5"
+    "$kerf" export "$name" --format hdf5 -q
     names+=("$name")
 done
 export OMP_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1

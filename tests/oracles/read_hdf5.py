@@ -2,7 +2,7 @@
 
 usage: python3 read_hdf5.py NAME...
 
-The run is in the folder NAME, its surface is NAME.stl, the files to read are NAME/hdf5/mesh.h5 and mesh.xdmf. Prints a
+The run is in the folder NAME, its surface is NAME.stl, the files to read are mesh.h5 and mesh.xdmf of its export. Prints a
 line of JSON for each; the exit code is 1 if a law does not hold.
 """
 
@@ -99,11 +99,11 @@ def check_names(path, names):
 
 def check_run(name):
     expected = Expected(name)
-    path = name + "/hdf5/mesh.h5"
+    path = name + "/export/hdf5/mesh.h5"
     with h5py.File(path, "r") as file:
         whole = check_whole(file, expected)
         check_pieces(file, expected, whole)
-    check_names(name + "/hdf5/mesh.xdmf", whole[3])
+    check_names(name + "/export/hdf5/mesh.xdmf", whole[3])
     check_vtk(path, expected, whole)
     return {"run": name, "vertices": expected.vertices, "tets": expected.tets, "triangles": len(whole[2])}
 

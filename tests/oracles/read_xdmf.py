@@ -3,7 +3,7 @@ compares with the surface and the report. May run as several processes.
 
 usage: [mpirun -n P] python3 read_xdmf.py NAME...
 
-The run is in the folder NAME, its surface is NAME.stl, the files to read are NAME/hdf5/mesh.xdmf and mesh.h5. Prints
+The run is in the folder NAME, its surface is NAME.stl, the files to read are mesh.xdmf and mesh.h5 of its export. Prints
 a line of JSON for each; the exit code is 1 if a law does not hold.
 """
 
@@ -35,7 +35,7 @@ def corners_of(mesh, dim, count):
 
 
 def check_plex(name, expected):
-    viewer = PETSc.Viewer().createHDF5(name + "/hdf5/mesh.h5", "r", comm=comm)
+    viewer = PETSc.Viewer().createHDF5(name + "/export/hdf5/mesh.h5", "r", comm=comm)
     viewer.pushFormat(PETSc.Viewer.Format.HDF5_XDMF)
     plex = PETSc.DMPlex().create(comm)
     plex.load(viewer)
@@ -49,10 +49,10 @@ def check_plex(name, expected):
 
 def check_run(name):
     expected = Expected(name)
-    with h5py.File(name + "/hdf5/mesh.h5", "r") as file:
+    with h5py.File(name + "/export/hdf5/mesh.h5", "r") as file:
         names = [each.decode() for each in file["viz/patch_names"][:]]
         triangles = len(file["viz/patch"])
-    with XDMFFile(comm, name + "/hdf5/mesh.xdmf", "r") as file:
+    with XDMFFile(comm, name + "/export/hdf5/mesh.xdmf", "r") as file:
         mesh = file.read_mesh(name="mesh")
         mesh.topology.create_connectivity(2, 3)
         facet_tags = file.read_meshtags(mesh, name="facets")
