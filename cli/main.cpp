@@ -81,6 +81,7 @@ int run_command(const CommandLine& line) {
         if (root && !line.quiet && (line.verbose || !options.volume))
             tell(tree_text(report.nodes, line.verbose) + "\n");
         if (root && !line.quiet) tell(to_text(report));
+        if (root && line.verbose && report.reference) tell(report.reference->comparison);
         if (root) report_failed_parts(report);
         return report.exit_code;
     } catch (const Error& e) {

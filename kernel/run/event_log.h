@@ -14,7 +14,7 @@ class CheckedFile;
 /// Writes each event when it happens. All objects have "event" and "seconds" since the start:
 ///
 ///     {"event": "run", "input", "output", "trace", "parts"}
-///     {"event": "stage", "stage": "read" | "decompose" | "prepare" | "volume" | "write" | "hash"}
+///     {"event": "stage", "stage": "read" | "decompose" | "prepare" | "volume" | "reference" | "write" | "hash"}
 ///     {"event": "parts", "parts": [{"id", "load", "facets", "volume", "resumed"}]}
 ///     {"event": "part", "id", "state": "done" | "resumed" | "failed", "rank", "worker", "attempts", "tets",
 ///                       "part_seconds", "parts_done", "parts", "load_done", "tets_done", "message", "remedy"}

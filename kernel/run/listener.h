@@ -18,7 +18,7 @@ struct PartEvent {
 /// between stages, before cuts and while workers run.
 class RunListener : public CutListener {
  public:
-    /// `done` of `total` steps of a stage: "read", "decompose", "prepare", "volume", "write", "hash".
+    /// `done` of `total` steps of a stage: "read", "decompose", "prepare", "volume", "reference", "write", "hash".
     virtual void on_progress(const char* stage, std::size_t done, std::size_t total) = 0;
     /// The parts before they are meshed, those among them that need not be included, and what is expected of them, as
     /// plan_text() says it: only on the root rank.

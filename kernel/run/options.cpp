@@ -181,6 +181,8 @@ std::vector<OptionField> option_fields(RunOptions& o) {
         {"tetgen", "", "Expert: TetGen switches instead of q and a (p, Y are always on).", &o.mesher.tetgen_switches},
         {"format", "", "Formats of the result, with commas between; kerf export --help lists them. Default vtu.",
          &o.formats, false},
+        {"reference", "", "Mesh the whole in one piece, too, and compare: comparison.svg, and a table with -v.",
+         &o.reference, false},
         {"stl", "", "Write the closed surface of every part as binary STL, too.", &o.stl, false},
         {"report", "", "Write the report to this file too.", &o.report_file, false},
         {"events", "", "Write progress as one JSON object per line to this file, or to fd:N.", &o.events_file, false},

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <numeric>
@@ -25,6 +26,8 @@
 #include "part/part_store.h"
 #include "part/shared_edges.h"
 #include "part/vtu_writer.h"
+#include "quality/quality_sheet.h"
+#include "quality/quality_text.h"
 #include "run/forecast.h"
 #include "run/gathered_nodes.h"
 #include "run/input_cover.h"
@@ -150,6 +153,7 @@ class Run {
         report_.quality = PartQuality(input.diagonal);
         report_.ranks = ranks.size();
         report_.input = &input;
+        if (report_.options.reference && is_root()) whole_ = input.surface;
     }
 
     void open_folder();
@@ -161,6 +165,7 @@ class Run {
     void announce_parts();
     void hand_over_parts();
     void mesh_parts();
+    void mesh_reference();
     void write_formats();
     RunReport finish(const Stopwatch& whole, double read_seconds);
     const RunReport& report() const { return report_; }
@@ -175,6 +180,7 @@ class Run {
     }
     void save() const { save_run(folder_->saved_run_file(), report_.options, input_.file_hash); }
     StoredParts number_parts();
+    Reference compare_with_whole(PartOutcome whole);
     void verify();
     void measure_workers();
     void remove_stored_parts();
@@ -189,6 +195,7 @@ class Run {
     Decomposition own_;
     std::vector<OwnPart> own_parts_;
     std::optional<VolumeStage> volume_;
+    std::optional<Surface> whole_;  // for the reference, on the root rank
     std::int64_t surface_vertices_ = 0;
 };
 
@@ -332,6 +339,51 @@ void Run::mesh_parts() {
     const Stopwatch stopwatch;
     volume_->mesh(report_.parts, report_.quality);
     report_.seconds.mesh = longest(ranks_, stopwatch.seconds());
+}
+
+// In a worker like any part, but alone and with all the memory that there is.
+void Run::mesh_reference() {
+    if (!report_.options.reference) return;
+    in_agreement(ranks_, [&] {
+        if (!is_root()) return;
+        constexpr int no_leaf = 0;
+        PartJob job;
+        job.part = no_leaf;
+        job.surface = whole_->arrays();
+        job.boundary_id.assign(job.surface.vertices.size(), -1);
+        job.neighbour.assign(job.surface.facets.size(), -1);
+        job.length_scale = input_.diagonal;
+        const std::string job_file = folder_->job_file(no_leaf), part_file = folder_->stored_part_file(no_leaf);
+        write_job(job_file, job);
+        const RunOptions& options = report_.options;
+        PartQueue queue({{job_file, part_file}},
+                        {options.worker_program, options.mesher, 1, options.timeout_seconds, 0, options.attempts},
+                        [](std::size_t) { return true; });
+        std::optional<PartQueue::Finished> finished;
+        while (!finished) {
+            progress("reference", 0, 1);
+            finished = queue.step(0.1);
+        }
+        remove_run_files(folder_->partial_path(), [&](const std::string& file) {
+            return folder_->file(file) == job_file || folder_->file(file) == part_file;
+        });
+        report_.reference = compare_with_whole(std::move(finished->outcome));
+    });
+}
+
+Reference Run::compare_with_whole(PartOutcome whole) {
+    if (whole.result.code) return {std::move(whole), ""};
+    const std::string name = std::filesystem::path(input_.path).filename().string();
+    MeshQuality parts, one;
+    parts.name = fmt::format("{} in {} parts", name, report_.parts.size());
+    parts.parts = static_cast<std::int64_t>(report_.parts.size());
+    parts.vertices = number_parts().outline().vertices;
+    parts.cells = report_.quality;
+    one.name = name + " in one piece";
+    one.vertices = whole.result.vertices;
+    one.cells = whole.result.quality;
+    write_text_file(folder_->file("comparison.svg"), comparison_sheet(one, parts));
+    return {std::move(whole), comparison_text(one, parts)};
 }
 
 // What ends a run says how to continue it. A run that the user has stopped can always be continued; of another one
@@ -533,6 +585,7 @@ RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input&
         run.announce_parts();
         if (volume) {
             run.mesh_parts();
+            run.mesh_reference();
             run.write_formats();
         }
         return run.finish(whole, read_seconds);

@@ -148,6 +148,17 @@ Json totals_json(const RunReport& report) {
             {"peak_rss_bytes", report.peak_rss_bytes}};
 }
 
+Json reference_json(const RunReport& report) {
+    if (!report.reference) return nullptr;
+    const PartResult& whole = report.reference->outcome.result;
+    if (whole.code) return {{"error", whole.message}};
+    return {{"vertices", whole.vertices},
+            {"tets", whole.tets},
+            {"seconds", report.reference->outcome.seconds},
+            {"peak_rss_bytes", whole.peak_rss_bytes},
+            {"quality", quality_json(whole.quality.all)}};
+}
+
 Json file_json(const RunFile& file) { return {{"path", file.path}, {"bytes", file.bytes}, {"hash", file.hash}}; }
 
 template <class T>
@@ -196,6 +207,7 @@ std::string to_json(const RunReport& report) {
                    {"unmatched_interface_faces", v.unmatched_interface_faces},
                    {"inverted_tets", v.inverted_tets},
                    {"tets_zero_parts", v.tets_zero_parts}}},
+                 {"reference", reference_json(report)},
                  {"mesh_hash", report.mesh_hash},
                  {"files", array_of(report.files, file_json)},
                  {"exit_code", report.exit_code}};
@@ -241,6 +253,16 @@ std::string disturbances_text(const RunReport& report) {
         text += fmt::format("{}{} part{} after a time-out, whose bytes may differ from an undisturbed run",
                             text.empty() ? "" : "; ", late, late == 1 ? "" : "s");
     return text;
+}
+
+// The whole in one piece beside the parts.
+std::string reference_text(const RunReport& report) {
+    const PartOutcome& whole = report.reference->outcome;
+    if (whole.result.code) return "the whole could not be meshed in one piece: " + whole.result.message;
+    const Distribution& dihedral = whole.result.quality.all.measures[0];
+    return fmt::format("{} tetrahedra in one piece in {:.2f} s; dihedral min {:.1f}, 1 % {:.1f}, median {:.1f} deg",
+                       grouped(whole.result.tets), whole.seconds, dihedral.min(), dihedral.percentile(0.01),
+                       dihedral.percentile(0.5));
 }
 
 // Where the seconds went.
@@ -294,6 +316,7 @@ std::string to_text(const RunReport& report) {
         line("quality", fmt::format("dihedral min {:.1f}, 1 % {:.1f}, median {:.1f} deg; radius-edge max {:.2f}",
                                     dihedral.min(), dihedral.percentile(0.01), dihedral.percentile(0.5), ratio.max()));
     }
+    if (report.reference) line("reference", reference_text(report));
     line("time", time_text(report));
     line("processes",
          fmt::format("{} rank{} x {} worker{}, imbalance {:.2f}, peak memory {} MB", report.ranks,

@@ -1,6 +1,7 @@
 // What a run did, as plain data and as report.json (schema 1).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,12 @@ struct WorkerSeconds {
     double idle = 0;   ///< nothing left to do
 };
 
+/// The whole in one piece, by the same mesher with the same bounds.
+struct Reference {
+    PartOutcome outcome;  ///< code 0 if there is a mesh
+    std::string comparison;  ///< of both as text (quality/quality_text.h)
+};
+
 struct RunReport {
     const Input* input = nullptr;
     RunOptions options;
@@ -80,6 +87,7 @@ struct RunReport {
     double imbalance = 1;             ///< max over mean of the part seconds summed per worker
     std::int64_t peak_rss_bytes = 0;  ///< of the ranks, and of the largest worker for each worker
     PartQuality quality;
+    std::optional<Reference> reference;  ///< on the root rank, where it was asked for
     std::string mesh_hash;
     std::vector<RunFile> files;   ///< all of the folder but the report, ascending
     std::string folder;           ///< where the result is

@@ -62,7 +62,7 @@ struct WorstCell {
 struct Progress {
     bool running = false;  ///< a run is under way: ours or another's
     bool ours = false;     ///< it can be cancelled
-    std::string stage;     ///< "read", "decompose", "prepare", "volume", "write", "hash"
+    std::string stage;     ///< "read", "decompose", "prepare", "volume", "reference", "write", "hash"
     std::int64_t parts_done = 0, parts = 0;
     double load_done = 0;  ///< in [0, 1]
     double seconds = 0;    ///< since its start

@@ -52,6 +52,7 @@ std::string stage_text(const Progress& progress) {
     if (stage == "decompose") return "Cutting";
     if (stage == "prepare") return "Preparing parts";
     if (stage == "volume") return "Meshing";
+    if (stage == "reference") return "Meshing in one piece";
     if (stage == "write") return "Writing";
     if (stage == "hash") return "Checking files";
     return stage.empty() ? "Running" : stage;
