@@ -89,6 +89,13 @@ std::string ExportFiles::path_of(const std::string& name) {
 
 ExportFile ExportFiles::create(const std::string& name) { return {*this, name, path_of(name)}; }
 
+bool ExportFiles::is_of_others(const std::string& name) const {
+    std::error_code ignored;
+    const auto below = own_.lower_bound(name + "/");
+    const bool is_own = own_.contains(name) || (below != own_.end() && below->starts_with(name + "/"));
+    return !is_own && std::filesystem::exists(std::filesystem::path(place_) / name, ignored);
+}
+
 void ExportFiles::add(const std::string& name) { add(RunFile{name, -1, ""}); }
 
 void ExportFiles::add(RunFile file) {

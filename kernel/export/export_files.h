@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -59,13 +60,15 @@ class ExportFile {
 /// The files of one export, below a folder. May be used by several threads.
 class ExportFiles {
  public:
-    /// `place`: the folder to which the files are moved when all are complete; `folder` itself if empty.
-    explicit ExportFiles(std::string folder, std::string place = "")
-        : folder_(std::move(folder)), place_(place.empty() ? folder_ : std::move(place)) {}
+    /// `place`: the folder to which the files are moved when all are complete; `folder` itself if empty. `own`: names
+    /// of files there that an earlier export has written.
+    explicit ExportFiles(std::string folder, std::string place = "", std::set<std::string> own = {})
+        : folder_(std::move(folder)), place_(place.empty() ? folder_ : std::move(place)), own_(std::move(own)) {}
 
     const std::string& folder() const { return folder_; }
-    /// Where files of others may lie already.
     const std::string& place() const { return place_; }
+    /// Whether a file of this name lies at the place, or a folder, in which nothing was written by an earlier export.
+    bool is_of_others(const std::string& name) const;
     /// A file of this name below the folder, which may have '/' in it: folders are made. What was there is replaced.
     ExportFile create(const std::string& name);
     /// Its path, with the folders made: for files that are not written from beginning to end.
@@ -80,6 +83,7 @@ class ExportFiles {
 
  private:
     std::string folder_, place_;
+    std::set<std::string> own_;
     mutable std::mutex mutex_;
     std::vector<RunFile> files_;
 };

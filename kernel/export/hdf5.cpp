@@ -330,9 +330,8 @@ void write_hdf5_part(const PartSource& parts, std::int32_t rank, const Part& par
 void write_hdf5_merged(const PartSource& parts, const MergeOptions&, ExportFiles& files, const std::string& stem) {
     make_hdf5(parts.outline(), files, stem);
     make_xdmf(parts.outline(), files, stem);
-    const auto count = static_cast<std::int32_t>(parts.outline().parts.size());
-    for (std::int32_t rank = 0; rank < count; ++rank)  // whole parts: their points and who shares them
-        write_hdf5_rows(parts.outline(), rank, parts.load(rank), files, stem);
+    for_each_whole_part(
+        parts, [&](std::int32_t rank, const Part& part) { write_hdf5_rows(parts.outline(), rank, part, files, stem); });
 }
 
 }  // namespace

@@ -349,7 +349,7 @@ struct Whole {
 Whole survey(const PartSource& parts) {
     Whole whole;
     whole.surfaces.resize(parts.outline().patch_names.size());
-    for_each_part(parts, [&](std::int32_t, const Part& part) {
+    for_each_whole_part(parts, [&](std::int32_t, const Part& part) {
         const PatchPieces pieces = patch_pieces(part);
         for (const PatchPiece& piece : pieces.on_patches)
             whole.surfaces[static_cast<std::size_t>(piece.patch)].extend(piece.box);
@@ -384,7 +384,7 @@ void write_merged_4_1(const PartSource& parts, const Tags& tags, ExportFiles& fi
 
     writer.begin("Nodes");
     writer.extent(whole.blocks, static_cast<std::size_t>(outline.vertices), {0, outline.vertices - 1});
-    for_each_part(parts, [&](std::int32_t rank, const Part& part) {
+    for_each_whole_part(parts, [&](std::int32_t rank, const Part& part) {
         const PatchPieces pieces = owned_patch_pieces(part);
         for (const PatchPiece& piece : pieces.on_patches)
             writer.nodes(Tags::surface(piece.patch), part, piece.vertices);
@@ -395,7 +395,7 @@ void write_merged_4_1(const PartSource& parts, const Tags& tags, ExportFiles& fi
     const std::int64_t elements = element_count(outline);
     writer.begin("Elements");
     writer.extent(whole.blocks, static_cast<std::size_t>(elements), {0, elements - 1});
-    for_each_part(parts, [&](std::int32_t rank, const Part& part) {
+    for_each_whole_part(parts, [&](std::int32_t rank, const Part& part) {
         for (const PatchPiece& piece : patch_pieces(part).on_patches)
             writer.triangles(Tags::surface(piece.patch), part, piece, first_triangle(outline, rank));
         writer.tets(Tags::merged_volume(rank), part, outline.first_tet(rank));

@@ -25,7 +25,6 @@
 #include "core/check.h"
 #include "core/error.h"
 #include "export/format.h"
-#include "io/file_bytes.h"
 
 namespace kerf {
 
@@ -327,24 +326,21 @@ void require_labels(const MeshOutline& outline) {
 
 // OpenFOAM takes every folder processorN for a part.
 void require_no_more_processors(const MeshOutline& outline, const ExportFiles& files) {
-    const std::string next = fmt::format("{}/processor{}", files.place(), outline.parts.size());
-    std::error_code ignored;
-    if (outline.parts.size() > 1 && std::filesystem::exists(next, ignored))
+    const std::string next = fmt::format("processor{}", outline.parts.size());
+    if (outline.parts.size() > 1 && files.is_of_others(next))
         throw Error(ErrorCode::usage, fmt::format("{} belongs to a case in more parts than these. Remove the folders "
                                                   "processor* there, or choose another folder.",
-                                                  next));
+                                                  files.place() + "/" + next));
 }
 
-// A dictionary without which no program of OpenFOAM opens the case. One of the user's stays; the beginning of ours is
-// what an interrupted export has left.
+// A dictionary without which no program of OpenFOAM opens the case. One of the user's stays.
 void write_dictionary(ExportFiles& files, const std::string& object, std::string_view entries) {
-    const std::string name = "system/" + object, path = files.place() + "/" + name;
+    const std::string name = "system/" + object;
+    if (files.is_of_others(name)) return;
     const std::string text = fmt::format(
         "FoamFile\n{{\n    version     2.0;\n    format      ascii;\n    class       dictionary;\n"
         "    location    \"system\";\n    object      {};\n}}\n\n{}",
         object, entries);
-    std::error_code ignored;
-    if (std::filesystem::exists(path, ignored) && !text.starts_with(read_file(path))) return;
     ExportFile file = files.create(name);
     file.text(text);
     file.close();

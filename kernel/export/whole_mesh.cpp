@@ -68,6 +68,11 @@ void for_each_part(const PartSource& parts, const std::function<void(std::int32_
     for_each_content(parts, PartContent::cells, take);
 }
 
+void for_each_whole_part(const PartSource& parts,
+                         const std::function<void(std::int32_t rank, const Part& part)>& take) {
+    for_each_content(parts, PartContent::all, take);
+}
+
 void for_each_surface(const PartSource& parts, const std::function<void(std::int32_t rank, const Part& part)>& take) {
     for_each_content(parts, PartContent::surface, take);
 }

@@ -25,6 +25,9 @@ void for_each_vertex(const PartSource& parts,
 /// Calls take(rank, part) with every part, in the order of the tree: PartContent::cells, so without coordinates.
 void for_each_part(const PartSource& parts, const std::function<void(std::int32_t rank, const Part& part)>& take);
 
+/// The same with all that parts have.
+void for_each_whole_part(const PartSource& parts, const std::function<void(std::int32_t rank, const Part& part)>& take);
+
 /// The same with PartContent::surface.
 void for_each_surface(const PartSource& parts, const std::function<void(std::int32_t rank, const Part& part)>& take);
 

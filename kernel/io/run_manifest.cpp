@@ -106,8 +106,8 @@ bool is_sealed(const std::string& report) {
 
 bool is_named_like_run_file(const std::string& path) {
     std::string_view name = path;
-    for (const std::string_view whole :
-         {"report.json", "mesh.pvtu", "comparison.svg", "parts/", "failed/", "work/", "work/journal/", "work/jobs/", "work/taken/"})
+    for (const std::string_view whole : {"report.json", "mesh.pvtu", "comparison.svg", "parts/", "failed/", "work/",
+                                         "work/journal/", "work/jobs/", "work/taken/"})
         if (name == whole) return true;
     if (take_prefix(name, "parts/")) return is_part_name(name, {".part", ".vtu", ".surface.vtu", ".stl"});
     if (take_prefix(name, "export/")) return true;
@@ -167,10 +167,16 @@ void remove_run_folder(const std::string& folder) {
     try {
         for (const std::string& file : list_files(folder))
             if (is_named_like_run_file(file)) fs::remove(fs::path(folder) / file, ignored);
+        // Those that are empty now are listed, and those above them next time.
+        for (bool any = true; any;) {
+            any = false;
+            for (const std::string& file : list_files(folder))
+                any |=
+                    file.ends_with('/') && is_named_like_run_file(file) && fs::remove(fs::path(folder) / file, ignored);
+        }
     } catch (const Error&) {  // it cannot be read, so it stays
     }
-    for (const char* name : {"parts", "failed", "work/journal", "work/jobs", "work/taken", "work", ""})
-        fs::remove(fs::path(folder) / name, ignored);  // only if it is empty
+    fs::remove(folder, ignored);  // only if it is empty
 }
 
 }  // namespace kerf

@@ -52,11 +52,17 @@ class Target {
 
     const std::string& folder() const { return folder_; }
     const std::string& staging() const { return staging_; }
+    /// Names of the files there that Kerf has written.
+    std::set<std::string> own() const {
+        std::set<std::string> names;
+        for (const auto& file : list_.at("files")) names.insert(file.at("path").get<std::string>());
+        return names;
+    }
 
     /// Gives the files that lie in staging() their places. Unless `keeps_older`, files of earlier exports go away.
     void take(const std::vector<RunFile>& files, bool keeps_older) {
-        std::set<std::string> listed, written;
-        for (const auto& file : list_.at("files")) listed.insert(file.at("path").get<std::string>());
+        const std::set<std::string> listed = own();
+        std::set<std::string> written;
         for (const RunFile& file : files) written.insert(file.path);
         std::error_code ignored;
         for (const RunFile& file : files)
@@ -166,7 +172,9 @@ ExportSummary export_run(const ExportRequest& request, Communicator& ranks, RunL
                           static_cast<std::int32_t>(source.outline().parts.size()),
                           source.outline().vertices,
                           source.outline().tets()};
-    summary.files = write_parts(ranks, source, places, shared_staging, folder, request.threads, listener);
+    // What belongs to no part is written by the root rank, which alone asks for files of others.
+    const WriteTarget to{shared_staging, folder, target ? target->own() : std::set<std::string>()};
+    summary.files = write_parts(ranks, source, places, to, request.threads, listener);
     in_agreement(ranks, [&] {
         if (target) target->take(summary.files, request.output.empty());
     });

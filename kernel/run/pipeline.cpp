@@ -428,7 +428,7 @@ void Run::write_formats() {
     const StoredParts parts = number_parts();
     std::vector<const Format*> formats = parse_formats(report_.options.formats);
     if (failure_code(report_.parts) != 0) formats = {&find_format("vtu")};
-    report_.files = write_parts(ranks_, parts, places_in_run_folder(formats), folder_->partial_path(), "",
+    report_.files = write_parts(ranks_, parts, places_in_run_folder(formats), {folder_->partial_path()},
                                 report_.options.workers, listener_);
     report_.seconds.write = longest(ranks_, stopwatch.seconds());
 }

@@ -68,7 +68,7 @@ struct WorkerSeconds {
 
 /// The whole in one piece, by the same mesher with the same bounds.
 struct Reference {
-    PartOutcome outcome;  ///< code 0 if there is a mesh
+    PartOutcome outcome;     ///< code 0 if there is a mesh
     std::string comparison;  ///< of both as text (quality/quality_text.h)
 };
 

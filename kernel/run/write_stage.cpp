@@ -27,11 +27,22 @@ std::string below(const std::string& folder, const std::string& sub_folder) {
     return sub_folder.empty() ? folder : folder + "/" + sub_folder;
 }
 
-std::vector<FormatFiles> open_formats(std::span<const FormatPlace> formats, const std::string& folder,
-                                      const std::string& place) {
+// Those of the names that lie in the sub-folder, as seen from there.
+std::set<std::string> names_below(const std::set<std::string>& names, const std::string& sub_folder) {
+    if (sub_folder.empty()) return names;
+    std::set<std::string> below;
+    for (const std::string& name : names)
+        if (name.starts_with(sub_folder + "/")) below.insert(name.substr(sub_folder.size() + 1));
+    return below;
+}
+
+std::vector<FormatFiles> open_formats(std::span<const FormatPlace> formats, const WriteTarget& target) {
     std::vector<FormatFiles> opened;
-    for (const auto& [format, sub_folder] : formats)
-        opened.push_back({format, std::make_unique<ExportFiles>(below(folder, sub_folder), below(place, sub_folder))});
+    for (const auto& [format, sub_folder] : formats) {
+        const std::string place = target.place.empty() ? "" : below(target.place, sub_folder);
+        opened.push_back({format, std::make_unique<ExportFiles>(below(target.folder, sub_folder), place,
+                                                                names_below(target.own, sub_folder))});
+    }
     return opened;
 }
 
@@ -124,9 +135,8 @@ std::vector<FormatPlace> places_in_run_folder(const std::vector<const Format*>& 
 }
 
 std::vector<RunFile> write_parts(Communicator& ranks, const PartSource& parts, std::span<const FormatPlace> formats,
-                                 const std::string& folder, const std::string& place, int threads,
-                                 RunListener* listener) {
-    const std::vector<FormatFiles> opened = open_formats(formats, folder, place);
+                                 const WriteTarget& target, int threads, RunListener* listener) {
+    const std::vector<FormatFiles> opened = open_formats(formats, target);
     const auto check = [&](std::int32_t done, std::int32_t total) {
         if (!listener) return;
         if (listener->cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
@@ -150,7 +160,7 @@ std::vector<RunFile> write_parts(Communicator& ranks, const PartSource& parts, s
                 check(0, 1);
                 if (format->is_merged_only()) format->write_merged(parts, {}, *files, "mesh");
             }
-        return list_files_of(opened, folder);
+        return list_files_of(opened, target.folder);
     });
     std::vector<RunFile> all;
     for (const auto& of_rank : all_gather(ranks, own)) all.insert(all.end(), of_rank.begin(), of_rank.end());
@@ -158,7 +168,7 @@ std::vector<RunFile> write_parts(Communicator& ranks, const PartSource& parts, s
     in_agreement(ranks, [&] {
         if (ranks.rank() != 0) return;
         for (RunFile& file : all)
-            if (file.bytes < 0) file = describe_file(folder, file.path);  // several ranks have written it
+            if (file.bytes < 0) file = describe_file(target.folder, file.path);  // several ranks have written it
     });
     return all;
 }

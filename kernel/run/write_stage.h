@@ -1,6 +1,7 @@
 // Parts to files of all formats, by the threads of all ranks.
 #pragma once
 
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,13 +21,19 @@ struct FormatPlace {
 /// Where a run folder has the files of formats: export/NAME, but those of `vtu` in the folder itself.
 std::vector<FormatPlace> places_in_run_folder(const std::vector<const Format*>& formats);
 
-/// Writes all parts in all formats below `folder`, whose files are to be moved to `place`. Collective: every rank
+/// Where an export is written: see ExportFiles.
+struct WriteTarget {
+    std::string folder;
+    std::string place = "";
+    std::set<std::string> own = {};
+};
+
+/// Writes all parts in all formats below the folder of the target. Collective: every rank
 /// writes its share of the parts with so many `threads`, each of which holds one part at a time; what belongs to no
 /// part, and formats that are read in one piece, are the root rank's. Returns what was written, with paths relative to
 /// the folder, on every rank; with sizes and hashes on the root rank. The bytes depend on the parts alone. Throws Error
 /// on every rank alike.
 std::vector<RunFile> write_parts(Communicator& ranks, const PartSource& parts, std::span<const FormatPlace> formats,
-                                 const std::string& folder, const std::string& place, int threads,
-                                 RunListener* listener);
+                                 const WriteTarget& target, int threads, RunListener* listener);
 
 }  // namespace kerf

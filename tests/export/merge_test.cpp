@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "export/cases.h"
+#include "export/format.h"
 #include "support/file_contents.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
@@ -43,8 +44,11 @@ TEST_F(Merge, TheEndingChoosesTheFormat) {
 }
 
 TEST_F(Merge, UnknownEndingsAreRefused) {
+    std::string endings;
+    for (const Format* format : formats())
+        if (format->ending) endings += (endings.empty() ? "" : ", ") + std::string(format->ending);
     for (const char* name : {"mesh", "mesh.stl", "mesh.su2.gz", ".su2"})
-        expect_refused(folder_.file(name), 2, ".vtu, .mesh, .node, .inp, .su2");
+        expect_refused(folder_.file(name), 2, "There are " + endings + ".");
 }
 
 TEST_F(Merge, NoFileOfTheRunIsWrittenOver) {

@@ -153,7 +153,8 @@ def check_ghosts(files):
 def check_parts(folder, report, surface_areas):
     count = len(report["parts"])
     names = ["mesh.msh"] if count == 1 else [f"mesh_{i + 1}.msh" for i in range(count)]
-    require(sorted(path.name for path in folder.iterdir()) == sorted(names), f"{folder} has a file for each part")
+    found = sorted(path.name for path in folder.glob("*.msh"))
+    require(found == sorted(names), f"{folder} has a file for each part")
     files = [GmshFile(folder / name) for name in names]
     for i, (file, part) in enumerate(zip(files, report["parts"])):
         require(len(file.tets) == 1, f"{file.path} has one volume")

@@ -32,13 +32,18 @@ std::string output_of(const std::string& path) {
     return output;
 }
 
+bool names_output(const std::vector<std::string>& arguments) {
+    return std::find(arguments.begin(), arguments.end(), "-o") != arguments.end();
+}
+
 }  // namespace
 
 Surroundings::Surroundings(const std::vector<std::string>& arguments) {
     for (std::size_t i = 0; i < arguments.size(); ++i) {
         const std::string& argument = arguments[i];
         std::error_code ignored;
-        const bool is_output = i > 0 && output_options.contains(arguments[i - 1]);
+        const bool is_run_to_export = i == 1 && arguments[0] == "export" && !names_output(arguments);
+        const bool is_output = is_run_to_export || (i > 0 && output_options.contains(arguments[i - 1]));
         if (argument.empty() || argument.starts_with("/dev/") || argument.starts_with("/proc/")) continue;
         if (is_output) {
             outputs_.push_back(output_of(argument));

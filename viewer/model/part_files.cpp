@@ -9,6 +9,7 @@
 #include "mesh/adjacency.h"
 #include "mesh/quality.h"
 #include "mesh/verification.h"
+#include "part/run_parts.h"
 #include "part/vtu_reader.h"
 
 namespace kerf::view {
@@ -60,9 +61,12 @@ std::vector<float> values_of_tets(const TetMesh& mesh, ColorBy color) {
     return values;
 }
 
+// Of the measures; the files of parts that are not finished, or of runs in other formats, have none.
+bool has_arrays(const std::string& path) { return path.ends_with(".vtu"); }
+
 }  // namespace
 
-std::string part_file_of(const std::string& folder, NodeId part) { return folder + "/parts/" + part_file_name(part); }
+std::string part_file_of(const std::string& folder, NodeId part) { return path_of_part(folder, part); }
 std::string part_surface_file_of(const std::string& folder, NodeId part) {
     return folder + "/parts/" + part_surface_file_name(part);
 }
@@ -117,17 +121,19 @@ NodeSurface join_part_surfaces(const std::string& folder, NodeId node, const std
 }
 
 PartCells read_part_cells(const std::string& folder, NodeId part) {
-    Part file = read_part(part_file_of(folder, part));
+    Part file = load_part(folder, part, 0);
     connect_tets(file.mesh);
     PartCells cells;
     cells.part = part;
-    cells.tet_at_facet = tets_at_facets(file.mesh, file.facets);
+    cells.tet_at_facet = std::move(file.tet_at_facet);
     cells.at_interface = tets_at_interfaces(file);
     cells.vertices = std::move(file.mesh.vertices);
     cells.boundary_vertex_count = file.mesh.boundary_vertex_count;
     cells.tets = std::move(file.mesh.tets);
     cells.neighbours = std::move(file.mesh.neighbours);
     cells.vertex_number = std::move(file.global_id);
+    if (!has_arrays(part_file_of(folder, part)))  // nor numbers for who does not know all other parts
+        std::fill(cells.vertex_number.begin() + cells.boundary_vertex_count, cells.vertex_number.end(), -1);
     return cells;
 }
 
@@ -156,9 +162,10 @@ std::vector<float> values_of_cells(const PartCells& cells, ColorBy color) {
 
 std::vector<float> read_values_of_cells(const std::string& folder, NodeId part, ColorBy color, const PartCells* cells) {
     const std::string path = part_file_of(folder, part);
-    if (const char* array = stored_array(color)) return read_cell_values(path, array, 0, read_cell_counts(path).tets);
+    if (const char* array = stored_array(color); array && has_arrays(path))
+        return read_cell_values(path, array, 0, read_cell_counts(path).tets);
     if (cells) return values_of_cells(*cells, color);
-    const Part file = read_part(path);
+    const Part file = load_part(folder, part, 0);
     if (color != ColorBy::kind) return values_of_tets(file.mesh, color);
     const std::vector<char> at_interface = tets_at_interfaces(file);
     return {at_interface.begin(), at_interface.end()};
@@ -167,7 +174,7 @@ std::vector<float> read_values_of_cells(const std::string& folder, NodeId part, 
 std::vector<float> read_values_at_facets(const std::string& folder, NodeId part, ColorBy color,
                                          const PartCells* cells) {
     const std::string path = part_file_of(folder, part);
-    if (const char* array = stored_array(color)) {
+    if (const char* array = stored_array(color); array && has_arrays(path)) {
         const PartCellCounts counts = read_cell_counts(path);
         return read_cell_values(path, array, counts.tets, counts.facets);
     }
@@ -209,7 +216,7 @@ std::vector<WorstCell> find_worst_cells(const std::string& folder, const std::ve
         const auto is_in_part = [part](const WorstCell& cell) { return cell.part == part; };
         if (std::none_of(worst.begin(), worst.end(), is_in_part)) continue;
         if (is_stale()) return {};
-        const Part file = read_part(part_file_of(folder, part));
+        const Part file = load_part(folder, part, 0);
         for (WorstCell& cell : worst) {
             if (!is_in_part(cell)) continue;
             for (const std::int32_t v : file.mesh.tets.at(static_cast<std::size_t>(cell.cell)))

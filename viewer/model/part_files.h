@@ -12,7 +12,7 @@
 
 namespace kerf::view {
 
-/// FOLDER/parts/part_0008.vtu and FOLDER/parts/part_0008.surface.vtu.
+/// FOLDER/parts/part_0008.vtu, or part_0008.part where that is not written yet, and part_0008.surface.vtu there.
 std::string part_file_of(const std::string& folder, NodeId part);
 std::string part_surface_file_of(const std::string& folder, NodeId part);
 
