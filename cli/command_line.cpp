@@ -92,7 +92,7 @@ CLI::App* add_quality_command(CLI::App& app, QualityRequest& request) {
 }
 
 CLI::App* add_export_command(CLI::App& app, CommandLine& line) {
-    ExportRequest& request = line.export_;
+    ExportRequest& request = line.export_request;
     request.threads = 0;
     CLI::App* command = app.add_subcommand("export", "Write a finished run in the formats of solvers, part by part.");
     std::string list = "Formats:\n";
@@ -235,7 +235,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     } else if (verify->parsed()) {
         line.command = Command::verify;
     } else if (to_export->parsed()) {
-        line.command = Command::export_;
+        line.command = Command::export_formats;
     } else if (to_merge->parsed()) {
         line.command = Command::merge;
     } else if (quality->parsed()) {

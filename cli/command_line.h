@@ -12,7 +12,7 @@
 
 namespace kerf {
 
-enum class Command { none, mesh, decompose, check, verify, export_, merge, quality };
+enum class Command { none, mesh, decompose, check, verify, export_formats, merge, quality };
 
 struct CommandLine {
     Command command = Command::none;
@@ -21,7 +21,7 @@ struct CommandLine {
     bool verbose = false;  ///< print every node of the tree of cuts
     std::string resume;    ///< output folder of an interrupted run that is to be continued; empty: a new run
     CheckRequest check;
-    ExportRequest export_;
+    ExportRequest export_request;
     MergeRequest merge;
     QualityRequest quality;
     bool print_config = false;  ///< print the effective options and end

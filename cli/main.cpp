@@ -109,8 +109,8 @@ int run_program(int argc, char** argv) {
     switch (line.command) {
         case Command::check:
             return check_surface(line.check);
-        case Command::export_:
-            return export_formats(line.export_, line.quiet);
+        case Command::export_formats:
+            return export_formats(line.export_request, line.quiet);
         case Command::merge:
             return merge_run(line.merge);
         case Command::quality:

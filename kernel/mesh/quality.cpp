@@ -50,9 +50,9 @@ int clamp_to_bins(double position) { return std::clamp(static_cast<int>(position
 class QuickLogarithm {
  public:
     QuickLogarithm() {
-        for (std::size_t i = 0; i < intervals.size(); ++i) {
-            const double centre = 1 + (static_cast<double>(i) + 0.5) / static_cast<double>(intervals.size());
-            intervals[i] = {std::log2(centre), 1 / centre};
+        for (std::size_t i = 0; i < intervals_.size(); ++i) {
+            const double centre = 1 + (static_cast<double>(i) + 0.5) / static_cast<double>(intervals_.size());
+            intervals_[i] = {std::log2(centre), 1 / centre};
         }
     }
     // Of a positive normal number.
@@ -60,7 +60,7 @@ class QuickLogarithm {
         constexpr int mantissa_bits = 52, exponent_of_one = 1023;
         const auto bits = std::bit_cast<std::uint64_t>(value);
         const std::uint64_t mantissa = bits & ((std::uint64_t{1} << mantissa_bits) - 1);
-        const Interval& interval = intervals[mantissa >> (mantissa_bits - table_bits)];
+        const Interval& interval = intervals_[mantissa >> (mantissa_bits - table_bits)];
         const auto in_one_to_two = std::bit_cast<double>(mantissa | std::uint64_t{exponent_of_one} << mantissa_bits);
         const double t = in_one_to_two * interval.reciprocal - 1;
         return static_cast<double>(static_cast<int>(bits >> mantissa_bits) - exponent_of_one) + interval.logarithm +
@@ -72,7 +72,7 @@ class QuickLogarithm {
     struct Interval {
         double logarithm, reciprocal;
     };
-    std::array<Interval, 1 << table_bits> intervals{};
+    std::array<Interval, 1 << table_bits> intervals_{};
 };
 const QuickLogarithm quick_log2;
 

@@ -34,7 +34,7 @@ using Json = nlohmann::ordered_json;
 // of earlier exports.
 class Target {
  public:
-    Target(std::string folder, std::string list_name)
+    Target(std::string folder, const std::string& list_name)
         : folder_(std::move(folder)), list_file_((fs::path(folder_) / list_name).string()) {
         std::error_code error;
         fs::create_directories(folder_, error);
