@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/xml_text.h"
 #include "export/format.h"
 #include "export/hdf5_file.h"
 #include "export/whole_mesh.h"
@@ -232,23 +233,6 @@ class Hdf5Piece {
     const Part& part_;
     PieceRows own_;  // before those of this part
 };
-
-std::string xml_text(std::string_view text) {
-    std::string escaped;
-    for (const char c : text) {
-        if (c == '&')
-            escaped += "&amp;";
-        else if (c == '<')
-            escaped += "&lt;";
-        else if (c == '>')
-            escaped += "&gt;";
-        else if (c == '"')
-            escaped += "&quot;";
-        else
-            escaped += c;
-    }
-    return escaped;
-}
 
 // What the arrays by global numbers mean, for readers of XDMF. They lie in the file `h5` beside it.
 class XdmfText {

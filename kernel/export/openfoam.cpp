@@ -10,21 +10,18 @@
 // reconstructParMesh -constant joins the processors along their patches and makes the addressing that reconstructPar
 // asks for; it needs none, so none is written.
 //
-// A patch is named by an OpenFOAM word: each run of characters other than ASCII letters, digits, '_', '-' and '.'
-// becomes one '_', which is dropped at the end; "patch" stands for nothing left; a '_' goes before what does not begin
-// with a letter or '_', and before the names of processor patches and of their group. A name that is a word keeps it;
-// of others with the same word the first gets it if it is free, the next ones _2, _3 ... behind it. The name itself is
-// in a comment.
+// A patch is named by a word (export/word_names.h) that is not one of OpenFOAM's for the patches between processors;
+// its own name is in a comment, if it is another one.
 #include <algorithm>
 #include <filesystem>
 #include <limits>
-#include <set>
 
 #include <fmt/format.h>
 
 #include "core/check.h"
 #include "core/error.h"
 #include "export/format.h"
+#include "export/word_names.h"
 
 namespace kerf {
 
@@ -45,51 +42,8 @@ std::string header(std::string_view kind, std::string_view object, bool is_binar
         note.empty() ? "" : fmt::format("    note        \"{}\";\n", note), object);
 }
 
-// ---- Names of patches
-
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-bool is_of_word(char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.'; }
-
-std::string to_word(std::string_view name) {
-    std::string word;
-    bool is_replaced = false;  // the last character of the word
-    for (const char c : name) {
-        if (is_of_word(c))
-            word += c;
-        else if (!is_replaced)
-            word += '_';
-        is_replaced = !is_of_word(c);
-    }
-    if (is_replaced) word.pop_back();
-    if (word.empty()) return "patch";
-    const bool is_taken = word.starts_with("procBoundary") || word == "processor";
-    return is_taken || !(is_letter(word[0]) || word[0] == '_') ? "_" + word : word;
-}
-
-std::string free_word(const std::string& word, const std::set<std::string>& taken) {
-    std::string free = word;
-    for (int count = 2; taken.contains(free); ++count) free = fmt::format("{}_{}", word, count);
-    return free;
-}
-
-std::vector<std::string> words_of(const std::vector<std::string>& names) {
-    std::vector<std::string> words(names.size());
-    std::set<std::string> taken;
-    for (const bool keeps_its_name : {true, false})
-        for (std::size_t p = 0; p < names.size(); ++p) {
-            const std::string word = to_word(names[p]);
-            if (!words[p].empty() || (keeps_its_name && (word != names[p] || taken.contains(word)))) continue;
-            words[p] = free_word(word, taken);
-            taken.insert(words[p]);
-        }
-    return words;
-}
-
-std::string comment_of(const std::string& name) {
-    std::string line = name;
-    std::replace_if(
-        line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
-    return fmt::format("    // {}\n", line);
+WordRules word_rules() {
+    return {.most_characters = 200, .taken = {"processor"}, .taken_beginnings = {"procBoundary"}};
 }
 
 // ---- Boundary
@@ -155,11 +109,11 @@ Triangle starting_at_smallest_id(Triangle triangle, const Part& part) {
 }
 
 std::vector<Patch> patches_of_surface(const std::vector<std::string>& names) {
-    const std::vector<std::string> words = words_of(names);
+    const std::vector<std::string> words = word_names(names, word_rules());
     std::vector<Patch> patches(names.size());
     for (std::size_t p = 0; p < names.size(); ++p) {
         patches[p].name = words[p];
-        if (words[p] != names[p]) patches[p].comment = comment_of(names[p]);
+        if (words[p] != names[p]) patches[p].comment = fmt::format("    // {}\n", comment_text(names[p]));
     }
     return patches;
 }

@@ -20,9 +20,14 @@ std::string lower_case(std::string word) {
     return word;
 }
 
+bool has_taken_beginning(std::string_view name, const WordRules& rules) {
+    return std::any_of(rules.taken_beginnings.begin(), rules.taken_beginnings.end(),
+                       [&](const std::string& taken) { return name.starts_with(taken); });
+}
+
 bool is_word(std::string_view name, const WordRules& rules) {
     return !name.empty() && name.size() <= rules.most_characters && is_letter(name.front()) &&
-           std::all_of(name.begin(), name.end(), is_allowed);
+           std::all_of(name.begin(), name.end(), is_allowed) && !has_taken_beginning(name, rules);
 }
 
 std::string to_word(std::string_view name, const WordRules& rules) {
@@ -38,7 +43,7 @@ std::string to_word(std::string_view name, const WordRules& rules) {
         }
     }
     if (word.empty()) return "patch";
-    if (!is_letter(word.front())) word.insert(0, "patch_");
+    if (!is_letter(word.front()) || has_taken_beginning(word, rules)) word.insert(0, "patch_");
     return word.substr(0, rules.most_characters);
 }
 

@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "core/xml_text.h"
 #include "io/checked_file.h"
 #include "io/text_file.h"
 #include "io/vtk_cell_types.h"
@@ -268,21 +269,6 @@ std::string parallel_section(const Section& section) {
     return xml + fmt::format("</P{}>\n", section.element);
 }
 
-std::string xml_escaped(std::string_view text) {
-    std::string escaped;
-    for (const char c : text) {
-        if (c == '&')
-            escaped += "&amp;";
-        else if (c == '<')
-            escaped += "&lt;";
-        else if (c == '"')
-            escaped += "&quot;";
-        else
-            escaped += c;
-    }
-    return escaped;
-}
-
 // Reads our own XML: elements on one line, attributes in double quotes.
 class HeaderParser {
  public:
@@ -364,7 +350,7 @@ std::string pvtu_text(const std::vector<std::string>& pieces) {
     std::string xml = fmt::format(file_begin, "PUnstructuredGrid") + "<PUnstructuredGrid GhostLevel=\"0\">\n";
     for (const Section* section : {&grid.point_data(), &grid.cell_data(), &grid.points()})
         xml += parallel_section(*section);
-    for (const std::string& piece : pieces) xml += fmt::format("<Piece Source=\"{}\"/>\n", xml_escaped(piece));
+    for (const std::string& piece : pieces) xml += fmt::format("<Piece Source=\"{}\"/>\n", xml_text(piece));
     return xml + "</PUnstructuredGrid>\n</VTKFile>\n";
 }
 

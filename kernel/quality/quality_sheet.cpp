@@ -13,6 +13,7 @@
 
 #include "core/error.h"
 #include "core/number_text.h"
+#include "core/xml_text.h"
 #include "quality/histogram_rows.h"
 #include "quality/quality_text.h"
 
@@ -42,24 +43,6 @@ struct LegendEntry {
     const char* colour;
     std::string text;
 };
-
-std::string escaped(std::string_view text) {
-    std::string result;
-    for (const char c : text) switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            default:
-                result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-        }
-    return result;
-}
 
 // The end of a long path, without a character that is cut in two.
 std::string shortened(const std::string& name) {
@@ -300,7 +283,7 @@ std::string draw(const std::string& title, const std::vector<LegendEntry>& legen
     for (std::size_t i = 0; i < legend.size(); ++i) {
         const double y = 70 + 22 * static_cast<double>(i);
         drawing.swatch(margin, y - 9, legend[i].colour);
-        drawing.text(margin + 32, y, escaped(legend[i].text), "font-size='13'");
+        drawing.text(margin + 32, y, xml_text(legend[i].text), "font-size='13'");
     }
     drawing.text(margin, head_height - 18,
                  "Above: how many in each interval. Below: how many have less. Each curve is of its own 100 %.",

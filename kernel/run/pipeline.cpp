@@ -5,38 +5,29 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <filesystem>
 #include <functional>
-#include <map>
-#include <numeric>
 #include <optional>
-#include <set>
+#include <utility>
 
 #include <fmt/format.h>
-#include <Eigen/Geometry>
 
 #include "core/host_name.h"
 #include "decompose/straight_division.h"
-#include "io/folder_files.h"
 #include "io/output_file.h"
 #include "io/run_folder.h"
 #include "io/stl_writer.h"
 #include "io/text_file.h"
 #include "part/part_store.h"
-#include "part/shared_edges.h"
 #include "part/vtu_writer.h"
-#include "quality/quality_sheet.h"
-#include "quality/quality_text.h"
 #include "run/forecast.h"
 #include "run/gathered_nodes.h"
-#include "run/input_cover.h"
-#include "run/interface_match.h"
-#include "run/mesh_hash.h"
-#include "run/numbering.h"
 #include "run/peak_memory.h"
+#include "run/prepare_stage.h"
 #include "run/range_of_rank.h"
+#include "run/reference.h"
+#include "run/run_files.h"
 #include "run/saved_run.h"
+#include "run/totals.h"
 #include "run/trace.h"
 #include "run/volume_stage.h"
 #include "run/write_stage.h"
@@ -76,39 +67,6 @@ RunFolder open_run_folder(const RunOptions& options, const std::string& input_ha
     return std::move(*folder);
 }
 
-// A part that this rank has cut: what is known of it, and what is to be done.
-struct OwnPart {
-    PartReport report;
-    PartJob job;
-};
-
-// What is known of a part before it is meshed.
-PartReport describe_part(const PartJob& job, double volume, int rank, const LoadModel& model) {
-    PartReport part;
-    part.id = job.part;
-    part.rank = rank;
-    part.surface_volume = volume;
-    part.surface_vertices = static_cast<std::int64_t>(job.surface.vertices.size());
-    part.surface_facets = static_cast<std::int64_t>(job.surface.facets.size());
-    for (std::size_t f = 0; f < job.neighbour.size(); ++f) {
-        if (job.neighbour[f] < 0) continue;
-        ++part.interface_facets;
-        const Triangle& t = job.surface.facets[f];
-        const std::vector<Vec3>& p = job.surface.vertices;
-        part.interface_area += (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / 2;
-        part.neighbours.push_back(job.neighbour[f]);
-    }
-    part.load = model.load(static_cast<double>(part.surface_vertices), static_cast<double>(part.surface_facets),
-                           part.surface_volume);
-    std::sort(part.neighbours.begin(), part.neighbours.end());
-    part.neighbours.erase(std::unique(part.neighbours.begin(), part.neighbours.end()), part.neighbours.end());
-    return part;
-}
-
-std::int32_t rank_of_leaf(const std::vector<NodeId>& leaves, NodeId leaf) {
-    return static_cast<std::int32_t>(std::find(leaves.begin(), leaves.end(), leaf) - leaves.begin());
-}
-
 // Fewer facets leave no contour of edges; fewer than a tetrahedron has make no part.
 std::int64_t least_facets(const DecomposeOptions& options) {
     return options.facets == FacetPolicy::keep ? min_facets_per_part : 4;
@@ -132,18 +90,6 @@ std::int32_t part_count(const Input& input, const RunOptions& options, int ranks
     return wanted;
 }
 
-// 0 if every part was meshed; `memory` if all that failed ran out of it, else `subdomain`.
-int failure_code(const std::vector<PartReport>& parts) {
-    int code = 0;
-    for (const PartReport& part : parts) {
-        if (part.result.code == 0) continue;
-        const bool memory = part.result.code == static_cast<int>(ErrorCode::memory);
-        if (!memory) return static_cast<int>(ErrorCode::subdomain);
-        code = part.result.code;
-    }
-    return code;
-}
-
 // One rank's share of the run.
 class Run {
  public:
@@ -157,11 +103,8 @@ class Run {
     }
 
     void open_folder();
-    void decompose_surface();
-    void divide_unfinished(CutListener* cuts);
-    void join_interfaces();
-    void find_shared_edges(const std::vector<NodeId>& leaves);
-    void gather_parts();
+    Decomposition decompose_surface();
+    void join_interfaces(Decomposition own);
     void announce_parts();
     void hand_over_parts();
     void mesh_parts();
@@ -179,12 +122,9 @@ class Run {
         listener_->on_progress(stage, done, total);
     }
     void save() const { save_run(folder_->saved_run_file(), report_.options, input_.file_hash); }
+    Decomposition divide_unfinished(Decomposition own, CutListener* cuts);
     StoredParts number_parts();
-    Reference compare_with_whole(PartOutcome whole);
-    void verify();
-    void measure_workers();
     void remove_stored_parts();
-    void describe_other_files();
 
     Communicator& ranks_;
     std::string worker_hash_;
@@ -192,7 +132,6 @@ class Run {
     RunListener* listener_;
     std::optional<RunFolder> folder_;  // none for a dry run
     RunReport report_;
-    Decomposition own_;
     std::vector<OwnPart> own_parts_;
     std::optional<VolumeStage> volume_;
     std::optional<Surface> whole_;  // for the reference, on the root rank
@@ -209,7 +148,7 @@ void Run::open_folder() {
     });
 }
 
-void Run::decompose_surface() {
+Decomposition Run::decompose_surface() {
     const Stopwatch stopwatch;
     DecomposeOptions options = report_.options.decompose;
     const LeafRange range = range_of_rank(options.parts, ranks_);
@@ -218,70 +157,43 @@ void Run::decompose_surface() {
     // A forecast counts the triangles of fine interfaces without making them.
     if (report_.options.dry_run && report_.options.trace_file.empty()) options.cut.max_volume = 0;
     if (!report_.options.trace_file.empty()) cuts = &trace.emplace(report_.options, input_, cuts);
-    own_ = in_agreement(ranks_, [&] {
+    Decomposition own = in_agreement(ranks_, [&] {
         progress("decompose", 0, 1);
         return decompose(std::move(input_.surface), options, range, cuts);
     });
-    if (options.facets == FacetPolicy::split) divide_unfinished(cuts);
-    report_.split_facets = static_cast<std::int64_t>(own_.divided_facets.size());
+    if (options.facets == FacetPolicy::split) own = divide_unfinished(std::move(own), cuts);
+    report_.split_facets = static_cast<std::int64_t>(own.divided_facets.size());
     report_.seconds.decompose = longest(ranks_, stopwatch.seconds());
-    if (trace) trace->write(report_.options.trace_file, ranks_, own_, range);  // a run that fails later has one, too
+    if (trace) trace->write(report_.options.trace_file, ranks_, own, range);  // a run that fails later has one, too
+    return own;
 }
 
 // Parts without a contour of edges need all others beside them, because split facets may be theirs too.
-void Run::divide_unfinished(CutListener* cuts) {
+Decomposition Run::divide_unfinished(Decomposition own, CutListener* cuts) {
     const auto is_unfinished = [](const Leaf& leaf) { return leaf.leaves > 1; };
-    const bool own = std::any_of(own_.leaves.begin(), own_.leaves.end(), is_unfinished);
-    const std::vector<char> ranks = all_gather(ranks_, static_cast<char>(own));
-    if (std::none_of(ranks.begin(), ranks.end(), [](char any) { return any; })) return;
+    const bool any_own = std::any_of(own.leaves.begin(), own.leaves.end(), is_unfinished);
+    const std::vector<char> ranks = all_gather(ranks_, static_cast<char>(any_own));
+    if (std::none_of(ranks.begin(), ranks.end(), [](char any) { return any; })) return own;
     Decomposition whole;
-    whole.nodes = gather_nodes(ranks_, own_.nodes, host_name());
-    for (std::vector<Leaf>& leaves : all_gather(ranks_, own_.leaves))
+    whole.nodes = gather_nodes(ranks_, own.nodes, host_name());
+    for (std::vector<Leaf>& leaves : all_gather(ranks_, own.leaves))
         std::move(leaves.begin(), leaves.end(), std::back_inserter(whole.leaves));
     const DecomposeOptions& options = report_.options.decompose;
-    own_ = in_agreement(
+    return in_agreement(
         ranks_, [&] { return divide_straight(std::move(whole), options, range_of_rank(options.parts, ranks_), cuts); });
 }
 
-void Run::join_interfaces() {
+void Run::join_interfaces(Decomposition own) {
     const Stopwatch stopwatch;
-    report_.nodes = gather_nodes(ranks_, own_.nodes, host_name());
-    const InterfaceTable table(ranks_, own_.leaves);
-    report_.verification.unmatched_interface_faces = table.unmatched();
-    report_.verification.input_faces_missing = count_missing_input_facets(ranks_, input_.facets, own_);
-    const VertexNumbering numbering(input_.vertices, report_.nodes);
-    surface_vertices_ = numbering.surface_vertices();
-    std::vector<NodeId> own_leaves, leaves;
-    for (const Leaf& leaf : own_.leaves) own_leaves.push_back(leaf.id);
-    for (const auto& of_rank : all_gather(ranks_, own_leaves))
-        leaves.insert(leaves.end(), of_rank.begin(), of_rank.end());
-    const SharedVertices shared = table.shared_vertices(numbering, leaves);
-    for (Leaf& leaf : own_.leaves) {
-        PartJob job;
-        job.part = leaf.id;
-        job.boundary_id = numbering.global_ids(leaf.surface.vertex_key);
-        job.neighbour = table.neighbours(leaf);
-        job.shared = shared.groups_of(rank_of_leaf(leaves, leaf.id), job.boundary_id);
-        job.patch_names = input_.patch_names;
-        job.length_scale = input_.diagonal;
-        job.surface = std::exchange(leaf.surface, {});
-        PartReport report = describe_part(job, leaf.volume, ranks_.rank(), report_.options.decompose.cut.load);
-        own_parts_.push_back({std::move(report), std::move(job)});
-    }
-    find_shared_edges(leaves);
-    gather_parts();
+    report_.nodes = gather_nodes(ranks_, own.nodes, host_name());
+    PreparedParts prepared =
+        prepare_parts(ranks_, input_, report_.nodes, std::move(own), report_.options.decompose.cut.load);
+    report_.verification.unmatched_interface_faces = prepared.unmatched_interface_facets;
+    report_.verification.input_faces_missing = prepared.missing_input_facets;
+    surface_vertices_ = prepared.surface_vertices;
+    own_parts_ = std::move(prepared.own);
+    report_.parts = gather_reports(ranks_, own_parts_);
     report_.seconds.prepare = longest(ranks_, stopwatch.seconds());
-}
-
-void Run::find_shared_edges(const std::vector<NodeId>& leaves) {
-    std::vector<SharedEdges::Held> own, told;
-    const auto append = [](std::vector<SharedEdges::Held>& all, const std::vector<SharedEdges::Held>& more) {
-        all.insert(all.end(), more.begin(), more.end());
-    };
-    for (const OwnPart& part : own_parts_) append(own, SharedEdges::told_by(part_of_job(part.job)));
-    for (const auto& of_rank : all_gather(ranks_, own)) append(told, of_rank);
-    const SharedEdges shared(std::move(told), leaves);
-    for (OwnPart& part : own_parts_) part.job.shared_edges = shared.groups_of(part_of_job(part.job));
 }
 
 // What is ahead.
@@ -291,14 +203,6 @@ void Run::announce_parts() {
         if (listener_ && is_root() && options.volume)
             listener_->on_parts(report_.parts, plan_text(report_.parts, options, ranks_.size(), options.dry_run));
     });
-}
-
-void Run::gather_parts() {
-    report_.parts.clear();
-    std::vector<PartReport> own;
-    for (const OwnPart& part : own_parts_) own.push_back(part.report);
-    for (const auto& parts : all_gather(ranks_, own))
-        report_.parts.insert(report_.parts.end(), parts.begin(), parts.end());
 }
 
 // Surfaces leave the memory of the rank: what remains to be done is written in files.
@@ -326,7 +230,7 @@ void Run::hand_over_parts() {
             if (volume) volume_->hand_over(job, report);
         }
     });
-    gather_parts();
+    report_.parts = gather_reports(ranks_, own_parts_);
     const auto resumed = static_cast<std::size_t>(
         std::count_if(report_.parts.begin(), report_.parts.end(), std::mem_fn(&PartReport::resumed)));
     if (is_root() && resumed < finished_before)
@@ -341,49 +245,14 @@ void Run::mesh_parts() {
     report_.seconds.mesh = longest(ranks_, stopwatch.seconds());
 }
 
-// In a worker like any part, but alone and with all the memory that there is.
 void Run::mesh_reference() {
     if (!report_.options.reference) return;
     in_agreement(ranks_, [&] {
         if (!is_root()) return;
-        constexpr int no_leaf = 0;
-        PartJob job;
-        job.part = no_leaf;
-        job.surface = whole_->arrays();
-        job.boundary_id.assign(job.surface.vertices.size(), -1);
-        job.neighbour.assign(job.surface.facets.size(), -1);
-        job.length_scale = input_.diagonal;
-        const std::string job_file = folder_->job_file(no_leaf), part_file = folder_->stored_part_file(no_leaf);
-        write_job(job_file, job);
-        const RunOptions& options = report_.options;
-        PartQueue queue({{job_file, part_file}},
-                        {options.worker_program, options.mesher, 1, options.timeout_seconds, 0, options.attempts},
-                        [](std::size_t) { return true; });
-        std::optional<PartQueue::Finished> finished;
-        while (!finished) {
-            progress("reference", 0, 1);
-            finished = queue.step(0.1);
-        }
-        remove_run_files(folder_->partial_path(), [&](const std::string& file) {
-            return folder_->file(file) == job_file || folder_->file(file) == part_file;
-        });
-        report_.reference = compare_with_whole(std::move(finished->outcome));
+        PartOutcome whole = mesh_in_one_piece(*folder_, *whole_, input_.diagonal, report_.options,
+                                              [&] { progress("reference", 0, 1); });
+        report_.reference = compare_with_whole(*folder_, report_, number_parts().outline().vertices, std::move(whole));
     });
-}
-
-Reference Run::compare_with_whole(PartOutcome whole) {
-    if (whole.result.code) return {std::move(whole), ""};
-    const std::string name = std::filesystem::path(input_.path).filename().string();
-    MeshQuality parts, one;
-    parts.name = fmt::format("{} in {} parts", name, report_.parts.size());
-    parts.parts = static_cast<std::int64_t>(report_.parts.size());
-    parts.vertices = number_parts().outline().vertices;
-    parts.cells = report_.quality;
-    one.name = name + " in one piece";
-    one.vertices = whole.result.vertices;
-    one.cells = whole.result.quality;
-    write_text_file(folder_->file("comparison.svg"), comparison_sheet(one, parts));
-    return {std::move(whole), comparison_text(one, parts)};
 }
 
 // What ends a run says how to continue it. A run that the user has stopped can always be continued; of another one
@@ -433,43 +302,6 @@ void Run::write_formats() {
     report_.seconds.write = longest(ranks_, stopwatch.seconds());
 }
 
-void Run::verify() {
-    RunVerification& v = report_.verification;
-    double volume = 0;
-    bool parts_hold = true;
-    for (const PartReport& part : report_.parts) {
-        const MeshLaws& laws = part.result.laws;
-        volume += report_.options.volume ? laws.volume : part.surface_volume;
-        v.inverted_tets += laws.inverted_tets;
-        v.input_faces_missing += laws.missing_facets;
-        v.extra_boundary_faces += laws.extra_boundary_faces;
-        if (!report_.options.volume) continue;
-        v.tets_zero_parts += part.result.tets == 0;
-        parts_hold &= part.result.code == 0 && laws.hold();
-    }
-    v.volume_rel_error = std::abs(volume - input_.volume) / input_.volume;
-    v.passed = parts_hold && v.all_hold();
-}
-
-// Where the time of the workers went in the meshing stage, as means over all of them.
-void Run::measure_workers() {
-    const auto workers = static_cast<std::size_t>(report_.ranks * report_.options.workers);
-    std::vector<double> busy(workers, 0);
-    WorkerSeconds& mean = report_.worker_seconds;
-    for (const PartReport& part : report_.parts) {
-        if (part.resumed) continue;
-        busy[static_cast<std::size_t>(part.rank * report_.options.workers + part.worker)] += part.seconds;
-        mean.mesher += part.result.mesh_seconds;
-        mean.verify += part.result.verify_seconds;
-        mean.store += part.result.store_seconds;
-    }
-    const double sum = std::accumulate(busy.begin(), busy.end(), 0.0);
-    if (sum > 0) report_.imbalance = *std::max_element(busy.begin(), busy.end()) * static_cast<double>(workers) / sum;
-    for (double* seconds : {&mean.mesher, &mean.verify, &mean.store}) *seconds /= static_cast<double>(workers);
-    mean.start = sum / static_cast<double>(workers) - mean.mesher - mean.verify - mean.store;
-    mean.idle = std::max(0.0, report_.seconds.mesh - sum / static_cast<double>(workers));
-}
-
 // Files of vtu hold all that those of the store do; a run with failed parts is continued from the latter.
 void Run::remove_stored_parts() {
     const std::vector<const Format*> formats = parse_formats(report_.options.formats);
@@ -478,65 +310,19 @@ void Run::remove_stored_parts() {
     remove_run_files(folder_->partial_path(), [](const std::string& file) { return is_stored_part(file); });
 }
 
-// Adds the files of the folder that no format has written, but the report. Each rank reads a share.
-void Run::describe_other_files() {
-    const std::vector<std::string> found = in_agreement(ranks_, [&] {
-        std::vector<std::string> files = is_root() ? list_files(folder_->partial_path()) : std::vector<std::string>();
-        std::set<std::string> known;
-        for (const RunFile& file : report_.files) known.insert(file.path);
-        std::erase_if(files, [&](const std::string& file) {
-            return known.contains(file) || file.starts_with("work/") || file.ends_with('/') ||
-                   !is_named_like_run_file(file);
-        });
-        return files;
-    });
-    const std::vector<std::string> files = all_gather(ranks_, found).front();
-    std::map<std::string, FileHash> written;  // by the names of the files
-    for (const PartReport& part : report_.parts) {
-        written["parts/" + part_surface_file_name(part.id)] = part.surface_hash;
-        if (part.result.code == 0) written["parts/" + stored_part_file_name(part.id)] = part.result.file_hash;
-    }
-    const LeafRange share = range_of_rank(static_cast<std::int32_t>(files.size()), ranks_);
-    const std::vector<RunFile> own = in_agreement(ranks_, [&] {
-        std::vector<RunFile> described;
-        for (std::int32_t i = share.first; i < share.last; ++i) {
-            progress("hash", static_cast<std::size_t>(i), files.size());
-            described.push_back(describe_file(folder_->partial_path(), files[static_cast<std::size_t>(i)]));
-            const auto expected = written.find(described.back().path);
-            if (expected != written.end() && described.back().hash != hash_text(expected->second))
-                throw Error(ErrorCode::io, fmt::format("{} is not what was written: the disk or the memory has damaged "
-                                                       "it. Continue the run to write it again.",
-                                                       folder_->file(expected->first)));
-        }
-        return described;
-    });
-    for (const auto& of_rank : all_gather(ranks_, own))
-        report_.files.insert(report_.files.end(), of_rank.begin(), of_rank.end());
-    sort_files(report_.files);
-}
-
 RunReport Run::finish(const Stopwatch& whole, double read_seconds) {
     const Stopwatch stopwatch;
-    std::vector<PartHash> hashes;
+    add_up_parts(report_);
     std::int64_t largest_worker = 0;
-    for (const PartReport& part : report_.parts) {
-        report_.tets += part.result.tets;
-        largest_worker = std::max(largest_worker, part.result.peak_rss_bytes);
-        hashes.push_back({part.id, part.result.hash});
-    }
-    verify();
-    measure_workers();
+    for (const PartReport& part : report_.parts) largest_worker = std::max(largest_worker, part.result.peak_rss_bytes);
     for (const std::int64_t bytes : all_gather(ranks_, own_peak_rss_bytes()))
         report_.peak_rss_bytes += bytes + report_.options.workers * largest_worker;
-    if (report_.options.volume) report_.mesh_hash = hash_of_parts(hashes);
-    report_.exit_code = failure_code(report_.parts);
-    if (report_.exit_code == 0 && !report_.verification.passed)
-        report_.exit_code = static_cast<int>(ErrorCode::verification);
     report_.seconds.read = read_seconds;
     in_agreement(ranks_, [&] {
         if (is_root() && report_.options.volume) remove_stored_parts();
     });
-    describe_other_files();
+    report_.files = list_run_files(ranks_, *folder_, report_.parts, std::move(report_.files),
+                                   [&](std::size_t done, std::size_t total) { progress("hash", done, total); });
     report_.seconds.hash = longest(ranks_, stopwatch.seconds());
     if (!is_root()) folder_.reset();  // nobody uses it when it moves
     report_.seconds.wall = longest(ranks_, whole.seconds());
@@ -575,8 +361,7 @@ RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input&
     Run run(std::move(options), std::move(worker_hash), ranks, input, listener);
     try {
         if (!dry_run) run.open_folder();
-        run.decompose_surface();
-        run.join_interfaces();
+        run.join_interfaces(run.decompose_surface());
         if (dry_run) {
             run.announce_parts();
             return run.report();

@@ -1,0 +1,28 @@
+// Text inside of XML.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace kerf {
+
+/// The text with the characters escaped that mean something in XML, in attributes, too; control characters, which XML
+/// does not know, become blanks.
+inline std::string xml_text(std::string_view text) {
+    std::string escaped;
+    for (const char c : text) {
+        if (c == '&')
+            escaped += "&amp;";
+        else if (c == '<')
+            escaped += "&lt;";
+        else if (c == '>')
+            escaped += "&gt;";
+        else if (c == '"')
+            escaped += "&quot;";
+        else
+            escaped += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+    }
+    return escaped;
+}
+
+}  // namespace kerf

@@ -1,0 +1,99 @@
+#include "run/prepare_stage.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "part/shared_edges.h"
+#include "run/input_cover.h"
+#include "run/interface_match.h"
+#include "run/numbering.h"
+
+namespace kerf {
+
+namespace {
+
+// What is known of a part before it is meshed.
+PartReport describe_part(const PartJob& job, double volume, int rank, const LoadModel& model) {
+    PartReport part;
+    part.id = job.part;
+    part.rank = rank;
+    part.surface_volume = volume;
+    part.surface_vertices = static_cast<std::int64_t>(job.surface.vertices.size());
+    part.surface_facets = static_cast<std::int64_t>(job.surface.facets.size());
+    for (std::size_t f = 0; f < job.neighbour.size(); ++f) {
+        if (job.neighbour[f] < 0) continue;
+        ++part.interface_facets;
+        const Triangle& t = job.surface.facets[f];
+        const std::vector<Vec3>& p = job.surface.vertices;
+        part.interface_area += (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / 2;
+        part.neighbours.push_back(job.neighbour[f]);
+    }
+    part.load = model.load(static_cast<double>(part.surface_vertices), static_cast<double>(part.surface_facets),
+                           part.surface_volume);
+    std::sort(part.neighbours.begin(), part.neighbours.end());
+    part.neighbours.erase(std::unique(part.neighbours.begin(), part.neighbours.end()), part.neighbours.end());
+    return part;
+}
+
+template <class T>
+std::vector<T> gather_in_order(Communicator& ranks, const std::vector<T>& own) {
+    std::vector<T> all;
+    for (const std::vector<T>& of_rank : all_gather(ranks, own)) all.insert(all.end(), of_rank.begin(), of_rank.end());
+    return all;
+}
+
+std::vector<NodeId> gather_leaves(Communicator& ranks, const std::vector<Leaf>& own) {
+    std::vector<NodeId> ids;
+    for (const Leaf& leaf : own) ids.push_back(leaf.id);
+    return gather_in_order(ranks, ids);
+}
+
+std::int32_t rank_of_leaf(const std::vector<NodeId>& leaves, NodeId leaf) {
+    return static_cast<std::int32_t>(std::find(leaves.begin(), leaves.end(), leaf) - leaves.begin());
+}
+
+void find_shared_edges(Communicator& ranks, const std::vector<NodeId>& leaves, std::vector<OwnPart>& own) {
+    std::vector<SharedEdges::Held> told;
+    for (const OwnPart& part : own) {
+        const std::vector<SharedEdges::Held> by_part = SharedEdges::told_by(part_of_job(part.job));
+        told.insert(told.end(), by_part.begin(), by_part.end());
+    }
+    const SharedEdges shared(gather_in_order(ranks, told), leaves);
+    for (OwnPart& part : own) part.job.shared_edges = shared.groups_of(part_of_job(part.job));
+}
+
+}  // namespace
+
+PreparedParts prepare_parts(Communicator& ranks, const Input& input, const std::vector<TreeNode>& nodes,
+                            Decomposition own, const LoadModel& load) {
+    PreparedParts prepared;
+    const InterfaceTable table(ranks, own.leaves);
+    prepared.unmatched_interface_facets = table.unmatched();
+    prepared.missing_input_facets = count_missing_input_facets(ranks, input.facets, own);
+    const VertexNumbering numbering(input.vertices, nodes);
+    prepared.surface_vertices = numbering.surface_vertices();
+    const std::vector<NodeId> leaves = gather_leaves(ranks, own.leaves);
+    const SharedVertices shared = table.shared_vertices(numbering, leaves);
+    for (Leaf& leaf : own.leaves) {
+        PartJob job;
+        job.part = leaf.id;
+        job.boundary_id = numbering.global_ids(leaf.surface.vertex_key);
+        job.neighbour = table.neighbours(leaf);
+        job.shared = shared.groups_of(rank_of_leaf(leaves, leaf.id), job.boundary_id);
+        job.patch_names = input.patch_names;
+        job.length_scale = input.diagonal;
+        job.surface = std::exchange(leaf.surface, {});
+        PartReport report = describe_part(job, leaf.volume, ranks.rank(), load);
+        prepared.own.push_back({std::move(report), std::move(job)});
+    }
+    find_shared_edges(ranks, leaves, prepared.own);
+    return prepared;
+}
+
+std::vector<PartReport> gather_reports(Communicator& ranks, const std::vector<OwnPart>& own) {
+    std::vector<PartReport> reports;
+    for (const OwnPart& part : own) reports.push_back(part.report);
+    return gather_in_order(ranks, reports);
+}
+
+}  // namespace kerf
