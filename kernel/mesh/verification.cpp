@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
@@ -189,9 +190,9 @@ MeshLaws verify_mesh(const TetMesh& mesh, const SurfaceArrays& surface) {
 }
 
 std::vector<std::int32_t> tets_at_facets(const TetMesh& mesh, const std::vector<Triangle>& facets) {
-    KERF_CHECK(are_in_range(mesh.tets, mesh.vertices.size()));
     const auto boundary = static_cast<std::size_t>(mesh.boundary_vertex_count);
-    KERF_CHECK(are_in_range(facets, boundary) && boundary <= mesh.vertices.size());
+    KERF_CHECK(are_in_range(facets, boundary));
+    KERF_CHECK(are_in_range(mesh.tets, std::numeric_limits<std::int32_t>::max()));
     std::vector<std::int32_t> tet_at_facet(facets.size(), -1);
     match_facets(sorted_facets(facets, boundary), sorted_faces_over_boundary(mesh),
                  [&](const OwnedFace& facet, const OwnedFace& face) {

@@ -30,8 +30,8 @@ struct MeshLaws {
 /// neighbours (#T), which may be anything. Exact but for the volumes. O(#T + #F).
 MeshLaws verify_mesh(const TetMesh& mesh, const SurfaceArrays& surface);
 
-/// For each triangle of the boundary, seen from outside, the tetrahedron behind it, -1 if there is none. Corners
-/// of the triangles must be vertices of the boundary. Does not ask for the neighbours. O(#T + #F).
+/// For each triangle of the boundary, seen from outside, the tetrahedron behind it, -1 if there is none. Corners of
+/// the triangles must be vertices of the boundary. Does not ask for neighbours and coordinates. O(#T + #F).
 std::vector<std::int32_t> tets_at_facets(const TetMesh& mesh, const std::vector<Triangle>& facets);
 
 }  // namespace kerf
