@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/number_text.h"
 #include "core/regular_tet.h"
+#include "export/format.h"
 #include "io/folder_files.h"
 #include "io/run_folder.h"
 
@@ -25,7 +26,7 @@ constexpr double least_tets_per_part = 1000;
 constexpr std::int32_t parts_per_worker = 4;    // so that the last one is short against all of them
 constexpr double most_tets_per_part = 1 << 29;  // TetGen counts their corners in 32 bits
 constexpr double area_per_squared_edge = 0.69;  // of an interface triangle, and of its longest wanted edge
-constexpr double file_bytes_per_tet = 70;
+constexpr double stored_bytes_per_tet = 22, file_bytes_per_tet = 70;  // of the store, of one format
 constexpr double certain = 0.5;  // nearly every mesh is larger than this share of its forecast
 
 // Those of the interfaces as the bound of the volume will have them: a dry run leaves them coarse.
@@ -76,6 +77,11 @@ double bytes_waiting(const std::string& output) {
     return bytes;
 }
 
+// Of all files that lie there at once.
+double disk_bytes_per_tet(const RunOptions& options) {
+    return stored_bytes_per_tet + file_bytes_per_tet * static_cast<double>(parse_formats(options.formats).size());
+}
+
 }  // namespace
 
 void check_budget(const RunOptions& options, double facets, double volume) {
@@ -104,13 +110,14 @@ void check_budget(const RunOptions& options, double facets, double volume) {
     const std::filesystem::space_info space = std::filesystem::space(folder, error);
     const double available = static_cast<double>(space.available) + bytes_waiting(options.output);
     const bool is_known = !error && space.capacity > 0;
-    if (!is_known || certain * tets * file_bytes_per_tet <= available) return;
+    const double bytes = disk_bytes_per_tet(options);
+    if (!is_known || certain * tets * bytes <= available) return;
     throw Error(
         ErrorCode::memory,
         fmt::format("This would make about {} tetrahedra, whose files take {} bytes, but {} has {} left. {}, or "
                     "another disk.",
-                    short_number(tets), short_number(tets * file_bytes_per_tet), folder.string(),
-                    short_number(available), way_out(available / file_bytes_per_tet)));
+                    short_number(tets), short_number(tets * bytes), folder.string(), short_number(available),
+                    way_out(available / bytes)));
 }
 
 std::string plan_text(const std::vector<PartReport>& parts, const RunOptions& options, int ranks, bool every_part) {
