@@ -196,7 +196,8 @@ TEST(FullDisk, EndsTheRunAndSpaceLetsItGoOn) {
     EXPECT_TRUE(test::contents(folder.file("out/parts")) == test::contents(folder.file("whole/parts")));
 }
 
-// A file system of its own, where a process may mount one: too small for a mesh of about 24 MB, or by far too small.
+// A file system of its own, where a process may mount one: too small for a mesh of about 30 MB and its store, or by far
+// too small.
 TEST(FullDisk, OfAFileSystemOfItsOwn) {
     const test::TemporaryFolder folder;
     if (test::run_program("/usr/bin/unshare", {"--map-root-user", "--mount", "true"}).exit_code != 0)
@@ -208,7 +209,7 @@ TEST(FullDisk, OfAFileSystemOfItsOwn) {
         script += "; echo \"code=$?\"; ls '" + folder.file("") + "'";
         return test::run_program("/usr/bin/unshare", {"--map-root-user", "--mount", "/bin/sh", "-c", script});
     };
-    const ChildResult full = run_in("15");
+    const ChildResult full = run_in("20");
     EXPECT_EQ(test::output_of(full), "code=7\nout.kerf-partial\n") << full.log;
     EXPECT_NE(full.log.find("No space left on device"), std::string::npos) << full.log;
     EXPECT_NE(full.log.find("kerf mesh --resume"), std::string::npos) << full.log;
