@@ -102,7 +102,8 @@ InterfaceAttempt build_interface(const Surface& surface, const Band& band, const
     for (std::size_t i = 0; i < displacement.size(); ++i) displacement[i] -= planar_contour.points[i];
 
     PlanarRegion region;
-    region.max_edge = options.max_interface_edge();
+    if (!options.size.is_empty())
+        region.max_edge = [&](const Vec2& p) { return options.max_interface_edge(band.plane.lift(p, 0)); };
     region.max_points = options.max_interface_points;
     region.poll = options.poll;
     if (layout == ContourLayout::unfolded) region.sizes = sizes_in_space(surface, contour, planar_contour);

@@ -31,7 +31,7 @@ double LoadModel::load(double vertices, double facets, double volume) const {
         case Balance::inertia:
             return volume;
         case Balance::work:
-            return facets + (max_volume > 0 ? volume_weight * volume / max_volume : 0);
+            return facets + (size.is_empty() ? 0 : volume_weight * volume / size.reference_volume());
     }
     return 0;
 }

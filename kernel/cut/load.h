@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cut/cut.h"
+#include "size/size_field.h"
 
 namespace kerf {
 
@@ -12,17 +13,17 @@ namespace kerf {
 /// the centroid of the body's vertices that is parallel to the cut; such halves get leaves by volume.
 enum class Balance { nodes, faces, volume, inertia, work };
 
-/// Work of meshing a body: F + 0.606 V / a, F facets, V volume, a the volume bound of a tetrahedron; F alone without a
-/// bound. Fitted on 1,160 TetGen runs (rms 16 %).
+/// Work of meshing a body: F + 0.606 V / a, F facets, V volume, a the wanted volume of a tetrahedron; F alone where
+/// none is asked. Fitted on 1,160 TetGen runs (rms 16 %).
 struct LoadModel {
     Balance balance = Balance::work;
-    double max_volume = 0;  ///< a; 0: none
+    SizeField size = {};  ///< a
 
     /// Of a whole body.
     double load(double vertices, double facets, double volume) const;
     bool needs_volume() const {
         return balance == Balance::volume || balance == Balance::inertia ||
-               (balance == Balance::work && max_volume > 0);
+               (balance == Balance::work && !size.is_empty());
     }
 };
 

@@ -3,9 +3,9 @@
 
 #include <functional>
 
-#include "core/regular_tet.h"
 #include "cut/cut.h"
 #include "cut/load.h"
+#include "size/size_field.h"
 
 namespace kerf {
 
@@ -21,7 +21,7 @@ struct CutOptions {
     std::int32_t axis = -1;  ///< coordinate axis 0, 1, 2 of the plane's normal; -1: chosen by the criterion
     ContourMethod contour = ContourMethod::min_cut;
     LoadModel load;                 ///< what the halves have alike
-    double max_volume = 0;          ///< bound of a tetrahedron, caps the size of interface triangles; 0: none
+    SizeField size;                 ///< of tetrahedra, caps that of interface triangles
     double load_window = 0.1;       ///< planes whose load is further off are tried last
     std::int32_t plane_steps = 6;   ///< on either side, per axis
     std::int32_t repairs = 9;       ///< rounds of local repair per plane
@@ -31,8 +31,8 @@ struct CutOptions {
     std::int64_t max_interface_points = 1 << 29;  ///< beyond them bisect() throws Error(memory)
     std::function<void()> poll;  ///< called every few milliseconds of a cut, if given; ends it by what it throws
 
-    /// Longest wanted edge of an interface: a little more than that of the largest wanted tetrahedron; 0: any.
-    double max_interface_edge() const { return max_volume > 0 ? 1.1 * regular_tet_edge(max_volume) : 0; }
+    /// Longest wanted edge of an interface: a little more than that of the largest wanted tetrahedron; infinity: any.
+    double max_interface_edge(const Vec3& p) const { return 1.1 * size.at(p); }
     /// What the criterion bisects: the volume where it says so, else `load`.
     LoadModel bisected_load() const {
         LoadModel bisected = load;

@@ -136,8 +136,9 @@ std::vector<std::int32_t> Triangulator::insert_contour() {
     }
     if (!region_.sizes.empty()) size_ = region_.sizes;
     for (double& size : size_) size = std::max(size, region_.least_edge);
-    if (region_.max_edge > 0)
-        for (double& size : size_) size = std::min(size, region_.max_edge);
+    if (region_.max_edge)
+        for (std::size_t v = 0; v < size_.size(); ++v)
+            size_[v] = std::min(size_[v], region_.max_edge(region_.contour[v]));
     mark_inside();
     return misoriented_edges();
 }
@@ -247,7 +248,7 @@ void Triangulator::refine() {
         double size = INFINITY;
         for (std::int32_t v : t)
             size = std::min(size, size_[v] + growth * (to_vec(vertices_[v]->point()) - centre).norm());
-        if (region_.max_edge > 0) size = std::min(size, region_.max_edge);
+        if (region_.max_edge) size = std::min(size, region_.max_edge(centre));
         if (!insert_interior(centre, size, face)) continue;
         Cdt::Face_circulator around = cdt_.incident_faces(vertices_.back()), end = around;
         do consider(around);
@@ -310,7 +311,7 @@ bool has_closed_loops(const PlanarRegion& region) {
 
 PlanarTriangulation triangulate(const PlanarRegion& region) {
     KERF_CHECK(has_closed_loops(region));
-    KERF_CHECK(region.max_edge >= 0 && region.least_edge >= 0);
+    KERF_CHECK(region.least_edge >= 0);
     PlanarTriangulation result;
     result.failed = find_crossings(region);
     if (!result.failed.empty()) {

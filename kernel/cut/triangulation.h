@@ -19,13 +19,13 @@ struct WantedPoint {
 struct PlanarRegion {
     std::vector<Vec2> contour;                       ///< #C
     std::vector<std::array<std::int32_t, 2>> edges;  ///< closed loops over `contour`; the inside is on the left
-    std::vector<double> sizes;          ///< #C; edge lengths wanted at the contour; empty: those of `edges`
-    std::vector<WantedPoint> wanted;    ///< inserted where they fit
-    double max_edge = 0;                ///< upper bound of the edge length; 0: none
-    double least_edge = 0;              ///< shorter contour edges do not make the triangles small
-    bool refined = true;                ///< false: no interior points
-    std::int64_t max_points = 1 << 29;  ///< beyond them triangulate() throws Error(memory)
-    std::function<void()> poll;         ///< as CutOptions::poll
+    std::vector<double> sizes;                    ///< #C; edge lengths wanted at the contour; empty: those of `edges`
+    std::vector<WantedPoint> wanted;              ///< inserted where they fit
+    std::function<double(const Vec2&)> max_edge;  ///< upper bound of the edge length at a point; none: no bound
+    double least_edge = 0;                        ///< shorter contour edges do not make the triangles small
+    bool refined = true;                          ///< false: no interior points
+    std::int64_t max_points = 1 << 29;            ///< beyond them triangulate() throws Error(memory)
+    std::function<void()> poll;                   ///< as CutOptions::poll
 };
 
 /// A conforming triangulation of the region, or why there is none.

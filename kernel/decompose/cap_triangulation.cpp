@@ -45,7 +45,7 @@ bool contains(const std::vector<UndirectedEdge>& sorted, const UndirectedEdge& e
 
 class CapTriangulator {
  public:
-    CapTriangulator(FaceComplex& complex, double max_edge) : complex_(complex), max_edge_(max_edge) {}
+    CapTriangulator(FaceComplex& complex, const CutOptions& options) : complex_(complex), options_(options) {}
 
     void find_borders();
     void measure_sizes();
@@ -70,7 +70,7 @@ class CapTriangulator {
     bool triangulate_region(std::int32_t region);
 
     FaceComplex& complex_;
-    double max_edge_;
+    const CutOptions& options_;
     std::vector<Region> regions_;       // ascending
     std::vector<BorderEdge> borders_;   // ascending
     std::vector<UndirectedEdge> hard_;  // border edges held by a face that is no cap, ascending
@@ -162,9 +162,10 @@ void CapTriangulator::divide(const Segment& segment, double from_first, double f
                              std::int32_t a, std::int32_t b, NodeId cut, std::vector<std::int32_t>& between) {
     const double ab = length({a, b}), middle = from_first + ab / 2;
     double size = std::min(first_size + growth * middle, second_size + growth * (length(segment.ends) - middle));
-    if (max_edge_ > 0) size = std::min(size, max_edge_);
+    const Vec3 place = (complex_.point(a) + complex_.point(b)) / 2;
+    size = std::min(size, options_.max_interface_edge(place));
     if (ab <= too_long * size) return;
-    const std::int32_t m = complex_.add_point((complex_.point(a) + complex_.point(b)) / 2, cut);
+    const std::int32_t m = complex_.add_point(place, cut);
     divide(segment, from_first, first_size, second_size, a, m, cut, between);
     between.push_back(m);
     divide(segment, middle, first_size, second_size, m, b, cut, between);
@@ -231,7 +232,8 @@ bool CapTriangulator::triangulate_region(std::int32_t region) {
         planar.edges.push_back({local(e[0]), local(e[1])});
         sum += length(e);
     }
-    planar.max_edge = max_edge_;
+    if (!options_.size.is_empty())
+        planar.max_edge = [&](const Vec2& p) { return options_.max_interface_edge(plane.lift(p, 0)); };
     planar.least_edge = least_edge * sum / static_cast<double>(edges.size());
     const PlanarTriangulation result = triangulate(planar);
     if (result.refusal != Refusal::none) return false;
@@ -251,9 +253,8 @@ bool CapTriangulator::triangulate_regions() {
 
 }  // namespace
 
-void triangulate_caps(FaceComplex& complex, double max_edge) {
-    KERF_CHECK(max_edge >= 0);
-    CapTriangulator triangulator(complex, max_edge);
+void triangulate_caps(FaceComplex& complex, const CutOptions& options) {
+    CapTriangulator triangulator(complex, options);
     triangulator.find_borders();
     triangulator.measure_sizes();
     triangulator.find_passed_vertices();

@@ -94,7 +94,7 @@ void StraightDivision::divide(NodeId id) {
 }
 
 void StraightDivision::finish_interfaces() {
-    triangulate_caps(complex_, options_.cut.max_interface_edge());
+    triangulate_caps(complex_, options_.cut);
     for (const auto& [id, vertices] : complex_.assign_keys()) nodes_.at(id).interface_vertices = vertices;
     for (const auto& [id, cap] : measure_caps(complex_)) {
         nodes_.at(id).interface_faces = cap.faces;

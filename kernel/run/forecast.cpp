@@ -31,27 +31,28 @@ constexpr double certain = 0.5;  // nearly every mesh is larger than this share 
 
 // Those of the interfaces as the bound of the volume will have them: a dry run leaves them coarse.
 double expected_facets(const PartReport& part, const RunOptions& options) {
-    const double edge = options.decompose.cut.max_interface_edge();
+    const double edge = options.decompose.cut.max_interface_edge(Vec3::Zero());
     const auto coarse = static_cast<double>(part.interface_facets);
-    const double fine = edge > 0 ? part.interface_area / (area_per_squared_edge * edge * edge) : 0;
+    const double fine = std::isfinite(edge) ? part.interface_area / (area_per_squared_edge * edge * edge) : 0;
     return static_cast<double>(part.surface_facets) - coarse + std::max(coarse, fine);
 }
 
 Forecast forecast_of(const PartReport& part, const RunOptions& options) {
-    return forecast(expected_facets(part, options), part.surface_volume, options.mesher.max_volume);
+    return forecast(expected_facets(part, options), part.surface_volume, options.mesher.size);
 }
 
 }  // namespace
 
-Forecast forecast(double facets, double volume, double max_volume) {
-    KERF_CHECK(facets >= 0 && volume >= 0 && max_volume >= 0);
-    const double tets = tets_per_facet * facets + (max_volume > 0 ? tets_per_volume_bound * volume / max_volume : 0);
+Forecast forecast(double facets, double volume, const SizeField& size) {
+    KERF_CHECK(facets >= 0 && volume >= 0);
+    const double tets =
+        tets_per_facet * facets + (size.is_empty() ? 0 : tets_per_volume_bound * volume / size.reference_volume());
     return {tets, seconds_per_tet * tets, bytes_of_worker + bytes_per_tet * tets};
 }
 
 std::int32_t choose_parts(const RunOptions& options, double facets, double volume, int ranks, std::int32_t most) {
     KERF_CHECK(ranks >= 1 && options.workers >= 1 && most >= 1);
-    const double tets = forecast(facets, volume, options.mesher.max_volume).tets;
+    const double tets = forecast(facets, volume, options.mesher.size).tets;
     double parts = std::min<double>(parts_per_worker * ranks * options.workers, tets / least_tets_per_part);
     if (options.memory_mb > 0) {
         const double available = static_cast<double>(options.memory_mb) * (1 << 20) - reserved_bytes;
@@ -86,8 +87,8 @@ double disk_bytes_per_tet(const RunOptions& options) {
 
 void check_budget(const RunOptions& options, double facets, double volume) {
     KERF_CHECK(options.decompose.parts >= 1);
-    const double bound = options.mesher.max_volume, parts = options.decompose.parts;
-    const double tets = forecast(facets, volume, bound).tets;
+    const double parts = options.decompose.parts;
+    const double tets = forecast(facets, volume, options.mesher.size).tets;
     // The bound that would make so many tetrahedra, as a size.
     const auto way_out = [&](double affordable) {
         const double left = affordable - tets_per_facet * facets;

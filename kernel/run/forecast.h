@@ -15,10 +15,10 @@ struct Forecast {
     double memory_bytes = 0;  ///< resident, of its worker
 };
 
-/// Tetrahedra: 1.9 for each facet, and 1.4 V/a where a bound a of the volume is given. Measured on 270 parts of the
+/// Tetrahedra: 1.9 for each facet, and 1.4 V/a where a volume a of them is wanted. Measured on 270 parts of the
 /// assets with TetGen, nine tenths have 0.74 to 1.25 times as many. For their number, nine tenths take 0.55 to 1.44
 /// times the memory and 0.8 to 2 times the seconds.
-Forecast forecast(double facets, double volume, double max_volume);
+Forecast forecast(double facets, double volume, const SizeField& size);
 
 /// K where the user gives none: four parts for each worker of all ranks, fewer if they would be tiny, more where
 /// a worker with options.memory_mb would otherwise have too little for its part; never more than `most` >= 1. The

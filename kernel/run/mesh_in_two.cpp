@@ -26,7 +26,7 @@ std::array<SurfaceArrays, 2> halves_of(const SurfaceArrays& arrays, const Mesher
     const Surface surface(renamed(arrays));
     const MassProperties mass = mass_properties(surface);
     CutOptions cut;
-    cut.max_volume = cut.load.max_volume = options.max_volume;
+    cut.size = cut.load.size = options.size;
     const Bisection bisection = bisect(surface, mass, cut_node, choose_place(surface, mass, 2, cut), cut, false);
     if (!bisection.cut.made())
         throw Error(ErrorCode::subdomain, "The part has no contour of edges that would cut it in two.");

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "core/regular_tet.h"
 #include "export/format.h"
 #include "io/output_file.h"
 #include "io/run_folder.h"
@@ -79,9 +78,7 @@ void RunOptions::resolve(int cores_of_rank) {
     if (workers == 0) workers = std::max(1, cores_of_rank);
     require(decompose.parts >= 0, "parts", "1 or more", decompose.parts);
     decompose.threads = workers;  // they have nothing to do yet
-    require(size >= 0 && std::isfinite(size), "size", "positive", size);
-    require(size == 0 || std::isnormal(regular_tet_volume(size)), "size",
-            "such that its cube is a number of double precision", size);
+    sizes.check();
     check_mesher_options(mesher);
     require(timeout_seconds >= 0 && std::isfinite(timeout_seconds), "timeout", "0 (none) or more seconds",
             timeout_seconds);
@@ -93,8 +90,8 @@ void RunOptions::resolve(int cores_of_rank) {
     if (formats.empty()) formats = "vtu";
     parse_formats(formats);
     check_files();
-    if (mesher.max_volume == 0 && size > 0) mesher.max_volume = regular_tet_volume(size);
-    decompose.cut.max_volume = decompose.cut.load.max_volume = mesher.max_volume;
+    sizes.max_volume = sizes.constant_max_volume();
+    use_sizes(SizeField(sizes.max_volume));
     if (memory_mb > 0) decompose.cut.max_interface_points = (memory_mb << 20) / bytes_per_interface_point;
 }
 
@@ -154,8 +151,8 @@ std::vector<OptionField> option_fields(RunOptions& o) {
     std::vector<OptionField> fields = {
         {"parts", "n", "Number of parts K >= 1. Default: 4 for each worker, or what --memory asks for.",
          &o.decompose.parts},
-        {"size", "", "Wanted edge length inside, in units of the input. Default: as the surface.", &o.size},
-        {"max-volume", "", "Largest volume of a tetrahedron, instead of --size.", &o.mesher.max_volume},
+        {"size", "", "Wanted edge length inside, in units of the input. Default: as the surface.", &o.sizes.size},
+        {"max-volume", "", "Largest volume of a tetrahedron, instead of --size.", &o.sizes.max_volume},
         {"radius-edge", "", "Bound of circumradius over shortest edge; 0: no refinement. Default 1.4.",
          &o.mesher.radius_edge},
         {"cut", "", "Where planes lie: across the principal axis, or a coordinate axis. Default inertia.",

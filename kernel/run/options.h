@@ -8,6 +8,7 @@
 
 #include "decompose/decomposition.h"
 #include "run/input.h"
+#include "size/size_options.h"
 #include "volume/mesher.h"
 
 namespace kerf {
@@ -21,7 +22,7 @@ struct RunOptions {
     DecomposeOptions decompose = {
         .parts = 0, .facets = FacetPolicy::split, .cut = {}};  ///< parts 0: see choose_parts()
     MesherOptions mesher;
-    double size = 0;               ///< wanted edge length; sets mesher.max_volume unless that is given; 0: none
+    SizeOptions sizes;             ///< of tetrahedra, see use_sizes()
     InputOptions input_options;    ///< of the surface before all else
     std::int32_t workers = 0;      ///< processes of each rank; 0: its share of the processors
     double timeout_seconds = 600;  ///< of one attempt at one part; 0: none
@@ -39,6 +40,8 @@ struct RunOptions {
     /// Fills what follows from other choices, K excepted, and checks ranges and files. Throws Error(usage) naming
     /// option, value and range, Error(io) for a file that could not be written or would be lost.
     void resolve(int cores_of_rank);
+    /// Cuts, forecasts and the mesher obey this field. resolve() has them obey what `sizes` says of all places alike.
+    void use_sizes(const SizeField& field) { decompose.cut.size = decompose.cut.load.size = mesher.size = field; }
     /// The part of resolve() that asks for input and outputs, for who writes one of them before the run.
     void check_files() const;
 };

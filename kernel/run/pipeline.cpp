@@ -155,7 +155,7 @@ Decomposition Run::decompose_surface() {
     CutListener* cuts = listener_;
     std::optional<TraceRecorder> trace;
     // A forecast counts the triangles of fine interfaces without making them.
-    if (report_.options.dry_run && report_.options.trace_file.empty()) options.cut.max_volume = 0;
+    if (report_.options.dry_run && report_.options.trace_file.empty()) options.cut.size = SizeField();
     if (!report_.options.trace_file.empty()) cuts = &trace.emplace(report_.options, input_, cuts);
     Decomposition own = in_agreement(ranks_, [&] {
         progress("decompose", 0, 1);

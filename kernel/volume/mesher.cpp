@@ -13,9 +13,6 @@ namespace kerf {
 
 void check_mesher_options(const MesherOptions& options) {
     // Written so that NaN fails.
-    if (!(options.max_volume == 0 || (options.max_volume > 0 && std::isnormal(options.max_volume))))
-        throw Error(ErrorCode::usage,
-                    fmt::format("--max-volume is {}, but it must be positive, or 0 for no bound.", options.max_volume));
     if (!(options.radius_edge == 0 || (options.radius_edge > 1 && std::isfinite(options.radius_edge))))
         throw Error(ErrorCode::usage,
                     fmt::format("--radius-edge is {}, but it must be 0 (none) or above 1.", options.radius_edge));

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "mesh/tet_mesh.h"
+#include "size/size_field.h"
 #include "surface/surface.h"
 
 namespace kerf {
@@ -12,15 +13,15 @@ enum class MesherKind { tetgen };
 
 struct MesherOptions {
     MesherKind kind = MesherKind::tetgen;
-    double max_volume = 0;  ///< bound of a tetrahedron, units of the input cubed; 0: none. TetGen leaves a few larger
-                            ///< ones: next to coarse facets, and where it improved the shape afterwards
+    SizeField size = {};  ///< of tetrahedra. TetGen leaves a few larger ones: next to coarse facets, and where it
+                          ///< improved the shape afterwards
     double radius_edge = 1.4;     ///< upper bound of circumradius over shortest edge; > 1, 0: no refinement
     double tolerance = 0;         ///< relative, for points that count as coplanar; 0: the mesher's own
     std::string tetgen_switches;  ///< expert: replaces the bounds above; a volume in it is in units of the input cubed
 
     template <class Archive>
     void archive(Archive& a) {
-        a(kind, max_volume, radius_edge, tolerance, tetgen_switches);
+        a(kind, size, radius_edge, tolerance, tetgen_switches);
     }
 };
 

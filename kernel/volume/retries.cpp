@@ -41,11 +41,11 @@ std::vector<MesherCall> mesher_calls(const MesherOptions& wanted) {
         calls.back().options.radius_edge = 0;
     }
     cut_in_two();
-    if (wanted.max_volume > 0) {
+    if (!wanted.size.is_empty()) {
         calls.push_back({.remedy = fmt::format("tetrahedra {:g} times as large", coarser_factor),
                          .options = wanted,
                          .easier = true});
-        calls.back().options.max_volume *= coarser_factor;
+        calls.back().options.size = wanted.size.coarser(coarser_factor);
     }
     return calls;
 }

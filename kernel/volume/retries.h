@@ -25,7 +25,7 @@ enum class MesherFailure {
 };
 
 /// All calls in the order in which they are tried: as asked for, two other orders of the vertices, other tolerances, a
-/// weaker bound of the shape, no bound of the shape, the part cut in two, eight times the bound of the volume. With the
+/// weaker bound of the shape, no bound of the shape, the part cut in two, eight times the wanted volume. With the
 /// expert's switches only the order of the vertices changes, and the part is cut in two. Deterministic.
 std::vector<MesherCall> mesher_calls(const MesherOptions& wanted);
 

@@ -132,7 +132,7 @@ constexpr std::string_view expert_letters = "qaSTODMCVX";
 // p: fill a surface, Y: keep it, J: keep all vertices, n: neighbours, Q: quiet. Bounds are set as numbers, because the
 // switches know no exponents.
 tetgenbehavior parse_switches(const MesherOptions& options) {
-    const bool refine = options.max_volume > 0 || options.radius_edge > 0;
+    const bool refine = !options.size.is_empty() || options.radius_edge > 0;
     const std::string& expert = options.tetgen_switches;
     std::string switches = "pYJnQ" + (!expert.empty() ? expert : refine ? "q" : "");
     tetgenbehavior behaviour;
@@ -146,8 +146,8 @@ tetgenbehavior behaviour_of(const MesherOptions& options, const Normalisation& f
     tetgenbehavior behaviour = parse_switches(options);
     if (options.tetgen_switches.empty()) {
         behaviour.minratio = options.radius_edge;
-        behaviour.fixedvolume = options.max_volume > 0;
-        behaviour.maxvolume = options.max_volume;
+        behaviour.fixedvolume = !options.size.is_empty();
+        behaviour.maxvolume = options.size.reference_volume();
     }
     if (options.tolerance > 0) behaviour.epsilon = options.tolerance;
     if (behaviour.fixedvolume) behaviour.maxvolume = frame.volume_to_unit(behaviour.maxvolume);

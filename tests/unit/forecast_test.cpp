@@ -16,7 +16,7 @@ RunOptions with(std::int32_t workers, std::int64_t memory_mb, double max_volume)
     RunOptions options;
     options.workers = workers;
     options.memory_mb = memory_mb;
-    options.mesher.max_volume = max_volume;
+    options.use_sizes(SizeField(max_volume));
     return options;
 }
 
@@ -40,7 +40,8 @@ TEST(ChooseParts, FollowTheMemoryOfAWorker) {
             const std::int32_t parts = choose_parts(options, 1e5, 1, 1, 1'000'000);
             EXPECT_GE(parts, 8);
             const auto needed_mb = [&](double k) {
-                return (forecast(1e5, 1, max_volume).memory_bytes - forecast(0, 0, 0).memory_bytes) / k / (1 << 20);
+                return (forecast(1e5, 1, options.mesher.size).memory_bytes - forecast(0, 0, SizeField()).memory_bytes) /
+                       k / (1 << 20);
             };
             EXPECT_LT(needed_mb(parts), static_cast<double>(memory_mb));
             if (parts > 8) {
@@ -84,7 +85,7 @@ TEST(PlanText, SaysWhatTheForecastsOfItsPartsAddUpTo) {
         std::vector<Forecast> each;
         for (const PartReport& part : parts) {
             const Forecast one = each.emplace_back(
-                forecast(static_cast<double>(part.surface_facets), part.surface_volume, options.mesher.max_volume));
+                forecast(static_cast<double>(part.surface_facets), part.surface_volume, options.mesher.size));
             all.tets += one.tets;
             all.seconds += one.seconds;
             if (one.tets > largest.tets) largest = one;

@@ -11,17 +11,17 @@ namespace kerf {
 namespace {
 
 LoadProfile profile(const Surface& surface, const Plane& plane, Balance balance, double max_volume = 0) {
-    return LoadProfile(surface, plane, {balance, max_volume});
+    return LoadProfile(surface, plane, {balance, SizeField(max_volume)});
 }
 
 constexpr std::array all_balances = {Balance::nodes, Balance::faces, Balance::volume, Balance::inertia, Balance::work};
 
 TEST(LoadModel, WorkCountsFacetsAndWantedTetrahedra) {
-    EXPECT_EQ((LoadModel{Balance::nodes, 0.1}.load(10, 20, 3)), 10);
-    EXPECT_EQ((LoadModel{Balance::faces, 0.1}.load(10, 20, 3)), 20);
-    EXPECT_EQ((LoadModel{Balance::volume, 0.1}.load(10, 20, 3)), 3);
-    EXPECT_EQ((LoadModel{Balance::work, 0}.load(10, 20, 3)), 20);
-    EXPECT_DOUBLE_EQ((LoadModel{Balance::work, 0.5}.load(10, 20, 3)), 20 + 0.606 * 3 / 0.5);
+    EXPECT_EQ((LoadModel{Balance::nodes, SizeField(0.1)}.load(10, 20, 3)), 10);
+    EXPECT_EQ((LoadModel{Balance::faces, SizeField(0.1)}.load(10, 20, 3)), 20);
+    EXPECT_EQ((LoadModel{Balance::volume, SizeField(0.1)}.load(10, 20, 3)), 3);
+    EXPECT_EQ((LoadModel{Balance::work, SizeField(0)}.load(10, 20, 3)), 20);
+    EXPECT_DOUBLE_EQ((LoadModel{Balance::work, SizeField(0.5)}.load(10, 20, 3)), 20 + 0.606 * 3 / 0.5);
 }
 
 TEST(LoadProfile, VolumeOfACubeAlongItsEdge) {

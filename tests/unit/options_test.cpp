@@ -48,13 +48,14 @@ TEST(RunOptions, WorkersDefaultToTheCores) {
 
 TEST(RunOptions, SizeIsTheVolumeOfARegularTetrahedron) {
     RunOptions options;
-    options.size = 0.5;
+    options.sizes.size = 0.5;
     const RunOptions by_size = resolved(options);
-    EXPECT_NEAR(by_size.mesher.max_volume, 0.125 / (6 * std::sqrt(2.0)), 1e-15);
-    EXPECT_EQ(by_size.decompose.cut.max_volume, by_size.mesher.max_volume);
-    EXPECT_EQ(by_size.decompose.cut.load.max_volume, by_size.mesher.max_volume);
-    options.mesher.max_volume = 0.3;
-    EXPECT_EQ(resolved(options).mesher.max_volume, 0.3) << "the volume wins over the size";
+    const double bound = by_size.mesher.size.reference_volume();
+    EXPECT_NEAR(bound, 0.125 / (6 * std::sqrt(2.0)), 1e-15);
+    EXPECT_EQ(by_size.decompose.cut.size.reference_volume(), bound);
+    EXPECT_EQ(by_size.decompose.cut.load.size.reference_volume(), bound);
+    options.sizes.max_volume = 0.3;
+    EXPECT_EQ(resolved(options).mesher.size.reference_volume(), 0.3) << "the volume wins over the size";
 }
 
 TEST(RunOptions, ValuesOutOfRangeAreNamed) {
@@ -62,8 +63,8 @@ TEST(RunOptions, ValuesOutOfRangeAreNamed) {
     expect_refused("workers", [](RunOptions& o) { o.workers = -1; });
     expect_refused("parts", [](RunOptions& o) { o.decompose.parts = -1; });
     for (const double bad : {-1.0, nan, std::numeric_limits<double>::infinity()}) {
-        expect_refused("size", [&](RunOptions& o) { o.size = bad; });
-        expect_refused("max-volume", [&](RunOptions& o) { o.mesher.max_volume = bad; });
+        expect_refused("size", [&](RunOptions& o) { o.sizes.size = bad; });
+        expect_refused("max-volume", [&](RunOptions& o) { o.sizes.max_volume = bad; });
         expect_refused("radius-edge", [&](RunOptions& o) { o.mesher.radius_edge = bad; });
     }
     expect_refused("radius-edge", [](RunOptions& o) { o.mesher.radius_edge = 1; });
@@ -112,7 +113,7 @@ TEST(OptionFields, ChoicesReachTheirValues) {
 TEST(OptionFields, TextGivesTheValueBack) {
     RunOptions options;
     options.decompose.parts = 7;
-    options.size = 0.1;
+    options.sizes.size = 0.1;
     options.mesher.tetgen_switches = "q1.2 a";
     options.stl = true;
     options.decompose.cut.axis = 1;
@@ -124,7 +125,7 @@ TEST(OptionFields, TextGivesTheValueBack) {
         EXPECT_EQ(copied[i].text(), fields[i].text());
     }
     EXPECT_EQ(copy.decompose.parts, 7);
-    EXPECT_EQ(copy.size, 0.1);
+    EXPECT_EQ(copy.sizes.size, 0.1);
     EXPECT_EQ(copy.mesher.tetgen_switches, "q1.2 a");
     EXPECT_TRUE(copy.stl);
     EXPECT_EQ(copy.decompose.cut.axis, 1);

@@ -32,7 +32,7 @@ TEST(PartJob, CountsAndHasAQualityWhenDone) {
 TEST(PartJob, IsTheSameFromOutsideWhenCutInTwo) {
     const test::TemporaryFolder folder;
     MesherCall whole, in_two;
-    whole.options.max_volume = in_two.options.max_volume = 1e-2;
+    whole.options.size = in_two.options.size = SizeField(1e-2);
     in_two.cut_first = true;
     for (const Soup& soup : {test::icosphere(3), test::torus(3, 1, 30, 20), test::nested_boxes(2, 5)}) {
         SCOPED_TRACE(soup.patch_names.front());

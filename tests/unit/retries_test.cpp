@@ -16,7 +16,7 @@ std::vector<MesherOptions> options_to_try() {
         for (const double max_volume : {0.0, 1e-3}) {
             MesherOptions options;
             options.radius_edge = radius_edge;
-            options.max_volume = max_volume;
+            options.size = SizeField(max_volume);
             all.push_back(options);
         }
     all.emplace_back().tetgen_switches = "q1.3";
@@ -30,9 +30,10 @@ TEST(MesherCalls, BeginAsAskedForAndAllDiffer) {
         EXPECT_EQ(calls[0].vertex_order_seed, 0u);
         std::set<std::tuple<double, double, double, std::uint32_t, bool>> different;
         for (const MesherCall& call : calls) {
-            different.emplace(call.options.radius_edge, call.options.max_volume, call.options.tolerance,
+            different.emplace(call.options.radius_edge, call.options.size.reference_volume(), call.options.tolerance,
                               call.vertex_order_seed, call.cut_first);
-            EXPECT_TRUE(call.options.max_volume == wanted.max_volume || call.remedy == calls.back().remedy);
+            EXPECT_TRUE(call.options.size.reference_volume() == wanted.size.reference_volume() ||
+                        call.remedy == calls.back().remedy);
             EXPECT_EQ(call.options.tetgen_switches, wanted.tetgen_switches);
             EXPECT_TRUE(call.options.radius_edge == 0 || call.options.radius_edge >= wanted.radius_edge);
         }

@@ -37,7 +37,7 @@ class TracedRun : public testing::TestWithParam<std::string> {
         options.output = folder_.file("out");
         options.trace_file = path_;
         options.volume = false;
-        options.size = 2;
+        options.sizes.size = 2;
         options.decompose.parts = parts;
         SingleRank rank;
         Input input;
@@ -80,7 +80,7 @@ TEST_P(TracedRun, EveryCutSurfaceIsReplayed) {
 TEST_P(TracedRun, TheSamePartsCanBeMadeAgain) {
     const RunOptions options = test::options_of(trace_);
     EXPECT_EQ(options.decompose.parts, parts);
-    EXPECT_GT(options.decompose.cut.max_volume, 0);
+    EXPECT_FALSE(options.decompose.cut.size.is_empty());
     const Decomposition again = decompose(Surface(trace_.surface), options.decompose, {0, parts});
     EXPECT_EQ(again.leaves.size(), static_cast<std::size_t>(parts));
     for (const Leaf& leaf : again.leaves)

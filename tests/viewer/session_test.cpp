@@ -285,7 +285,7 @@ TEST_F(OwnRun, WithoutTetrahedra) {
 
 TEST_F(OwnRun, CanBeCancelled) {
     RunOptions fine = options(6);
-    fine.size = 0.8;
+    fine.sizes.size = 0.8;
     fine.workers = 1;
     fine.output = folder_.file("fine");
     start("bearing_cap_52k", fine, true);
@@ -313,7 +313,7 @@ TEST_F(OwnRun, EndsWithTheSession) {
         session.open(test::asset_path("bearing_cap_52k"));
         ASSERT_TRUE(settle(session));
         RunOptions fine = options(6);
-        fine.size = 0.8;
+        fine.sizes.size = 0.8;
         session.start_run(fine, true);
         ASSERT_TRUE(reach(session, [&] { return session.document().progress.stage == "volume"; }));
         EXPECT_EQ(scratch_folders().size(), 1u);
@@ -859,7 +859,7 @@ TEST(CommandLine, HoldsWhatDiffersFromTheDefaults) {
     EXPECT_EQ(command_line_of(options, true),
               (std::vector<std::string>{"mesh", "/a b.stl", "--output=/out", "--quiet"}));
     options.decompose.parts = 8;
-    options.size = 0.1;
+    options.sizes.size = 0.1;
     options.decompose.cut.axis = 2;
     options.stl = true;
     options.workers = 3;

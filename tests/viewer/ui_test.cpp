@@ -343,7 +343,7 @@ TEST(Ui, CancelsARun) {
     RunOptions run;
     run.input = asset_path("bearing_cap_52k");
     run.decompose.parts = 8;
-    run.size = 0.5;
+    run.sizes.size = 0.5;
     driver.app().session().start_run(run, true);
     driver.await("parts", [&] { return driver.document().progress.running && driver.document().progress.parts > 0; });
     driver.click("Cancel");
