@@ -34,6 +34,19 @@ CLI::Option* add_field(CLI::App& app, const OptionField& field) {
     const std::string names =
         field.short_name.empty() ? "--" + field.name : "-" + field.short_name + ",--" + field.name;
     if (bool* const* flag = std::get_if<bool*>(&field.value)) return app.add_flag(names, **flag, field.help);
+    if (const auto* list = std::get_if<OptionField::List>(&field.value))
+        return app
+            .add_option_function<std::vector<std::string>>(
+                names,
+                [items = *list](const std::vector<std::string>& texts) {
+                    items->clear();
+                    for (const std::string& text : texts)
+                        for (std::string& item : split_items(text)) items->push_back(std::move(item));
+                },
+                field.help)
+            ->expected(1)
+            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+            ->type_name("TEXT");
     CLI::Option* option = app.add_option_function<std::string>(
         names, [field](const std::string& text) { field.set_text(text); }, field.help);
     if (const auto* choice = std::get_if<OptionField::Choice>(&field.value))

@@ -36,8 +36,29 @@ double LoadModel::load(double vertices, double facets, double volume) const {
     return 0;
 }
 
+double LoadModel::volume_of(const SurfaceArrays& surface, double enclosed) const {
+    if (!needs_volume()) return 0;
+    return depends_on_place() ? sized_volume(size, surface.vertices, surface.facets, enclosed) : enclosed;
+}
+
+LoadModel LoadModel::of(const Surface& surface) const {
+    LoadModel model = *this;
+    if (!depends_on_place()) return model;
+    const SurfaceArrays arrays = surface.arrays();
+    model.samples =
+        std::make_shared<const std::vector<VolumeSample>>(sample_volume(size, arrays.vertices, arrays.facets));
+    return model;
+}
+
 LoadProfile::LoadProfile(const Surface& surface, const Plane& plane, const LoadModel& model) : model_(model) {
     KERF_CHECK(surface.facet_count() > 0 && plane.is_orthonormal());
+    if (model_.depends_on_place()) {
+        if (!model_.samples) model_ = model_.of(surface);
+        for (const VolumeSample& sample : *model_.samples)
+            samples_.emplace_back(plane.distance(sample.point), sample.sized_volume);
+        std::sort(samples_.begin(), samples_.end());
+        for (std::size_t i = 1; i < samples_.size(); ++i) samples_[i].second += samples_[i - 1].second;
+    }
     std::vector<double> height(surface.vertex_count());
     for (std::int32_t v = 0; v < surface.vertex_count(); ++v) height[v] = plane.distance(surface.point(v));
     const auto [low, high] = std::minmax_element(height.begin(), height.end());
@@ -76,6 +97,11 @@ double LoadProfile::mean_potential(double a, double b, double c) const {
     return ((a * a + b * b + c * c) * (a + b + c) + a * b * c) / 30;
 }
 
+double LoadProfile::sampled_volume_below(double height) const {
+    const auto above = std::upper_bound(samples_.begin(), samples_.end(), std::pair(height, double{INFINITY}));
+    return above == samples_.begin() ? 0 : std::prev(above)->second;
+}
+
 double LoadProfile::load_below(std::span<const Item> items, const Below& below, double height) const {
     const double level = potential(height);
     double count = below.count, integral = below.integral - level * below.area_z;
@@ -95,7 +121,7 @@ double LoadProfile::load_below(std::span<const Item> items, const Below& below, 
             integral += whole - share * (mean_potential(f.high, height, height) - level) * f.area_z;
         }
     }
-    return model_.load(count, count, integral);
+    return model_.load(count, count, model_.depends_on_place() ? sampled_volume_below(height) : integral);
 }
 
 double LoadProfile::fraction_below(double height) const { return load_below(items_, {}, height) / total_; }

@@ -31,8 +31,16 @@ struct CutOptions {
     std::int64_t max_interface_points = 1 << 29;  ///< beyond them bisect() throws Error(memory)
     std::function<void()> poll;  ///< called every few milliseconds of a cut, if given; ends it by what it throws
 
-    /// Longest wanted edge of an interface: a little more than that of the largest wanted tetrahedron; infinity: any.
-    double max_interface_edge(const Vec3& p) const { return 1.1 * size.at(p); }
+    /// Longest wanted edge of an interface; infinity: any. A little more than that of the largest wanted tetrahedron
+    /// where that is the same everywhere; sizes that differ by place are means, which a bound a little below them
+    /// gives.
+    double max_interface_edge(const Vec3& p) const { return (size.is_constant() ? 1.1 : 0.95) * size.at(p); }
+    /// The options for this body: its load is known, see LoadModel::of().
+    CutOptions of(const Surface& surface) const {
+        CutOptions options = *this;
+        if (bisected_load().depends_on_place()) options.load = load.of(surface);
+        return options;
+    }
     /// What the criterion bisects: the volume where it says so, else `load`.
     LoadModel bisected_load() const {
         LoadModel bisected = load;

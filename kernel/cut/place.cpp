@@ -47,12 +47,19 @@ SectionProfile section_profile(const Surface& surface, const Vec3& direction, co
         count[bin] += 1;
         area_z[bin] += (b - a).cross(c - a).dot(direction) / 2;
     }
+    std::array<double, bins> sampled{};  // volume, where that is not the area's integral
+    if (model.depends_on_place())
+        for (const VolumeSample& sample : *model.samples) {
+            const double height = direction.dot(sample.point) - low;
+            sampled[std::min(bins - 1, static_cast<std::size_t>(std::max(0.0, height / bin_height)))] +=
+                sample.sized_volume;
+        }
     SectionProfile profile;
     double facets = 0, area = 0, volume = 0;
     for (std::size_t i = 0; i < bins; ++i) {
         facets += count[i];
         area -= area_z[i];
-        volume += area * bin_height;
+        volume += model.depends_on_place() ? sampled[i] : area * bin_height;
         profile.load[i] = model.load(facets, facets, volume);
         profile.area[i] = area;
     }
@@ -65,6 +72,7 @@ CutPlace choose_place(const Surface& surface, const MassProperties& mass, std::i
                       const CutOptions& options) {
     KERF_CHECK(leaves >= 2);
     CutPlace place{static_cast<double>(leaves / 2) / leaves};
+    KERF_CHECK(!options.bisected_load().depends_on_place() || options.load.samples);
     const bool free = options.criterion == Criterion::inertia && options.load.balance != Balance::inertia;
     if (!free || options.axis >= 0 || leaves < least_leaves) return place;
     const double half = place.fraction;

@@ -12,6 +12,7 @@ namespace kerf {
 /// Only shares j/leaves within the load window are asked, which cost no balance; the gain must be 25 % at
 /// least, and there must be eight leaves. Measured over the assets at 32 parts: up to 11 % less interface.
 /// Only the inertia criterion leaves the choice. O(#F): sections are estimated from the centroids of the facets.
+/// The options are those of this surface (CutOptions::of()).
 CutPlace choose_place(const Surface& surface, const MassProperties& mass, std::int32_t leaves,
                       const CutOptions& options);
 

@@ -61,7 +61,9 @@ void Decomposer::keep_whole(const Surface& surface, Decomposition& result) const
 std::array<double, 2> Decomposer::loads(const Halves& halves) const {
     const LoadModel model = options_.cut.bisected_load();
     const auto load = [&](const Surface& half) {
-        return model.load(half.vertex_count(), half.facet_count(), model.needs_volume() ? enclosed_volume(half) : 0);
+        double volume = model.needs_volume() ? enclosed_volume(half) : 0;
+        if (model.depends_on_place()) volume = model.volume_of(half.arrays(), volume);
+        return model.load(half.vertex_count(), half.facet_count(), volume);
     };
     return {load(halves[0]), load(halves[1])};
 }
@@ -84,8 +86,9 @@ Decomposition Decomposer::descend(Surface surface, const Branch& branch, std::in
         return result;
     }
     const auto [lower_id, upper_id] = children_of(id);
-    const CutPlace place = choose_place(surface, mass, leaves, options_.cut);
-    Bisection bisection = bisect(surface, mass, id, place, options_.cut, records_);
+    const CutOptions cut = options_.cut.of(surface);
+    const CutPlace place = choose_place(surface, mass, leaves, cut);
+    Bisection bisection = bisect(surface, mass, id, place, cut, records_);
     tell_listener(surface, bisection.cut);
     describe_cut(bisection.cut, node);
     if (!bisection.cut.made()) {

@@ -41,9 +41,9 @@ class StraightDivision {
 
 double StraightDivision::load(NodeId id) const {
     const SurfaceArrays part = complex_.part(id).arrays;
-    return options_.cut.bisected_load().load(static_cast<double>(part.vertices.size()),
-                                             static_cast<double>(part.facets.size()),
-                                             enclosed_volume(part.vertices, part.facets));
+    const LoadModel model = options_.cut.bisected_load();
+    return model.load(static_cast<double>(part.vertices.size()), static_cast<double>(part.facets.size()),
+                      model.volume_of(part, enclosed_volume(part.vertices, part.facets)));
 }
 
 void StraightDivision::add_child(NodeId id, std::int32_t first_leaf, std::int32_t leaves) {
@@ -56,8 +56,9 @@ bool StraightDivision::cut(TreeNode& node) {
     const auto start = std::chrono::steady_clock::now();
     const FaceComplex::Part part = complex_.part(node.id);
     std::vector<CutTry> tries;
+    const Surface surface(part.arrays);
     std::optional<StraightCut> made =
-        cut_straight(Surface(part.arrays), node.id, fraction_below(node.leaves), options_.cut, tries, part.untested);
+        cut_straight(surface, node.id, fraction_below(node.leaves), options_.cut.of(surface), tries, part.untested);
     node.cut_tried = true;
     if (!made) {
         node.tries += static_cast<std::int32_t>(tries.size());

@@ -358,6 +358,35 @@ void read_elements_4(Source& source, const Model& model, Elements& elements) {
     }
 }
 
+// Of the tags of a view, the first text is its name and the third whole number counts its entries.
+void read_node_data(Source& source, SoupBuilder& builder, const Model& model) {
+    TextScanner& text = source.text();
+    std::string name;
+    const std::int64_t texts = text.next_count();
+    text.skip_line();
+    for (std::int64_t i = 0; i < texts; ++i) {
+        std::string_view line = text.rest_of_line();
+        if (line.size() > 1 && line.front() == '"' && line.back() == '"') line = line.substr(1, line.size() - 2);
+        if (i == 0) name = line;
+    }
+    const std::int64_t reals = text.next_count();
+    for (std::int64_t i = 0; i < reals; ++i) text.next_real();
+    std::array<std::int64_t, 3> numbers = {0, 1, 0};  // step, components, entries
+    const std::int64_t integers = text.next_count();
+    for (std::int64_t i = 0; i < integers; ++i) {
+        const std::int64_t number = text.next_integer();
+        if (i < 3) numbers[static_cast<std::size_t>(i)] = number;
+    }
+    if (numbers[1] != 1) return;
+    std::vector<double>& values = builder.node_scalar(name);
+    for (std::int64_t i = 0; i < numbers[2]; ++i) {
+        const std::int64_t tag = source.next_int();
+        const double value = source.next_real();
+        if (const std::int64_t* vertex = find(model.vertex_of_node, tag))
+            values[static_cast<std::size_t>(*vertex)] = value;
+    }
+}
+
 // Passes over what is left of a section; its end may only be missing at the end of the file.
 void finish_section(TextScanner& text, std::string_view name) {
     const std::string end = "$End" + std::string(name);
@@ -395,6 +424,8 @@ void scan_gmsh(std::string_view bytes, const std::string& path, SoupBuilder& bui
             is_msh2 ? read_nodes_2(source, builder, model) : read_nodes_4(source, builder, model);
         else if (name == "Elements")
             is_msh2 ? read_elements_2(source, elements) : read_elements_4(source, model, elements);
+        else if (name == "NodeData" && builder.wants_scalars())
+            read_node_data(source, builder, model);
         finish_section(source.text(), name);
     }
     elements.note_ignored();

@@ -1,6 +1,7 @@
 // Collects what a file says: vertices, polygons, named patches and, if they are wanted, tetrahedra.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -16,13 +17,20 @@
 
 namespace kerf {
 
+/// Numbers at the vertices of a file.
+struct NodeScalar {
+    std::string name;
+    std::vector<double> values;  ///< #V; NaN where the file has none
+};
+
 class SoupBuilder {
  public:
-    enum class Wanted { surface, tets };
+    enum class Wanted { surface, tets, tets_and_scalars };
     /// `path` only serves messages. A reader that meets tetrahedra adds them if they are wanted, else passes over them.
     explicit SoupBuilder(const std::string& path, Wanted wanted = Wanted::surface) : path_(path), wanted_(wanted) {}
 
-    bool wants_tets() const { return wanted_ == Wanted::tets; }
+    bool wants_tets() const { return wanted_ != Wanted::surface; }
+    bool wants_scalars() const { return wanted_ == Wanted::tets_and_scalars; }
 
     std::int64_t vertex_count() const { return static_cast<std::int64_t>(soup_.vertices.size()); }
 
@@ -84,6 +92,14 @@ class SoupBuilder {
             throw Error(ErrorCode::input, path_ + ": the file has more than 2^31 - 1 tetrahedra. Split the mesh.");
         tets_.push_back(tet);
     }
+    /// The values of this name, one for each vertex so far.
+    std::vector<double>& node_scalar(std::string_view name) {
+        const auto of_name = [&](const NodeScalar& scalar) { return scalar.name == name; };
+        auto found = std::find_if(scalars_.begin(), scalars_.end(), of_name);
+        if (found == scalars_.end()) found = scalars_.insert(found, {std::string(name), {}});
+        found->values.resize(soup_.vertices.size(), std::numeric_limits<double>::quiet_NaN());
+        return found->values;
+    }
     /// A point in a void.
     void add_hole(const Vec3& point) { soup_.holes.push_back(point); }
     /// Says that something of the file was not used; nothing if `count` is 0.
@@ -103,6 +119,10 @@ class SoupBuilder {
         if (tets_.empty())
             throw Error(ErrorCode::input, path_ + ": the file holds no tetrahedra. Name a file of a volume mesh.");
         return std::move(tets_);
+    }
+    std::vector<NodeScalar> finish_scalars() {
+        for (NodeScalar& scalar : scalars_) node_scalar(scalar.name);
+        return std::move(scalars_);
     }
     /// What came beside the tetrahedra, which may be no facets.
     Soup finish_beside_tets() { return std::move(soup_); }
@@ -137,6 +157,7 @@ class SoupBuilder {
     Wanted wanted_;
     Soup soup_;
     std::vector<Tetrahedron> tets_;
+    std::vector<NodeScalar> scalars_;
     std::string patch_name_ = "surface";
     std::int32_t polygon_count_ = 0;
     bool has_fans_ = false;

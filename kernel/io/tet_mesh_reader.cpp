@@ -75,6 +75,7 @@ std::vector<char> facets_of_interface(const Soup& soup) {
 TetFile finish(SoupBuilder& builder, const std::string& path) {
     TetFile file;
     file.mesh.tets = builder.finish_tets();
+    file.node_scalars = builder.finish_scalars();
     Soup soup = builder.finish_beside_tets();
     file.is_interface = facets_of_interface(soup);
     file.mesh.vertices = std::move(soup.vertices);
@@ -83,6 +84,13 @@ TetFile finish(SoupBuilder& builder, const std::string& path) {
     check_extent(file.mesh.vertices, path);
     file.turned_tets = turn_negative_tets(file.mesh);
     return file;
+}
+
+TetFile read_bytes(std::string file, const std::string& path, SoupBuilder::Wanted wanted) {
+    const std::string content = decompress(std::move(file), path);
+    SoupBuilder builder(path, wanted);
+    scan_by_content(without_byte_order_mark(content), path, builder);
+    return finish(builder, path);
 }
 
 }  // namespace
@@ -97,10 +105,11 @@ TetFile read_tet_file(const std::string& path) {
 }
 
 TetFile read_tet_bytes(std::string file, const std::string& path) {
-    const std::string content = decompress(std::move(file), path);
-    SoupBuilder builder(path, SoupBuilder::Wanted::tets);
-    scan_by_content(without_byte_order_mark(content), path, builder);
-    return finish(builder, path);
+    return read_bytes(std::move(file), path, SoupBuilder::Wanted::tets);
+}
+
+TetFile read_tets_with_scalars(const std::string& path) {
+    return read_bytes(read_file(path), path, SoupBuilder::Wanted::tets_and_scalars);
 }
 
 }  // namespace kerf

@@ -5,17 +5,19 @@
 #include <string>
 #include <vector>
 
+#include "io/soup_builder.h"
 #include "mesh/tet_mesh.h"
 
 namespace kerf {
 
 /// What a file says of a volume mesh.
 struct TetFile {
-    TetMesh mesh;                         ///< without neighbours; no vertex counts as one of the boundary
-    std::vector<Triangle> facets;         ///< triangles of the file; none where it lists tetrahedra alone
-    std::vector<char> is_interface;       ///< #F; of a part of Kerf: another part is on the other side
-    std::int64_t turned_tets = 0;         ///< that had negative orientation in the file
-    std::vector<std::string> notes = {};  ///< what was passed over: "12 hexahedra were ignored."
+    TetMesh mesh;                               ///< without neighbours; no vertex counts as one of the boundary
+    std::vector<Triangle> facets;               ///< triangles of the file; none where it lists tetrahedra alone
+    std::vector<char> is_interface;             ///< #F; of a part of Kerf: another part is on the other side
+    std::int64_t turned_tets = 0;               ///< that had negative orientation in the file
+    std::vector<NodeScalar> node_scalars = {};  ///< of read_tets_with_scalars()
+    std::vector<std::string> notes = {};        ///< what was passed over: "12 hexahedra were ignored."
 };
 
 /// Reads Gmsh MSH 2 or 4.1 (text, binary of both orders of bytes), MEDIT .mesh (text) and VTK's VTU (see scan_vtu()),
@@ -28,5 +30,8 @@ TetFile read_tet_file(const std::string& path);
 
 /// The same for the bytes of a file that is already in memory, but not for TetGen's.
 TetFile read_tet_bytes(std::string file, const std::string& path);
+
+/// As read_tet_file(), with all scalars at the nodes that a .msh (each view of $NodeData) or .vtu (PointData) holds.
+TetFile read_tets_with_scalars(const std::string& path);
 
 }  // namespace kerf

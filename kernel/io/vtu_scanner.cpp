@@ -74,7 +74,8 @@ struct Array {
 
 struct Piece {
     std::int64_t points = 0, cells = 0;
-    std::map<std::string, Array> arrays;  // "Points", "connectivity", ...; in CellData "Neighbour" alone
+    std::map<std::string, Array> scalars;  // of PointData
+    std::map<std::string, Array> arrays;   // "Points", "connectivity", ...; in CellData "Neighbour" alone
 };
 
 struct File {
@@ -265,12 +266,16 @@ File read_structure(std::string_view text, const std::string& path) {
     read_root(*tag, file, path);
     while ((tag = next_tag(text, tag->end, path))) {
         if (tag->name == "Piece") {
-            file.pieces.push_back({count_in(*tag, "NumberOfPoints", path), count_in(*tag, "NumberOfCells", path), {}});
+            file.pieces.push_back(
+                {count_in(*tag, "NumberOfPoints", path), count_in(*tag, "NumberOfCells", path), {}, {}});
         } else if (tag->name == "DataArray" && !file.pieces.empty()) {
             const std::size_t end = tag->is_empty ? tag->end : std::min(text.size(), text.find('<', tag->end));
             const std::string name(section == "Points" ? "Points" : tag->value("Name"));
             if (section == "Points" || section == "Cells" || (section == "CellData" && name == "Neighbour"))
                 file.pieces.back().arrays.try_emplace(name, read_array(text, *tag, end, path));
+            const std::string_view components = tag->value("NumberOfComponents");
+            if (section == "PointData" && (components.empty() || components == "1"))
+                file.pieces.back().scalars.try_emplace(name, read_array(text, *tag, end, path));
         } else if (tag->name == "AppendedData") {
             const std::size_t begin = text.find('_', tag->end);
             if (begin == text.npos) fail(path, "its appended data are missing. The file is truncated: copy it again.");
@@ -324,6 +329,13 @@ void scan_piece(const Decoder& decoder, const Piece& piece, const std::string& p
     const std::vector<double> coordinates = decoder.values<double>(piece, "Points", 3 * piece.points);
     for (std::size_t i = 0; i < coordinates.size(); i += 3)
         builder.add_vertex({coordinates[i], coordinates[i + 1], coordinates[i + 2]});
+    for (const auto& [name, array] : piece.scalars) {
+        if (!builder.wants_scalars()) break;
+        const std::vector<double> values = decoder.values_of<double>(array);
+        if (static_cast<std::int64_t>(values.size()) != piece.points)
+            fail(path, "its array " + name + " has not one value for each point. Save or copy it again.");
+        std::copy(values.begin(), values.end(), builder.node_scalar(name).begin() + first_vertex);
+    }
     const Cells cells = read_cells(decoder, piece, path);
     std::vector<std::int64_t> corners;
     std::int64_t begin = 0, ignored = 0;

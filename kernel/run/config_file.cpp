@@ -34,6 +34,12 @@ std::string quoted(const std::string& text) {
 std::string float_text(const std::string& text) { return text.find_first_of(".e") == text.npos ? text + ".0" : text; }
 
 std::string value_text(const OptionField& field) {
+    if (const auto* list = std::get_if<OptionField::List>(&field.value)) {
+        std::string items;
+        for (const std::string& item : **list)
+            items += fmt::format("{}{}", items.empty() ? "" : ", ", quoted(path_text(item)));
+        return "[" + items + "]";
+    }
     const std::string text = field.text();
     if (std::holds_alternative<double*>(field.value)) return float_text(text);
     const bool is_plain = std::holds_alternative<bool*>(field.value) ||
@@ -54,6 +60,15 @@ bool has_value(const OptionField& field) {
 
 std::string text_of(const toml::node& node, const std::string& path, std::string_view key) {
     if (const auto text = node.value_exact<std::string>()) return path_of_text(*text);
+    if (const toml::array* array = node.as_array()) {
+        std::vector<std::string> items;
+        for (const toml::node& item : *array) {
+            const auto text = item.value_exact<std::string>();
+            if (!text) refuse(path, item.source(), fmt::format("the list {} holds something else than texts", key));
+            items.push_back(path_of_text(*text));
+        }
+        return join_items(items);
+    }
     if (const auto flag = node.value_exact<bool>()) return *flag ? "true" : "false";
     if (const auto number = node.value_exact<std::int64_t>()) return fmt::format("{}", *number);
     if (const auto number = node.value_exact<double>()) return fmt::format("{}", *number);

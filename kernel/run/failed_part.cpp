@@ -38,7 +38,8 @@ std::string tetgen_switches(const MesherOptions& mesher) {
     std::string switches = "pY";
     if (mesher.radius_edge > 0) switches += fmt::format("q{:g}", mesher.radius_edge);
     if (mesher.tolerance > 0) switches += fmt::format("T{:g}", mesher.tolerance);
-    if (!mesher.size.is_empty()) switches += fmt::format("a{:g}", mesher.size.reference_volume());
+    if (!mesher.size.is_empty() && mesher.size.is_constant())
+        switches += fmt::format("a{:g}", mesher.size.reference_volume());
     return switches;
 }
 

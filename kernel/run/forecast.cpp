@@ -30,15 +30,14 @@ constexpr double stored_bytes_per_tet = 22, file_bytes_per_tet = 70;  // of the 
 constexpr double certain = 0.5;  // nearly every mesh is larger than this share of its forecast
 
 // Those of the interfaces as the bound of the volume will have them: a dry run leaves them coarse.
-double expected_facets(const PartReport& part, const RunOptions& options) {
-    const double edge = options.decompose.cut.max_interface_edge(Vec3::Zero());
+double expected_facets(const PartReport& part) {
     const auto coarse = static_cast<double>(part.interface_facets);
-    const double fine = std::isfinite(edge) ? part.interface_area / (area_per_squared_edge * edge * edge) : 0;
+    const double fine = part.interface_in_squared_edges / area_per_squared_edge;
     return static_cast<double>(part.surface_facets) - coarse + std::max(coarse, fine);
 }
 
 Forecast forecast_of(const PartReport& part, const RunOptions& options) {
-    return forecast(expected_facets(part, options), part.surface_volume, options.mesher.size);
+    return forecast(expected_facets(part), part.sized_volume, options.mesher.size);
 }
 
 }  // namespace
@@ -93,8 +92,10 @@ void check_budget(const RunOptions& options, double facets, double volume) {
     const auto way_out = [&](double affordable) {
         const double left = affordable - tets_per_facet * facets;
         return left <= 0 ? std::string("Use a coarser surface")
-                         : fmt::format("Use --size {:.2g} or larger",
-                                       regular_tet_edge(tets_per_volume_bound * volume / left));
+               : !options.mesher.size.is_constant()
+                   ? std::string("Use larger sizes")
+                   : fmt::format("Use --size {:.2g} or larger",
+                                 regular_tet_edge(tets_per_volume_bound * volume / left));
     };
     const double enough = std::ceil(tets / most_tets_per_part);
     if (tets > most_tets_per_part * parts)
@@ -133,8 +134,7 @@ std::string plan_text(const std::vector<PartReport>& parts, const RunOptions& op
         if (f.tets > largest.tets) largest = f;
         if (every_part)
             table += fmt::format("{:>10} {:>10} {:>12.0f} {:>10.0f} {:>9.1f}\n", part.id,
-                                 std::llround(expected_facets(part, options)), f.tets, f.memory_bytes / (1 << 20),
-                                 f.seconds);
+                                 std::llround(expected_facets(part)), f.tets, f.memory_bytes / (1 << 20), f.seconds);
     }
     const int workers = ranks * options.workers;
     return fmt::format(

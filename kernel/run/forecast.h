@@ -17,7 +17,8 @@ struct Forecast {
 
 /// Tetrahedra: 1.9 for each facet, and 1.4 V/a where a volume a of them is wanted. Measured on 270 parts of the
 /// assets with TetGen, nine tenths have 0.74 to 1.25 times as many. For their number, nine tenths take 0.55 to 1.44
-/// times the memory and 0.8 to 2 times the seconds.
+/// times the memory and 0.8 to 2 times the seconds. V is the sized volume (size/volume_samples.h), here and below, and
+/// a the reference volume of the field.
 Forecast forecast(double facets, double volume, const SizeField& size);
 
 /// K where the user gives none: four parts for each worker of all ranks, fewer if they would be tiny, more where

@@ -27,6 +27,7 @@ std::array<SurfaceArrays, 2> halves_of(const SurfaceArrays& arrays, const Mesher
     const MassProperties mass = mass_properties(surface);
     CutOptions cut;
     cut.size = cut.load.size = options.size;
+    cut = cut.of(surface);
     const Bisection bisection = bisect(surface, mass, cut_node, choose_place(surface, mass, 2, cut), cut, false);
     if (!bisection.cut.made())
         throw Error(ErrorCode::subdomain, "The part has no contour of edges that would cut it in two.");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -33,6 +34,7 @@ template <class T>
 std::string text_of(const T* value) {
     return fmt::format("{}", *value);
 }
+std::string text_of(const OptionField::List items) { return join_items(*items); }
 std::string text_of(const OptionField::Choice& choice) { return choice.names[static_cast<std::size_t>(choice.get())]; }
 
 // False if the text is no such value: numbers that are not finite, or too small or too large for their type, are none.
@@ -53,6 +55,10 @@ bool assign(std::string* value, const std::string& text) {
     *value = text;
     return true;
 }
+bool assign(OptionField::List items, const std::string& text) {
+    *items = split_items(text);
+    return true;
+}
 bool assign(const OptionField::Choice& choice, const std::string& text) {
     const auto found = std::find(choice.names.begin(), choice.names.end(), text);
     if (found == choice.names.end()) return false;
@@ -61,6 +67,31 @@ bool assign(const OptionField::Choice& choice, const std::string& text) {
 }
 
 }  // namespace
+
+std::string join_items(const std::vector<std::string>& items) {
+    std::string text;
+    for (const std::string& item : items) {
+        if (item.empty()) continue;
+        if (!text.empty()) text += ';';
+        for (const char c : item) {
+            if (c == ';' || c == '\\') text += '\\';
+            text += c;
+        }
+    }
+    return text;
+}
+
+std::vector<std::string> split_items(const std::string& text) {
+    std::vector<std::string> items(1);
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == ';')
+            items.emplace_back();
+        else
+            items.back() += text[i] == '\\' && i + 1 < text.size() ? text[++i] : text[i];
+    }
+    std::erase(items, "");
+    return items;
+}
 
 std::string OptionField::text() const {
     return std::visit([](const auto& place) { return text_of(place); }, value);
@@ -91,6 +122,7 @@ void RunOptions::resolve(int cores_of_rank) {
     parse_formats(formats);
     check_files();
     sizes.max_volume = sizes.constant_max_volume();
+    if (!sizes.field_file.empty()) sizes.field_file = std::filesystem::absolute(sizes.field_file).string();
     use_sizes(SizeField(sizes.max_volume));
     if (memory_mb > 0) decompose.cut.max_interface_points = (memory_mb << 20) / bytes_per_interface_point;
 }
@@ -153,6 +185,22 @@ std::vector<OptionField> option_fields(RunOptions& o) {
          &o.decompose.parts},
         {"size", "", "Wanted edge length inside, in units of the input. Default: as the surface.", &o.sizes.size},
         {"max-volume", "", "Largest volume of a tetrahedron, instead of --size.", &o.sizes.max_volume},
+        {"size-in", "",
+         "Edge length H in box:x0,y0,z0,x1,y1,z1=H, sphere:x,y,z,r=H or cylinder:x0,y0,z0,x1,y1,z1,r=H. Repeatable.",
+         &o.sizes.inside},
+        {"size-on", "", "Edge length H on a patch of the input, as NAME=H. Repeatable.", &o.sizes.on},
+        {"size-near", "", "Edge length H up to the distance D from a patch, as NAME=H:D. Repeatable.", &o.sizes.near},
+        {"growth", "",
+         "Growth of edge lengths per distance; if given, from the edges of the surface, too. Default 0: 0.3 from "
+         "others.",
+         &o.sizes.growth},
+        {"size-field", "", "Mesh of tetrahedra, .vtu or .msh, with the edge length as a scalar at its nodes.",
+         &o.sizes.field_file},
+        {"chord-error", "", "Finer where the surface is curved: distance of edges from it, units of the input.",
+         &o.sizes.chord_error},
+        {"segments-per-turn", "", "Finer where the surface is curved: edges of a full circle.",
+         &o.sizes.segments_per_turn},
+        {"cells-across", "", "Finer where walls are thin: cells from one side to the other.", &o.sizes.cells_across},
         {"radius-edge", "", "Bound of circumradius over shortest edge; 0: no refinement. Default 1.4.",
          &o.mesher.radius_edge},
         {"cut", "", "Where planes lie: across the principal axis, or a coordinate axis. Default inertia.",

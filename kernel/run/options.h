@@ -57,7 +57,9 @@ struct OptionField {
     std::string name;        ///< without dashes
     std::string short_name;  ///< a letter, or empty
     std::string help;        ///< one sentence with unit and default
-    std::variant<std::int32_t*, std::int64_t*, double*, bool*, std::string*, Choice> value;
+    /// Of an option that may be given several times; as one text, with semicolons between (join_items()).
+    using List = std::vector<std::string>*;
+    std::variant<std::int32_t*, std::int64_t*, double*, bool*, std::string*, List, Choice> value;
     bool shapes_parts = true;  ///< false: a finished run has the same part files whatever it is, but for parts that
                                ///< took longer than a limit of time, which the run marks (PartOutcome::timed_out)
 
@@ -66,6 +68,11 @@ struct OptionField {
     std::string text() const;
     void set_text(const std::string& text) const;
 };
+
+/// Items with semicolons between; those within an item, and backslashes, get a backslash before them. Empty items
+/// vanish.
+std::string join_items(const std::vector<std::string>& items);
+std::vector<std::string> split_items(const std::string& text);
 
 /// An option as text, as OptionField has it.
 struct OptionText {

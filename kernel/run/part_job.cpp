@@ -63,6 +63,7 @@ void fill_result(const PartJob& job, const MesherCall& call, const std::string& 
     result.tets = static_cast<std::int64_t>(mesh.tets.size());
     timed(result.verify_seconds, [&] { result.hash = hash_part(mesh, job.surface); });
     timed(result.store_seconds, [&] {
+        result.sizes = measure_sizes(mesh, job.surface, call.options.size);
         result.quality = measure_quality(mesh, interface_vertices(job.surface, mesh.vertices.size()), job.length_scale);
         result.file_hash = write_stored_part(part_file, part_of_job(job, std::move(mesh)));
     });

@@ -6,6 +6,7 @@
 #include "mesh/quality.h"
 #include "mesh/verification.h"
 #include "part/part_store.h"
+#include "run/size_ratios.h"
 #include "surface/surface.h"
 #include "volume/retries.h"
 
@@ -53,6 +54,7 @@ struct PartResult {
     std::int64_t vertices = 0, interior_vertices = 0, tets = 0;
     MeshLaws laws;
     PartQuality quality;
+    SizeRatios sizes;                            ///< against the sizes of the call, which a remedy may have made larger
     std::array<std::uint64_t, 2> hash = {0, 0};  ///< of surface, keys and mesh
     FileHash file_hash = {0, 0};                 ///< of the stored part
     double load_seconds = 0, mesh_seconds = 0, verify_seconds = 0, store_seconds = 0;
@@ -60,8 +62,8 @@ struct PartResult {
 
     template <class Archive>
     void archive(Archive& a) {
-        a(code, message, vertices, interior_vertices, tets, laws, quality, hash, file_hash, load_seconds, mesh_seconds,
-          verify_seconds, store_seconds, peak_rss_bytes);
+        a(code, message, vertices, interior_vertices, tets, laws, quality, sizes, hash, file_hash, load_seconds,
+          mesh_seconds, verify_seconds, store_seconds, peak_rss_bytes);
     }
 };
 

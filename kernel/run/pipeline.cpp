@@ -27,6 +27,7 @@
 #include "run/reference.h"
 #include "run/run_files.h"
 #include "run/saved_run.h"
+#include "run/size_reader.h"
 #include "run/totals.h"
 #include "run/trace.h"
 #include "run/volume_stage.h"
@@ -73,15 +74,15 @@ std::int64_t least_facets(const DecomposeOptions& options) {
 }
 
 // K as given, if the surface allows it; else that of a run into the same folder that was interrupted, perhaps on
-// another machine; else as it follows from the surface, the machine and its memory.
-std::int32_t part_count(const Input& input, const RunOptions& options, int ranks) {
+// another machine; else as it follows from the surface, its sized volume, the machine and its memory.
+std::int32_t part_count(const Input& input, const RunOptions& options, double volume, int ranks) {
     const auto most =
         static_cast<std::int32_t>(std::max<std::int64_t>(1, input.facets / least_facets(options.decompose)));
     const std::int32_t wanted = options.decompose.parts;
     if (wanted == 0) {
         const std::int32_t interrupted = options.dry_run ? 0 : interrupted_part_count(options.output, input.file_hash);
         if (interrupted > 0 && interrupted <= most) return interrupted;
-        return choose_parts(options, static_cast<double>(input.facets), input.volume, ranks, most);
+        return choose_parts(options, static_cast<double>(input.facets), volume, ranks, most);
     }
     if (wanted > most)
         throw Error(ErrorCode::usage, fmt::format("{} has {} facets, too few for {} parts. Use -n {} or fewer, or a "
@@ -187,7 +188,7 @@ void Run::join_interfaces(Decomposition own) {
     const Stopwatch stopwatch;
     report_.nodes = gather_nodes(ranks_, own.nodes, host_name());
     PreparedParts prepared =
-        prepare_parts(ranks_, input_, report_.nodes, std::move(own), report_.options.decompose.cut.load);
+        prepare_parts(ranks_, input_, report_.nodes, std::move(own), report_.options.decompose.cut);
     report_.verification.unmatched_interface_faces = prepared.unmatched_interface_facets;
     report_.verification.input_faces_missing = prepared.missing_input_facets;
     surface_vertices_ = prepared.surface_vertices;
@@ -351,9 +352,13 @@ RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input&
         if (listener) listener->on_progress("read", 0, 1);
         input = read_input(options.input, options.input_options);
         refuse_changed_input(options, input.file_hash);
+        const SurfaceArrays surface = options.sizes.depends_on_place() ? input.surface.arrays() : SurfaceArrays();
+        if (options.sizes.depends_on_place())
+            options.use_sizes(read_size_field(options.sizes, surface, input.patch_names));
         if (ranks.rank() != 0) return;
-        options.decompose.parts = part_count(input, options, ranks.size());
-        if (!options.dry_run) check_budget(options, static_cast<double>(input.facets), input.volume);
+        const double volume = sized_volume(options.mesher.size, surface.vertices, surface.facets, input.volume);
+        options.decompose.parts = part_count(input, options, volume, ranks.size());
+        if (!options.dry_run) check_budget(options, static_cast<double>(input.facets), volume);
     });
     options.decompose.parts = all_gather(ranks, options.decompose.parts).front();
     const double read_seconds = longest(ranks, whole.seconds());

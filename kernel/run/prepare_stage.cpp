@@ -13,7 +13,7 @@ namespace kerf {
 namespace {
 
 // What is known of a part before it is meshed.
-PartReport describe_part(const PartJob& job, double volume, int rank, const LoadModel& model) {
+PartReport describe_part(const PartJob& job, double volume, int rank, const CutOptions& cut) {
     PartReport part;
     part.id = job.part;
     part.rank = rank;
@@ -25,11 +25,16 @@ PartReport describe_part(const PartJob& job, double volume, int rank, const Load
         ++part.interface_facets;
         const Triangle& t = job.surface.facets[f];
         const std::vector<Vec3>& p = job.surface.vertices;
-        part.interface_area += (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / 2;
+        const double area = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / 2;
+        const double edge = cut.max_interface_edge((p[t[0]] + p[t[1]] + p[t[2]]) / 3);
+        part.interface_area += area;
+        part.interface_in_squared_edges += area / (edge * edge);
         part.neighbours.push_back(job.neighbour[f]);
     }
-    part.load = model.load(static_cast<double>(part.surface_vertices), static_cast<double>(part.surface_facets),
-                           part.surface_volume);
+    part.sized_volume = sized_volume(cut.size, job.surface.vertices, job.surface.facets, volume);
+    const bool is_sized = cut.load.depends_on_place();
+    part.load = cut.load.load(static_cast<double>(part.surface_vertices), static_cast<double>(part.surface_facets),
+                              is_sized ? part.sized_volume : volume);
     std::sort(part.neighbours.begin(), part.neighbours.end());
     part.neighbours.erase(std::unique(part.neighbours.begin(), part.neighbours.end()), part.neighbours.end());
     return part;
@@ -65,7 +70,7 @@ void find_shared_edges(Communicator& ranks, const std::vector<NodeId>& leaves, s
 }  // namespace
 
 PreparedParts prepare_parts(Communicator& ranks, const Input& input, const std::vector<TreeNode>& nodes,
-                            Decomposition own, const LoadModel& load) {
+                            Decomposition own, const CutOptions& cut) {
     PreparedParts prepared;
     const InterfaceTable table(ranks, own.leaves);
     prepared.unmatched_interface_facets = table.unmatched();
@@ -83,7 +88,7 @@ PreparedParts prepare_parts(Communicator& ranks, const Input& input, const std::
         job.patch_names = input.patch_names;
         job.length_scale = input.diagonal;
         job.surface = std::exchange(leaf.surface, {});
-        PartReport report = describe_part(job, leaf.volume, ranks.rank(), load);
+        PartReport report = describe_part(job, leaf.volume, ranks.rank(), cut);
         prepared.own.push_back({std::move(report), std::move(job)});
     }
     find_shared_edges(ranks, leaves, prepared.own);

@@ -66,7 +66,11 @@ Json options_json(RunOptions options) {
                     return value.names[value.get()];
                 else if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string*>)
                     return path_text(*value);
-                else
+                else if constexpr (std::is_same_v<std::decay_t<decltype(value)>, OptionField::List>) {
+                    Json items = Json::array();
+                    for (const std::string& item : *value) items.push_back(path_text(item));
+                    return items;
+                } else
                     return *value;
             },
             field.value);
@@ -148,6 +152,24 @@ Json totals_json(const RunReport& report) {
             {"peak_rss_bytes", report.peak_rss_bytes}};
 }
 
+Json ratios_json(const RatioCounts& ratios) {
+    return {{"edges", ratios.count()},       {"share_obeyed", ratios.share_obeyed()}, {"p1", ratios.percentile(0.01)},
+            {"p10", ratios.percentile(0.1)}, {"median", ratios.percentile(0.5)},      {"p90", ratios.percentile(0.9)},
+            {"p99", ratios.percentile(0.99)}};
+}
+
+// Length got over length asked.
+Json sizes_json(const RunReport& report) {
+    const SizeRatios& ratios = report.sizes;
+    if (ratios.empty()) return nullptr;
+    Json patches = Json::object();
+    for (const auto& [patch, edges] : ratios.by_patch)
+        patches[report.input->patch_names[static_cast<std::size_t>(patch)]] = ratios_json(edges);
+    return {{"inside", ratios_json(ratios.inside)},
+            {"interfaces", ratios.interfaces.count() > 0 ? ratios_json(ratios.interfaces) : Json()},
+            {"patches", patches}};
+}
+
 Json reference_json(const RunReport& report) {
     if (!report.reference) return nullptr;
     const PartResult& whole = report.reference->outcome.result;
@@ -199,6 +221,7 @@ std::string to_json(const RunReport& report) {
                  {"parts", array_of(report.parts, part_json)},
                  {"totals", totals_json(report)},
                  {"quality", quality_json(report.quality)},
+                 {"sizes", sizes_json(report)},
                  {"verification",
                   {{"passed", v.passed},
                    {"volume_rel_error", v.volume_rel_error},
@@ -313,6 +336,8 @@ std::string to_text(const RunReport& report) {
         line("mesh", fmt::format("{} tetrahedra, {} vertices", grouped(report.tets), grouped(report.vertices)));
         const Distribution& dihedral = report.quality.all.measures[0];
         const Distribution& ratio = report.quality.all.measures[2];
+        if (!report.sizes.empty())
+            line("sizes", size_text(report.sizes, input.patch_names, !report.options.mesher.size.is_constant()));
         line("quality", fmt::format("dihedral min {:.1f}, 1 % {:.1f}, median {:.1f} deg; radius-edge max {:.2f}",
                                     dihedral.min(), dihedral.percentile(0.01), dihedral.percentile(0.5), ratio.max()));
     }

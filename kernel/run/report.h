@@ -21,16 +21,19 @@ struct PartReport : PartOutcome {
     FileHash job_hash = {0, 0};
     FileHash surface_hash = {0, 0};  ///< of the file of its surface
     double surface_volume = 0;
+    double sized_volume = 0;  ///< as sized_volume() has it
     std::int64_t surface_vertices = 0, surface_facets = 0;
     std::int64_t interface_facets = 0;  ///< of them
     double interface_area = 0;
+    double interface_in_squared_edges =
+        0;                           ///< the same, each facet over the square of CutOptions::max_interface_edge()
     std::vector<NodeId> neighbours;  ///< ascending
 
     template <class Archive>
     void archive(Archive& a) {
         PartOutcome::archive(a);
-        a(id, rank, resumed, load, job_hash, surface_hash, surface_volume, surface_vertices, surface_facets,
-          interface_facets, interface_area, neighbours);
+        a(id, rank, resumed, load, job_hash, surface_hash, surface_volume, sized_volume, surface_vertices,
+          surface_facets, interface_facets, interface_area, interface_in_squared_edges, neighbours);
     }
 };
 
@@ -87,6 +90,7 @@ struct RunReport {
     double imbalance = 1;             ///< max over mean of the part seconds summed per worker
     std::int64_t peak_rss_bytes = 0;  ///< of the ranks, and of the largest worker for each worker
     PartQuality quality;
+    SizeRatios sizes;                    ///< sum over the parts
     std::optional<Reference> reference;  ///< on the root rank, where it was asked for
     std::string mesh_hash;
     std::vector<RunFile> files;   ///< all of the folder but the report, ascending

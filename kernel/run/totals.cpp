@@ -66,6 +66,7 @@ void add_up_parts(RunReport& report) {
     std::vector<PartHash> hashes;
     for (const PartReport& part : report.parts) {
         report.tets += part.result.tets;
+        report.sizes.add(part.result.sizes);
         hashes.push_back({part.id, part.result.hash});
     }
     if (report.options.volume) report.mesh_hash = hash_of_parts(hashes);

@@ -1,17 +1,69 @@
 #include "size/size_field.h"
 
+#include <cmath>
+
 #include "core/check.h"
 #include "core/regular_tet.h"
 
 namespace kerf {
+
+bool SizeSources::empty() const {
+    return boxes.empty() && spheres.empty() && cylinders.empty() && triangles.empty() && backgrounds.empty();
+}
+
+double SizeSources::smallest() const {
+    double least = triangles.smallest();
+    for (const SizedBox& box : boxes) least = std::min(least, box.size);
+    for (const SizedSphere& sphere : spheres) least = std::min(least, sphere.size);
+    for (const SizedCylinder& cylinder : cylinders) least = std::min(least, cylinder.size);
+    for (const BackgroundSizes& background : backgrounds) least = std::min(least, background.smallest());
+    return least;
+}
+
+double SizeSources::size_at(const Vec3& p, double bound) const {
+    const auto take = [&](const auto& solids) {
+        for (const auto& solid : solids) bound = std::min(bound, solid.size + growth * solid.distance(p));
+    };
+    take(boxes);
+    take(spheres);
+    take(cylinders);
+    for (const BackgroundSizes& background : backgrounds) bound = background.size_at(p, growth, bound);
+    return triangles.size_at(p, growth, bound);
+}
 
 SizeField::SizeField(double max_volume)
     : max_volume_(max_volume), edge_(max_volume > 0 ? regular_tet_edge(max_volume) : infinity) {
     KERF_CHECK(max_volume >= 0);
 }
 
-double SizeField::at(const Vec3&) const { return edge_; }
+SizeField::SizeField(double max_volume, SizeSources sources) : SizeField(max_volume) { set(std::move(sources)); }
 
-double SizeField::max_volume_at(const Vec3&) const { return max_volume_ > 0 ? max_volume_ : infinity; }
+void SizeField::set(SizeSources sources) {
+    if (sources.empty())
+        sources_.reset();
+    else
+        sources_ = std::make_shared<const SizeSources>(std::move(sources));
+}
+
+double SizeField::at(const Vec3& p, double bound) const {
+    bound = std::min(bound, edge_);
+    return sources_ ? std::min(bound, edge_factor_ * sources_->size_at(p, bound / edge_factor_)) : bound;
+}
+
+double SizeField::max_volume_at(const Vec3& p) const {
+    const double edge = at(p);
+    return edge < edge_ ? regular_tet_volume(edge) : max_volume_ > 0 ? max_volume_ : infinity;
+}
+
+double SizeField::smallest() const { return sources_ ? std::min(edge_, edge_factor_ * sources_->smallest()) : edge_; }
+
+double SizeField::reference_volume() const { return smallest() < edge_ ? regular_tet_volume(smallest()) : max_volume_; }
+
+SizeField SizeField::coarser(double factor) const {
+    SizeField field(max_volume_ * factor);
+    field.edge_factor_ = edge_factor_ * std::cbrt(factor);
+    field.sources_ = sources_;
+    return field;
+}
 
 }  // namespace kerf

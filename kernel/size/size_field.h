@@ -1,47 +1,95 @@
 // How fine the tetrahedra shall be, and where.
 #pragma once
 
+#include <algorithm>
 #include <limits>
+#include <memory>
+#include <type_traits>
+#include <vector>
 
-#include "core/types.h"
+#include "core/bytes.h"
+#include "size/background_sizes.h"
+#include "size/sized_shapes.h"
+#include "size/sized_triangles.h"
 
 namespace kerf {
 
-/// Wanted edge length in space. A value: copied, serialised, asked at a point. Deterministic and thread-safe.
+/// All from which a SizeField takes the minimum, besides a constant. Each has its size where it lies, and more by
+/// `growth` times the distance elsewhere.
+struct SizeSources {
+    double growth = 0;  ///< >= 0
+    std::vector<SizedBox> boxes;
+    std::vector<SizedSphere> spheres;
+    std::vector<SizedCylinder> cylinders;
+    SizedTriangles triangles;
+    std::vector<BackgroundSizes> backgrounds;
+
+    bool empty() const;
+    double smallest() const;
+    /// The least of all sources and `bound` at a point.
+    double size_at(const Vec3& p, double bound) const;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(growth, boxes, spheres, cylinders, triangles, backgrounds);
+    }
+};
+
+/// Wanted edge length in space: the minimum of a constant and of sources. A value, cheap to copy: serialised with all
+/// that it needs, asked at a point. The answer depends on the point alone, and differs between two points by no more
+/// than growth() times their distance (but see BackgroundSizes). Thread-safe.
 class SizeField {
  public:
     /// Nothing is asked anywhere.
     SizeField() = default;
     /// The same everywhere: tetrahedra of at most this volume, which is kept as it is. 0: nothing is asked.
     explicit SizeField(double max_volume);
+    /// A constant, 0 for none, and what makes it smaller at places.
+    SizeField(double max_volume, SizeSources sources);
 
-    /// Wanted edge length; infinity where nothing is asked.
-    double at(const Vec3& p) const;
+    /// Wanted edge length; infinity where nothing is asked. O(log n) with n triangles and cells in the sources, a few
+    /// microseconds.
+    double at(const Vec3& p) const { return at(p, edge_); }
+    /// The least of at(p) and `bound`, which is found sooner where the bound is small.
+    double at(const Vec3& p, double bound) const;
     /// Largest volume of a tetrahedron there: that of the regular one with the edge at(p). Infinity where nothing is
     /// asked.
     double max_volume_at(const Vec3& p) const;
     /// No point has a smaller edge length; infinity if nothing is asked.
-    double smallest() const { return edge_; }
-    bool is_empty() const { return reference_volume() == 0; }
+    double smallest() const;
+    bool is_empty() const { return max_volume_ == 0 && is_constant(); }
     /// Whether all points have the same edge length, infinity included.
-    bool is_constant() const { return true; }
+    bool is_constant() const { return !sources_; }
     /// max_volume_at() where the field is smallest: of a constant field, everywhere. 0: nothing is asked. Volumes are
-    /// told in such units where their tetrahedra are counted.
-    double reference_volume() const { return max_volume_; }
+    /// told in such units where their tetrahedra are counted, see sized_volume().
+    double reference_volume() const;
+    /// Largest change of at() by distance.
+    double growth() const { return sources_ ? edge_factor_ * sources_->growth : 0; }
 
     /// The field whose tetrahedra may be `factor` > 0 times as large.
-    SizeField coarser(double factor) const { return SizeField(max_volume_ * factor); }
+    SizeField coarser(double factor) const;
 
     template <class Archive>
     void archive(Archive& a) {
-        a(max_volume_, edge_);
+        a(max_volume_, edge_, edge_factor_);
+        if constexpr (std::is_same_v<Archive, ByteReader>) {
+            SizeSources sources;
+            a(sources);
+            set(std::move(sources));
+        } else {
+            a(sources_ ? *sources_ : SizeSources());
+        }
     }
 
  private:
-    double max_volume_ = 0;  // 0: none
-    double edge_ = infinity;
+    void set(SizeSources sources);
 
     static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+    double max_volume_ = 0;                       // of the constant; 0: none
+    double edge_ = infinity;                      // of the constant
+    double edge_factor_ = 1;                      // of the sources
+    std::shared_ptr<const SizeSources> sources_;  // not empty; null: none
 };
 
 }  // namespace kerf

@@ -1,29 +1,193 @@
 #include "size/size_options.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <span>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
 #include "core/regular_tet.h"
+#include "size/surface_sizes.h"
 
 namespace kerf {
 
+namespace {
+
+constexpr double least_told_rel = 1e-4;  // of the diagonal: sizes that follow from curvature and thickness
+constexpr const char* form_of_solids =
+    "box:x0,y0,z0,x1,y1,z1=H, sphere:x,y,z,r=H or cylinder:x0,y0,z0,x1,y1,z1,r=H, such as sphere:0,0,0,2.5=0.1";
+constexpr const char* form_on_patch = "NAME=H, such as inlet=0.1";
+constexpr const char* form_near_patch = "NAME=H:D, such as inlet=0.1:2";
+
+[[noreturn]] void refuse_text(const char* option, const std::string& text, const char* form) {
+    throw Error(ErrorCode::usage, fmt::format("'{}' is no value of --{}. It has the form {}; lengths are positive and "
+                                              "in units of the input.",
+                                              text, option, form));
+}
+
+// Numbers with commas between; empty if the text is anything else.
+std::vector<double> numbers_in(std::string_view text) {
+    std::vector<double> numbers;
+    const char *at = text.data(), *const end = at + text.size();
+    while (true) {
+        double number = 0;
+        const auto [stop, error] = std::from_chars(at, end, number);
+        if (error != std::errc() || !std::isfinite(number)) return {};
+        numbers.push_back(number);
+        if (stop == end) return numbers;
+        if (*stop != ',') return {};
+        at = stop + 1;
+    }
+}
+
+// A wanted edge length: positive, with a volume that a double can hold. 0 if the text is none.
+double size_in(std::string_view text) {
+    const std::vector<double> numbers = numbers_in(text);
+    const bool good = numbers.size() == 1 && numbers[0] > 0 && std::isnormal(regular_tet_volume(numbers[0]));
+    return good ? numbers[0] : 0;
+}
+
+// What stands before and behind the last `mark`.
+struct Halves {
+    std::string before, behind;
+    Halves(const std::string& text, char mark) {
+        const std::size_t place = text.rfind(mark);
+        before = text.substr(0, place);
+        if (place != text.npos) behind = text.substr(place + 1);
+    }
+};
+
+Vec3 point_of(std::span<const double> numbers) { return {numbers[0], numbers[1], numbers[2]}; }
+
+// False if the text has not the form of a solid.
+bool add_solid(const std::string& text, SizeSources& sources) {
+    const Halves halves(text, '=');
+    const double size = size_in(halves.behind);
+    const std::size_t colon = halves.before.find(':');
+    if (size == 0 || colon == std::string::npos) return false;
+    const std::string kind = halves.before.substr(0, colon);
+    const std::vector<double> n = numbers_in(std::string_view(halves.before).substr(colon + 1));
+    const bool has_radius = !n.empty() && n.back() > 0;
+    if (kind == "box" && n.size() == 6) {
+        const Vec3 a = point_of(n), b = point_of(std::span(n).subspan(3));
+        sources.boxes.push_back({a.cwiseMin(b), a.cwiseMax(b), size});
+    } else if (kind == "sphere" && n.size() == 4 && has_radius) {
+        sources.spheres.push_back({point_of(n), n[3], size});
+    } else if (kind == "cylinder" && n.size() == 7 && has_radius) {
+        const Vec3 from = point_of(n), to = point_of(std::span(n).subspan(3));
+        if (from == to) return false;
+        sources.cylinders.push_back({from, to, n[6], size});
+    } else {
+        return false;
+    }
+    return true;
+}
+
+struct PatchSize {
+    std::string name;
+    double size = 0, reach = 0;
+};
+
+PatchSize parse_on(const std::string& text) {
+    const Halves halves(text, '=');
+    const PatchSize wanted{halves.before, size_in(halves.behind), 0};
+    if (wanted.name.empty() || wanted.size == 0) refuse_text("size-on", text, form_on_patch);
+    return wanted;
+}
+
+PatchSize parse_near(const std::string& text) {
+    const Halves halves(text, '='), numbers(halves.behind, ':');
+    const std::vector<double> reach = numbers_in(numbers.behind);
+    const PatchSize wanted{halves.before, size_in(numbers.before), reach.size() == 1 ? reach[0] : -1};
+    if (wanted.name.empty() || wanted.size == 0 || !(wanted.reach >= 0))
+        refuse_text("size-near", text, form_near_patch);
+    return wanted;
+}
+
+void require_size(bool good, const char* option, const char* range, double value) {
+    if (!good) throw Error(ErrorCode::usage, fmt::format("--{} is {}, but it must be {}.", option, value, range));
+}
+
+std::int32_t find_patch(const char* option, const std::string& name, const std::vector<std::string>& names) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found != names.end()) return static_cast<std::int32_t>(found - names.begin());
+    constexpr std::size_t most = 20;
+    const auto end = names.begin() + static_cast<std::ptrdiff_t>(std::min(most, names.size()));
+    throw Error(ErrorCode::usage,
+                fmt::format("--{} names the patch '{}', which the surface does not have. It has {}{}.", option, name,
+                            fmt::join(names.begin(), end, ", "),
+                            names.size() > most ? fmt::format(" and {} more", names.size() - most) : ""));
+}
+
+void append(std::vector<SizedTriangle>& all, const std::vector<SizedTriangle>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+}
+
+// Noise of coordinates has any curvature, and walls may touch: what is told from them has a limit.
+std::vector<SizedTriangle> no_smaller_than(double least, std::vector<SizedTriangle> sized) {
+    for (SizedTriangle& t : sized)
+        for (double& size : t.size) size = std::max(size, least);
+    return sized;
+}
+
+std::vector<SizedTriangle> sizes_of_surface(const SizeOptions& options, const SurfaceArrays& surface,
+                                            const std::vector<std::string>& patch_names) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : surface.vertices) box.extend(p);
+    const double least = least_told_rel * box.diagonal().norm();
+    std::vector<SizedTriangle> all;
+    const auto add_patch = [&](const char* option, const PatchSize& wanted) {
+        const std::int32_t patch = find_patch(option, wanted.name, patch_names);
+        append(all, sizes_on_patch(surface, patch, wanted.size, wanted.reach));
+    };
+    for (const std::string& text : options.on) add_patch("size-on", parse_on(text));
+    for (const std::string& text : options.near) add_patch("size-near", parse_near(text));
+    if (options.growth > 0) append(all, sizes_of_edges(surface));
+    if (options.chord_error > 0 || options.segments_per_turn > 0)
+        append(all,
+               no_smaller_than(least, sizes_of_curvature(surface, {options.chord_error, options.segments_per_turn})));
+    if (options.cells_across > 0)
+        append(all, no_smaller_than(least, sizes_of_thickness(surface, options.cells_across)));
+    return all;
+}
+
+}  // namespace
+
 void SizeOptions::check() const {
     // Written so that NaN fails.
-    if (!(size >= 0 && std::isfinite(size)))
-        throw Error(ErrorCode::usage, fmt::format("--size is {}, but it must be positive.", size));
-    if (size > 0 && !std::isnormal(regular_tet_volume(size)))
-        throw Error(
-            ErrorCode::usage,
-            fmt::format("--size is {}, but it must be such that its cube is a number of double precision.", size));
-    if (!(max_volume == 0 || (max_volume > 0 && std::isnormal(max_volume))))
-        throw Error(ErrorCode::usage,
-                    fmt::format("--max-volume is {}, but it must be positive, or 0 for no bound.", max_volume));
+    require_size(size >= 0 && std::isfinite(size), "size", "positive", size);
+    require_size(size == 0 || std::isnormal(regular_tet_volume(size)), "size",
+                 "such that its cube is a number of double precision", size);
+    require_size(max_volume == 0 || (max_volume > 0 && std::isnormal(max_volume)), "max-volume",
+                 "positive, or 0 for no bound", max_volume);
+    require_size(growth == 0 || (growth >= 0.01 && growth <= 10), "growth", "0.01 to 10, or 0 for the usual one",
+                 growth);
+    require_size(chord_error >= 0 && std::isfinite(chord_error), "chord-error", "positive, or 0 for none", chord_error);
+    require_size(segments_per_turn == 0 || (segments_per_turn >= 3 && segments_per_turn <= 1e4), "segments-per-turn",
+                 "3 to 10000, or 0 for none", segments_per_turn);
+    require_size(cells_across >= 0 && cells_across <= 1e4, "cells-across", "0 (none) to 10000", cells_across);
+    SizeSources ignored;
+    for (const std::string& text : inside)
+        if (!add_solid(text, ignored)) refuse_text("size-in", text, form_of_solids);
+    for (const std::string& text : on) parse_on(text);
+    for (const std::string& text : near) parse_near(text);
 }
 
 double SizeOptions::constant_max_volume() const {
     return max_volume == 0 && size > 0 ? regular_tet_volume(size) : max_volume;
+}
+
+SizeField make_size_field(const SizeOptions& options, const SurfaceArrays& surface,
+                          const std::vector<std::string>& patch_names, std::optional<SizedMesh> background) {
+    SizeSources sources;
+    sources.growth = options.growth_or_usual();
+    for (const std::string& text : options.inside) add_solid(text, sources);
+    sources.triangles = SizedTriangles(sizes_of_surface(options, surface, patch_names));
+    if (background) sources.backgrounds.emplace_back(*std::move(background), sources.growth);
+    return {options.constant_max_volume(), std::move(sources)};
 }
 
 }  // namespace kerf

@@ -1,19 +1,48 @@
-// What a user says about sizes.
+// What a user says about sizes, and the field that follows from it.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "size/size_field.h"
+#include "surface/surface.h"
 
 namespace kerf {
 
-/// Lengths are in units of the input; 0 stands for "not given".
+/// Lengths are in units of the input; 0, or nothing, stands for "not given".
 struct SizeOptions {
-    double size = 0;        ///< wanted edge length everywhere
-    double max_volume = 0;  ///< of a tetrahedron everywhere, instead of `size`
+    double size = 0;                  ///< wanted edge length everywhere
+    double max_volume = 0;            ///< of a tetrahedron everywhere, instead of `size`
+    std::vector<std::string> inside;  ///< box:x0,y0,z0,x1,y1,z1=H, sphere:x,y,z,r=H, cylinder:x0,y0,z0,x1,y1,z1,r=H
+    std::vector<std::string> on;      ///< NAME=H: on a patch
+    std::vector<std::string> near;    ///< NAME=H:D: up to the distance D from a patch
+    double growth = 0;  ///< of sizes by distance; if given, the lengths of the surface's edges are wanted there, too
+    std::string field_file;  ///< a mesh of tetrahedra with a size at every node
+    double chord_error = 0;  ///< see CurvatureSizes
+    double segments_per_turn = 0;
+    double cells_across = 0;  ///< see sizes_of_thickness()
 
-    /// Throws Error(usage) naming option, value and range.
+    /// Growth where none is given.
+    static constexpr double usual_growth = 0.3;
+
+    /// Throws Error(usage) naming option, value and range or form.
     void check() const;
     /// `max_volume`, or what follows from `size`; 0: none.
     double constant_max_volume() const;
+    /// Whether anything but a constant is asked for, so that the field follows from the surface and files.
+    bool depends_on_place() const {
+        return !inside.empty() || !on.empty() || !near.empty() || growth > 0 || !field_file.empty() ||
+               chord_error > 0 || segments_per_turn > 0 || cells_across > 0;
+    }
+    double growth_or_usual() const { return growth > 0 ? growth : usual_growth; }
 };
+
+/// The field that the options, which must pass check(), ask for over a surface: the minimum of them all, each growing
+/// with the distance. Sizes told from curvature and thickness are 1e-4 of the diagonal at least. `background`: what was
+/// read from `field_file`. Throws Error(usage) for a patch that the surface does not have, naming those that it has.
+/// Deterministic. O(#F log #F).
+SizeField make_size_field(const SizeOptions& options, const SurfaceArrays& surface,
+                          const std::vector<std::string>& patch_names, std::optional<SizedMesh> background = {});
 
 }  // namespace kerf

@@ -13,10 +13,10 @@ enum class MesherKind { tetgen };
 
 struct MesherOptions {
     MesherKind kind = MesherKind::tetgen;
-    SizeField size = {};  ///< of tetrahedra. TetGen leaves a few larger ones: next to coarse facets, and where it
-                          ///< improved the shape afterwards
-    double radius_edge = 1.4;     ///< upper bound of circumradius over shortest edge; > 1, 0: no refinement
-    double tolerance = 0;         ///< relative, for points that count as coplanar; 0: the mesher's own
+    SizeField size = {};       ///< of tetrahedra. TetGen leaves a few larger ones: next to coarse facets, and where it
+                               ///< improved the shape afterwards
+    double radius_edge = 1.4;  ///< upper bound of circumradius over shortest edge; > 1, 0: no refinement
+    double tolerance = 0;      ///< relative, for points that count as coplanar; 0: the mesher's own
     std::string tetgen_switches;  ///< expert: replaces the bounds above; a volume in it is in units of the input cubed
 
     template <class Archive>

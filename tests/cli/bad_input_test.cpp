@@ -55,6 +55,15 @@ TEST_F(BadInput, StandardInput) { expect_refused("-", 7, {"standard input is not
 TEST_F(BadInput, EmptyFile) { expect_refused(write("empty.stl", ""), 3, {"empty.stl", "the file is empty"}); }
 TEST_F(BadInput, NoSurface) { expect_refused(write("text.stl", "hello"), 3, {"text.stl", "not recognised"}); }
 
+TEST_F(BadInput, SizesThatAreNone) {
+    expect_refused(good_, 2, {"box:1,2=3", "--size-in", "box:x0,y0,z0,x1,y1,z1=H"}, {"--size-in", "box:1,2=3"});
+    expect_refused(good_, 2, {"--size-on", "NAME=H"}, {"--size-on", "inlet"});
+    expect_refused(good_, 2, {"--size-near", "NAME=H:D"}, {"--size-near", "inlet=1"});
+    expect_refused(good_, 2, {"'inlet'", "does not have", "It has "}, {"-n", "1", "--size-on", "inlet=1"});
+    expect_refused(good_, 7, {"no.vtu", "cannot be read"}, {"-n", "1", "--size-field", folder_.file("no.vtu")});
+    expect_refused(good_, 3, {"hollow_box"}, {"-n", "1", "--size-field", good_});
+}
+
 TEST_F(BadInput, TruncatedStl) {
     std::ifstream file(good_, std::ios::binary);
     std::string bytes(5000, '\0');

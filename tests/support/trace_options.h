@@ -1,6 +1,7 @@
 // The options of a traced run.
 #pragma once
 
+#include "run/size_reader.h"
 #include "run/trace.h"
 
 namespace kerf::test {
@@ -12,6 +13,8 @@ inline RunOptions options_of(const Trace& trace) {
     set_options(options, trace.options, "The trace of " + trace.input);
     options.input = trace.input;
     options.resolve(1);
+    if (options.sizes.depends_on_place())
+        options.use_sizes(read_size_field(options.sizes, trace.surface, trace.patch_names));
     return options;
 }
 

@@ -58,6 +58,7 @@ std::vector<PartReport> random_parts(unsigned seed) {
         parts[i].id = static_cast<NodeId>(parts.size() + i);
         parts[i].surface_facets = std::uniform_int_distribution<std::int64_t>(100, 3'000'000)(random);
         parts[i].surface_volume = std::uniform_real_distribution<double>(0, 1)(random);
+        parts[i].sized_volume = parts[i].surface_volume;
     }
     return parts;
 }

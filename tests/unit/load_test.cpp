@@ -140,6 +140,34 @@ TEST(LoadProfile, ManyHeightsAtOnceAreThoseOneByOne) {
             }
 }
 
+// Ten times as fine beyond x = 8 of a bar of length 10: nearly all work lies there.
+TEST(LoadProfile, FollowsASizeThatDiffersByPlace) {
+    const Surface bar = test::to_surface(test::box(Vec3::Zero(), Vec3(10, 1, 1), {40, 4, 4}));
+    SizeSources sources;
+    sources.growth = 0.3;
+    sources.boxes.push_back({Vec3(8, 0, 0), Vec3(10, 1, 1), 0.05});
+    LoadModel model{Balance::work, SizeField(0.1, sources)};
+    double integral = 0, beyond = 0;  // along the bar, across which the size is the same
+    for (double x = 0.005; x < 10; x += 0.01) {
+        const double wanted = 0.01 / model.size.max_volume_at(Vec3(x, 0.5, 0.5));
+        integral += wanted;
+        if (x > 8) beyond += wanted;
+    }
+    const double facets = bar.facet_count();
+    EXPECT_NEAR(model.load(0, facets, model.volume_of(bar.arrays(), 10)) / (facets + 0.606 * integral), 1, 0.05);
+    EXPECT_NEAR(model.volume_of(bar.arrays(), 10) / model.size.reference_volume() / integral, 1, 0.05);
+    for (const LoadModel& asked : {model, model.of(bar)}) {
+        const LoadProfile load(bar, Plane(Vec3::Zero(), Vec3::UnitX()), asked);
+        EXPECT_NEAR(load.fraction_below(8), 1 - beyond / integral, 0.03);
+        EXPECT_NEAR(load.bisect(0.5), 9, 0.2);
+        const std::vector<double> fractions = load.fractions_below({2, 8.5, 9.5});
+        EXPECT_EQ(fractions[1], load.fraction_below(8.5));
+        EXPECT_TRUE(fractions[0] < fractions[1] && fractions[1] < fractions[2]);
+    }
+    model.balance = Balance::volume;
+    EXPECT_NEAR(LoadProfile(bar, Plane(Vec3::Zero(), Vec3::UnitX()), model).bisect(0.5), 5, 1e-6);
+}
+
 TEST(LoadProfile, PlaceDoesNotMatter) {
     const Vec3 far(1e5, -2e5, 3e5);
     const Soup soup = test::icosphere(2);

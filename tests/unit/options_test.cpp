@@ -114,6 +114,7 @@ TEST(OptionFields, TextGivesTheValueBack) {
     RunOptions options;
     options.decompose.parts = 7;
     options.sizes.size = 0.1;
+    options.sizes.on = {"inlet=1", "out;let=2"};
     options.mesher.tetgen_switches = "q1.2 a";
     options.stl = true;
     options.decompose.cut.axis = 1;
@@ -126,6 +127,7 @@ TEST(OptionFields, TextGivesTheValueBack) {
     }
     EXPECT_EQ(copy.decompose.parts, 7);
     EXPECT_EQ(copy.sizes.size, 0.1);
+    EXPECT_EQ(copy.sizes.on, options.sizes.on);
     EXPECT_EQ(copy.mesher.tetgen_switches, "q1.2 a");
     EXPECT_TRUE(copy.stl);
     EXPECT_EQ(copy.decompose.cut.axis, 1);
@@ -145,7 +147,8 @@ TEST(OptionFields, TextThatIsNoValueIsRefused) {
     };
     for (const OptionField& field : option_fields(options)) {
         SCOPED_TRACE(field.name);
-        const bool is_text = std::holds_alternative<std::string*>(field.value);
+        const bool is_text =
+            std::holds_alternative<std::string*>(field.value) || std::holds_alternative<OptionField::List>(field.value);
         for (const char* text : {"luck", "", "1x"}) EXPECT_EQ(is_refused(field, text), !is_text) << text;
     }
 }
@@ -181,7 +184,8 @@ std::string some_text(const OptionField& field, std::mt19937& random) {
     if (std::holds_alternative<bool*>(field.value)) return number(2) ? "true" : "false";
     if (std::holds_alternative<double*>(field.value))
         return fmt::format("{}", std::ldexp(static_cast<double>(random()), number(1800) - 900));
-    if (!std::holds_alternative<std::string*>(field.value)) return fmt::format("{}", number(1'000'000));
+    if (!std::holds_alternative<std::string*>(field.value) && !std::holds_alternative<OptionField::List>(field.value))
+        return fmt::format("{}", number(1'000'000));
     std::string text;
     for (int i = number(12); i > 0; --i) text += static_cast<char>(1 + number(255));
     return text;
@@ -201,6 +205,29 @@ TEST(ConfigFile, GivesEveryOptionBack) {
             EXPECT_EQ(copied[i].text(), fields[i].text()) << fields[i].name << " in\n" << text;
         EXPECT_EQ(to_config(copied), text);
     }
+}
+
+TEST(OptionLists, GiveTheirItemsBack) {
+    std::mt19937 random(1);
+    constexpr std::string_view letters = "ab;\\=,: ";
+    for (int seed = 0; seed < 1000; ++seed) {
+        std::vector<std::string> items(random() % 4);
+        for (std::string& item : items)
+            for (std::uint32_t i = 1 + random() % 5; i > 0; --i) item += letters[random() % letters.size()];
+        EXPECT_EQ(split_items(join_items(items)), items) << join_items(items);
+    }
+    EXPECT_TRUE(split_items("").empty());
+    EXPECT_EQ(split_items("a;;b"), (std::vector<std::string>{"a", "b"}));
+}
+
+TEST(ConfigFile, TakesListsAsArraysAndAsText) {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder.file("config"))
+        << "size-in = ['sphere:0,0,0,1=0.5', 'box:0,0,0,1,1,1=1']\nsize-on = 'a=1;b=2'\n";
+    RunOptions options;
+    set_options(options, read_config(folder.file("config")), "config");
+    EXPECT_EQ(options.sizes.inside, (std::vector<std::string>{"sphere:0,0,0,1=0.5", "box:0,0,0,1,1,1=1"}));
+    EXPECT_EQ(options.sizes.on, (std::vector<std::string>{"a=1", "b=2"}));
 }
 
 TEST(PathText, GivesAnyBytesBack) {

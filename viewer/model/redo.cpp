@@ -7,6 +7,7 @@
 #include "cut/bisect.h"
 #include "cut/place.h"
 #include "cut/straight.h"
+#include "run/size_reader.h"
 #include "viewer/model/tree_source.h"
 
 namespace kerf::view {
@@ -62,10 +63,13 @@ MadeCut make_cut(const Surface& surface, NodeId node, const CutPlace& place, con
 RedoneCut redo_cut(Replayer& replayer, NodeId node, RunOptions options) {
     options.resolve(1);
     const Trace& old = *replayer.trace();
+    if (options.sizes.depends_on_place())
+        options.use_sizes(read_size_field(options.sizes, old.surface, old.patch_names));
     const Cut* before = old.find(node);
     RedoneCut redone;
     if (before) redone.before = std::make_shared<const Cut>(*before);
     const std::shared_ptr<const Surface> surface = replayer.uncut_surface(node);
+    options.decompose.cut = options.decompose.cut.of(*surface);
     const CutOptions& cut_options = options.decompose.cut;
     const CutPlace place = before ? before->place : choose_place(*surface, mass_properties(*surface), 2, cut_options);
     MadeCut made = make_cut(*surface, node, place, options.decompose);

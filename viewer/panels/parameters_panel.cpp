@@ -44,6 +44,10 @@ struct Editor {
     void operator()(std::int64_t* value) const { widgets.input_number(label, value); }
     void operator()(double* value) const { widgets.input_number(label, value); }
     void operator()(std::string* value) const { widgets.input_text(label, value); }
+    void operator()(OptionField::List items) const {
+        std::string text = join_items(*items);
+        if (widgets.input_text(label, &text)) *items = split_items(text);
+    }
     void operator()(bool* value) const { widgets.checkbox(label, value); }
     void operator()(const OptionField::Choice& choice) const {
         int index = choice.get();

@@ -1,0 +1,122 @@
+#include "run/size_ratios.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "core/number_text.h"
+
+namespace kerf {
+
+namespace {
+
+// Calls visit(a, b) for every edge with an end beyond the boundary vertices, once.
+template <class Visit>
+void for_each_inner_edge(const TetMesh& mesh, const Visit& visit) {
+    std::vector<std::int32_t> first(mesh.vertices.size() + 1, 0);  // of the edges that begin at their smaller end
+    const auto for_each_pair = [&](const auto& take) {
+        for (const Tetrahedron& t : mesh.tets)
+            for (std::size_t i = 0; i < 4; ++i)
+                for (std::size_t j = i + 1; j < 4; ++j)
+                    if (std::max(t[i], t[j]) >= mesh.boundary_vertex_count)
+                        take(std::min(t[i], t[j]), std::max(t[i], t[j]));
+    };
+    for_each_pair([&](std::int32_t a, std::int32_t) { ++first[a + 1]; });
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<std::int32_t> other(first.back()), next = first;
+    for_each_pair([&](std::int32_t a, std::int32_t b) { other[next[a]++] = b; });
+    for (std::size_t a = 0; a + 1 < first.size(); ++a) {
+        const auto begin = other.begin() + first[a], end = other.begin() + first[a + 1];
+        std::sort(begin, end);
+        std::for_each(begin, std::unique(begin, end), [&](std::int32_t b) { visit(static_cast<std::int32_t>(a), b); });
+    }
+}
+
+RatioCounts& counts_of_patch(SizeRatios& ratios, std::int32_t patch) {
+    auto& all = ratios.by_patch;
+    auto place =
+        std::lower_bound(all.begin(), all.end(), patch, [](const auto& p, std::int32_t n) { return p.patch < n; });
+    if (place == all.end() || place->patch != patch) place = all.insert(place, {patch, {}});
+    return place->edges;
+}
+
+std::string ratios_text(const RatioCounts& r) {
+    return fmt::format("{:.0f} % within {} to {}; median {:.2f}, 1 % {:.2f}, 99 % {:.2f}", 100 * r.share_obeyed(),
+                       RatioCounts::low, RatioCounts::high, r.percentile(0.5), r.percentile(0.01), r.percentile(0.99));
+}
+
+}  // namespace
+
+void RatioCounts::add(double ratio) {
+    const double octave = std::log2(ratio / low) + octaves_below;
+    const double bin = std::clamp(std::floor(octave * bins_per_octave), 0.0, static_cast<double>(bins_.size() - 1));
+    ++bins_[static_cast<std::size_t>(bin)];
+}
+
+void RatioCounts::add(const RatioCounts& other) {
+    for (std::size_t i = 0; i < bins_.size(); ++i) bins_[i] += other.bins_[i];
+}
+
+std::int64_t RatioCounts::count() const { return std::accumulate(bins_.begin(), bins_.end(), std::int64_t{0}); }
+
+double RatioCounts::share_obeyed() const {
+    const auto begin = bins_.begin() + octaves_below * bins_per_octave;
+    const std::int64_t all = count();
+    return all == 0 ? 0
+                    : static_cast<double>(std::accumulate(begin, begin + bins_per_octave, std::int64_t{0})) /
+                          static_cast<double>(all);
+}
+
+double RatioCounts::percentile(double fraction) const {
+    const double wanted = fraction * static_cast<double>(count());
+    double below = 0;
+    std::size_t bin = 0;
+    while (bin + 1 < bins_.size() && below + static_cast<double>(bins_[bin]) < wanted)
+        below += static_cast<double>(bins_[bin++]);
+    const double within = bins_[bin] == 0 ? 0 : (wanted - below) / static_cast<double>(bins_[bin]);
+    return low * std::exp2((static_cast<double>(bin) + within) / bins_per_octave - octaves_below);
+}
+
+void SizeRatios::add(const SizeRatios& other) {
+    inside.add(other.inside);
+    interfaces.add(other.interfaces);
+    for (const OfPatch& patch : other.by_patch) counts_of_patch(*this, patch.patch).add(patch.edges);
+}
+
+SizeRatios measure_sizes(const TetMesh& mesh, const SurfaceArrays& surface, const SizeField& field) {
+    SizeRatios ratios;
+    if (field.is_empty()) return ratios;
+    std::vector<double> wanted;
+    for (const Vec3& p : mesh.vertices) wanted.push_back(field.at(p));
+    const auto ratio = [&](std::int32_t a, std::int32_t b) {
+        return 2 * (mesh.vertices[a] - mesh.vertices[b]).norm() / (wanted[a] + wanted[b]);
+    };
+    for_each_inner_edge(mesh, [&](std::int32_t a, std::int32_t b) { ratios.inside.add(ratio(a, b)); });
+    for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+        const Triangle& t = surface.facets[f];
+        RatioCounts& counts =
+            is_of_input(surface.facet_key[f]) ? counts_of_patch(ratios, surface.patch[f]) : ratios.interfaces;
+        for (std::size_t i = 0; i < 3; ++i) counts.add(ratio(t[i], t[(i + 1) % 3]));
+    }
+    return ratios;
+}
+
+std::string size_text(const SizeRatios& ratios, const std::vector<std::string>& patch_names, bool every_kind) {
+    constexpr std::size_t most_patches = 5;
+    std::string text = "inside " + ratios_text(ratios.inside);
+    if (!every_kind) return text;
+    const auto add = [&](const std::string& line) { text += fmt::format("\n{:<11} {}", "", line); };
+    if (ratios.interfaces.count() > 0) add("interfaces " + ratios_text(ratios.interfaces));
+    for (std::size_t i = 0; i < std::min(most_patches, ratios.by_patch.size()); ++i) {
+        const SizeRatios::OfPatch& of_patch = ratios.by_patch[i];
+        add(fmt::format("on {} {}", patch_names[static_cast<std::size_t>(of_patch.patch)],
+                        ratios_text(of_patch.edges)));
+    }
+    if (ratios.by_patch.size() > most_patches)
+        add(fmt::format("and {} more patches, in report.json", ratios.by_patch.size() - most_patches));
+    return text;
+}
+
+}  // namespace kerf

@@ -1,0 +1,16 @@
+// The size field of a run: what its options ask for, and the file that they name.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "size/size_options.h"
+
+namespace kerf {
+
+/// make_size_field() with the background mesh that the options name. Throws Error(io) or Error(input) for a file that
+/// cannot be read or has no positive scalar at each of its nodes, Error(usage) as make_size_field() does.
+SizeField read_size_field(const SizeOptions& options, const SurfaceArrays& surface,
+                          const std::vector<std::string>& patch_names);
+
+}  // namespace kerf

@@ -1,0 +1,47 @@
+// Sizes at the nodes of a mesh of tetrahedra.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "size/sized_triangles.h"
+#include "surface/box_tree.h"
+
+namespace kerf {
+
+/// What a file gives: a size at each vertex of tetrahedra.
+struct SizedMesh {
+    std::vector<Vec3> vertices;
+    std::vector<Tetrahedron> tets;  ///< of any orientation, conforming or not
+    std::vector<double> size;       ///< #V, > 0
+};
+
+/// The field that such a mesh stands for: linear in its cells, and growing away from them outside. Where cells overlap,
+/// the smaller size counts. Cells without volume say nothing.
+class BackgroundSizes {
+ public:
+    BackgroundSizes() = default;
+    /// Sizes that grow faster than `growth` from one vertex to another are lowered first. Inside of a cell the slope of
+    /// what is left may still be steeper than `growth`, by up to the square root of 3 in a right-angled corner.
+    /// O(n log n).
+    BackgroundSizes(SizedMesh mesh, double growth);
+
+    double smallest() const { return border_.smallest(); }
+    /// The least of the field and `bound`. O(log n).
+    double size_at(const Vec3& p, double growth, double bound) const;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(mesh_.vertices, mesh_.tets, mesh_.size);
+        if constexpr (std::is_same_v<Archive, ByteReader>) index();
+    }
+
+ private:
+    void index();
+
+    SizedMesh mesh_;
+    std::shared_ptr<const BoxTree> cells_;  // boxes of mesh_.tets
+    SizedTriangles border_;                 // of the faces of one cell only
+};
+
+}  // namespace kerf

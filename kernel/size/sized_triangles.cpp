@@ -1,0 +1,120 @@
+#include "size/sized_triangles.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "surface/closest_point.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr std::int32_t triangles_of_leaf = 4;
+constexpr double less = 1 - 1e-12;  // boxes promise a little less than they hold, so that rounding hides nothing
+
+}  // namespace
+
+double SizedTriangle::size_at(const Vec3& p, double growth) const {
+    const Vec3 a = corner(0), b = corner(1), c = corner(2);
+    Vec3 t = Vec3::UnitX();
+    if (a != b || a != c) t = closest_barycentric(p, a, b, c);
+    const double distance = (p - t[0] * a - t[1] * b - t[2] * c).norm();
+    // Equal sizes stay as they are, whatever the coordinates add up to.
+    const double here = size[0] + t[1] * (size[1] - size[0]) + t[2] * (size[2] - size[0]);
+    return here + growth * std::max(0.0, distance - reach);
+}
+
+// Moeller and Trumbore 1997.
+double SizedTriangle::hit(const Vec3& origin, const Vec3& direction) const {
+    const Vec3 a = corner(0), ab = corner(1) - a, ac = corner(2) - a;
+    const Vec3 across = direction.cross(ac);
+    const double volume = ab.dot(across);
+    if (volume == 0) return std::numeric_limits<double>::infinity();
+    const Vec3 from_a = origin - a;
+    const double u = from_a.dot(across) / volume;
+    const Vec3 turned = from_a.cross(ab);
+    const double v = direction.dot(turned) / volume, distance = ac.dot(turned) / volume;
+    const bool is_inside = u >= 0 && v >= 0 && u + v <= 1 && distance >= 0;
+    return is_inside ? distance : std::numeric_limits<double>::infinity();
+}
+
+SizedTriangles::SizedTriangles(std::vector<SizedTriangle> triangles) : triangles_(std::move(triangles)) {
+    order(0, static_cast<std::int32_t>(triangles_.size()));
+    build_nodes();
+}
+
+// Halves along the longest side of the box around the centres.
+void SizedTriangles::order(std::int32_t first, std::int32_t last) {
+    if (last - first <= triangles_of_leaf) return;
+    const auto centre = [](const SizedTriangle& t) { return Vec3(t.corner(0) + t.corner(1) + t.corner(2)); };
+    Eigen::AlignedBox3d centres;
+    for (std::int32_t i = first; i < last; ++i) centres.extend(centre(triangles_[i]));
+    Eigen::Index axis = 0;
+    centres.sizes().maxCoeff(&axis);
+    const std::int32_t half = middle(first, last);
+    const auto begin = triangles_.begin();
+    std::nth_element(begin + first, begin + half, begin + last, [&](const SizedTriangle& s, const SizedTriangle& t) {
+        return std::pair(centre(s)[axis], s.coordinates) < std::pair(centre(t)[axis], t.coordinates);
+    });
+    order(first, half);
+    order(half, last);
+}
+
+void SizedTriangles::build_nodes() {
+    nodes_.clear();
+    if (!triangles_.empty()) add_node(0, static_cast<std::int32_t>(triangles_.size()));
+}
+
+std::int32_t SizedTriangles::add_node(std::int32_t first, std::int32_t last) {
+    const auto number = static_cast<std::int32_t>(nodes_.size());
+    Node node;
+    node.first = first;
+    node.last = last;
+    nodes_.push_back(node);
+    const auto take = [&](const Eigen::AlignedBox3d& box, double size, double reach) {
+        node.box.extend(box);
+        node.size = std::min(node.size, size);
+        node.reach = std::max(node.reach, reach);
+    };
+    if (last - first <= triangles_of_leaf) {
+        for (std::int32_t i = first; i < last; ++i) {
+            Eigen::AlignedBox3d box;
+            for (int c = 0; c < 3; ++c) box.extend(triangles_[i].corner(c));
+            take(box, triangles_[i].smallest(), triangles_[i].reach);
+        }
+    } else {
+        const std::int32_t half = middle(first, last), left = add_node(first, half);
+        node.right = add_node(half, last);
+        for (const std::int32_t child : {left, node.right})
+            take(nodes_[child].box, nodes_[child].size, nodes_[child].reach);
+    }
+    nodes_[number] = node;
+    return number;
+}
+
+double SizedTriangles::size_at(const Vec3& p, double growth, double bound) const {
+    return least(
+        bound,
+        [&](const Node& node) {
+            return less * (node.size + growth * std::max(0.0, node.box.exteriorDistance(p) - node.reach));
+        },
+        [&](const SizedTriangle& t) { return t.size_at(p, growth); });
+}
+
+// Where the ray enters the box, 0 if it begins inside, infinity if it misses it.
+double SizedTriangles::entry(const Eigen::AlignedBox3d& box, const Vec3& origin, const Vec3& direction) {
+    double low = 0, high = infinity;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (direction[axis] == 0) {
+            if (origin[axis] < box.min()[axis] || origin[axis] > box.max()[axis]) return infinity;
+            continue;
+        }
+        const double first = (box.min()[axis] - origin[axis]) / direction[axis];
+        const double second = (box.max()[axis] - origin[axis]) / direction[axis];
+        low = std::max(low, std::min(first, second));
+        high = std::min(high, std::max(first, second));
+    }
+    return low * less <= high ? low * less : infinity;
+}
+
+}  // namespace kerf

@@ -1,0 +1,109 @@
+// Triangles near which sizes are wanted.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "core/bytes.h"
+#include "core/types.h"
+
+namespace kerf {
+
+/// A triangle with the sizes wanted at its corners, linear between them, up to the distance `reach` from it. Three
+/// equal corners make a point.
+struct SizedTriangle {
+    std::array<double, 9> coordinates{};
+    std::array<double, 3> size{};
+    double reach = 0;
+
+    SizedTriangle() = default;
+    SizedTriangle(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<double, 3>& sizes, double plateau = 0)
+        : coordinates{a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), c.x(), c.y(), c.z()}, size(sizes), reach(plateau) {}
+    Vec3 corner(int i) const { return {coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]}; }
+    double smallest() const { return std::min({size[0], size[1], size[2]}); }
+    /// Size at the point of the triangle that is closest to p, plus growth times the distance beyond the reach.
+    double size_at(const Vec3& p, double growth) const;
+    /// Distance along the ray from `origin` in the unit direction to the triangle, which it may hit from either side;
+    /// infinity if it misses.
+    double hit(const Vec3& origin, const Vec3& direction) const;
+};
+static_assert(std::is_trivially_copyable_v<SizedTriangle>);
+
+/// Many of them, in a tree of boxes. Built in O(n log n).
+class SizedTriangles {
+ public:
+    SizedTriangles() = default;
+    explicit SizedTriangles(std::vector<SizedTriangle> triangles);
+
+    bool empty() const { return triangles_.empty(); }
+    std::span<const SizedTriangle> all() const { return triangles_; }  ///< in the order of the tree
+    double smallest() const { return nodes_.empty() ? infinity : nodes_.front().size; }
+
+    /// The least SizedTriangle::size_at(), or `bound` if none is less. O(log n) where few are close.
+    double size_at(const Vec3& p, double growth, double bound) const;
+    /// The nearest triangle that the ray hits and for which is_wanted(triangle) holds: its distance, else infinity.
+    template <class IsWanted>
+    double first_hit(const Vec3& origin, const Vec3& direction, const IsWanted& is_wanted) const {
+        return least(
+            infinity, [&](const Node& node) { return entry(node.box, origin, direction); },
+            [&](const SizedTriangle& t) { return is_wanted(t) ? t.hit(origin, direction) : infinity; });
+    }
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(triangles_);
+        if constexpr (std::is_same_v<Archive, ByteReader>) build_nodes();
+    }
+
+ private:
+    struct Node {
+        Eigen::AlignedBox3d box;
+        double size = infinity, reach = 0;  // the least and the largest below
+        std::int32_t first = 0, last = 0;   // of triangles_
+        std::int32_t right = 0;             // 0: a leaf; the left child follows its parent
+    };
+    static std::int32_t middle(std::int32_t first, std::int32_t last) { return first + (last - first) / 2; }
+    static double entry(const Eigen::AlignedBox3d& box, const Vec3& origin, const Vec3& direction);
+    void order(std::int32_t first, std::int32_t last);
+    void build_nodes();
+    std::int32_t add_node(std::int32_t first, std::int32_t last);
+
+    // The least of of_triangle() and `bound`. No triangle below a node has less than of_node() says.
+    template <class OfNode, class OfTriangle>
+    double least(double bound, const OfNode& of_node, const OfTriangle& of_triangle) const {
+        struct Open {
+            std::int32_t node;
+            double low;
+        };
+        std::array<Open, 64> open;  // one sibling a level, and the levels are those of a balanced tree
+        std::size_t count = 0;
+        const auto push = [&](std::int32_t node) { open[count++] = {node, of_node(nodes_[node])}; };
+        if (!nodes_.empty()) push(0);
+        while (count > 0) {
+            const Open next = open[--count];
+            if (next.low >= bound) continue;
+            const Node& node = nodes_[next.node];
+            if (node.right > 0) {
+                push(next.node + 1);
+                push(node.right);
+                if (open[count - 2].low < open[count - 1].low) std::swap(open[count - 2], open[count - 1]);
+                continue;
+            }
+            for (std::int32_t i = node.first; i < node.last; ++i) bound = std::min(bound, of_triangle(triangles_[i]));
+        }
+        return bound;
+    }
+
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+    std::vector<SizedTriangle> triangles_;
+    std::vector<Node> nodes_;
+};
+
+}  // namespace kerf

@@ -1,0 +1,143 @@
+#include "size/surface_sizes.h"
+
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include <Eigen/Geometry>
+
+namespace kerf {
+
+namespace {
+
+constexpr double feature_turn = 40 * std::numbers::pi / 180;
+constexpr double flat = 1e-6;           // radians that an edge turns: rounding of coordinates does as much
+constexpr double facing_cosine = -0.5;  // of the normals of both sides of a wall
+
+SizedTriangle sized_facet(const SurfaceArrays& surface, const Triangle& t, double size, double reach = 0) {
+    const auto& p = surface.vertices;
+    return {p[t[0]], p[t[1]], p[t[2]], {size, size, size}, reach};
+}
+
+Vec3 area_vector(const SurfaceArrays& surface, const Triangle& t) {
+    const auto& p = surface.vertices;
+    return (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]) / 2;
+}
+
+struct EdgeOfFacet {
+    std::int32_t low, high, facet;
+    bool operator<(const EdgeOfFacet& o) const { return std::tie(low, high, facet) < std::tie(o.low, o.high, o.facet); }
+    bool is_beside(const EdgeOfFacet& o) const { return low == o.low && high == o.high; }
+};
+
+std::vector<EdgeOfFacet> edges_of_facets(const std::vector<Triangle>& facets) {
+    std::vector<EdgeOfFacet> edges;
+    for (std::size_t f = 0; f < facets.size(); ++f)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto [low, high] = std::minmax(facets[f][i], facets[f][(i + 1) % 3]);
+            edges.push_back({low, high, static_cast<std::int32_t>(f)});
+        }
+    std::sort(edges.begin(), edges.end());
+    return edges;
+}
+
+// Integrals around the vertices.
+struct VertexCurvature {
+    double area = 0, mean = 0, angle = 0;
+    bool at_feature = false;
+
+    // The larger principal one, as an absolute value.
+    double largest() const {
+        if (area <= 0 || mean <= 0) return 0;
+        const double h = mean / area, gauss = at_feature ? 0 : (2 * std::numbers::pi - angle) / area;
+        return h + std::sqrt(std::max(0.0, h * h - gauss));
+    }
+};
+
+void add_facets(const SurfaceArrays& surface, std::vector<VertexCurvature>& at) {
+    for (const Triangle& t : surface.facets) {
+        const double area = area_vector(surface, t).norm();
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vec3& p = surface.vertices[t[i]];
+            const Vec3 u = surface.vertices[t[(i + 1) % 3]] - p, v = surface.vertices[t[(i + 2) % 3]] - p;
+            at[t[i]].area += area / 3;
+            at[t[i]].angle += std::atan2(u.cross(v).norm(), u.dot(v));
+        }
+    }
+}
+
+// Each edge gives half of its turn, and of that each end half.
+void add_edges(const SurfaceArrays& surface, std::vector<VertexCurvature>& at) {
+    const std::vector<EdgeOfFacet> edges = edges_of_facets(surface.facets);
+    for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+        const EdgeOfFacet &e = edges[i], &other = edges[i + 1];
+        if (!e.is_beside(other)) continue;
+        const Vec3 m = area_vector(surface, surface.facets[e.facet]),
+                   n = area_vector(surface, surface.facets[other.facet]);
+        const double turn = std::atan2(m.cross(n).norm(), m.dot(n));
+        const double length = (surface.vertices[e.high] - surface.vertices[e.low]).norm();
+        for (const std::int32_t v : {e.low, e.high}) {
+            if (turn > feature_turn)
+                at[v].at_feature = true;
+            else if (turn > flat)
+                at[v].mean += turn * length / 4;
+        }
+    }
+}
+
+double size_of(double curvature, const CurvatureSizes& wanted) {
+    double size = std::numeric_limits<double>::infinity();
+    if (wanted.chord_error > 0) size = std::min(size, std::sqrt(8 * wanted.chord_error / curvature));
+    if (wanted.segments_per_turn > 0)
+        size = std::min(size, 2 * std::numbers::pi / (curvature * wanted.segments_per_turn));
+    return size;
+}
+
+}  // namespace
+
+std::vector<SizedTriangle> sizes_of_edges(const SurfaceArrays& surface) {
+    std::vector<SizedTriangle> sized;
+    const auto& p = surface.vertices;
+    for (const Triangle& t : surface.facets)
+        sized.push_back(sized_facet(
+            surface, t, ((p[t[0]] - p[t[1]]).norm() + (p[t[1]] - p[t[2]]).norm() + (p[t[2]] - p[t[0]]).norm()) / 3));
+    return sized;
+}
+
+std::vector<SizedTriangle> sizes_on_patch(const SurfaceArrays& surface, std::int32_t patch, double size, double reach) {
+    std::vector<SizedTriangle> sized;
+    for (std::size_t f = 0; f < surface.facets.size(); ++f)
+        if (surface.patch[f] == patch) sized.push_back(sized_facet(surface, surface.facets[f], size, reach));
+    return sized;
+}
+
+std::vector<SizedTriangle> sizes_of_curvature(const SurfaceArrays& surface, const CurvatureSizes& wanted) {
+    std::vector<VertexCurvature> at(surface.vertices.size());
+    add_facets(surface, at);
+    add_edges(surface, at);
+    std::vector<SizedTriangle> sized;
+    for (const Triangle& t : surface.facets) {
+        const double curvature = std::max({at[t[0]].largest(), at[t[1]].largest(), at[t[2]].largest()});
+        if (curvature > 0) sized.push_back(sized_facet(surface, t, size_of(curvature, wanted)));
+    }
+    return sized;
+}
+
+std::vector<SizedTriangle> sizes_of_thickness(const SurfaceArrays& surface, double cells_across) {
+    const SizedTriangles walls(sizes_of_edges(surface));
+    std::vector<SizedTriangle> sized;
+    for (const Triangle& t : surface.facets) {
+        const Vec3 area = area_vector(surface, t);
+        const Vec3 inwards = -area.normalized();
+        if (inwards == Vec3::Zero()) continue;
+        const Vec3 centroid = (surface.vertices[t[0]] + surface.vertices[t[1]] + surface.vertices[t[2]]) / 3;
+        const double depth = walls.first_hit(centroid, inwards, [&](const SizedTriangle& wall) {
+            const Vec3 normal = (wall.corner(1) - wall.corner(0)).cross(wall.corner(2) - wall.corner(0));
+            return normal.dot(-inwards) < facing_cosine * normal.norm();
+        });
+        if (depth > 0 && std::isfinite(depth)) sized.push_back(sized_facet(surface, t, depth / cells_across));
+    }
+    return sized;
+}
+
+}  // namespace kerf
