@@ -96,7 +96,7 @@ Decomposition Decomposer::descend(Surface surface, const Branch& branch, std::in
         return result;
     }
     surface = Surface();  // the halves hold all that is needed below
-    const std::int32_t below = leaves_below(loads(bisection.halves), leaves, options_.cut);
+    const std::int32_t below = leaves == 2 ? 1 : leaves_below(loads(bisection.halves), leaves, options_.cut);
     add_to_cut_hash(node, std::span(&below, 1));
     const Branch lower{lower_id, first_leaf, below}, upper{upper_id, first_leaf + below, leaves - below};
     descend_halves(std::move(bisection.halves), {lower, upper}, threads, result);
