@@ -105,7 +105,11 @@ Input read_input(const std::string& path, const InputOptions& options) {
     for (const Vec3& p : soup.vertices) box.extend(p);
     input.diagonal = box.diagonal().norm();
     input.surface = Surface(with_input_keys(std::move(soup)));
+    measure_input(input);
+    return input;
+}
 
+void measure_input(Input& input) {
     const MassProperties mass = mass_properties(input.surface);
     input.volume = mass.volume;
     input.area = mass.area;
@@ -113,7 +117,6 @@ Input read_input(const std::string& path, const InputOptions& options) {
     input.facets = input.surface.facet_count();
     input.components = input.orientation.shells;
     input.genus = input.components - (input.vertices - input.facets / 2) / 2;  // V - E + F = 2 (c - g), E = 3 F / 2
-    return input;
 }
 
 }  // namespace kerf

@@ -1,6 +1,7 @@
 // From a surface file to the closed surface that is cut.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,16 @@ struct CheckedSoup {
     InputRepairs repairs;
 };
 
+/// What remeshing did to a surface (run/remeshing.h).
+struct InputRemeshing {
+    std::int64_t facets_before = 0;
+    double smallest_angle_before_deg = 0, smallest_angle_deg = 0;
+    double deviation = 0;  ///< that was allowed, units of the input
+    double distance_to_input = 0,
+           distance_from_input = 0;  ///< largest that was found, of the new surface and of the old
+    std::int64_t feature_edges = 0;  ///< of the new surface
+};
+
 /// A surface ready to be cut, and what was learnt about it.
 struct Input {
     std::string path;
@@ -56,6 +67,7 @@ struct Input {
     OrientationReport orientation;
     std::int64_t moved_vertices = 0;  ///< by the optimisation of the surface
     double largest_move = 0;          ///< of a vertex by that
+    std::optional<InputRemeshing> remeshed;
     std::vector<std::string> patch_names;
     std::vector<std::string> notes;  ///< what the reader passed over
     Surface surface;
@@ -69,6 +81,9 @@ CheckedSoup check_soup(Soup soup, const InputOptions& options = {}, double needl
 
 /// Drops the superfluous facets of a soup without errors, and orients it.
 OrientationReport apply_repairs(CheckedSoup& checked);
+
+/// Fills the counts, volume, area and genus from the surface.
+void measure_input(Input& input);
 
 /// check_input() and apply_repairs(), then builds the surface. Throws Error(input), naming the file, the
 /// first offenders and what to do, if the surface has errors. Throws Error(usage) if the sweeps of the optimisation

@@ -178,6 +178,22 @@ std::vector<OptionField> input_option_fields(InputOptions& o) {
     };
 }
 
+// What is done to the surface, from nothing to most.
+OptionField::Choice surface_choice(RunOptions& o) {
+    const auto get = [&o] {
+        if (o.remeshing == Remeshing::always) return 2;
+        if (o.remeshing == Remeshing::where_slivers_spoil_cells) return 3;
+        return o.decompose.facets == FacetPolicy::keep ? 0 : 1;
+    };
+    const auto set = [&o](int value) {
+        o.decompose.facets = value == 0 ? FacetPolicy::keep : FacetPolicy::split;
+        o.remeshing = value == 2   ? Remeshing::always
+                      : value == 3 ? Remeshing::where_slivers_spoil_cells
+                                   : Remeshing::never;
+    };
+    return {{"keep", "split", "remesh", "auto"}, get, set};
+}
+
 std::vector<OptionField> option_fields(RunOptions& o) {
     CutOptions& cut = o.decompose.cut;
     std::vector<OptionField> fields = {
@@ -211,8 +227,14 @@ std::vector<OptionField> option_fields(RunOptions& o) {
          choice(cut.load.balance, {"nodes", "faces", "volume", "inertia", "work"})},
         {"contour", "", "How contours are found: minimum cut, crossed edges, or split facets. Default min-cut.",
          choice(cut.contour, {"min-cut", "edges", "straight"})},
-        {"surface", "", "Whether facets may be split where no contour of edges exists. Default split.",
-         choice(o.decompose.facets, {"keep", "split"})},
+        {"surface", "",
+         "keep every facet; split some where no contour of edges exists; remesh all within --deviation; auto: remesh "
+         "where slivers would spoil the cells. Default split.",
+         surface_choice(o)},
+        {"deviation", "",
+         "Largest distance of a remeshed surface from the input, in its units, or with % of its diagonal. Default "
+         "0.002%.",
+         &o.deviation},
         {"mesher", "", "What fills the parts. Default tetgen.", choice(o.mesher.kind, {"tetgen"})},
         {"workers", "", "Mesher processes of each rank. Default: its share of the processors that it may use.",
          &o.workers, false},

@@ -25,6 +25,7 @@
 #include "run/prepare_stage.h"
 #include "run/range_of_rank.h"
 #include "run/reference.h"
+#include "run/remeshing.h"
 #include "run/run_files.h"
 #include "run/saved_run.h"
 #include "run/size_reader.h"
@@ -352,6 +353,8 @@ RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input&
         if (listener) listener->on_progress("read", 0, 1);
         input = read_input(options.input, options.input_options);
         refuse_changed_input(options, input.file_hash);
+        if (listener && options.remeshing != Remeshing::never) listener->on_progress("remesh", 0, 1);
+        input = remesh_where_asked(std::move(input), options);
         const SurfaceArrays surface = options.sizes.depends_on_place() ? input.surface.arrays() : SurfaceArrays();
         if (options.sizes.depends_on_place())
             options.use_sizes(read_size_field(options.sizes, surface, input.patch_names));

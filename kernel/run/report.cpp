@@ -54,6 +54,14 @@ Json input_json(const Input& input) {
     if (!input.notes.empty()) json["notes"] = input.notes;
     if (input.moved_vertices > 0)
         json["optimisation"] = {{"vertices_moved", input.moved_vertices}, {"largest_move", input.largest_move}};
+    if (input.remeshed)
+        json["remeshing"] = {{"facets_before", input.remeshed->facets_before},
+                             {"smallest_angle_before_deg", input.remeshed->smallest_angle_before_deg},
+                             {"smallest_angle_deg", input.remeshed->smallest_angle_deg},
+                             {"deviation", input.remeshed->deviation},
+                             {"distance_to_input", input.remeshed->distance_to_input},
+                             {"distance_from_input", input.remeshed->distance_from_input},
+                             {"feature_edges", input.remeshed->feature_edges}};
     return json;
 }
 
@@ -300,6 +308,14 @@ std::string time_text(const RunReport& report) {
                       s.prepare, s.mesh, w.mesher, w.verify, w.store, w.start, w.idle, s.write, s.hash);
 }
 
+std::string remeshing_text(const InputRemeshing& done) {
+    return fmt::format(
+        "from {} facets; smallest angle {:.3g} deg from {:.3g}; largest distances {:.2g} and {:.2g} of "
+        "{:.2g}",
+        grouped(done.facets_before), done.smallest_angle_deg, done.smallest_angle_before_deg, done.distance_to_input,
+        done.distance_from_input, done.deviation);
+}
+
 std::string to_text(const RunReport& report) {
     const Input& input = *report.input;
     double section = 0, interface = 0, angle = 180;
@@ -319,6 +335,7 @@ std::string to_text(const RunReport& report) {
     if (input.moved_vertices > 0)
         line("optimised",
              fmt::format("{} vertices moved by {:.3g} at most", grouped(input.moved_vertices), input.largest_move));
+    if (input.remeshed) line("remeshed", remeshing_text(*input.remeshed));
     line("parts", fmt::format("{} of {} wanted; {}", report.parts.size(), report.options.decompose.parts,
                               rungs_text(report.nodes)));
     if (report.split_facets > 0)

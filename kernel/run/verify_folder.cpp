@@ -22,6 +22,7 @@
 #include "part/vtu_writer.h"
 #include "run/oriented_triangle.h"
 #include "run/path_text.h"
+#include "run/remeshing.h"
 #include "run/version.h"
 #include "surface/facet_cover.h"
 
@@ -289,12 +290,20 @@ bool FolderVerifier::is_facet(const Surface& input, std::int32_t facet, std::spa
     return covers({input.point(t[0]), input.point(t[1]), input.point(t[2])}, corners);
 }
 
-InputOptions input_options_of(const nlohmann::json& options) {
-    InputOptions of_input;
-    for (const OptionField& field : input_option_fields(of_input))
-        if (const auto value = options.find(field.name); value != options.end())
-            field.set_text(value->is_string() ? value->get<std::string>() : value->dump());
-    return of_input;
+std::string text_of_option(const nlohmann::json& value) {
+    if (value.is_array()) {
+        std::vector<std::string> items;
+        for (const nlohmann::json& item : value) items.push_back(path_of_text(item));
+        return join_items(items);
+    }
+    return value.is_number() || value.is_boolean() ? value.dump() : path_of_text(value);
+}
+
+RunOptions options_of(const nlohmann::json& options) {
+    RunOptions result;
+    for (const OptionField& field : option_fields(result))
+        if (const auto value = options.find(field.name); value != options.end()) field.set_text(text_of_option(*value));
+    return result;
 }
 
 // The facets that are no interface must be those of the input, each once, at the same coordinates and in its patch.
@@ -302,7 +311,8 @@ void FolderVerifier::check_input() {
     const auto& of_report = report_.at("input");
     Input input;
     try {
-        input = read_input(path_of_text(of_report.at("path")), input_options_of(report_.at("options")));
+        const RunOptions options = options_of(report_.at("options"));
+        input = remesh_where_asked(read_input(path_of_text(of_report.at("path")), options.input_options), options);
     } catch (const Error& e) {
         result_.not_compared = e.what();
         return;

@@ -1,0 +1,129 @@
+#include "remesh/fold_sizes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+namespace kerf {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// Of the third vertex of the facet of a half-edge.
+double height_over(const EditMesh& mesh, EditedSurface::HalfEdge h) {
+    const Vec3& a = mesh.point(mesh.from_vertex_handle(h));
+    const Vec3 edge = mesh.point(mesh.to_vertex_handle(h)) - a;
+    return edge.cross(mesh.point(mesh.to_vertex_handle(mesh.next_halfedge_handle(h))) - a).norm() / edge.norm();
+}
+
+// How long edges across a fold may be: as far as a chord of the circle through the facets beside it stays within the
+// tolerance. Infinite where nothing is folded, 0 at features.
+double chord_over(const EditedSurface& surface, EditedSurface::Edge e) {
+    const EditMesh& mesh = surface.mesh();
+    if (mesh.data(e).is_feature) return 0;
+    const double angle = surface.is_flat(e) ? 0 : std::acos(std::clamp(surface.fold_cosine(e), -1.0, 1.0));
+    if (angle == 0) return infinite;
+    const auto h = mesh.halfedge_handle(e, 0), back = mesh.halfedge_handle(e, 1);
+    const double width = (height_over(mesh, h) + height_over(mesh, back)) / 2;
+    const double tolerance =
+        std::min(mesh.data(mesh.from_vertex_handle(h)).tolerance, mesh.data(mesh.to_vertex_handle(h)).tolerance);
+    return std::sqrt(8 * tolerance * width / angle);
+}
+
+Vec3 vertex_normal(const EditMesh& mesh, EditedSurface::Vertex v) {
+    Vec3 sum = Vec3::Zero();
+    for (const auto h : mesh.voh_range(v))
+        sum += (mesh.point(h.to()) - mesh.point(v)).cross(mesh.point(h.next().to()) - mesh.point(v));
+    return sum.normalized();
+}
+
+// Dijkstra's way from small to large.
+void limit_growth(const EditMesh& mesh, double growth, std::vector<double>& sizes) {
+    using Entry = std::pair<double, int>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+    for (const auto v : mesh.vertices()) open.push({sizes[v.idx()], v.idx()});
+    while (!open.empty()) {
+        const auto [size, number] = open.top();
+        open.pop();
+        if (size > sizes[number]) continue;
+        const EditedSurface::Vertex v(number);
+        for (const auto w : mesh.vv_range(v)) {
+            const double limit = size + growth * (mesh.point(v) - mesh.point(w)).norm();
+            if (limit >= sizes[w.idx()]) continue;
+            sizes[w.idx()] = limit;
+            open.push({limit, w.idx()});
+        }
+    }
+}
+
+}  // namespace
+
+FoldSizes::FoldSizes(EditedSurface& surface, const FoldSizeOptions& options) : surface_(surface), options_(options) {
+    find_folds(surface);
+    const EditMesh& mesh = surface.mesh();
+    std::vector<double> sizes(mesh.n_vertices(), options.longest);
+    for (const auto e : mesh.edges())
+        if (const std::int32_t fold = mesh.data(e).fold; fold >= 0)
+            for (const auto v : {e.v0(), e.v1()})
+                sizes[v.idx()] =
+                    std::min(sizes[v.idx()], std::max({chord_[fold], surface.length(e), options.shortest}));
+    for (const auto v : mesh.vertices()) {
+        double own_chord = infinite;
+        for (const auto e : mesh.ve_range(v))
+            if (const std::int32_t fold = mesh.data(e).fold; fold >= 0) own_chord = std::min(own_chord, chord_[fold]);
+        sizes[v.idx()] = at(v, own_chord, sizes[v.idx()]);
+    }
+    limit_growth(mesh, options.growth, sizes);
+    for (const auto v : mesh.vertices()) surface.set_size(v, sizes[v.idx()]);
+}
+
+void FoldSizes::find_folds(EditedSurface& surface) {
+    std::vector<Triangle> segments;
+    for (const auto e : surface.mesh().edges()) {
+        const double chord = chord_over(surface, e);
+        if (chord >= options_.longest) continue;
+        const auto number = static_cast<std::int32_t>(segments.size());
+        surface.set_fold(e, number);
+        chord_.push_back(chord);
+        for (const auto v : {e.v0(), e.v1()}) ends_.push_back(surface.point(v));
+        segments.push_back({2 * number, 2 * number + 1, 2 * number + 1});
+    }
+    if (!segments.empty()) folds_.emplace(ends_, segments);
+}
+
+double FoldSizes::of_new(EditedSurface::Vertex v, std::int32_t fold, double grown) const {
+    return at(v, fold >= 0 ? chord_[fold] : infinite, std::min(grown, options_.longest));
+}
+
+// Folds that come close ask for small triangles between them only if neither can be left out at that length.
+double FoldSizes::at(EditedSurface::Vertex v, double own_chord, double grown) const {
+    const Vec3& p = surface_.point(v);
+    double size = grown;
+    if (folds_ && own_chord < grown)
+        folds_->any_within(p, grown, [&](std::int32_t fold, double squared) {
+            // those that end at p, and that on which it lies, are its own
+            if (squared > 1e-12 * options_.longest * options_.longest)
+                size = std::min(size, std::max({own_chord, chord_[fold], std::sqrt(squared)}));
+            return false;
+        });
+    if (options_.edges_per_thickness > 0) size = std::min(size, across_wall(v, size));
+    size = std::min(grown, std::max(size, options_.shortest));
+    return options_.wanted ? std::min(size, options_.wanted(p)) : size;
+}
+
+// The way inwards to a sheet that faces the other way.
+double FoldSizes::across_wall(EditedSurface::Vertex v, double limit) const {
+    const InputShape& input = surface_.input();
+    const Vec3 inwards = -vertex_normal(surface_.mesh(), v);
+    const auto faces_away = [&](std::int32_t facet) { return input.normal(facet).dot(inwards) > 0.5; };
+    return input.tree().first_hit(surface_.point(v), inwards, 1e-6 * options_.longest,
+                                  limit * options_.edges_per_thickness, faces_away) /
+           options_.edges_per_thickness;
+}
+
+}  // namespace kerf

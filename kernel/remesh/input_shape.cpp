@@ -1,0 +1,96 @@
+#include "remesh/input_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "surface/edge_corners.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr double flat_share = 0.1;          // of the tolerance: what counts as flat
+constexpr double gap_share = 1. / 3;        // of a gap that each of its sheets may use
+constexpr double rounding_of_files = 6e-8;  // of coordinates in single precision: lower facets have any normal
+constexpr double least_share = 1. / 8;      // of the deviation: beside sharp edges gaps end in nothing
+
+Vec3 twice_area(const SurfaceArrays& surface, const Triangle& t) {
+    const Vec3& a = surface.vertices[t[0]];
+    return (surface.vertices[t[1]] - a).cross(surface.vertices[t[2]] - a);
+}
+
+bool share_a_vertex(const Triangle& s, const Triangle& t) {
+    return std::any_of(s.begin(), s.end(), [&](std::int32_t v) { return v == t[0] || v == t[1] || v == t[2]; });
+}
+
+}  // namespace
+
+InputShape::InputShape(SurfaceArrays surface, std::vector<double> tolerance, double feature_angle_deg)
+    : surface_(std::move(surface)),
+      tolerance_(std::move(tolerance)),
+      vertex_tolerance_(surface_.vertices.size(), std::numeric_limits<double>::infinity()),
+      tree_(surface_.vertices, surface_.facets) {
+    KERF_CHECK(tolerance_.size() == surface_.facets.size());
+    for (std::size_t f = 0; f < surface_.facets.size(); ++f)
+        for (const std::int32_t v : surface_.facets[f])
+            vertex_tolerance_[v] = std::min(vertex_tolerance_[v], tolerance_[f]);
+    largest_tolerance_ = *std::max_element(tolerance_.begin(), tolerance_.end());
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : surface_.vertices) box.extend(p);
+    noise_ = rounding_of_files * box.diagonal().norm();
+    find_features(feature_angle_deg);
+}
+
+// Between the planes of regions, because the normals of needles are noise.
+void InputShape::find_features(double feature_angle_deg) {
+    const std::vector<std::int32_t> partner = edge_partners(surface_.facets);
+    const auto divides_patches = [&](std::int32_t corner) {
+        return surface_.patch[corner / 3] != surface_.patch[partner[corner] / 3];
+    };
+    regions_ = find_flat_regions(
+        surface_.vertices, surface_.facets,
+        {.tolerance = flat_share * largest_tolerance_, .noise = noise_, .is_border = divides_patches});
+    const double least_cosine = std::cos(feature_angle_deg * std::numbers::pi / 180);
+    for (std::int32_t corner = 0; corner < static_cast<std::int32_t>(partner.size()); ++corner)
+        feature_.push_back(divides_patches(corner) ||
+                           normal(corner / 3).dot(normal(partner[corner] / 3)) < least_cosine);
+}
+
+bool InputShape::is_near(const Vec3& p, const Vec3& normal, double share, std::int32_t& hint) const {
+    const auto accepts = [&](std::int32_t facet, double squared) {
+        return squared <= share * share * tolerance_[facet] * tolerance_[facet] &&
+               this->normal(facet).dot(normal) > -0.1;
+    };
+    if (hint >= 0 && accepts(hint, tree_.squared_distance_to(p, hint))) return true;
+    return tree_.any_within(p, share * largest_tolerance_, [&](std::int32_t facet, double squared) {
+        if (!accepts(facet, squared)) return false;
+        hint = facet;
+        return true;
+    });
+}
+
+std::vector<double> tolerances_of_gaps(const SurfaceArrays& surface, double deviation) {
+    const TriangleTree tree(surface.vertices, surface.facets);
+    std::vector<double> tolerance(surface.facets.size(), deviation);
+    std::vector<Vec3> normal;
+    for (const Triangle& t : surface.facets) normal.push_back(twice_area(surface, t).normalized());
+    for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+        const Triangle& t = surface.facets[f];
+        const Vec3 &a = surface.vertices[t[0]], &b = surface.vertices[t[1]], &c = surface.vertices[t[2]];
+        double squared_gap = std::numeric_limits<double>::infinity();
+        for (const Vec3& p : {Vec3((a + b + c) / 3), a, b, c, Vec3((a + b) / 2), Vec3((b + c) / 2), Vec3((c + a) / 2)})
+            tree.any_within(p, deviation / gap_share, [&](std::int32_t g, double squared) {
+                if (normal[g].dot(normal[f]) < -0.1 && !share_a_vertex(surface.facets[g], t))
+                    squared_gap = std::min(squared_gap, squared);
+                return false;
+            });
+        tolerance[f] = std::clamp(gap_share * std::sqrt(squared_gap), least_share * deviation, deviation);
+    }
+    return tolerance;
+}
+
+}  // namespace kerf

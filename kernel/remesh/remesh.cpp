@@ -1,0 +1,348 @@
+#include "remesh/remesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <queue>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "remesh/edited_surface.h"
+#include "remesh/fold_sizes.h"
+#include "surface/intersections.h"
+
+namespace kerf {
+
+namespace {
+
+// Edges over their wanted length. A half of one that is split must not be one that is collapsed.
+constexpr double split_ratio = 1.35, collapse_ratio = 0.6;
+constexpr double sine_of_20 = 0.342, sine_of_10 = 0.1736;
+constexpr int most_simplifications = 6, passes = 4, last_passes = 2, smoothings = 2, flips = 4;
+// Of the tolerance: what is left out first, and what counts as flat then, leaves room for what comes after.
+constexpr double share_of_simplification = 0.4, share_of_flatness = 0.2;
+constexpr double shortest_over_deviation = 3, shortest_over_longest = 0.02;
+// Points between those that operations compare with the input may be further off.
+constexpr double used_share = 0.8;
+constexpr int most_rounds = 5;
+constexpr double smaller_tolerance = 0.25;  // of the tolerance, where the result of a round is refused
+constexpr int samples_per_edge = 6;         // per edge, with which the result is compared with the input
+
+class Remesher {
+ public:
+    Remesher(const InputShape& input, const RemeshOptions& options) : options_(options), surface_(input) {}
+
+    void run() {
+        flip_flat_edges();
+        surface_.set_share(share_of_simplification);
+        simplify();
+        surface_.set_share(1);
+        surface_.find_regions(share_of_flatness);
+        flip_flat_edges();
+        sizes_.emplace(surface_, FoldSizeOptions{.longest = options_.longest,
+                                                 .shortest = std::max(shortest_over_deviation * options_.deviation,
+                                                                      shortest_over_longest * options_.longest),
+                                                 .growth = options_.growth,
+                                                 .edges_per_thickness = options_.edges_per_thickness,
+                                                 .wanted = options_.wanted});
+        for (int pass = 0; pass < passes; ++pass) {
+            split_long_edges();
+            smooth();
+            collapse_short_edges();
+            flip_edges();
+        }
+        for (int pass = 0; pass < last_passes; ++pass) {
+            smooth();
+            flip_edges();
+            mend_needles();
+        }
+    }
+    EditedSurface& surface() { return surface_; }
+
+ private:
+    using Edge = EditedSurface::Edge;
+    using Vertex = EditedSurface::Vertex;
+    using HalfEdge = EditedSurface::HalfEdge;
+    const EditMesh& mesh() const { return surface_.mesh(); }
+
+    void poll() const {
+        if (options_.poll) options_.poll();
+    }
+
+    double target(Edge e) const {
+        const Vertex a = mesh().to_vertex_handle(mesh().halfedge_handle(e, 0));
+        const Vertex b = mesh().to_vertex_handle(mesh().halfedge_handle(e, 1));
+        return std::min(surface_.size(a), surface_.size(b)) + options_.growth * surface_.length(e) / 3;
+    }
+    double ratio(Edge e) const { return surface_.length(e) / target(e); }
+    bool is_alive(Edge e) const { return !mesh().status(e).deleted(); }
+
+    // Lawson's flips within flat regions.
+    void flip_flat_edges() {
+        std::vector<Edge> open;
+        for (const auto e : mesh().edges()) open.push_back(e);
+        std::reverse(open.begin(), open.end());
+        legalise(open, 20 * open.size());
+    }
+
+    void legalise(std::vector<Edge>& open, std::size_t limit) {
+        for (std::size_t steps = 0; !open.empty() && steps < limit; ++steps) {
+            const Edge e = open.back();
+            open.pop_back();
+            if (!is_alive(e) || !surface_.is_flat(e) || !surface_.make_delaunay(e)) continue;
+            for (const int side : {0, 1}) {
+                const HalfEdge h = mesh().halfedge_handle(e, side);
+                open.push_back(mesh().edge_handle(mesh().next_halfedge_handle(h)));
+                open.push_back(mesh().edge_handle(mesh().prev_halfedge_handle(h)));
+            }
+        }
+        open.clear();
+    }
+
+    // Edges by length, shortest first.
+    template <class Wanted>
+    std::vector<std::pair<double, Edge>> edges_by_length(Wanted is_wanted) const {
+        std::vector<std::pair<double, Edge>> edges;
+        for (const auto e : mesh().edges())
+            if (const double length = surface_.length(e); is_wanted(e, length)) edges.emplace_back(length, e);
+        std::sort(edges.begin(), edges.end());
+        return edges;
+    }
+
+    bool collapse_either_way(Edge e, const EditedSurface::CollapseRules& rules) {
+        const HalfEdge h = mesh().halfedge_handle(e, 0);
+        const HalfEdge back = mesh().halfedge_handle(e, 1);
+        // rather away from the vertex of fewer edges
+        const bool first =
+            mesh().valence(mesh().from_vertex_handle(h)) <= mesh().valence(mesh().from_vertex_handle(back));
+        return surface_.collapse(first ? h : back, rules) || surface_.collapse(first ? back : h, rules);
+    }
+
+    // Leaves out what the bound does not need.
+    void simplify() {
+        const EditedSurface::CollapseRules rules = {.good_sine = sine_of_20, .worst_share = 0.9};
+        for (int pass = 0; pass < most_simplifications; ++pass) {
+            poll();
+            std::size_t collapsed = 0;
+            for (const auto& [length, e] :
+                 edges_by_length([&](Edge, double length) { return length < 0.8 * options_.longest; }))
+                if (is_alive(e) && collapse_either_way(e, rules)) ++collapsed;
+            flip_edges();
+            if (collapsed * 100 < mesh().n_faces()) break;
+        }
+    }
+
+    void collapse_short_edges() {
+        const EditedSurface::CollapseRules rules = {.good_sine = sine_of_20, .longest = split_ratio};
+        for (const auto& [length, e] : edges_by_length([&](Edge e, double) { return ratio(e) < collapse_ratio; }))
+            if (is_alive(e) && ratio(e) < collapse_ratio) collapse_either_way(e, rules);
+    }
+
+    void split_long_edges() {
+        struct Entry {
+            double ratio;
+            Edge edge;
+            bool operator<(const Entry& other) const {
+                return std::pair(ratio, -edge.idx()) < std::pair(other.ratio, -other.edge.idx());
+            }
+        };
+        std::priority_queue<Entry> open;
+        const auto add = [&](Edge e) {
+            if (const double r = ratio(e); r > split_ratio) open.push({r, e});
+        };
+        for (const auto e : mesh().edges()) add(e);
+        std::vector<Edge> around;
+        while (!open.empty()) {
+            const auto [r, wanted] = open.top();
+            open.pop();
+            if (ratio(wanted) != r) continue;
+            const Edge e = longest_around(wanted);
+            const Vertex a = mesh().to_vertex_handle(mesh().halfedge_handle(e, 0));
+            const Vertex b = mesh().to_vertex_handle(mesh().halfedge_handle(e, 1));
+            const double size = std::min(surface_.size(a), surface_.size(b)) + options_.growth * surface_.length(e) / 2;
+            const std::int32_t fold = mesh().data(e).fold;
+            const Vertex v = surface_.split(e, 0.5);
+            surface_.set_size(v, sizes_->of_new(v, fold, size));
+            for (const auto h : mesh().voh_range(v))
+                around.push_back(mesh().edge_handle(mesh().next_halfedge_handle(h)));
+            legalise(around, 200);
+            for (const auto h : mesh().voh_range(v)) {
+                add(mesh().edge_handle(h));
+                add(mesh().edge_handle(mesh().next_halfedge_handle(h)));
+            }
+            if (e != wanted) add(wanted);
+        }
+    }
+
+    // The end of the way over ever longer edges of facets: halves of a longest edge have no needles (Rivara 1997).
+    Edge longest_around(Edge e) const {
+        for (bool goes_on = true; goes_on;) {
+            goes_on = false;
+            for (const int side : {0, 1}) {
+                const HalfEdge h = mesh().halfedge_handle(e, side);
+                for (const Edge other : {mesh().edge_handle(mesh().next_halfedge_handle(h)),
+                                         mesh().edge_handle(mesh().prev_halfedge_handle(h))})
+                    if (surface_.length(other) > surface_.length(e) * (1 + 1e-9)) {
+                        e = other;
+                        goes_on = true;
+                    }
+                if (goes_on) break;
+            }
+        }
+        return e;
+    }
+
+    void flip_edges() {
+        for (int pass = 0; pass < flips; ++pass) {
+            poll();
+            std::size_t flipped = 0;
+            for (const auto e : mesh().edges())
+                if (surface_.flip(e)) ++flipped;
+            if (flipped * 500 < mesh().n_edges()) break;
+        }
+    }
+
+    // Towards the centres of the facets around, weighted by what is wanted there.
+    void smooth() {
+        for (int pass = 0; pass < smoothings; ++pass)
+            for (const auto v : mesh().vertices()) {
+                Vec3 sum = Vec3::Zero();
+                double weights = 0;
+                for (const auto h : mesh().voh_range(v)) {
+                    const Vec3 &b = mesh().point(h.to()), &c = mesh().point(h.next().to());
+                    const Vec3 centre = (mesh().point(v) + b + c) / 3;
+                    const double area = (b - mesh().point(v)).cross(c - mesh().point(v)).norm();
+                    const double size = (surface_.size(v) + surface_.size(h.to()) + surface_.size(h.next().to())) / 3;
+                    const double weight = area / (size * size);
+                    sum += weight * centre;
+                    weights += weight;
+                }
+                if (weights > 0) surface_.move(v, sum / weights);
+            }
+    }
+
+    // Collapses the shortest edges of what is still a needle.
+    void mend_needles() {
+        const EditedSurface::CollapseRules rules = {.good_sine = sine_of_10};
+        for (const auto f : mesh().faces()) {
+            if (mesh().status(f).deleted() || surface_.sine(f) > sine_of_20) continue;
+            HalfEdge shortest = mesh().halfedge_handle(f);
+            for (const auto h : mesh().fh_range(f))
+                if (mesh().calc_edge_length(h) < mesh().calc_edge_length(shortest)) shortest = h;
+            collapse_either_way(mesh().edge_handle(shortest), rules);
+        }
+    }
+
+    const RemeshOptions& options_;
+    EditedSurface surface_;
+    std::optional<FoldSizes> sizes_;
+};
+
+// Calls visit(point) for the points of a facet that divide each edge in so many.
+template <class Visit>
+void for_each_sample(const std::vector<Vec3>& vertices, const Triangle& t, Visit visit) {
+    for (int i = 0; i <= samples_per_edge; ++i)
+        for (int j = 0; i + j <= samples_per_edge; ++j)
+            visit(Vec3((i * vertices[t[0]] + j * vertices[t[1]] + (samples_per_edge - i - j) * vertices[t[2]]) /
+                       samples_per_edge));
+}
+
+// The largest distance of points from a surface: only where it grows is it asked for.
+class FarthestPoint {
+ public:
+    explicit FarthestPoint(const TriangleTree& tree) : tree_(tree) {}
+    double distance() const { return distance_; }
+    /// Returns distance() as it is then: nothing is beyond it.
+    double add(const Vec3& p) {
+        const auto is_there = [](std::int32_t, double) { return true; };
+        if (!tree_.any_within(p, distance_, is_there)) distance_ = std::sqrt(tree_.closest(p).squared_distance);
+        return distance_;
+    }
+
+ private:
+    const TriangleTree& tree_;
+    double distance_ = 0;
+};
+
+// Compares a result with the input: facets that meet, and points too far from the other surface. Says which facets of
+// the input are there.
+class Inspection {
+ public:
+    Inspection(const SurfaceArrays& input, const TriangleTree& input_tree, double deviation)
+        : input_(input), input_tree_(input_tree), deviation_(deviation), refused_(input.facets.size(), 0) {}
+
+    std::vector<char> run(const SurfaceArrays& result, RemeshReport& report) {
+        for (const auto& [f, g] : find_self_intersections(result.vertices, result.facets))
+            for (const std::int32_t facet : {f, g}) refuse_around(result, facet);
+        FarthestPoint to_input(input_tree_);
+        for (const Triangle& t : result.facets)
+            for_each_sample(result.vertices, t, [&](const Vec3& p) {
+                if (is_far(p, to_input, input_tree_)) refused_[input_tree_.closest(p).facet] = 1;
+            });
+        const TriangleTree tree(result.vertices, result.facets);
+        FarthestPoint from_input(tree);
+        for (std::size_t f = 0; f < input_.facets.size(); ++f)
+            for_each_sample(input_.vertices, input_.facets[f], [&](const Vec3& p) {
+                if (is_far(p, from_input, tree)) refused_[f] = 1;
+            });
+        report.distance_to_input = to_input.distance();
+        report.distance_from_input = from_input.distance();
+        return std::move(refused_);
+    }
+
+ private:
+    bool is_far(const Vec3& p, FarthestPoint& farthest, const TriangleTree& tree) const {
+        if (farthest.distance() <= deviation_) return farthest.add(p) > deviation_;
+        return !tree.any_within(p, deviation_, [](std::int32_t, double) { return true; });
+    }
+    void refuse_around(const SurfaceArrays& result, std::int32_t facet) {
+        for_each_sample(result.vertices, result.facets[facet], [&](const Vec3& p) {
+            input_tree_.any_within(p, deviation_, [&](std::int32_t near, double) {
+                refused_[near] = 1;
+                return false;
+            });
+        });
+    }
+
+    const SurfaceArrays& input_;
+    const TriangleTree& input_tree_;
+    double deviation_;
+    std::vector<char> refused_;
+};
+
+void check_remesh_options(const RemeshOptions& options) {
+    KERF_CHECK(options.deviation > 0 && options.longest > 0 && options.growth > 0 && options.feature_angle_deg > 0);
+}
+
+}  // namespace
+
+Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& options) {
+    check_remesh_options(options);
+    const TriangleTree tree(surface.vertices, surface.facets);
+    std::vector<double> tolerance = tolerances_of_gaps(surface, used_share * options.deviation);
+    for (int round = 1;; ++round) {
+        const InputShape input(surface, tolerance, options.feature_angle_deg);
+        Remesher remesher(input, options);
+        remesher.run();
+        Remeshed result = {remesher.surface().arrays(),
+                           {.rounds = round, .feature_edges = remesher.surface().feature_edges()}};
+        const std::vector<char> refused =
+            Inspection(surface, tree, options.deviation).run(result.surface, result.report);
+        const auto count = std::count(refused.begin(), refused.end(), char{1});
+        if (count == 0) return result;
+        if (round == most_rounds) {
+            const auto first = std::find(refused.begin(), refused.end(), char{1}) - refused.begin();
+            const Vec3& place = surface.vertices[surface.facets[first][0]];
+            throw Error(ErrorCode::input,
+                        fmt::format("The surface cannot be remeshed within {:g} at {} facets, the first near ({:g}, "
+                                    "{:g}, {:g}). Try another --deviation, or keep the surface as it is.",
+                                    options.deviation, count, place[0], place[1], place[2]));
+        }
+        for (std::size_t f = 0; f < refused.size(); ++f)
+            if (refused[f] != 0) tolerance[f] *= smaller_tolerance;
+    }
+}
+
+}  // namespace kerf

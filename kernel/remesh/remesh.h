@@ -1,0 +1,49 @@
+// A surface worth meshing: well-shaped triangles of wanted sizes within a bound of the input.
+#pragma once
+
+#include <functional>
+
+#include "surface/surface.h"
+
+namespace kerf {
+
+struct RemeshOptions {
+    double deviation = 0;           ///< largest distance between input and result, both ways; units of the input, > 0
+    double longest = 0;             ///< edge anywhere, > 0
+    double growth = 0.4;            ///< of the size along the surface
+    double feature_angle_deg = 30;  ///< between facets: their edge stays an edge
+    double edges_per_thickness = 0.5;                ///< across thin walls; 0: they ask for nothing
+    std::function<double(const Vec3&)> wanted = {};  ///< edge length at a point, if given: besides `longest`
+    std::function<void()> poll = {};  ///< called every few milliseconds, if given; ends the work by what it throws
+};
+
+struct RemeshReport {
+    std::int64_t rounds = 0;  ///< with smaller tolerances where the result was refused; 1: nowhere
+    double distance_to_input = 0,
+           distance_from_input = 0;  ///< largest that was found, of the new surface and of the old
+    std::int64_t feature_edges = 0;  ///< of the new surface
+};
+
+/// sin of the smallest angle of a triangle, 0 for a degenerate one.
+double smallest_sine(const Vec3& a, const Vec3& b, const Vec3& c);
+
+struct Remeshed {
+    SurfaceArrays surface;
+    RemeshReport report;
+};
+
+/// Splits, collapses, flips and moves edges and vertices until triangles are well shaped and as long as their place
+/// asks for: as the surface folds there, as walls are thick, as `wanted` says, with growth between.
+///
+/// Topology, features (sharp edges and the borders of patches) and the patches of facets stay. No point of either
+/// surface is further than `deviation` from the other, as far as that is seen at 28 points of each facet, and the
+/// result has no self-intersections, by exact predicates: where one of them fails, the tolerance of the facets there is
+/// made smaller and all is done again. Keys are the numbers in the result. Throws Error(input) with the place if that
+/// does not help. Requires a closed surface without intersections. Deterministic. O(#F log #F) for the larger of both
+/// surfaces.
+///
+/// The bound of operations instead of the whole follows Cohen et al. 1996; sizes by distance between folds are those of
+/// Ruppert 1995.
+Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& options);
+
+}  // namespace kerf

@@ -1,0 +1,106 @@
+#include "run/remeshing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "remesh/remesh.h"
+#include "run/size_reader.h"
+#include "surface/mass_properties.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr double largest_share = 0.05;   // of the diagonal, for the deviation
+constexpr double smallest_share = 1e-9;  // coordinates have few more digits
+constexpr double longest_share = 0.03;   // of the diagonal, for edges where nothing else is wanted
+constexpr double deg_per_rad = 180 / std::numbers::pi;
+
+std::vector<double> smallest_angles(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
+    std::vector<double> angles;
+    angles.reserve(facets.size());
+    for (const Triangle& t : facets)
+        angles.push_back(std::asin(std::min(1.0, smallest_sine(vertices[t[0]], vertices[t[1]], vertices[t[2]]))) *
+                         deg_per_rad);
+    return angles;
+}
+
+// Lengths in space that the options ask for; the growth from the surface's own edges, which are to change, is not.
+SizeField wanted_lengths(const RunOptions& options, const SurfaceArrays& surface, const Input& input) {
+    SizeOptions sizes = options.sizes;
+    sizes.growth = 0;
+    return sizes.depends_on_place() ? read_size_field(sizes, surface, input.patch_names)
+                                    : SizeField(sizes.constant_max_volume());
+}
+
+}  // namespace
+
+Slivers find_slivers(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
+    std::vector<double> angles = smallest_angles(vertices, facets);
+    if (angles.empty()) return {};
+    const auto below = std::count_if(angles.begin(), angles.end(), [](double angle) { return angle < 5; });
+    const auto middle = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
+    std::nth_element(angles.begin(), middle, angles.end());
+    return {*middle, static_cast<double>(below) / static_cast<double>(angles.size())};
+}
+
+std::string sliver_note(const Slivers& slivers, const std::string& path) {
+    if (!slivers.spoil_cells()) return "";
+    return fmt::format(
+        "{:.0f} % of the facets have angles below 5 degrees, and cells will be no better. "
+        "kerf mesh {} --surface remesh cures that.",
+        100 * slivers.share_below_5_deg, path);
+}
+
+double parse_deviation(const std::string& text, double diagonal) {
+    std::size_t end = 0;
+    double value = 0;
+    try {
+        value = std::stod(text, &end);
+    } catch (const std::exception&) {
+        end = 0;
+    }
+    const bool is_share = end + 1 == text.size() && text[end] == '%';
+    const double deviation = is_share ? value / 100 * diagonal : value;
+    if (end == 0 || (end != text.size() && !is_share) ||
+        !(deviation >= smallest_share * diagonal && deviation <= largest_share * diagonal))
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("--deviation is {}, but it must be a length or, with %, a share of the diagonal ({:g}), "
+                        "from 1e-7 % to 5 %.",
+                        text, diagonal));
+    return deviation;
+}
+
+Input remesh_where_asked(Input input, const RunOptions& options) {
+    if (options.remeshing == Remeshing::never) return input;
+    const SurfaceArrays before = input.surface.arrays();
+    if (options.remeshing == Remeshing::where_slivers_spoil_cells &&
+        !find_slivers(before.vertices, before.facets).spoil_cells())
+        return input;
+    const SizeField wanted = wanted_lengths(options, before, input);
+    RemeshOptions remesh_options = {.deviation = parse_deviation(options.deviation, input.diagonal),
+                                    .longest = longest_share * input.diagonal};
+    if (options.sizes.growth > 0) remesh_options.growth = options.sizes.growth;
+    if (!wanted.is_empty()) remesh_options.wanted = [&](const Vec3& p) { return wanted.at(p); };
+    Remeshed remeshed = remesh(before, remesh_options);
+
+    const std::vector<double> old_angles = smallest_angles(before.vertices, before.facets);
+    const std::vector<double> angles = smallest_angles(remeshed.surface.vertices, remeshed.surface.facets);
+    input.remeshed = {.facets_before = input.facets,
+                      .smallest_angle_before_deg = *std::min_element(old_angles.begin(), old_angles.end()),
+                      .smallest_angle_deg = *std::min_element(angles.begin(), angles.end()),
+                      .deviation = remesh_options.deviation,
+                      .distance_to_input = remeshed.report.distance_to_input,
+                      .distance_from_input = remeshed.report.distance_from_input,
+                      .feature_edges = remeshed.report.feature_edges};
+    input.surface = Surface(std::move(remeshed.surface));
+    measure_input(input);
+    return input;
+}
+
+}  // namespace kerf

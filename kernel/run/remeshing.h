@@ -1,0 +1,34 @@
+// Whether and how the surface of a run is remeshed before it is cut.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "run/input.h"
+#include "run/options.h"
+
+namespace kerf {
+
+/// How many facets are too sharp for good cells.
+struct Slivers {
+    double median_angle_deg = 60;  ///< of the smallest angles of the facets
+    double share_below_5_deg = 0;
+
+    /// Median below 15 degrees, or more than a tenth of the facets below 5: most of the cells at such a surface are no
+    /// better than it.
+    bool spoil_cells() const { return median_angle_deg < 15 || share_below_5_deg > 0.1; }
+};
+Slivers find_slivers(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets);
+
+/// One sentence with the command that cures it; empty if they spoil nothing.
+std::string sliver_note(const Slivers& slivers, const std::string& path);
+
+/// Length that a text says: a number, or one with % of the diagonal. Throws Error(usage) naming the option.
+double parse_deviation(const std::string& text, double diagonal);
+
+/// The input, remeshed where `options` says so: its surface, counts, area and volume are the new ones, and
+/// Input::remeshed tells what was done. The wanted lengths are those of options.sizes. Throws Error(usage) for a
+/// deviation out of range, Error(input) where the bound cannot be kept.
+Input remesh_where_asked(Input input, const RunOptions& options);
+
+}  // namespace kerf

@@ -1,0 +1,104 @@
+// What of a set of triangles is near a point: a hierarchy of boxes over triangles.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "core/types.h"
+
+namespace kerf {
+
+/// The closest point of triangle a, b, c to p. Right for needles, whatever their height: there the edges decide,
+/// because the plane of the triangle is lost to rounding.
+Vec3 closest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// A binary tree over triangles, split at the median of the longest side of their centres. Built in O(n log n),
+/// immutable; a query is O(log n) where few triangles are near.
+class TriangleTree {
+ public:
+    struct Closest {
+        std::int32_t facet = -1;  ///< -1: none within the limit
+        double squared_distance = std::numeric_limits<double>::infinity();
+        Vec3 point = Vec3::Zero();  ///< of the facet
+    };
+
+    /// Vertex numbers must be in range, coordinates finite.
+    TriangleTree(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets);
+
+    /// The facet closest to p of those nearer than sqrt(squared_limit); of equally close ones that which the tree meets
+    /// first, which depends on the triangles alone.
+    Closest closest(const Vec3& p, double squared_limit = std::numeric_limits<double>::infinity()) const;
+
+    /// Calls accept(facet, squared_distance) for facets within `radius` of p until it returns true. Returns whether it
+    /// did.
+    template <class Accept>
+    bool any_within(const Vec3& p, double radius, Accept accept) const {
+        std::int32_t open[64];
+        int count = 0;
+        open[count++] = 0;
+        const double limit = radius * radius;
+        while (count > 0) {
+            const Node& node = nodes_[open[--count]];
+            if (node.box.squaredExteriorDistance(p) > limit) continue;
+            if (node.left > 0) {
+                open[count++] = node.left + 1;
+                open[count++] = node.left;
+                continue;
+            }
+            for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+                const double squared = squared_distance(p, i);
+                if (squared <= limit && accept(order_[i], squared)) return true;
+            }
+        }
+        return false;
+    }
+
+    /// Distance along the ray from `origin` in `direction` (any length, which is the unit of the distance) to the first
+    /// triangle it meets beyond `from` that accept(facet) takes; infinity: none up to `to`. Not exact: rays through
+    /// edges may pass.
+    template <class Accept>
+    double first_hit(const Vec3& origin, const Vec3& direction, double from, double to, Accept accept) const {
+        std::int32_t open[64];
+        int count = 0;
+        open[count++] = 0;
+        double nearest = std::numeric_limits<double>::infinity();
+        while (count > 0) {
+            const Node& node = nodes_[open[--count]];
+            if (!ray_meets(node.box, origin, direction, from, std::min(to, nearest))) continue;
+            if (node.left > 0) {
+                open[count++] = node.left + 1;
+                open[count++] = node.left;
+                continue;
+            }
+            for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+                const double t = ray_distance(i, origin, direction);
+                if (t > from && t < to && t < nearest && accept(order_[i])) nearest = t;
+            }
+        }
+        return nearest;
+    }
+
+    double squared_distance_to(const Vec3& p, std::int32_t facet) const { return squared_distance(p, place_[facet]); }
+
+ private:
+    struct Node {
+        Eigen::AlignedBox3d box;    // of all below
+        std::int32_t first, count;  // of corners_
+        std::int32_t left = 0;      // 0: a leaf; the other child follows it
+    };
+    void split(std::size_t node, const std::vector<Vec3>& centres);
+    double squared_distance(const Vec3& p, std::int32_t place) const;
+    double ray_distance(std::int32_t place, const Vec3& origin, const Vec3& direction) const;
+    static bool ray_meets(const Eigen::AlignedBox3d& box, const Vec3& origin, const Vec3& direction, double from,
+                          double to);
+
+    std::vector<std::array<Vec3, 3>> corners_;  // in the order of the leaves
+    std::vector<std::int32_t> order_;           // their facets
+    std::vector<std::int32_t> place_;           // of each facet in order_
+    std::vector<Node> nodes_;
+};
+
+}  // namespace kerf
