@@ -97,20 +97,25 @@ class InsideTest {
             for (const std::int32_t v : facets[f]) boxes[f].extend(vertices[v]);
         return boxes;
     }
-    // Twice the area of the projection of the triangle p, a, b; the same but for the sign for a and b exchanged.
+    // Twice the area of the projection of the triangle p, a, b.
     static double area(const Vec3& p, const Vec3& a, const Vec3& b) {
-        if (std::tie(b.x(), b.y()) < std::tie(a.x(), a.y())) return -area(p, b, a);
         return (a.x() - p.x()) * (b.y() - p.y()) - (a.y() - p.y()) * (b.x() - p.x());
+    }
+    // Whether p lies left of the line from a to b; the opposite for b and a exchanged, also on the line, where the
+    // answer is that for a point moved by a little in y, and by much less in -x.
+    static bool is_left(const Vec3& p, const Vec3& a, const Vec3& b) {
+        if (std::tie(b.x(), b.y()) < std::tie(a.x(), a.y())) return !is_left(p, b, a);
+        return area(p, a, b) >= 0;
     }
     int turns_above(const Vec3& p, std::int32_t facet) const {
         const auto& [i, j, k] = facets_[facet];
         const Vec3 &a = vertices_[i], &b = vertices_[j], &c = vertices_[k];
-        const double of_a = area(p, b, c), of_b = area(p, c, a), of_c = area(p, a, b);
-        const bool is_left = of_a >= 0 && of_b >= 0 && of_c >= 0, is_right = of_a < 0 && of_b < 0 && of_c < 0;
-        const double sum = of_a + of_b + of_c;
-        if ((!is_left && !is_right) || sum == 0) return 0;
+        const bool left = is_left(p, a, b);
+        if (is_left(p, b, c) != left || is_left(p, c, a) != left) return 0;
+        const double of_a = area(p, b, c), of_b = area(p, c, a), of_c = area(p, a, b), sum = of_a + of_b + of_c;
+        if (sum == 0) return 0;
         const double height = (of_a * a.z() + of_b * b.z() + of_c * c.z()) / sum;
-        return height > p.z() ? (is_left ? 1 : -1) : 0;
+        return height > p.z() ? (left ? 1 : -1) : 0;
     }
 
     const std::vector<Vec3>& vertices_;

@@ -74,9 +74,8 @@ std::vector<Case> cases() {
     all[2].options.growth = 0.2;
     all[2].options.inside = {"box:-9,-9,-9,-2,9,9=0.4"};
     all[3] = {"a background mesh", box(Vec3::Zero(), Vec3(10, 10, 10), 20), {}, {}};
-    all[3].background = sized_grid(Vec3::Zero(), Vec3(10, 10, 10), 10, [](const Vec3& p) {
-        return 0.5 + 0.2 * std::min(p.minCoeff(), 10 - p.maxCoeff());
-    });
+    all[3].background = sized_grid(Vec3::Zero(), Vec3(10, 10, 10), 10,
+                                   [](const Vec3& p) { return 0.5 + 0.2 * std::min(p.minCoeff(), 10 - p.maxCoeff()); });
     return all;
 }
 

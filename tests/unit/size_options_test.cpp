@@ -182,6 +182,14 @@ TEST(VolumeSamples, KnowTheInsideOfVoidsAndThinBodies) {
         for (const VolumeSample& sample : sample_volume(field, arrays.vertices, arrays.facets))
             ASSERT_GT(sample.sized_volume, 0);
     }
+    const auto samples_of = [&](const Soup& soup) {
+        const SurfaceArrays arrays = to_arrays(soup);
+        return sample_volume(field_of(nearly_constant, soup), arrays.vertices, arrays.facets);
+    };
+    for (const VolumeSample& sample : samples_of(nested_boxes(2, 5)))
+        ASSERT_GE(sample.point.cwiseAbs().maxCoeff(), 0.5) << "in the void";
+    for (const VolumeSample& sample : samples_of(torus(3, 1, 60, 30)))
+        ASSERT_LE(std::hypot(std::hypot(sample.point.x(), sample.point.y()) - 3, sample.point.z()), 1);
 }
 
 }  // namespace
