@@ -67,8 +67,10 @@ std::vector<OptionField> config_fields(CommandLine& line) {
 CLI::App* add_run_command(CLI::App& app, const char* name, const char* text, CommandLine& line) {
     CLI::App* command = app.add_subcommand(name, text);
     command
-        ->add_option("input", line.options.input,
-                     "Closed surface: STL, OBJ, PLY, OFF, .msh, .mesh, .smesh or .poly; also as .gz or .zst.")
+        ->add_option(
+            "input", line.options.input,
+            "Closed surface: STL, OBJ, PLY, OFF, .msh, .mesh, .smesh or .poly, or CAD file: STEP, IGES, BREP; also as "
+            ".gz or .zst.")
         ->type_name("INPUT");
     for (const OptionField& field : config_fields(line)) add_field(*command, field);
     command->get_option("--output")->type_name("DIR");

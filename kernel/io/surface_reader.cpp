@@ -9,7 +9,10 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "core/error.h"
+#include "io/cad_body.h"
 #include "io/compressed.h"
 #include "io/file_bytes.h"
 #include "io/stl_format.h"
@@ -108,6 +111,11 @@ Soup read_surface_bytes(std::string file, const std::string& path) {
     std::string_view bytes = content;
     if (bytes.empty()) throw Error(ErrorCode::input, path + ": the file is empty. Export the surface again.");
     if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);  // byte-order mark of UTF-8
+    if (const CadFormat cad = cad_format(bytes); cad != CadFormat::none)
+        throw Error(ErrorCode::input,
+                    fmt::format("{}: this is a CAD file ({}), but only triangles can be read here. Use "
+                                "kerf check or kerf mesh, or export it as STL, OBJ or PLY.",
+                                path, name(cad)));
     return recognise(bytes, path)(bytes, path);
 }
 

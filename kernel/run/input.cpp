@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "io/file_bytes.h"
 #include "io/run_manifest.h"
-#include "io/surface_reader.h"
+#include "run/cad_input.h"
 #include "surface/hole_filling.h"
 #include "surface/intersections.h"
 #include "surface/mass_properties.h"
@@ -53,7 +53,7 @@ void optimise(Soup& soup, std::int32_t sweeps, Input& input) {
 }  // namespace
 
 CheckedSoup check_input(const std::string& path, const InputOptions& options, double needle_angle_deg) {
-    return check_soup(read_surface(path), options, needle_angle_deg);
+    return check_soup(read_surface_or_cad(path, options.cad), options, needle_angle_deg);
 }
 
 CheckedSoup check_soup(Soup read, const InputOptions& options, double needle_angle_deg) {
@@ -89,7 +89,7 @@ Input read_input(const std::string& path, const InputOptions& options) {
     input.path = path;
     std::string bytes = read_file(path);
     input.file_hash = hash_text(digest_of(bytes));
-    CheckedSoup checked = check_soup(read_surface_bytes(std::move(bytes), path), options);
+    CheckedSoup checked = check_soup(read_surface_or_cad(std::move(bytes), path, options.cad), options);
     Soup& soup = checked.soup;
     if (!checked.diagnosis.clean())
         throw Error(ErrorCode::input,

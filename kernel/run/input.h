@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/cad_body.h"
 #include "surface/diagnosis.h"
 #include "surface/orientation.h"
 #include "surface/surface.h"
@@ -19,6 +20,7 @@ struct InputOptions {
     Voids voids = Voids::as_given;
     double feature_angle_deg = 0;          ///< patches between sharper edges where the file has one patch; 0: none
     std::int32_t optimisation_sweeps = 0;  ///< of vertices off the feature edges; 0: none moves
+    CadOptions cad;                        ///< of STEP, IGES and BREP files
 
     /// Throws Error(usage) naming option, value and range.
     void check() const;
@@ -73,7 +75,7 @@ struct Input {
     Surface surface;
 };
 
-/// Reads, repairs, diagnoses. Throws Error(io) or Error(input) only for a file that cannot be read or parsed.
+/// Reads (CAD files, too: run/cad_input.h), repairs, diagnoses. Throws Error only for a file that cannot be read.
 CheckedSoup check_input(const std::string& path, const InputOptions& options = {}, double needle_angle_deg = 1);
 
 /// The same for what a reader returned.

@@ -158,6 +158,9 @@ void InputOptions::check() const {
     require(fill_hole_edges >= 0, "fill-holes", "0 (none) or more edges", fill_hole_edges);
     require(feature_angle_deg >= 0 && feature_angle_deg < 180, "feature-angle", "0 (none) or below 180 degrees",
             feature_angle_deg);
+    require(cad.solid >= 0, "solid", "0 (all) or the number of one", cad.solid);
+    require(cad.deflection == 0 || (cad.deflection >= 1e-7 && cad.deflection <= 0.1), "cad-deflection",
+            "0 (by the volume) or from 1e-7 to 0.1", cad.deflection);
     require(optimisation_sweeps >= 0, "optimise-surface", "0 (keep it) or more sweeps", optimisation_sweeps);
 }
 
@@ -172,6 +175,13 @@ std::vector<OptionField> input_option_fields(InputOptions& o) {
         {"feature-angle", "",
          "Degrees between facets above which an edge bounds patches, if the file has none. Default 0: one patch.",
          &o.feature_angle_deg},
+        {"solid", "", "CAD files: only this solid, counted from 1. Default 0: all.", &o.cad.solid},
+        {"unite", "", "CAD files: join solids that touch or overlap.", &o.cad.unite},
+        {"unit", "", "CAD files: unit into which lengths are converted. Default mm.",
+         choice(o.cad.unit, length_unit_names())},
+        {"cad-deflection", "",
+         "CAD files: distance of chords from curves as a share of the diagonal. Default 0: by the volume, to 1e-4.",
+         &o.cad.deflection},
         {"optimise-surface", "",
          "Sweeps that slide vertices off the feature edges to better places first. Default 0: the surface is kept.",
          &o.optimisation_sweeps},

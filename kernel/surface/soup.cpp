@@ -43,6 +43,15 @@ std::vector<std::int32_t> find_representatives(const std::vector<Vec3>& vertices
     return representative;
 }
 
+// Leaves out what has lost an end, or has become a point.
+void renumber_edges(std::vector<ModelEdge>& edges, const std::vector<std::int32_t>& new_number) {
+    std::erase_if(edges, [&](ModelEdge& edge) {
+        const auto [a, b] = edge.vertices;
+        edge.vertices = undirected(new_number[a], new_number[b]);
+        return edge.vertices[0] < 0 || edge.vertices[0] == edge.vertices[1];
+    });
+}
+
 // Keeps the vertices that stand for themselves. representative[v]: v itself, an earlier vertex that replaces it, or -1
 // for a vertex that no facet uses. Returns the number removed.
 std::int64_t renumber(Soup& soup, std::vector<std::int32_t> representative) {
@@ -71,6 +80,7 @@ std::int64_t renumber(Soup& soup, std::vector<std::int32_t> representative) {
     soup.vertex_number.resize(kept);
     for (Triangle& t : soup.facets)
         for (std::int32_t& v : t) v = new_number[v];
+    renumber_edges(soup.model_edges, new_number);
     return removed;
 }
 

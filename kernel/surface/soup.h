@@ -1,12 +1,20 @@
 // What a surface file said, with nothing repaired.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "core/types.h"
 
 namespace kerf {
+
+/// An edge of the facets on a curve of the model behind them, as CAD files have: a bound of patches, or a crease.
+struct ModelEdge {
+    UndirectedEdge vertices;
+    std::int32_t sharp;  ///< 0: the faces of the model are tangent there, so that only patches end; else 1
+};
 
 /// Triangles with shared vertices and a patch per triangle. No promise about closedness, orientation or manifoldness.
 struct Soup {
@@ -23,6 +31,16 @@ struct Soup {
     std::vector<std::int32_t> vertex_number = {};
     std::vector<Vec3> holes = {};         ///< points in voids that the file names; units of the file
     std::vector<std::string> notes = {};  ///< what the reader passed over: "12 tetrahedra were ignored."
+    /// Edges of the model, each once; the same vertices as the facets. Empty if the file has no model.
+    std::vector<ModelEdge> model_edges = {};
+    /// sRGB and 255 for each patch; four zeros where the file gives no colour. Empty if it gives none at all.
+    std::vector<std::array<std::uint8_t, 4>> patch_colours = {};
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(vertices, facets, patch, patch_names, polygon, unfit_polygons, vertex_number, holes, notes, model_edges,
+          patch_colours);
+    }
 
     /// The numbers that the file gives to facets and vertices; facets of one face that follow each other count once.
     std::vector<std::int32_t> file_facets(const std::vector<std::int32_t>& own) const;

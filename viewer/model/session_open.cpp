@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "io/surface_reader.h"
+#include "run/cad_input.h"
 #include "run/saved_run.h"
 #include "surface/mass_properties.h"
 #include "viewer/model/node_surface.h"
@@ -80,7 +80,7 @@ std::shared_ptr<const Soup> read_soup_if_there(const std::string& path) {
     std::error_code ignored;
     if (!fs::exists(path, ignored)) return nullptr;
     try {
-        return std::make_shared<const Soup>(read_surface(path));
+        return std::make_shared<const Soup>(read_surface_or_cad(path));
     } catch (const Error&) {
         return nullptr;
     }
@@ -127,7 +127,7 @@ Loader::Completion Session::Impl::read_what_is_there(const std::string& path) {
     const OpenedPath what = tell_kind(path);
     switch (what.kind) {
         case OpenedPath::Kind::surface: {
-            auto soup = std::make_shared<const Soup>(read_surface(path));
+            auto soup = std::make_shared<const Soup>(read_surface_or_cad(path));
             auto surface = std::make_shared<const NodeSurface>(node_surface_of(*soup));
             return [this, soup, surface] { show_soup(soup, surface); };
         }

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "io/surface_reader.h"
+#include "run/cad_input.h"
 #include "viewer/model/file_kind.h"
 #include "viewer/model/tree_source.h"
 
@@ -195,7 +195,7 @@ void Session::Impl::apply(const RunEvent& event) {
 void Session::Impl::show_input_of_run() {
     if (!exists(followed_->input)) return;
     const auto read = [this, path = followed_->input]() -> Loader::Completion {
-        const auto soup = std::make_shared<const Soup>(read_surface(path));
+        const auto soup = std::make_shared<const Soup>(read_surface_or_cad(path));
         Eigen::AlignedBox3d box;
         for (const Vec3& p : soup->vertices)
             if (p.allFinite()) box.extend(p);

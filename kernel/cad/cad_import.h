@@ -1,0 +1,29 @@
+// CAD files to closed surfaces, by OpenCASCADE.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "io/cad_body.h"
+
+namespace kerf {
+
+/// The solids of a STEP, IGES or BREP file as facets that meet as the faces of the solids do: closed, free of
+/// intersections, turned outwards, a patch for each face. `content`: of the file, not compressed; `path` serves
+/// messages.
+///
+/// Facets are welded by the topology of the model, never by coordinates. Loose faces are sewn where the file has no
+/// solid. The chords get finer until the volume is right to CadOptions::volume_tolerance, the facets are no more than
+/// some 100,000s, or 80,000 of one face, and no two of them cross. Soup::notes says what was read, converted, sewn,
+/// divided or left out.
+///
+/// Throws Error(input), in one sentence that names the file, the solids or faces and the way out, for a file that is
+/// damaged or cut off or holds no faces, and for solids that are open, intersect themselves, touch or overlap;
+/// Error(usage) for a solid that the file does not have. Deterministic. Seconds for 1000 faces. Not for several
+/// threads at once: OpenCASCADE has global settings.
+CadBody import_cad(std::string_view content, const std::string& path, const CadOptions& options = {});
+
+/// Leaves out OpenCASCADE's own messages, which go to standard output else.
+void silence_occt();
+
+}  // namespace kerf

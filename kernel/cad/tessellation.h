@@ -1,0 +1,34 @@
+// The faces of a body as triangles that are joined where the model says so.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cad/model.h"
+#include "surface/soup.h"
+
+namespace kerf::cad {
+
+struct TessellationSettings {
+    double deflection;  ///< largest distance of a chord from its curve; millimetres
+    double angle;       ///< largest angle between neighbouring chords; radians
+};
+
+struct Tessellation {
+    std::vector<Vec3> vertices;  ///< millimetres
+    std::vector<Triangle> facets;
+    std::vector<std::int32_t> patch;         ///< #F; index into Model::patches
+    std::vector<ModelEdge> edges;            ///< bounds of patches and creases, each of them an edge of facets
+    std::vector<std::int32_t> failed_faces;  ///< patches of faces that got no triangles
+    std::vector<std::int32_t> open_patches;  ///< of facets at edges that are not used once in each direction, ascending
+    double volume = 0;                       ///< inside; right if the facets are closed
+};
+
+/// Triangles of all faces, as BRepMesh makes them, which are closed if the model is and no face fails. Needles are
+/// plenty. The body's own triangulation is replaced. Deterministic.
+Tessellation tessellate(const Body& body, const TessellationSettings& settings);
+
+/// Tells for each edge of the body whether its faces are tangent there, to within a degree.
+void find_smooth_edges(const Body& body);
+
+}  // namespace kerf::cad

@@ -1,0 +1,80 @@
+// What the program kerf-cad makes of a CAD file, and how it is told what to make.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/bytes.h"
+#include "core/hash.h"
+#include "surface/soup.h"
+
+namespace kerf {
+
+/// Units of length into which a CAD file is converted.
+enum class LengthUnit : std::int32_t { mm, cm, m, inch, ft };
+
+/// Their names, in the order of the enumeration.
+const std::vector<std::string>& length_unit_names();
+double millimetres_of(LengthUnit unit);
+
+struct CadOptions {
+    std::int32_t solid = 0;            ///< only this one, counted from 1 in the order of the file; 0: all
+    bool unite = false;                ///< solids that touch or overlap become one
+    LengthUnit unit = LengthUnit::mm;  ///< of the result; a file that names no unit (BREP) keeps its numbers
+    double deflection = 0;             ///< largest distance of a chord from its curve as a share of the diagonal of
+                                       ///< the solid; 0: such that the volume is right to `volume_tolerance`
+
+    static constexpr double volume_tolerance = 1e-4;  ///< of |volume of facets - volume of solid| / volume of solid
+
+    /// As arguments of kerf-cad.
+    std::vector<std::string> arguments() const;
+    /// Throws Error(usage) for arguments that are no options.
+    static CadOptions from_arguments(std::span<const std::string> arguments);
+};
+
+/// The solids of a CAD file as one soup.
+struct CadBody {
+    Soup soup;              ///< closed and free of intersections; patches are faces, named `<path of the solid>/face n`
+    std::string format;     ///< "STEP", "IGES" or "BREP"
+    std::string file_unit;  ///< "inch"; empty if the file has none
+    std::string unit;       ///< of the soup; empty if the file has none
+    std::int32_t solids = 0;
+    std::int32_t faces = 0;
+    double exact_volume = 0;  ///< of the solids with their curved faces, by OpenCASCADE
+    double volume = 0;        ///< inside of the facets
+    FileHash file_hash = {};  ///< of the bytes that were read
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(soup, format, file_unit, unit, solids, faces, exact_volume, volume, file_hash);
+    }
+};
+
+/// What kerf-cad writes: a body, or why there is none.
+struct CadAnswer {
+    std::int32_t error_code = 0;  ///< an ErrorCode; 0: none
+    std::string message;
+    CadBody body;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(error_code, message, body);
+    }
+};
+
+/// An answer as bytes between processes of one machine type, and back. from_cad_bytes() throws Error(internal) for
+/// bytes that are none, or of another version of Kerf.
+Bytes to_cad_bytes(const CadAnswer& answer);
+CadAnswer from_cad_bytes(std::span<const char> bytes);
+
+enum class CadFormat { none, step, iges, brep };
+
+/// Tells by the first bytes of the content.
+CadFormat cad_format(std::string_view content);
+const char* name(CadFormat format);
+
+}  // namespace kerf

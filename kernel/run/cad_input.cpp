@@ -1,0 +1,84 @@
+#include "run/cad_input.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "io/compressed.h"
+#include "io/file_bytes.h"
+#include "io/surface_reader.h"
+#include "volume/child_process.h"
+
+namespace kerf {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+ChildResult run_cad_program(const std::string& program, const std::string& path, const CadOptions& options,
+                            double timeout_seconds) {
+    std::vector<std::string> arguments = options.arguments();
+    arguments.insert(arguments.begin(), path);
+    ChildPool pool;
+    pool.start(0, program, arguments, {}, timeout_seconds);
+    return pool.wait_any()->result;
+}
+
+// The answer, or a sentence for a child that gave none.
+CadAnswer answer_of(const ChildResult& result, const std::string& path, const std::string& program) {
+    if (result.end == ChildResult::End::exited) try {
+            return from_cad_bytes(result.output);
+        } catch (const Error&) {
+            throw Error(ErrorCode::io, fmt::format("{}: {} {} without an answer. Build it and kerf together, with the "
+                                                   "package libocct-data-exchange-7.6 there. {}",
+                                                   path, program, result.describe(), result.log));
+        }
+    throw Error(ErrorCode::input, fmt::format("{}: OpenCASCADE fails on this file: kerf-cad {}. Repair the file in the "
+                                              "CAD program, or export it as STL, OBJ or PLY.",
+                                              path, result.describe()));
+}
+
+}  // namespace
+
+std::string find_cad_program() {
+    if (const char* named = std::getenv("KERF_CAD")) return named;
+    const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
+    std::error_code ignored;
+    for (const fs::path& place : {folder / "kerf-cad", folder / "../libexec/kerf/kerf-cad"})
+        if (fs::exists(place, ignored)) return place.string();
+    return "";
+}
+
+CadBody read_cad(const std::string& path, const FileHash& file_hash, const CadOptions& options,
+                 const std::string& program, double timeout_seconds) {
+    if (program.empty())
+        throw Error(ErrorCode::usage,
+                    path +
+                        ": CAD files are read by the program kerf-cad, which is not here. Install "
+                        "libocct-data-exchange-dev, build kerf-cad and put it beside kerf (to run, it needs "
+                        "libocct-data-exchange-7.6), or export the file as STL, OBJ or PLY.");
+    CadAnswer answer = answer_of(run_cad_program(program, path, options, timeout_seconds), path, program);
+    if (answer.error_code != 0) throw Error(static_cast<ErrorCode>(answer.error_code), answer.message);
+    if (answer.body.file_hash != file_hash)
+        throw Error(ErrorCode::io, path + ": the file has changed while it was read. Run again.");
+    return std::move(answer.body);
+}
+
+Soup read_surface_or_cad(const std::string& path, const CadOptions& options) {
+    return read_surface_or_cad(read_file(path), path, options);
+}
+
+Soup read_surface_or_cad(std::string bytes, const std::string& path, const CadOptions& options) {
+    const FileHash file_hash = digest_of(bytes);
+    std::string content = decompress(std::move(bytes), path);
+    if (cad_format(content) != CadFormat::none) return std::move(read_cad(path, file_hash, options).soup);
+    if (options.solid > 0 || options.unite)
+        throw Error(ErrorCode::usage, fmt::format("{} is no CAD file, so that --{} has no meaning. Leave it out.", path,
+                                                  options.unite ? "unite" : "solid"));
+    return read_surface_bytes(std::move(content), path);
+}
+
+}  // namespace kerf

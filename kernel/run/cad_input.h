@@ -1,0 +1,29 @@
+// CAD files as input: the program kerf-cad reads them.
+#pragma once
+
+#include <string>
+
+#include "io/cad_body.h"
+
+namespace kerf {
+
+/// Path of kerf-cad: what the environment variable KERF_CAD names, else beside this program, else in ../libexec/kerf
+/// beside that; empty: nowhere.
+std::string find_cad_program();
+
+/// What the program `program` makes of the CAD file `path`, in a child process that is stopped after
+/// `timeout_seconds`. `file_hash`: of the bytes that the file must have.
+///
+/// Throws Error with the code and sentence of kerf-cad for a file that it refuses; Error(io) for a program that cannot
+/// be started or a file that has changed; Error(input) if the program crashes or takes too long, since other programs
+/// can export the file as triangles; Error(usage), naming the package, if `program` is empty.
+CadBody read_cad(const std::string& path, const FileHash& file_hash, const CadOptions& options,
+                 const std::string& program = find_cad_program(), double timeout_seconds = 600);
+
+/// read_surface() that knows CAD files, too.
+Soup read_surface_or_cad(const std::string& path, const CadOptions& options = {});
+
+/// The same for the bytes of the file at `path`. Throws Error(usage) for options of CAD files on another one.
+Soup read_surface_or_cad(std::string bytes, const std::string& path, const CadOptions& options);
+
+}  // namespace kerf

@@ -1,0 +1,79 @@
+// CAD files on the command line.
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "cad/cad_files.h"
+#include "io/cad_body.h"
+#include "io/file_bytes.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
+
+namespace kerf {
+namespace {
+
+class CadProgram : public testing::Test {
+ protected:
+    CadProgram() {
+        test::write_cad(part(), test::together({test::box({0, 0, 0}, {2, 1, 1}), test::cylinder(0.5, 3)}), "INCH");
+    }
+    std::string part() const { return folder_.file("part.step"); }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(CadProgram, CheckSaysWhatWasRead) {
+    const ChildResult refused = test::run_kerf({"check", part()});
+    EXPECT_EQ(refused.exit_code, 3) << "they overlap";
+    EXPECT_NE(test::output_of(refused).find("--unite"), std::string::npos) << test::output_of(refused);
+    const ChildResult united = test::run_kerf({"check", part(), "--unite"});
+    EXPECT_EQ(united.exit_code, 0) << test::output_of(united);
+    EXPECT_NE(test::output_of(united).find("STEP: unit inch -> mm, 1 solid"), std::string::npos)
+        << test::output_of(united);
+    EXPECT_EQ(test::run_kerf({"check", part(), "--solid", "2", "--unit", "inch"}).exit_code, 0);
+    EXPECT_EQ(test::run_kerf({"check", part(), "--solid", "9"}).exit_code, 2);
+    EXPECT_EQ(test::run_kerf({"check", part(), "--cad-deflection", "2"}).exit_code, 2);
+}
+
+TEST_F(CadProgram, MeshIsMadeOfTheFileAndVerified) {
+    const std::string out = folder_.file("out");
+    const ChildResult meshed = test::run_kerf(
+        {"mesh", part(), "-o", out, "-n", "2", "--workers", "1", "--solid", "2", "--cad-deflection", "1e-2"});
+    EXPECT_EQ(meshed.exit_code, 0) << meshed.log;
+    EXPECT_NE(meshed.log.find("1 solid, 3 faces"), std::string::npos) << meshed.log;
+    EXPECT_EQ(test::run_kerf({"verify", out}).exit_code, 0);
+    const ChildResult checked = test::run_kerf({"check", part(), "--solid", "2", "--json"});
+    EXPECT_NE(test::output_of(checked).find("\"solid 2/face 1\""), std::string::npos) << test::output_of(checked);
+}
+
+TEST_F(CadProgram, AnswersOnStandardOutputAndInAFileAreTheSame) {
+    const std::string out = folder_.file("answer");
+    const ChildResult answered = test::run_program(KERF_CAD_PROGRAM, {part(), "--solid", "1"});
+    ASSERT_EQ(answered.exit_code, 0) << answered.log;
+    const CadAnswer answer = from_cad_bytes(answered.output);
+    EXPECT_EQ(answer.body.file_hash, digest_of(read_file(part())));
+    EXPECT_EQ(answer.body.soup.facets.size(), 12u);
+    EXPECT_EQ(test::run_program(KERF_CAD_PROGRAM, {part(), "--solid", "1", "--output", out}).exit_code, 0);
+    EXPECT_EQ(read_file(out), test::output_of(answered));
+}
+
+TEST_F(CadProgram, RefusalsHaveTheirExitCode) {
+    EXPECT_EQ(test::run_program(KERF_CAD_PROGRAM, {}).exit_code, 2);
+    EXPECT_EQ(test::run_program(KERF_CAD_PROGRAM, {part(), "--sloid", "1"}).exit_code, 2);
+    EXPECT_EQ(test::run_program(KERF_CAD_PROGRAM, {folder_.file("nowhere.step")}).exit_code, 7);
+    const ChildResult overlapping = test::run_program(KERF_CAD_PROGRAM, {part()});
+    EXPECT_EQ(overlapping.exit_code, 3);
+    EXPECT_EQ(from_cad_bytes(overlapping.output).error_code, 3);
+    EXPECT_NE(overlapping.log.find("kerf-cad: "), std::string::npos);
+}
+
+TEST_F(CadProgram, ArchivesAreReadAsTheirContent) {
+    ASSERT_EQ(test::run_program("/bin/gzip", {"-k", part()}).exit_code, 0);
+    const ChildResult plain = test::run_kerf({"check", part(), "--solid", "1"});
+    const ChildResult packed = test::run_kerf({"check", part() + ".gz", "--solid", "1"});
+    EXPECT_EQ(packed.exit_code, 0) << test::output_of(packed);
+    EXPECT_EQ(packed.output.size(), plain.output.size() + 3) << "but for the name";
+}
+
+}  // namespace
+}  // namespace kerf
