@@ -98,6 +98,8 @@ class BodyMesher {
     }
 
     std::string trouble_of(const Tessellation& mesh) const {
+        if (mesh.facets.empty() && mesh.failed_faces.empty())
+            return fmt::format("solid '{}' has no faces. Export it again.", body_.name);
         if (!mesh.failed_faces.empty())
             return fmt::format(
                 "OpenCASCADE finds no triangles for {} ({}). Repair them in the CAD program, or export "
