@@ -11,6 +11,7 @@
 #include "io/offenders_writer.h"
 #include "io/output_file.h"
 #include "io/standard_streams.h"
+#include "run/remeshing.h"
 
 namespace kerf {
 
@@ -104,6 +105,9 @@ void print_text(const CheckRequest& request, CheckedSoup& checked) {
     text += defects_text(checked);
     const bool clean = diagnosis.clean();
     const bool more = diagnosis.defects.size() > 1;
+    if (const std::string note = sliver_note(find_slivers(checked.soup.vertices, checked.soup.facets), request.path);
+        clean && !note.empty())
+        text += fmt::format("  slivers   {}\n", note);
     text += clean ? "It can be meshed.\n" : "It cannot be meshed as it is.\n";
     if (more) text += "--json lists all, --offenders FILE.vtu shows them in ParaView.\n";
     print_data(text);

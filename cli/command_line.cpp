@@ -64,6 +64,16 @@ std::vector<OptionField> config_fields(CommandLine& line) {
     return fields;
 }
 
+// Options that say what the surface is, how fine, and how far it may be off.
+bool shapes_surface(const std::string& name) {
+    InputOptions of_input;
+    SizeOptions of_sizes;
+    const auto is_named = [&](const OptionField& field) { return field.name == name; };
+    const std::vector<OptionField> input = input_option_fields(of_input), sizes = size_option_fields(of_sizes);
+    return name == "deviation" || std::any_of(input.begin(), input.end(), is_named) ||
+           std::any_of(sizes.begin(), sizes.end(), is_named);
+}
+
 CLI::App* add_run_command(CLI::App& app, const char* name, const char* text, CommandLine& line) {
     CLI::App* command = app.add_subcommand(name, text);
     command
@@ -126,6 +136,20 @@ CLI::App* add_export_command(CLI::App& app, CommandLine& line) {
         ->check(CLI::PositiveNumber);
     command->add_option("--workers", request.threads, "Parts that each rank writes at once. Default: its processors.")
         ->check(CLI::Range(1, 4096));
+    command->add_flag("-q,--quiet", line.quiet, "Print nothing but errors.");
+    return command;
+}
+
+CLI::App* add_remesh_command(CLI::App& app, CommandLine& line) {
+    CLI::App* command = app.add_subcommand("remesh", "Make a surface worth meshing, within a bound of the input.");
+    command->add_option("input", line.options.input, "Closed surface, as for kerf mesh.")
+        ->required()
+        ->type_name("INPUT");
+    command->add_option("-o,--output", line.remeshed_file, "Surface, .obj (with patches) or .stl.")
+        ->required()
+        ->type_name("FILE");
+    for (const OptionField& field : option_fields(line.options))
+        if (shapes_surface(field.name)) add_field(*command, field);
     command->add_flag("-q,--quiet", line.quiet, "Print nothing but errors.");
     return command;
 }
@@ -214,6 +238,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     to_merge->add_option("--msh-version", line.merge.options.msh_version, "Of Gmsh's files.")
         ->check(CLI::IsMember({"4.1", "2.2"}));
     CLI::App* quality = add_quality_command(app, line.quality);
+    CLI::App* to_remesh = add_remesh_command(app, line);
     // Only for the list of commands: main() has passed these on to kerf-view.
     app.add_subcommand("view", "Open the viewer: every cut step by step, every cell.");
     app.add_subcommand("screenshot", "The same as a picture, without a display.");
@@ -255,6 +280,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         line.command = Command::merge;
     } else if (quality->parsed()) {
         line.command = Command::quality;
+    } else if (to_remesh->parsed()) {
+        line.command = Command::remesh;
     }
     return line;
 }

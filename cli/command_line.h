@@ -12,7 +12,7 @@
 
 namespace kerf {
 
-enum class Command { none, mesh, decompose, check, verify, export_formats, merge, quality };
+enum class Command { none, mesh, decompose, check, verify, export_formats, merge, quality, remesh };
 
 struct CommandLine {
     Command command = Command::none;
@@ -24,6 +24,7 @@ struct CommandLine {
     ExportRequest export_request;
     MergeRequest merge;
     QualityRequest quality;
+    std::string remeshed_file;  ///< of kerf remesh
     bool print_config = false;  ///< print the effective options and end
     std::string config_file;    ///< options that the command line does not give
     std::string config;         ///< them, in the form of a config file

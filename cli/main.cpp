@@ -11,6 +11,7 @@
 #include "cli/progress.h"
 #include "cli/quality.h"
 #include "cli/ranks.h"
+#include "cli/remesh.h"
 #include "cli/verify.h"
 #include "cli/viewer.h"
 #include "io/standard_streams.h"
@@ -115,6 +116,8 @@ int run_program(int argc, char** argv) {
             return merge_run(line.merge);
         case Command::quality:
             return show_quality(line.quality);
+        case Command::remesh:
+            return remesh_surface(line.options, line.remeshed_file, line.quiet);
         case Command::verify:
             return verify_run(line.options.output);
         default:

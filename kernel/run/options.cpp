@@ -188,6 +188,28 @@ std::vector<OptionField> input_option_fields(InputOptions& o) {
     };
 }
 
+std::vector<OptionField> size_option_fields(SizeOptions& o) {
+    return {
+        {"size", "", "Wanted edge length inside, in units of the input. Default: as the surface.", &o.size},
+        {"max-volume", "", "Largest volume of a tetrahedron, instead of --size.", &o.max_volume},
+        {"size-in", "",
+         "Edge length H in box:x0,y0,z0,x1,y1,z1=H, sphere:x,y,z,r=H or cylinder:x0,y0,z0,x1,y1,z1,r=H. Repeatable.",
+         &o.inside},
+        {"size-on", "", "Edge length H on a patch of the input, as NAME=H. Repeatable.", &o.on},
+        {"size-near", "", "Edge length H up to the distance D from a patch, as NAME=H:D. Repeatable.", &o.near},
+        {"growth", "",
+         "Growth of edge lengths per distance; if given, from the edges of the surface, too. Default 0: 0.3 from "
+         "others.",
+         &o.growth},
+        {"size-field", "", "Mesh of tetrahedra, .vtu or .msh, with the edge length as a scalar at its nodes.",
+         &o.field_file},
+        {"chord-error", "", "Finer where the surface is curved: distance of edges from it, units of the input.",
+         &o.chord_error},
+        {"segments-per-turn", "", "Finer where the surface is curved: edges of a full circle.", &o.segments_per_turn},
+        {"cells-across", "", "Finer where walls are thin: cells from one side to the other.", &o.cells_across},
+    };
+}
+
 // What is done to the surface, from nothing to most.
 OptionField::Choice surface_choice(RunOptions& o) {
     const auto get = [&o] {
@@ -209,24 +231,6 @@ std::vector<OptionField> option_fields(RunOptions& o) {
     std::vector<OptionField> fields = {
         {"parts", "n", "Number of parts K >= 1. Default: 4 for each worker, or what --memory asks for.",
          &o.decompose.parts},
-        {"size", "", "Wanted edge length inside, in units of the input. Default: as the surface.", &o.sizes.size},
-        {"max-volume", "", "Largest volume of a tetrahedron, instead of --size.", &o.sizes.max_volume},
-        {"size-in", "",
-         "Edge length H in box:x0,y0,z0,x1,y1,z1=H, sphere:x,y,z,r=H or cylinder:x0,y0,z0,x1,y1,z1,r=H. Repeatable.",
-         &o.sizes.inside},
-        {"size-on", "", "Edge length H on a patch of the input, as NAME=H. Repeatable.", &o.sizes.on},
-        {"size-near", "", "Edge length H up to the distance D from a patch, as NAME=H:D. Repeatable.", &o.sizes.near},
-        {"growth", "",
-         "Growth of edge lengths per distance; if given, from the edges of the surface, too. Default 0: 0.3 from "
-         "others.",
-         &o.sizes.growth},
-        {"size-field", "", "Mesh of tetrahedra, .vtu or .msh, with the edge length as a scalar at its nodes.",
-         &o.sizes.field_file},
-        {"chord-error", "", "Finer where the surface is curved: distance of edges from it, units of the input.",
-         &o.sizes.chord_error},
-        {"segments-per-turn", "", "Finer where the surface is curved: edges of a full circle.",
-         &o.sizes.segments_per_turn},
-        {"cells-across", "", "Finer where walls are thin: cells from one side to the other.", &o.sizes.cells_across},
         {"radius-edge", "", "Bound of circumradius over shortest edge; 0: no refinement. Default 1.4.",
          &o.mesher.radius_edge},
         {"cut", "", "Where planes lie: across the principal axis, or a coordinate axis. Default inertia.",
@@ -265,6 +269,8 @@ std::vector<OptionField> option_fields(RunOptions& o) {
         {"events", "", "Write progress as one JSON object per line to this file, or to fd:N.", &o.events_file, false},
         {"trace", "", "Write every cut with its stages and refused tries to this file.", &o.trace_file, false},
     };
+    const std::vector<OptionField> of_sizes = size_option_fields(o.sizes);
+    fields.insert(fields.begin() + 1, of_sizes.begin(), of_sizes.end());
     const std::vector<OptionField> of_input = input_option_fields(o.input_options);
     fields.insert(fields.end(), of_input.begin(), of_input.end());
     return fields;

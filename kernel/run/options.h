@@ -92,6 +92,9 @@ struct OptionText {
 /// The fields that say what is done to the input.
 std::vector<OptionField> input_option_fields(InputOptions& options);
 
+/// The fields that say how fine the mesh is, and where.
+std::vector<OptionField> size_option_fields(SizeOptions& options);
+
 /// The table: command line, config file, report and viewer show the same options in this order.
 std::vector<OptionField> option_fields(RunOptions& options);
 

@@ -20,13 +20,18 @@ constexpr double smallest_share = 1e-9;  // coordinates have few more digits
 constexpr double longest_share = 0.03;   // of the diagonal, for edges where nothing else is wanted
 constexpr double deg_per_rad = 180 / std::numbers::pi;
 
-std::vector<double> smallest_angles(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
-    std::vector<double> angles;
-    angles.reserve(facets.size());
-    for (const Triangle& t : facets)
-        angles.push_back(std::asin(std::min(1.0, smallest_sine(vertices[t[0]], vertices[t[1]], vertices[t[2]]))) *
-                         deg_per_rad);
-    return angles;
+std::vector<double> smallest_sines(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
+    std::vector<double> sines;
+    sines.reserve(facets.size());
+    for (const Triangle& t : facets) sines.push_back(smallest_sine(vertices[t[0]], vertices[t[1]], vertices[t[2]]));
+    return sines;
+}
+
+double in_degrees(double sine) { return std::asin(std::min(1.0, sine)) * deg_per_rad; }
+
+double smallest_angle(const SurfaceArrays& surface) {
+    const std::vector<double> sines = smallest_sines(surface.vertices, surface.facets);
+    return in_degrees(*std::min_element(sines.begin(), sines.end()));
 }
 
 // Lengths in space that the options ask for; the growth from the surface's own edges, which are to change, is not.
@@ -40,12 +45,13 @@ SizeField wanted_lengths(const RunOptions& options, const SurfaceArrays& surface
 }  // namespace
 
 Slivers find_slivers(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
-    std::vector<double> angles = smallest_angles(vertices, facets);
-    if (angles.empty()) return {};
-    const auto below = std::count_if(angles.begin(), angles.end(), [](double angle) { return angle < 5; });
-    const auto middle = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
-    std::nth_element(angles.begin(), middle, angles.end());
-    return {*middle, static_cast<double>(below) / static_cast<double>(angles.size())};
+    std::vector<double> sines = smallest_sines(vertices, facets);
+    if (sines.empty()) return {};
+    const double limit = std::sin(5 / deg_per_rad);
+    const auto below = std::count_if(sines.begin(), sines.end(), [&](double sine) { return sine < limit; });
+    const auto middle = sines.begin() + static_cast<std::ptrdiff_t>(sines.size() / 2);
+    std::nth_element(sines.begin(), middle, sines.end());
+    return {in_degrees(*middle), static_cast<double>(below) / static_cast<double>(sines.size())};
 }
 
 std::string sliver_note(const Slivers& slivers, const std::string& path) {
@@ -77,8 +83,12 @@ double parse_deviation(const std::string& text, double diagonal) {
 }
 
 Input remesh_where_asked(Input input, const RunOptions& options) {
-    if (options.remeshing == Remeshing::never) return input;
     const SurfaceArrays before = input.surface.arrays();
+    if (options.remeshing == Remeshing::never) {
+        const std::string note = sliver_note(find_slivers(before.vertices, before.facets), input.path);
+        if (!note.empty()) input.notes.push_back(note);
+        return input;
+    }
     if (options.remeshing == Remeshing::where_slivers_spoil_cells &&
         !find_slivers(before.vertices, before.facets).spoil_cells())
         return input;
@@ -89,11 +99,9 @@ Input remesh_where_asked(Input input, const RunOptions& options) {
     if (!wanted.is_empty()) remesh_options.wanted = [&](const Vec3& p) { return wanted.at(p); };
     Remeshed remeshed = remesh(before, remesh_options);
 
-    const std::vector<double> old_angles = smallest_angles(before.vertices, before.facets);
-    const std::vector<double> angles = smallest_angles(remeshed.surface.vertices, remeshed.surface.facets);
     input.remeshed = {.facets_before = input.facets,
-                      .smallest_angle_before_deg = *std::min_element(old_angles.begin(), old_angles.end()),
-                      .smallest_angle_deg = *std::min_element(angles.begin(), angles.end()),
+                      .smallest_angle_before_deg = smallest_angle(before),
+                      .smallest_angle_deg = smallest_angle(remeshed.surface),
                       .deviation = remesh_options.deviation,
                       .distance_to_input = remeshed.report.distance_to_input,
                       .distance_from_input = remeshed.report.distance_from_input,

@@ -26,9 +26,9 @@ std::string sliver_note(const Slivers& slivers, const std::string& path);
 /// Length that a text says: a number, or one with % of the diagonal. Throws Error(usage) naming the option.
 double parse_deviation(const std::string& text, double diagonal);
 
-/// The input, remeshed where `options` says so: its surface, counts, area and volume are the new ones, and
-/// Input::remeshed tells what was done. The wanted lengths are those of options.sizes. Throws Error(usage) for a
-/// deviation out of range, Error(input) where the bound cannot be kept.
+/// The input, remeshed where `options` says so, or with a note about slivers. Remeshed, its surface, counts, area and
+/// volume are the new ones, and Input::remeshed tells what was done. The wanted lengths are those of options.sizes.
+/// Throws Error(usage) for a deviation out of range, Error(input) where the bound cannot be kept.
 Input remesh_where_asked(Input input, const RunOptions& options);
 
 }  // namespace kerf

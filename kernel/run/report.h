@@ -102,6 +102,9 @@ struct RunReport {
 /// report.json as text, two spaces of indentation, sealed (io/run_manifest.h). Numbers that are not finite become null.
 std::string to_json(const RunReport& report);
 
+/// What remeshing did, in one line.
+std::string remeshing_text(const InputRemeshing& done);
+
 /// About ten lines for people.
 std::string to_text(const RunReport& report);
 

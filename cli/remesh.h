@@ -1,0 +1,14 @@
+// kerf remesh: a surface worth meshing, as a file.
+#pragma once
+
+#include <string>
+
+#include "run/options.h"
+
+namespace kerf {
+
+/// Remeshes options.input within options.deviation to the wanted lengths and writes it to `output`, an .obj with
+/// patches or an .stl. Tells what was done. Returns the exit code. Throws Error.
+int remesh_surface(RunOptions options, const std::string& output, bool quiet);
+
+}  // namespace kerf

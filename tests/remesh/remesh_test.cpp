@@ -1,0 +1,273 @@
+// Laws of the remesher over random surfaces: whatever is given, the result is closed, free of intersections, near the
+// input both ways, of the same topology and patches, and no worse shaped.
+#include "remesh/remesh.h"
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include "core/error.h"
+#include "run/remeshing.h"
+#include "support/shapes.h"
+#include "support/slice.h"
+#include "surface/intersections.h"
+#include "surface/mass_properties.h"
+#include "surface/triangle_tree.h"
+
+namespace kerf {
+namespace {
+
+double diagonal_of(const SurfaceArrays& surface) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : surface.vertices) box.extend(p);
+    return box.diagonal().norm();
+}
+
+RemeshOptions within(const SurfaceArrays& surface, double share) {
+    const double diagonal = diagonal_of(surface);
+    return {.deviation = share * diagonal, .longest = 0.1 * diagonal};
+}
+
+std::vector<double> sorted_sines(const SurfaceArrays& surface) {
+    std::vector<double> sines;
+    for (const Triangle& t : surface.facets)
+        sines.push_back(smallest_sine(surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]));
+    std::sort(sines.begin(), sines.end());
+    return sines;
+}
+
+// The largest distance of points of `from`, ten on each edge, from `to`.
+double distance_between(const SurfaceArrays& from, const SurfaceArrays& to) {
+    constexpr int n = 10;
+    const TriangleTree tree(to.vertices, to.facets);
+    double largest = 0;
+    for (const Triangle& t : from.facets)
+        for (int i = 0; i <= n; ++i)
+            for (int j = 0; i + j <= n; ++j) {
+                const Vec3 p =
+                    (i * from.vertices[t[0]] + j * from.vertices[t[1]] + (n - i - j) * from.vertices[t[2]]) / n;
+                largest = std::max(largest, std::sqrt(tree.closest(p).squared_distance));
+            }
+    return largest;
+}
+
+std::map<std::int32_t, double> areas_of_patches(const SurfaceArrays& surface) {
+    std::map<std::int32_t, double> areas;
+    for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+        const Triangle& t = surface.facets[f];
+        const Vec3& a = surface.vertices[t[0]];
+        areas[surface.patch[f]] += (surface.vertices[t[1]] - a).cross(surface.vertices[t[2]] - a).norm() / 2;
+    }
+    return areas;
+}
+
+int euler_number(const SurfaceArrays& surface) {
+    return static_cast<int>(surface.vertices.size()) - static_cast<int>(surface.facets.size()) / 2;
+}
+
+void obeys_the_laws(const SurfaceArrays& input, const SurfaceArrays& result, double deviation) {
+    EXPECT_TRUE(is_well_formed(result));
+    EXPECT_TRUE(find_manifold_defects(result.vertices.size(), result.facets).empty());
+    EXPECT_TRUE(find_self_intersections(result.vertices, result.facets).empty());
+    EXPECT_EQ(euler_number(result), euler_number(input));
+    // Between the points that the remesher looks at, a little more is possible.
+    EXPECT_LE(distance_between(result, input), 1.1 * deviation);
+    EXPECT_LE(distance_between(input, result), 1.1 * deviation);
+    const auto before = areas_of_patches(input), after = areas_of_patches(result);
+    EXPECT_EQ(before.size(), after.size());
+    const std::vector<double> old_sines = sorted_sines(input), sines = sorted_sines(result);
+    EXPECT_GE(sines[sines.size() / 100], std::min(0.1, old_sines[old_sines.size() / 100]));
+}
+
+// As a CAD program would write it: few vertices, triangles as long as the body.
+Soup drilled_plate(int segments, double thickness) {
+    Soup soup = test::plate_with_hole(segments);
+    for (Vec3& p : soup.vertices) p.z() *= thickness;
+    return soup;
+}
+
+struct RandomSurface {
+    std::string name;
+    SurfaceArrays surface;
+};
+
+RandomSurface random_surface(unsigned seed) {
+    std::mt19937 random(seed);
+    const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+    const auto whole = [&](int low, int high) { return std::uniform_int_distribution(low, high)(random); };
+    Soup soup;
+    std::string name;
+    switch (seed % 6) {
+        case 0:
+            name = "torus";
+            soup = test::torus(1, uniform(0.05, 0.6), whole(5, 60), whole(4, 20));
+            break;
+        case 1:
+            name = "plate with a hole";
+            soup = drilled_plate(4 * whole(1, 8), uniform(0.02, 1));
+            break;
+        case 2:
+            name = "prism of long strips";
+            soup = test::prism(whole(5, 80), 1, uniform(0.05, 20));
+            break;
+        case 3:
+            name = "sphere with sharp poles";
+            soup = test::uv_sphere(whole(5, 30), whole(5, 60));
+            break;
+        case 4:
+            name = "thin shell";
+            soup = test::join(test::icosphere(2), test::inside_out(test::icosphere(2, uniform(0.9, 0.98))));
+            break;
+        default:
+            name = "twisted cylinder";
+            soup = test::twisted_cylinder(whole(8, 30), whole(3, 12), 1, uniform(1, 8), uniform(0, 1));
+    }
+    const Eigen::Quaterniond turn = Eigen::Quaterniond(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), 1).normalized();
+    const double scale = std::pow(10, uniform(-3, 3));
+    const Vec3 offset = seed % 2 == 0 ? Vec3(scale * Vec3(uniform(-30, 30), 20, -10)) : Vec3(Vec3::Zero());
+    const Vec3 stretch = seed % 3 == 0 ? Vec3(1, uniform(0.1, 1), uniform(0.1, 1)) : Vec3(Vec3::Ones());
+    for (Vec3& p : soup.vertices) p = scale * (turn * Vec3(p.cwiseProduct(stretch))) + offset;
+    return {name, test::to_arrays(soup)};
+}
+
+TEST(Remesh, RandomSurfacesObeyTheLaws) {
+    for (unsigned seed = 0; seed < test::slice(18); ++seed) {
+        const auto [name, surface] = random_surface(seed);
+        const double share = std::array{1e-2, 1e-3, 1e-4, 2e-5, 1e-6, 1e-7}[(seed / 6 + 2 * seed) % 6];
+        SCOPED_TRACE(name + ", seed " + std::to_string(seed) + ", deviation " + std::to_string(share));
+        const RemeshOptions options = within(surface, share);
+        const Remeshed remeshed = remesh(surface, options);
+        obeys_the_laws(surface, remeshed.surface, options.deviation);
+        EXPECT_LE(remeshed.report.distance_to_input, options.deviation);
+        EXPECT_LE(remeshed.report.distance_from_input, options.deviation);
+    }
+}
+
+TEST(Remesh, StripsAndFansBecomeWellShaped) {
+    for (const Soup& soup : {test::prism(40, 1, 10), test::uv_sphere(20, 60), drilled_plate(16, 0.1)}) {
+        const SurfaceArrays surface = test::to_arrays(soup);
+        const std::vector<double> sines = sorted_sines(remesh(surface, within(surface, 2e-5)).surface);
+        EXPECT_GT(sines.front(), 0.17);  // 10 degrees
+        EXPECT_GT(sines[sines.size() / 2], 0.5);
+    }
+}
+
+TEST(Remesh, PlanesStayPlanesAndEdgesStayEdges) {
+    const SurfaceArrays surface = test::to_arrays(test::box(Vec3::Zero(), Vec3(1, 2, 3), 1));
+    const RemeshOptions options = within(surface, 1e-3);
+    const Remeshed remeshed = remesh(surface, options);
+    EXPECT_GT(remeshed.surface.facets.size(), 200U);
+    for (const Vec3& p : remeshed.surface.vertices) {
+        const double gap = std::min({p.x(), 1 - p.x(), p.y(), 2 - p.y(), p.z(), 3 - p.z()},
+                                    [](double a, double b) { return std::abs(a) < std::abs(b); });
+        EXPECT_NEAR(gap, 0, 1e-12);
+    }
+    EXPECT_NEAR(mass_properties(Surface(remeshed.surface)).volume, 6, 1e-11);
+    EXPECT_GE(remeshed.report.feature_edges * 1.35 * options.longest, 24);
+}
+
+TEST(Remesh, BordersOfPatchesStay) {
+    Soup soup = test::box(Vec3::Zero(), Vec3::Ones(), 4);
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) soup.patch[f] = static_cast<std::int32_t>(f % 5);
+    soup.patch_names.assign(5, "patch");
+    const SurfaceArrays surface = test::to_arrays(soup);
+    const auto before = areas_of_patches(surface);
+    const auto after = areas_of_patches(remesh(surface, within(surface, 1e-3)).surface);
+    ASSERT_EQ(before.size(), after.size());
+    for (const auto& [patch, area] : before) EXPECT_NEAR(after.at(patch), area, 1e-9);
+}
+
+TEST(Remesh, ObeysWantedLengths) {
+    const SurfaceArrays surface = test::to_arrays(test::box(Vec3::Zero(), Vec3::Ones(), 1));
+    RemeshOptions options = within(surface, 1e-4);
+    options.longest = 0.3;
+    options.wanted = [](const Vec3& p) { return 0.02 + 0.3 * p.x(); };
+    const SurfaceArrays result = remesh(surface, options).surface;
+    std::size_t fitting = 0, edges = 0;
+    for (const Triangle& t : result.facets)
+        for (int i = 0; i < 3; ++i) {
+            const Vec3 &a = result.vertices[t[i]], &b = result.vertices[t[(i + 1) % 3]];
+            const double ratio = (b - a).norm() / std::min(0.3, options.wanted((a + b) / 2));
+            fitting += ratio > 0.5 && ratio < 1.5;
+            ++edges;
+        }
+    EXPECT_GT(static_cast<double>(fitting), 0.9 * static_cast<double>(edges));
+}
+
+TEST(Remesh, OfARemeshedSurfaceChangesLittle) {
+    const SurfaceArrays surface = test::to_arrays(test::prism(24, 1, 3));
+    const RemeshOptions options = within(surface, 1e-4);
+    const SurfaceArrays once = remesh(surface, options).surface, twice = remesh(once, options).surface;
+    EXPECT_NEAR(static_cast<double>(twice.facets.size()), static_cast<double>(once.facets.size()),
+                0.25 * static_cast<double>(once.facets.size()));
+    EXPECT_GE(sorted_sines(twice).front(), 0.7 * sorted_sines(once).front());
+}
+
+TEST(Remesh, IsTheSameEveryTime) {
+    const SurfaceArrays surface = random_surface(5).surface;
+    const SurfaceArrays a = remesh(surface, within(surface, 1e-4)).surface;
+    const SurfaceArrays b = remesh(surface, within(surface, 1e-4)).surface;
+    EXPECT_EQ(a.vertices, b.vertices);
+    EXPECT_EQ(a.facets, b.facets);
+}
+
+TEST(Remesh, CanBeEndedFromOutside) {
+    const SurfaceArrays surface = test::to_arrays(test::prism(24, 1, 3));
+    RemeshOptions options = within(surface, 1e-4);
+    options.poll = [] { throw Error(ErrorCode::cancelled, "enough"); };
+    EXPECT_THROW(remesh(surface, options), Error);
+}
+
+TEST(Slivers, AreThoseThatSpoilCells) {
+    const Soup good = test::icosphere(2), bad = test::prism(60, 1, 20);
+    EXPECT_FALSE(find_slivers(good.vertices, good.facets).spoil_cells());
+    EXPECT_TRUE(find_slivers(bad.vertices, bad.facets).spoil_cells());
+    EXPECT_EQ(sliver_note(find_slivers(good.vertices, good.facets), "good.stl"), "");
+    EXPECT_NE(sliver_note(find_slivers(bad.vertices, bad.facets), "bad.stl").find("kerf mesh bad.stl --surface remesh"),
+              std::string::npos);
+}
+
+TEST(Deviation, IsALengthOrAShare) {
+    EXPECT_DOUBLE_EQ(parse_deviation("0.5", 100), 0.5);
+    EXPECT_DOUBLE_EQ(parse_deviation("0.01%", 100), 0.01);
+    for (const char* wrong : {"", "%", "-1", "0", "nan", "1e9", "6%", "1mm", "1 %x"})
+        EXPECT_THROW(parse_deviation(wrong, 100), Error) << wrong;
+}
+
+// All facets, for every point.
+TEST(TriangleTree, FindsTheClosestFacetAndTheFirstHit) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> uniform(-2, 2);
+    for (const Soup& soup : {test::icosphere(2), test::prism(50, 1, 1e-9), test::torus(1, 0.3, 20, 9)}) {
+        const TriangleTree tree(soup.vertices, soup.facets);
+        for (int i = 0; i < 100; ++i) {
+            const double x = uniform(random), y = uniform(random), z = uniform(random);
+            const Vec3 p(x, y, z);
+            double least = std::numeric_limits<double>::infinity();
+            for (const Triangle& t : soup.facets)
+                least = std::min(least,
+                                 (p - closest_point(p, soup.vertices[t[0]], soup.vertices[t[1]], soup.vertices[t[2]]))
+                                     .squaredNorm());
+            const TriangleTree::Closest closest = tree.closest(p);
+            EXPECT_EQ(closest.squared_distance, least);
+            EXPECT_EQ(tree.squared_distance_to(p, closest.facet), least);
+            const auto any = [](std::int32_t, double) { return true; };
+            EXPECT_TRUE(tree.any_within(p, std::sqrt(least) * (1 + 1e-12), any));
+            EXPECT_FALSE(tree.any_within(p, std::sqrt(least) * (1 - 1e-9), any));
+        }
+    }
+    const Soup cube = test::box();
+    const TriangleTree tree(cube.vertices, cube.facets);
+    const auto all = [](std::int32_t) { return true; };
+    EXPECT_DOUBLE_EQ(tree.first_hit({0.3, 0.4, -2}, {0, 0, 1}, 0, 10, all), 2);
+    EXPECT_DOUBLE_EQ(tree.first_hit({0.3, 0.4, -2}, {0, 0, 1}, 2.5, 10, all), 3);
+    EXPECT_EQ(tree.first_hit({0.3, 0.4, -2}, {0, 0, 1}, 3.5, 10, all), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(tree.first_hit({3, 0.4, -2}, {0, 0, 1}, 0, 10, all), std::numeric_limits<double>::infinity());
+}
+
+}  // namespace
+}  // namespace kerf
