@@ -28,19 +28,19 @@ struct RunOptions {
     SizeOptions sizes;           ///< of tetrahedra, see use_sizes()
     InputOptions input_options;  ///< of the surface before all else
     Remeshing remeshing = Remeshing::never;
-    std::string deviation = "0.002%";  ///< of a remeshed surface: units of the input, or with % of its diagonal
-    std::int32_t workers = 0;          ///< processes of each rank; 0: its share of the processors
-    double timeout_seconds = 600;      ///< of one attempt at one part; 0: none
-    std::int64_t memory_mb = 0;        ///< address space of one worker; 0: unlimited
-    std::int32_t attempts = 10;        ///< at one part, at most (volume/retries.h)
-    std::string report_file;           ///< a copy of the report; empty: only DIR/report.json
-    std::string trace_file;   ///< all cuts with their stages (run/trace.h); empty: none. Not inside of `output`
-    std::string events_file;  ///< of an EventLog that the caller gives to the run; empty: none
-    std::string formats;      ///< names of export/format.h with commas between; empty: vtu
-    bool reference = false;   ///< the whole is meshed in one piece, too, and compared
-    bool stl = false;         ///< the surfaces of the parts as STL, too
-    bool volume = true;       ///< false: stop at the closed surfaces of the parts
-    bool dry_run = false;     ///< stop at the plan, and write nothing
+    std::string deviation;     ///< of a remeshed surface: units of the input, or with % of its diagonal; empty: 0.002%
+    std::int32_t workers = 0;  ///< processes of each rank; 0: its share of the processors
+    double timeout_seconds = 600;  ///< of one attempt at one part; 0: none
+    std::int64_t memory_mb = 0;    ///< address space of one worker; 0: unlimited
+    std::int32_t attempts = 10;    ///< at one part, at most (volume/retries.h)
+    std::string report_file;       ///< a copy of the report; empty: only DIR/report.json
+    std::string trace_file;        ///< all cuts with their stages (run/trace.h); empty: none. Not inside of `output`
+    std::string events_file;       ///< of an EventLog that the caller gives to the run; empty: none
+    std::string formats;           ///< names of export/format.h with commas between; empty: vtu
+    bool reference = false;        ///< the whole is meshed in one piece, too, and compared
+    bool stl = false;              ///< the surfaces of the parts as STL, too
+    bool volume = true;            ///< false: stop at the closed surfaces of the parts
+    bool dry_run = false;          ///< stop at the plan, and write nothing
 
     /// Fills what follows from other choices, K excepted, and checks ranges and files. Throws Error(usage) naming
     /// option, value and range, Error(io) for a file that could not be written or would be lost.

@@ -15,6 +15,7 @@ namespace kerf {
 
 namespace {
 
+constexpr double usual_share = 2e-5;     // of the diagonal, for the deviation where none is given
 constexpr double largest_share = 0.05;   // of the diagonal, for the deviation
 constexpr double smallest_share = 1e-9;  // coordinates have few more digits
 constexpr double longest_share = 0.03;   // of the diagonal, for edges where nothing else is wanted
@@ -63,6 +64,7 @@ std::string sliver_note(const Slivers& slivers, const std::string& path) {
 }
 
 double parse_deviation(const std::string& text, double diagonal) {
+    if (text.empty()) return usual_share * diagonal;
     std::size_t end = 0;
     double value = 0;
     try {

@@ -23,7 +23,8 @@ Slivers find_slivers(const std::vector<Vec3>& vertices, const std::vector<Triang
 /// One sentence with the command that cures it; empty if they spoil nothing.
 std::string sliver_note(const Slivers& slivers, const std::string& path);
 
-/// Length that a text says: a number, or one with % of the diagonal. Throws Error(usage) naming the option.
+/// Length that a text says: a number, or one with % of the diagonal; empty: 0.002%. Throws Error(usage) naming the
+/// option.
 double parse_deviation(const std::string& text, double diagonal);
 
 /// The input, remeshed where `options` says so, or with a note about slivers. Remeshed, its surface, counts, area and

@@ -234,7 +234,8 @@ TEST(Slivers, AreThoseThatSpoilCells) {
 TEST(Deviation, IsALengthOrAShare) {
     EXPECT_DOUBLE_EQ(parse_deviation("0.5", 100), 0.5);
     EXPECT_DOUBLE_EQ(parse_deviation("0.01%", 100), 0.01);
-    for (const char* wrong : {"", "%", "-1", "0", "nan", "1e9", "6%", "1mm", "1 %x"})
+    EXPECT_DOUBLE_EQ(parse_deviation("", 100), 0.002);
+    for (const char* wrong : {" ", "%", "-1", "0", "nan", "1e9", "6%", "1mm", "1 %x"})
         EXPECT_THROW(parse_deviation(wrong, 100), Error) << wrong;
 }
 
