@@ -1,9 +1,16 @@
-// The point of a triangle that is closest to another point.
+// The point of a segment or triangle that is closest to another point.
 #pragma once
 
 #include "core/types.h"
 
 namespace kerf {
+
+/// The point of segment ab closest to p: its ends bit for bit.
+inline Vec3 closest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+    const Vec3 along = b - a;
+    const double t = along.dot(p - a), length_sq = along.squaredNorm();
+    return t <= 0 ? a : t >= length_sq ? b : Vec3(a + t / length_sq * along);
+}
 
 /// Barycentric coordinates of the point of triangle a, b, c closest to p, none negative, sum 1; by the regions of the
 /// triangle (Ericson 2005, section 5.1.5). Requires three different corners.

@@ -11,6 +11,8 @@
 
 #include <Eigen/Geometry>
 
+#include "surface/closest_point.h"
+
 namespace kerf {
 
 namespace {
@@ -18,12 +20,6 @@ namespace {
 constexpr double spacings = 16;
 
 Vec3 area_vector(const std::array<Vec3, 3>& t) { return (t[1] - t[0]).cross(t[2] - t[0]) / 2; }
-
-Vec3 closest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-    const Vec3 along = b - a;
-    const double t = along.dot(p - a), length_sq = along.squaredNorm();
-    return t <= 0 ? a : t >= length_sq ? b : Vec3(a + t / length_sq * along);
-}
 
 // Of a point from a facet with this unit normal, which is zero if the facet has no area.
 double distance_from(const std::array<Vec3, 3>& facet, const Vec3& normal, const Vec3& p) {

@@ -16,13 +16,6 @@ namespace {
 constexpr std::int32_t triangles_of_leaf = 4;
 constexpr double needle = 1e-12;  // squared height over squared longest edge, below which the plane is not trusted
 
-Vec3 closest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-    const Vec3 along = b - a;
-    const double squared = along.squaredNorm();
-    const double t = squared > 0 ? std::clamp(along.dot(p - a) / squared, 0.0, 1.0) : 0;
-    return a + t * along;
-}
-
 }  // namespace
 
 Vec3 closest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
