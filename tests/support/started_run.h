@@ -7,6 +7,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <ios>
 #include <iterator>
 #include <sstream>
 #include <string>
@@ -30,9 +31,18 @@ bool await(Condition condition) {
     return false;
 }
 
+/// What the system tells of a process in one of its files; empty if the process has ended, be it while the file is
+/// read.
+inline std::string told_of(pid_t process, const std::string& file) {
+    try {
+        return bytes_of_file("/proc/" + std::to_string(process) + "/" + file);
+    } catch (const std::ios_base::failure&) {
+        return "";
+    }
+}
+
 inline std::vector<pid_t> children_of(pid_t process) {
-    const std::string id = std::to_string(process);
-    std::istringstream list(bytes_of_file("/proc/" + id + "/task/" + id + "/children"));
+    std::istringstream list(told_of(process, "task/" + std::to_string(process) + "/children"));
     return {std::istream_iterator<pid_t>(list), {}};
 }
 
@@ -41,7 +51,7 @@ inline std::vector<pid_t> children_of(pid_t process) {
 inline std::vector<pid_t> descendants_of(pid_t process, const std::string& name) {
     std::vector<pid_t> found;
     for (const pid_t child : children_of(process)) {
-        if (bytes_of_file("/proc/" + std::to_string(child) + "/comm") == name + "\n") {
+        if (told_of(child, "comm") == name + "\n") {
             found.push_back(child);
             continue;
         }
@@ -52,7 +62,7 @@ inline std::vector<pid_t> descendants_of(pid_t process, const std::string& name)
 
 /// What the system tells of a process behind its name: its state, its parent, ...; empty if there is none.
 inline std::string status_of(pid_t process) {
-    const std::string stat = bytes_of_file("/proc/" + std::to_string(process) + "/stat");
+    const std::string stat = told_of(process, "stat");
     const std::size_t name_end = stat.rfind(')');
     return name_end == std::string::npos ? "" : stat.substr(name_end + 2);
 }
