@@ -15,21 +15,8 @@ using Corners = std::array<Vec3, 3>;
 constexpr double good_move_sine = 0.57;    // of 35 degrees: triangles may get worse down to this
 constexpr double least_turn_cosine = 0.5;  // of the normal of a new facet against that of the input
 
-// Barycentric coordinates, in quarters, of the points of a facet that are compared with the input: first those that
-// tell most. Corners are near it already.
-constexpr std::array<std::array<double, 3>, 13> samples = {{{2, 2, 0},
-                                                            {0, 2, 2},
-                                                            {2, 0, 2},
-                                                            {4. / 3, 4. / 3, 4. / 3},
-                                                            {2, 1, 1},
-                                                            {1, 2, 1},
-                                                            {1, 1, 2},
-                                                            {3, 1, 0},
-                                                            {1, 3, 0},
-                                                            {0, 3, 1},
-                                                            {0, 1, 3},
-                                                            {3, 0, 1},
-                                                            {1, 0, 3}}};
+constexpr double facing_cosine = -0.1;  // of a facet's normal against that of the input that it may be near
+constexpr int most_divisions = 60;      // of a facet, to see that it is near the input
 
 Vec3 area_normal(const Corners& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
 
@@ -50,7 +37,10 @@ double smallest_sine(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 EditedSurface::EditedSurface(const InputShape& input)
-    : input_(input), planes_(input.regions().planes), next_point_(input.vertices().size(), unlisted) {
+    : input_(input),
+      near_input_(input.tree()),
+      planes_(input.regions().planes),
+      next_point_(input.vertices().size(), unlisted) {
     for (const Vec3& p : input.vertices()) {
         const Vertex v = mesh_.add_vertex(p);
         mesh_.data(v).tolerance = input.vertex_tolerance(v.idx());
@@ -130,9 +120,13 @@ bool EditedSurface::stays_in_region(Facet f, const Corners& now) const {
 
 bool EditedSurface::is_near_input(Facet f, const Corners& now) {
     const Vec3 normal = area_normal(now);
-    return std::all_of(samples.begin(), samples.end(), [&](const auto& t) {
-        return input_.is_near((t[0] * now[0] + t[1] * now[1] + t[2] * now[2]) / 4, normal, share_, mesh_.data(f).near);
-    });
+    const double least = facing_cosine * normal.norm();
+    return near_input_.holds(
+        now, share_ * input_.largest_tolerance(),
+        [&](std::int32_t facet) {
+            return input_.normal(facet).dot(normal) > least ? share_ * input_.tolerance(facet) : -1;
+        },
+        most_divisions, mesh_.data(f).near);
 }
 
 bool EditedSurface::holds_points(std::span<const std::int32_t> points, std::span<const Corners> facets) const {
@@ -342,7 +336,9 @@ std::optional<Vec3> EditedSurface::place_near(Vertex v, const Vec3& wanted, bool
         return t > 0 ? std::optional<Vec3>(p + std::min(t, 0.5) * (end - p)) : std::nullopt;
     }
     if (features > 0) return std::nullopt;
-    return input_.tree().closest(wanted).point;
+    // No further than a facet that is known to be near.
+    const double squared = input_.tree().squared_distance_to(wanted, mesh_.data(*mesh_.cvf_begin(v)).near);
+    return squared == 0 ? wanted : input_.tree().closest(wanted, (1 + 1e-6) * squared).point;
 }
 
 bool EditedSurface::move(Vertex v, const Vec3& wanted) {

@@ -12,6 +12,7 @@
 
 #include "remesh/input_shape.h"
 #include "remesh/remesh.h"
+#include "surface/nearness.h"
 
 namespace kerf {
 
@@ -24,6 +25,7 @@ struct EditTraits : OpenMesh::DefaultTraits {
     HalfedgeAttributes(OpenMesh::Attributes::Status | OpenMesh::Attributes::PrevHalfedge);
     VertexTraits {
         double size = 0;          // wanted length of the edges
+        double asked = 0;         // by the user alone, at least size
         double tolerance = 0;     // of the input around
         std::int32_t input = -1;  // vertex of the input that it is, -1: none
     };
@@ -43,7 +45,7 @@ using EditMesh = OpenMesh::TriMesh_ArrayKernelT<EditTraits>;
 /// The half-edge mesh of the remesher. Its operations change nothing and return false where they would leave the bound
 /// of the input, turn a facet over, lose a feature, change the topology or make the worst triangle worse.
 ///
-/// The bound both ways: points of every new facet are near the input (InputShape::is_near), and every vertex of the
+/// The bound both ways: every new facet is near the input (Nearness), and every vertex of the
 /// input that is no vertex any more is within its tolerance of a facet that stands for it. Facets that stay in a flat
 /// region are near it as a whole.
 class EditedSurface {
@@ -59,7 +61,12 @@ class EditedSurface {
     const InputShape& input() const { return input_; }
     const Vec3& point(Vertex v) const { return mesh_.point(v); }
     double size(Vertex v) const { return mesh_.data(v).size; }
-    void set_size(Vertex v, double size) { mesh_.data(v).size = size; }
+    /// `asked` is what the user wants, whatever the shape needs.
+    void set_size(Vertex v, double size, double asked) {
+        mesh_.data(v).size = size;
+        mesh_.data(v).asked = asked;
+    }
+    double asked(Vertex v) const { return mesh_.data(v).asked; }
     void set_fold(Edge e, std::int32_t fold) { mesh_.data(e).fold = fold; }
     /// What operations may use of the tolerances, 1 in the beginning: what is left out first leaves room for the rest.
     void set_share(double share) { share_ = share; }
@@ -123,6 +130,7 @@ class EditedSurface {
     void give_points(std::span<const std::int32_t> points, std::span<const Facet> facets);
 
     const InputShape& input_;
+    Nearness near_input_;
     EditMesh mesh_;
     std::vector<FlatRegion> planes_;
     double share_ = 1;

@@ -8,11 +8,15 @@
 
 #include <Eigen/Geometry>
 
+#include "surface/closest_point.h"
+
 namespace kerf {
 
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double well_shaped_sine = 0.5;  // of 30 degrees
+constexpr double straight_share = 0.2;    // of the tolerance: how far from a straight line its vertices may be
 
 // Of the third vertex of the facet of a half-edge.
 double height_over(const EditMesh& mesh, EditedSurface::HalfEdge h) {
@@ -33,6 +37,16 @@ double chord_over(const EditedSurface& surface, EditedSurface::Edge e) {
     const double tolerance =
         std::min(mesh.data(mesh.from_vertex_handle(h)).tolerance, mesh.data(mesh.to_vertex_handle(h)).tolerance);
     return std::sqrt(8 * tolerance * width / angle);
+}
+
+// The longest edge around a vertex if all facets there are as they should be, 0 otherwise.
+double well_shaped_length(const EditedSurface& surface, EditedSurface::Vertex v) {
+    double longest = 0;
+    for (const auto out : surface.mesh().voh_range(v)) {
+        if (surface.sine(out.face()) < well_shaped_sine) return 0;
+        longest = std::max(longest, surface.length(out.edge()));
+    }
+    return longest;
 }
 
 Vec3 vertex_normal(const EditMesh& mesh, EditedSurface::Vertex v) {
@@ -71,15 +85,16 @@ FoldSizes::FoldSizes(EditedSurface& surface, const FoldSizeOptions& options) : s
         if (const std::int32_t fold = mesh.data(e).fold; fold >= 0)
             for (const auto v : {e.v0(), e.v1()})
                 sizes[v.idx()] =
-                    std::min(sizes[v.idx()], std::max({chord_[fold], surface.length(e), options.shortest}));
+                    std::min(sizes[v.idx()], std::max({chord_[fold], straight_length(e), options.shortest}));
     for (const auto v : mesh.vertices()) {
         double own_chord = infinite;
         for (const auto e : mesh.ve_range(v))
             if (const std::int32_t fold = mesh.data(e).fold; fold >= 0) own_chord = std::min(own_chord, chord_[fold]);
-        sizes[v.idx()] = at(v, own_chord, sizes[v.idx()]);
+        const double size = std::max(at(v, own_chord, sizes[v.idx()]), well_shaped_length(surface, v));
+        sizes[v.idx()] = std::min(size, asked(mesh.point(v)));
     }
     limit_growth(mesh, options.growth, sizes);
-    for (const auto v : mesh.vertices()) surface.set_size(v, sizes[v.idx()]);
+    for (const auto v : mesh.vertices()) surface.set_size(v, sizes[v.idx()], asked(mesh.point(v)));
 }
 
 void FoldSizes::find_folds(EditedSurface& surface) {
@@ -94,6 +109,32 @@ void FoldSizes::find_folds(EditedSurface& surface) {
         segments.push_back({2 * number, 2 * number + 1, 2 * number + 1});
     }
     if (!segments.empty()) folds_.emplace(ends_, segments);
+}
+
+// Of an edge and those that go on from its ends as features in the same direction.
+double FoldSizes::straight_length(EditedSurface::Edge e) const {
+    const EditMesh& mesh = surface_.mesh();
+    double length = surface_.length(e);
+    if (!mesh.data(e).is_feature) return length;
+    for (const int side : {0, 1}) {
+        auto h = mesh.halfedge_handle(e, side);
+        const Vec3 start = mesh.point(mesh.from_vertex_handle(h));
+        while (length < options_.longest) {
+            const EditedSurface::Vertex end = mesh.to_vertex_handle(h);
+            if (surface_.feature_count(end) != 2) break;
+            auto next = mesh.next_halfedge_handle(h);
+            while (!mesh.data(mesh.edge_handle(next)).is_feature)
+                next = mesh.next_halfedge_handle(mesh.opposite_halfedge_handle(next));
+            const Vec3& beyond = mesh.point(mesh.to_vertex_handle(next));
+            const Vec3 middle = closest_on_segment(mesh.point(end), start, beyond);
+            if ((middle - mesh.point(end)).norm() > straight_share * mesh.data(end).tolerance || middle == start ||
+                middle == beyond)
+                break;
+            length += surface_.length(mesh.edge_handle(next));
+            h = next;
+        }
+    }
+    return length;
 }
 
 double FoldSizes::of_new(EditedSurface::Vertex v, std::int32_t fold, double grown) const {
@@ -113,7 +154,7 @@ double FoldSizes::at(EditedSurface::Vertex v, double own_chord, double grown) co
         });
     if (options_.edges_per_thickness > 0) size = std::min(size, across_wall(v, size));
     size = std::min(grown, std::max(size, options_.shortest));
-    return options_.wanted ? std::min(size, options_.wanted(p)) : size;
+    return std::min(size, asked(p));
 }
 
 // The way inwards to a sheet that faces the other way.

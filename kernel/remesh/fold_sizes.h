@@ -1,7 +1,9 @@
 // How long the edges of a remeshed surface are to be, from what the surface looks like.
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <optional>
 #include <span>
 
 #include "remesh/edited_surface.h"
@@ -21,16 +23,22 @@ struct FoldSizeOptions {
 class FoldSizes {
  public:
     /// Numbers the folds (EditTraits::fold) and sets the size of every vertex, which is not more than what grows from
-    /// its neighbours. Keeps the reference. O(#V log #V) where few folds are near each other.
+    /// its neighbours; where all facets around it are well shaped, it is not less than their edges. Keeps the
+    /// reference. O(#V log #V) where few folds are near each other.
     FoldSizes(EditedSurface& surface, const FoldSizeOptions& options);
 
     /// Of a vertex that has come onto an edge of that fold (-1: of none), given what has grown to there. Away from
     /// folds nothing is asked but what grows from them.
     double of_new(EditedSurface::Vertex v, std::int32_t fold, double grown) const;
+    /// By the user at a point, at most the longest.
+    double asked(const Vec3& p) const {
+        return options_.wanted ? std::min(options_.wanted(p), options_.longest) : options_.longest;
+    }
 
  private:
     void find_folds(EditedSurface& surface);
     double at(EditedSurface::Vertex v, double own_chord, double grown) const;
+    double straight_length(EditedSurface::Edge e) const;
     double across_wall(EditedSurface::Vertex v, double limit) const;
 
     const EditedSurface& surface_;

@@ -60,19 +60,6 @@ void InputShape::find_features(double feature_angle_deg) {
                            normal(corner / 3).dot(normal(partner[corner] / 3)) < least_cosine);
 }
 
-bool InputShape::is_near(const Vec3& p, const Vec3& normal, double share, std::int32_t& hint) const {
-    const auto accepts = [&](std::int32_t facet, double squared) {
-        return squared <= share * share * tolerance_[facet] * tolerance_[facet] &&
-               this->normal(facet).dot(normal) > -0.1;
-    };
-    if (hint >= 0 && accepts(hint, tree_.squared_distance_to(p, hint))) return true;
-    return tree_.any_within(p, share * largest_tolerance_, [&](std::int32_t facet, double squared) {
-        if (!accepts(facet, squared)) return false;
-        hint = facet;
-        return true;
-    });
-}
-
 std::vector<double> tolerances_of_gaps(const SurfaceArrays& surface, double deviation) {
     const TriangleTree tree(surface.vertices, surface.facets);
     std::vector<double> tolerance(surface.facets.size(), deviation);

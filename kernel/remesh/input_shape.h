@@ -34,10 +34,6 @@ class InputShape {
     double noise() const { return noise_; }
     double largest_tolerance() const { return largest_tolerance_; }
 
-    /// Whether p is within a share of the tolerance of a facet that does not face away from `normal`. `hint` is a facet
-    /// to try first, and the one found then.
-    bool is_near(const Vec3& p, const Vec3& normal, double share, std::int32_t& hint) const;
-
  private:
     void find_features(double feature_angle_deg);
 

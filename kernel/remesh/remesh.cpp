@@ -12,6 +12,7 @@
 #include "remesh/edited_surface.h"
 #include "remesh/fold_sizes.h"
 #include "surface/intersections.h"
+#include "surface/nearness.h"
 
 namespace kerf {
 
@@ -19,6 +20,7 @@ namespace {
 
 // Edges over their wanted length. A half of one that is split must not be one that is collapsed.
 constexpr double split_ratio = 1.35, collapse_ratio = 0.6;
+constexpr double least_move = 0.01;  // of the size at a vertex
 constexpr double sine_of_20 = 0.342, sine_of_10 = 0.1736;
 constexpr int most_simplifications = 6, passes = 4, last_passes = 2, smoothings = 2, flips = 4;
 // Of the tolerance: what is left out first, and what counts as flat then, leaves room for what comes after.
@@ -27,8 +29,11 @@ constexpr double shortest_over_deviation = 3, shortest_over_longest = 0.02;
 // Points between those that operations compare with the input may be further off.
 constexpr double used_share = 0.8;
 constexpr int most_rounds = 5;
-constexpr double smaller_tolerance = 0.25;  // of the tolerance, where the result of a round is refused
-constexpr int samples_per_edge = 6;         // per edge, with which the result is compared with the input
+constexpr std::int64_t steps_between_polls = 256;
+constexpr double smaller_tolerance = 0.25;                 // of the tolerance, where the result of a round is refused
+constexpr int samples_per_edge = 6;                        // to find the input beside a facet of the result
+constexpr double first_bound = 0.2, step_of_bound = 1.25;  // of the deviation; of the one before
+constexpr int most_divisions_of_inspection = 100'000;      // of a facet, to see that it is near the other surface
 
 class Remesher {
  public:
@@ -67,14 +72,16 @@ class Remesher {
     using HalfEdge = EditedSurface::HalfEdge;
     const EditMesh& mesh() const { return surface_.mesh(); }
 
-    void poll() const {
-        if (options_.poll) options_.poll();
+    // Cheap: called for every edge or vertex.
+    void poll() {
+        if (options_.poll && ++steps_ % steps_between_polls == 0) options_.poll();
     }
 
     double target(Edge e) const {
         const Vertex a = mesh().to_vertex_handle(mesh().halfedge_handle(e, 0));
         const Vertex b = mesh().to_vertex_handle(mesh().halfedge_handle(e, 1));
-        return std::min(surface_.size(a), surface_.size(b)) + options_.growth * surface_.length(e) / 3;
+        return std::min(std::max(surface_.asked(a), surface_.asked(b)),
+                        std::min(surface_.size(a), surface_.size(b)) + options_.growth * surface_.length(e) / 3);
     }
     double ratio(Edge e) const { return surface_.length(e) / target(e); }
     bool is_alive(Edge e) const { return !mesh().status(e).deleted(); }
@@ -124,11 +131,12 @@ class Remesher {
     void simplify() {
         const EditedSurface::CollapseRules rules = {.good_sine = sine_of_20, .worst_share = 0.9};
         for (int pass = 0; pass < most_simplifications; ++pass) {
-            poll();
             std::size_t collapsed = 0;
             for (const auto& [length, e] :
-                 edges_by_length([&](Edge, double length) { return length < 0.8 * options_.longest; }))
+                 edges_by_length([&](Edge, double length) { return length < 0.8 * options_.longest; })) {
+                poll();
                 if (is_alive(e) && collapse_either_way(e, rules)) ++collapsed;
+            }
             flip_edges();
             if (collapsed * 100 < mesh().n_faces()) break;
         }
@@ -136,8 +144,10 @@ class Remesher {
 
     void collapse_short_edges() {
         const EditedSurface::CollapseRules rules = {.good_sine = sine_of_20, .longest = split_ratio};
-        for (const auto& [length, e] : edges_by_length([&](Edge e, double) { return ratio(e) < collapse_ratio; }))
+        for (const auto& [length, e] : edges_by_length([&](Edge e, double) { return ratio(e) < collapse_ratio; })) {
+            poll();
             if (is_alive(e) && ratio(e) < collapse_ratio) collapse_either_way(e, rules);
+        }
     }
 
     void split_long_edges() {
@@ -155,6 +165,7 @@ class Remesher {
         for (const auto e : mesh().edges()) add(e);
         std::vector<Edge> around;
         while (!open.empty()) {
+            poll();
             const auto [r, wanted] = open.top();
             open.pop();
             if (ratio(wanted) != r) continue;
@@ -164,7 +175,7 @@ class Remesher {
             const double size = std::min(surface_.size(a), surface_.size(b)) + options_.growth * surface_.length(e) / 2;
             const std::int32_t fold = mesh().data(e).fold;
             const Vertex v = surface_.split(e, 0.5);
-            surface_.set_size(v, sizes_->of_new(v, fold, size));
+            surface_.set_size(v, sizes_->of_new(v, fold, size), sizes_->asked(surface_.point(v)));
             for (const auto h : mesh().voh_range(v))
                 around.push_back(mesh().edge_handle(mesh().next_halfedge_handle(h)));
             legalise(around, 200);
@@ -196,10 +207,11 @@ class Remesher {
 
     void flip_edges() {
         for (int pass = 0; pass < flips; ++pass) {
-            poll();
             std::size_t flipped = 0;
-            for (const auto e : mesh().edges())
+            for (const auto e : mesh().edges()) {
+                poll();
                 if (surface_.flip(e)) ++flipped;
+            }
             if (flipped * 500 < mesh().n_edges()) break;
         }
     }
@@ -208,6 +220,7 @@ class Remesher {
     void smooth() {
         for (int pass = 0; pass < smoothings; ++pass)
             for (const auto v : mesh().vertices()) {
+                poll();
                 Vec3 sum = Vec3::Zero();
                 double weights = 0;
                 for (const auto h : mesh().voh_range(v)) {
@@ -219,7 +232,8 @@ class Remesher {
                     sum += weight * centre;
                     weights += weight;
                 }
-                if (weights > 0) surface_.move(v, sum / weights);
+                if (weights > 0 && (sum / weights - mesh().point(v)).norm() > least_move * surface_.size(v))
+                    surface_.move(v, sum / weights);
             }
     }
 
@@ -238,6 +252,7 @@ class Remesher {
     const RemeshOptions& options_;
     EditedSurface surface_;
     std::optional<FoldSizes> sizes_;
+    std::int64_t steps_ = 0;
 };
 
 // Calls visit(point) for the points of a facet that divide each edge in so many.
@@ -249,53 +264,47 @@ void for_each_sample(const std::vector<Vec3>& vertices, const Triangle& t, Visit
                        samples_per_edge));
 }
 
-// The largest distance of points from a surface: only where it grows is it asked for.
-class FarthestPoint {
- public:
-    explicit FarthestPoint(const TriangleTree& tree) : tree_(tree) {}
-    double distance() const { return distance_; }
-    /// Returns distance() as it is then: nothing is beyond it.
-    double add(const Vec3& p) {
-        const auto is_there = [](std::int32_t, double) { return true; };
-        if (!tree_.any_within(p, distance_, is_there)) distance_ = std::sqrt(tree_.closest(p).squared_distance);
-        return distance_;
-    }
-
- private:
-    const TriangleTree& tree_;
-    double distance_ = 0;
-};
-
 // Compares a result with the input: facets that meet, and points too far from the other surface. Says which facets of
 // the input are there.
 class Inspection {
  public:
-    Inspection(const SurfaceArrays& input, const TriangleTree& input_tree, double deviation)
-        : input_(input), input_tree_(input_tree), deviation_(deviation), refused_(input.facets.size(), 0) {}
+    Inspection(const SurfaceArrays& input, const TriangleTree& input_tree, const RemeshOptions& options)
+        : input_(input),
+          input_tree_(input_tree),
+          deviation_(options.deviation),
+          poll_(options.poll),
+          refused_(input.facets.size(), 0) {}
 
     std::vector<char> run(const SurfaceArrays& result, RemeshReport& report) {
         for (const auto& [f, g] : find_self_intersections(result.vertices, result.facets))
             for (const std::int32_t facet : {f, g}) refuse_around(result, facet);
-        FarthestPoint to_input(input_tree_);
+        double bound_to_input = first_bound * deviation_, bound_from_input = bound_to_input;
+        Nearness to_input(input_tree_);
         for (const Triangle& t : result.facets)
-            for_each_sample(result.vertices, t, [&](const Vec3& p) {
-                if (is_far(p, to_input, input_tree_)) refused_[input_tree_.closest(p).facet] = 1;
-            });
+            if (!is_near(result.vertices, t, to_input, bound_to_input))
+                for_each_sample(result.vertices, t, [&](const Vec3& p) { refused_[input_tree_.closest(p).facet] = 1; });
         const TriangleTree tree(result.vertices, result.facets);
-        FarthestPoint from_input(tree);
+        Nearness from_input(tree);
         for (std::size_t f = 0; f < input_.facets.size(); ++f)
-            for_each_sample(input_.vertices, input_.facets[f], [&](const Vec3& p) {
-                if (is_far(p, from_input, tree)) refused_[f] = 1;
-            });
-        report.distance_to_input = to_input.distance();
-        report.distance_from_input = from_input.distance();
+            if (!is_near(input_.vertices, input_.facets[f], from_input, bound_from_input)) refused_[f] = 1;
+        report.distance_to_input = to_input.directed_distance();
+        report.distance_from_input = from_input.directed_distance();
         return std::move(refused_);
     }
 
  private:
-    bool is_far(const Vec3& p, FarthestPoint& farthest, const TriangleTree& tree) const {
-        if (farthest.distance() <= deviation_) return farthest.add(p) > deviation_;
-        return !tree.any_within(p, deviation_, [](std::int32_t, double) { return true; });
+    // Also finds out, step by step, how small a bound would do.
+    bool is_near(const std::vector<Vec3>& vertices, const Triangle& t, Nearness& nearness, double& bound) const {
+        if (poll_) poll_();
+        std::int32_t hint = -1;
+        const auto holds = [&] {
+            return nearness.holds(
+                {vertices[t[0]], vertices[t[1]], vertices[t[2]]}, bound, [&](std::int32_t) { return bound; },
+                most_divisions_of_inspection, hint);
+        };
+        for (; !holds(); bound = std::min(deviation_, step_of_bound * bound))
+            if (bound == deviation_) return false;
+        return true;
     }
     void refuse_around(const SurfaceArrays& result, std::int32_t facet) {
         for_each_sample(result.vertices, result.facets[facet], [&](const Vec3& p) {
@@ -309,8 +318,19 @@ class Inspection {
     const SurfaceArrays& input_;
     const TriangleTree& input_tree_;
     double deviation_;
+    const std::function<void()>& poll_;
     std::vector<char> refused_;
 };
+
+std::vector<InputPlace> places_on(const TriangleTree& input, const std::vector<Vec3>& vertices) {
+    std::vector<InputPlace> places;
+    places.reserve(vertices.size());
+    for (const Vec3& p : vertices) {
+        const TriangleTree::Closest closest = input.closest(p);
+        places.push_back({closest.facet, closest.point});
+    }
+    return places;
+}
 
 void check_remesh_options(const RemeshOptions& options) {
     KERF_CHECK(options.deviation > 0 && options.longest > 0 && options.growth > 0 && options.feature_angle_deg > 0);
@@ -326,12 +346,14 @@ Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& options) {
         const InputShape input(surface, tolerance, options.feature_angle_deg);
         Remesher remesher(input, options);
         remesher.run();
-        Remeshed result = {remesher.surface().arrays(),
-                           {.rounds = round, .feature_edges = remesher.surface().feature_edges()}};
-        const std::vector<char> refused =
-            Inspection(surface, tree, options.deviation).run(result.surface, result.report);
+        Remeshed result = {
+            remesher.surface().arrays(), {}, {.rounds = round, .feature_edges = remesher.surface().feature_edges()}};
+        const std::vector<char> refused = Inspection(surface, tree, options).run(result.surface, result.report);
         const auto count = std::count(refused.begin(), refused.end(), char{1});
-        if (count == 0) return result;
+        if (count == 0) {
+            result.places = places_on(tree, result.surface.vertices);
+            return result;
+        }
         if (round == most_rounds) {
             const auto first = std::find(refused.begin(), refused.end(), char{1}) - refused.begin();
             const Vec3& place = surface.vertices[surface.facets[first][0]];

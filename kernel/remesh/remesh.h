@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "surface/surface.h"
 
@@ -20,15 +21,22 @@ struct RemeshOptions {
 struct RemeshReport {
     std::int64_t rounds = 0;  ///< with smaller tolerances where the result was refused; 1: nowhere
     double distance_to_input = 0,
-           distance_from_input = 0;  ///< largest that was found, of the new surface and of the old
+           distance_from_input = 0;  ///< nothing of the new surface, and of the old, is further away; proven
     std::int64_t feature_edges = 0;  ///< of the new surface
 };
 
 /// sin of the smallest angle of a triangle, 0 for a degenerate one.
 double smallest_sine(const Vec3& a, const Vec3& b, const Vec3& c);
 
+/// What a vertex stands for.
+struct InputPlace {
+    std::int32_t facet;  ///< of the input, the closest
+    Vec3 point;          ///< of it
+};
+
 struct Remeshed {
     SurfaceArrays surface;
+    std::vector<InputPlace> places;  ///< of the vertices
     RemeshReport report;
 };
 
@@ -36,9 +44,9 @@ struct Remeshed {
 /// asks for: as the surface folds there, as walls are thick, as `wanted` says, with growth between.
 ///
 /// Topology, features (sharp edges and the borders of patches) and the patches of facets stay. No point of either
-/// surface is further than `deviation` from the other, as far as that is seen at 28 points of each facet, and the
-/// result has no self-intersections, by exact predicates: where one of them fails, the tolerance of the facets there is
-/// made smaller and all is done again. Keys are the numbers in the result. Throws Error(input) with the place if that
+/// surface is further than `deviation` from the other, which is proven (Nearness), and the result has no
+/// self-intersections, by exact predicates: where one of them fails, the tolerance of the facets there is made smaller
+/// and all is done again. Keys are the numbers in the result. Throws Error(input) with the place if that
 /// does not help. Requires a closed surface without intersections. Deterministic. O(#F log #F) for the larger of both
 /// surfaces.
 ///

@@ -13,8 +13,41 @@ namespace kerf {
 
 namespace {
 
-constexpr std::int32_t triangles_of_leaf = 4;
+constexpr std::int32_t pieces_of_leaf = 4;
 constexpr double needle = 1e-12;  // squared height over squared longest edge, below which the plane is not trusted
+constexpr double fat = 8;         // a box over its triangle, by area: beyond that it is the box of something else
+constexpr int most_halvings = 3;
+
+double area_of(const Eigen::AlignedBox3d& box) {
+    const Vec3 sides = box.sizes();
+    return sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0];
+}
+
+// The boxes of triangles: several for one that its box does not describe, as those of needles across the axes.
+struct Pieces {
+    std::vector<Eigen::AlignedBox3d> boxes;
+    std::vector<std::int32_t> facets;
+    std::int32_t facet = 0;  // whose pieces are added
+
+    void add(const std::array<Vec3, 3>& t, int halvings) {
+        Eigen::AlignedBox3d box(t[0]);
+        box.extend(t[1]).extend(t[2]);
+        const double area = (t[1] - t[0]).cross(t[2] - t[0]).norm() / 2;
+        if (halvings > 0 && area > 0 && area_of(box) > fat * area) {
+            int longest = 0;
+            for (int i = 1; i < 3; ++i)
+                if ((t[(i + 1) % 3] - t[i]).squaredNorm() > (t[(longest + 1) % 3] - t[longest]).squaredNorm())
+                    longest = i;
+            const Vec3 &a = t[longest], &b = t[(longest + 1) % 3], &c = t[(longest + 2) % 3];
+            const Vec3 middle = (a + b) / 2;
+            add({a, middle, c}, halvings - 1);
+            add({middle, b, c}, halvings - 1);
+            return;
+        }
+        boxes.push_back(box);
+        facets.push_back(facet);
+    }
+};
 
 }  // namespace
 
@@ -32,41 +65,40 @@ Vec3 closest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 TriangleTree::TriangleTree(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets)
-    : order_(facets.size()), place_(facets.size()) {
+    : place_(facets.size()) {
     KERF_CHECK(are_in_range(facets, vertices.size()));
+    Pieces pieces;
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+        const Triangle& t = facets[f];
+        pieces.facet = static_cast<std::int32_t>(f);
+        pieces.add({vertices[t[0]], vertices[t[1]], vertices[t[2]]}, most_halvings);
+    }
+    order_.resize(pieces.facets.size());
     std::iota(order_.begin(), order_.end(), 0);
-    std::vector<Vec3> centres;
-    centres.reserve(facets.size());
-    corners_.reserve(facets.size());
-    for (const Triangle& t : facets) {
-        corners_.push_back({vertices[t[0]], vertices[t[1]], vertices[t[2]]});
-        centres.push_back((corners_.back()[0] + corners_.back()[1] + corners_.back()[2]) / 3);
+    nodes_.push_back({{}, 0, static_cast<std::int32_t>(order_.size())});
+    for (std::size_t node = 0; node < nodes_.size(); ++node) split(node, pieces.boxes);
+    corners_.reserve(order_.size());
+    for (std::int32_t& of : order_) {
+        of = pieces.facets[of];
+        place_[of] = static_cast<std::int32_t>(corners_.size());
+        corners_.push_back({vertices[facets[of][0]], vertices[facets[of][1]], vertices[facets[of][2]]});
     }
-    nodes_.push_back({{}, 0, static_cast<std::int32_t>(facets.size())});
-    for (std::size_t node = 0; node < nodes_.size(); ++node) split(node, centres);
-    std::vector<std::array<Vec3, 3>> ordered;
-    ordered.reserve(facets.size());
-    for (std::size_t i = 0; i < order_.size(); ++i) {
-        ordered.push_back(corners_[order_[i]]);
-        place_[order_[i]] = static_cast<std::int32_t>(i);
-    }
-    corners_ = std::move(ordered);
 }
 
-void TriangleTree::split(std::size_t node, const std::vector<Vec3>& centres) {
+void TriangleTree::split(std::size_t node, const std::vector<Eigen::AlignedBox3d>& boxes) {
     const auto [first, count] = std::pair(nodes_[node].first, nodes_[node].count);
     const auto begin = order_.begin() + first, end = begin + count;
     Eigen::AlignedBox3d of_centres;
     for (auto i = begin; i != end; ++i) {
-        for (const Vec3& corner : corners_[*i]) nodes_[node].box.extend(corner);
-        of_centres.extend(centres[*i]);
+        nodes_[node].box.extend(boxes[*i]);
+        of_centres.extend(boxes[*i].center());
     }
-    if (count <= triangles_of_leaf) return;
+    if (count <= pieces_of_leaf) return;
     Eigen::Index axis = 0;
     of_centres.sizes().maxCoeff(&axis);
     const std::int32_t half = count / 2;
     std::nth_element(begin, begin + half, end, [&](std::int32_t a, std::int32_t b) {
-        return std::pair(centres[a][axis], a) < std::pair(centres[b][axis], b);
+        return std::pair(boxes[a].center()[axis], a) < std::pair(boxes[b].center()[axis], b);
     });
     nodes_[node].left = static_cast<std::int32_t>(nodes_.size());
     nodes_.push_back({{}, first, half});

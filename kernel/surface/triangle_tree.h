@@ -1,6 +1,7 @@
 // What of a set of triangles is near a point: a hierarchy of boxes over triangles.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -15,8 +16,8 @@ namespace kerf {
 /// because the plane of the triangle is lost to rounding.
 Vec3 closest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// A binary tree over triangles, split at the median of the longest side of their centres. Built in O(n log n),
-/// immutable; a query is O(log n) where few triangles are near.
+/// A binary tree over the boxes of triangles, of their pieces where needles lie across the axes, split at the median of
+/// the longest side of their centres. Built in O(n log n), immutable; a query is O(log n) where few triangles are near.
 class TriangleTree {
  public:
     struct Closest {
@@ -32,8 +33,8 @@ class TriangleTree {
     /// first, which depends on the triangles alone.
     Closest closest(const Vec3& p, double squared_limit = std::numeric_limits<double>::infinity()) const;
 
-    /// Calls accept(facet, squared_distance) for facets within `radius` of p until it returns true. Returns whether it
-    /// did.
+    /// Calls accept(facet, squared_distance) for facets within `radius` of p, some of them several times, until it
+    /// returns true. Returns whether it did.
     template <class Accept>
     bool any_within(const Vec3& p, double radius, Accept accept) const {
         std::int32_t open[64];
@@ -82,6 +83,7 @@ class TriangleTree {
     }
 
     double squared_distance_to(const Vec3& p, std::int32_t facet) const { return squared_distance(p, place_[facet]); }
+    const std::array<Vec3, 3>& corners(std::int32_t facet) const { return corners_[place_[facet]]; }
 
  private:
     struct Node {
@@ -89,15 +91,15 @@ class TriangleTree {
         std::int32_t first, count;  // of corners_
         std::int32_t left = 0;      // 0: a leaf; the other child follows it
     };
-    void split(std::size_t node, const std::vector<Vec3>& centres);
+    void split(std::size_t node, const std::vector<Eigen::AlignedBox3d>& boxes);
     double squared_distance(const Vec3& p, std::int32_t place) const;
     double ray_distance(std::int32_t place, const Vec3& origin, const Vec3& direction) const;
     static bool ray_meets(const Eigen::AlignedBox3d& box, const Vec3& origin, const Vec3& direction, double from,
                           double to);
 
-    std::vector<std::array<Vec3, 3>> corners_;  // in the order of the leaves
+    std::vector<std::array<Vec3, 3>> corners_;  // in the order of the leaves; several times where pieces have boxes
     std::vector<std::int32_t> order_;           // their facets
-    std::vector<std::int32_t> place_;           // of each facet in order_
+    std::vector<std::int32_t> place_;           // of each facet, somewhere in order_
     std::vector<Node> nodes_;
 };
 

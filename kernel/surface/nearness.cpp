@@ -1,0 +1,111 @@
+#include "surface/nearness.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+namespace kerf {
+
+namespace {
+
+constexpr double much_longer = 4;        // times as long as the facet below it: beyond that it is rather halved
+constexpr double thinnest = 1e-6;        // of the limit: pieces as thin as that are none
+constexpr double shortest_piece = 1e-3;  // length of a polygon over the limit, below which it is not divided
+
+template <class Corners>
+Vec3 extent(const Corners& corners, int count) {
+    Vec3 least = corners[0], most = corners[0];
+    for (int i = 1; i < count; ++i) {
+        least = least.cwiseMin(corners[i]);
+        most = most.cwiseMax(corners[i]);
+    }
+    return most - least;
+}
+
+// From one corner of a polygon to another that is as far away as any, or nearly.
+template <class Corners>
+Vec3 longest_way(const Corners& corners, int count) {
+    Vec3 longest = Vec3::Zero();
+    for (int i = 0; i < count; ++i)
+        for (int j = 0; j < i; ++j)
+            if (const Vec3 way = corners[i] - corners[j]; way.squaredNorm() > longest.squaredNorm()) longest = way;
+    return longest;
+}
+
+}  // namespace
+
+Vec3 Nearness::Polygon::centre() const {
+    Vec3 sum = Vec3::Zero();
+    for (int i = 0; i < count; ++i) sum += corners[i];
+    return sum / count;
+}
+
+bool Nearness::Polygon::add(const Vec3& corner) {
+    if (count == most_corners) return false;
+    corners[count++] = corner;
+    return true;
+}
+
+bool Nearness::is_within(const Polygon& p, std::int32_t facet, double limit) {
+    if (limit < 0) return false;
+    double largest = 0;
+    for (int i = 0; i < p.count; ++i) {
+        largest = std::max(largest, surface_.squared_distance_to(p.corners[i], facet));
+        if (largest > limit * limit) return false;
+    }
+    squared_distance_ = std::max(squared_distance_, largest);
+    return true;
+}
+
+bool Nearness::cut(const Polygon& p, const Vec3& origin, const Vec3& normal, Polygon& below, Polygon& above) {
+    below.count = above.count = 0;
+    bool is_below = false, is_above = false, has_room = true;
+    for (int i = 0; i < p.count && has_room; ++i) {
+        const Vec3 &a = p.corners[i], &b = p.corners[(i + 1) % p.count];
+        const double height_a = normal.dot(a - origin), height_b = normal.dot(b - origin);
+        is_below |= height_a < -1;
+        is_above |= height_a > 1;
+        if (height_a <= 1) has_room &= below.add(a);
+        if (height_a >= -1) has_room &= above.add(a);
+        if (std::min(height_a, height_b) < -1 && std::max(height_a, height_b) > 1) {
+            const Vec3 middle = a + height_a / (height_a - height_b) * (b - a);
+            has_room &= below.add(middle) && above.add(middle);
+        }
+    }
+    if (!is_below) below.count = 0;
+    if (!is_above) above.count = 0;
+    return has_room;
+}
+
+bool Nearness::halve(const Polygon& p, double limit) {
+    const Vec3 way = longest_way(p.corners, p.count), centre = p.centre();
+    if (way.norm() <= shortest_piece * limit) return false;
+    Polygon below, above;
+    if (!cut(p, centre, way.normalized() / (thinnest * limit), below, above)) return false;
+    open_.push_back(above);
+    open_.push_back(below);
+    return true;
+}
+
+bool Nearness::divide(const Polygon& p, std::int32_t facet, double limit) {
+    const std::array<Vec3, 3>& t = surface_.corners(facet);
+    if (extent(p.corners, p.count).squaredNorm() > much_longer * much_longer * extent(t, 3).squaredNorm()) return false;
+    const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
+    Polygon inside = p, below, above;
+    const std::size_t before = open_.size();
+    for (int i = 0; i < 3; ++i) {
+        const Vec3 outwards = (t[(i + 1) % 3] - t[i]).cross(normal).normalized();
+        if (!cut(inside, t[i], outwards / (thinnest * limit), below, above) || below.count == 0) {
+            open_.resize(before);
+            return false;
+        }
+        if (above.count > 0) open_.push_back(above);
+        inside = below;
+    }
+    if (open_.size() == before) return false;
+    open_.push_back(inside);
+    return true;
+}
+
+}  // namespace kerf

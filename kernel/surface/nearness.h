@@ -1,0 +1,100 @@
+// Whether all of a triangle is near a surface: proven, not sampled.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "surface/triangle_tree.h"
+
+namespace kerf {
+
+/// The distance to a convex set is a convex function, so a polygon is as near to a triangle as its corners are. What
+/// does not lie near one triangle of the surface as a whole is divided along the sides of the triangle below it. Right
+/// up to the rounding of these divisions, some 1e-15 of the coordinates; so is directed_distance().
+///
+/// Has scratch memory: one for each thread.
+class Nearness {
+ public:
+    /// Keeps the reference.
+    explicit Nearness(const TriangleTree& surface) : surface_(surface) {}
+
+    /// Whether every point of triangle `t` is within limit(f) of some facet f of the surface; limit(f) is negative for
+    /// facets that do not count, and `largest_limit` not less than any. False, too, if that takes more than `steps`
+    /// divisions, or where it is nearly not so, by a thousandth of the limit. `hint` is a facet to begin with, -1 for
+    /// none, and the one met last. O(log #F) where `t` is about as large as the facets below it.
+    template <class Limit>
+    bool holds(const std::array<Vec3, 3>& t, double largest_limit, Limit limit, int steps, std::int32_t& hint) {
+        open_.clear();
+        open_.push_back({{t[0], t[1], t[2]}, 3});
+        for (; !open_.empty(); --steps) {
+            if (steps == 0) return false;
+            const Polygon p = open_.back();
+            open_.pop_back();
+            if (hint >= 0 && is_within(p, hint, limit(hint))) continue;
+            const Vec3 centre = p.centre();
+            const TriangleTree::Closest closest = surface_.closest(centre, largest_limit * largest_limit);
+            if (closest.facet >= 0 && is_within(p, closest.facet, limit(closest.facet))) {
+                hint = closest.facet;
+                continue;
+            }
+            find_beside(centre, std::sqrt(closest.squared_distance), largest_limit, limit);
+            if (beside_.empty()) return false;
+            hint = beside_.front();
+            const auto is_near = [&](std::int32_t f) { return is_within(p, f, limit(f)); };
+            const auto divides = [&](std::int32_t f) { return divide(p, f, largest_limit); };
+            if (!std::any_of(beside_.begin(), beside_.end(), is_near) &&
+                !std::any_of(beside_.begin(), beside_.end(), divides) && !halve(p, largest_limit))
+                return false;
+        }
+        return true;
+    }
+
+    /// Of what holds() has found near since this was made: no point is further away, and some corner of a division is
+    /// as far from the facet that it was compared with.
+    double directed_distance() const { return std::sqrt(squared_distance_); }
+
+ private:
+    struct Polygon {  // convex
+        static constexpr int most_corners = 12;
+        std::array<Vec3, most_corners> corners;
+        int count = 0;
+
+        Vec3 centre() const;
+        /// Whether there was room.
+        bool add(const Vec3& corner);
+    };
+
+    /// The facets closest to a point, `distance` away, of those that count: several beside an edge or a vertex.
+    template <class Limit>
+    void find_beside(const Vec3& p, double distance, double largest_limit, Limit limit) {
+        constexpr double as_close = 1 + 1e-6, rounding = 1e-6;  // of the distance, of the limit
+        beside_.clear();
+        if (distance >= largest_limit) return;
+        surface_.any_within(p, as_close * distance + rounding * largest_limit, [&](std::int32_t f, double) {
+            if (limit(f) >= 0) beside_.push_back(f);
+            return false;
+        });
+        if (beside_.empty())  // the closest one does not count
+            surface_.any_within(p, largest_limit, [&](std::int32_t f, double) {
+                if (limit(f) >= 0) beside_.push_back(f);
+                return !beside_.empty();
+            });
+    }
+    bool is_within(const Polygon& p, std::int32_t facet, double limit);
+    /// Puts pieces of p in its place, what is over the facet and what is not; false if that divides nothing.
+    bool divide(const Polygon& p, std::int32_t facet, double limit);
+    /// Across its longest way; false if it is too small.
+    bool halve(const Polygon& p, double limit);
+    /// The pieces below and above a plane, if any; false without room. `normal` is as long as the inverse of a length
+    /// that counts as nothing.
+    static bool cut(const Polygon& p, const Vec3& origin, const Vec3& normal, Polygon& below, Polygon& above);
+
+    const TriangleTree& surface_;
+    std::vector<Polygon> open_;
+    std::vector<std::int32_t> beside_;
+    double squared_distance_ = 0;
+};
+
+}  // namespace kerf
