@@ -84,6 +84,12 @@ CLI::App* add_run_command(CLI::App& app, const char* name, const char* text, Com
         ->type_name("INPUT");
     for (const OptionField& field : config_fields(line)) add_field(*command, field);
     command->get_option("--output")->type_name("DIR");
+    // At once, so that all that asks whether --surface was given finds it given.
+    command
+        ->add_flag_callback(
+            "--remesh", [surface = command->get_option("--surface")] { surface->add_result("remesh"); },
+            "Short for --surface remesh.")
+        ->trigger_on_parse();
     command->add_flag("--print-config", line.print_config, "Print the options as a config file and end.");
     command->add_option("--config", line.config_file, "Read options from a TOML file; the command line wins.")
         ->type_name("FILE");

@@ -201,6 +201,11 @@ TEST_F(BadInput, ConfigFileGivesOptions) {
     more[1] = "5";
     EXPECT_EQ(printed({"--config", config, "-n", "5"}), printed(more));
 
+    std::ofstream(config) << "surface = \"keep\"\n";
+    EXPECT_EQ(printed({"--config", config, "--remesh"}), printed({"--surface", "remesh"}));
+    EXPECT_NE(printed({"--config", config}), printed({"--remesh"}));
+    expect_message(test::run_kerf({"mesh", good_, "--remesh", "--surface", "keep"}), 2, {"--surface"});
+
     const std::vector<std::pair<std::string, std::string>> mistakes = {{"parts = 2\nsice = 1\n", "'sice'"},
                                                                        {"parts = \"many\"\n", "'many'"},
                                                                        {"size = nan\n", "--size"},
