@@ -1,0 +1,149 @@
+// Edges of remeshed surfaces over the lengths that a size field asks for, alone and in runs of one part and of many.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include "remesh/remesh.h"
+#include "run/pipeline.h"
+#include "size/size_options.h"
+#include "support/shapes.h"
+#include "support/size_fields.h"
+#include "support/temporary_folder.h"
+#include "support/write_off.h"
+
+namespace kerf {
+namespace {
+
+using namespace test;
+
+// Lengths of edges over the size wanted in their middle, ascending. Each counts once for each of its facets.
+std::vector<double> got_over_asked(const SurfaceArrays& surface, const SizeField& field) {
+    std::vector<double> ratios;
+    for (const Triangle& t : surface.facets)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vec3 &a = surface.vertices[t[i]], &b = surface.vertices[t[(i + 1) % 3]];
+            ratios.push_back((b - a).norm() / field.at((a + b) / 2));
+        }
+    std::sort(ratios.begin(), ratios.end());
+    return ratios;
+}
+
+double share_below(const std::vector<double>& ratios, double limit) {
+    return static_cast<double>(std::upper_bound(ratios.begin(), ratios.end(), limit) - ratios.begin()) /
+           static_cast<double>(ratios.size());
+}
+
+SurfaceArrays remeshed(const SurfaceArrays& surface, const SizeField& field) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : surface.vertices) box.extend(p);
+    const double diagonal = box.diagonal().norm();
+    return remesh(surface, {.deviation = 2e-5 * diagonal,
+                            .longest = 0.2 * diagonal,
+                            .growth = field.growth() > 0 ? field.growth() : 0.4,
+                            .wanted = [&](const Vec3& p) { return field.at(p); }})
+        .surface;
+}
+
+struct Case {
+    std::string name;
+    Soup soup;
+    SizeOptions options;
+    std::optional<SizedMesh> background;
+};
+
+// A cube of side 10 with a void.
+Soup hollow_cube(int n) {
+    return join(box(Vec3::Zero(), Vec3(10, 10, 10), n), inside_out(box(Vec3(3, 3, 3), Vec3(7, 7, 7), n)));
+}
+
+// Sizes of every kind in bodies whose shape asks for none.
+std::vector<Case> cases() {
+    std::vector<Case> all;
+    for (const double size : {2.0, 0.71, 0.5}) {
+        all.push_back({"constant", hollow_cube(1), {}, {}});
+        all.back().options.size = size;
+    }
+    for (const double size : {0.5, 0.3}) {
+        all.push_back({"constant, on small facets", hollow_cube(13), {}, {}});
+        all.back().options.size = size;
+    }
+    all.push_back({"a fine sphere", box(Vec3::Zero(), Vec3(10, 10, 10), 1), {}, {}});
+    all.back().options.size = 1;
+    all.back().options.inside = {"sphere:3,4,10,2=0.2"};
+    all.push_back({"a patch at a tenth of the size", box(Vec3::Zero(), Vec3(10, 10, 10), 1), {}, {}});
+    Soup& soup = all.back().soup;
+    soup.patch_names = {"sides", "fine"};
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        const auto is_at_0 = [&](std::int32_t v) { return soup.vertices[static_cast<std::size_t>(v)].x() == 0; };
+        soup.patch[f] = std::all_of(soup.facets[f].begin(), soup.facets[f].end(), is_at_0);
+    }
+    all.back().options.size = 2;
+    all.back().options.on = {"fine=0.2"};
+    all.push_back({"a background mesh", box(Vec3::Zero(), Vec3(10, 10, 10), 1), {}, {}});
+    all.back().background = sized_grid(Vec3::Zero(), Vec3(10, 10, 10), 10, [](const Vec3& p) {
+        return 0.4 + 0.2 * std::min((p - Vec3(2, 2, 2)).norm(), (p - Vec3(9, 9, 9)).norm());
+    });
+    return all;
+}
+
+TEST(RemeshedSizes, AreObeyed) {
+    for (const Case& c : cases()) {
+        SCOPED_TRACE(c.name + " " + std::to_string(c.options.size));
+        const SurfaceArrays surface = to_arrays(c.soup);
+        const SizeField field = make_size_field(c.options, surface, c.soup.patch_names, c.background);
+        const std::vector<double> ratios = got_over_asked(remeshed(surface, field), field);
+        EXPECT_GT(share_below(ratios, 1.4) - share_below(ratios, 0.7), 0.9);
+        EXPECT_LT(ratios.back(), 1.75);
+    }
+}
+
+// What the shape asks for may be finer.
+TEST(RemeshedSizes, AreNotExceededOnCurvedBodies) {
+    for (const Soup& soup : {torus(1, 0.4, 40, 16), prism(40, 1, 2), icosphere(3)})
+        for (const double size : {0.2, 0.07}) {
+            const SurfaceArrays surface = to_arrays(soup);
+            SizeOptions options;
+            options.size = size;
+            const SizeField field = make_size_field(options, surface, soup.patch_names, {});
+            const std::vector<double> ratios = got_over_asked(remeshed(surface, field), field);
+            EXPECT_GT(share_below(ratios, 1.4), 0.9);
+        }
+}
+
+// The surface is remeshed before it is cut: it is the same in one part and in many, and all obey the field.
+TEST(RemeshedSizes, AreObeyedInOnePartAndInMany) {
+    const TemporaryFolder folder;
+    const Soup soup = box(Vec3::Zero(), Vec3(10, 10, 10), 1);
+    write_off(folder.file("input.off"), soup.vertices, soup.facets);
+    std::vector<Input> inputs;
+    for (const std::int32_t parts : {1, 8}) {
+        SCOPED_TRACE(parts);
+        RunOptions options;
+        options.input = folder.file("input.off");
+        options.output = folder.file("out");
+        options.worker_program = KERF_WORKER;
+        options.workers = 2;
+        options.decompose.parts = parts;
+        options.remeshing = Remeshing::always;
+        options.sizes.size = 0.5;
+        options.sizes.inside = {"sphere:3,4,10,1=0.15"};
+        SingleRank rank;
+        const RunReport report = run(options, 2, rank, inputs.emplace_back());
+        ASSERT_EQ(report.exit_code, 0);
+        EXPECT_TRUE(report.verification.passed);
+        ASSERT_EQ(report.sizes.by_patch.size(), 1U);
+        EXPECT_GT(report.sizes.inside.share_obeyed(), 0.9);
+        EXPECT_GT(report.sizes.by_patch.front().edges.share_obeyed(), 0.9);
+        if (parts > 1) {
+            EXPECT_GT(report.sizes.interfaces.share_obeyed(), 0.85);
+        }
+    }
+    EXPECT_EQ(inputs[0].facets, inputs[1].facets);
+    EXPECT_EQ(inputs[0].area, inputs[1].area);
+}
+
+}  // namespace
+}  // namespace kerf
