@@ -71,6 +71,12 @@ void fill_result(const PartJob& job, const MesherCall& call, const std::string& 
 
 }  // namespace
 
+Eigen::AlignedBox3d box_of(const PartJob& job) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : job.surface.vertices) box.extend(p);
+    return box;
+}
+
 Part part_of_job(const PartJob& job) {
     TetMesh boundary;
     boundary.vertices = job.surface.vertices;

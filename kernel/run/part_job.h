@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include <Eigen/Geometry>
+
 #include "mesh/quality.h"
 #include "mesh/verification.h"
 #include "part/part_store.h"
@@ -28,6 +30,9 @@ struct PartJob {
         a(part, surface, boundary_id, neighbour, shared, shared_edges, patch_names, length_scale);
     }
 };
+
+/// Around its surface.
+Eigen::AlignedBox3d box_of(const PartJob& job);
 
 /// The part as it is before it is meshed: its boundary alone.
 Part part_of_job(const PartJob& job);

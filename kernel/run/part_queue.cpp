@@ -78,7 +78,8 @@ std::optional<PartQueue::Finished> PartQueue::step(double wait_seconds) {
 }
 
 void PartQueue::start(std::size_t part) {
-    const MesherCall& call = calls_[progress_[part].call];
+    MesherCall call = calls_[progress_[part].call];
+    call.options.size = call.options.size.within(parts_[part].box);
     PartOutcome& outcome = progress_[part].outcome;
     outcome.remedy = call.remedy;
     ++outcome.attempts;

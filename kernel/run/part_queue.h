@@ -15,6 +15,7 @@ namespace kerf {
 struct QueuedPart {
     std::string job_file;  ///< of write_job()
     std::string part_file;
+    Eigen::AlignedBox3d box;  ///< around its surface: sizes that have no say there are not told to its worker
 };
 
 /// How one part fared over all of its attempts.

@@ -18,6 +18,9 @@ PartReport describe_part(const PartJob& job, double volume, int rank, const CutO
     part.id = job.part;
     part.rank = rank;
     part.surface_volume = volume;
+    const Eigen::AlignedBox3d box = box_of(job);
+    part.box_low = box.min();
+    part.box_high = box.max();
     part.surface_vertices = static_cast<std::int64_t>(job.surface.vertices.size());
     part.surface_facets = static_cast<std::int64_t>(job.surface.facets.size());
     for (std::size_t f = 0; f < job.neighbour.size(); ++f) {

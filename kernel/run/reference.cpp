@@ -23,7 +23,7 @@ PartOutcome mesh_in_one_piece(const RunFolder& folder, const Surface& surface, d
     job.length_scale = length_scale;
     const std::string job_file = folder.job_file(no_leaf), part_file = folder.stored_part_file(no_leaf);
     write_job(job_file, job);
-    PartQueue queue({{job_file, part_file}},
+    PartQueue queue({{job_file, part_file, box_of(job)}},
                     {options.worker_program, options.mesher, 1, options.timeout_seconds, 0, options.attempts},
                     [](std::size_t) { return true; });
     std::optional<PartQueue::Finished> finished;

@@ -21,7 +21,8 @@ struct PartReport : PartOutcome {
     FileHash job_hash = {0, 0};
     FileHash surface_hash = {0, 0};  ///< of the file of its surface
     double surface_volume = 0;
-    double sized_volume = 0;  ///< as sized_volume() has it
+    double sized_volume = 0;                               ///< as sized_volume() has it
+    Vec3 box_low = Vec3::Zero(), box_high = Vec3::Zero();  ///< corners of the box around its surface
     std::int64_t surface_vertices = 0, surface_facets = 0;
     std::int64_t interface_facets = 0;  ///< of them
     double interface_area = 0;
@@ -29,11 +30,13 @@ struct PartReport : PartOutcome {
         0;                           ///< the same, each facet over the square of CutOptions::max_interface_edge()
     std::vector<NodeId> neighbours;  ///< ascending
 
+    Eigen::AlignedBox3d box() const { return {box_low, box_high}; }
+
     template <class Archive>
     void archive(Archive& a) {
         PartOutcome::archive(a);
-        a(id, rank, resumed, load, job_hash, surface_hash, surface_volume, sized_volume, surface_vertices,
-          surface_facets, interface_facets, interface_area, interface_in_squared_edges, neighbours);
+        a(id, rank, resumed, load, job_hash, surface_hash, surface_volume, sized_volume, box_low, box_high,
+          surface_vertices, surface_facets, interface_facets, interface_area, interface_in_squared_edges, neighbours);
     }
 };
 

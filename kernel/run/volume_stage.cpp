@@ -74,7 +74,9 @@ class VolumeStage::Tally {
 
 void VolumeStage::hand_over(const PartJob& job, PartReport& part) {
     const std::string journal = folder_.journal_file(part.id), file = folder_.stored_part_file(part.id);
-    part.job_hash = hash_of_job(job, options_.mesher, options_.attempts, worker_hash_);
+    MesherOptions mesher = options_.mesher;
+    mesher.size = mesher.size.within(part.box());
+    part.job_hash = hash_of_job(job, mesher, options_.attempts, worker_hash_);
     if (const auto outcome = find_finished_part(journal, file, part.job_hash, options_.timeout_seconds)) {
         static_cast<PartOutcome&>(part) = *outcome;
         part.resumed = true;
@@ -121,7 +123,7 @@ std::vector<PartReport> VolumeStage::mesh_share(const std::vector<PartReport>& p
     const std::vector<std::size_t> order = waiting_parts(parts);
     std::vector<QueuedPart> queued;
     for (const std::size_t i : order)
-        queued.push_back({folder_.job_file(parts[i].id), folder_.stored_part_file(parts[i].id)});
+        queued.push_back({folder_.job_file(parts[i].id), folder_.stored_part_file(parts[i].id), parts[i].box()});
     PartQueue queue(std::move(queued),
                     {options_.worker_program, options_.mesher, options_.workers, options_.timeout_seconds,
                      options_.memory_mb, options_.attempts},

@@ -20,15 +20,29 @@ double SizeSources::smallest() const {
     return least;
 }
 
-double SizeSources::size_at(const Vec3& p, double bound) const {
+double SizeSources::size_of_solids(const Vec3& p, double bound) const {
     const auto take = [&](const auto& solids) {
         for (const auto& solid : solids) bound = std::min(bound, solid.size + growth * solid.distance(p));
     };
     take(boxes);
     take(spheres);
     take(cylinders);
+    return bound;
+}
+
+double SizeSources::size_at(const Vec3& p, double bound) const {
+    bound = size_of_solids(p, bound);
     for (const BackgroundSizes& background : backgrounds) bound = background.size_at(p, growth, bound);
     return triangles.size_at(p, growth, bound);
+}
+
+// Backgrounds, which may jump between cells that overlap, are left out of what bounds the triangles.
+SizeSources SizeSources::within(const Eigen::AlignedBox3d& box, double bound) const {
+    SizeSources kept = *this;
+    kept.triangles = triangles.within(box, growth, [&](const Eigen::AlignedBox3d& cell) {
+        return std::min(bound, size_of_solids(cell.center(), bound) + growth * cell.diagonal().norm() / 2);
+    });
+    return kept;
 }
 
 SizeField::SizeField(double max_volume)
@@ -63,6 +77,12 @@ SizeField SizeField::coarser(double factor) const {
     SizeField field(max_volume_ * factor);
     field.edge_factor_ = edge_factor_ * std::cbrt(factor);
     field.sources_ = sources_;
+    return field;
+}
+
+SizeField SizeField::within(const Eigen::AlignedBox3d& box) const {
+    SizeField field = *this;
+    if (sources_) field.set(sources_->within(box, edge_ / edge_factor_));
     return field;
 }
 

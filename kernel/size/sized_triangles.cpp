@@ -10,15 +10,25 @@ namespace kerf {
 namespace {
 
 constexpr std::int32_t triangles_of_leaf = 4;
+constexpr double more = 1 + 1e-9;  // what is as good to so much stays, however it is computed
+constexpr double cells_per_side = 8;
 constexpr double less = 1 - 1e-12;  // boxes promise a little less than they hold, so that rounding hides nothing
 
 }  // namespace
 
-double SizedTriangle::size_at(const Vec3& p, double growth) const {
+Vec3 SizedTriangle::closest(const Vec3& p) const {
     const Vec3 a = corner(0), b = corner(1), c = corner(2);
-    Vec3 t = Vec3::UnitX();
-    if (a != b || a != c) t = closest_barycentric(p, a, b, c);
-    const double distance = (p - t[0] * a - t[1] * b - t[2] * c).norm();
+    return a != b || a != c ? closest_barycentric(p, a, b, c) : Vec3(Vec3::UnitX());
+}
+
+double SizedTriangle::distance(const Vec3& p) const {
+    const Vec3 t = closest(p);
+    return (p - t[0] * corner(0) - t[1] * corner(1) - t[2] * corner(2)).norm();
+}
+
+double SizedTriangle::size_at(const Vec3& p, double growth) const {
+    const Vec3 t = closest(p);
+    const double distance = (p - t[0] * corner(0) - t[1] * corner(1) - t[2] * corner(2)).norm();
     // Equal sizes stay as they are, whatever the coordinates add up to.
     const double here = size[0] + t[1] * (size[1] - size[0]) + t[2] * (size[2] - size[0]);
     return here + growth * std::max(0.0, distance - reach);
@@ -99,6 +109,69 @@ double SizedTriangles::size_at(const Vec3& p, double growth, double bound) const
             return less * (node.size + growth * std::max(0.0, node.box.exteriorDistance(p) - node.reach));
         },
         [&](const SizedTriangle& t) { return t.size_at(p, growth); });
+}
+
+// No point of the cell has more than this from all of them together, nor than the bound.
+double SizedTriangles::largest_in(const Eigen::AlignedBox3d& cell, double growth, double bound) const {
+    const Vec3 centre = cell.center();
+    const double radius = cell.diagonal().norm() / 2;
+    return least(
+        bound,
+        [&](const Node& node) {
+            return less * (node.size + growth * std::max(0.0, node.box.exteriorDistance(centre) + radius - node.reach));
+        },
+        [&](const SizedTriangle& t) {
+            return t.largest() + growth * std::max(0.0, t.distance(centre) + radius - t.reach);
+        });
+}
+
+// Marks those below a node that may have less than the bound in the cell; returns whether all are marked.
+bool SizedTriangles::mark(std::int32_t number, const Eigen::AlignedBox3d& cell, double growth, double bound,
+                          std::vector<char>& node_is_kept, std::vector<char>& is_kept) const {
+    if (node_is_kept[number] != 0) return true;
+    const Node& node = nodes_[number];
+    const auto may_ask = [&](double size, const Eigen::AlignedBox3d& box, double reach) {
+        return less * (size + growth * std::max(0.0, box.exteriorDistance(cell) - reach)) <= more * bound;
+    };
+    if (!may_ask(node.size, node.box, node.reach)) return false;
+    bool all = true;
+    if (node.right > 0) {
+        for (const std::int32_t child : {number + 1, node.right})
+            all = mark(child, cell, growth, bound, node_is_kept, is_kept) && all;
+    } else {
+        for (std::int32_t i = node.first; i < node.last; ++i) {
+            const SizedTriangle& t = triangles_[i];
+            Eigen::AlignedBox3d box;
+            for (int c = 0; c < 3; ++c) box.extend(t.corner(c));
+            if (may_ask(t.smallest(), box, t.reach)) is_kept[i] = 1;
+            all = all && is_kept[i] != 0;
+        }
+    }
+    node_is_kept[number] = all ? 1 : 0;
+    return all;
+}
+
+SizedTriangles SizedTriangles::within(const Eigen::AlignedBox3d& box, double growth,
+                                      const std::function<double(const Eigen::AlignedBox3d&)>& bound) const {
+    if (empty()) return {};
+    std::vector<char> node_is_kept(nodes_.size(), 0), is_kept(triangles_.size(), 0);
+    const double side = box.sizes().maxCoeff() / cells_per_side;
+    std::array<int, 3> count = {1, 1, 1};
+    for (int axis = 0; axis < 3; ++axis)
+        if (side > 0) count[axis] = std::max(1, static_cast<int>(std::ceil(box.sizes()[axis] / side)));
+    const Vec3 step = box.sizes().cwiseQuotient(Vec3(count[0], count[1], count[2]));
+    for (int i = 0; i < count[0]; ++i)
+        for (int j = 0; j < count[1]; ++j)
+            for (int k = 0; k < count[2]; ++k) {
+                const Vec3 low = box.min() + step.cwiseProduct(Vec3(i, j, k));
+                const Eigen::AlignedBox3d cell(low, low + step);
+                mark(0, cell, growth, largest_in(cell, growth, bound(cell)), node_is_kept, is_kept);
+            }
+    std::vector<SizedTriangle> kept;
+    for (std::size_t t = 0; t < triangles_.size(); ++t)
+        if (is_kept[t] != 0) kept.push_back(triangles_[t]);
+    if (kept.empty()) kept.push_back(triangles_.front());
+    return SizedTriangles(std::move(kept));
 }
 
 // Where the ray enters the box, 0 if it begins inside, infinity if it misses it.

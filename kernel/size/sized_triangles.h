@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <type_traits>
@@ -27,6 +28,10 @@ struct SizedTriangle {
         : coordinates{a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), c.x(), c.y(), c.z()}, size(sizes), reach(plateau) {}
     Vec3 corner(int i) const { return {coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]}; }
     double smallest() const { return std::min({size[0], size[1], size[2]}); }
+    double largest() const { return std::max({size[0], size[1], size[2]}); }
+    double distance(const Vec3& p) const;
+    /// Barycentric coordinates of its point closest to p.
+    Vec3 closest(const Vec3& p) const;
     /// Size at the point of the triangle that is closest to p, plus growth times the distance beyond the reach.
     double size_at(const Vec3& p, double growth) const;
     /// Distance along the ray from `origin` in the unit direction to the triangle, which it may hit from either side;
@@ -47,6 +52,11 @@ class SizedTriangles {
 
     /// The least SizedTriangle::size_at(), or `bound` if none is less. O(log n) where few are close.
     double size_at(const Vec3& p, double growth, double bound) const;
+    /// Those that may have a say in the box, where anything else asks for at most `bound(cell)` in each box `cell` that
+    /// it is given: size_at() of both is the same there if it is not more than that. At least one. Looks at the box in
+    /// cells of an eighth of its longest side. Deterministic. O(n) at most, and O(log n) for each cell.
+    SizedTriangles within(const Eigen::AlignedBox3d& box, double growth,
+                          const std::function<double(const Eigen::AlignedBox3d&)>& bound) const;
     /// The nearest triangle that the ray hits and for which is_wanted(triangle) holds: its distance, else infinity.
     template <class IsWanted>
     double first_hit(const Vec3& origin, const Vec3& direction, const IsWanted& is_wanted) const {
@@ -70,6 +80,9 @@ class SizedTriangles {
     };
     static std::int32_t middle(std::int32_t first, std::int32_t last) { return first + (last - first) / 2; }
     static double entry(const Eigen::AlignedBox3d& box, const Vec3& origin, const Vec3& direction);
+    double largest_in(const Eigen::AlignedBox3d& cell, double growth, double bound) const;
+    bool mark(std::int32_t node, const Eigen::AlignedBox3d& cell, double growth, double bound,
+              std::vector<char>& node_is_kept, std::vector<char>& is_kept) const;
     void order(std::int32_t first, std::int32_t last);
     void build_nodes();
     std::int32_t add_node(std::int32_t first, std::int32_t last);

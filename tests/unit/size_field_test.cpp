@@ -87,6 +87,53 @@ TEST(SizeField, TravelsBitForBit) {
     EXPECT_TRUE(from_bytes<SizeField>(to_bytes(SizeField())).is_empty());
 }
 
+// Triangles as a surface's own edges make them: many, with sizes that differ at their corners.
+SizeSources sources_on_a_sphere(unsigned seed) {
+    std::mt19937 random(seed);
+    SizeSources sources;
+    sources.growth = uniform(random, 0.1, 0.5);
+    const Soup soup = icosphere(4);
+    std::vector<double> size;
+    for (std::size_t v = 0; v < soup.vertices.size(); ++v) size.push_back(uniform(random, 0.05, 0.1));
+    std::vector<SizedTriangle> triangles;
+    for (const Triangle& t : soup.facets)
+        triangles.emplace_back(soup.vertices[t[0]], soup.vertices[t[1]], soup.vertices[t[2]],
+                               std::array{size[t[0]], size[t[1]], size[t[2]]}, seed % 4 == 0 ? 0.05 : 0.0);
+    sources.triangles = SizedTriangles(std::move(triangles));
+    return sources;
+}
+
+TEST(SizeField, IsTheSameInABoxWithTheSourcesThatCountThere) {
+    for (unsigned seed = 1; seed <= seeds; ++seed) {
+        SCOPED_TRACE(seed);
+        std::vector<SizeSources> sources = random_sources(seed);
+        sources.push_back(joined(sources));
+        sources.push_back(sources_on_a_sphere(seed));
+        std::mt19937 random(seed);
+        for (const SizeSources& one : sources) {
+            const SizeField field = SizeField(seed % 3 ? 0 : 1e-3, one).coarser(seed % 2 ? 1 : 8);
+            const Vec3 a = random_point(random, 1.5), b = random_point(random, 1.5);
+            const Eigen::AlignedBox3d box(a.cwiseMin(b), a.cwiseMax(b));
+            const SizeField there = field.within(box);
+            EXPECT_LE(to_bytes(there).size(), to_bytes(field).size());
+            EXPECT_EQ(there.is_constant(), field.is_constant());
+            EXPECT_TRUE(to_bytes(field.within(box)) == to_bytes(there));
+            for (int i = 0; i < 200; ++i) {
+                const Vec3 t = (random_point(random, 1) + Vec3::Ones()) / 2;
+                const Vec3 p = a + t.cwiseProduct(b - a);
+                ASSERT_EQ(there.at(p), field.at(p));
+                ASSERT_EQ(there.coarser(8).at(p), field.coarser(8).at(p));
+            }
+        }
+    }
+}
+
+TEST(SizeField, LeavesMostOfItsSourcesOutInASmallBox) {
+    const SizeField field(0, sources_on_a_sphere(1));
+    const Eigen::AlignedBox3d box(Vec3(0.5, 0.5, 0.5), Vec3(0.7, 0.7, 0.7));
+    EXPECT_LT(to_bytes(field.within(box)).size(), 0.1 * static_cast<double>(to_bytes(field).size()));
+}
+
 TEST(SizeField, EverySourceShowsInItsBytes) {
     const std::vector<SizeSources> sources = random_sources(1);
     const Bytes all = to_bytes(SizeField(0.1, joined(sources)));
