@@ -43,6 +43,13 @@ std::string tetgen_switches(const MesherOptions& mesher) {
     return switches;
 }
 
+// What the command of tetgen cannot say.
+std::string note_on_sizes(const MesherOptions& mesher) {
+    if (mesher.size.is_constant() || !mesher.tetgen_switches.empty()) return "";
+    return "The wanted sizes differ from place to place: the command leaves them out, and may succeed where the run "
+           "did not.\n";
+}
+
 // The bounding box.
 std::string place_of(const SurfaceArrays& surface) {
     Eigen::AlignedBox3d box;
@@ -61,9 +68,9 @@ void write_failed_part(const std::string& folder, int leaf, const SurfaceArrays&
     const std::string name = fmt::format("part_{:04}", leaf);
     write_text_file(folder + "/" + name + ".smesh", smesh_text(surface, hole_points_if_any(surface)));
     write_text_file(folder + "/" + name + ".txt",
-                    fmt::format("{}\nIt lies {}.\nTo repeat: tetgen -{} {}.smesh\nTo look at it: "
+                    fmt::format("{}\nIt lies {}.\nTo repeat: tetgen -{} {}.smesh\n{}To look at it: "
                                 "paraview ../parts/{}.surface.vtu\n",
-                                reason, place_of(surface), tetgen_switches(mesher), name, name));
+                                reason, place_of(surface), tetgen_switches(mesher), name, note_on_sizes(mesher), name));
 }
 
 }  // namespace kerf

@@ -4,7 +4,9 @@
 
 #include "core/error.h"
 #include "io/file_bytes.h"
+#include "run/failed_part.h"
 #include "run/journal.h"
+#include "support/file_contents.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"
 
@@ -79,6 +81,26 @@ TEST(PartJob, HasNoTetrahedraWhenTheLawsAreBroken) {
     EXPECT_EQ(result.tets, 0);
     EXPECT_EQ(result.vertices, 0);
     EXPECT_EQ(result.interior_vertices, 0);
+}
+
+// The command of tetgen has a bound of the volume where one says it all, else the file says what it lacks.
+TEST(FailedPart, IsKeptWithTheCommandThatRepeatsIt) {
+    const test::TemporaryFolder folder;
+    const SurfaceArrays surface = test::to_arrays(test::box());
+    const auto told = [&](const SizeField& size) {
+        MesherOptions mesher;
+        mesher.size = size;
+        write_failed_part(folder.file("failed"), 3, surface, mesher, "It hangs.");
+        return test::bytes_of_file(folder.file("failed/part_0003.txt"));
+    };
+    const auto has = [](const std::string& text, const char* words) { return text.find(words) != std::string::npos; };
+    SizeSources sphere;
+    sphere.spheres.push_back({Vec3::Zero(), 0.1, 0.01});
+    const std::string plain = told(SizeField()), constant = told(SizeField(0.5)),
+                      varying = told(SizeField(0.5, sphere));
+    EXPECT_TRUE(has(plain, "It hangs.") && has(plain, "part_0003.smesh") && !has(plain, "a0.5"));
+    EXPECT_TRUE(has(constant, "a0.5 part_0003.smesh") && !has(constant, "leaves them out"));
+    EXPECT_TRUE(!has(varying, "a0.5") && has(varying, "leaves them out"));
 }
 
 }  // namespace
