@@ -106,7 +106,7 @@ void print_text(const CheckRequest& request, CheckedSoup& checked) {
     const bool clean = diagnosis.clean();
     const bool more = diagnosis.defects.size() > 1;
     if (const std::string note = sliver_note(find_slivers(checked.soup.vertices, checked.soup.facets), request.path);
-        clean && !note.empty())
+        clean && !note.empty() && !checked.soup.is_of_model)  // else kerf mesh remeshes it anyway
         text += fmt::format("  slivers   {}\n", note);
     text += clean ? "It can be meshed.\n" : "It cannot be meshed as it is.\n";
     if (more) text += "--json lists all, --offenders FILE.vtu shows them in ParaView.\n";

@@ -1,5 +1,10 @@
 #!/usr/bin/env bash
-# Draws the pictures of the README with the program itself. From the repository's root: assets/gallery/make_gallery.sh
+# Draws the pictures of the README with the program itself. From the repository's root:
+#
+#     assets/gallery/make_gallery.sh [FOLDER]
+#
+# FOLDER holds the CAD files that are drawn before and after remeshing; they are no part of the repository, and without
+# it their pictures stay as they are.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 kerf=build/kerf
@@ -17,3 +22,23 @@ trap 'rm -rf "$work"' EXIT
     --size 640x420 -o "$gallery/quality.png"
 "$kerf" mesh assets/bearing_cap_52k.stl -o "$work/reference" -n 8 --max-volume 0.46 --reference -q
 cp "$work/reference/comparison.svg" "$gallery/comparison.svg"
+
+# The surface of a CAD file as OpenCASCADE triangulates it, and remeshed.
+before_and_after() {
+    local file=$1 name=$2
+    shift 2
+    "$kerf" decompose "$file" "$@" --surface split -n 1 --stl -q -o "$work/$name"
+    "$kerf" remesh "$file" "$@" -q -o "$work/$name.obj"
+    cp "$(find "$work/$name" -name '*.stl')" "$work/$name.stl"
+    echo '{"axes": false}' > "$work/no_axes.json"
+    for end in stl:before obj:after; do
+        "$kerf" screenshot "$work/$name.${end%:*}" --stage input --state "$work/no_axes.json" --no-legend --antialias 2 \
+            --size 480x360 -o "$gallery/cad_${name}_${end#*:}.png"
+    done
+}
+
+if [[ $# -gt 0 ]]; then
+    before_and_after "$1/dm1-oc-214.stp" bracket --unite
+    before_and_after "$1/model1.igs" casting
+    before_and_after "$1/conical.step" ring
+fi

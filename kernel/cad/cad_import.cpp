@@ -1,7 +1,10 @@
 // Bodies first: the solids of the file, or its loose faces sewn, or all solids united. Each body is then tessellated
 // for itself, down a ladder. Chords that cross, mostly between two close edges, are cured by other chords: a smaller
 // deflection, then a smaller angle. A face that is closed in itself may get no triangles; then such faces are divided.
-// For the volume the deflection gets smaller by what is missing, since the error is proportional to it.
+//
+// Chords are as fine as the volume between them and the faces asks for, and vertices are moved off the faces until the
+// facets hold what the solid holds (volume_balance.h): for the same volume, chords would have to be ten times as fine.
+// Where that fails, the deflection gets smaller by what is missing, since the error is proportional to it.
 #include "cad/cad_import.h"
 
 #include <algorithm>
@@ -20,6 +23,7 @@
 #include "cad/healing.h"
 #include "cad/model.h"
 #include "cad/tessellation.h"
+#include "cad/volume_balance.h"
 #include "core/error.h"
 #include "surface/intersections.h"
 
@@ -38,6 +42,7 @@ constexpr double coarsest_angle = 0.35;  // radians between chords: 18 a turn
 // Bounds of what is done for the volume. The time that a face takes grows with the square of its facets.
 constexpr double most_facets_by_volume = 320000;
 constexpr double most_facets_of_face_by_volume = 80000;
+constexpr double most_between = 0.01;  // of the volume, between facets and faces: so few chords can be balanced
 constexpr double hopeless_volume_error = 0.05;  // beyond that the faces are not those of the solid
 constexpr double volume_precision =
     1e-6;  // of the integration, which has a fixed number of points else: 1 % off for a thread
@@ -78,7 +83,10 @@ class BodyMesher {
             Tessellation mesh = cad::tessellate(body_, settings_);
             if (!mesh.failed_faces.empty() && divide()) continue;
             trouble_ = trouble_of(mesh);
-            if (trouble_.empty() && tighten(mesh)) continue;
+            if (trouble_.empty() && !is_right(mesh)) {
+                if (balance(mesh)) return checked(std::move(mesh));
+                if (tighten(mesh)) continue;
+            }
             if (trouble_.empty()) trouble_ = crossing_of(mesh);
             if (trouble_.empty()) return checked(std::move(mesh));
             next_rung();
@@ -135,15 +143,34 @@ class BodyMesher {
         return exact_volume_ > 0 ? (std::abs(mesh.volume) - exact_volume_) / exact_volume_ : 0;
     }
 
-    // A smaller deflection for the volume; false if it is right, or cannot be bettered.
+    // How many times rougher the chords are than what can be balanced: volumes that they miss inside and outside may
+    // cancel, as in thin tubes.
+    double roughness(const Tessellation& mesh) const {
+        return exact_volume_ > 0 ? cad::volume_between(mesh) / (most_between * exact_volume_) : 0;
+    }
+
+    bool is_right(const Tessellation& mesh) const {
+        return !by_volume_ || (std::abs(volume_error(mesh)) <= CadOptions::volume_tolerance && roughness(mesh) <= 1);
+    }
+
+    bool balance(Tessellation& mesh) const {
+        if (roughness(mesh) > 1) return false;
+        Tessellation balanced = mesh;
+        if (!cad::balance_volume(balanced, std::copysign(exact_volume_, mesh.volume))) return false;
+        if (!crossing_of(balanced).empty()) return false;
+        mesh = std::move(balanced);
+        return true;
+    }
+
+    // A smaller deflection for the volume; false if that cannot be bettered.
     bool tighten(const Tessellation& mesh) {
         const double error = volume_error(mesh);
-        if (!by_volume_ || std::abs(error) <= CadOptions::volume_tolerance) return false;
         // As long as the angle decides, facets and error stay what they are.
         const auto facets = static_cast<double>(mesh.facets.size());
         const bool has_effect = facets > 1.3 * std::exchange(last_facets_, facets);
         if (has_effect && is_not_of_chords(error)) return false;
-        const double wanted = std::min(0.8 * CadOptions::volume_tolerance / std::abs(error), has_effect ? 0.6 : 0.25);
+        const double rough = roughness(mesh);
+        const double wanted = std::min(rough > 1 ? 0.8 / rough : 0.3, has_effect ? 0.6 : 0.25);
         // Facets grow as 1 / deflection where a face is curved both ways.
         const double factor = std::max({wanted, 0.05, facets / most_facets_by_volume,
                                         facets_of_largest_face(mesh) / most_facets_of_face_by_volume});
@@ -212,11 +239,17 @@ void select_solid(Model& model, std::int32_t number, const std::string& path) {
     model.bodies.push_back(std::move(chosen));
 }
 
-// Sews a body that has edges of one face only.
+// Sews a body that has edges of one face only. A face that is closed in itself, as a sphere is, can be sewn to nothing
+// before it is divided.
 void close_body(Body& body, Model& model, const std::string& path) {
     cad::FreeEdges free = cad::find_free_edges(body);
     if (free.count == 0) return;
-    const std::optional<double> share = cad::sew(body, free);
+    std::optional<double> share = cad::sew(body, free);
+    if (!share && cad::divide_closed_faces(body)) {
+        free = cad::find_free_edges(body);
+        if (free.count == 0) return;
+        share = cad::sew(body, free);
+    }
     if (!share)
         refuse(path,
                fmt::format("'{}' is open: {} of one face only, of {}, the first at {}. Close it in the CAD program "
@@ -328,7 +361,10 @@ CadBody import_model(Model model, const CadOptions& options, const std::string& 
     result.solids = static_cast<std::int32_t>(model.bodies.size());
     result.faces = static_cast<std::int32_t>(result.soup.patch_names.size());
     convert(result, options.unit);
+    result.soup.is_of_model = true;
     result.soup.notes = {description(result)};
+    if (result.file_unit.empty() && options.unit != LengthUnit::mm)
+        result.soup.notes.emplace_back("The file names no unit, so that --unit changes nothing.");
     result.soup.notes.insert(result.soup.notes.end(), model.notes.begin(), model.notes.end());
     return result;
 }

@@ -13,9 +13,9 @@ namespace kerf {
 /// messages.
 ///
 /// Facets are welded by the topology of the model, never by coordinates. Loose faces are sewn where the file has no
-/// solid. The chords get finer until the volume is right to CadOptions::volume_tolerance, the facets are no more than
-/// some 100,000s, or 80,000 of one face, and no two of them cross. Soup::notes says what was read, converted, sewn,
-/// divided or left out.
+/// solid. The volume is right to CadOptions::volume_tolerance, by chords that get finer and by vertices a little off
+/// the curved faces (cad/volume_balance.h), unless that takes more facets than some 100,000s, or 80,000 of one face. No
+/// two of them cross. Soup::notes says what was read, converted, sewn, divided or left out.
 ///
 /// Throws Error(input), in one sentence that names the file, the solids or faces and the way out, for a file that is
 /// damaged or cut off or holds no faces, and for solids that are open, intersect themselves, touch or overlap;

@@ -9,13 +9,17 @@
 #include "cad/tessellation.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
 #include <tuple>
 
+#include <BRepAdaptor_Surface.hxx>
 #include <BRepLib.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
+#include <Eigen/Geometry>
 #include <Poly_PolygonOnTriangulation.hxx>
 #include <Poly_Triangulation.hxx>
 #include <TopExp.hxx>
@@ -27,7 +31,10 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Vertex.hxx>
+#include <gp_Pln.hxx>
 #include <gp_Trsf.hxx>
+#include <gp_Vec.hxx>
+#include <gp_XY.hxx>
 
 namespace kerf::cad {
 
@@ -36,8 +43,60 @@ namespace {
 constexpr double smooth_angle = 0.0175;  // radians, a degree
 
 Vec3 to_vec3(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
+Vec3 to_vec3(const gp_Vec& p) { return {p.X(), p.Y(), p.Z()}; }
 
 TopoDS_Edge forward(const TopoDS_Edge& edge) { return TopoDS::Edge(edge.Oriented(TopAbs_FORWARD)); }
+
+// The surface of a face and where facets are in it.
+class FaceHeights {
+ public:
+    FaceHeights(const TopoDS_Face& face, const Handle(Poly_Triangulation) & triangles)
+        : surface_(face), triangles_(triangles) {}
+
+    /// Normal of a planar face, else 0.
+    Vec3 plane() const {
+        if (surface_.GetType() != GeomAbs_Plane) return Vec3::Zero();
+        return to_vec3(gp_Vec(surface_.Plane().Axis().Direction()));
+    }
+
+    /// Mean height of the face over a triangle of these nodes, at these corners. The mean over the middles of its edges
+    /// is that of the triangle where the face is of second order.
+    double mean_over(const std::array<int, 3>& nodes, const std::array<Vec3, 3>& corners) const {
+        if (surface_.GetType() == GeomAbs_Plane || !triangles_->HasUVNodes()) return 0;
+        const Vec3 cross = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+        double longest = 0, sum = 0;
+        for (std::size_t i = 0; i < 3; ++i) longest = std::max(longest, (corners[(i + 1) % 3] - corners[i]).norm());
+        if (!(cross.norm() > least_height * longest * longest)) return 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3;
+            const gp_XY middle = (triangles_->UVNode(nodes[i]).XY() + triangles_->UVNode(nodes[j]).XY()) / 2;
+            sum += height_at(middle, (corners[i] + corners[j]) / 2, cross.normalized());
+        }
+        return std::abs(sum / 3) < longest ? sum / 3 : 0;
+    }
+
+ private:
+    static constexpr double least_height = 1e-6;  // of a facet over its longest edge, below which its normal is noise
+
+    // Over the point p of a facet: where the face has `uv`, which is p but for what parameters are stretched, corrected
+    // by a step of Newton's.
+    double height_at(const gp_XY& uv, const Vec3& p, const Vec3& normal) const {
+        gp_Pnt point;
+        gp_Vec along_u, along_v;
+        surface_.D1(uv.X(), uv.Y(), point, along_u, along_v);
+        const Vec3 u = to_vec3(along_u), v = to_vec3(along_v), off = p - to_vec3(point);
+        const double turned = u.cross(v).dot(normal);
+        const double height = -off.dot(normal);
+        if (!(std::abs(turned) > least_height * u.norm() * v.norm())) return height;
+        // du u + dv v + h normal = off
+        const double du = off.cross(v).dot(normal) / turned, dv = u.cross(off).dot(normal) / turned;
+        surface_.D0(uv.X() + du, uv.Y() + dv, point);
+        return (to_vec3(point) - p).dot(normal);
+    }
+
+    BRepAdaptor_Surface surface_;
+    Handle(Poly_Triangulation) triangles_;
+};
 
 class Welder {
  public:
@@ -77,12 +136,16 @@ class Welder {
         for (int node = 1; node <= triangles->NbNodes(); ++node)
             if (number_[node] < 0) number_[node] = add_vertex(point(node));
         const bool is_turned = (face.Orientation() == TopAbs_REVERSED) != trsf.IsNegative();
+        const FaceHeights heights(face, triangles);
+        const Vec3 plane = heights.plane();
         for (int i = 1; i <= triangles->NbTriangles(); ++i) {
             int a = 0, b = 0, c = 0;
             triangles->Triangle(i).Get(a, b, c);
             if (is_turned) std::swap(b, c);
             result_.facets.push_back({number_[a], number_[b], number_[c]});
             result_.patch.push_back(patch);
+            result_.plane.push_back(plane);
+            result_.rise.push_back(heights.mean_over({a, b, c}, {point(a), point(b), point(c)}));
         }
     }
 
@@ -119,10 +182,14 @@ class Welder {
         for (std::size_t f = 0; f < drop.size(); ++f) {
             if (drop[f]) continue;
             result_.facets[kept] = result_.facets[f];
-            result_.patch[kept++] = result_.patch[f];
+            result_.patch[kept] = result_.patch[f];
+            result_.plane[kept] = result_.plane[f];
+            result_.rise[kept++] = result_.rise[f];
         }
         result_.facets.resize(kept);
         result_.patch.resize(kept);
+        result_.plane.resize(kept);
+        result_.rise.resize(kept);
     }
 
     void leave_out_collapsed() {
@@ -214,16 +281,6 @@ std::vector<std::int32_t> find_open_patches(const Tessellation& mesh, const std:
     return patches;
 }
 
-// Of the tetrahedra between the facets and a vertex, so that a body far from the origin loses no digits.
-double enclosed(const Tessellation& mesh) {
-    if (mesh.vertices.empty()) return 0;
-    const Vec3& apex = mesh.vertices.front();
-    return std::accumulate(mesh.facets.begin(), mesh.facets.end(), 0.0, [&](double sum, const Triangle& t) {
-        const Vec3 a = mesh.vertices[t[0]] - apex, b = mesh.vertices[t[1]] - apex, c = mesh.vertices[t[2]] - apex;
-        return sum + a.dot(b.cross(c)) / 6;
-    });
-}
-
 }  // namespace
 
 Tessellation tessellate(const Body& body, const TessellationSettings& settings) {
@@ -236,8 +293,18 @@ Tessellation tessellate(const Body& body, const TessellationSettings& settings) 
     const std::vector<DirectedEdge> edges = sorted_edges(mesh.facets);
     mesh.open_patches = find_open_patches(mesh, edges);
     std::erase_if(mesh.edges, [&](const ModelEdge& e) { return count(edges, e.vertices[0], e.vertices[1]) == 0; });
-    mesh.volume = enclosed(mesh);
+    mesh.volume = enclosed_volume(mesh);
     return mesh;
+}
+
+// Of the tetrahedra between the facets and a vertex, so that a body far from the origin loses no digits.
+double enclosed_volume(const Tessellation& mesh) {
+    if (mesh.vertices.empty()) return 0;
+    const Vec3& apex = mesh.vertices.front();
+    return std::accumulate(mesh.facets.begin(), mesh.facets.end(), 0.0, [&](double sum, const Triangle& t) {
+        const Vec3 a = mesh.vertices[t[0]] - apex, b = mesh.vertices[t[1]] - apex, c = mesh.vertices[t[2]] - apex;
+        return sum + a.dot(b.cross(c)) / 6;
+    });
 }
 
 void find_smooth_edges(const Body& body) { BRepLib::EncodeRegularity(body.shape, smooth_angle); }

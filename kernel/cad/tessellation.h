@@ -17,8 +17,10 @@ struct TessellationSettings {
 struct Tessellation {
     std::vector<Vec3> vertices;  ///< millimetres
     std::vector<Triangle> facets;
-    std::vector<std::int32_t> patch;         ///< #F; index into Model::patches
-    std::vector<ModelEdge> edges;            ///< bounds of patches and creases, each of them an edge of facets
+    std::vector<std::int32_t> patch;  ///< #F; index into Model::patches
+    std::vector<Vec3> plane;          ///< #F; normal of the face if that is planar, else 0
+    std::vector<double> rise;         ///< #F; height of the face over the facet, outwards, in the mean; millimetres
+    std::vector<ModelEdge> edges;     ///< bounds of patches and creases, each of them an edge of facets
     std::vector<std::int32_t> failed_faces;  ///< patches of faces that got no triangles
     std::vector<std::int32_t> open_patches;  ///< of facets at edges that are not used once in each direction, ascending
     double volume = 0;                       ///< inside; right if the facets are closed
@@ -27,6 +29,9 @@ struct Tessellation {
 /// Triangles of all faces, as BRepMesh makes them, which are closed if the model is and no face fails. Needles are
 /// plenty. The body's own triangulation is replaced. Deterministic.
 Tessellation tessellate(const Body& body, const TessellationSettings& settings);
+
+/// Signed volume inside of the facets.
+double enclosed_volume(const Tessellation& mesh);
 
 /// Tells for each edge of the body whether its faces are tangent there, to within a degree.
 void find_smooth_edges(const Body& body);

@@ -26,7 +26,8 @@ struct CadOptions {
     bool unite = false;                ///< solids that touch or overlap become one
     LengthUnit unit = LengthUnit::mm;  ///< of the result; a file that names no unit (BREP) keeps its numbers
     double deflection = 0;             ///< largest distance of a chord from its curve as a share of the diagonal of
-                                       ///< the solid; 0: such that the volume is right to `volume_tolerance`
+                                       ///< the solid; 0: such that the volume is right to `volume_tolerance`,
+                                       ///< for which vertices leave the curved faces a little
 
     static constexpr double volume_tolerance = 1e-4;  ///< of |volume of facets - volume of solid| / volume of solid
 

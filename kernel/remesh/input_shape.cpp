@@ -29,7 +29,8 @@ bool share_a_vertex(const Triangle& s, const Triangle& t) {
 
 }  // namespace
 
-InputShape::InputShape(SurfaceArrays surface, std::vector<double> tolerance, double feature_angle_deg)
+InputShape::InputShape(SurfaceArrays surface, std::vector<double> tolerance, double feature_angle_deg,
+                       const std::vector<UndirectedEdge>& creases)
     : surface_(std::move(surface)),
       tolerance_(std::move(tolerance)),
       vertex_tolerance_(surface_.vertices.size(), std::numeric_limits<double>::infinity()),
@@ -42,22 +43,25 @@ InputShape::InputShape(SurfaceArrays surface, std::vector<double> tolerance, dou
     Eigen::AlignedBox3d box;
     for (const Vec3& p : surface_.vertices) box.extend(p);
     noise_ = rounding_of_files * box.diagonal().norm();
-    find_features(feature_angle_deg);
+    find_features(feature_angle_deg, creases);
 }
 
 // Between the planes of regions, because the normals of needles are noise.
-void InputShape::find_features(double feature_angle_deg) {
+void InputShape::find_features(double feature_angle_deg, std::vector<UndirectedEdge> creases) {
     const std::vector<std::int32_t> partner = edge_partners(surface_.facets);
-    const auto divides_patches = [&](std::int32_t corner) {
-        return surface_.patch[corner / 3] != surface_.patch[partner[corner] / 3];
+    for (UndirectedEdge& e : creases) e = undirected(e[0], e[1]);
+    std::sort(creases.begin(), creases.end());
+    const auto is_border = [&](std::int32_t corner) {
+        const Triangle& t = surface_.facets[corner / 3];
+        return surface_.patch[corner / 3] != surface_.patch[partner[corner] / 3] ||
+               std::binary_search(creases.begin(), creases.end(), undirected(t[corner % 3], t[(corner + 1) % 3]));
     };
-    regions_ = find_flat_regions(
-        surface_.vertices, surface_.facets,
-        {.tolerance = flat_share * largest_tolerance_, .noise = noise_, .is_border = divides_patches});
+    regions_ =
+        find_flat_regions(surface_.vertices, surface_.facets,
+                          {.tolerance = flat_share * largest_tolerance_, .noise = noise_, .is_border = is_border});
     const double least_cosine = std::cos(feature_angle_deg * std::numbers::pi / 180);
     for (std::int32_t corner = 0; corner < static_cast<std::int32_t>(partner.size()); ++corner)
-        feature_.push_back(divides_patches(corner) ||
-                           normal(corner / 3).dot(normal(partner[corner] / 3)) < least_cosine);
+        feature_.push_back(is_border(corner) || normal(corner / 3).dot(normal(partner[corner] / 3)) < least_cosine);
 }
 
 std::vector<double> tolerances_of_gaps(const SurfaceArrays& surface, double deviation) {

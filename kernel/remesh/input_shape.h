@@ -13,8 +13,10 @@ namespace kerf {
 class InputShape {
  public:
     /// `tolerance` (#F): how far from a facet the new surface may be, units of the input. Edges of more than
-    /// `feature_angle_deg` between the normals and those between patches are features.
-    InputShape(SurfaceArrays surface, std::vector<double> tolerance, double feature_angle_deg);
+    /// `feature_angle_deg` between the normals and those between patches are features, and
+    /// so are `creases`.
+    InputShape(SurfaceArrays surface, std::vector<double> tolerance, double feature_angle_deg,
+               const std::vector<UndirectedEdge>& creases = {});
 
     const std::vector<Vec3>& vertices() const { return surface_.vertices; }
     const std::vector<Triangle>& facets() const { return surface_.facets; }
@@ -35,7 +37,7 @@ class InputShape {
     double largest_tolerance() const { return largest_tolerance_; }
 
  private:
-    void find_features(double feature_angle_deg);
+    void find_features(double feature_angle_deg, std::vector<UndirectedEdge> creases);
 
     SurfaceArrays surface_;
     std::vector<double> tolerance_, vertex_tolerance_;

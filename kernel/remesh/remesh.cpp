@@ -343,7 +343,7 @@ Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& options) {
     const TriangleTree tree(surface.vertices, surface.facets);
     std::vector<double> tolerance = tolerances_of_gaps(surface, used_share * options.deviation);
     for (int round = 1;; ++round) {
-        const InputShape input(surface, tolerance, options.feature_angle_deg);
+        const InputShape input(surface, tolerance, options.feature_angle_deg, options.creases);
         Remesher remesher(input, options);
         remesher.run();
         Remeshed result = {

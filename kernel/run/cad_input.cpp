@@ -75,9 +75,12 @@ Soup read_surface_or_cad(std::string bytes, const std::string& path, const CadOp
     const FileHash file_hash = digest_of(bytes);
     std::string content = decompress(std::move(bytes), path);
     if (cad_format(content) != CadFormat::none) return std::move(read_cad(path, file_hash, options).soup);
-    if (options.solid > 0 || options.unite)
-        throw Error(ErrorCode::usage, fmt::format("{} is no CAD file, so that --{} has no meaning. Leave it out.", path,
-                                                  options.unite ? "unite" : "solid"));
+    for (const auto& [name, is_given] :
+         {std::pair("solid", options.solid > 0), std::pair("unite", options.unite),
+          std::pair("unit", options.unit != LengthUnit::mm), std::pair("cad-deflection", options.deflection > 0)})
+        if (is_given)
+            throw Error(ErrorCode::usage,
+                        fmt::format("{} is no CAD file, so that --{} has no meaning. Leave it out.", path, name));
     return read_surface_bytes(std::move(content), path);
 }
 

@@ -101,6 +101,9 @@ Input read_input(const std::string& path, const InputOptions& options) {
         make_feature_patches(soup, options.feature_angle_deg);
     if (options.optimisation_sweeps > 0) optimise(soup, options.optimisation_sweeps, input);
     input.patch_names = soup.patch_names;
+    input.is_cad = soup.is_of_model;
+    for (const ModelEdge& edge : soup.model_edges)
+        if (edge.sharp != 0) input.creases.push_back(edge.vertices);
     Eigen::AlignedBox3d box;
     for (const Vec3& p : soup.vertices) box.extend(p);
     input.diagonal = box.diagonal().norm();

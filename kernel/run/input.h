@@ -72,6 +72,9 @@ struct Input {
     std::optional<InputRemeshing> remeshed;
     std::vector<std::string> patch_names;
     std::vector<std::string> notes;  ///< what the reader passed over
+    bool is_cad = false;             ///< a file of curved faces, not of triangles
+    /// Of a CAD file: edges of the surface as it was read that are creases of the model, flat as they may be.
+    std::vector<UndirectedEdge> creases;
     Surface surface;
 };
 

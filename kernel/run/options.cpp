@@ -213,17 +213,19 @@ std::vector<OptionField> size_option_fields(SizeOptions& o) {
 // What is done to the surface, from nothing to most.
 OptionField::Choice surface_choice(RunOptions& o) {
     const auto get = [&o] {
-        if (o.remeshing == Remeshing::always) return 2;
+        if (o.remeshing == Remeshing::of_cad_files) return 4;
         if (o.remeshing == Remeshing::where_slivers_spoil_cells) return 3;
+        if (o.remeshing == Remeshing::always) return 2;
         return o.decompose.facets == FacetPolicy::keep ? 0 : 1;
     };
     const auto set = [&o](int value) {
         o.decompose.facets = value == 0 ? FacetPolicy::keep : FacetPolicy::split;
         o.remeshing = value == 2   ? Remeshing::always
                       : value == 3 ? Remeshing::where_slivers_spoil_cells
+                      : value == 4 ? Remeshing::of_cad_files
                                    : Remeshing::never;
     };
-    return {{"keep", "split", "remesh", "auto"}, get, set};
+    return {{"keep", "split", "remesh", "auto", "by-file"}, get, set};
 }
 
 std::vector<OptionField> option_fields(RunOptions& o) {
@@ -243,7 +245,7 @@ std::vector<OptionField> option_fields(RunOptions& o) {
          choice(cut.contour, {"min-cut", "edges", "straight"})},
         {"surface", "",
          "keep every facet; split some where no contour of edges exists; remesh all within --deviation; auto: remesh "
-         "where slivers would spoil the cells. Default split.",
+         "where slivers would spoil the cells; by-file: remesh CAD files, split others. Default by-file.",
          surface_choice(o)},
         {"deviation", "",
          "Largest distance of a remeshed surface from the input, in its units, or with % of its diagonal. Default "

@@ -14,7 +14,7 @@
 namespace kerf {
 
 /// Whether the surface is remeshed within a bound before all else (run/remeshing.h).
-enum class Remeshing { never, always, where_slivers_spoil_cells };
+enum class Remeshing { of_cad_files, never, always, where_slivers_spoil_cells };
 
 struct RunOptions {
     std::string input;
@@ -27,7 +27,7 @@ struct RunOptions {
     MesherOptions mesher;
     SizeOptions sizes;           ///< of tetrahedra, see use_sizes()
     InputOptions input_options;  ///< of the surface before all else
-    Remeshing remeshing = Remeshing::never;
+    Remeshing remeshing = Remeshing::of_cad_files;
     std::string deviation;     ///< of a remeshed surface: units of the input, or with % of its diagonal; empty: 0.002%
     std::int32_t workers = 0;  ///< processes of each rank; 0: its share of the processors
     double timeout_seconds = 600;  ///< of one attempt at one part; 0: none

@@ -55,6 +55,21 @@ Slivers find_slivers(const std::vector<Vec3>& vertices, const std::vector<Triang
     return {in_degrees(*middle), static_cast<double>(below) / static_cast<double>(sines.size())};
 }
 
+bool is_remeshed(const Input& input, const RunOptions& options) {
+    switch (options.remeshing) {
+        case Remeshing::never:
+            return false;
+        case Remeshing::always:
+            return true;
+        case Remeshing::of_cad_files:
+            return input.is_cad;
+        case Remeshing::where_slivers_spoil_cells:
+            break;
+    }
+    const SurfaceArrays surface = input.surface.arrays();
+    return find_slivers(surface.vertices, surface.facets).spoil_cells();
+}
+
 std::string sliver_note(const Slivers& slivers, const std::string& path) {
     if (!slivers.spoil_cells()) return "";
     return fmt::format(
@@ -86,17 +101,19 @@ double parse_deviation(const std::string& text, double diagonal) {
 
 Input remesh_where_asked(Input input, const RunOptions& options) {
     const SurfaceArrays before = input.surface.arrays();
-    if (options.remeshing == Remeshing::never) {
+    if (!is_remeshed(input, options)) {
         const std::string note = sliver_note(find_slivers(before.vertices, before.facets), input.path);
         if (!note.empty()) input.notes.push_back(note);
         return input;
     }
-    if (options.remeshing == Remeshing::where_slivers_spoil_cells &&
-        !find_slivers(before.vertices, before.facets).spoil_cells())
-        return input;
+    if (options.remeshing == Remeshing::of_cad_files)
+        input.notes.push_back(
+            "A CAD file has no triangles of its own: they are remeshed. --surface split keeps those "
+            "of OpenCASCADE.");
     const SizeField wanted = wanted_lengths(options, before, input);
     RemeshOptions remesh_options = {.deviation = parse_deviation(options.deviation, input.diagonal),
-                                    .longest = longest_share * input.diagonal};
+                                    .longest = longest_share * input.diagonal,
+                                    .creases = std::move(input.creases)};
     if (options.sizes.growth > 0) remesh_options.growth = options.sizes.growth;
     if (!wanted.is_empty()) remesh_options.wanted = [&](const Vec3& p) { return wanted.at(p); };
     Remeshed remeshed = remesh(before, remesh_options);

@@ -20,6 +20,9 @@ struct Slivers {
 };
 Slivers find_slivers(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets);
 
+/// Whether `options` have this input remeshed. All who ask about a run ask here.
+bool is_remeshed(const Input& input, const RunOptions& options);
+
 /// One sentence with the command that cures it; empty if they spoil nothing.
 std::string sliver_note(const Slivers& slivers, const std::string& path);
 
@@ -27,9 +30,10 @@ std::string sliver_note(const Slivers& slivers, const std::string& path);
 /// option.
 double parse_deviation(const std::string& text, double diagonal);
 
-/// The input, remeshed where `options` says so, or with a note about slivers. Remeshed, its surface, counts, area and
-/// volume are the new ones, and Input::remeshed tells what was done. The wanted lengths are those of options.sizes.
-/// Throws Error(usage) for a deviation out of range, Error(input) where the bound cannot be kept.
+/// The input, remeshed where `options` says so, or with a note about slivers. That a CAD file is by default is noted.
+/// Remeshed, its surface, counts, area and volume are the new ones, and Input::remeshed tells what was done. The wanted
+/// lengths are those of options.sizes. Throws Error(usage) for a deviation out of range, Error(input) where the bound
+/// cannot be kept.
 Input remesh_where_asked(Input input, const RunOptions& options);
 
 }  // namespace kerf

@@ -31,6 +31,7 @@ struct Soup {
     std::vector<std::int32_t> vertex_number = {};
     std::vector<Vec3> holes = {};         ///< points in voids that the file names; units of the file
     std::vector<std::string> notes = {};  ///< what the reader passed over: "12 tetrahedra were ignored."
+    bool is_of_model = false;  ///< the facets stand for curved faces: a CAD file, whose triangles nobody chose
     /// Edges of the model, each once; the same vertices as the facets. Empty if the file has no model.
     std::vector<ModelEdge> model_edges = {};
     /// sRGB and 255 for each patch; four zeros where the file gives no colour. Empty if it gives none at all.
@@ -38,8 +39,8 @@ struct Soup {
 
     template <class Archive>
     void archive(Archive& a) {
-        a(vertices, facets, patch, patch_names, polygon, unfit_polygons, vertex_number, holes, notes, model_edges,
-          patch_colours);
+        a(vertices, facets, patch, patch_names, polygon, unfit_polygons, vertex_number, holes, notes, is_of_model,
+          model_edges, patch_colours);
     }
 
     /// The numbers that the file gives to facets and vertices; facets of one face that follow each other count once.

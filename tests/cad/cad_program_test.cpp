@@ -46,6 +46,22 @@ TEST_F(CadProgram, MeshIsMadeOfTheFileAndVerified) {
     EXPECT_NE(test::output_of(checked).find("\"solid 2/face 1\""), std::string::npos) << test::output_of(checked);
 }
 
+TEST_F(CadProgram, SurfaceIsRemeshedUnlessItIsAskedFor) {
+    const std::string out = folder_.file("out");
+    const auto log_of = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments = {"decompose", part(), "-o", out, "-n", "1", "--solid", "2"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ChildResult run = test::run_kerf(arguments);
+        EXPECT_EQ(run.exit_code, 0) << run.log;
+        return run.log;
+    };
+    const std::string by_default = log_of({}), split = log_of({"--surface", "split"});
+    EXPECT_NE(by_default.find("A CAD file has no triangles of its own"), std::string::npos) << by_default;
+    EXPECT_NE(by_default.find("\nremeshed "), std::string::npos) << by_default;
+    EXPECT_EQ(split.find("remeshed "), std::string::npos) << split;
+    EXPECT_NE(log_of({"--surface", "remesh"}).find("\nremeshed "), std::string::npos);
+}
+
 TEST_F(CadProgram, AnswersOnStandardOutputAndInAFileAreTheSame) {
     const std::string out = folder_.file("answer");
     const ChildResult answered = test::run_program(KERF_CAD_PROGRAM, {part(), "--solid", "1"});

@@ -181,6 +181,39 @@ TEST(Remesh, PlanesStayPlanesAndEdgesStayEdges) {
     EXPECT_GE(remeshed.report.feature_edges * 1.35 * options.longest, 24);
 }
 
+TEST(Remesh, CreasesOfTheModelStayFlatAsTheyAre) {
+    const SurfaceArrays surface = test::to_arrays(test::box(Vec3::Zero(), Vec3(1, 2, 3), 1));
+    RemeshOptions options = within(surface, 1e-3);
+    const auto length_along = [&](UndirectedEdge crease) {
+        const SurfaceArrays result = remesh(surface, options).surface;
+        const Vec3 &from = surface.vertices[crease[0]], &to = surface.vertices[crease[1]];
+        const auto is_on = [&](const Vec3& p) {
+            return (p - from).norm() + (p - to).norm() < (to - from).norm() + 1e-9;
+        };
+        double length = 0;
+        for (const Triangle& t : result.facets)
+            for (std::size_t i = 0; i < 3; ++i) {
+                const Vec3 &p = result.vertices[t[i]], &q = result.vertices[t[(i + 1) % 3]];
+                if (is_on(p) && is_on(q)) length += (q - p).norm() / 2;
+            }
+        return length / (to - from).norm();
+    };
+    for (const Triangle& t : {surface.facets[0], surface.facets[7]}) {
+        UndirectedEdge diagonal = {};  // of a side of the box
+        double longest = 0;
+        for (std::size_t i = 0; i < 3; ++i)
+            if (const double length = (surface.vertices[t[i]] - surface.vertices[t[(i + 1) % 3]]).norm();
+                length > longest) {
+                longest = length;
+                diagonal = {t[i], t[(i + 1) % 3]};
+            }
+        options.creases.clear();
+        EXPECT_LT(length_along(diagonal), 0.9) << "else the test says nothing";
+        options.creases = {diagonal};
+        EXPECT_NEAR(length_along(diagonal), 1, 1e-9);
+    }
+}
+
 TEST(Remesh, BordersOfPatchesStay) {
     Soup soup = test::box(Vec3::Zero(), Vec3::Ones(), 4);
     for (std::size_t f = 0; f < soup.facets.size(); ++f) soup.patch[f] = static_cast<std::int32_t>(f % 5);
