@@ -4,7 +4,8 @@
 //
 // Chords are as fine as the volume between them and the faces asks for, and vertices are moved off the faces until the
 // facets hold what the solid holds (volume_balance.h): for the same volume, chords would have to be ten times as fine.
-// Where that fails, the deflection gets smaller by what is missing, since the error is proportional to it.
+// Where that fails, or bodies meet that way which are apart, the deflection gets smaller by what is missing, since the
+// error is proportional to it.
 #include "cad/cad_import.h"
 
 #include <algorithm>
@@ -61,11 +62,12 @@ std::string place_text(const Vec3& p) { return fmt::format("({:.6g}, {:.6g}, {:.
 // A body while it is tessellated.
 class BodyMesher {
  public:
-    BodyMesher(Body& body, Model& model, const std::string& path, double deflection)
+    BodyMesher(Body& body, Model& model, const std::string& path, double deflection, bool may_balance)
         : body_(body),
           model_(model),
           path_(path),
           by_volume_(deflection == 0),
+          may_balance_(may_balance),
           diagonal_(cad::diagonal_of(body.shape)) {
         settings_ = {(by_volume_ ? coarsest_deflection : deflection) * diagonal_, coarsest_angle};
         GProp_GProps properties;
@@ -154,7 +156,7 @@ class BodyMesher {
     }
 
     bool balance(Tessellation& mesh) const {
-        if (roughness(mesh) > 1) return false;
+        if (!may_balance_ || roughness(mesh) > 1) return false;
         Tessellation balanced = mesh;
         if (!cad::balance_volume(balanced, std::copysign(exact_volume_, mesh.volume))) return false;
         if (!crossing_of(balanced).empty()) return false;
@@ -218,6 +220,7 @@ class BodyMesher {
     Model& model_;
     const std::string& path_;
     bool by_volume_;
+    bool may_balance_;  // else all vertices stay on the faces
     double diagonal_;
     TessellationSettings settings_ = {};
     double exact_volume_ = 0;
@@ -288,21 +291,39 @@ void append(Soup& soup, const Tessellation& mesh) {
         soup.model_edges.push_back({{e.vertices[0] + shift, e.vertices[1] + shift}, e.sharp});
 }
 
-// Solids that touch or overlap are known by their facets. `first_facet`: of each body.
-void refuse_touching(const Model& model, const Soup& soup, const std::vector<std::int32_t>& first_facet,
-                     const std::string& path) {
-    if (model.bodies.size() < 2) return;
-    const auto pairs = find_self_intersections(soup.vertices, soup.facets, 1);
-    if (pairs.empty()) return;
+// All bodies as facets, in their order.
+struct Bodies {
+    Soup soup;
+    std::vector<std::int32_t> first_facet;  // of each
+    double volume = 0, exact_volume = 0;
+};
+
+Bodies tessellate_bodies(Model& model, const CadOptions& options, const std::string& path, bool may_balance) {
+    Bodies all;
+    for (Body& body : model.bodies) {
+        BodyMesher mesher(body, model, path, options.deflection, may_balance);
+        const Tessellation mesh = mesher.run();
+        all.first_facet.push_back(static_cast<std::int32_t>(all.soup.facets.size()));
+        append(all.soup, mesh);
+        all.volume += mesh.volume;
+        all.exact_volume += mesher.exact_volume();
+    }
+    return all;
+}
+
+// Solids that touch or overlap are known by their facets; empty if none do.
+std::string touching_of(const Model& model, const Bodies& all) {
+    if (model.bodies.size() < 2) return "";
+    const auto pairs = find_self_intersections(all.soup.vertices, all.soup.facets, 1);
+    if (pairs.empty()) return "";
     const auto name_of = [&](std::int32_t facet) {
-        const auto next = std::upper_bound(first_facet.begin(), first_facet.end(), facet);
-        return model.bodies[static_cast<std::size_t>(next - first_facet.begin() - 1)].name;
+        const auto next = std::upper_bound(all.first_facet.begin(), all.first_facet.end(), facet);
+        return model.bodies[static_cast<std::size_t>(next - all.first_facet.begin() - 1)].name;
     };
     const auto [f, g] = pairs.front();
-    refuse(path,
-           fmt::format("solids '{}' and '{}' touch or overlap near {}. Join what touches by --unite, or choose one "
-                       "by --solid N.",
-                       name_of(f), name_of(g), place_text(soup.vertices[soup.facets[f][0]])));
+    return fmt::format(
+        "solids '{}' and '{}' touch or overlap near {}. Join what touches by --unite, or choose one by --solid N.",
+        name_of(f), name_of(g), place_text(all.soup.vertices[all.soup.facets[f][0]]));
 }
 
 // Patches without facets are left out.
@@ -345,16 +366,16 @@ CadBody import_model(Model model, const CadOptions& options, const std::string& 
     CadBody result;
     result.format = name(model.format);
     result.file_unit = model.unit;
-    std::vector<std::int32_t> first_facet;
-    for (Body& body : model.bodies) {
-        BodyMesher mesher(body, model, path, options.deflection);
-        const Tessellation mesh = mesher.run();
-        first_facet.push_back(static_cast<std::int32_t>(result.soup.facets.size()));
-        append(result.soup, mesh);
-        result.volume += mesh.volume;
-        result.exact_volume += mesher.exact_volume();
+    Bodies all = tessellate_bodies(model, options, path, true);
+    std::string touching = touching_of(model, all);
+    if (options.deflection == 0 && !touching.empty()) {
+        all = tessellate_bodies(model, options, path, false);
+        touching = touching_of(model, all);
     }
-    refuse_touching(model, result.soup, first_facet, path);
+    if (!touching.empty()) refuse(path, touching);
+    result.soup = std::move(all.soup);
+    result.volume = all.volume;
+    result.exact_volume = all.exact_volume;
     set_patches(result.soup, model.patches);
     drop_unused_vertices(result.soup);
     result.soup.vertex_number.clear();  // the file has no vertices of facets

@@ -213,6 +213,14 @@ TEST_F(CadFile, VolumeIsRightAndPlanesStayPlanar) {
     }
 }
 
+TEST_F(CadFile, SolidsOfASmallGapStayApart) {
+    const std::string path =
+        write("two.step", test::together({test::cylinder(1, 1), test::moved(test::cylinder(1, 1), {2.001, 0, 0})}));
+    const CadBody body = import_file(path);
+    EXPECT_EQ(body.solids, 2);
+    EXPECT_NEAR(body.volume, body.exact_volume, CadOptions::volume_tolerance * body.exact_volume);
+}
+
 TEST_F(CadFile, UnitsAreReadAndConverted) {
     for (const char* ending : {".step", ".igs"})
         for (const auto& [unit, said] : {std::pair("MM", "mm"), std::pair("INCH", "inch"), std::pair("M", "m")}) {

@@ -6,6 +6,10 @@
 #include "cad/cad_files.h"
 #include "io/cad_body.h"
 #include "io/file_bytes.h"
+#include "support/file_contents.h"
+#ifdef KERF_MPIRUN
+#include "support/mpirun.h"
+#endif
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -61,6 +65,21 @@ TEST_F(CadProgram, SurfaceIsRemeshedUnlessItIsAskedFor) {
     EXPECT_EQ(split.find("remeshed "), std::string::npos) << split;
     EXPECT_NE(log_of({"--surface", "remesh"}).find("\nremeshed "), std::string::npos);
 }
+
+#ifdef KERF_MPIRUN
+TEST_F(CadProgram, EveryRankRemeshesTheSame) {
+    const auto files_of = [&](int ranks) {
+        const std::string out = folder_.file("out");
+        const ChildResult run = test::run_ranks(ranks, {KERF_PROGRAM, "mesh", part(), "-o", out, "-n", "2", "--workers",
+                                                        "1", "--solid", "2", "--cad-deflection", "1e-2"});
+        EXPECT_EQ(run.exit_code, 0) << run.log;
+        return test::result_of_run(out);
+    };
+    const auto files = files_of(1);
+    EXPECT_FALSE(files.empty());
+    EXPECT_TRUE(files == files_of(2));
+}
+#endif
 
 TEST_F(CadProgram, AnswersOnStandardOutputAndInAFileAreTheSame) {
     const std::string out = folder_.file("answer");
