@@ -21,6 +21,8 @@ volatile std::sig_atomic_t stop_signal = 0;
 // whatever it was doing, its folder can be continued.
 constexpr unsigned seconds_to_end = 2;
 
+constexpr double seconds_between_lines = 0.2;
+
 void note_signal(int signal) {
     if (stop_signal == 0) ::alarm(seconds_to_end);
     stop_signal = signal;
@@ -66,10 +68,20 @@ bool ProgressLine::cancelled() const { return stop_signal != 0; }
 
 void ProgressLine::on_progress(const char* stage, std::size_t done, std::size_t total) {
     if (events_) events_->on_progress(stage, done, total);
-    if (stage_ == stage) return;
-    stage_ = stage;
-    stage_start_ = std::chrono::steady_clock::now();
-    if (!quiet_ && terminal_) print(stage_);
+    const bool shows_stage = !quiet_ && terminal_;
+    if (stage_ != stage) {
+        stage_ = stage;
+        stage_start_ = std::chrono::steady_clock::now();
+        last_seconds_ = 0;
+        if (shows_stage) print(stage_);
+    } else if (shows_stage && total == 0 && seconds_of_stage() > last_seconds_ + seconds_between_lines) {
+        last_seconds_ = seconds_of_stage();
+        print(fmt::format("{}  {:.1f} s", stage_, last_seconds_));
+    }
+}
+
+double ProgressLine::seconds_of_stage() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - stage_start_).count();
 }
 
 void ProgressLine::on_parts(const std::vector<PartReport>& parts, const std::string& plan) {
@@ -93,7 +105,7 @@ void ProgressLine::on_part(const PartEvent& event) {
     const int tenth = static_cast<int>(10 * event.load_done + 1e-9);
     if (quiet_ || event.part->resumed || (!terminal_ && tenth == last_tenth_)) return;
     last_tenth_ = tenth;
-    const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - stage_start_).count();
+    const double elapsed = seconds_of_stage();
     const double own = load_at_start_ < 1 ? (event.load_done - load_at_start_) / (1 - load_at_start_) : 1;
     const auto tets = static_cast<double>(event.tets);
     const double rate = elapsed > 0 ? (tets - static_cast<double>(tets_at_start_)) / elapsed : 0;

@@ -21,12 +21,14 @@ class ProgressLine : public RunListener {
     bool cancelled() const override;
 
  private:
+    double seconds_of_stage() const;
     void print(const std::string& text);
     void clear();
 
     bool quiet_, terminal_, line_open_ = false;
     EventLog* events_;
     std::string stage_;
+    double last_seconds_ = 0;  // of the stage, that were printed
     int last_tenth_ = 0;
     double load_at_start_ = 0;  // done by an interrupted run
     std::int64_t tets_at_start_ = 0;

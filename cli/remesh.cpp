@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/progress.h"
 #include "core/error.h"
 #include "io/obj_writer.h"
 #include "io/output_file.h"
@@ -14,6 +15,15 @@
 
 namespace kerf {
 
+namespace {
+
+Input read_and_remesh(const RunOptions& options, bool quiet) {
+    ProgressLine progress(quiet, nullptr);
+    return remesh_where_asked(read_input(options.input, options.input_options), options, &progress);
+}
+
+}  // namespace
+
 int remesh_surface(RunOptions options, const std::string& output, bool quiet) {
     const std::string ending = std::filesystem::path(output).extension().string();
     if (ending != ".obj" && ending != ".stl")
@@ -22,7 +32,7 @@ int remesh_surface(RunOptions options, const std::string& output, bool quiet) {
     require_writable("--output", output);
     options.remeshing = Remeshing::always;
     options.sizes.check();
-    const Input input = remesh_where_asked(read_input(options.input, options.input_options), options);
+    const Input input = read_and_remesh(options, quiet);
     const SurfaceArrays surface = input.surface.arrays();
     if (ending == ".obj")
         write_obj(output, surface.vertices, surface.facets, surface.patch, input.patch_names);

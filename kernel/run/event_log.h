@@ -14,7 +14,8 @@ class CheckedFile;
 /// Writes each event when it happens. All objects have "event" and "seconds" since the start:
 ///
 ///     {"event": "run", "input", "output", "trace", "parts"}
-///     {"event": "stage", "stage": "read" | "decompose" | "prepare" | "volume" | "reference" | "write" | "hash"}
+///     {"event": "stage", "stage": "read" | "remesh" | "decompose" | "prepare" | "volume" | "reference" | "write" |
+///                                 "hash"}
 ///     {"event": "parts", "parts": [{"id", "load", "facets", "volume", "resumed"}]}
 ///     {"event": "part", "id", "state": "done" | "resumed" | "failed", "rank", "worker", "attempts", "tets",
 ///                       "part_seconds", "parts_done", "parts", "load_done", "tets_done", "message", "remedy"}

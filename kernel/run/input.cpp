@@ -104,6 +104,7 @@ Input read_input(const std::string& path, const InputOptions& options) {
     input.is_cad = soup.is_of_model;
     for (const ModelEdge& edge : soup.model_edges)
         if (edge.sharp != 0) input.creases.push_back(edge.vertices);
+    if (soup.patch_colours.size() == soup.patch_names.size()) input.patch_colours = soup.patch_colours;
     Eigen::AlignedBox3d box;
     for (const Vec3& p : soup.vertices) box.extend(p);
     input.diagonal = box.diagonal().norm();

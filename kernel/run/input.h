@@ -1,6 +1,8 @@
 // From a surface file to the closed surface that is cut.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -71,8 +73,9 @@ struct Input {
     double largest_move = 0;          ///< of a vertex by that
     std::optional<InputRemeshing> remeshed;
     std::vector<std::string> patch_names;
-    std::vector<std::string> notes;  ///< what the reader passed over
-    bool is_cad = false;             ///< a file of curved faces, not of triangles
+    std::vector<std::array<std::uint8_t, 4>> patch_colours;  ///< as Soup has them; empty: none
+    std::vector<std::string> notes;                          ///< what the reader passed over
+    bool is_cad = false;                                     ///< a file of curved faces, not of triangles
     /// Of a CAD file: edges of the surface as it was read that are creases of the model, flat as they may be.
     std::vector<UndirectedEdge> creases;
     Surface surface;

@@ -15,10 +15,11 @@ struct PartEvent {
 
 /// Is told of the progress, on the root rank of that of all ranks. Without one nothing is copied, and the result is the
 /// same. Once cancelled() is true, on any rank, the run ends with Error(cancelled) and leaves no result; it is asked
-/// between stages, before cuts and while workers run.
+/// between stages, while the surface is remeshed, before cuts and while workers run.
 class RunListener : public CutListener {
  public:
-    /// `done` of `total` steps of a stage: "read", "decompose", "prepare", "volume", "reference", "write", "hash".
+    /// `done` of `total` steps of a stage, 0 if nobody knows how many: "read", "remesh", "decompose", "prepare",
+    /// "volume", "reference", "write", "hash".
     virtual void on_progress(const char* stage, std::size_t done, std::size_t total) = 0;
     /// The parts before they are meshed, those among them that need not be included, and what is expected of them, as
     /// plan_text() says it: only on the root rank.

@@ -353,8 +353,7 @@ RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input&
         if (listener) listener->on_progress("read", 0, 1);
         input = read_input(options.input, options.input_options);
         refuse_changed_input(options, input.file_hash);
-        if (listener && is_remeshed(input, options)) listener->on_progress("remesh", 0, 1);
-        input = remesh_where_asked(std::move(input), options);
+        input = remesh_where_asked(std::move(input), options, listener);
         const SurfaceArrays surface = options.sizes.depends_on_place() ? input.surface.arrays() : SurfaceArrays();
         if (options.sizes.depends_on_place())
             options.use_sizes(read_size_field(options.sizes, surface, input.patch_names));

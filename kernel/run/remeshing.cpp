@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/regular_tet.h"
 #include "remesh/remesh.h"
 #include "run/size_reader.h"
 #include "surface/mass_properties.h"
@@ -41,6 +42,17 @@ SizeField wanted_lengths(const RunOptions& options, const SurfaceArrays& surface
     sizes.growth = 0;
     return sizes.depends_on_place() ? read_size_field(sizes, surface, input.patch_names)
                                     : SizeField(sizes.constant_max_volume());
+}
+
+void tell_step(RunListener& listener, std::size_t steps) {
+    if (listener.cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
+    listener.on_progress("remesh", steps, 0);
+}
+
+// Where nothing else is wanted.
+double longest_edge(const RunOptions& options, double diagonal) {
+    const double max_volume = options.sizes.constant_max_volume();
+    return max_volume > 0 ? std::min(regular_tet_edge(max_volume), diagonal) : longest_share * diagonal;
 }
 
 }  // namespace
@@ -99,7 +111,7 @@ double parse_deviation(const std::string& text, double diagonal) {
     return deviation;
 }
 
-Input remesh_where_asked(Input input, const RunOptions& options) {
+Input remesh_where_asked(Input input, const RunOptions& options, RunListener* listener) {
     const SurfaceArrays before = input.surface.arrays();
     if (!is_remeshed(input, options)) {
         const std::string note = sliver_note(find_slivers(before.vertices, before.facets), input.path);
@@ -112,10 +124,14 @@ Input remesh_where_asked(Input input, const RunOptions& options) {
             "of OpenCASCADE.");
     const SizeField wanted = wanted_lengths(options, before, input);
     RemeshOptions remesh_options = {.deviation = parse_deviation(options.deviation, input.diagonal),
-                                    .longest = longest_share * input.diagonal,
+                                    .longest = longest_edge(options, input.diagonal),
                                     .creases = std::move(input.creases)};
     if (options.sizes.growth > 0) remesh_options.growth = options.sizes.growth;
     if (!wanted.is_empty()) remesh_options.wanted = [&](const Vec3& p) { return wanted.at(p); };
+    if (listener) {
+        remesh_options.poll = [listener, steps = std::size_t{0}]() mutable { tell_step(*listener, steps++); };
+        remesh_options.poll();
+    }
     Remeshed remeshed = remesh(before, remesh_options);
 
     input.remeshed = {.facets_before = input.facets,

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "run/input.h"
+#include "run/listener.h"
 #include "run/options.h"
 
 namespace kerf {
@@ -32,8 +33,9 @@ double parse_deviation(const std::string& text, double diagonal);
 
 /// The input, remeshed where `options` says so, or with a note about slivers. That a CAD file is by default is noted.
 /// Remeshed, its surface, counts, area and volume are the new ones, and Input::remeshed tells what was done. The wanted
-/// lengths are those of options.sizes. Throws Error(usage) for a deviation out of range, Error(input) where the bound
-/// cannot be kept.
-Input remesh_where_asked(Input input, const RunOptions& options);
+/// lengths are those of options.sizes. `listener`, unless null, is told of the stage "remesh" again and again while it
+/// lasts, with the steps that are done, of nobody knows how many. Throws Error(usage) for a deviation out of range,
+/// Error(input) where the bound cannot be kept, Error(cancelled).
+Input remesh_where_asked(Input input, const RunOptions& options, RunListener* listener = nullptr);
 
 }  // namespace kerf

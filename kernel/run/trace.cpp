@@ -18,7 +18,7 @@ namespace kerf {
 namespace {
 
 constexpr std::uint64_t trace_magic = 0x636172746672656b;  // "kerftrac" in little-endian order
-constexpr std::uint32_t trace_version = 3;  // is raised whenever a field of the record is added, dropped or changed
+constexpr std::uint32_t trace_version = 4;  // is raised whenever a field of the record is added, dropped or changed
 
 struct TraceHeader {
     std::uint64_t magic = trace_magic;
@@ -102,7 +102,9 @@ Trace read_trace(const std::string& path) {
 TraceRecorder::TraceRecorder(const RunOptions& options, const Input& input, CutListener* next) : next_(next) {
     trace_.input = input.path;
     trace_.surface = input.surface.arrays();
+    trace_.remeshed = input.remeshed.has_value();
     trace_.patch_names = input.patch_names;
+    trace_.patch_colours = input.patch_colours;
     trace_.options = option_texts(options, true);
 }
 

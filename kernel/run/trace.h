@@ -1,6 +1,8 @@
 // A run that can be looked at again elsewhere: its surface, its options and every cut with all that was tried.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,10 +14,12 @@ namespace kerf {
 
 /// What --trace writes. It depends on input, options and K alone: not on ranks, workers or time.
 struct Trace {
-    std::string input;                     ///< path of the surface file, as it was given
-    SurfaceArrays surface;                 ///< as it was cut: welded and oriented
-    std::vector<std::string> patch_names;  ///< of surface.patch
-    std::vector<OptionText> options;       ///< those that shape the parts, resolved
+    std::string input;                                       ///< path of the surface file, as it was given
+    SurfaceArrays surface;                                   ///< as it was cut: welded and oriented
+    bool remeshed = false;                                   ///< it is not as the file has it, but Input::remeshed
+    std::vector<std::string> patch_names;                    ///< of surface.patch
+    std::vector<std::array<std::uint8_t, 4>> patch_colours;  ///< as Input has them
+    std::vector<OptionText> options;                         ///< those that shape the parts, resolved
     std::vector<Cut> cuts;  ///< of every node where one was tried, ascending by number; recorded, with seconds 0
 
     /// The cut of a node, nullptr if none was tried there. O(log #cuts).
@@ -23,7 +27,7 @@ struct Trace {
 
     template <class Archive>
     void archive(Archive& a) {
-        a(input, surface, patch_names, options, cuts);
+        a(input, surface, remeshed, patch_names, patch_colours, options, cuts);
     }
 };
 

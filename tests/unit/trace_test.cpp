@@ -169,7 +169,7 @@ TEST_F(TraceFile, ForeignFilesAreRefused) {
     expect_refused(std::string(1000, '\0'), "no trace of Kerf");
     std::string newer = good_;
     ++newer[sizeof(std::uint64_t)];
-    expect_refused(newer, "reads format 3");
+    expect_refused(newer, "reads format 4");
     std::filesystem::remove(path_);
     EXPECT_THROW(read_trace(path_), Error);
 }
@@ -199,7 +199,7 @@ TEST(TraceLayout, NeedsANewVersionWhenItChanges) {
     Trace trace;
     trace.cuts.resize(1);
     trace.cuts[0].tries.resize(1);
-    EXPECT_EQ(to_bytes(trace).size(), 560u) << "raise trace_version in run/trace.cpp, then correct this number";
+    EXPECT_EQ(to_bytes(trace).size(), 569u) << "raise trace_version in run/trace.cpp, then correct this number";
 }
 
 }  // namespace
