@@ -114,7 +114,7 @@ const char* remedy(const Defect& defect) {
         case DefectKind::self_intersection:
             return "unite the parts that overlap where the surface was made";
         case DefectKind::needle:
-            return "mesh the surface again where good cells are needed";
+            return "remesh the surface with --surface remesh where good cells are needed";
         case DefectKind::short_edge:
             return "move the part closer to the origin or collapse the edges";
     }

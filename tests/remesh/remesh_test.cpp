@@ -275,6 +275,45 @@ TEST(Slivers, AreThoseThatSpoilCells) {
               std::string::npos);
 }
 
+// Is told of `steps_` steps, then wants the run to end.
+class PatientListener : public RunListener {
+ public:
+    explicit PatientListener(std::size_t steps) : steps_(steps) {}
+    void on_progress(const char* stage, std::size_t done, std::size_t) override {
+        EXPECT_STREQ(stage, "remesh");
+        EXPECT_EQ(done, told_++) << "something moves";
+    }
+    bool cancelled() const override { return told_ >= steps_; }
+    std::size_t told() const { return told_; }
+
+ private:
+    std::size_t steps_, told_ = 0;
+};
+
+TEST(RemeshedInput, TellsOfItsStepsAndCanBeCancelledAtEach) {
+    Input input;
+    input.surface = test::to_surface(test::prism(12, 1, 3));
+    measure_input(input);
+    input.diagonal = diagonal_of(input.surface.arrays());
+    input.patch_names = {"below", "sides", "above"};
+    RunOptions options;
+    options.remeshing = Remeshing::always;
+    PatientListener all(1'000'000);
+    const Input remeshed = remesh_where_asked(input, options, &all);
+    EXPECT_GT(all.told(), 5u);
+    EXPECT_EQ(remeshed.surface.arrays().vertices, remesh_where_asked(input, options).surface.arrays().vertices);
+    for (const std::size_t steps : {std::size_t{0}, std::size_t{1}, all.told() / 2, all.told() - 1}) {
+        PatientListener listener(steps);
+        try {
+            remesh_where_asked(input, options, &listener);
+            ADD_FAILURE() << "not cancelled at step " << steps;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::cancelled);
+        }
+        EXPECT_EQ(listener.told(), steps);
+    }
+}
+
 TEST(Deviation, IsALengthOrAShare) {
     EXPECT_DOUBLE_EQ(parse_deviation("0.5", 100), 0.5);
     EXPECT_DOUBLE_EQ(parse_deviation("0.01%", 100), 0.01);

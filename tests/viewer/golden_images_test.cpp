@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "run/trace.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/program.h"
@@ -142,7 +143,8 @@ TEST_F(Looks, Shrunk) {
 TEST_F(Looks, EveryColouring) {
     for (int i = 0; i < color_by_count; ++i) {
         state().color = static_cast<ColorBy>(i);
-        if (state().color == ColorBy::rank || state().color == ColorBy::level || state().color == ColorBy::patch)
+        if (state().color == ColorBy::rank || state().color == ColorBy::level || state().color == ColorBy::patch ||
+            is_of_surface(state().color))
             continue;  // of which this body has one: see below
         state().clip = {true, ClipStyle::cells, Vec3::UnitY(), 0.5, true};
         expect_golden(std::string("color-") + name(state().color));
@@ -215,6 +217,62 @@ TEST(Colourings, OfSeveralRanksLevelsAndPatches) {
         EXPECT_TRUE(is_golden(std::string("color-") + name(color), driver));
         EXPECT_EQ(std::ssize(driver.app().facts().categories), categories) << name(color);
     }
+}
+
+// Before and after, how far they are from each other, how fine it was to be, and where it is sharp. The surface that
+// was cut is none of the remesher's, so that pictures stay when that gets better.
+TEST(RemeshedSurface, LooksAsItShould) {
+    const TemporaryFolder folder;
+    std::ofstream(folder.file("prism.stl")) << to_ascii_stl(prism(6, 1, 4));
+    std::ofstream(folder.file("fine.stl")) << to_ascii_stl(twisted_cylinder(36, 20, 1, 4, 0.5));
+    const std::string file = folder.file("run.trace");
+    ASSERT_EQ(run_kerf({"decompose", folder.file("fine.stl"), "-o", folder.file("run"), "-n", "2", "-q", "--trace",
+                        file, "--size", "0.6", "--size-in", "sphere:1,0,4,0.5=0.1"})
+                  .exit_code,
+              0);
+    Trace trace = read_trace(file);
+    EXPECT_FALSE(trace.remeshed);
+    trace.remeshed = true;
+    trace.input = folder.file("prism.stl");
+    write_trace(file, trace);
+    Driver driver(small_pictures());
+    driver.show_panels(false);
+    driver.open(file);
+    ViewState& state = driver.state();
+    state.features = true;
+    for (const Stage stage : {Stage::before_remeshing, Stage::input}) {
+        state.step = {stage, -1};
+        EXPECT_TRUE(is_golden(std::string("remeshing-") + name(stage), driver));
+    }
+    state.color = ColorBy::size;
+    EXPECT_TRUE(is_golden("color-size", driver));
+    state.color = ColorBy::deviation;
+    EXPECT_TRUE(is_golden("color-deviation", driver));
+    state.step = {Stage::split, -1};
+    state.explode = 0.5;
+    EXPECT_TRUE(is_golden("color-deviation-split", driver));
+}
+
+// A file of a CAD program says how patches look; one of them it has forgotten.
+TEST(Colourings, OfPatchesAreThoseOfTheFile) {
+    const TemporaryFolder folder;
+    std::ofstream(folder.file("box.stl")) << to_ascii_stl(box({0, 0, 0}, {3, 2, 1}, {12, 8, 4}));
+    const std::string file = folder.file("box.trace");
+    ASSERT_EQ(
+        run_kerf({"decompose", folder.file("box.stl"), "-o", folder.file("run"), "-n", "2", "-q", "--trace", file})
+            .exit_code,
+        0);
+    Trace trace = read_trace(file);
+    ASSERT_EQ(trace.patch_names.size(), 6u);
+    trace.patch_colours = {{200, 40, 40, 255},  {0, 0, 0, 0},        {40, 120, 200, 255},
+                           {40, 120, 200, 255}, {250, 210, 60, 255}, {30, 140, 60, 255}};
+    write_trace(file, trace);
+    Driver driver(small_pictures());
+    driver.show_panels(false);
+    driver.open(file);
+    driver.state().color = ColorBy::patch;
+    EXPECT_TRUE(is_golden("color-patch-of-file", driver));
+    EXPECT_EQ(driver.app().scene().scene.palette.size(), 5u) << "equal ones are one";
 }
 
 TEST(WholeWindow, EmptyOpenedAndAtAStage) {

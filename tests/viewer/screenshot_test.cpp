@@ -8,7 +8,9 @@
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/program.h"
+#include "support/shapes.h"
 #include "support/started_run.h"
+#include "support/surface_files.h"
 #include "support/temporary_folder.h"
 #include "support/write_off.h"
 #include "viewer/golden_image.h"
@@ -49,6 +51,27 @@ TEST(Screenshot, OfASurfaceARunAndATraceShowTheSameCut) {
                           "min-dihedral", "--ui"})
                   .exit_code,
               0);
+}
+
+// Pictures before and after remeshing, each by one command.
+TEST(Screenshot, ShowsTheSurfaceBeforeAndAfterRemeshing) {
+    const std::string prism = folder().file("prism.stl");
+    std::ofstream(prism) << to_ascii_stl(test::prism(24, 1, 4));
+    const auto picture = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {prism, "-n", "2", "--no-legend"});
+        const ChildResult result = screenshot(more);
+        EXPECT_EQ(result.exit_code, 0) << result.log;
+        return read_png(folder().file("a.png"));
+    };
+    const view::Image before = picture({"--surface", "remesh", "--stage", "before-remeshing"});
+    EXPECT_LE(compare(before, picture({"--stage", "input", "--features"})).differing, 0.1);
+    const view::Image deviation = picture({"--surface", "remesh", "--color", "deviation"});
+    EXPECT_GT(compare(before, deviation).differing, 20 * most_differing);
+    const ChildResult kept = screenshot({prism, "--color", "deviation"});
+    EXPECT_EQ(kept.exit_code, 2);
+    EXPECT_NE(kept.log.find("--surface remesh"), std::string::npos) << kept.log;
+    EXPECT_EQ(screenshot({prism, "--stage", "before-remeshing"}).exit_code, 2);
+    EXPECT_EQ(screenshot({prism, "--surface", "nicely"}).exit_code, 2);
 }
 
 TEST(Screenshot, IsTheSameEveryTime) {

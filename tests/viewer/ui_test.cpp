@@ -14,6 +14,8 @@
 #include "io/surface_reader.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
+#include "support/shapes.h"
+#include "support/surface_files.h"
 #include "support/temporary_folder.h"
 #include "support/write_off.h"
 #include "viewer/app/keys.h"
@@ -333,6 +335,42 @@ TEST(Ui, ChangesOptionsRunsAgainAndCompares) {
     driver.await("six parts",
                  [&] { return driver.document().tree.parts_below(1).size() == 6 && !driver.app().session().busy(); });
     EXPECT_EQ(driver.app().session().tree_before().parts_below(1).size(), 4u);
+}
+
+// The button of a problem does what its text says, and then both surfaces can be seen.
+TEST(Ui, RemeshesTheSurfaceAndShowsBoth) {
+    const TemporaryFolder folder;
+    const Soup prism = test::prism(24, 1, 4);
+    std::ofstream(folder.file("prism.stl")) << to_ascii_stl(prism);
+    Driver::Options options;
+    options.parts = 2;
+    options.volume = false;
+    Driver driver(options);
+    driver.open(folder.file("prism.stl"));
+    EXPECT_NE(driver.app().steps().front().stage, Stage::before_remeshing);
+    driver.click("Problems");
+    driver.click("Remesh the surface");
+    driver.await("the remeshed surface", [&] { return driver.document().remeshed && !driver.app().session().busy(); });
+    EXPECT_EQ(driver.document().options.remeshing, Remeshing::always);
+    EXPECT_TRUE(driver.document().notes.empty());
+    driver.settle();
+    EXPECT_GT(driver.drawn("surface").triangles, 2 * std::ssize(prism.facets));
+    driver.click("step before-remeshing");
+    driver.settle();
+    EXPECT_EQ(driver.drawn("file surface").triangles, std::ssize(prism.facets));
+    EXPECT_EQ(driver.drawn("surface").triangles, 0);
+    driver.click("Features");
+    driver.settle();
+    EXPECT_EQ(driver.drawn("features").segments, 2 * 24);
+    driver.state().color = ColorBy::deviation;
+    driver.settle();
+    ASSERT_TRUE(driver.app().facts().values);
+    EXPECT_EQ(driver.app().facts().legend_title, title(ColorBy::deviation));
+    EXPECT_EQ(driver.app().facts().values->low, 0);
+    const Rectangle scene = driver.app().scene_area();
+    driver.click_at(scene.x + scene.width / 2, scene.y + scene.height / 2);
+    driver.settle();
+    EXPECT_NE(driver.app().facts().selection.find("the surface before remeshing"), std::string::npos);
 }
 
 TEST(Ui, CancelsARun) {

@@ -62,11 +62,11 @@ void parse_size(const std::string& text, ViewCommand& command) {
 
 // The texts of options that change the state, in the order in which they are applied.
 struct StateTexts {
-    std::string state_file, camera_file, stage, color, clip_style, size, theme, config;
+    std::string state_file, camera_file, stage, color, clip_style, size, theme, surface, config;
     std::vector<NodeId> hidden;
     NodeId node = 0, isolated = 0;
     double explode = -1, shrink = -1;
-    bool smooth = false, no_edges = false, no_context = false, no_legend = false;
+    bool features = false, smooth = false, no_edges = false, no_context = false, no_legend = false;
     std::vector<double> filter;
 };
 
@@ -80,7 +80,8 @@ void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
                                "coloured or moved.",
                                names_of_stages()));
     app.add_option("--color", texts.color,
-                   "part, rank, level, patch, kind, min-dihedral, radius-edge, aspect, shape, volume or edge-length.");
+                   "part, rank, level, patch, deviation, size, kind, min-dihedral, radius-edge, aspect, shape, volume "
+                   "or edge-length.");
     app.add_option("--filter", texts.filter, "Only cells whose value of --color lies in LOW HIGH.")->expected(2);
     app.add_option("--clip", command.clip,
                    "Clip plane: x=0.3, -y=0.5 (other side), 1,1,0=0.4 (normal), node=5 (at its cut).");
@@ -92,6 +93,7 @@ void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
     app.add_option("--isolate", texts.isolated, "Only what lies below this node.")->check(CLI::PositiveNumber);
     app.add_option("--camera", texts.camera_file, "JSON file with the camera, as the viewer copies it.")
         ->type_name("FILE");
+    app.add_flag("--features", texts.features, "With sharp edges and the borders of patches as lines.");
     app.add_flag("--smooth", texts.smooth, "Smooth shading instead of flat facets.");
     app.add_flag("--no-edges", texts.no_edges, "Without the edges of triangles.");
     app.add_flag("--no-context", texts.no_context, "Without the rest of the body.");
@@ -99,6 +101,7 @@ void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
     app.add_option("--theme", texts.theme, "light or dark.")->check(CLI::IsMember({"light", "dark"}));
     app.add_option("-n,--parts", command.run.decompose.parts, "Number of parts, if INPUT is a surface.")
         ->check(CLI::PositiveNumber);
+    app.add_option("--surface", texts.surface, "Of that run: keep, split, remesh or auto, as of kerf mesh.");
     app.add_option("--config", texts.config, "Other options of that run: a file of kerf mesh --print-config.")
         ->type_name("FILE");
 }
@@ -111,6 +114,10 @@ void require_numbers(const StateTexts& texts, const ViewCommand& command) {
         throw Error(ErrorCode::usage, "--explode, --shrink, --filter and --timeout need finite numbers.");
 }
 
+bool is_seen_on_surfaces(const std::string& color) {
+    return color == "patch" || (!color.empty() && is_of_surface(color_by_from_name(color)));
+}
+
 void apply(const StateTexts& texts, ViewCommand& command) {
     require_numbers(texts, command);
     ViewState& state = command.state;
@@ -121,7 +128,7 @@ void apply(const StateTexts& texts, ViewCommand& command) {
     const bool is_of_cells = !texts.color.empty() || texts.explode > 0 || texts.shrink > 0 || !texts.filter.empty();
     if (!texts.stage.empty())
         state.step = step_from_name(texts.stage);
-    else if (is_of_cells && texts.state_file.empty() && texts.color != "patch")
+    else if (is_of_cells && texts.state_file.empty() && !is_seen_on_surfaces(texts.color))
         state.step.stage = Stage::tetrahedra;
     if (!texts.color.empty()) state.color = color_by_from_name(texts.color);
     if (!texts.clip_style.empty()) state.clip.style = clip_style_from_name(texts.clip_style);
@@ -135,6 +142,7 @@ void apply(const StateTexts& texts, ViewCommand& command) {
     if (texts.shrink >= 0) state.shrink = texts.shrink;
     for (const NodeId node : texts.hidden) state.set_hidden(node, true);
     if (texts.isolated > 0) state.isolated = texts.isolated;
+    if (texts.features) state.features = true;
     if (texts.smooth) state.shading = Shading::smooth;
     if (texts.no_edges) state.edges = false;
     if (texts.no_context) state.context = false;
@@ -208,6 +216,7 @@ ViewCommand parse_view_command(int argc, const char* const* argv) {
         command.screenshot = screenshot->parsed();
         apply(texts, command);
         read_run_config(texts.config, command.run);
+        if (!texts.surface.empty()) set_options(command.run, {{"surface", texts.surface}}, "The command line");
     } catch (const CLI::ParseError& e) {
         std::ostringstream out, err;
         command.exit_code = app.exit(e, out, err) == 0 ? 0 : static_cast<int>(ErrorCode::usage);

@@ -24,7 +24,7 @@ bool contains(const Rectangle& r, const ImVec2& p) {
 
 bool is_of_cells(const std::string& layer) { return layer.starts_with("cells ") || layer.starts_with("section "); }
 bool is_of_facets(const std::string& layer) {
-    return layer == "surface" || layer.starts_with("half ") || layer.starts_with("part ");
+    return layer == "surface" || layer == "file surface" || layer.starts_with("half ") || layer.starts_with("part ");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "io/output_file.h"
 #include "viewer/app/interruption.h"
+#include "viewer/model/surface_values.h"
 #include "viewer/render/offscreen.h"
 
 namespace kerf::view {
@@ -32,7 +33,7 @@ class Deadline {
 };
 
 // What the wanted stage needs of a surface.
-bool needs_run(const ViewState& state) { return state.node != 1 || state.step != Step{}; }
+bool needs_run(const ViewState& state) { return state.node != 1 || state.step != Step{} || is_of_surface(state.color); }
 
 void wait_for_document(App& app, const ViewCommand& command, const Deadline& deadline) {
     Session& session = app.session();
@@ -50,7 +51,8 @@ void wait_for_document(App& app, const ViewCommand& command, const Deadline& dea
         deadline.check();
     }
     if (session.document().kind != Document::Kind::surface || session.document().has_problems()) return;
-    if (!needs_run(command.state) && !command.clip.starts_with("node=")) return;
+    const bool is_remeshed = command.run.remeshing != Remeshing::never;
+    if (!needs_run(command.state) && !is_remeshed && !command.clip.starts_with("node=")) return;
     RunOptions run = command.run;
     run.input = session.document().path;
     session.start_run(run, command.state.step.stage == Stage::tetrahedra);
@@ -83,6 +85,7 @@ void check_wishes(const Document& document, const ViewState& state, bool with_pa
     for (const NodeId node : nodes)
         if (!document.tree.find(node))
             refuse(document, fmt::format("The tree of {} has no node {}.", document.path, node));
+    if (const char* why = why_without_values(document, state.color)) refuse(document, why);
     const std::vector<Step> steps = steps_of(document, state.node);
     if (steps[nearest_step(steps, state.step)] == state.step) return;
     std::vector<std::string> names;

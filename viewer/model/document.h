@@ -32,6 +32,12 @@ struct NodeSurface {
     }
 };
 
+/// Values on a surface: of its facets or its vertices.
+struct SurfaceValues {
+    std::shared_ptr<const NodeSurface> surface;
+    std::vector<float> values;  ///< #F or #V; NaN: none there
+};
+
 /// The tetrahedra of one part.
 struct PartCells {
     NodeId part = 1;
@@ -62,7 +68,7 @@ struct WorstCell {
 struct Progress {
     bool running = false;  ///< a run is under way: ours or another's
     bool ours = false;     ///< it can be cancelled
-    std::string stage;     ///< "read", "decompose", "prepare", "volume", "reference", "write", "hash"
+    std::string stage;     ///< "read", "remesh", "decompose", "prepare", "volume", "reference", "write", "hash"
     std::int64_t parts_done = 0, parts = 0;
     double load_done = 0;  ///< in [0, 1]
     double seconds = 0;    ///< since its start
@@ -81,10 +87,12 @@ struct Document {
     std::shared_ptr<const CheckedSoup> checked;  ///< and what is wrong with it, once that is known
     std::shared_ptr<const Trace> trace;          ///< with all stages, if there is one
     Tree tree;
-    std::string folder;  ///< of the parts; empty: none
-    RunOptions options;  ///< of the run, or those of the next one
+    std::string folder;     ///< of the parts; empty: none
+    RunOptions options;     ///< of the run, or those of the next one
+    bool remeshed = false;  ///< the surface that was cut is not that of the file, which is there to compare with
     std::vector<std::string> patch_names;
-    Eigen::AlignedBox3d box;  ///< of the body
+    std::vector<std::array<std::uint8_t, 4>> patch_colours;  ///< as Soup has them; empty: none
+    Eigen::AlignedBox3d box;                                 ///< of the body
     std::int64_t input_facets = 0, input_vertices = 0;
     double volume = 0;
     std::array<std::optional<MeasureHistogram>, 8> histograms;  ///< in the order of quality_measures

@@ -61,6 +61,7 @@ void read_part_row(const Json& part, bool meshed, Tree& tree) {
 }
 
 std::string option_text(const Json& value) {
+    if (value.is_array()) return join_items(value.get<std::vector<std::string>>());
     return value.is_string() ? path_of_text(value.get<std::string>()) : value.dump();
 }
 
@@ -100,6 +101,7 @@ RunReportFile report_from_json(const Json& json) {
     report.options.input = path_of_text(input.at("path").get<std::string>());
     report.input_facets = input.at("faces").get<std::int64_t>();
     report.input_vertices = input.at("vertices").get<std::int64_t>();
+    report.remeshed = input.contains("remeshing");
     report.volume = number(input, "volume");
     for (const Json& note : input.value("notes", Json::array())) report.notes.push_back(note.get<std::string>());
     for (const Json& node : json.at("tree")) read_node(node, report.tree);

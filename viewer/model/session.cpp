@@ -93,6 +93,10 @@ const Cut* Session::cut_before(NodeId node) const { return impl_->cut_before(nod
 const Tree& Session::tree_before() const { return impl_->tree_before(); }
 std::shared_ptr<const NodeSurface> Session::surface(NodeId node) { return impl_->surface(node); }
 std::shared_ptr<const NodeSurface> Session::part_surface(NodeId part) { return impl_->part_surface(part); }
+std::shared_ptr<const SurfaceValues> Session::values_on(const std::shared_ptr<const NodeSurface>& surface,
+                                                        ColorBy color) {
+    return impl_->values_on(surface, color);
+}
 std::shared_ptr<const PartCells> Session::cells(NodeId part) { return impl_->cells(part); }
 std::shared_ptr<const std::vector<float>> Session::cell_values(NodeId part, ColorBy color) {
     return impl_->cell_values(part, color);

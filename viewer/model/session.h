@@ -55,10 +55,14 @@ class Session {
     // What follows returns what is in memory, or nullptr, and then fetches it: poll() says when it is there. The least
     // recently used leave the memory.
 
-    /// The closed surface of a node: of a trace by its cuts, of a run folder from the surfaces of its parts.
+    /// The closed surface of a node: of a trace by its cuts, of a run folder from the surfaces of its parts. 0: where
+    /// Document::remeshed, the surface as the file has it, repaired.
     std::shared_ptr<const NodeSurface> surface(NodeId node);
     /// The closed surface of a part of the run folder.
     std::shared_ptr<const NodeSurface> part_surface(NodeId part);
+    /// The deviation of the facets of a surface that this session has given, or the size at its vertices; nullptr,
+    /// too, where the surface was not remeshed or no size was asked for.
+    std::shared_ptr<const SurfaceValues> values_on(const std::shared_ptr<const NodeSurface>& surface, ColorBy color);
     /// The tetrahedra of a part of the run folder.
     std::shared_ptr<const PartCells> cells(NodeId part);
     /// A measure of every cell of a part. `color` must be a measure or `kind` (1 at an interface, else 0).

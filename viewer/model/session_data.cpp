@@ -7,9 +7,11 @@
 
 #include <fmt/format.h>
 
+#include "run/size_reader.h"
 #include "surface/mass_properties.h"
 #include "viewer/model/node_surface.h"
 #include "viewer/model/part_files.h"
+#include "viewer/model/surface_values.h"
 #include "viewer/model/tree_source.h"
 
 namespace kerf::view {
@@ -18,6 +20,7 @@ namespace {
 
 std::size_t bytes_of_value(const NodeSurface& value) { return bytes_of(value); }
 std::size_t bytes_of_value(const PartCells& value) { return bytes_of(value); }
+std::size_t bytes_of_value(const SurfaceValues& value) { return sizeof value + bytes_of(value.values); }
 template <class T>
 std::size_t bytes_of_value(const std::vector<T>& value) {
     return sizeof value + bytes_of(value);
@@ -82,8 +85,13 @@ Loader::Completion Session::Impl::fill_row(NodeId node, std::int64_t vertices, s
 
 std::shared_ptr<const NodeSurface> Session::Impl::surface(NodeId node) {
     const Store::Key key{Store::Kind::surface, node};
-    if (!document_.tree.find(node)) return nullptr;
+    if (node == 0 ? !document_.remeshed : !document_.tree.find(node)) return nullptr;
     if (auto found = kept<NodeSurface>(key)) return found;
+    if (node == 0)
+        return fetch<NodeSurface>(
+            key, [path = document_.options.input, options = document_.options.input_options]() -> Fetched<NodeSurface> {
+                return {node_surface_of(read_input(path, options).surface), {}};
+            });
     if (replayer_)
         return fetch<NodeSurface>(key, [this, replayer = replayer_, node]() -> Fetched<NodeSurface> {
             const std::shared_ptr<const Surface> surface = replayer->surface(node);
@@ -112,6 +120,39 @@ std::shared_ptr<const NodeSurface> Session::Impl::part_surface(NodeId part) {
     return fetch<NodeSurface>(key, [folder = document_.folder, part]() -> Fetched<NodeSurface> {
         return {read_part_surface(folder, part), {}};
     });
+}
+
+namespace {
+
+SizeField field_of(const SizeOptions& sizes, const NodeSurface& whole, const std::vector<std::string>& patch_names) {
+    if (!sizes.depends_on_place()) return SizeField(sizes.constant_max_volume());
+    SurfaceArrays arrays;
+    arrays.vertices = whole.vertices;
+    arrays.facets = whole.facets;
+    arrays.patch = whole.patch;
+    return read_size_field(sizes, arrays, patch_names);
+}
+
+}  // namespace
+
+std::shared_ptr<const SurfaceValues> Session::Impl::values_on(const std::shared_ptr<const NodeSurface>& surface,
+                                                              ColorBy color) {
+    if (!surface || !is_of_surface(color) || why_without_values(document_, color)) return nullptr;
+    const bool is_deviation = color == ColorBy::deviation;
+    const Store::Key key{.kind = Store::Kind::on_surface, .color = static_cast<int>(color), .of = surface.get()};
+    if (auto found = kept<SurfaceValues>(key)) return found;
+    const auto whole = this->surface(1), before = is_deviation ? this->surface(0) : nullptr;
+    if (!whole || (is_deviation && !before)) return nullptr;
+    if (is_deviation)
+        return fetch<SurfaceValues>(key,
+                                    [surface, other = surface == before ? whole : before]() -> Fetched<SurfaceValues> {
+                                        return {{surface, distances_of_facets(*surface, *other)}, {}};
+                                    });
+    return fetch<SurfaceValues>(
+        key,
+        [surface, whole, sizes = document_.options.sizes, names = document_.patch_names]() -> Fetched<SurfaceValues> {
+            return {{surface, lengths_at_vertices(*surface, field_of(sizes, *whole, names))}, {}};
+        });
 }
 
 bool Session::Impl::is_meshed(NodeId part) const {
@@ -184,12 +225,22 @@ void Session::Impl::forget_data() {
     before_.clear();
 }
 
+// Without its file there is nothing to compare with.
+void Session::Impl::note_remeshing(bool remeshed) {
+    std::error_code ignored;
+    document_.remeshed = remeshed && std::filesystem::exists(document_.options.input, ignored);
+}
+
 // Vertices and facets of nodes have other numbers in a trace than in a run folder.
 void Session::Impl::use_trace(std::shared_ptr<Replayer> replayer) {
     restart_data();
     document_.trace = replayer->trace();
+    document_.patch_colours = document_.trace->patch_colours;  // folders have none
+    note_remeshing(document_.trace->remeshed);
     replayer_ = std::move(replayer);
-    store_.erase_if([](const Store::Key& key) { return key.kind == Store::Kind::surface; });
+    store_.erase_if([](const Store::Key& key) {
+        return (key.kind == Store::Kind::surface && key.node > 0) || key.kind == Store::Kind::on_surface;
+    });
     describe_cuts();
     prefetch_surfaces();
 }
@@ -294,7 +345,8 @@ void Session::Impl::take_redone(NodeId node, RedoneCut redone) {
     std::erase_if(before_, [&](const auto& entry) { return is_gone(entry.first); });
     if (redone.before) before_[node] = redone.before;
     store_.erase_if([&](const Store::Key& key) {
-        return key.kind == Store::Kind::worst_cells || (key.node > 0 && lies_below(key.node, node));
+        return key.kind == Store::Kind::worst_cells || key.kind == Store::Kind::on_surface ||
+               (key.node > 0 && lies_below(key.node, node));
     });
     restart_data();
     replayer_ = redone.replayer;

@@ -46,6 +46,7 @@ class Session::Impl {
     void redo_cut(NodeId node, const RunOptions& options);
     std::shared_ptr<const NodeSurface> surface(NodeId node);
     std::shared_ptr<const NodeSurface> part_surface(NodeId part);
+    std::shared_ptr<const SurfaceValues> values_on(const std::shared_ptr<const NodeSurface>& surface, ColorBy color);
     std::shared_ptr<const PartCells> cells(NodeId part);
     std::shared_ptr<const std::vector<float>> cell_values(NodeId part, ColorBy color);
     std::shared_ptr<const std::vector<float>> facet_values(NodeId part, ColorBy color);
@@ -103,6 +104,7 @@ class Session::Impl {
     void find_trace_of_run(const std::string& path);
     void show_partial_run(const OpenedPartialRun& run);
     void describe_trace_input(const Trace& trace);
+    void add_note(const std::string& note);
 
     // --- runs ---
     // A run that the document follows: ours, or that of another process.
@@ -161,6 +163,7 @@ class Session::Impl {
     bool is_meshed(NodeId part) const;
     void restart_data();
     void use_trace(std::shared_ptr<Replayer> replayer);
+    void note_remeshing(bool remeshed);
     void forget_data();
     void describe_cuts();
     void prefetch_surfaces();

@@ -8,8 +8,10 @@
 #include <fmt/format.h>
 
 #include "run/cad_input.h"
+#include "run/remeshing.h"
 #include "run/saved_run.h"
 #include "surface/mass_properties.h"
+#include "viewer/model/advice.h"
 #include "viewer/model/node_surface.h"
 #include "viewer/model/part_files.h"
 #include "viewer/model/tree_source.h"
@@ -67,6 +69,12 @@ Oriented orient_copy(CheckedSoup checked) {
     arrays.facet_key.assign(arrays.facets.size(), 0);
     const Surface surface(std::move(arrays));
     return {surface.vertex_count(), surface.facet_count(), mass_properties(surface)};
+}
+
+// Surfaces of CAD models are remeshed without being asked.
+std::string note_of_slivers(const CheckedSoup& checked, const std::string& path) {
+    const Soup& soup = checked.soup;
+    return soup.model_edges.empty() ? sliver_note(find_slivers(soup.vertices, soup.facets), path) : "";
 }
 
 // A run that is made from the options of another one shall not write over its files. Returns where its trace is.
@@ -165,6 +173,7 @@ void Session::Impl::show_soup(const std::shared_ptr<const Soup>& soup,
     document_.soup = soup;
     document_.box = box_of(soup->vertices);
     document_.patch_names = soup->patch_names;
+    document_.patch_colours = soup->patch_colours;
     document_.notes = soup->notes;
     document_.input_vertices = static_cast<std::int64_t>(soup->vertices.size());
     document_.input_facets = static_cast<std::int64_t>(soup->facets.size());
@@ -177,12 +186,14 @@ void Session::Impl::show_soup(const std::shared_ptr<const Soup>& soup,
 }
 
 void Session::Impl::check_soup_in_background() {
-    const auto check = [this, soup = document_.soup]() -> Loader::Completion {
+    const auto check = [this, soup = document_.soup, path = document_.options.input]() -> Loader::Completion {
         const auto checked = std::make_shared<const CheckedSoup>(check_soup(*soup));
         std::optional<Oriented> oriented;
         if (checked->diagnosis.clean()) oriented = orient_copy(*checked);
-        return [this, checked, oriented] {
+        const std::string note = oriented ? note_of_slivers(*checked, path) : "";
+        return [this, checked, oriented, note] {
             document_.checked = checked;
+            if (!note.empty() && !is_set(document_.options, *advised_option(note))) add_note(note);
             TreeRow* root = document_.tree.find(1);
             if (!oriented || !root || !root->leaf() || document_.trace) return;  // a run has told more since
             describe_surface(oriented->vertices, oriented->facets, oriented->mass, *root);
@@ -229,9 +240,12 @@ void Session::Impl::complete_from_report(OpenedRun run) {
     document_.tree = std::move(report.tree);
     document_.options = report.options;
     document_.histograms = std::move(report.histograms);
-    for (const std::string& note : report.notes)  // a run of the surface that is open repeats those of its reader
-        if (std::find(document_.notes.begin(), document_.notes.end(), note) == document_.notes.end())
-            document_.notes.push_back(note);
+    std::erase_if(document_.notes, [&](const std::string& note) {
+        const std::optional<OptionText> advice = advised_option(note);
+        return advice && is_set(document_.options, *advice);  // it was followed
+    });
+    for (const std::string& note : report.notes) add_note(note);
+    note_remeshing(report.remeshed);
     document_.volume = report.volume;
     document_.box = run.box;
     document_.patch_names = run.patch_names;
@@ -245,6 +259,12 @@ void Session::Impl::complete_from_report(OpenedRun run) {
         parts.begin(), parts.end(), [&](NodeId part) { return document_.tree.find(part)->state == NodeState::done; });
     progress.load_done = 1;
     progress.seconds = report.seconds;
+}
+
+// A run of the surface that is open repeats those of its reader.
+void Session::Impl::add_note(const std::string& note) {
+    std::vector<std::string>& notes = document_.notes;
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
 }
 
 void Session::Impl::show_run(OpenedRun run) {

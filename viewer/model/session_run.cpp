@@ -69,6 +69,7 @@ void Session::Impl::start_run(RunOptions options, bool volume) {
     followed_->has_scratch_output = options.output.empty();
     if (document_.trace || !document_.folder.empty()) followed_->tree_before = document_.tree;
     document_.options = options;
+    store_.erase_if([](const Store::Key& key) { return key.kind == Store::Kind::on_surface; });  // of other sizes
     options.input = input.empty() ? scratch.file("surface.mesh") : input;
     options.output = options.output.empty() ? scratch.file("run") : absolute_path(options.output);
     options.trace_file = options.trace_file.empty() ? scratch.file("run.trace") : absolute_path(options.trace_file);
@@ -171,7 +172,7 @@ void Session::Impl::apply(const RunEvent& event) {
             show_input_of_run();
             return;
         case RunEvent::Kind::stage:
-            if (event.stage != "read" && event.stage != "decompose") load_trace_of_run();
+            if (event.stage != "read" && event.stage != "remesh" && event.stage != "decompose") load_trace_of_run();
             return;
         case RunEvent::Kind::parts:
         case RunEvent::Kind::part:
@@ -204,6 +205,7 @@ void Session::Impl::show_input_of_run() {
             if (!document_.box.isEmpty()) return;  // the trace or the report were faster
             document_.box = box;
             document_.patch_names = soup->patch_names;
+            document_.patch_colours = soup->patch_colours;
             document_.input_facets = static_cast<std::int64_t>(soup->facets.size());
             document_.input_vertices = static_cast<std::int64_t>(soup->vertices.size());
             document_.tree.at(1);
@@ -237,6 +239,7 @@ void Session::Impl::show_run_under_way(std::shared_ptr<const Trace> trace) {
     document_.folder.clear();
     document_.histograms = {};
     document_.tree = {};
+    document_.remeshed = false;
     scratch_ = followed_->scratch;
     followed_->is_shown = true;
     if (trace) {
@@ -375,7 +378,10 @@ void Session::Impl::show_result(OpenedRun run) {
     const bool ours = document_.progress.ours;
     const int exit_code = run.report.exit_code;
     complete_from_report(std::move(run));
-    if (ours) document_.options = followed_->options;
+    if (ours) {
+        document_.options = followed_->options;
+        note_remeshing(document_.remeshed);
+    }
     if (ours) tree_before_ = std::move(followed_->tree_before);
     document_.progress.running = document_.progress.ours = false;
     document_.progress.exit_code = exit_code;

@@ -9,18 +9,19 @@
 namespace kerf::view {
 
 enum class Stage {
-    input,            ///< the surface of the node, its principal axes and its centre of gravity
-    plane,            ///< the cutting plane
-    crossed_edges,    ///< edges with ends on both sides of the plane
-    hanging_removed,  ///< the boundary of the majority labels
-    closed_loops,     ///< ears and islands removed
-    paths_removed,    ///< vertices with more than two contour edges opened
-    contour,          ///< the smoothed contour, which was used
-    projected,        ///< it in the plane
-    triangulation,    ///< the section inside of it, in the plane
-    interface,        ///< mapped back to the surface
-    split,            ///< both halves
-    tetrahedra,       ///< the parts below the node
+    before_remeshing,  ///< of the root: the surface as the file has it, where another one was cut
+    input,             ///< the surface of the node, its principal axes and its centre of gravity
+    plane,             ///< the cutting plane
+    crossed_edges,     ///< edges with ends on both sides of the plane
+    hanging_removed,   ///< the boundary of the majority labels
+    closed_loops,      ///< ears and islands removed
+    paths_removed,     ///< vertices with more than two contour edges opened
+    contour,           ///< the smoothed contour, which was used
+    projected,         ///< it in the plane
+    triangulation,     ///< the section inside of it, in the plane
+    interface,         ///< mapped back to the surface
+    split,             ///< both halves
+    tetrahedra,        ///< the parts below the node
 };
 inline constexpr int stage_count = static_cast<int>(Stage::tetrahedra) + 1;
 

@@ -129,7 +129,9 @@ std::string describe_tetrahedra(const Document& document, NodeId node) {
 }  // namespace
 
 std::vector<Step> steps_of(const Document& document, NodeId node) {
-    std::vector<Step> steps = {{Stage::input, -1}};
+    std::vector<Step> steps;
+    if (node == 1 && document.remeshed) steps.push_back({Stage::before_remeshing, -1});
+    steps.push_back({Stage::input, -1});
     const Cut* cut = document.trace ? document.trace->find(node) : nullptr;
     const TreeRow* row = document.tree.find(node);
     if (cut) {
@@ -161,6 +163,8 @@ std::string describe_step(const Document& document, NodeId node, const Step& ste
         return describe_try(cut->tries[number], number, cut->tries.size());
     }
     switch (step.stage) {
+        case Stage::before_remeshing:
+            return "The surface as the file has it.";
         case Stage::input:
             return describe_input(document, row);
         case Stage::plane:

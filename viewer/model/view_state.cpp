@@ -25,6 +25,8 @@ constexpr std::array<Names, color_by_count> color_texts = {{
     {"rank", "Rank"},
     {"level", "Level of the tree"},
     {"patch", "Patch"},
+    {"deviation", "Deviation"},
+    {"size", "Wanted edge length"},
     {"kind", "At an interface or inside"},
     {"min-dihedral", "Min dihedral angle (deg)"},
     {"radius-edge", "Radius-edge ratio"},
@@ -168,9 +170,9 @@ Selection selection_from(const OrderedJson& json, const std::string& source) {
 
 // The switches of a value, by name: written and read by the same list.
 std::vector<std::pair<const char*, bool*>> switches(ViewState& s) {
-    return {{"edges", &s.edges},     {"context", &s.context}, {"plane", &s.plane},           {"axes", &s.axes},
-            {"contour", &s.contour}, {"surface", &s.surface}, {"interfaces", &s.interfaces}, {"legend", &s.legend},
-            {"times", &s.times}};
+    return {{"edges", &s.edges},       {"context", &s.context}, {"plane", &s.plane},           {"axes", &s.axes},
+            {"contour", &s.contour},   {"surface", &s.surface}, {"interfaces", &s.interfaces}, {"legend", &s.legend},
+            {"features", &s.features}, {"times", &s.times}};
 }
 std::vector<std::pair<const char*, bool*>> switches(Panels& p) {
     return {{"tree", &p.tree},        {"display", &p.display},       {"timeline", &p.timeline},

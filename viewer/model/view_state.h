@@ -48,7 +48,9 @@ enum class ColorBy {
     rank,
     level,  ///< of the tree at which its interface was cut; of cells: the level of the part
     patch,
-    kind,  ///< cells at an interface and inner cells
+    deviation,  ///< of a facet: its distance from the surface before or after remeshing
+    size,       ///< edge length that the size field asks for
+    kind,       ///< cells at an interface and inner cells
     min_dihedral,
     radius_edge,
     aspect,
@@ -57,7 +59,9 @@ enum class ColorBy {
     edge_length,  ///< the longest
 };
 inline constexpr int color_by_count = static_cast<int>(ColorBy::edge_length) + 1;
-constexpr bool is_measure(ColorBy color) { return color >= ColorBy::min_dihedral; }
+constexpr bool is_measure(ColorBy color) { return color >= ColorBy::min_dihedral; }  ///< of cells
+/// Has values on surfaces, those of parts included, and none in cells.
+constexpr bool is_of_surface(ColorBy color) { return color == ColorBy::deviation || color == ColorBy::size; }
 
 enum class Theme { light, dark };
 
@@ -91,6 +95,7 @@ struct ViewState {
     bool plane = true;
     bool axes = true;  ///< principal axes and centre of gravity
     bool contour = true;
+    bool features = false;  ///< sharp edges and borders of patches
     bool surface = true;
     bool interfaces = true;
     double explode = 0;  ///< 0: together; 1: as far apart as the parts are large

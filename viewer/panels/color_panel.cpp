@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "viewer/model/surface_values.h"
 #include "viewer/panels/parts.h"
 
 namespace kerf::view {
@@ -128,8 +129,10 @@ void draw_color(UiContext& context, Memory& memory) {
             show_wrapped("Only tetrahedra have it.", palette(state.theme).dim);
             if (context.widgets.button("Show the tetrahedra")) context.state.step = {Stage::tetrahedra, -1};
         }
+        if (const char* missing = why_without_values(context.session.document(), state.color))
+            show_wrapped(missing, palette(state.theme).dim);
+        if (is_measure(state.color) || context.facts.values) draw_range(context);
         if (is_measure(state.color)) {
-            draw_range(context);
             draw_histogram(context, memory);
             draw_filter(context);
         }

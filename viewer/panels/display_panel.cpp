@@ -26,6 +26,7 @@ void draw_switches(UiContext& context) {
                                {"Plane", &s.plane, "The cutting plane of the node"},
                                {"Contour", &s.contour, "The contour of the cut"},
                                {"Axes", &s.axes, "Principal axes and centre of gravity of the node"},
+                               {"Features", &s.features, "Sharp edges and borders of patches"},
                                {"Legend", &s.legend, "What the colours mean"}};
     const float half = ImGui::GetContentRegionAvail().x / 2;
     int i = 0;

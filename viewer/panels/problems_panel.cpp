@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "viewer/model/advice.h"
 #include "viewer/panels/parts.h"
 
 namespace kerf::view {
@@ -33,6 +34,23 @@ double radius_of(const Defect& defect, const Soup& soup, double diagonal) {
             if (std::isfinite(distance)) radius = std::max(radius, distance);
         }
     return radius > 0 ? std::clamp(1.5 * radius, 1e-3 * diagonal, 0.5 * diagonal) : 0.02 * diagonal;
+}
+
+// Where a text advises an option that the run did not have: a button that runs again with it.
+void draw_advice(UiContext& context, const std::string& text) {
+    const Document& document = context.session.document();
+    const std::optional<OptionText> advice = advised_option(text);
+    if (!advice || is_set(document.options, *advice)) return;
+    ImGui::PushID(text.c_str());  // several texts may advise the same
+    ImGui::BeginDisabled(document.progress.running || document.kind == Document::Kind::none);
+    if (context.widgets.small_button(words_of(*advice).c_str(),
+                                     fmt::format("Runs again with --{} {}", advice->name, advice->text).c_str())) {
+        RunOptions options = document.options;
+        set_options(options, {*advice}, "The advice");
+        context.actions.start_run(options, document.options.volume);
+    }
+    ImGui::EndDisabled();
+    ImGui::PopID();
 }
 
 class ProblemList {
@@ -99,6 +117,7 @@ class ProblemList {
         if (!with_remedy) return;
         ImGui::Indent(1.1f * em());
         show_wrapped(fmt::format("To do: {}.", remedy(first)), colors_.dim);
+        draw_advice(context_, remedy(first));
         ImGui::Unindent(1.1f * em());
     }
 
@@ -184,7 +203,11 @@ void draw_remarks(UiContext& context) {
     }
     if (!document.progress.running && !document.progress.message.empty())
         draw_message("The run has ended.", document.progress.message, colors);
-    for (const std::string& note : document.notes) show_wrapped("Note: " + note, colors.dim);
+    draw_advice(context, document.progress.message);
+    for (const std::string& note : document.notes) {
+        show_wrapped("Note: " + note, colors.dim);
+        draw_advice(context, note);
+    }
     if (!document.notes.empty()) ImGui::Spacing();
 }
 

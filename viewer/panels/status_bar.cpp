@@ -49,6 +49,7 @@ std::string time_left(const Progress& progress) {
 std::string stage_text(const Progress& progress) {
     const std::string& stage = progress.stage;
     if (stage == "read") return "Reading";
+    if (stage == "remesh") return "Remeshing";
     if (stage == "decompose") return "Cutting";
     if (stage == "prepare") return "Preparing parts";
     if (stage == "volume") return "Meshing";

@@ -45,7 +45,8 @@ std::vector<Color> value_colors(ColorBy color) {
     std::vector<Color> colors;
     for (const char* text : viridis) colors.push_back(color_from_hex(text));
     // What is bad is dark and purple.
-    if (color == ColorBy::radius_edge || color == ColorBy::aspect) std::reverse(colors.begin(), colors.end());
+    if (color == ColorBy::radius_edge || color == ColorBy::aspect || color == ColorBy::deviation)
+        std::reverse(colors.begin(), colors.end());
     return colors;
 }
 
@@ -81,6 +82,7 @@ SceneColors scene_colors(Theme theme) {
     c.projected = color_from_hex("#009E73");
     c.refused = color_from_hex("#C2185B");
     c.selection = color_from_hex(light ? "#B000C8" : "#FF66FF");
+    c.feature = color_from_hex(light ? "#101A26" : "#F4F6F8");
     c.error = color_from_hex("#D32F2F");
     c.warning = color_from_hex("#E68A00");
     c.axes = {color_from_hex("#D8343B"), color_from_hex("#2E9E44"), color_from_hex("#2F6FDE")};

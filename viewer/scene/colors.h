@@ -28,7 +28,7 @@ std::optional<ValueRange> natural_range(ColorBy color);
 struct SceneColors {
     Color background_top, background_bottom, edge;
     Color surface, interface, context, plane, normal, none;
-    Color crossed, contour, projected, refused, selection;
+    Color crossed, contour, projected, refused, selection, feature;
     Color error, warning;
     std::array<Color, 3> axes;  ///< of inertia, the long direction first; and of the coordinates
 };

@@ -153,9 +153,9 @@ void SceneBuild::add_halves(const NodeSurface* parent) {
         const auto surface = session_.surface(half);
         built_.pending |= !surface;
         const Color color = half_color(half);
-        if (surface)
-            add_surface(fmt::format("half {}", half), surface, half, color, colors_.interface,
-                        offset_of(half, state_.node));
+        const Vec3 offset = offset_of(half, state_.node);
+        if (surface && add_surface(fmt::format("half {}", half), surface, half, color, colors_.interface, offset))
+            add_features(fmt::format("features {}", half), surface, half, offset);
     }
 }
 

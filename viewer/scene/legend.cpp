@@ -9,6 +9,12 @@
 
 namespace kerf::view {
 
+namespace {
+
+constexpr double rounding_share = 1e-9;  // of the diagonal: what deviates less is not to look as if it did
+
+}  // namespace
+
 Color SceneBuild::color_of(NodeId part) const {
     const TreeRow* row = document_.tree.find(part);
     switch (state_.color) {
@@ -25,6 +31,25 @@ Color SceneBuild::color_of(NodeId part) const {
     }
 }
 
+Color SceneBuild::patch_color(std::size_t patch) const {
+    if (!has_patch_colors()) return category_color(patch);
+    const auto& [r, g, b, a] = document_.patch_colours[patch];
+    if (a == 0) return colors_.surface;
+    return {static_cast<float>(r) / 255, static_cast<float>(g) / 255, static_cast<float>(b) / 255, 1};
+}
+
+// Many patches share few colours.
+void SceneBuild::set_patch_palette() {
+    std::vector<Color>& palette = built_.scene.palette;
+    palette.clear();
+    std::map<std::array<std::uint8_t, 4>, float> places;
+    for (std::size_t i = 0; i < document_.patch_colours.size(); ++i) {
+        const auto [place, is_new] = places.emplace(document_.patch_colours[i], static_cast<float>(palette.size()));
+        if (is_new) palette.push_back(patch_color(i));
+        palette_of_patch_.push_back(place->second);
+    }
+}
+
 void SceneBuild::set_colors() {
     Scene& scene = built_.scene;
     scene.background_top = colors_.background_top;
@@ -32,13 +57,14 @@ void SceneBuild::set_colors() {
     scene.edge = colors_.edge;
     scene.scale.none = colors_.none;
     for (std::size_t i = 0; i < category_count; ++i) scene.palette.push_back(category_color(i));
-    if (!is_measure(state_.color)) return;
+    if (has_patch_colors()) set_patch_palette();
+    if (!is_measure(state_.color) && !is_of_surface(state_.color)) return;
     scene.scale.colors = value_colors(state_.color);
     std::optional<ValueRange> range = state_.color_range ? state_.color_range : natural_range(state_.color);
     const bool is_volume = state_.color == ColorBy::volume;
     const auto& histogram = document_.histograms[is_volume ? 5 : 7];
     // Few cells are far larger than the others: their colour is that of the upper end.
-    if (!range && histogram)
+    if (!range && is_measure(state_.color) && histogram)
         range = ValueRange{histogram->min, std::min(histogram->max, (is_volume ? 4 : 2) * histogram->median)};
     if (!range) return;  // follows from what is drawn
     set_range(*range);
@@ -47,14 +73,14 @@ void SceneBuild::set_colors() {
 void SceneBuild::set_range(const ValueRange& range) {
     built_.scene.scale.low = static_cast<float>(range.low);
     built_.scene.scale.high = static_cast<float>(range.high);
-    if (step_.stage != Stage::tetrahedra) return;
+    if (!shows_values()) return;
     built_.legend.values = range;
     built_.legend.scale = built_.scene.scale.colors;
 }
 
-// Of a run under way nobody knows the distribution of the values yet.
+// Of a run under way nobody knows the distribution of the values yet, of surfaces nobody ever does.
 void SceneBuild::set_range_of_values() {
-    if (!is_measure(state_.color) || step_.stage != Stage::tetrahedra || built_.legend.values) return;
+    if (!shows_values() || built_.legend.values) return;
     ValueRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
     for (const Layer& layer : built_.scene.layers) {
         if (layer.fill != Fill::scale) continue;
@@ -64,16 +90,20 @@ void SceneBuild::set_range_of_values() {
             range.high = std::max(range.high, double{corner.value});
         }
     }
+    if (state_.color == ColorBy::deviation && range.high >= 0)
+        range = {0, std::max(range.high, rounding_share * document_.box.diagonal().norm())};
+    if (range.low == range.high) range = {0, range.high > 0 ? 2 * range.high : 1};  // the same everywhere
     if (range.low < range.high) set_range(range);
 }
 
 void SceneBuild::set_legend() {
     auto& categories = built_.legend.categories;
-    if (step_.stage == Stage::tetrahedra || state_.color == ColorBy::patch) built_.legend.title = title(state_.color);
+    if (step_.stage == Stage::tetrahedra || state_.color == ColorBy::patch || built_.legend.values)
+        built_.legend.title = title(state_.color);
     const Scene& scene = built_.scene;
     if (state_.color == ColorBy::patch) {
         for (std::size_t i = 0; i < document_.patch_names.size(); ++i)
-            categories.emplace_back(document_.patch_names[i], category_color(i));
+            categories.emplace_back(document_.patch_names[i], patch_color(i));
         if (state_.node != 1 || step_.stage >= Stage::split)
             categories.emplace_back(step_.stage == Stage::tetrahedra ? "interface or inside" : "interface",
                                     colors_.none);
@@ -83,7 +113,7 @@ void SceneBuild::set_legend() {
         categories = {{"inner cells", category_color(0)}, {"cells at an interface", category_color(1)}};
         return;
     }
-    if (step_.stage == Stage::tetrahedra && !is_measure(state_.color)) {
+    if (step_.stage == Stage::tetrahedra && !shows_values()) {
         std::set<std::int32_t> seen;
         for (const NodeId part : document_.tree.parts_below(state_.node)) {
             if (!is_shown(part)) continue;
@@ -97,7 +127,7 @@ void SceneBuild::set_legend() {
         }
         return;
     }
-    if (is_measure(state_.color) && step_.stage == Stage::tetrahedra) return;
+    if (built_.legend.values || (is_measure(state_.color) && step_.stage == Stage::tetrahedra)) return;
     const auto explain = [&](const char* layer, const std::string& text, const Color& color) {
         if (scene.find(layer)) categories.emplace_back(text, color);
     };
@@ -106,6 +136,7 @@ void SceneBuild::set_legend() {
     explain("axes", "short axis", colors_.axes[2]);
     for (int i = 0; i < stage_count; ++i)
         explain(name(static_cast<Stage>(i)), in_words(name(static_cast<Stage>(i))), color_of(static_cast<Stage>(i)));
+    explain("features", "features", colors_.feature);
     explain("refused", "refused contour", colors_.refused);
     explain("places", "where it failed", colors_.error);
     explain("defect places", "errors", colors_.error);

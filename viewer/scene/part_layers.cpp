@@ -39,15 +39,20 @@ void SceneBuild::add_part(NodeId part) {
     FacetChoice choice;
     choice.smooth = state_.shading == Shading::smooth;
     const std::vector<float> patches = patch_values(*surface);
-    choice.value = values ? std::span<const float>(*values) : patches;
-    const std::shared_ptr<const void> source = values ? std::shared_ptr<const void>(values) : surface;
+    const auto on_surface = values_on(surface);
+    color_facets(*surface, on_surface.get(), patches, choice);
+    if (values) choice.value = *values;
+    const std::shared_ptr<const void> source = values       ? std::shared_ptr<const void>(values)
+                                               : on_surface ? std::shared_ptr<const void>(on_surface)
+                                                            : surface;
+    const bool is_colored = values || on_surface || !patches.empty();
     const std::string key =
-        fmt::format("part {} {} {}", part, shading_key(),
-                    values ? name(state_.color) : (state_.color == ColorBy::patch ? "patch" : "plain"));
+        fmt::format("part {} {} {}", part, shading_key(), is_colored ? name(state_.color) : "plain");
     const auto geometry = cache_.get(key, source, [&] { return facet_triangles(*surface, built_.frame, choice); });
     Layer& layer = add(fmt::format("part {}", part), geometry, color_of(part), part, offset);
     layer.closed = true;
     if (values) layer.fill = fill_of_values();
+    if (on_surface) layer.fill = Fill::scale;
     if (!patches.empty()) layer.fill = Fill::categories;
 }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "viewer/model/surface_values.h"
 #include "viewer/model/timeline.h"
 #include "viewer/scene/colors.h"
 #include "viewer/scene/scene_builder.h"
@@ -15,7 +16,7 @@ namespace kerf::view {
 /// Halves of a cut: not the colour of interfaces.
 inline Color half_color(NodeId half) { return category_color(half % 2 == 0 ? 0 : 2); }
 
-inline constexpr float contour_pixels = 3.5f, thin_pixels = 1.5f, place_pixels = 9;
+inline constexpr float contour_pixels = 3.5f, thin_pixels = 1.5f, feature_pixels = 2.2f, place_pixels = 9;
 
 /// One scene under construction. Its layers come from several files: cut_layers, part_layers, defect_layers, legend.
 class SceneBuild {
@@ -38,6 +39,9 @@ class SceneBuild {
     Layer* add_surface(const std::string& name, const std::shared_ptr<const NodeSurface>& surface, NodeId owner,
                        const Color& color, const Color& interface_color, const Vec3& offset);
     void add_node(const std::shared_ptr<const NodeSurface>& surface);
+    void add_file_surface();
+    void add_features(const std::string& name, const std::shared_ptr<const NodeSurface>& surface, NodeId owner,
+                      const Vec3& offset);
     void add_context(const std::shared_ptr<const NodeSurface>& surface);
     void add_defects();
     void add_axes(const TreeRow& row);
@@ -58,6 +62,13 @@ class SceneBuild {
     bool is_shown(NodeId part) const {
         return !state_.is_hidden(part) && (!state_.isolated || lies_below(part, *state_.isolated));
     }
+    // Colours follow from numbers, for which there is a scale.
+    bool shows_values() const {
+        return is_of_surface(state_.color) || (is_measure(state_.color) && step_.stage == Stage::tetrahedra);
+    }
+    std::shared_ptr<const SurfaceValues> values_on(const std::shared_ptr<const NodeSurface>& surface);
+    void color_facets(const NodeSurface& surface, const SurfaceValues* values, const std::vector<float>& patches,
+                      FacetChoice& choice) const;
     bool needs_values() const { return is_measure(state_.color) || state_.color == ColorBy::kind; }
     Vec3 offset_of(NodeId part, NodeId root) const {
         return explosion_offset(document_.tree, part, root, state_.explode, document_.box.diagonal().norm());
@@ -78,6 +89,12 @@ class SceneBuild {
         return {move.x(), move.y(), move.z()};
     }
     std::vector<float> patch_values(const NodeSurface& surface) const;
+    Color patch_color(std::size_t patch) const;
+    void set_patch_palette();
+    bool has_patch_colors() const {
+        return state_.color == ColorBy::patch && !document_.patch_colours.empty() &&
+               document_.patch_colours.size() == document_.patch_names.size();
+    }
 
     const ViewState& state_;
     Session& session_;
@@ -87,6 +104,7 @@ class SceneBuild {
     BuiltScene built_;
     std::optional<ShownSide> side_;
     std::map<NodeId, std::size_t> part_order_;
+    std::vector<float> palette_of_patch_;  // where colours are those of the file
     Step step_;
 };
 

@@ -80,9 +80,28 @@ void SceneBuild::add_points(const std::string& name, const std::vector<Vec3>& pl
 std::vector<float> SceneBuild::patch_values(const NodeSurface& surface) const {
     std::vector<float> values;
     if (state_.color != ColorBy::patch) return values;
-    for (const std::int32_t patch : surface.patch)
-        values.push_back(patch < 0 ? std::nanf("") : static_cast<float>(patch));
+    for (const std::int32_t patch : surface.patch) {
+        const auto i = static_cast<std::size_t>(patch);
+        if (patch < 0)
+            values.push_back(std::nanf(""));
+        else
+            values.push_back(i < palette_of_patch_.size() ? palette_of_patch_[i] : static_cast<float>(patch));
+    }
     return values;
+}
+
+std::shared_ptr<const SurfaceValues> SceneBuild::values_on(const std::shared_ptr<const NodeSurface>& surface) {
+    auto values = session_.values_on(surface, state_.color);
+    built_.pending |= !values && session_.pending();
+    return values;
+}
+
+// `values` may be null, `patches` empty.
+void SceneBuild::color_facets(const NodeSurface& surface, const SurfaceValues* values,
+                              const std::vector<float>& patches, FacetChoice& choice) const {
+    choice.value = patches;
+    if (!values) return;
+    (values->values.size() == surface.facets.size() ? choice.value : choice.vertex_value) = values->values;
 }
 
 // The facets of a surface: one range of the input's and one of the interfaces'. Nothing if the clip plane leaves none.
@@ -95,16 +114,19 @@ Layer* SceneBuild::add_surface(const std::string& name, const std::shared_ptr<co
     if (by_facets)
         choice.wanted = [&](std::int32_t f) { return is_facet_shown(*surface, f, *side_, state_.clip.style); };
     const std::vector<float> patches = patch_values(*surface);
-    choice.value = patches;
-    const std::string key =
-        fmt::format("{} of {} {} {} {}", name, owner, shading_key(),
-                    by_facets ? clip_key() : fmt::format("shrink {}", state_.shrink), state_.color == ColorBy::patch);
-    auto geometry = cache_.get(key, surface, [&] { return facet_triangles(*surface, built_.frame, choice); });
+    const auto values = values_on(surface);
+    color_facets(*surface, values.get(), patches, choice);
+    const std::string key = fmt::format("{} of {} {} {} {}", name, owner, shading_key(),
+                                        by_facets ? clip_key() : fmt::format("shrink {}", state_.shrink),
+                                        values || !patches.empty() ? view::name(state_.color) : "plain");
+    const std::shared_ptr<const void> source = values ? std::shared_ptr<const void>(values) : surface;
+    auto geometry = cache_.get(key, source, [&] { return facet_triangles(*surface, built_.frame, choice); });
     extend(box_of(surface->vertices), offset);
     if (geometry->corners.empty()) return nullptr;
     Layer& layer = add(name, geometry, color, owner, offset);
     layer.clipped = !by_facets;
     if (!patches.empty()) layer.fill = Fill::categories;
+    if (values) layer.fill = Fill::scale;
     const auto& element = geometry->element;
     const auto first_interface =
         std::find_if(element.begin(), element.end(), [&](std::int32_t f) { return surface->is_interface(f); });
@@ -141,6 +163,25 @@ void SceneBuild::add_node(const std::shared_ptr<const NodeSurface>& surface) {
         add_plane(*row->plane());
     if (cut && step_.refused_try < 0) add_stage(*cut, *surface);
     if (step_.stage == Stage::input && row) add_axes(*row);
+    if (layer) add_features("features", surface, state_.node, Vec3::Zero());
+}
+
+// What was cut looks like it from afar, so that the one comes in the place of the other.
+void SceneBuild::add_file_surface() {
+    const auto surface = session_.surface(0);
+    built_.pending |= !surface;
+    if (!surface || state_.is_hidden(1)) return;
+    if (add_surface("file surface", surface, 0, colors_.surface, colors_.interface, Vec3::Zero()))
+        add_features("features", surface, 0, Vec3::Zero());
+}
+
+void SceneBuild::add_features(const std::string& name, const std::shared_ptr<const NodeSurface>& surface, NodeId owner,
+                              const Vec3& offset) {
+    if (!state_.features) return;
+    const auto geometry = cache_.get(fmt::format("features of {}", owner), surface,
+                                     [&] { return segments(feature_edges(*surface), built_.frame); });
+    if (geometry->segments.empty()) return;
+    add(name, geometry, colors_.feature, owner, offset).pixels = feature_pixels;
 }
 
 // The facets of the input that the node's surface does not have.
@@ -194,14 +235,16 @@ BuiltScene SceneBuild::run() {
 
     const auto surface = surface_of(session_, state_.node);
     built_.pending |= !surface;
-    if (step_.stage == Stage::tetrahedra)
+    if (step_.stage == Stage::before_remeshing)
+        add_file_surface();
+    else if (step_.stage == Stage::tetrahedra)
         add_parts();
     else if (step_.stage == Stage::split)
         add_halves(surface.get());
     else if (surface)
         add_node(surface);
     if (surface) add_context(surface);
-    if (step_.stage == Stage::input) add_defects();
+    if (step_.stage == (document_.remeshed ? Stage::before_remeshing : Stage::input)) add_defects();
     add_selection();
     set_range_of_values();
     set_legend();

@@ -32,6 +32,8 @@ struct BuiltScene {
 /// Layers by name, in the order of drawing:
 ///
 ///     surface           the closed surface of the node, its interface facets in their own colour
+///     file surface      the surface as the file has it, where another one was cut
+///     features [N]      sharp edges and borders of patches, of either or of a half
 ///     context           the rest of the body, translucent
 ///     defects, defect edges, defect places   what kerf check found
 ///     axes, centre      principal axes and centre of gravity

@@ -52,17 +52,23 @@ bool is_leaf(const Document& document, NodeId node) {
     return row && row->leaf();
 }
 
+std::string owner_text(const Document& document, NodeId owner) {
+    if (owner == 0) return "the surface before remeshing";
+    return fmt::format("{} {}", is_leaf(document, owner) ? "part" : "node", owner);
+}
+
 std::string vertex_line(const char* label, std::int32_t index, std::int64_t number, const Vec3& p) {
     return fmt::format("{} {}, global {}\n{}\n", label, index, number_text(number), text_of(p));
 }
 
 std::string describe_facet(Session& session, const NodeSurface& surface, NodeId owner, std::size_t facet) {
     const Document& document = session.document();
-    const char* what = is_leaf(document, owner) ? "part" : "node";
-    std::string text = fmt::format("facet {} of {} {}\n", facet, what, owner);
+    std::string text = fmt::format("facet {} of {}\n", facet, owner_text(document, owner));
     const std::int32_t number = surface.facet_number.empty() ? -1 : surface.facet_number[facet];
     const NodeId interface = surface.interface_of.empty() ? 0 : surface.interface_of[facet];
-    if (number >= 0) text += fmt::format("facet {} of the input\n", number);
+    if (number >= 0)
+        text +=
+            fmt::format("facet {} of the {}\n", number, document.remeshed && owner > 0 ? "remeshed surface" : "input");
     if (interface > 0) text += fmt::format("interface of the cut of node {}\n", interface);
     if (!surface.neighbour.empty() && surface.neighbour[facet] >= 0)
         text += fmt::format("part {} behind it\n", surface.neighbour[facet]);
@@ -82,8 +88,8 @@ std::string describe_facet(Session& session, const NodeSurface& surface, NodeId 
     return text + fmt::format("neighbours {}\n", fmt::join(neighbours_of(surface, facet), ", "));
 }
 
-std::string describe_vertex(const NodeSurface& surface, NodeId owner, const char* what, std::size_t vertex) {
-    std::string text = fmt::format("vertex {} of {} {}\n", vertex, what, owner);
+std::string describe_vertex(const NodeSurface& surface, const std::string& owner, std::size_t vertex) {
+    std::string text = fmt::format("vertex {} of {}\n", vertex, owner);
     if (!surface.vertex_number.empty())
         text += fmt::format("global number {}\n", number_text(surface.vertex_number[vertex]));
     text += text_of(surface.vertices[vertex]) + "\n";
@@ -167,8 +173,8 @@ std::string describe_selection(Session& session, const Selection& s) {
     if (!surface) return "";
     if (s.kind == Selection::Kind::facet)
         return index < surface->facets.size() ? describe_facet(session, *surface, s.owner, index) : "";
-    const char* what = is_leaf(session.document(), s.owner) ? "part" : "node";
-    if (index < surface->vertices.size()) return describe_vertex(*surface, s.owner, what, index);
+    if (index < surface->vertices.size())
+        return describe_vertex(*surface, owner_text(session.document(), s.owner), index);
     // Vertices inside of a part come after those of its surface.
     const auto cells = session.cells(s.owner);
     if (!cells || index >= cells->vertices.size()) return "";

@@ -188,6 +188,10 @@ std::shared_ptr<Geometry> facet_triangles(const NodeSurface& surface, const Fram
             if (!center.allFinite()) continue;
             const float value = choice.value.empty() ? 0 : choice.value[static_cast<std::size_t>(f)];
             add_triangle(*geometry, frame, shrunk(corners, center, choice.shrink), value, 7, f);
+            if (choice.vertex_value.empty()) continue;
+            for (std::size_t k = 0; k < 3; ++k)
+                (geometry->corners.end() - 3 + static_cast<std::ptrdiff_t>(k))->value =
+                    choice.vertex_value[static_cast<std::size_t>(t[k])];
         }
     }
     if (choice.smooth) smooth_normals(surface, *geometry);

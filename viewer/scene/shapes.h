@@ -27,6 +27,7 @@ ClipPlane clip_plane(const ShownSide& side, const Frame& frame);
 struct FacetChoice {
     std::function<bool(std::int32_t facet)> wanted;  ///< none: all
     std::span<const float> value;                    ///< per facet; empty: 0
+    std::span<const float> vertex_value;             ///< per vertex, instead of `value`; empty: none
     bool smooth = false;                             ///< normals over edges below 40 degrees
     double shrink = 0;                               ///< of triangles about their centres
 };

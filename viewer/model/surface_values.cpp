@@ -1,0 +1,108 @@
+#include "viewer/model/surface_values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "surface/triangle_tree.h"
+
+namespace kerf::view {
+
+namespace {
+
+constexpr int pieces_of_edge = 3;          // of a facet's edges, for its samples
+constexpr double feature_cosine = 0.8660;  // 30 degrees, as the remesher has it
+
+double farthest_sample(const std::array<Vec3, 3>& corners, const TriangleTree& tree) {
+    const auto is_there = [](std::int32_t, double) { return true; };
+    double farthest = 0;
+    for (int i = 0; i <= pieces_of_edge; ++i)
+        for (int j = 0; i + j <= pieces_of_edge; ++j) {
+            const Vec3 p =
+                (i * corners[0] + j * corners[1] + (pieces_of_edge - i - j) * corners[2]) / double{pieces_of_edge};
+            if (!tree.any_within(p, farthest, is_there)) farthest = std::sqrt(tree.closest(p).squared_distance);
+        }
+    return farthest;
+}
+
+std::array<Vec3, 3> corners_of(const NodeSurface& surface, std::size_t facet) {
+    const Triangle& t = surface.facets[facet];
+    return {surface.vertices[static_cast<std::size_t>(t[0])], surface.vertices[static_cast<std::size_t>(t[1])],
+            surface.vertices[static_cast<std::size_t>(t[2])]};
+}
+
+// An edge of one facet of the input.
+struct Side {
+    std::int32_t low, high;  // vertices
+    std::size_t facet;
+
+    bool is_beside(const Side& other) const { return low == other.low && high == other.high; }
+};
+
+std::vector<Side> sides_of_input(const NodeSurface& surface) {
+    std::vector<Side> sides;
+    for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+        if (surface.is_interface(static_cast<std::int32_t>(f))) continue;
+        const Triangle& t = surface.facets[f];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto [low, high] = std::minmax(t[k], t[(k + 1) % 3]);
+            sides.push_back({low, high, f});
+        }
+    }
+    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+        return std::tie(a.low, a.high, a.facet) < std::tie(b.low, b.high, b.facet);
+    });
+    return sides;
+}
+
+bool is_feature(const NodeSurface& surface, std::size_t f, std::size_t g) {
+    if (!surface.patch.empty() && surface.patch[f] != surface.patch[g]) return true;
+    const auto normal = [&](std::size_t facet) {
+        const std::array<Vec3, 3> p = corners_of(surface, facet);
+        return Vec3((p[1] - p[0]).cross(p[2] - p[0]));
+    };
+    const Vec3 a = normal(f), b = normal(g);
+    return a.dot(b) < feature_cosine * a.norm() * b.norm();
+}
+
+}  // namespace
+
+const char* why_without_values(const Document& document, ColorBy color) {
+    const SizeOptions& sizes = document.options.sizes;
+    if (color == ColorBy::deviation && !document.remeshed)
+        return "The surface was not remeshed, so that it deviates nowhere. --surface remesh does that.";
+    if (color == ColorBy::size && !sizes.depends_on_place() && !(sizes.constant_max_volume() > 0))
+        return "No size is asked for: --size and its like do that.";
+    return nullptr;
+}
+
+std::vector<float> distances_of_facets(const NodeSurface& surface, const NodeSurface& other) {
+    const TriangleTree tree(other.vertices, other.facets);
+    std::vector<float> distances(surface.facets.size(), std::nanf(""));
+    for (std::size_t f = 0; f < distances.size(); ++f)
+        if (!surface.is_interface(static_cast<std::int32_t>(f)))
+            distances[f] = static_cast<float>(farthest_sample(corners_of(surface, f), tree));
+    return distances;
+}
+
+std::vector<float> lengths_at_vertices(const NodeSurface& surface, const SizeField& field) {
+    std::vector<float> lengths;
+    lengths.reserve(surface.vertices.size());
+    for (const Vec3& p : surface.vertices) {
+        const double length = field.at(p);
+        lengths.push_back(std::isfinite(length) ? static_cast<float>(length) : std::nanf(""));
+    }
+    return lengths;
+}
+
+std::vector<std::array<Vec3, 2>> feature_edges(const NodeSurface& surface) {
+    const std::vector<Side> sides = sides_of_input(surface);
+    std::vector<std::array<Vec3, 2>> edges;
+    for (std::size_t i = 0; i + 1 < sides.size(); ++i)
+        if (sides[i].is_beside(sides[i + 1]) && is_feature(surface, sides[i].facet, sides[i + 1].facet))
+            edges.push_back({surface.vertices[static_cast<std::size_t>(sides[i].low)],
+                             surface.vertices[static_cast<std::size_t>(sides[i].high)]});
+    return edges;
+}
+
+}  // namespace kerf::view
