@@ -62,7 +62,7 @@ Soup hollow_cube(int n) {
 // Sizes of every kind in bodies whose shape asks for none.
 std::vector<Case> cases() {
     std::vector<Case> all;
-    for (const double size : {2.0, 0.71, 0.5}) {
+    for (const double size : {2.0, 0.71, 0.5, 0.3}) {
         all.push_back({"constant", hollow_cube(1), {}, {}});
         all.back().options.size = size;
     }
@@ -96,7 +96,7 @@ TEST(RemeshedSizes, AreObeyed) {
         const SizeField field = make_size_field(c.options, surface, c.soup.patch_names, c.background);
         const std::vector<double> ratios = got_over_asked(remeshed(surface, field), field);
         EXPECT_GT(share_below(ratios, 1.4) - share_below(ratios, 0.7), 0.9);
-        EXPECT_LT(ratios.back(), 1.75);
+        EXPECT_LT(ratios.back(), 1.5);
     }
 }
 
@@ -109,7 +109,7 @@ TEST(RemeshedSizes, AreNotExceededOnCurvedBodies) {
             options.size = size;
             const SizeField field = make_size_field(options, surface, soup.patch_names, {});
             const std::vector<double> ratios = got_over_asked(remeshed(surface, field), field);
-            EXPECT_GT(share_below(ratios, 1.4), 0.9);
+            EXPECT_GT(share_below(ratios, 1.4), 0.99);
         }
 }
 
@@ -138,7 +138,7 @@ TEST(RemeshedSizes, AreObeyedInOnePartAndInMany) {
         EXPECT_GT(report.sizes.inside.share_obeyed(), 0.9);
         EXPECT_GT(report.sizes.by_patch.front().edges.share_obeyed(), 0.9);
         if (parts > 1) {
-            EXPECT_GT(report.sizes.interfaces.share_obeyed(), 0.85);
+            EXPECT_GT(report.sizes.interfaces.share_obeyed(), 0.9);
         }
     }
     EXPECT_EQ(inputs[0].facets, inputs[1].facets);

@@ -251,6 +251,20 @@ TEST(Remesh, OfARemeshedSurfaceChangesLittle) {
     EXPECT_GE(sorted_sines(twice).front(), 0.7 * sorted_sines(once).front());
 }
 
+// Each edge of a sphere of good triangles is a fold, and none of them asks for more of them.
+TEST(Remesh, WellShapedSurfacesStayAsTheyAre) {
+    for (const Soup& soup : {test::icosphere(3), test::torus(1, 0.4, 60, 24)}) {
+        const SurfaceArrays surface = test::to_arrays(soup);
+        const std::vector<double> before = sorted_sines(surface);
+        for (const double share : {1e-3, 2e-5}) {
+            const std::vector<double> after = sorted_sines(remesh(surface, within(surface, share)).surface);
+            EXPECT_LT(static_cast<double>(after.size()), 1.1 * static_cast<double>(before.size()));
+            EXPECT_GT(after[after.size() / 100], 0.9 * before[before.size() / 100]);
+            EXPECT_GT(after[after.size() / 2], 0.9 * before[before.size() / 2]);
+        }
+    }
+}
+
 TEST(Remesh, IsTheSameEveryTime) {
     const SurfaceArrays surface = random_surface(5).surface;
     const SurfaceArrays a = remesh(surface, within(surface, 1e-4)).surface;

@@ -74,7 +74,7 @@ Oriented orient_copy(CheckedSoup checked) {
 // Surfaces of CAD models are remeshed without being asked.
 std::string note_of_slivers(const CheckedSoup& checked, const std::string& path) {
     const Soup& soup = checked.soup;
-    return soup.model_edges.empty() ? sliver_note(find_slivers(soup.vertices, soup.facets), path) : "";
+    return soup.is_of_model ? "" : sliver_note(find_slivers(soup.vertices, soup.facets), path);
 }
 
 // A run that is made from the options of another one shall not write over its files. Returns where its trace is.
@@ -242,7 +242,9 @@ void Session::Impl::complete_from_report(OpenedRun run) {
     document_.histograms = std::move(report.histograms);
     std::erase_if(document_.notes, [&](const std::string& note) {
         const std::optional<OptionText> advice = advised_option(note);
-        return advice && is_set(document_.options, *advice);  // it was followed
+        if (!advice) return false;
+        const bool is_done = report.remeshed && advice->name == "surface" && advice->text == "remesh";
+        return is_done || is_set(document_.options, *advice);  // it was followed
     });
     for (const std::string& note : report.notes) add_note(note);
     note_remeshing(report.remeshed);
