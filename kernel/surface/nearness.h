@@ -69,10 +69,10 @@ class Nearness {
     /// The facets closest to a point, `distance` away, of those that count: several beside an edge or a vertex.
     template <class Limit>
     void find_beside(const Vec3& p, double distance, double largest_limit, Limit limit) {
-        constexpr double as_close = 1 + 1e-6, rounding = 1e-6;  // of the distance, of the limit
+        constexpr double as_close = 1 + 1e-6, next_to_nothing = 1e-6;  // of the distance, of the limit
         beside_.clear();
         if (distance >= largest_limit) return;
-        surface_.any_within(p, as_close * distance + rounding * largest_limit, [&](std::int32_t f, double) {
+        surface_.any_within(p, as_close * distance + next_to_nothing * largest_limit, [&](std::int32_t f, double) {
             if (limit(f) >= 0) beside_.push_back(f);
             return false;
         });
