@@ -38,7 +38,7 @@ double smallest_sine(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 EditedSurface::EditedSurface(const InputShape& input)
     : input_(input),
-      near_input_(input.tree()),
+      near_input_(input.tree(), input.facets()),
       planes_(input.regions().planes),
       next_point_(input.vertices().size(), unlisted) {
     for (const Vec3& p : input.vertices()) {
@@ -73,6 +73,17 @@ void EditedSurface::find_regions(double share) {
         {.tolerance = share * input_.largest_tolerance(), .noise = input_.noise(), .is_border = is_border});
     planes_ = std::move(regions.planes);
     for (const auto f : mesh_.faces()) mesh_.data(f).region = regions.of[f.idx()];
+}
+
+std::int64_t EditedSurface::last_change(Vertex v) const {
+    std::int64_t last = 0;
+    for (const auto f : mesh_.vf_range(v)) last = std::max(last, mesh_.data(f).changed);
+    return last;
+}
+
+std::int64_t EditedSurface::last_change(Edge e) const {
+    return std::max(mesh_.data(mesh_.face_handle(mesh_.halfedge_handle(e, 0))).changed,
+                    mesh_.data(mesh_.face_handle(mesh_.halfedge_handle(e, 1))).changed);
 }
 
 double EditedSurface::length(Edge e) const { return mesh_.calc_edge_length(e); }
@@ -244,6 +255,12 @@ void EditedSurface::commit_star() {
     for (std::size_t i = 0; i < star_.facets.size(); ++i)
         if (star_.stays[i] == 0) mesh_.data(star_.facets[i]).region = -1;
     give_points(points_, star_.facets);
+    note_change(star_.facets);
+}
+
+void EditedSurface::note_change(std::span<const Facet> facets) {
+    ++changes_;
+    for (const Facet f : facets) mesh_.data(f).changed = changes_;
 }
 
 bool EditedSurface::take_flip(Edge e, bool is_exact_only) {
@@ -310,6 +327,7 @@ EditedSurface::Vertex EditedSurface::split(Edge e, double t) {
         for (std::int32_t p = data[side].first_point; p >= 0; p = next_point_[p]) points_.push_back(p);
         for (const Facet f : pieces) mesh_.data(f) = data[side];
         give_points(points_, pieces);
+        note_change(pieces);
     }
     return v;
 }

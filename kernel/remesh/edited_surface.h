@@ -34,6 +34,7 @@ struct EditTraits : OpenMesh::DefaultTraits {
         std::int32_t region = -1;       // flat region that holds its corners, -1: none
         std::int32_t near = -1;         // some facet of the input near it
         std::int32_t first_point = -1;  // of the input's vertices that it stands for
+        std::int64_t changed = 0;       // number of the operation that last changed it
     };
     EdgeTraits {
         bool is_feature = false;
@@ -67,6 +68,12 @@ class EditedSurface {
         mesh_.data(v).asked = asked;
     }
     double asked(Vertex v) const { return mesh_.data(v).asked; }
+    /// Number of the operation that last changed the facets around a vertex or at an edge: what was refused there since
+    /// then is refused again.
+    std::int64_t last_change(Vertex v) const;
+    std::int64_t last_change(Edge e) const;
+    /// How many operations have changed something.
+    std::int64_t changes() const { return changes_; }
     void set_fold(Edge e, std::int32_t fold) { mesh_.data(e).fold = fold; }
     /// What operations may use of the tolerances, 1 in the beginning: what is left out first leaves room for the rest.
     void set_share(double share) { share_ = share; }
@@ -121,6 +128,7 @@ class EditedSurface {
     bool is_near_input(Facet f, const Corners& now);
     bool accepts_star(Vertex v, bool is_inside);
     void commit_star();
+    void note_change(std::span<const Facet> facets);
     bool take_flip(Edge e, bool is_exact_only);
     std::optional<Vec3> place_near(Vertex v, const Vec3& wanted, bool is_inside) const;
 
@@ -134,6 +142,7 @@ class EditedSurface {
     EditMesh mesh_;
     std::vector<FlatRegion> planes_;
     double share_ = 1;
+    std::int64_t changes_ = 0;
     std::vector<std::int32_t> next_point_;  // of the vertices of the input: the list of a facet
     std::vector<std::int32_t> points_;      // scratch
     Star star_;                             // scratch

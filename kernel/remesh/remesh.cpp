@@ -20,7 +20,7 @@ namespace {
 
 // Edges over their wanted length. A half of one that is split must not be one that is collapsed.
 constexpr double split_ratio = 1.35, collapse_ratio = 0.6;
-constexpr double least_move = 0.01;  // of the size at a vertex
+constexpr double least_move = 0.03;  // of the size at a vertex
 constexpr double sine_of_20 = 0.342, sine_of_10 = 0.1736;
 constexpr int most_simplifications = 6, passes = 4, last_passes = 2, smoothings = 2, flips = 4;
 // Of the tolerance: what is left out first, and what counts as flat then, leaves room for what comes after.
@@ -35,6 +35,22 @@ constexpr int samples_per_edge = 6;                        // to find the input 
 constexpr double first_bound = 0.2, step_of_bound = 1.25;  // of the deviation; of the one before
 constexpr int most_divisions_of_inspection = 100'000;      // of a facet, to see that it is near the other surface
 
+// What was refused is refused again as long as nothing around it has changed.
+class Refusals {
+ public:
+    bool knows(int element, std::int64_t last_change) const {
+        return element < static_cast<int>(changes_.size()) && last_change <= changes_[element];
+    }
+    void note(int element, std::int64_t changes) {
+        if (element >= static_cast<int>(changes_.size())) changes_.resize(element + 1, -1);
+        changes_[element] = changes;
+    }
+    void clear() { changes_.clear(); }
+
+ private:
+    std::vector<std::int64_t> changes_;  // how many there had been, by element
+};
+
 class Remesher {
  public:
     Remesher(const InputShape& input, const RemeshOptions& options) : options_(options), surface_(input) {}
@@ -45,6 +61,7 @@ class Remesher {
         simplify();
         surface_.set_share(1);
         surface_.find_regions(share_of_flatness);
+        refused_flips_.clear();  // by another share and other numbers
         flip_flat_edges();
         sizes_.emplace(surface_, FoldSizeOptions{.longest = options_.longest,
                                                  .shortest = std::max(shortest_over_deviation * options_.deviation,
@@ -130,12 +147,22 @@ class Remesher {
     // Leaves out what the bound does not need.
     void simplify() {
         const EditedSurface::CollapseRules rules = {.good_sine = sine_of_20, .worst_share = 0.9};
+        Refusals refused;
+        const auto last_change = [&](Edge e) {
+            const HalfEdge h = mesh().halfedge_handle(e, 0);
+            return std::max(surface_.last_change(mesh().to_vertex_handle(h)),
+                            surface_.last_change(mesh().from_vertex_handle(h)));
+        };
         for (int pass = 0; pass < most_simplifications; ++pass) {
             std::size_t collapsed = 0;
             for (const auto& [length, e] :
                  edges_by_length([&](Edge, double length) { return length < 0.8 * options_.longest; })) {
                 poll();
-                if (is_alive(e) && collapse_either_way(e, rules)) ++collapsed;
+                if (!is_alive(e) || refused.knows(e.idx(), last_change(e))) continue;
+                if (collapse_either_way(e, rules))
+                    ++collapsed;
+                else
+                    refused.note(e.idx(), surface_.changes());
             }
             flip_edges();
             if (collapsed * 100 < mesh().n_faces()) break;
@@ -210,7 +237,11 @@ class Remesher {
             std::size_t flipped = 0;
             for (const auto e : mesh().edges()) {
                 poll();
-                if (surface_.flip(e)) ++flipped;
+                if (refused_flips_.knows(e.idx(), surface_.last_change(e))) continue;
+                if (surface_.flip(e))
+                    ++flipped;
+                else
+                    refused_flips_.note(e.idx(), surface_.changes());
             }
             if (flipped * 500 < mesh().n_edges()) break;
         }
@@ -221,6 +252,7 @@ class Remesher {
         for (int pass = 0; pass < smoothings; ++pass)
             for (const auto v : mesh().vertices()) {
                 poll();
+                if (refused_moves_.knows(v.idx(), surface_.last_change(v))) continue;
                 Vec3 sum = Vec3::Zero();
                 double weights = 0;
                 for (const auto h : mesh().voh_range(v)) {
@@ -233,7 +265,8 @@ class Remesher {
                     weights += weight;
                 }
                 if (weights > 0 && (sum / weights - mesh().point(v)).norm() > least_move * surface_.size(v))
-                    surface_.move(v, sum / weights);
+                    if (surface_.move(v, sum / weights)) continue;
+                refused_moves_.note(v.idx(), surface_.changes());
             }
     }
 
@@ -253,6 +286,7 @@ class Remesher {
     EditedSurface surface_;
     std::optional<FoldSizes> sizes_;
     std::int64_t steps_ = 0;
+    Refusals refused_moves_, refused_flips_;
 };
 
 // Calls visit(point) for the points of a facet that divide each edge in so many.
@@ -278,32 +312,36 @@ class Inspection {
     std::vector<char> run(const SurfaceArrays& result, RemeshReport& report) {
         for (const auto& [f, g] : find_self_intersections(result.vertices, result.facets))
             for (const std::int32_t facet : {f, g}) refuse_around(result, facet);
-        double bound_to_input = first_bound * deviation_, bound_from_input = bound_to_input;
-        Nearness to_input(input_tree_);
+        Side to_input{Nearness(input_tree_, input_.facets), first_bound * deviation_};
         for (const Triangle& t : result.facets)
-            if (!is_near(result.vertices, t, to_input, bound_to_input))
+            if (!is_near(result.vertices, t, to_input))
                 for_each_sample(result.vertices, t, [&](const Vec3& p) { refused_[input_tree_.closest(p).facet] = 1; });
         const TriangleTree tree(result.vertices, result.facets);
-        Nearness from_input(tree);
+        Side from_input{Nearness(tree, result.facets), first_bound * deviation_};
         for (std::size_t f = 0; f < input_.facets.size(); ++f)
-            if (!is_near(input_.vertices, input_.facets[f], from_input, bound_from_input)) refused_[f] = 1;
-        report.distance_to_input = to_input.directed_distance();
-        report.distance_from_input = from_input.directed_distance();
+            if (!is_near(input_.vertices, input_.facets[f], from_input)) refused_[f] = 1;
+        report.distance_to_input = to_input.nearness.directed_distance();
+        report.distance_from_input = from_input.nearness.directed_distance();
         return std::move(refused_);
     }
 
  private:
-    // Also finds out, step by step, how small a bound would do.
-    bool is_near(const std::vector<Vec3>& vertices, const Triangle& t, Nearness& nearness, double& bound) const {
+    // One of the surfaces, and what the facets of the other are known to be near.
+    struct Side {
+        Nearness nearness;
+        double bound;            // that does for all so far
+        std::int32_t last = -1;  // facet of this side that the last one is near
+    };
+
+    bool is_near(const std::vector<Vec3>& vertices, const Triangle& t, Side& side) const {
         if (poll_) poll_();
-        std::int32_t hint = -1;
         const auto holds = [&] {
-            return nearness.holds(
-                {vertices[t[0]], vertices[t[1]], vertices[t[2]]}, bound, [&](std::int32_t) { return bound; },
-                most_divisions_of_inspection, hint);
+            return side.nearness.holds(
+                {vertices[t[0]], vertices[t[1]], vertices[t[2]]}, side.bound, [&](std::int32_t) { return side.bound; },
+                most_divisions_of_inspection, side.last);
         };
-        for (; !holds(); bound = std::min(deviation_, step_of_bound * bound))
-            if (bound == deviation_) return false;
+        for (; !holds(); side.bound = std::min(deviation_, step_of_bound * side.bound))
+            if (side.bound == deviation_) return false;
         return true;
     }
     void refuse_around(const SurfaceArrays& result, std::int32_t facet) {

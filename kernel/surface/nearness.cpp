@@ -11,6 +11,7 @@ namespace {
 
 constexpr double much_longer = 4;        // times as long as the facet below it: beyond that it is rather halved
 constexpr double thinnest = 1e-6;        // of the limit: pieces as thin as that are none
+constexpr int longest_walk = 8;          // from facet to facet
 constexpr double shortest_piece = 1e-3;  // length of a polygon over the limit, below which it is not divided
 
 template <class Corners>
@@ -45,6 +46,22 @@ bool Nearness::Polygon::add(const Vec3& corner) {
     if (count == most_corners) return false;
     corners[count++] = corner;
     return true;
+}
+
+std::int32_t Nearness::facet_below(const Vec3& p, std::int32_t start) const {
+    std::int32_t facet = start, came_from = -1;
+    for (int step = 0; facet >= 0 && step < longest_walk; ++step) {
+        const std::array<Vec3, 3>& t = surface_.corners(facet);
+        const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
+        std::int32_t across = -1;
+        for (int i = 0; i < 3 && across < 0; ++i)
+            if (3 * facet + i != came_from && (t[(i + 1) % 3] - t[i]).cross(normal).dot(p - t[i]) > 0)
+                across = 3 * facet + i;
+        if (across < 0) return facet;
+        came_from = partner_[across];
+        facet = came_from < 0 ? -1 : came_from / 3;
+    }
+    return -1;
 }
 
 bool Nearness::is_within(const Polygon& p, std::int32_t facet, double limit) {
@@ -83,6 +100,7 @@ bool Nearness::halve(const Polygon& p, double limit) {
     if (way.norm() <= shortest_piece * limit) return false;
     Polygon below, above;
     if (!cut(p, centre, way.normalized() / (thinnest * limit), below, above)) return false;
+    above.near = below.near = p.near;
     open_.push_back(above);
     open_.push_back(below);
     return true;
@@ -100,10 +118,15 @@ bool Nearness::divide(const Polygon& p, std::int32_t facet, double limit) {
             open_.resize(before);
             return false;
         }
-        if (above.count > 0) open_.push_back(above);
+        if (above.count > 0) {
+            const std::int32_t beyond = partner_[3 * facet + i];
+            above.near = beyond < 0 ? -1 : beyond / 3;
+            open_.push_back(above);
+        }
         inside = below;
     }
     if (open_.size() == before) return false;
+    inside.near = facet;
     open_.push_back(inside);
     return true;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "surface/edge_corners.h"
 #include "surface/triangle_tree.h"
 
 namespace kerf {
@@ -17,8 +18,9 @@ namespace kerf {
 /// Has scratch memory: one for each thread.
 class Nearness {
  public:
-    /// Keeps the reference.
-    explicit Nearness(const TriangleTree& surface) : surface_(surface) {}
+    /// Keeps the reference. `facets`: those of the tree. O(#F).
+    Nearness(const TriangleTree& surface, const std::vector<Triangle>& facets)
+        : surface_(surface), partner_(edge_partners(facets)) {}
 
     /// Whether every point of triangle `t` is within limit(f) of some facet f of the surface; limit(f) is negative for
     /// facets that do not count, and `largest_limit` not less than any. False, too, if that takes more than `steps`
@@ -27,13 +29,21 @@ class Nearness {
     template <class Limit>
     bool holds(const std::array<Vec3, 3>& t, double largest_limit, Limit limit, int steps, std::int32_t& hint) {
         open_.clear();
-        open_.push_back({{t[0], t[1], t[2]}, 3});
+        open_.push_back({{t[0], t[1], t[2]}, 3, hint});
         for (; !open_.empty(); --steps) {
             if (steps == 0) return false;
             const Polygon p = open_.back();
             open_.pop_back();
-            if (hint >= 0 && is_within(p, hint, limit(hint))) continue;
+            if (p.near >= 0 && is_within(p, p.near, limit(p.near))) {
+                hint = p.near;
+                continue;
+            }
             const Vec3 centre = p.centre();
+            if (const std::int32_t below = facet_below(centre, p.near);
+                below >= 0 && surface_.squared_distance_to(centre, below) <= std::pow(std::max(limit(below), 0.0), 2)) {
+                hint = below;
+                if (is_within(p, below, limit(below)) || divide(p, below, largest_limit)) continue;
+            }
             const TriangleTree::Closest closest = surface_.closest(centre, largest_limit * largest_limit);
             if (closest.facet >= 0 && is_within(p, closest.facet, limit(closest.facet))) {
                 hint = closest.facet;
@@ -60,6 +70,7 @@ class Nearness {
         static constexpr int most_corners = 12;
         std::array<Vec3, most_corners> corners;
         int count = 0;
+        std::int32_t near = -1;  // a facet that may be
 
         Vec3 centre() const;
         /// Whether there was room.
@@ -82,6 +93,8 @@ class Nearness {
                 return !beside_.empty();
             });
     }
+    /// The facet that p lies over, from `start` on from neighbour to neighbour; -1: none, or not found that way.
+    std::int32_t facet_below(const Vec3& p, std::int32_t start) const;
     bool is_within(const Polygon& p, std::int32_t facet, double limit);
     /// Puts pieces of p in its place, what is over the facet and what is not; false if that divides nothing.
     bool divide(const Polygon& p, std::int32_t facet, double limit);
@@ -92,6 +105,7 @@ class Nearness {
     static bool cut(const Polygon& p, const Vec3& origin, const Vec3& normal, Polygon& below, Polygon& above);
 
     const TriangleTree& surface_;
+    std::vector<std::int32_t> partner_;  // 3 #F: the corner on the other side
     std::vector<Polygon> open_;
     std::vector<std::int32_t> beside_;
     double squared_distance_ = 0;
