@@ -1,0 +1,299 @@
+#include "delaunay/triangulation.h"
+
+#include <algorithm>
+
+#include "core/check.h"
+#include "core/error.h"
+#include "delaunay/predicates.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr std::size_t cells_a_vertex = 7;  // a little more than there are among random points
+
+// The two vertices of a cell that are neither i nor j, so that (i, j, first, second) is an even permutation.
+constexpr std::array<std::array<std::array<int, 2>, 4>, 4> other_two = {{{{{0, 0}, {2, 3}, {3, 1}, {1, 2}}},
+                                                                         {{{3, 2}, {0, 0}, {0, 3}, {2, 0}}},
+                                                                         {{{1, 3}, {3, 0}, {0, 0}, {0, 1}}},
+                                                                         {{{2, 1}, {0, 2}, {1, 0}, {0, 0}}}}};
+
+}  // namespace
+
+Triangulation::Triangulation(const std::array<Vec3, 4>& corners)
+    : points_(corners.begin(), corners.end()), cell_at_vertex_(4, 0) {
+    KERF_CHECK(orientation(corners[0], corners[1], corners[2], corners[3]) > 0);
+    cells_.push_back({{0, 1, 2, 3}, {}});
+    for (int i = 0; i < 4; ++i) {
+        // Seen from the ghost, which took the place of vertex i, the others turn the other way.
+        Tetrahedron ghost_cell = {0, 1, 2, 3};
+        ghost_cell[i] = ghost;
+        std::swap(ghost_cell[i], ghost_cell[3]);
+        if (i == 3) std::swap(ghost_cell[0], ghost_cell[1]);
+        cells_.push_back({ghost_cell, {}});
+    }
+    for (std::int32_t cell = 1; cell <= 4; ++cell)
+        for (int i = 0; i < 4; ++i) {
+            // The four ghost cells lie around one tetrahedron: ghost cell 1 + v is the one without vertex v.
+            const std::int32_t missing = cells_[cell].vertex[i];
+            const std::int32_t other = missing == ghost ? 0 : 1 + missing;
+            cells_[cell].link[i] = cell_face(other, index_of(other, cell - 1));
+            if (missing == ghost) cells_[0].link[cell - 1] = cell_face(cell, i);
+        }
+}
+
+void Triangulation::reserve(std::size_t vertices) {
+    points_.reserve(vertices);
+    cell_at_vertex_.reserve(vertices);
+    cells_.reserve(cells_a_vertex * vertices);
+}
+
+int Triangulation::index_of(std::int32_t cell, std::int32_t vertex) const {
+    const Tetrahedron& corners = cells_[cell].vertex;
+    return static_cast<int>(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
+}
+
+std::vector<std::int32_t> Triangulation::cells_around_vertex(std::int32_t vertex) {
+    std::vector<std::int32_t> cells = {cell_at_vertex_[vertex]};
+    const auto corners = [&](std::int32_t cell) {
+        Cell copy = cells_[cell];
+        copy.flip_mark();  // which all in the list have
+        return copy.vertex;
+    };
+    cells_[cells[0]].flip_mark();
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        const Tetrahedron of_cell = corners(cells[k]);
+        for (int i = 0; i < 4; ++i) {
+            const std::int32_t next = neighbour(cells[k], i);
+            if (of_cell[i] == vertex || cells_[next].is_marked()) continue;
+            cells_[next].flip_mark();
+            cells.push_back(next);
+        }
+    }
+    for (std::int32_t cell : cells) cells_[cell].flip_mark();
+    return cells;
+}
+
+std::vector<std::int32_t> Triangulation::cells_around_edge(std::int32_t cell, int i, int j) const {
+    const std::int32_t from = cells_[cell].vertex[i], to = cells_[cell].vertex[j];
+    std::vector<std::int32_t> cells;
+    std::int32_t current = cell;
+    do {
+        cells.push_back(current);
+        current = neighbour(current, other_two[index_of(current, from)][index_of(current, to)][0]);
+    } while (current != cell);
+    return cells;
+}
+
+void Triangulation::constrain(CellFace face) {
+    link(mirror(face)) |= constraint;
+    link(face) |= constraint;
+    has_constraints_ = true;
+}
+
+// --- Where a point is ---
+
+// Of the tetrahedron with p in place of its vertex i.
+int Triangulation::orientation_with(const Tetrahedron& vertex, int i, const Vec3& p) const {
+    std::array<const Vec3*, 4> corners;
+    for (int k = 0; k < 4; ++k) corners[k] = k == i ? &p : &points_[vertex[k]];
+    return orientation(*corners[0], *corners[1], *corners[2], *corners[3]);
+}
+
+// A face of the cell that the point is beyond; 4 if there is none. The face through which the walk came is not asked.
+int Triangulation::face_towards(const Vec3& p, std::int32_t cell, int came_from, int first) const {
+    for (int k = 0; k < 4; ++k) {
+        const int i = (first + k) & 3;
+        if (i != came_from && orientation_with(cells_[cell].vertex, i, p) < 0) return i;
+    }
+    return 4;
+}
+
+// Among Delaunay cells every walk ends (edelsbrunner1990); with constrained faces one that always asks the faces in the
+// same order may turn in circles.
+std::int32_t Triangulation::locate(const Vec3& p, std::int32_t hint) const {
+    std::int32_t cell = is_ghost(hint) ? neighbour(hint, 3) : hint;
+    std::uint32_t random = 1;
+    int came_from = 4;
+    while (!is_ghost(cell)) {
+        random = random * 1664525 + 1013904223;
+        const int i = face_towards(p, cell, came_from, static_cast<int>(random >> 30));
+        if (i == 4) break;
+        const CellFace behind = mirror(cell_face(cell, i));
+        cell = cell_of(behind);
+        came_from = index_in_cell(behind);
+    }
+    return cell;
+}
+
+std::int32_t Triangulation::vertex_at(const Vec3& p, std::int32_t cell) const {
+    for (std::int32_t v : cells_[cell].vertex)
+        if (v >= 0 && points_[v] == p) return v;
+    return none;
+}
+
+// --- The cells that a point removes ---
+
+bool Triangulation::sphere_contains(std::int32_t cell, const Vec3& p) const {
+    const Tetrahedron& v = cells_[cell].vertex;
+    return in_sphere(points_[v[0]], points_[v[1]], points_[v[2]], points_[v[3]], p);
+}
+
+// The sphere of a ghost cell is the half-space beyond its face. In its plane, it is the disk of the face, which the
+// sphere behind it has, too, with the same decision of ties: heights in a plane say nothing about those outside of it.
+bool Triangulation::conflicts(std::int32_t cell, const Vec3& p) const {
+    if (!is_ghost(cell)) return sphere_contains(cell, p);
+    const Tetrahedron& v = cells_[cell].vertex;
+    const int side = orientation(points_[v[0]], points_[v[1]], points_[v[2]], p);
+    if (side != 0) return side > 0;
+    const std::int32_t inside = neighbour(cell, 3);
+    return cells_[inside].is_marked() || sphere_contains(inside, p);
+}
+
+bool Triangulation::may_be_removed(std::int32_t cell, const Vec3& p) const {
+    if (has_constraints_)
+        if (is_ghost(cell) || std::find(refused_.begin(), refused_.end(), cell) != refused_.end()) return false;
+    return conflicts(cell, p);
+}
+
+void Triangulation::grow_cavity(const Vec3& p, std::int32_t start) {
+    cavity_faces_.clear();
+    cavity_.assign(1, start);
+    cells_[start].flip_mark();
+    for (std::size_t k = 0; k < cavity_.size(); ++k) {
+        Cell cell = cells_[cavity_[k]];
+        cell.flip_mark();
+        for (int i = 0; i < 4; ++i) {
+            const CellFace behind = cell.link[i];
+            const bool is_free = (behind & constraint) == 0;
+            const std::int32_t next = cell_of(behind & ~constraint);
+            if (is_free && cells_[next].is_marked()) continue;
+            if (is_free && may_be_removed(next, p)) {
+                cells_[next].flip_mark();
+                cavity_.push_back(next);
+            } else {
+                cavity_faces_.push_back({cell.vertex, i, behind});
+            }
+        }
+    }
+}
+
+void Triangulation::release_cavity() {
+    for (std::int32_t cell : cavity_) cells_[cell].flip_mark();
+}
+
+// False if the point sees all faces of the cavity from inside.
+bool Triangulation::refuse_unseen_cells(const Vec3& p) {
+    const std::size_t refused_before = refused_.size();
+    for (const CavityFace& face : cavity_faces_)
+        if (orientation_with(face.vertex, face.i, p) <= 0)
+            refused_.push_back(cell_of(mirror(face.outside & ~constraint)));
+    return refused_.size() > refused_before;
+}
+
+bool Triangulation::keeps_all_vertices() const {
+    std::vector<std::int32_t> inside, around;
+    for (std::int32_t cell : cavity_) {
+        Cell copy = cells_[cell];
+        copy.flip_mark();
+        inside.insert(inside.end(), copy.vertex.begin(), copy.vertex.end());
+    }
+    for (const CavityFace& face : cavity_faces_)
+        for (int k = 0; k < 4; ++k)
+            if (k != face.i) around.push_back(face.vertex[k]);
+    for (std::vector<std::int32_t>* vertices : {&inside, &around}) {
+        std::sort(vertices->begin(), vertices->end());
+        vertices->erase(std::unique(vertices->begin(), vertices->end()), vertices->end());
+    }
+    return inside == around;
+}
+
+// False, and nothing is marked, if the point may not be inserted. Among Delaunay cells the point sees all of its cavity.
+bool Triangulation::find_cavity(const Vec3& p, std::int32_t start) {
+    grow_cavity(p, start);
+    if (!has_constraints_) return true;
+    refused_.clear();
+    bool is_possible = !is_ghost(start);
+    while (is_possible && refuse_unseen_cells(p)) {
+        is_possible = std::find(refused_.begin(), refused_.end(), start) == refused_.end();
+        release_cavity();
+        grow_cavity(p, start);
+    }
+    if (is_possible && keeps_all_vertices()) return true;
+    release_cavity();
+    return false;
+}
+
+// --- The cells that it brings ---
+
+void Triangulation::set_cell(std::int32_t cell, const CavityFace& face, std::int32_t vertex) {
+    Cell& made = cells_[cell];
+    made.vertex = face.vertex;
+    made.vertex[face.i] = vertex;
+    made.link[face.i] = face.outside;
+    link(face.outside & ~constraint) = cell_face(cell, face.i) | (face.outside & constraint);
+    for (int i = 0; i < 4; ++i) {
+        if (made.vertex[i] >= 0) cell_at_vertex_[made.vertex[i]] = cell;
+        if (i == face.i) continue;
+        const auto [j, k] = other_two[face.i][i];
+        const CellFace across = edges_.match(made.vertex[j], made.vertex[k], cell_face(cell, i));
+        if (across < 0) continue;
+        made.link[i] = across;
+        link(across) = cell_face(cell, i);
+    }
+}
+
+void Triangulation::fill_cavity(std::int32_t vertex) {
+    edges_.reset(cavity_faces_.size() * 3 / 2);
+    const std::size_t reused = std::min(cavity_.size(), cavity_faces_.size());
+    for (std::size_t k = 0; k < reused; ++k) set_cell(cavity_[k], cavity_faces_[k], vertex);
+    for (std::size_t k = reused; k < cavity_faces_.size(); ++k) {
+        cells_.emplace_back();
+        set_cell(cell_count() - 1, cavity_faces_[k], vertex);
+    }
+    last_cell_ = cavity_[0];
+    remove_cells({cavity_.begin() + static_cast<std::ptrdiff_t>(reused), cavity_.end()});
+}
+
+// The last cells move to where the removed ones were.
+void Triangulation::remove_cells(std::vector<std::int32_t> cells) {
+    std::sort(cells.begin(), cells.end(), std::greater<>());
+    for (std::int32_t cell : cells) {
+        if (cell != cell_count() - 1) move_cell(cell_count() - 1, cell);
+        cells_.pop_back();
+    }
+}
+
+void Triangulation::move_cell(std::int32_t from, std::int32_t to) {
+    cells_[to] = cells_[from];
+    for (int i = 0; i < 4; ++i) {
+        const CellFace behind = cells_[to].link[i];
+        link(behind & ~constraint) = cell_face(to, i) | (behind & constraint);
+    }
+    for (std::int32_t v : cells_[to].vertex)
+        if (v >= 0) cell_at_vertex_[v] = to;
+    if (last_cell_ == from) last_cell_ = to;
+}
+
+std::int32_t Triangulation::insert(const Vec3& p, std::int32_t hint) {
+    const std::int32_t start = locate(p, hint == none ? last_cell_ : hint);
+    if (const std::int32_t same = vertex_at(p, start); same != none) return same;
+    if (!find_cavity(p, start)) return none;
+    const auto vertex = static_cast<std::int32_t>(points_.size());
+    points_.push_back(p);
+    cell_at_vertex_.push_back(none);
+    fill_cavity(vertex);
+    return vertex;
+}
+
+void Triangulation::renumber(const std::vector<std::int32_t>& number, std::vector<Vec3> points) {
+    std::vector<std::int32_t> cell_at_vertex(points.size(), none);
+    for (std::size_t v = 0; v < number.size(); ++v) cell_at_vertex[number[v]] = cell_at_vertex_[v];
+    for (Cell& cell : cells_)
+        for (std::int32_t& v : cell.vertex)
+            if (v >= 0) v = number[v];
+    cell_at_vertex_ = std::move(cell_at_vertex);
+    points_ = std::move(points);
+}
+
+}  // namespace kerf

@@ -1,0 +1,134 @@
+// A triangulation of the convex hull of points, which grows point by point.
+//
+// Every cell has four vertices and four neighbours; neighbour i lies across face i, opposite to vertex i. Outside of the
+// hull there is a ghost cell on each of its faces, whose fourth vertex is the ghost: so every face has two cells. A face
+// seen from one of its two cells is named by 4 * cell + i, as half-edges are on a surface.
+#pragma once
+
+#include <vector>
+
+#include "core/types.h"
+#include "delaunay/edge_table.h"
+
+namespace kerf {
+
+/// 4 * cell + i: the face of the cell that is opposite to its vertex i.
+using CellFace = std::int32_t;
+
+constexpr CellFace cell_face(std::int32_t cell, int i) { return 4 * cell + i; }
+constexpr std::int32_t cell_of(CellFace face) { return face >> 2; }
+constexpr int index_in_cell(CellFace face) { return face & 3; }
+
+/// Delaunay by the predicates of predicates.h, which know no ties, as long as no face was constrained. All answers and
+/// the numbers of cells depend on the calls alone. Cells are always numbered from 0 without gaps; an insertion may give
+/// any cell another number. 32 bytes a cell and 28 a vertex, about 6.8 cells a vertex in space. Not for two threads at
+/// once, const or not.
+class Triangulation {
+ public:
+    static constexpr std::int32_t ghost = -1, none = -1;
+
+    /// Without cells: where all points lie in one plane.
+    Triangulation() = default;
+    /// One tetrahedron, of vertices 0 to 3. Requires orientation() 1.
+    explicit Triangulation(const std::array<Vec3, 4>& corners);
+
+    /// Room for so many vertices, so that nothing is moved while they come.
+    void reserve(std::size_t vertices);
+
+    // --- what there is ---
+
+    const std::vector<Vec3>& points() const { return points_; }
+    /// Ghost cells included.
+    std::int32_t cell_count() const { return static_cast<std::int32_t>(cells_.size()); }
+    bool is_ghost(std::int32_t cell) const { return cells_[cell].vertex[3] < 0; }
+    /// Of positive orientation. The ghost is always vertex 3, and would see the others counter-clockwise.
+    const Tetrahedron& vertices(std::int32_t cell) const { return cells_[cell].vertex; }
+    std::int32_t neighbour(std::int32_t cell, int i) const { return cell_of(mirror(cell_face(cell, i))); }
+    /// The same face seen from its other cell.
+    CellFace mirror(CellFace face) const { return link(face) & ~constraint; }
+    std::int32_t opposite_vertex(CellFace face) const { return cells_[cell_of(face)].vertex[index_in_cell(face)]; }
+    /// One of the cells around a vertex; none if it has no cells.
+    std::int32_t cell_at(std::int32_t vertex) const { return cell_at_vertex_[vertex]; }
+    /// Which of its four vertices the vertex is; 4 if none.
+    int index_of(std::int32_t cell, std::int32_t vertex) const;
+    /// All cells around a vertex that has some, ghosts included. Linear.
+    std::vector<std::int32_t> cells_around_vertex(std::int32_t vertex);
+    /// All cells around the edge from vertex i to vertex j of a cell, ghosts included, one after the other: the first is
+    /// the cell itself, each shares a face with the next. They turn counter-clockwise seen from j.
+    std::vector<std::int32_t> cells_around_edge(std::int32_t cell, int i, int j) const;
+
+    // --- faces that stay ---
+
+    bool is_constrained(CellFace face) const { return (link(face) & constraint) != 0; }
+    /// Both sides of it. From then on insert() never removes the face, see there.
+    void constrain(CellFace face);
+
+    // --- points ---
+
+    /// The cell in which a point lies; one of them if it lies on a face, an edge or a vertex. A ghost cell, whose face
+    /// the point is strictly beyond, if it is outside. Walks from cell to cell towards it (devillers2002), starting at
+    /// `hint`: about a dozen where the hint is near. Requires cells.
+    std::int32_t locate(const Vec3& p, std::int32_t hint) const;
+    /// The number of the new vertex; that of the old one if there is one at the point.
+    ///
+    /// Removes the cells in whose spheres the point lies, and joins it with the faces around them (bowyer1981,
+    /// watson1981). What lies behind a constrained face is left as it is; cells whose faces the point cannot see are
+    /// left, too. none, and nothing has changed, if with constrained faces the point is not strictly inside of the
+    /// hull, lies on a constrained face or would cut off a vertex. hint: a cell near the point; none for one of the last
+    /// insertion's. About 3 us near the hint. Requires cells.
+    std::int32_t insert(const Vec3& p, std::int32_t hint = none);
+
+    /// Gives vertex v the number number[v] in `points`, which has the same point there, and others that are no vertices.
+    /// Linear.
+    void renumber(const std::vector<std::int32_t>& number, std::vector<Vec3> points);
+
+ private:
+    struct Cell {
+        Tetrahedron vertex;
+        std::array<CellFace, 4> link;  // neighbours, with `constraint` where the face is constrained
+
+        // Cells of the cavity, while it grows.
+        bool is_marked() const { return vertex[0] < 0; }
+        void flip_mark() { vertex[0] = ~vertex[0]; }
+    };
+    // A face of the cavity, with its cell in which vertex i is to be replaced.
+    struct CavityFace {
+        Tetrahedron vertex;
+        int i;
+        CellFace outside;  // and `constraint`
+    };
+
+    static constexpr CellFace constraint = 1 << 30;
+
+    CellFace link(CellFace face) const { return cells_[cell_of(face)].link[index_in_cell(face)]; }
+    CellFace& link(CellFace face) { return cells_[cell_of(face)].link[index_in_cell(face)]; }
+    int orientation_with(const Tetrahedron& vertex, int i, const Vec3& p) const;
+    bool sphere_contains(std::int32_t cell, const Vec3& p) const;
+    bool conflicts(std::int32_t cell, const Vec3& p) const;
+    std::int32_t vertex_at(const Vec3& p, std::int32_t cell) const;
+    int face_towards(const Vec3& p, std::int32_t cell, int came_from, int first) const;
+
+    bool find_cavity(const Vec3& p, std::int32_t start);
+    void grow_cavity(const Vec3& p, std::int32_t start);
+    void release_cavity();
+    bool may_be_removed(std::int32_t cell, const Vec3& p) const;
+    bool refuse_unseen_cells(const Vec3& p);
+    bool keeps_all_vertices() const;
+    void fill_cavity(std::int32_t vertex);
+    void set_cell(std::int32_t cell, const CavityFace& face, std::int32_t vertex);
+    void remove_cells(std::vector<std::int32_t> cells);
+    void move_cell(std::int32_t from, std::int32_t to);
+
+    std::vector<Vec3> points_;
+    std::vector<Cell> cells_;
+    std::vector<std::int32_t> cell_at_vertex_;
+    std::int32_t last_cell_ = 0;
+    bool has_constraints_ = false;
+
+    // Of the insertion under way.
+    std::vector<std::int32_t> cavity_, refused_;
+    std::vector<CavityFace> cavity_faces_;
+    EdgeTable edges_;
+};
+
+}  // namespace kerf
