@@ -5,9 +5,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include <fmt/format.h>
-
-#include "core/error.h"
 #include "delaunay/predicates.h"
 #include "delaunay/spatial_order.h"
 
@@ -21,8 +18,7 @@ bool put_tetrahedron_first(std::vector<std::int32_t>& order, const std::vector<V
     std::size_t found = 0;
     const auto fits = [&](const Vec3& p) {
         if (found < 2) return found == 0 || p != point(0);
-        return found == 2 ? !are_collinear(point(0), point(1), p)
-                          : orientation(point(0), point(1), point(2), p) != 0;
+        return found == 2 ? !are_collinear(point(0), point(1), p) : orientation(point(0), point(1), point(2), p) != 0;
     };
     for (std::size_t i = 0; i < order.size() && found < 4; ++i) {
         if (!fits(points[order[i]])) continue;
@@ -39,9 +35,8 @@ bool put_tetrahedron_first(std::vector<std::int32_t>& order, const std::vector<V
 std::vector<std::int32_t> representatives_by_sorting(const std::vector<Vec3>& points) {
     std::vector<std::int32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](std::int32_t v, std::int32_t w) {
-        return lexicographically_less(points[v], points[w]);
-    });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::int32_t v, std::int32_t w) { return lexicographically_less(points[v], points[w]); });
     std::vector<std::int32_t> representative(points.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
         const bool is_first = i == 0 || points[order[i]] != points[order[i - 1]];
@@ -66,11 +61,6 @@ std::vector<std::int32_t> insert_all(Triangulation& triangulation, const std::ve
 }  // namespace
 
 Delaunay delaunay(std::vector<Vec3> points) {
-    constexpr std::size_t most_points = 70'000'000;
-    if (points.size() > most_points)
-        throw Error(ErrorCode::memory, fmt::format("{} points are more than one triangulation can number ({}). Divide "
-                                                   "the surface into more parts.",
-                                                   points.size(), most_points));
     std::vector<std::int32_t> order = insertion_order(points);
     if (!put_tetrahedron_first(order, points)) return {{}, representatives_by_sorting(points)};
     Delaunay result{first_cells(order, points), {}};

@@ -13,8 +13,9 @@ struct Delaunay {
 };
 
 /// Which cells there are depends on the points alone, not on their order, and ties are decided as in_sphere() does; the
-/// order of the cells depends on that of the points. At most 70 million points, or Error (memory): their cells are numbered
-/// by 28 bits. 3 us a point where most lie in space; memory of the result and 32 bytes a point.
+/// order of the cells depends on that of the points. Coordinates must be finite and below 1e100. Error (memory) where
+/// there are too many, see Triangulation::insert(). 3 to 4 us a point where most lie in space, three times as many on
+/// an exact lattice; memory of the result and 33 bytes a point.
 Delaunay delaunay(std::vector<Vec3> points);
 
 }  // namespace kerf

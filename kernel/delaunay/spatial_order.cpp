@@ -1,6 +1,6 @@
-// Hilbert's curve by the recurrence of hamilton2008. In each octant the curve enters at one corner and leaves at another
-// along an axis; (entry corner, axis) is the state, of which there are 24. The octants of a cube are visited in the order
-// of the Gray code, reflected to the entry corner and rotated to the axis.
+// Hilbert's curve by the recurrence of hamilton2008. In each octant the curve enters at one corner and leaves at
+// another along an axis; (entry corner, axis) is the state, of which there are 24. The octants of a cube are visited in
+// the order of the Gray code, reflected to the entry corner and rotated to the axis.
 #include "delaunay/spatial_order.h"
 
 #include <algorithm>
@@ -82,9 +82,8 @@ std::vector<std::int32_t> insertion_order(const std::vector<Vec3>& points) {
         const std::uint64_t round = 15 - rounds_to_go(places.size());
         places.push_back({round << (3 * bits) | hilbert_code({cell[0], cell[1], cell[2]}, bits), point});
     }
-    std::sort(places.begin(), places.end(), [](const Place& p, const Place& q) {
-        return p.code != q.code ? p.code < q.code : p.point < q.point;
-    });
+    std::sort(places.begin(), places.end(),
+              [](const Place& p, const Place& q) { return p.code != q.code ? p.code < q.code : p.point < q.point; });
     std::vector<std::int32_t> order;
     order.reserve(points.size());
     for (const Place& place : places) order.push_back(place.point);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "core/check.h"
 #include "core/error.h"
 #include "delaunay/predicates.h"
@@ -22,6 +24,7 @@ constexpr std::array<std::array<std::array<int, 2>, 4>, 4> other_two = {{{{{0, 0
 
 Triangulation::Triangulation(const std::array<Vec3, 4>& corners)
     : points_(corners.begin(), corners.end()), cell_at_vertex_(4, 0) {
+    for (int i = 0; i < 4; ++i) star_edges_.add_vertex();
     KERF_CHECK(orientation(corners[0], corners[1], corners[2], corners[3]) > 0);
     cells_.push_back({{0, 1, 2, 3}, {}});
     for (int i = 0; i < 4; ++i) {
@@ -46,6 +49,7 @@ void Triangulation::reserve(std::size_t vertices) {
     points_.reserve(vertices);
     cell_at_vertex_.reserve(vertices);
     cells_.reserve(cells_a_vertex * vertices);
+    star_edges_.reserve_vertices(vertices);
 }
 
 int Triangulation::index_of(std::int32_t cell, std::int32_t vertex) const {
@@ -161,18 +165,18 @@ void Triangulation::grow_cavity(const Vec3& p, std::int32_t start) {
     cavity_.assign(1, start);
     cells_[start].flip_mark();
     for (std::size_t k = 0; k < cavity_.size(); ++k) {
-        Cell cell = cells_[cavity_[k]];
-        cell.flip_mark();
+        const std::int32_t cell = cavity_[k];
         for (int i = 0; i < 4; ++i) {
-            const CellFace behind = cell.link[i];
+            const CellFace behind = cells_[cell].link[i];
             const bool is_free = (behind & constraint) == 0;
             const std::int32_t next = cell_of(behind & ~constraint);
             if (is_free && cells_[next].is_marked()) continue;
             if (is_free && may_be_removed(next, p)) {
+                for (const CellFace beyond : cells_[next].link) prefetch(cell_of(beyond & ~constraint));
                 cells_[next].flip_mark();
                 cavity_.push_back(next);
             } else {
-                cavity_faces_.push_back({cell.vertex, i, behind});
+                cavity_faces_.push_back({cell_face(cell, i), behind});
             }
         }
     }
@@ -186,73 +190,108 @@ void Triangulation::release_cavity() {
 bool Triangulation::refuse_unseen_cells(const Vec3& p) {
     const std::size_t refused_before = refused_.size();
     for (const CavityFace& face : cavity_faces_)
-        if (orientation_with(face.vertex, face.i, p) <= 0)
-            refused_.push_back(cell_of(mirror(face.outside & ~constraint)));
+        if (orientation_with(vertices(cell_of(face.inside)), index_in_cell(face.inside), p) <= 0)
+            refused_.push_back(cell_of(face.inside));
     return refused_.size() > refused_before;
 }
 
 bool Triangulation::keeps_all_vertices() const {
     std::vector<std::int32_t> inside, around;
-    for (std::int32_t cell : cavity_) {
-        Cell copy = cells_[cell];
-        copy.flip_mark();
-        inside.insert(inside.end(), copy.vertex.begin(), copy.vertex.end());
-    }
+    for (std::int32_t cell : cavity_) inside.insert(inside.end(), vertices(cell).begin(), vertices(cell).end());
     for (const CavityFace& face : cavity_faces_)
-        for (int k = 0; k < 4; ++k)
-            if (k != face.i) around.push_back(face.vertex[k]);
-    for (std::vector<std::int32_t>* vertices : {&inside, &around}) {
-        std::sort(vertices->begin(), vertices->end());
-        vertices->erase(std::unique(vertices->begin(), vertices->end()), vertices->end());
+        for (int k = 1; k < 4; ++k) around.push_back(vertices(cell_of(face.inside))[index_in_cell(face.inside) ^ k]);
+    for (std::vector<std::int32_t>* list : {&inside, &around}) {
+        std::sort(list->begin(), list->end());
+        list->erase(std::unique(list->begin(), list->end()), list->end());
     }
     return inside == around;
 }
 
-// False, and nothing is marked, if the point may not be inserted. Among Delaunay cells the point sees all of its cavity.
+// Cells of the cavity are not marked any more. False if the point may not be inserted. Among Delaunay cells the point
+// sees all of its cavity.
 bool Triangulation::find_cavity(const Vec3& p, std::int32_t start) {
-    grow_cavity(p, start);
-    if (!has_constraints_) return true;
     refused_.clear();
-    bool is_possible = !is_ghost(start);
-    while (is_possible && refuse_unseen_cells(p)) {
-        is_possible = std::find(refused_.begin(), refused_.end(), start) == refused_.end();
-        release_cavity();
+    if (has_constraints_ && is_ghost(start)) return false;
+    do {
+        if (std::find(refused_.begin(), refused_.end(), start) != refused_.end()) return false;
         grow_cavity(p, start);
-    }
-    if (is_possible && keeps_all_vertices()) return true;
-    release_cavity();
-    return false;
+        release_cavity();
+    } while (has_constraints_ && refuse_unseen_cells(p));
+    return !has_constraints_ || keeps_all_vertices();
 }
 
 // --- The cells that it brings ---
 
-void Triangulation::set_cell(std::int32_t cell, const CavityFace& face, std::int32_t vertex) {
-    Cell& made = cells_[cell];
-    made.vertex = face.vertex;
-    made.vertex[face.i] = vertex;
-    made.link[face.i] = face.outside;
-    link(face.outside & ~constraint) = cell_face(cell, face.i) | (face.outside & constraint);
-    for (int i = 0; i < 4; ++i) {
-        if (made.vertex[i] >= 0) cell_at_vertex_[made.vertex[i]] = cell;
-        if (i == face.i) continue;
-        const auto [j, k] = other_two[face.i][i];
-        const CellFace across = edges_.match(made.vertex[j], made.vertex[k], cell_face(cell, i));
-        if (across < 0) continue;
-        made.link[i] = across;
-        link(across) = cell_face(cell, i);
+// New cells take the places of old ones first.
+void Triangulation::place_cells() {
+    star_edges_.clear();
+    new_cells_.clear();
+    std::int32_t next_cell = cell_count();
+    for (const auto& [inside, outside] : cavity_faces_) {
+        const std::size_t k = new_cells_.size();
+        const std::int32_t cell = k < cavity_.size() ? cavity_[k] : next_cell++;
+        const int i = index_in_cell(inside);
+        NewCell& made = new_cells_.emplace_back();
+        made.vertex = vertices(cell_of(inside));
+        made.face = cell_face(cell, i);
+        made.outside = outside;
+        for (int j = 1; j < 4; ++j) {
+            bool is_new = false;
+            made.place[i ^ j] = star_edges_.place(made.vertex[i ^ j], is_new);
+            if (is_new) cell_at_vertex_[made.vertex[i ^ j]] = cell;
+        }
+    }
+    cells_.resize(static_cast<std::size_t>(next_cell));
+}
+
+void Triangulation::set_cell(const NewCell& made, std::int32_t vertex) {
+    const int i = index_in_cell(made.face);
+    Cell& cell = cells_[cell_of(made.face)];
+    cell.vertex = made.vertex;
+    cell.vertex[i] = vertex;
+    cell.link[i] = made.outside;
+    link(made.outside & ~constraint) = made.face | (made.outside & constraint);
+}
+
+void Triangulation::join_cells() {
+    star_edges_.make_table();
+    for (const NewCell& made : new_cells_)
+        for (int k = 1; k < 4; ++k) {
+            const auto [a, b] = other_two[index_in_cell(made.face)][index_in_cell(made.face) ^ k];
+            star_edges_.at(made.place[a], made.place[b]) = made.face ^ k;
+        }
+    for (const NewCell& made : new_cells_)
+        for (int k = 1; k < 4; ++k) {
+            const auto [a, b] = other_two[index_in_cell(made.face)][index_in_cell(made.face) ^ k];
+            link(made.face ^ k) = star_edges_.at(made.place[b], made.place[a]);
+        }
+}
+
+void Triangulation::join_cells_of_large_star() {
+    struct Edge {
+        UndirectedEdge ends;
+        CellFace face;
+    };
+    std::vector<Edge> edges;
+    for (const NewCell& made : new_cells_)
+        for (int k = 1; k < 4; ++k) {
+            const auto [a, b] = other_two[index_in_cell(made.face)][index_in_cell(made.face) ^ k];
+            edges.push_back({undirected(made.vertex[a], made.vertex[b]), made.face ^ k});
+        }
+    std::sort(edges.begin(), edges.end(), [](const Edge& e, const Edge& f) { return e.ends < f.ends; });
+    for (std::size_t k = 0; k < edges.size(); k += 2) {
+        link(edges[k].face) = edges[k + 1].face;
+        link(edges[k + 1].face) = edges[k].face;
     }
 }
 
 void Triangulation::fill_cavity(std::int32_t vertex) {
-    edges_.reset(cavity_faces_.size() * 3 / 2);
-    const std::size_t reused = std::min(cavity_.size(), cavity_faces_.size());
-    for (std::size_t k = 0; k < reused; ++k) set_cell(cavity_[k], cavity_faces_[k], vertex);
-    for (std::size_t k = reused; k < cavity_faces_.size(); ++k) {
-        cells_.emplace_back();
-        set_cell(cell_count() - 1, cavity_faces_[k], vertex);
-    }
-    last_cell_ = cavity_[0];
-    remove_cells({cavity_.begin() + static_cast<std::ptrdiff_t>(reused), cavity_.end()});
+    place_cells();
+    for (const NewCell& made : new_cells_) set_cell(made, vertex);
+    star_edges_.is_large() ? join_cells_of_large_star() : join_cells();
+    last_cell_ = cell_at_vertex_[vertex] = cell_of(new_cells_[0].face);
+    const std::size_t reused = std::min(cavity_.size(), new_cells_.size());
+    if (reused < cavity_.size()) remove_cells({cavity_.begin() + static_cast<std::ptrdiff_t>(reused), cavity_.end()});
 }
 
 // The last cells move to where the removed ones were.
@@ -279,9 +318,14 @@ std::int32_t Triangulation::insert(const Vec3& p, std::int32_t hint) {
     const std::int32_t start = locate(p, hint == none ? last_cell_ : hint);
     if (const std::int32_t same = vertex_at(p, start); same != none) return same;
     if (!find_cavity(p, start)) return none;
+    if (cell_count() + static_cast<std::int64_t>(cavity_faces_.size()) > most_cells)
+        throw Error(ErrorCode::memory, fmt::format("A triangulation of {} points has {} cells; more than {} cannot be "
+                                                   "numbered. Divide the surface into more parts.",
+                                                   points_.size(), cell_count(), most_cells));
     const auto vertex = static_cast<std::int32_t>(points_.size());
     points_.push_back(p);
     cell_at_vertex_.push_back(none);
+    star_edges_.add_vertex();
     fill_cavity(vertex);
     return vertex;
 }

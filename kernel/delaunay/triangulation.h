@@ -1,14 +1,14 @@
 // A triangulation of the convex hull of points, which grows point by point.
 //
-// Every cell has four vertices and four neighbours; neighbour i lies across face i, opposite to vertex i. Outside of the
-// hull there is a ghost cell on each of its faces, whose fourth vertex is the ghost: so every face has two cells. A face
-// seen from one of its two cells is named by 4 * cell + i, as half-edges are on a surface.
+// Every cell has four vertices and four neighbours; neighbour i lies across face i, opposite to vertex i. Outside of
+// the hull there is a ghost cell on each of its faces, whose fourth vertex is the ghost: so every face has two cells. A
+// face seen from one of its two cells is named by 4 * cell + i, as half-edges are on a surface.
 #pragma once
 
 #include <vector>
 
 #include "core/types.h"
-#include "delaunay/edge_table.h"
+#include "delaunay/star_edges.h"
 
 namespace kerf {
 
@@ -21,11 +21,12 @@ constexpr int index_in_cell(CellFace face) { return face & 3; }
 
 /// Delaunay by the predicates of predicates.h, which know no ties, as long as no face was constrained. All answers and
 /// the numbers of cells depend on the calls alone. Cells are always numbered from 0 without gaps; an insertion may give
-/// any cell another number. 32 bytes a cell and 28 a vertex, about 6.8 cells a vertex in space. Not for two threads at
-/// once, const or not.
+/// any cell another number. 32 bytes a cell and 29 a vertex, about 6.8 cells a vertex in space.
 class Triangulation {
  public:
     static constexpr std::int32_t ghost = -1, none = -1;
+    /// Faces of cells are numbered by 30 bits.
+    static constexpr std::int32_t most_cells = 1 << 28;
 
     /// Without cells: where all points lie in one plane.
     Triangulation() = default;
@@ -53,8 +54,8 @@ class Triangulation {
     int index_of(std::int32_t cell, std::int32_t vertex) const;
     /// All cells around a vertex that has some, ghosts included. Linear.
     std::vector<std::int32_t> cells_around_vertex(std::int32_t vertex);
-    /// All cells around the edge from vertex i to vertex j of a cell, ghosts included, one after the other: the first is
-    /// the cell itself, each shares a face with the next. They turn counter-clockwise seen from j.
+    /// All cells around the edge from vertex i to vertex j of a cell, ghosts included, one after the other: the first
+    /// is the cell itself, each shares a face with the next. They turn counter-clockwise seen from j.
     std::vector<std::int32_t> cells_around_edge(std::int32_t cell, int i, int j) const;
 
     // --- faces that stay ---
@@ -74,12 +75,13 @@ class Triangulation {
     /// Removes the cells in whose spheres the point lies, and joins it with the faces around them (bowyer1981,
     /// watson1981). What lies behind a constrained face is left as it is; cells whose faces the point cannot see are
     /// left, too. none, and nothing has changed, if with constrained faces the point is not strictly inside of the
-    /// hull, lies on a constrained face or would cut off a vertex. hint: a cell near the point; none for one of the last
-    /// insertion's. About 3 us near the hint. Requires cells.
+    /// hull, lies on a constrained face or would cut off a vertex. hint: a cell near the point; none for one of the
+    /// last insertion's. About 3 us near the hint. Requires cells. Error (memory), and nothing has changed, if there
+    /// might be more than most_cells: some 39 million vertices in space.
     std::int32_t insert(const Vec3& p, std::int32_t hint = none);
 
-    /// Gives vertex v the number number[v] in `points`, which has the same point there, and others that are no vertices.
-    /// Linear.
+    /// Gives vertex v the number number[v] in `points`, which has the same point there, and others that are no
+    /// vertices. Linear.
     void renumber(const std::vector<std::int32_t>& number, std::vector<Vec3> points);
 
  private:
@@ -91,17 +93,24 @@ class Triangulation {
         bool is_marked() const { return vertex[0] < 0; }
         void flip_mark() { vertex[0] = ~vertex[0]; }
     };
-    // A face of the cavity, with its cell in which vertex i is to be replaced.
+    // A face between a cell of the cavity and one that stays.
     struct CavityFace {
-        Tetrahedron vertex;
-        int i;
+        CellFace inside;
         CellFace outside;  // and `constraint`
+    };
+    // What replaces the cell inside of such a face.
+    struct NewCell {
+        Tetrahedron vertex;
+        CellFace face;  // and where the cell is stored
+        CellFace outside;
+        std::array<StarEdges::Place, 4> place;
     };
 
     static constexpr CellFace constraint = 1 << 30;
 
     CellFace link(CellFace face) const { return cells_[cell_of(face)].link[index_in_cell(face)]; }
     CellFace& link(CellFace face) { return cells_[cell_of(face)].link[index_in_cell(face)]; }
+    void prefetch(std::int32_t cell) const { __builtin_prefetch(&cells_[cell]); }
     int orientation_with(const Tetrahedron& vertex, int i, const Vec3& p) const;
     bool sphere_contains(std::int32_t cell, const Vec3& p) const;
     bool conflicts(std::int32_t cell, const Vec3& p) const;
@@ -115,7 +124,10 @@ class Triangulation {
     bool refuse_unseen_cells(const Vec3& p);
     bool keeps_all_vertices() const;
     void fill_cavity(std::int32_t vertex);
-    void set_cell(std::int32_t cell, const CavityFace& face, std::int32_t vertex);
+    void place_cells();
+    void set_cell(const NewCell& made, std::int32_t vertex);
+    void join_cells();
+    void join_cells_of_large_star();
     void remove_cells(std::vector<std::int32_t> cells);
     void move_cell(std::int32_t from, std::int32_t to);
 
@@ -128,7 +140,8 @@ class Triangulation {
     // Of the insertion under way.
     std::vector<std::int32_t> cavity_, refused_;
     std::vector<CavityFace> cavity_faces_;
-    EdgeTable edges_;
+    std::vector<NewCell> new_cells_;
+    StarEdges star_edges_;
 };
 
 }  // namespace kerf

@@ -1,0 +1,58 @@
+// Which two cells of a star share a face.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/types.h"
+
+namespace kerf {
+
+/// A new vertex is joined with the triangles of a closed surface around it. Two cells that are made so share a face
+/// where their triangles share an edge, which one of them runs from a to b, and the other from b to a. This finds the
+/// other one without searching: vertices of the surface get small numbers, and edges places in a square table.
+class StarEdges {
+ public:
+    /// Of a vertex on the surface; a surface with more than so many is `is_large()`, and has no table.
+    using Place = std::uint8_t;
+    static constexpr std::size_t most_places = 256;
+
+    /// Room for vertices with numbers below this.
+    void reserve_vertices(std::size_t count) { place_.reserve(count); }
+    /// The next number may be asked for from now on.
+    void add_vertex() { place_.push_back(0); }
+
+    /// Forgets the last star. The ghost, vertex -1, has place 0.
+    void clear() { count_ = 1; }
+
+    /// The place of a vertex; is_new is true if it was not asked for since clear().
+    Place place(std::int32_t vertex, bool& is_new) {
+        if (vertex < 0) return 0;
+        Place& place = place_[vertex];
+        is_new = place >= count_ || vertices_[place] != vertex;
+        if (is_new) {
+            place = static_cast<Place>(count_);
+            if (count_ < most_places) vertices_[place] = vertex;
+            ++count_;
+        }
+        return place;
+    }
+    bool is_large() const { return count_ > most_places; }
+
+    /// After all places are known and before the table is used.
+    void make_table() {
+        stride_ = 32;
+        while (stride_ < count_) stride_ *= 2;
+        if (table_.size() < stride_ * stride_) table_.resize(stride_ * stride_);
+    }
+    std::int32_t& at(Place a, Place b) { return table_[a * stride_ + b]; }
+
+ private:
+    std::vector<Place> place_;                               // of every vertex; valid if vertices_ agrees
+    std::array<std::int32_t, most_places> vertices_ = {-1};  // by place
+    std::size_t count_ = 1;
+    std::vector<std::int32_t> table_;
+    std::size_t stride_ = 0;
+};
+
+}  // namespace kerf
