@@ -19,8 +19,8 @@ class StarEdges {
 
     /// Room for vertices with numbers below this.
     void reserve_vertices(std::size_t count) { place_.reserve(count); }
-    /// The next number may be asked for from now on.
-    void add_vertex() { place_.push_back(0); }
+    /// Vertices with numbers below this may be asked for from now on.
+    void set_vertex_count(std::size_t count) { place_.resize(count); }
 
     /// Forgets the last star. The ghost, vertex -1, has place 0.
     void clear() { count_ = 1; }

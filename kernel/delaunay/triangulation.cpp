@@ -24,7 +24,7 @@ constexpr std::array<std::array<std::array<int, 2>, 4>, 4> other_two = {{{{{0, 0
 
 Triangulation::Triangulation(const std::array<Vec3, 4>& corners)
     : points_(corners.begin(), corners.end()), cell_at_vertex_(4, 0) {
-    for (int i = 0; i < 4; ++i) star_edges_.add_vertex();
+    star_edges_.set_vertex_count(points_.size());
     KERF_CHECK(orientation(corners[0], corners[1], corners[2], corners[3]) > 0);
     cells_.push_back({{0, 1, 2, 3}, {}});
     for (int i = 0; i < 4; ++i) {
@@ -195,20 +195,9 @@ bool Triangulation::refuse_unseen_cells(const Vec3& p) {
     return refused_.size() > refused_before;
 }
 
-bool Triangulation::keeps_all_vertices() const {
-    std::vector<std::int32_t> inside, around;
-    for (std::int32_t cell : cavity_) inside.insert(inside.end(), vertices(cell).begin(), vertices(cell).end());
-    for (const CavityFace& face : cavity_faces_)
-        for (int k = 1; k < 4; ++k) around.push_back(vertices(cell_of(face.inside))[index_in_cell(face.inside) ^ k]);
-    for (std::vector<std::int32_t>* list : {&inside, &around}) {
-        std::sort(list->begin(), list->end());
-        list->erase(std::unique(list->begin(), list->end()), list->end());
-    }
-    return inside == around;
-}
-
 // Cells of the cavity are not marked any more. False if the point may not be inserted. Among Delaunay cells the point
-// sees all of its cavity.
+// sees all of its cavity. No vertex is lost: the cell behind it, seen from the point, has the point outside of its
+// sphere.
 bool Triangulation::find_cavity(const Vec3& p, std::int32_t start) {
     refused_.clear();
     if (has_constraints_ && is_ghost(start)) return false;
@@ -217,7 +206,7 @@ bool Triangulation::find_cavity(const Vec3& p, std::int32_t start) {
         grow_cavity(p, start);
         release_cavity();
     } while (has_constraints_ && refuse_unseen_cells(p));
-    return !has_constraints_ || keeps_all_vertices();
+    return true;
 }
 
 // --- The cells that it brings ---
@@ -325,7 +314,7 @@ std::int32_t Triangulation::insert(const Vec3& p, std::int32_t hint) {
     const auto vertex = static_cast<std::int32_t>(points_.size());
     points_.push_back(p);
     cell_at_vertex_.push_back(none);
-    star_edges_.add_vertex();
+    star_edges_.set_vertex_count(points_.size());
     fill_cavity(vertex);
     return vertex;
 }
@@ -338,6 +327,7 @@ void Triangulation::renumber(const std::vector<std::int32_t>& number, std::vecto
             if (v >= 0) v = number[v];
     cell_at_vertex_ = std::move(cell_at_vertex);
     points_ = std::move(points);
+    star_edges_.set_vertex_count(points_.size());
 }
 
 }  // namespace kerf

@@ -74,10 +74,10 @@ class Triangulation {
     ///
     /// Removes the cells in whose spheres the point lies, and joins it with the faces around them (bowyer1981,
     /// watson1981). What lies behind a constrained face is left as it is; cells whose faces the point cannot see are
-    /// left, too. none, and nothing has changed, if with constrained faces the point is not strictly inside of the
-    /// hull, lies on a constrained face or would cut off a vertex. hint: a cell near the point; none for one of the
-    /// last insertion's. About 3 us near the hint. Requires cells. Error (memory), and nothing has changed, if there
-    /// might be more than most_cells: some 39 million vertices in space.
+    /// left, too. none, and nothing has changed, if there are constrained faces, and the point lies on one or is not
+    /// strictly inside of the hull. hint: a cell near the point; none for one of the last insertion's. About 3 us near
+    /// the hint. Requires cells. Error (memory), and nothing has changed, if there might be more than most_cells: some
+    /// 39 million vertices in space.
     std::int32_t insert(const Vec3& p, std::int32_t hint = none);
 
     /// Gives vertex v the number number[v] in `points`, which has the same point there, and others that are no
@@ -122,7 +122,6 @@ class Triangulation {
     void release_cavity();
     bool may_be_removed(std::int32_t cell, const Vec3& p) const;
     bool refuse_unseen_cells(const Vec3& p);
-    bool keeps_all_vertices() const;
     void fill_cavity(std::int32_t vertex);
     void place_cells();
     void set_cell(const NewCell& made, std::int32_t vertex);
