@@ -2,17 +2,16 @@
 // faces are looked up once.
 #include "delaunay/faces.h"
 
-#include <algorithm>
-
 #include "core/check.h"
 
 namespace kerf {
 
 namespace {
 
-Triangle smallest_first(Triangle triangle) {
-    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
-    return triangle;
+// Turned so that the smallest vertex is the first one.
+Triangle smallest_first(const Triangle& t) {
+    if (t[0] < t[1]) return t[0] < t[2] ? t : Triangle{t[2], t[0], t[1]};
+    return t[1] < t[2] ? Triangle{t[1], t[2], t[0]} : Triangle{t[2], t[0], t[1]};
 }
 
 // The vertices of face i, counter-clockwise seen from outside of the cell.
@@ -46,10 +45,14 @@ std::vector<CellFace> find_faces(const Triangulation& triangulation, const std::
     std::vector<CellFace> faces(triangles.size(), Triangulation::none);
     for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell)
         for (int i = 0; i < 4; ++i) {
-            if (triangulation.is_ghost(cell) && i != 3) continue;
-            const Triangle face = smallest_first(vertices_of_face(triangulation.vertices(cell), i));
-            for (std::int32_t k = start[face[0]]; k < start[face[0] + 1]; ++k)
-                if (rotated[list[k]] == face) faces[list[k]] = cell_face(cell, i);
+            const CellFace face = cell_face(cell, i), behind = triangulation.mirror(face);
+            if (behind < face || (triangulation.is_ghost(cell) && i != 3)) continue;
+            const Triangle seen = smallest_first(vertices_of_face(triangulation.vertices(cell), i));
+            const Triangle reversed = {seen[0], seen[2], seen[1]};
+            for (std::int32_t k = start[seen[0]]; k < start[seen[0] + 1]; ++k) {
+                if (rotated[list[k]] == seen) faces[list[k]] = face;
+                if (rotated[list[k]] == reversed) faces[list[k]] = behind;
+            }
         }
     return faces;
 }
