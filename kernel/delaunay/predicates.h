@@ -52,7 +52,8 @@ template <class Number>
 }  // namespace detail
 
 /// The sign of det[b-a, c-a, d-a]: 1 if d sees a, b, c counter-clockwise, as in every Tetrahedron (core/types.h); 0 if
-/// all lie in one plane. Exact. About 5 ns, microseconds near 0.
+/// all lie in one plane. Exact. About 5 ns; near 0 a tenth of a microsecond where the
+/// coordinates have few bits, else some.
 inline int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const auto p = detail::difference(a, d), q = detail::difference(b, d), r = detail::difference(c, d);
     const double det = -detail::determinant(p, q, r);
@@ -72,7 +73,8 @@ inline int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& 
 /// Exact. There are no ties: a point on the sphere counts as inside or outside as if every point had been lifted to the
 /// paraboloid x^2 + y^2 + z^2 and then raised by an infinitely small height, by far the most the lexicographically
 /// largest point (devillers2011). Coordinates do not move, so that cells never become flat, and since the points alone
-/// decide, so they do on the triangulation. e must differ from the others. About 15 ns; microseconds near a tie.
+/// decide, so they do on the triangulation. e must differ from the others. About 15 ns; near a tie half a
+/// microsecond where the coordinates have few bits (see predicates.cpp), else some.
 inline bool in_sphere(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& e) {
     const auto p = detail::difference(a, e), q = detail::difference(b, e), r = detail::difference(c, e),
                s = detail::difference(d, e);
