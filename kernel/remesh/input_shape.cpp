@@ -29,12 +29,12 @@ bool share_a_vertex(const Triangle& s, const Triangle& t) {
 
 }  // namespace
 
-InputShape::InputShape(SurfaceArrays surface, std::vector<double> tolerance, double feature_angle_deg,
-                       const std::vector<UndirectedEdge>& creases)
-    : surface_(std::move(surface)),
+InputShape::InputShape(const SurfaceArrays& surface, const TriangleTree& tree, std::vector<double> tolerance,
+                       double feature_angle_deg, const std::vector<UndirectedEdge>& creases)
+    : surface_(surface),
+      tree_(tree),
       tolerance_(std::move(tolerance)),
-      vertex_tolerance_(surface_.vertices.size(), std::numeric_limits<double>::infinity()),
-      tree_(surface_.vertices, surface_.facets) {
+      vertex_tolerance_(surface_.vertices.size(), std::numeric_limits<double>::infinity()) {
     KERF_CHECK(tolerance_.size() == surface_.facets.size());
     for (std::size_t f = 0; f < surface_.facets.size(); ++f)
         for (const std::int32_t v : surface_.facets[f])
@@ -64,8 +64,7 @@ void InputShape::find_features(double feature_angle_deg, std::vector<UndirectedE
         feature_.push_back(is_border(corner) || normal(corner / 3).dot(normal(partner[corner] / 3)) < least_cosine);
 }
 
-std::vector<double> tolerances_of_gaps(const SurfaceArrays& surface, double deviation) {
-    const TriangleTree tree(surface.vertices, surface.facets);
+std::vector<double> tolerances_of_gaps(const SurfaceArrays& surface, const TriangleTree& tree, double deviation) {
     std::vector<double> tolerance(surface.facets.size(), deviation);
     std::vector<Vec3> normal;
     for (const Triangle& t : surface.facets) normal.push_back(twice_area(surface, t).normalized());

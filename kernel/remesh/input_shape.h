@@ -12,11 +12,11 @@ namespace kerf {
 /// The input of the remesher and its bound. Immutable.
 class InputShape {
  public:
-    /// `tolerance` (#F): how far from a facet the new surface may be, units of the input. Edges of more than
-    /// `feature_angle_deg` between the normals and those between patches are features, and
-    /// so are `creases`.
-    InputShape(SurfaceArrays surface, std::vector<double> tolerance, double feature_angle_deg,
-               const std::vector<UndirectedEdge>& creases = {});
+    /// Keeps the references; `tree` is of the facets of `surface`. `tolerance` (#F): how far from a facet the new
+    /// surface may be, units of the input. Edges of more than `feature_angle_deg` between the normals and those between
+    /// patches are features, and so are `creases`.
+    InputShape(const SurfaceArrays& surface, const TriangleTree& tree, std::vector<double> tolerance,
+               double feature_angle_deg, const std::vector<UndirectedEdge>& creases = {});
 
     const std::vector<Vec3>& vertices() const { return surface_.vertices; }
     const std::vector<Triangle>& facets() const { return surface_.facets; }
@@ -39,16 +39,16 @@ class InputShape {
  private:
     void find_features(double feature_angle_deg, std::vector<UndirectedEdge> creases);
 
-    SurfaceArrays surface_;
+    const SurfaceArrays& surface_;
+    const TriangleTree& tree_;
     std::vector<double> tolerance_, vertex_tolerance_;
-    TriangleTree tree_;
     std::vector<char> feature_;  // 3 #F
     FlatRegions regions_;
     double largest_tolerance_ = 0, noise_ = 0;
 };
 
 /// The tolerance of every facet: `deviation`, or a third of the gap to a sheet that faces the other way, so that sheets
-/// which come closer than that do not grow into each other. O(#F log #F).
-std::vector<double> tolerances_of_gaps(const SurfaceArrays& surface, double deviation);
+/// which come closer than that do not grow into each other. `tree` is of the facets of `surface`. O(#F log #F).
+std::vector<double> tolerances_of_gaps(const SurfaceArrays& surface, const TriangleTree& tree, double deviation);
 
 }  // namespace kerf

@@ -370,6 +370,14 @@ std::vector<InputPlace> places_on(const TriangleTree& input, const std::vector<V
     return places;
 }
 
+Remeshed remesh_once(const SurfaceArrays& surface, const TriangleTree& tree, const std::vector<double>& tolerance,
+                     const RemeshOptions& options) {
+    const InputShape input(surface, tree, tolerance, options.feature_angle_deg, options.creases);
+    Remesher remesher(input, options);
+    remesher.run();
+    return {remesher.surface().arrays(), {}, {.feature_edges = remesher.surface().feature_edges()}};
+}
+
 void check_remesh_options(const RemeshOptions& options) {
     KERF_CHECK(options.deviation > 0 && options.longest > 0 && options.growth > 0 && options.feature_angle_deg > 0);
 }
@@ -379,13 +387,10 @@ void check_remesh_options(const RemeshOptions& options) {
 Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& options) {
     check_remesh_options(options);
     const TriangleTree tree(surface.vertices, surface.facets);
-    std::vector<double> tolerance = tolerances_of_gaps(surface, used_share * options.deviation);
+    std::vector<double> tolerance = tolerances_of_gaps(surface, tree, used_share * options.deviation);
     for (int round = 1;; ++round) {
-        const InputShape input(surface, tolerance, options.feature_angle_deg, options.creases);
-        Remesher remesher(input, options);
-        remesher.run();
-        Remeshed result = {
-            remesher.surface().arrays(), {}, {.rounds = round, .feature_edges = remesher.surface().feature_edges()}};
+        Remeshed result = remesh_once(surface, tree, tolerance, options);
+        result.report.rounds = round;
         const std::vector<char> refused = Inspection(surface, tree, options).run(result.surface, result.report);
         const auto count = std::count(refused.begin(), refused.end(), char{1});
         if (count == 0) {

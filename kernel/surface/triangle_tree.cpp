@@ -77,6 +77,7 @@ TriangleTree::TriangleTree(const std::vector<Vec3>& vertices, const std::vector<
     std::iota(order_.begin(), order_.end(), 0);
     nodes_.push_back({{}, 0, static_cast<std::int32_t>(order_.size())});
     for (std::size_t node = 0; node < nodes_.size(); ++node) split(node, pieces.boxes);
+    nodes_.shrink_to_fit();
     corners_.reserve(order_.size());
     for (std::int32_t& of : order_) {
         of = pieces.facets[of];
