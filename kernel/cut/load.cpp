@@ -15,12 +15,6 @@
 
 namespace kerf {
 
-namespace {
-
-constexpr double volume_weight = 0.606;  // seconds of a tetrahedron wanted inside per seconds of a facet
-
-}  // namespace
-
 double LoadModel::load(double vertices, double facets, double volume) const {
     switch (balance) {
         case Balance::nodes:

@@ -14,12 +14,13 @@ namespace kerf {
 /// the centroid of the body's vertices that is parallel to the cut; such halves get leaves by volume.
 enum class Balance { nodes, faces, volume, inertia, work };
 
-/// Work of meshing a body: F + 0.606 times the integral of dV / a, F facets, V volume, a the wanted volume of a
-/// tetrahedron; F alone where none is asked. Fitted on 1,160 TetGen runs (rms 16 %). The integral is V / a where a is
-/// the same everywhere, else that of sample_volume().
+/// Work of meshing a body: F + w times the integral of dV / a, F facets, V volume, a the wanted volume of a
+/// tetrahedron; F alone where none is asked. w depends on the mesher. The integral is V / a where a is the same
+/// everywhere, else that of sample_volume().
 struct LoadModel {
     Balance balance = Balance::work;
-    SizeField size = {};  ///< a
+    SizeField size = {};           ///< a
+    double volume_weight = 0.606;  ///< w: time of a wanted tetrahedron inside over that of a facet; of TetGen
 
     /// Samples of the body in question, if the work depends on the place; see of().
     std::shared_ptr<const std::vector<VolumeSample>> samples = {};

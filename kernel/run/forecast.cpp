@@ -13,21 +13,22 @@
 #include "export/format.h"
 #include "io/folder_files.h"
 #include "io/run_folder.h"
+#include "volume/meshers.h"
 
 namespace kerf {
 
 namespace {
 
-constexpr double tets_per_facet = 1.9, tets_per_volume_bound = 1.4;
-constexpr double bytes_per_tet = 220, bytes_of_worker = 14e6, seconds_per_tet = 5e-6;
+constexpr double bytes_of_worker = 14e6;
 // The limit of a worker is one of its address space, of which libraries take a share; and a forecast may be low.
 constexpr double reserved_bytes = 100e6, safety = 1.5;
 constexpr double least_tets_per_part = 1000;
 constexpr std::int32_t parts_per_worker = 4;    // so that the last one is short against all of them
-constexpr double most_tets_per_part = 1 << 29;  // TetGen counts their corners in 32 bits
 constexpr double area_per_squared_edge = 0.69;  // of an interface triangle, and of its longest wanted edge
 constexpr double stored_bytes_per_tet = 22, file_bytes_per_tet = 70;  // of the store, of one format
 constexpr double certain = 0.5;  // nearly every mesh is larger than this share of its forecast
+
+const MesherForecast& known_of(const MesherOptions& mesher) { return find_mesher(mesher.name).forecast; }
 
 // Those of the interfaces as the bound of the volume will have them: a dry run leaves them coarse.
 double expected_facets(const PartReport& part) {
@@ -37,28 +38,30 @@ double expected_facets(const PartReport& part) {
 }
 
 Forecast forecast_of(const PartReport& part, const RunOptions& options) {
-    return forecast(expected_facets(part), part.sized_volume, options.mesher.size);
+    return forecast(expected_facets(part), part.sized_volume, options.mesher);
 }
 
 }  // namespace
 
-Forecast forecast(double facets, double volume, const SizeField& size) {
+Forecast forecast(double facets, double volume, const MesherOptions& mesher) {
     KERF_CHECK(facets >= 0 && volume >= 0);
-    const double tets =
-        tets_per_facet * facets + (size.is_empty() ? 0 : tets_per_volume_bound * volume / size.reference_volume());
-    return {tets, seconds_per_tet * tets, bytes_of_worker + bytes_per_tet * tets};
+    const MesherForecast& known = known_of(mesher);
+    const SizeField& size = mesher.size;
+    const double tets = known.tets_per_facet * facets +
+                        (size.is_empty() ? 0 : known.tets_per_volume_bound * volume / size.reference_volume());
+    return {tets, known.seconds_per_tet * tets, bytes_of_worker + known.bytes_per_tet * tets};
 }
 
 std::int32_t choose_parts(const RunOptions& options, double facets, double volume, int ranks, std::int32_t most) {
     KERF_CHECK(ranks >= 1 && options.workers >= 1 && most >= 1);
-    const double tets = forecast(facets, volume, options.mesher.size).tets;
+    const double tets = forecast(facets, volume, options.mesher).tets;
     double parts = std::min<double>(parts_per_worker * ranks * options.workers, tets / least_tets_per_part);
     if (options.memory_mb > 0) {
         const double available = static_cast<double>(options.memory_mb) * (1 << 20) - reserved_bytes;
         if (available <= 0)
             throw Error(ErrorCode::usage, fmt::format("--memory is {}, but a worker needs {:.0f} MB before it begins.",
                                                       options.memory_mb, reserved_bytes / (1 << 20)));
-        parts = std::max(parts, std::ceil(safety * bytes_per_tet * tets / available));
+        parts = std::max(parts, std::ceil(safety * known_of(options.mesher).bytes_per_tet * tets / available));
     }
     return static_cast<std::int32_t>(std::clamp<double>(parts, 1, most));
 }
@@ -87,23 +90,24 @@ double disk_bytes_per_tet(const RunOptions& options) {
 void check_budget(const RunOptions& options, double facets, double volume) {
     KERF_CHECK(options.decompose.parts >= 1);
     const double parts = options.decompose.parts;
-    const double tets = forecast(facets, volume, options.mesher.size).tets;
+    const double tets = forecast(facets, volume, options.mesher).tets;
+    const MesherForecast& known = known_of(options.mesher);
     // The bound that would make so many tetrahedra, as a size.
     const auto way_out = [&](double affordable) {
-        const double left = affordable - tets_per_facet * facets;
+        const double left = affordable - known.tets_per_facet * facets;
         return left <= 0 ? std::string("Use a coarser surface")
                : !options.mesher.size.is_constant()
                    ? std::string("Use larger sizes")
                    : fmt::format("Use --size {:.2g} or larger",
-                                 regular_tet_edge(tets_per_volume_bound * volume / left));
+                                 regular_tet_edge(known.tets_per_volume_bound * volume / left));
     };
-    const double enough = std::ceil(tets / most_tets_per_part);
-    if (tets > most_tets_per_part * parts)
+    const double enough = std::ceil(tets / known.most_tets);
+    if (tets > known.most_tets * parts)
         throw Error(ErrorCode::memory,
                     fmt::format("This would make about {} tetrahedra, {} in each of {} parts, but a part can hold {}. "
                                 "{}{}.",
-                                short_number(tets), short_number(tets / parts), parts, short_number(most_tets_per_part),
-                                way_out(most_tets_per_part * parts),
+                                short_number(tets), short_number(tets / parts), parts, short_number(known.most_tets),
+                                way_out(known.most_tets * parts),
                                 enough <= facets / 4 ? fmt::format(", or -n {:.0f} or more", enough) : ""));
     if (!options.volume) return;
     std::error_code error;

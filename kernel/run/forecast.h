@@ -15,11 +15,9 @@ struct Forecast {
     double memory_bytes = 0;  ///< resident, of its worker
 };
 
-/// Tetrahedra: 1.9 for each facet, and 1.4 V/a where a volume a of them is wanted. Measured on 270 parts of the
-/// assets with TetGen, nine tenths have 0.74 to 1.25 times as many. For their number, nine tenths take 0.55 to 1.44
-/// times the memory and 0.8 to 2 times the seconds. V is the sized volume (size/volume_samples.h), here and below, and
-/// a the reference volume of the field.
-Forecast forecast(double facets, double volume, const SizeField& size);
+/// By what is known of the mesher that the options name (MesherForecast). V is the sized volume
+/// (size/volume_samples.h), here and below, and a the reference volume of the field.
+Forecast forecast(double facets, double volume, const MesherOptions& mesher);
 
 /// K where the user gives none: four parts for each worker of all ranks, fewer if they would be tiny, more where
 /// a worker with options.memory_mb would otherwise have too little for its part; never more than `most` >= 1. The

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "cut/bisect.h"
 #include "mesh/adjacency.h"
+#include "volume/meshers.h"
 
 namespace kerf {
 
@@ -27,6 +28,7 @@ std::array<SurfaceArrays, 2> halves_of(const SurfaceArrays& arrays, const Mesher
     const MassProperties mass = mass_properties(surface);
     CutOptions cut;
     cut.size = cut.load.size = options.size;
+    cut.load.volume_weight = find_mesher(options.name).forecast.volume_weight;
     cut = cut.of(surface);
     const Bisection bisection = bisect(surface, mass, cut_node, choose_place(surface, mass, 2, cut), cut, false);
     if (!bisection.cut.made())
@@ -36,12 +38,14 @@ std::array<SurfaceArrays, 2> halves_of(const SurfaceArrays& arrays, const Mesher
 
 }  // namespace
 
-TetMesh mesh_in_two(const SurfaceArrays& surface, const MesherOptions& options) {
-    TetMesh joined;
+Filling mesh_in_two(const SurfaceArrays& surface, const MesherOptions& options) {
+    Filling filling;
+    TetMesh& joined = filling.mesh;
     joined.vertices = surface.vertices;
     joined.boundary_vertex_count = static_cast<std::int32_t>(surface.vertices.size());
     for (const SurfaceArrays& half : halves_of(surface, options)) {
-        const TetMesh mesh = mesh_volume(half, options);
+        const auto [mesh, way] = mesh_volume(half, options);
+        if (filling.way.find(way) == std::string::npos) filling.way += (filling.way.empty() ? "" : ", ") + way;
         std::vector<std::int32_t> number(mesh.vertices.size());
         const auto place = [&](std::size_t vertex, std::int32_t at) {
             if (static_cast<std::size_t>(at) >= joined.vertices.size()) joined.vertices.resize(at + 1);
@@ -58,7 +62,7 @@ TetMesh mesh_in_two(const SurfaceArrays& surface, const MesherOptions& options) 
             joined.tets.push_back({number[t[0]], number[t[1]], number[t[2]], number[t[3]]});
     }
     connect_tets(joined);
-    return joined;
+    return filling;
 }
 
 }  // namespace kerf

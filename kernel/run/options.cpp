@@ -11,6 +11,7 @@
 #include "export/format.h"
 #include "io/output_file.h"
 #include "io/run_folder.h"
+#include "volume/meshers.h"
 
 namespace kerf {
 
@@ -127,6 +128,12 @@ void RunOptions::resolve(int cores_of_rank) {
     if (memory_mb > 0) decompose.cut.max_interface_points = (memory_mb << 20) / bytes_per_interface_point;
 }
 
+// Cuts, forecasts and the mesher obey this field, and loads weigh it as the mesher does.
+void RunOptions::use_sizes(const SizeField& field) {
+    decompose.cut.size = decompose.cut.load.size = mesher.size = field;
+    decompose.cut.load.volume_weight = find_mesher(mesher.name).forecast.volume_weight;
+}
+
 // Before any work, for all that can be known of the files by then.
 void RunOptions::check_files() const {
     const std::vector<std::string> folders =
@@ -210,6 +217,14 @@ std::vector<OptionField> size_option_fields(SizeOptions& o) {
     };
 }
 
+OptionField::Choice mesher_choice(std::string& name) {
+    const auto get = [&name] {
+        const std::vector<std::string> names = mesher_names();
+        return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
+    };
+    return {mesher_names(), get, [&name](int i) { name = mesher_names()[static_cast<std::size_t>(i)]; }};
+}
+
 // What is done to the surface, from nothing to most.
 OptionField::Choice surface_choice(RunOptions& o) {
     const auto get = [&o] {
@@ -251,7 +266,7 @@ std::vector<OptionField> option_fields(RunOptions& o) {
          "Largest distance of a remeshed surface from the input, in its units, or with % of its diagonal. Default "
          "0.002%.",
          &o.deviation},
-        {"mesher", "", "What fills the parts. Default tetgen.", choice(o.mesher.kind, {"tetgen"})},
+        {"mesher", "", "What fills the parts. Default tetgen.", mesher_choice(o.mesher.name)},
         {"workers", "", "Mesher processes of each rank. Default: its share of the processors that it may use.",
          &o.workers, false},
         {"timeout", "",
@@ -261,7 +276,7 @@ std::vector<OptionField> option_fields(RunOptions& o) {
          false},
         {"attempts", "", "Attempts at a part, at most: with other orders, tolerances, weaker bounds. Default 10.",
          &o.attempts},
-        {"tetgen", "", "Expert: TetGen switches instead of q and a (p, Y are always on).", &o.mesher.tetgen_switches},
+        {"tetgen", "", "Expert: TetGen switches instead of q and a (p, Y are always on).", &o.mesher.tetgen.switches},
         {"format", "", "Formats of the result, with commas between; kerf export --help lists them. Default vtu.",
          &o.formats, false},
         {"reference", "", "Mesh the whole in one piece, too, and compare: comparison.svg, and a table with -v.",

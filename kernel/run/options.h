@@ -46,7 +46,7 @@ struct RunOptions {
     /// option, value and range, Error(io) for a file that could not be written or would be lost.
     void resolve(int cores_of_rank);
     /// Cuts, forecasts and the mesher obey this field. resolve() has them obey what `sizes` says of all places alike.
-    void use_sizes(const SizeField& field) { decompose.cut.size = decompose.cut.load.size = mesher.size = field; }
+    void use_sizes(const SizeField& field);
     /// The part of resolve() that asks for input and outputs, for who writes one of them before the run.
     void check_files() const;
 };

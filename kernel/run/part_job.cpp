@@ -52,10 +52,12 @@ std::string broken_laws(const MeshLaws& laws) {
 }
 
 void fill_result(const PartJob& job, const MesherCall& call, const std::string& part_file, PartResult& result) {
-    TetMesh mesh = timed(result.mesh_seconds, [&] {
-        return call.cut_first ? mesh_in_two(job.surface, call.options)
-                              : mesh_volume(job.surface, call.options, call.vertex_order_seed);
+    result.mesher = call.options.name;
+    Filling filling = timed(result.mesh_seconds, [&] {
+        return call.cut_first ? mesh_in_two(job.surface, call.options) : mesh_volume(job.surface, call.options);
     });
+    TetMesh& mesh = filling.mesh;
+    result.way = filling.way;
     timed(result.verify_seconds, [&] { result.laws = verify_mesh(mesh, job.surface); });
     if (!result.laws.hold()) throw Error(ErrorCode::subdomain, broken_laws(result.laws));
     result.vertices = static_cast<std::int64_t>(mesh.vertices.size());

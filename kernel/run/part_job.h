@@ -48,7 +48,7 @@ struct PartAttempt {
 
     template <class Archive>
     void archive(Archive& a) {
-        a(job_file, part_file, call.remedy, call.options, call.vertex_order_seed, call.cut_first);
+        a(job_file, part_file, call.remedy, call.options, call.cut_first);
     }
 };
 
@@ -56,6 +56,8 @@ struct PartAttempt {
 struct PartResult {
     int code = 0;         ///< value of ErrorCode, 0: the part is verified and written
     std::string message;  ///< if code
+    std::string mesher;   ///< that has filled the part; empty if none was asked
+    std::string way;      ///< Filling::way
     std::int64_t vertices = 0, interior_vertices = 0, tets = 0;
     MeshLaws laws;
     PartQuality quality;
@@ -67,8 +69,8 @@ struct PartResult {
 
     template <class Archive>
     void archive(Archive& a) {
-        a(code, message, vertices, interior_vertices, tets, laws, quality, sizes, hash, file_hash, load_seconds,
-          mesh_seconds, verify_seconds, store_seconds, peak_rss_bytes);
+        a(code, message, mesher, way, vertices, interior_vertices, tets, laws, quality, sizes, hash, file_hash,
+          load_seconds, mesh_seconds, verify_seconds, store_seconds, peak_rss_bytes);
     }
 };
 

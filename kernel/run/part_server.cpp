@@ -1,4 +1,4 @@
-// The worker's side of a job: standard input and output are a message channel, so whatever TetGen prints to standard
+// The worker's side of a job: standard input and output are a message channel, so whatever meshers print to standard
 // output is sent to standard error instead.
 #include <sys/prctl.h>
 #include <sys/resource.h>

@@ -102,7 +102,7 @@ Json node_json(const TreeNode& node) {
     return json;
 }
 
-Json part_json(const PartReport& part) {
+Json part_json(const PartReport& part, const std::string& wanted_mesher) {
     Json json = {{"id", part.id},
                  {"rank", part.rank},
                  {"worker", part.worker},
@@ -115,7 +115,7 @@ Json part_json(const PartReport& part) {
                  {"load", part.load},
                  {"interface_area", part.interface_area},
                  {"neighbours", part.neighbours},
-                 {"mesher", "tetgen"},
+                 {"mesher", part.result.mesher.empty() ? wanted_mesher : part.result.mesher},
                  {"attempts", part.attempts},
                  {"seconds", part.seconds},
                  {"load_seconds", part.result.load_seconds},
@@ -125,11 +125,18 @@ Json part_json(const PartReport& part) {
                  {"peak_rss_bytes", part.result.peak_rss_bytes}};
     if (!part.failures.empty()) json["failures"] = part.failures;
     if (!part.remedy.empty()) json["remedy"] = part.remedy;
+    if (!part.result.way.empty()) json["way"] = part.result.way;
     if (!part.interruption.empty()) json["interruption"] = part.interruption;
     if (part.timed_out)
         json["note"] = "An attempt ran out of time, so the bytes may differ from those of an undisturbed run.";
     if (part.resumed) json["resumed"] = true;
     if (part.result.code) json["error"] = part.result.message;
+    return json;
+}
+
+Json parts_json(const RunReport& report) {
+    Json json = Json::array();
+    for (const PartReport& part : report.parts) json.push_back(part_json(part, report.options.mesher.name));
     return json;
 }
 
@@ -226,7 +233,7 @@ std::string to_json(const RunReport& report) {
                  {"input", input_json(*report.input)},
                  {"options", options_json(report.options)},
                  {"tree", array_of(report.nodes, node_json)},
-                 {"parts", array_of(report.parts, part_json)},
+                 {"parts", parts_json(report)},
                  {"totals", totals_json(report)},
                  {"quality", quality_json(report.quality)},
                  {"sizes", sizes_json(report)},

@@ -7,7 +7,7 @@
 
 #include "core/check.h"
 #include "core/error.h"
-#include "volume/tetgen_adapter.h"
+#include "volume/meshers.h"
 
 namespace kerf {
 
@@ -16,17 +16,13 @@ void check_mesher_options(const MesherOptions& options) {
     if (!(options.radius_edge == 0 || (options.radius_edge > 1 && std::isfinite(options.radius_edge))))
         throw Error(ErrorCode::usage,
                     fmt::format("--radius-edge is {}, but it must be 0 (none) or above 1.", options.radius_edge));
-    check_tetgen_switches(options.tetgen_switches);
+    find_mesher(options.name).check(options);
 }
 
-TetMesh mesh_volume(const SurfaceArrays& surface, const MesherOptions& options, std::uint32_t vertex_order_seed) {
+Filling mesh_volume(const SurfaceArrays& surface, const MesherOptions& options) {
     KERF_CHECK(is_well_formed(surface) && !surface.facets.empty());
     check_mesher_options(options);
-    switch (options.kind) {
-        case MesherKind::tetgen:
-            return mesh_with_tetgen(surface, hole_points(surface), options, vertex_order_seed);
-    }
-    throw Error(ErrorCode::internal, "The mesher that the options name does not exist.");
+    return find_mesher(options.name).fill(surface, options);
 }
 
 }  // namespace kerf

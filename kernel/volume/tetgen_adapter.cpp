@@ -135,7 +135,7 @@ constexpr std::string_view expert_letters = "qaSTODMCVX";
 // switches know no exponents.
 tetgenbehavior parse_switches(const MesherOptions& options) {
     const bool refine = !options.size.is_empty() || options.radius_edge > 0;
-    const std::string& expert = options.tetgen_switches;
+    const std::string& expert = options.tetgen.switches;
     std::string switches = "pYJnQ" + (!expert.empty() ? expert : refine ? "q" : "");
     tetgenbehavior behaviour;
     if (switches.size() >= sizeof behaviour.commandline - 2 || !behaviour.parse_commandline(switches.data()) ||
@@ -146,12 +146,12 @@ tetgenbehavior parse_switches(const MesherOptions& options) {
 
 tetgenbehavior behaviour_of(const MesherOptions& options, const Normalisation& frame) {
     tetgenbehavior behaviour = parse_switches(options);
-    if (options.tetgen_switches.empty()) {
+    if (options.tetgen.switches.empty()) {
         behaviour.minratio = options.radius_edge;
         behaviour.fixedvolume = !options.size.is_empty() && options.size.is_constant();
         behaviour.maxvolume = options.size.reference_volume();
     }
-    if (options.tolerance > 0) behaviour.epsilon = options.tolerance;
+    if (options.tetgen.tolerance > 0) behaviour.epsilon = options.tetgen.tolerance;
     if (behaviour.fixedvolume) behaviour.maxvolume = frame.volume_to_unit(behaviour.maxvolume);
     return behaviour;
 }
@@ -249,20 +249,19 @@ TetMesh to_mesh(const tetgenio& out, const SurfaceArrays& surface, const std::ve
 void check_tetgen_switches(const std::string& switches) {
     if (switches.find_first_not_of(std::string(expert_letters) + "0123456789./") != switches.npos)
         refuse_switches(switches);
-    parse_switches({.tetgen_switches = switches});
+    parse_switches({.tetgen = {.switches = switches}});
 }
 
-TetMesh mesh_with_tetgen(const SurfaceArrays& surface, const std::vector<Vec3>& holes, const MesherOptions& options,
-                         std::uint32_t vertex_order_seed) {
+TetMesh mesh_with_tetgen(const SurfaceArrays& surface, const std::vector<Vec3>& holes, const MesherOptions& options) {
     const Normalisation frame(surface.vertices);
-    const InputOrder order(surface, vertex_order_seed);
+    const InputOrder order(surface, options.tetgen.shuffle);
     tetgenbehavior behaviour = behaviour_of(options, frame);
     tetgenio in, out;
     set_points(in, surface, order.vertices, frame);
     set_facets(in, surface, order);
     set_holes(in, holes, frame);
     const AskedField asked{options.size, frame};
-    if (options.tetgen_switches.empty() && !options.size.is_constant()) {
+    if (options.tetgen.switches.empty() && !options.size.is_constant()) {
         asked_field = &asked;
         in.tetunsuitable = is_too_large;
     }

@@ -10,8 +10,7 @@ namespace kerf {
 /// TetGen may print warnings to the standard output, so a caller that sends data there must keep it apart. It aborts
 /// the process on flat or non-finite input. The orientation of tetrahedra is TetGen's in normalised coordinates; far
 /// from the origin the rounding of interior vertices could turn a sliver, which verify_mesh() tells.
-TetMesh mesh_with_tetgen(const SurfaceArrays& surface, const std::vector<Vec3>& holes, const MesherOptions& options,
-                         std::uint32_t vertex_order_seed);
+TetMesh mesh_with_tetgen(const SurfaceArrays& surface, const std::vector<Vec3>& holes, const MesherOptions& options);
 
 /// Throws Error(usage) for an expert's switches that TetGen does not know or that ask for something else than a linear
 /// mesh of the surface. Empty ones are good.

@@ -40,8 +40,8 @@ TEST(ChooseParts, FollowTheMemoryOfAWorker) {
             const std::int32_t parts = choose_parts(options, 1e5, 1, 1, 1'000'000);
             EXPECT_GE(parts, 8);
             const auto needed_mb = [&](double k) {
-                return (forecast(1e5, 1, options.mesher.size).memory_bytes - forecast(0, 0, SizeField()).memory_bytes) /
-                       k / (1 << 20);
+                return (forecast(1e5, 1, options.mesher).memory_bytes - forecast(0, 0, {}).memory_bytes) / k /
+                       (1 << 20);
             };
             EXPECT_LT(needed_mb(parts), static_cast<double>(memory_mb));
             if (parts > 8) {
@@ -86,7 +86,7 @@ TEST(PlanText, SaysWhatTheForecastsOfItsPartsAddUpTo) {
         std::vector<Forecast> each;
         for (const PartReport& part : parts) {
             const Forecast one = each.emplace_back(
-                forecast(static_cast<double>(part.surface_facets), part.surface_volume, options.mesher.size));
+                forecast(static_cast<double>(part.surface_facets), part.surface_volume, options.mesher));
             all.tets += one.tets;
             all.seconds += one.seconds;
             if (one.tets > largest.tets) largest = one;

@@ -1,4 +1,4 @@
-#include "volume/mesher.h"
+#include "volume/meshers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "cut/load.h"
+#include "io/surface_reader.h"
 #include "mesh/verification.h"
 #include "support/shapes.h"
 
@@ -71,7 +73,7 @@ TEST(Mesher, ObeysTheLaws) {
                 MesherOptions options;
                 options.radius_edge = radius_edge;
                 options.size = SizeField(max_volume);
-                const TetMesh mesh = mesh_volume(surface, options);
+                const TetMesh mesh = mesh_volume(surface, options).mesh;
                 expect_laws(mesh, surface);
             }
 }
@@ -82,7 +84,7 @@ TEST(Mesher, ObeysTheLawsInAnyPlaceAndScale) {
             for (const double offset : {0.0, 1e5}) {
                 SCOPED_TRACE(testing::Message() << name << ", scale " << scale << ", offset " << offset << " scales");
                 const SurfaceArrays moved = transformed(surface, scale, scale * Vec3(offset, -offset, 0.3 * offset));
-                expect_laws(mesh_volume(moved, {}), moved);
+                expect_laws(mesh_volume(moved, {}).mesh, moved);
             }
 }
 
@@ -91,12 +93,12 @@ TEST(Mesher, TopologyIsInvariantToPowersOfTwo) {
         SCOPED_TRACE(name);
         MesherOptions options;
         options.size = SizeField(0.02);
-        const TetMesh mesh = mesh_volume(surface, options);
+        const TetMesh mesh = mesh_volume(surface, options).mesh;
         for (const int exponent : {-40, -1, 20}) {
             SCOPED_TRACE(exponent);
             const double scale = std::ldexp(1.0, exponent);
             options.size = SizeField(0.02 * scale * scale * scale);
-            const TetMesh scaled = mesh_volume(transformed(surface, scale, Vec3::Zero()), options);
+            const TetMesh scaled = mesh_volume(transformed(surface, scale, Vec3::Zero()), options).mesh;
             EXPECT_EQ(scaled.tets, mesh.tets);
             EXPECT_EQ(scaled.neighbours, mesh.neighbours);
             ASSERT_EQ(scaled.vertices.size(), mesh.vertices.size());
@@ -112,7 +114,8 @@ TEST(Mesher, ObeysTheLawsInAnyVertexOrder) {
             SCOPED_TRACE(testing::Message() << name << ", seed " << seed);
             MesherOptions options;
             options.size = SizeField(0.05);
-            expect_laws(mesh_volume(surface, options, seed), surface);
+            options.tetgen.shuffle = seed;
+            expect_laws(mesh_volume(surface, options).mesh, surface);
         }
 }
 
@@ -121,7 +124,9 @@ TEST(Mesher, IsDeterministic) {
     std::vector<std::vector<Tetrahedron>> meshes;
     for (const std::uint32_t seed : {0u, 1u, 2u}) {
         SCOPED_TRACE(seed);
-        const TetMesh first = mesh_volume(surface, {}, seed), second = mesh_volume(surface, {}, seed);
+        MesherOptions options;
+        options.tetgen.shuffle = seed;
+        const TetMesh first = mesh_volume(surface, options).mesh, second = mesh_volume(surface, options).mesh;
         EXPECT_EQ(first.tets, second.tets);
         EXPECT_EQ(first.vertices, second.vertices);
         meshes.push_back(first.tets);
@@ -134,9 +139,9 @@ TEST(Mesher, WithoutBoundsAddsNoVertices) {
     MesherOptions options;
     options.radius_edge = 0;
     const SurfaceArrays surface = test::to_arrays(test::icosphere(3));
-    EXPECT_EQ(mesh_volume(surface, options).interior_vertex_count(), 0);
+    EXPECT_EQ(mesh_volume(surface, options).mesh.interior_vertex_count(), 0);
     options.size = SizeField(0.001);
-    EXPECT_GT(mesh_volume(surface, options).interior_vertex_count(), 0);
+    EXPECT_GT(mesh_volume(surface, options).mesh.interior_vertex_count(), 0);
 }
 
 TEST(Mesher, KeepsVerticesWithoutFacetsAndTheirNumbers) {
@@ -147,7 +152,9 @@ TEST(Mesher, KeepsVerticesWithoutFacetsAndTheirNumbers) {
     surface.vertex_key.push_back(make_key(0, static_cast<std::int32_t>(surface.vertex_key.size())));
     for (const std::uint32_t seed : {0u, 1u}) {
         SCOPED_TRACE(seed);
-        expect_laws(mesh_volume(surface, {}, seed), surface);
+        MesherOptions options;
+        options.tetgen.shuffle = seed;
+        expect_laws(mesh_volume(surface, options).mesh, surface);
     }
 }
 
@@ -158,7 +165,7 @@ TEST(Mesher, KeepsTheVolumeBoundWhereTheSurfaceIsFine) {
             MesherOptions options;
             options.size = SizeField(relative * scale * scale * scale);
             const TetMesh mesh =
-                mesh_volume(transformed(test::to_arrays(test::icosphere(4)), scale, Vec3::Zero()), options);
+                mesh_volume(transformed(test::to_arrays(test::icosphere(4)), scale, Vec3::Zero()), options).mesh;
             std::vector<double> volumes;
             for (const Tetrahedron& t : mesh.tets) volumes.push_back(volume(mesh, t) / options.size.reference_volume());
             std::sort(volumes.begin(), volumes.end());
@@ -174,10 +181,10 @@ TEST(Mesher, TakesExpertSwitches) {
     MesherOptions by_option, by_switch;
     by_option.radius_edge = 1.3;
     by_option.size = SizeField(400);
-    by_switch.tetgen_switches = "q1.3a400";
-    const TetMesh mesh = mesh_volume(surface, by_switch);
+    by_switch.tetgen.switches = "q1.3a400";
+    const TetMesh mesh = mesh_volume(surface, by_switch).mesh;
     expect_laws(mesh, surface);
-    EXPECT_EQ(mesh.tets, mesh_volume(surface, by_option).tets);
+    EXPECT_EQ(mesh.tets, mesh_volume(surface, by_option).mesh.tets);
 }
 
 TEST(Mesher, RefusesOptionsOutOfRange) {
@@ -191,9 +198,50 @@ TEST(Mesher, RefusesOptionsOutOfRange) {
     options = {};
     for (const std::string& switches : {std::string("r"), std::string("o2"), std::string(2000, 'q')}) {
         SCOPED_TRACE(switches);
-        options.tetgen_switches = switches;
+        options.tetgen.switches = switches;
         EXPECT_EQ(code_of(surface, options), ErrorCode::usage);
     }
+}
+
+TEST(Meshers, AreFoundByTheirNamesAndNothingElse) {
+    ASSERT_FALSE(meshers().empty());
+    EXPECT_EQ(MesherOptions().name, meshers().front()->name);
+    EXPECT_EQ(mesher_names().size(), meshers().size());
+    for (const Mesher* mesher : meshers()) EXPECT_EQ(&find_mesher(mesher->name), mesher);
+    MesherOptions options;
+    for (const char* name : {"", "tet", "tetgen ", "TetGen"}) {
+        options.name = name;
+        EXPECT_EQ(code_of(test::to_arrays(test::box()), options), ErrorCode::usage) << name;
+    }
+}
+
+// Whatever mesher it is: the surface is filled, the first call is what was asked for, and a failure can be repeated.
+TEST(Meshers, KeepTheLawsOfTheTable) {
+    for (const Mesher* mesher : meshers())
+        for (const auto& [name, surface] : surfaces()) {
+            SCOPED_TRACE(testing::Message() << mesher->name << ", " << name);
+            MesherOptions options;
+            options.name = mesher->name;
+            options.size = SizeField(0.1);
+            expect_laws(mesh_volume(surface, options).mesh, surface);
+            for (const MesherCall& call : mesher_calls(options)) EXPECT_NO_THROW(check_mesher_options(call.options));
+            const Reproducer reproducer = mesher->reproducer(surface, options, "stem");
+            EXPECT_NE(reproducer.command.find("stem" + reproducer.ending), std::string::npos) << reproducer.command;
+            const Soup again = read_surface_bytes(reproducer.bytes, "stem" + reproducer.ending);
+            EXPECT_EQ(again.vertices, surface.vertices);
+            EXPECT_EQ(again.facets, surface.facets);
+        }
+}
+
+TEST(Meshers, ForecastWhatBodiesTake) {
+    for (const Mesher* mesher : meshers()) {
+        const MesherForecast& f = mesher->forecast;
+        for (const double value : {f.tets_per_facet, f.tets_per_volume_bound, f.seconds_per_tet, f.volume_weight})
+            EXPECT_GT(value, 0) << mesher->name;
+        EXPECT_GE(f.bytes_per_tet, sizeof(Tetrahedron)) << mesher->name;
+        EXPECT_LT(f.most_tets, std::numeric_limits<std::int32_t>::max()) << mesher->name;
+    }
+    EXPECT_EQ(LoadModel().volume_weight, find_mesher(MesherOptions().name).forecast.volume_weight);
 }
 
 TEST(Mesher, ReportsIntersectingFacets) {
@@ -204,7 +252,7 @@ TEST(Mesher, ReportsIntersectingFacets) {
 TEST(Mesher, CoincidentVerticesBreakTheLaws) {
     // Two boxes that touch in one point, which each has under its own number; TetGen takes them for one vertex.
     const SurfaceArrays surface = test::to_arrays(test::join(test::box(), test::translated(test::box(), Vec3::Ones())));
-    const MeshLaws laws = verify_mesh(mesh_volume(surface, {}), surface);
+    const MeshLaws laws = verify_mesh(mesh_volume(surface, {}).mesh, surface);
     EXPECT_GT(laws.missing_facets, 0);
     EXPECT_GT(laws.extra_boundary_faces, 0);
     EXPECT_EQ(laws.mismatched_neighbours, 0);

@@ -115,7 +115,7 @@ TEST(OptionFields, TextGivesTheValueBack) {
     options.decompose.parts = 7;
     options.sizes.size = 0.1;
     options.sizes.on = {"inlet=1", "out;let=2"};
-    options.mesher.tetgen_switches = "q1.2 a";
+    options.mesher.tetgen.switches = "q1.2 a";
     options.stl = true;
     options.decompose.cut.axis = 1;
     RunOptions copy;
@@ -128,7 +128,7 @@ TEST(OptionFields, TextGivesTheValueBack) {
     EXPECT_EQ(copy.decompose.parts, 7);
     EXPECT_EQ(copy.sizes.size, 0.1);
     EXPECT_EQ(copy.sizes.on, options.sizes.on);
-    EXPECT_EQ(copy.mesher.tetgen_switches, "q1.2 a");
+    EXPECT_EQ(copy.mesher.tetgen.switches, "q1.2 a");
     EXPECT_TRUE(copy.stl);
     EXPECT_EQ(copy.decompose.cut.axis, 1);
 }

@@ -1,11 +1,14 @@
 #include "run/part_job.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include "core/bytes.h"
 #include "core/error.h"
 #include "io/file_bytes.h"
 #include "run/failed_part.h"
 #include "run/journal.h"
+#include "run/report.h"
 #include "support/file_contents.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"
@@ -81,6 +84,27 @@ TEST(PartJob, HasNoTetrahedraWhenTheLawsAreBroken) {
     EXPECT_EQ(result.tets, 0);
     EXPECT_EQ(result.vertices, 0);
     EXPECT_EQ(result.interior_vertices, 0);
+}
+
+// A part that has not been meshed goes to the mesher that was asked for.
+TEST(ReportOfParts, SaysWhichMesherFilledEachAndWhichWayItWent) {
+    const test::TemporaryFolder folder;
+    Input input;
+    input.path = "box.stl";
+    RunReport report;
+    report.input = &input;
+    report.parts.resize(3);
+    report.parts[1].result = run_part_job(job_of(test::box()), {}, folder.file("part"));
+    report.parts[2].result.mesher = "another";
+    report.parts[2].result.way = "by a detour";
+    const nlohmann::json parts = nlohmann::json::parse(to_json(report)).at("parts");
+    for (const int i : {0, 1}) {
+        EXPECT_EQ(parts[i].at("mesher"), report.options.mesher.name);
+        EXPECT_FALSE(parts[i].contains("way"));
+    }
+    EXPECT_EQ(parts[2].at("mesher"), "another");
+    EXPECT_EQ(parts[2].at("way"), "by a detour");
+    EXPECT_EQ(from_bytes<PartReport>(to_bytes(report.parts[2])).result.way, "by a detour");
 }
 
 // The command of tetgen has a bound of the volume where one says it all, else the file says what it lacks.

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/bytes.h"
+
 namespace kerf {
 namespace {
 
@@ -19,7 +21,7 @@ std::vector<MesherOptions> options_to_try() {
             options.size = SizeField(max_volume);
             all.push_back(options);
         }
-    all.emplace_back().tetgen_switches = "q1.3";
+    all.emplace_back().tetgen.switches = "q1.3";
     return all;
 }
 
@@ -27,14 +29,14 @@ TEST(MesherCalls, BeginAsAskedForAndAllDiffer) {
     for (const MesherOptions& wanted : options_to_try()) {
         const std::vector<MesherCall> calls = mesher_calls(wanted);
         EXPECT_TRUE(calls[0].remedy.empty());
-        EXPECT_EQ(calls[0].vertex_order_seed, 0u);
+        EXPECT_EQ(to_bytes(calls[0].options), to_bytes(wanted));
         std::set<std::tuple<double, double, double, std::uint32_t, bool>> different;
         for (const MesherCall& call : calls) {
-            different.emplace(call.options.radius_edge, call.options.size.reference_volume(), call.options.tolerance,
-                              call.vertex_order_seed, call.cut_first);
+            different.emplace(call.options.radius_edge, call.options.size.reference_volume(),
+                              call.options.tetgen.tolerance, call.options.tetgen.shuffle, call.cut_first);
             EXPECT_TRUE(call.options.size.reference_volume() == wanted.size.reference_volume() ||
                         call.remedy == calls.back().remedy);
-            EXPECT_EQ(call.options.tetgen_switches, wanted.tetgen_switches);
+            EXPECT_EQ(call.options.tetgen.switches, wanted.tetgen.switches);
             EXPECT_TRUE(call.options.radius_edge == 0 || call.options.radius_edge >= wanted.radius_edge);
         }
         EXPECT_EQ(different.size(), calls.size());

@@ -85,7 +85,8 @@ TEST(MesherOfSizes, ObeysTheField) {
         const SurfaceArrays surface = to_arrays(c.soup);
         MesherOptions options;
         options.size = make_size_field(c.options, surface, c.soup.patch_names, c.background);
-        const TetMesh mesh = mesh_volume(surface, options, 1);  // as given, TetGen fails on the frustum
+        options.tetgen.shuffle = 1;  // as given, TetGen fails on the frustum
+        const TetMesh mesh = mesh_volume(surface, options).mesh;
         EXPECT_TRUE(verify_mesh(mesh, surface).hold());
         const auto is_inside = [&](std::int32_t a, std::int32_t b) {
             return std::max(a, b) >= mesh.boundary_vertex_count;

@@ -863,7 +863,7 @@ TEST(CommandLine, HoldsWhatDiffersFromTheDefaults) {
     options.decompose.cut.axis = 2;
     options.stl = true;
     options.workers = 3;
-    options.mesher.tetgen_switches = "q1.2";
+    options.mesher.tetgen.switches = "q1.2";
     EXPECT_EQ(command_line_of(options, false),
               (std::vector<std::string>{"decompose", "/a b.stl", "--output=/out", "--quiet", "--parts=8", "--size=0.1",
                                         "--axis=z", "--workers=3", "--tetgen=q1.2", "--stl"}));

@@ -1,0 +1,59 @@
+// The meshers that there are: one file of this folder and one line in meshers.cpp each.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "volume/mesher.h"
+#include "volume/retries.h"
+
+namespace kerf {
+
+/// What a mesher makes of a body with F facets and volume V where tetrahedra of volume a are wanted, and what that
+/// takes: means over many bodies. V/a is the integral of dV/a where sizes differ.
+struct MesherForecast {
+    double tets_per_facet;         ///< tetrahedra = tets_per_facet F
+    double tets_per_volume_bound;  ///<              + tets_per_volume_bound V/a
+    double seconds_per_tet;        ///< of one worker, at the pace of a core of 2.5 GHz
+    double bytes_per_tet;          ///< resident, of its worker
+    double volume_weight;          ///< work = F + volume_weight V/a, in the units of LoadModel
+    double most_tets;              ///< that one call can count
+};
+
+/// What repeats a failed call without Kerf.
+struct Reproducer {
+    std::string ending;   ///< of the file beside the text that tells of the failure, with its dot
+    std::string bytes;    ///< of that file
+    std::string command;  ///< to be run in its folder
+    std::string note;     ///< what the command leaves out: whole lines, or nothing
+};
+
+/// One way to fill surfaces. No function is null. None checks what check_mesher_options() and mesh_volume() do.
+struct Mesher {
+    const char* name;  ///< of --mesher
+    MesherForecast forecast;
+
+    /// Throws Error(usage), naming the option, for what this mesher does not take.
+    void (*check)(const MesherOptions& options);
+    /// See mesh_volume().
+    Filling (*fill)(const SurfaceArrays& surface, const MesherOptions& options);
+    /// See mesher_calls(). The calls may name another mesher.
+    std::vector<MesherCall> (*calls)(const MesherOptions& wanted);
+    /// The files are called `stem` and their endings.
+    Reproducer (*reproducer)(const SurfaceArrays& surface, const MesherOptions& options, const std::string& stem);
+};
+
+/// All of them, in the order of the help; the first one is the default.
+std::span<const Mesher* const> meshers();
+/// The same by name.
+std::vector<std::string> mesher_names();
+/// By name. Throws Error(usage) with the names that there are.
+const Mesher& find_mesher(std::string_view name);
+
+/// A closed surface with its hole points as a .smesh of TetGen, counted from 0, with 17 digits: Kerf reads it, too. No
+/// hole points where one cannot be found: that may be the very reason of a failure.
+std::string smesh_text(const SurfaceArrays& surface);
+
+}  // namespace kerf
