@@ -1,11 +1,14 @@
 // Faces are bucketed by their smallest vertex; within a bucket those with the same other two vertices are the same
-// face. A tetrahedron a < b < c < d has three faces in the bucket of a and one in that of b.
+// face, and meet in a small table. A tetrahedron a < b < c < d has three faces in the bucket of a and one in that of b.
+// Never more buckets are filled at once than take as much memory as the tetrahedra.
 #include "mesh/adjacency.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "core/check.h"
 #include "core/elements.h"
+#include "mesh/buckets.h"
 
 namespace kerf {
 
@@ -14,7 +17,6 @@ namespace {
 struct Face {
     std::uint64_t others;  // vertices above the smallest: the lower one in the upper half
     std::int64_t side;     // 4 x tetrahedron + opposite corner
-    auto operator<=>(const Face&) const = default;
 };
 
 // 4 x vertex + its place in the tetrahedron.
@@ -44,54 +46,50 @@ Face face_above_smallest(std::size_t t, Corner middle, Corner high, Corner oppos
             static_cast<std::int64_t>(4 * t + (opposite & 3))};
 }
 
-void join(TetMesh& mesh, const Face& a, const Face& b) {
-    mesh.neighbours[a.side / 4][a.side % 4] = static_cast<std::int32_t>(b.side / 4);
-    mesh.neighbours[b.side / 4][b.side % 4] = static_cast<std::int32_t>(a.side / 4);
+void join(TetNeighbours& neighbours, const Face& a, const Face& b) {
+    neighbours[a.side / 4][a.side % 4] = static_cast<std::int32_t>(b.side / 4);
+    neighbours[b.side / 4][b.side % 4] = static_cast<std::int32_t>(a.side / 4);
 }
 
-// Where the bucket of each vertex begins; last the number of all faces.
-std::vector<std::int64_t> beginnings_of_buckets(const TetMesh& mesh) {
-    std::vector<std::int64_t> first(mesh.vertices.size() + 1, 0);
-    for (const Tetrahedron& tet : mesh.tets) {
-        const std::array<Corner, 4> corners = sorted_corners(tet);
-        first[vertex_of(corners[0]) + 1] += 3;
-        first[vertex_of(corners[1]) + 1] += 1;
+// Joins the first two of those that are the same, found by a table of their places among `faces`.
+void join_equal_faces(TetNeighbours& neighbours, std::span<const Face> faces, std::vector<std::int32_t>& table) {
+    constexpr std::int32_t nobody = -1;
+    constexpr std::uint64_t golden_ratio = 0x9E3779B97F4A7C15;  // times 2^64: its multiples spread evenly
+    const std::size_t mask = std::bit_ceil(2 * faces.size()) - 1;
+    table.assign(mask + 1, nobody);
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const Face& face = faces[i];
+        std::size_t place = (face.others * golden_ratio) >> 32 & mask;
+        while (table[place] != nobody && faces[static_cast<std::size_t>(table[place])].others != face.others)
+            place = (place + 1) & mask;
+        if (table[place] == nobody) {
+            table[place] = static_cast<std::int32_t>(i);
+            continue;
+        }
+        const Face& first = faces[static_cast<std::size_t>(table[place])];
+        if (neighbours[first.side / 4][first.side % 4] == -1) join(neighbours, first, face);
     }
-    for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
-    return first;
-}
-
-std::vector<Face> faces_in_buckets(const TetMesh& mesh, const std::vector<std::int64_t>& first) {
-    std::vector<Face> faces(4 * mesh.tets.size());
-    std::vector<std::int64_t> end(first.begin(), first.end() - 1);
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-        const auto [a, b, c, d] = sorted_corners(mesh.tets[t]);
-        std::int64_t& at = end[vertex_of(a)];
-        faces[at++] = face_above_smallest(t, b, c, d);
-        faces[at++] = face_above_smallest(t, b, d, c);
-        faces[at++] = face_above_smallest(t, c, d, b);
-        faces[end[vertex_of(b)]++] = face_above_smallest(t, c, d, a);
-    }
-    return faces;
 }
 
 }  // namespace
 
-void connect_tets(TetMesh& mesh) {
+TetNeighbours find_neighbours(const TetMesh& mesh) {
     KERF_CHECK(are_in_range(mesh.tets, mesh.vertices.size()));
-    mesh.neighbours.assign(mesh.tets.size(), {-1, -1, -1, -1});
-    const std::vector<std::int64_t> first = beginnings_of_buckets(mesh);
-    std::vector<Face> faces = faces_in_buckets(mesh, first);
-    for (std::size_t v = 0; v + 1 < first.size(); ++v) {
-        const auto begin = faces.begin() + first[v], stop = faces.begin() + first[v + 1];
-        std::sort(begin, stop);
-        for (auto it = begin; it != stop;) {
-            auto next = it + 1;
-            while (next != stop && next->others == it->others) ++next;
-            if (next - it >= 2) join(mesh, *it, *(it + 1));
-            it = next;
+    TetNeighbours neighbours(mesh.tets.size(), {-1, -1, -1, -1});
+    const auto for_each_face = [&](const auto& take) {
+        for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+            const auto [a, b, c, d] = sorted_corners(mesh.tets[t]);
+            take(vertex_of(a), face_above_smallest(t, b, c, d));
+            take(vertex_of(a), face_above_smallest(t, b, d, c));
+            take(vertex_of(a), face_above_smallest(t, c, d, b));
+            take(vertex_of(b), face_above_smallest(t, c, d, a));
         }
-    }
+    };
+    const std::size_t most_faces = mesh.tets.size() * sizeof(Tetrahedron) / sizeof(Face);
+    std::vector<std::int32_t> table;
+    visit_buckets<Face>(mesh.vertices.size(), most_faces, for_each_face,
+                        [&](std::size_t, std::span<Face> faces) { join_equal_faces(neighbours, faces, table); });
+    return neighbours;
 }
 
 }  // namespace kerf

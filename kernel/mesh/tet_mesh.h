@@ -7,13 +7,15 @@
 
 namespace kerf {
 
+/// For each tetrahedron the one across the face opposite to corner i, or -1.
+using TetNeighbours = std::vector<std::array<std::int32_t, 4>>;
+
 /// The boundary vertices and facets of the subdomain keep their numbers in the mesh; interior vertices follow.
 struct TetMesh {
     std::vector<Vec3> vertices;              ///< #V; first those of the surface, bit for bit and in order
     std::int32_t boundary_vertex_count = 0;  ///< vertices of the surface
     std::vector<Tetrahedron> tets;           ///< #T; positively oriented
-    std::vector<std::array<std::int32_t, 4>>
-        neighbours;  ///< #T; tetrahedron across the face opposite to corner i, or -1
+    TetNeighbours neighbours;                ///< #T, or none: they follow from `tets` (mesh/adjacency.h)
 
     std::int32_t interior_vertex_count() const {
         return static_cast<std::int32_t>(vertices.size()) - boundary_vertex_count;

@@ -14,6 +14,7 @@
 
 #include "core/check.h"
 #include "core/elements.h"
+#include "mesh/adjacency.h"
 #include "surface/mass_properties.h"
 
 namespace kerf {
@@ -56,11 +57,12 @@ std::vector<OwnedFace> sorted_faces(std::vector<OwnedFace> faces, std::size_t ve
     return faces;
 }
 
-std::vector<OwnedFace> sorted_boundary_faces(const TetMesh& mesh, std::size_t vertex_count) {
+std::vector<OwnedFace> sorted_boundary_faces(const TetMesh& mesh, const TetNeighbours& neighbours,
+                                             std::size_t vertex_count) {
     std::vector<OwnedFace> faces;
     for (std::size_t t = 0; t < mesh.tets.size(); ++t)
         for (int i = 0; i < 4; ++i)
-            if (mesh.neighbours[t][i] == -1)
+            if (neighbours[t][i] == -1)
                 faces.push_back({smallest_first(corners_of_face(mesh.tets[t], i)), static_cast<std::int32_t>(t)});
     return sorted_faces(std::move(faces), vertex_count);
 }
@@ -106,11 +108,9 @@ struct BoundaryMatch {
     std::int64_t boundary_faces = 0;
 };
 
-BoundaryMatch match_boundary(const TetMesh& mesh, const SurfaceArrays& surface) {
-    KERF_CHECK(are_in_range(mesh.tets, mesh.vertices.size()) && mesh.neighbours.size() == mesh.tets.size());
-    KERF_CHECK(are_in_range(surface.facets, surface.vertices.size()));
+BoundaryMatch match_boundary(const TetMesh& mesh, const TetNeighbours& neighbours, const SurfaceArrays& surface) {
     const std::size_t vertex_count = std::max(mesh.vertices.size(), surface.vertices.size());
-    const std::vector<OwnedFace> faces = sorted_boundary_faces(mesh, vertex_count);
+    const std::vector<OwnedFace> faces = sorted_boundary_faces(mesh, neighbours, vertex_count);
     BoundaryMatch match;
     match.boundary_faces = static_cast<std::int64_t>(faces.size());
     match_facets(sorted_facets(surface.facets, vertex_count), faces,
@@ -119,23 +119,33 @@ BoundaryMatch match_boundary(const TetMesh& mesh, const SurfaceArrays& surface) 
 }
 
 // True if tetrahedron n names t over the same face as t names n.
-bool names_back(const TetMesh& mesh, std::int32_t n, std::int32_t t, const Triangle& face) {
+bool names_back(const TetMesh& mesh, const TetNeighbours& neighbours, std::int32_t n, std::int32_t t,
+                const Triangle& face) {
     for (int j = 0; j < 4; ++j)
-        if (mesh.neighbours[n][j] == t && opposite(corners_of_face(mesh.tets[n], j), face)) return true;
+        if (neighbours[n][j] == t && opposite(corners_of_face(mesh.tets[n], j), face)) return true;
     return false;
 }
 
 // Each pair of sides is looked at from the smaller tetrahedron only, because the other may lie far away in memory.
-std::int64_t count_mismatched_neighbours(const TetMesh& mesh) {
+std::int64_t count_mismatched_neighbours(const TetMesh& mesh, const TetNeighbours& neighbours) {
     const auto tet_count = static_cast<std::int32_t>(mesh.tets.size());
     std::int64_t inner_sides = 0, pairs = 0;
     for (std::int32_t t = 0; t < tet_count; ++t)
         for (int i = 0; i < 4; ++i) {
-            const std::int32_t n = mesh.neighbours[t][i];
+            const std::int32_t n = neighbours[t][i];
             inner_sides += n != -1;
-            pairs += t < n && n < tet_count && names_back(mesh, n, t, corners_of_face(mesh.tets[t], i));
+            pairs += t < n && n < tet_count && names_back(mesh, neighbours, n, t, corners_of_face(mesh.tets[t], i));
         }
     return inner_sides - 2 * pairs;
+}
+
+MeshLaws laws_of_faces(const TetMesh& mesh, const TetNeighbours& neighbours, const SurfaceArrays& surface) {
+    const BoundaryMatch match = match_boundary(mesh, neighbours, surface);
+    MeshLaws laws;
+    laws.missing_facets = static_cast<std::int64_t>(surface.facets.size()) - match.matched;
+    laws.extra_boundary_faces = match.boundary_faces - match.matched;
+    laws.mismatched_neighbours = count_mismatched_neighbours(mesh, neighbours);
+    return laws;
 }
 
 bool positive(const TetMesh& mesh, const Tetrahedron& tet) {
@@ -176,13 +186,13 @@ bool MeshLaws::hold() const {
 }
 
 MeshLaws verify_mesh(const TetMesh& mesh, const SurfaceArrays& surface) {
-    const BoundaryMatch match = match_boundary(mesh, surface);
-    MeshLaws laws;
+    KERF_CHECK(are_in_range(mesh.tets, mesh.vertices.size()));
+    KERF_CHECK(are_in_range(surface.facets, surface.vertices.size()));
+    KERF_CHECK(mesh.neighbours.empty() || mesh.neighbours.size() == mesh.tets.size());
+    MeshLaws laws = mesh.neighbours.empty() ? laws_of_faces(mesh, find_neighbours(mesh), surface)
+                                            : laws_of_faces(mesh, mesh.neighbours, surface);
     laws.inverted_tets =
         std::count_if(mesh.tets.begin(), mesh.tets.end(), [&](const Tetrahedron& tet) { return !positive(mesh, tet); });
-    laws.missing_facets = static_cast<std::int64_t>(surface.facets.size()) - match.matched;
-    laws.extra_boundary_faces = match.boundary_faces - match.matched;
-    laws.mismatched_neighbours = count_mismatched_neighbours(mesh);
     laws.moved_vertices = count_moved_vertices(mesh, surface);
     laws.volume = total_volume(mesh);
     laws.surface_volume = enclosed_volume(surface.vertices, surface.facets);

@@ -27,7 +27,8 @@ struct MeshLaws {
 };
 
 /// Compares facet by facet and face by face. Requires vertex indices in range, in the mesh and in the surface, and
-/// neighbours (#T), which may be anything. Exact but for the volumes. O(#T + #F).
+/// neighbours (#T), which may be anything, or none: then they are found, and forgotten. Exact but for the volumes.
+/// O(#T + #F).
 MeshLaws verify_mesh(const TetMesh& mesh, const SurfaceArrays& surface);
 
 /// For each triangle of the boundary, seen from outside, the tetrahedron behind it, -1 if there is none. Corners of

@@ -4,7 +4,6 @@
 
 #include "core/error.h"
 #include "cut/bisect.h"
-#include "mesh/adjacency.h"
 #include "volume/meshers.h"
 
 namespace kerf {
@@ -61,7 +60,6 @@ Filling mesh_in_two(const SurfaceArrays& surface, const MesherOptions& options) 
         for (const Tetrahedron& t : mesh.tets)
             joined.tets.push_back({number[t[0]], number[t[1]], number[t[2]], number[t[3]]});
     }
-    connect_tets(joined);
     return filling;
 }
 

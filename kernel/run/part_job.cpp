@@ -59,6 +59,7 @@ void fill_result(const PartJob& job, const MesherCall& call, const std::string& 
     TetMesh& mesh = filling.mesh;
     result.way = filling.way;
     timed(result.verify_seconds, [&] { result.laws = verify_mesh(mesh, job.surface); });
+    mesh.neighbours = {};  // parts are stored without
     if (!result.laws.hold()) throw Error(ErrorCode::subdomain, broken_laws(result.laws));
     result.vertices = static_cast<std::int64_t>(mesh.vertices.size());
     result.interior_vertices = mesh.interior_vertex_count();

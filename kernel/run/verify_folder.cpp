@@ -16,7 +16,6 @@
 #include "io/folder_files.h"
 #include "io/run_folder.h"
 #include "io/run_manifest.h"
-#include "mesh/adjacency.h"
 #include "mesh/quality.h"
 #include "part/run_parts.h"
 #include "part/vtu_writer.h"
@@ -151,7 +150,6 @@ void FolderVerifier::check_part(const nlohmann::json& of_report) {
         throw Error(ErrorCode::io, fmt::format("{} is missing: the part was not meshed. Run kerf mesh again.", path));
     Part part = load_part(folder_, leaf, 0);
     SurfaceArrays surface = surface_of(part);
-    connect_tets(part.mesh);
     const MeshLaws laws = verify_mesh(part.mesh, surface);
     result_.laws.inverted_tets += laws.inverted_tets;
     result_.laws.input_faces_missing += laws.missing_facets;

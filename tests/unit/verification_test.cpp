@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <random>
 
 #include <gtest/gtest.h>
 
+#include "mesh/adjacency.h"
 #include "support/shapes.h"
 
 namespace kerf {
@@ -166,6 +168,25 @@ TEST(Verification, FindsADoubledTetrahedron) {
     cube.mesh.tets.push_back(cube.mesh.tets[t]);
     cube.mesh.neighbours.push_back(cube.mesh.neighbours[t]);
     EXPECT_EQ(counts(cube), (Counts{0, 0, 0, 4, 0}));
+}
+
+// The laws are those of the mesh, whether it names its neighbours or not.
+TEST(Verification, FindsTheNeighboursOfAMeshThatNamesNone) {
+    const std::int32_t inside = samples(meshed_cube().mesh)[0];
+    const auto flip = [&](std::vector<Tetrahedron>& tets) { std::swap(tets[inside][0], tets[inside][1]); };
+    const auto drop = [&](std::vector<Tetrahedron>& tets) { tets.erase(tets.begin() + inside); };
+    const auto copy = [&](std::vector<Tetrahedron>& tets) { tets.push_back(Tetrahedron(tets[inside])); };
+    const std::vector<std::function<void(std::vector<Tetrahedron>&)>> damages = {[](auto&) {}, flip, drop, copy};
+    for (std::size_t i = 0; i < damages.size(); ++i) {
+        SCOPED_TRACE(i);
+        MeshedSurface cube = meshed_cube();
+        damages[i](cube.mesh.tets);
+        connect_tets(cube.mesh);
+        const Counts named = counts(cube);
+        EXPECT_EQ(named == Counts{}, i == 0);
+        cube.mesh.neighbours = {};
+        EXPECT_EQ(counts(cube), named);
+    }
 }
 
 TEST(Verification, FindsAMovedVertex) {
