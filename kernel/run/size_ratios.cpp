@@ -7,31 +7,30 @@
 #include <fmt/format.h>
 
 #include "core/number_text.h"
+#include "mesh/buckets.h"
 
 namespace kerf {
 
 namespace {
 
-// Calls visit(a, b) for every edge with an end beyond the boundary vertices, once.
+// Calls visit(a, b) for every edge with an end beyond the boundary vertices, once. Beside the tetrahedra it needs no
+// more memory than they take.
 template <class Visit>
 void for_each_inner_edge(const TetMesh& mesh, const Visit& visit) {
-    std::vector<std::int32_t> first(mesh.vertices.size() + 1, 0);  // of the edges that begin at their smaller end
-    const auto for_each_pair = [&](const auto& take) {
+    const auto for_each_side = [&](const auto& take) {
         for (const Tetrahedron& t : mesh.tets)
             for (std::size_t i = 0; i < 4; ++i)
                 for (std::size_t j = i + 1; j < 4; ++j)
                     if (std::max(t[i], t[j]) >= mesh.boundary_vertex_count)
-                        take(std::min(t[i], t[j]), std::max(t[i], t[j]));
+                        take(static_cast<std::size_t>(std::min(t[i], t[j])), std::max(t[i], t[j]));
     };
-    for_each_pair([&](std::int32_t a, std::int32_t) { ++first[a + 1]; });
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    std::vector<std::int32_t> other(first.back()), next = first;
-    for_each_pair([&](std::int32_t a, std::int32_t b) { other[next[a]++] = b; });
-    for (std::size_t a = 0; a + 1 < first.size(); ++a) {
-        const auto begin = other.begin() + first[a], end = other.begin() + first[a + 1];
-        std::sort(begin, end);
-        std::for_each(begin, std::unique(begin, end), [&](std::int32_t b) { visit(static_cast<std::int32_t>(a), b); });
-    }
+    const std::size_t most_sides = mesh.tets.size() * sizeof(Tetrahedron) / sizeof(std::int32_t);
+    visit_buckets<std::int32_t>(
+        mesh.vertices.size(), most_sides, for_each_side, [&](std::size_t a, std::span<std::int32_t> others) {
+            std::sort(others.begin(), others.end());
+            const auto end = std::unique(others.begin(), others.end());
+            std::for_each(others.begin(), end, [&](std::int32_t b) { visit(static_cast<std::int32_t>(a), b); });
+        });
 }
 
 RatioCounts& counts_of_patch(SizeRatios& ratios, std::int32_t patch) {
@@ -89,6 +88,7 @@ SizeRatios measure_sizes(const TetMesh& mesh, const SurfaceArrays& surface, cons
     SizeRatios ratios;
     if (field.is_empty()) return ratios;
     std::vector<double> wanted;
+    wanted.reserve(mesh.vertices.size());
     for (const Vec3& p : mesh.vertices) wanted.push_back(field.at(p));
     const auto ratio = [&](std::int32_t a, std::int32_t b) {
         return 2 * (mesh.vertices[a] - mesh.vertices[b]).norm() / (wanted[a] + wanted[b]);
