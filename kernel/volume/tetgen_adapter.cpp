@@ -4,8 +4,7 @@
 // are at least h / 2, and the difference of such numbers is exact.
 //
 // Vertex i of TetGen's input is vertex order[i] of the surface. Switch J keeps all of them in place in the output,
-// which is checked bit by bit; Steiner points follow. TetGen's tetrahedra have the orientation of TetMesh, and its
-// neighbour i lies across the face opposite to corner i.
+// which is checked bit by bit; Steiner points follow. TetGen's tetrahedra have the orientation of TetMesh.
 #include "volume/tetgen_adapter.h"
 
 #include <algorithm>
@@ -14,6 +13,7 @@
 #include <numeric>
 #include <random>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -131,12 +131,12 @@ constexpr std::string_view expert_letters = "qaSTODMCVX";
                     switches, expert_letters));
 }
 
-// p: fill a surface, Y: keep it, J: keep all vertices, n: neighbours, Q: quiet. Bounds are set as numbers, because the
-// switches know no exponents.
+// p: fill a surface, Y: keep it, J: keep all vertices, Q: quiet. Bounds are set as numbers, because the switches know
+// no exponents. Neighbours, switch n, are not asked for: TetGen would list them while its own memory is at its largest.
 tetgenbehavior parse_switches(const MesherOptions& options) {
     const bool refine = !options.size.is_empty() || options.radius_edge > 0;
     const std::string& expert = options.tetgen.switches;
-    std::string switches = "pYJnQ" + (!expert.empty() ? expert : refine ? "q" : "");
+    std::string switches = "pYJQ" + (!expert.empty() ? expert : refine ? "q" : "");
     tetgenbehavior behaviour;
     if (switches.size() >= sizeof behaviour.commandline - 2 || !behaviour.parse_commandline(switches.data()) ||
         behaviour.refine || behaviour.order != 1 || behaviour.reversetetori)
@@ -225,7 +225,11 @@ void check_vertices_kept(const tetgenio& in, const tetgenio& out, const std::vec
                                 order[kept]));
 }
 
-TetMesh to_mesh(const tetgenio& out, const SurfaceArrays& surface, const std::vector<std::int32_t>& order,
+// As soon as it is copied.
+void drop(REAL*& list) { delete[] std::exchange(list, nullptr); }
+void drop(int*& list) { delete[] std::exchange(list, nullptr); }
+
+TetMesh to_mesh(tetgenio& out, const SurfaceArrays& surface, const std::vector<std::int32_t>& order,
                 const Normalisation& frame) {
     TetMesh mesh;
     mesh.vertices.reserve(out.numberofpoints);
@@ -233,14 +237,14 @@ TetMesh to_mesh(const tetgenio& out, const SurfaceArrays& surface, const std::ve
     mesh.boundary_vertex_count = static_cast<std::int32_t>(surface.vertices.size());
     for (std::int32_t v = mesh.boundary_vertex_count; v < out.numberofpoints; ++v)
         mesh.vertices.push_back(frame.from_unit(Eigen::Map<const Vec3>(out.pointlist + 3 * std::size_t(v))));
+    drop(out.pointlist);
     mesh.tets.resize(out.numberoftetrahedra);
-    mesh.neighbours.resize(out.numberoftetrahedra);
     for (std::size_t t = 0; t < mesh.tets.size(); ++t)
         for (std::size_t i = 0; i < 4; ++i) {
             const std::int32_t v = out.tetrahedronlist[4 * t + i];
             mesh.tets[t][i] = v < mesh.boundary_vertex_count ? order[v] : v;
-            mesh.neighbours[t][i] = out.neighborlist[4 * t + i];
         }
+    drop(out.tetrahedronlist);
     return mesh;
 }
 

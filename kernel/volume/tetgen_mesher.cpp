@@ -1,4 +1,6 @@
 // TetGen as a row of the table: what is known of it, and what is done when it fails.
+#include <malloc.h>
+
 #include <fmt/format.h>
 
 #include "volume/meshers.h"
@@ -16,7 +18,9 @@ constexpr double weaker_radius_edge = 2;              // Delaunay refinement end
 void check_tetgen_options(const MesherOptions& options) { check_tetgen_switches(options.tetgen.switches); }
 
 Filling fill_with_tetgen(const SurfaceArrays& surface, const MesherOptions& options) {
-    return {mesh_with_tetgen(surface, hole_points(surface), options), ""};
+    Filling filling{mesh_with_tetgen(surface, hole_points(surface), options), ""};
+    ::malloc_trim(0);  // TetGen has let go of several times what is left, which other workers may need
+    return filling;
 }
 
 // Other orders of the vertices, other tolerances, a weaker bound of the shape, none, the part cut in two, eight times

@@ -125,7 +125,7 @@ TEST(KilledWorker, TimeLimitIsReportedAlike) {
 TEST(MemoryLimit, IsReportedWithItsOwnCode) {
     const test::TemporaryFolder folder;
     const ChildResult result = test::run_kerf({"mesh", test::asset_path("bearing_cap_14k"), "-o", folder.file("out"),
-                                               "-n", "2", "--max-volume", "0.05", "--memory", "250"});
+                                               "-n", "2", "--max-volume", "0.05", "--memory", "200"});
     EXPECT_EQ(result.exit_code, 5) << result.log;
     EXPECT_NE(result.log.find("memory"), std::string::npos) << result.log;
     EXPECT_TRUE(std::filesystem::exists(folder.file("out/failed/part_0002.smesh")));
