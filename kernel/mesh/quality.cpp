@@ -124,15 +124,6 @@ TriangleAngles triangle_angles(const Vec3& a, const Vec3& b, const Vec3& c) {
             degrees_from_cotangent(cotangent_times_area.min / twice_area)};
 }
 
-std::vector<TetQuality> tet_qualities(const TetMesh& mesh) {
-    KERF_CHECK(are_in_range(mesh.tets, mesh.vertices.size()));
-    std::vector<TetQuality> qualities;
-    qualities.reserve(mesh.tets.size());
-    const std::vector<Vec3>& p = mesh.vertices;
-    for (const auto& [a, b, c, d] : mesh.tets) qualities.push_back(tet_quality(p[a], p[b], p[c], p[d]));
-    return qualities;
-}
-
 Distribution::Distribution(Scale scale, double low, double high)
     : scale_(scale),
       low_(low),

@@ -27,9 +27,6 @@ struct TetQuality {
 /// tetrahedron has angles 0 and 180, infinite radius_edge and aspect, shape 0. About 100 ns.
 TetQuality tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
-/// The measures of every tetrahedron, whose corners must be in range.
-std::vector<TetQuality> tet_qualities(const TetMesh& mesh);
-
 /// Angles of one triangle; 0 and 180 of one without area.
 struct TriangleAngles {
     double min_deg, max_deg;

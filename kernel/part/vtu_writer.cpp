@@ -1,6 +1,7 @@
 // A VTU file is an XML header, then the arrays as raw bytes, each behind its size as a UInt64; the header names the
 // offset of each array. So a grid is described here as a table of arrays, each with a function that streams its values:
-// the header follows from the sizes alone, and only the quality measures are ever stored as a whole.
+// the header follows from the sizes alone, and of the quality measures all but one wait as a whole until they are
+// written.
 //
 // The cells are the tetrahedra, then the boundary triangles. A grid without tetrahedra is a part's surface.
 #include "part/vtu_writer.h"
@@ -12,6 +13,7 @@
 #include <charconv>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <system_error>
 
 #include "core/error.h"
@@ -163,31 +165,43 @@ constexpr std::array<QualityArray, 5> quality_arrays = {{{"MinDihedralAngle", &T
                                                          {"AspectRatio", &TetQuality::aspect},
                                                          {"Shape", &TetQuality::shape}}};
 
-using StoredQuality = std::array<float, quality_arrays.size()>;
+using CellQuality = std::array<float, quality_arrays.size()>;
 
-std::vector<StoredQuality> stored_qualities(const TetMesh& mesh) {
-    std::vector<StoredQuality> stored;
-    stored.reserve(mesh.tets.size());
-    for (const Tetrahedron& t : mesh.tets) {
-        const std::vector<Vec3>& p = mesh.vertices;
-        const TetQuality quality = tet_quality(p[t[0]], p[t[1]], p[t[2]], p[t[3]]);
-        StoredQuality& values = stored.emplace_back();
-        for (std::size_t i = 0; i < values.size(); ++i)
-            values[i] = static_cast<float>(quality.*quality_arrays[i].measure);
-    }
-    return stored;
+// A boundary triangle has the quality of the tetrahedron behind it.
+CellQuality quality_of_cell(const Part& part, std::size_t cell) {
+    const std::size_t tets = part.mesh.tets.size();
+    const std::int64_t t = cell < tets ? static_cast<std::int64_t>(cell) : part.tet_at_facet[cell - tets];
+    CellQuality values;
+    values.fill(std::numeric_limits<float>::quiet_NaN());
+    if (t < 0) return values;
+    const std::vector<Vec3>& p = part.mesh.vertices;
+    const auto& [a, b, c, d] = part.mesh.tets[static_cast<std::size_t>(t)];
+    const TetQuality quality = tet_quality(p[a], p[b], p[c], p[d]);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(quality.*quality_arrays[i].measure);
+    return values;
 }
 
-// The arguments must outlive the grid.
-void add_quality(Grid& grid, std::span<const StoredQuality> quality, std::span<const std::int32_t> tet_at_facet) {
-    for (std::size_t i = 0; i < quality_arrays.size(); ++i) {
-        const auto of_tet = [quality, i](std::size_t t) { return quality[t][i]; };
-        const auto of_facet = [=](std::size_t f) {
-            return tet_at_facet[f] < 0 ? std::numeric_limits<float>::quiet_NaN() : of_tet(tet_at_facet[f]);
-        };
+// All measures of a cell are computed together, when the first array is written; the others wait until it is their
+// turn. To compute them one array at a time would spare that memory, but take half as long again. The part must outlive
+// the grid, whose arrays are written once, in order.
+void add_quality(Grid& grid, const Part& part) {
+    const std::size_t cells = part.mesh.tets.size() + part.tet_at_facet.size();
+    const auto waiting = std::make_shared<std::array<std::vector<float>, quality_arrays.size()>>();
+    grid.cell_data().arrays.push_back(
+        computed_array<float>(quality_arrays[0].name, cells, [&part, waiting, cells](std::size_t cell) {
+            const CellQuality values = quality_of_cell(part, cell);
+            for (std::size_t i = 1; i < values.size(); ++i) {
+                if (cell == 0) (*waiting)[i].resize(cells);
+                (*waiting)[i][cell] = values[i];
+            }
+            return values[0];
+        }));
+    for (std::size_t i = 1; i < quality_arrays.size(); ++i)
         grid.cell_data().arrays.push_back(
-            cell_array<float>(quality_arrays[i].name, quality.size(), tet_at_facet.size(), of_tet, of_facet));
-    }
+            {quality_arrays[i].name, vtk_type<float>, 1, cells, cells * sizeof(float), [waiting, i](CheckedFile& file) {
+                 const std::vector<float> values = std::move((*waiting)[i]);
+                 file.write(values.data(), values.size() * sizeof(float));
+             }});
 }
 
 constexpr const char* file_begin =
@@ -243,9 +257,8 @@ void write_grid(CheckedFile& file, const Grid& grid) {
 template <class Take>
 FileHash with_part_grid(const Part& part, Take take) {
     require_sizes(part.tet_at_facet.size() == part.facets.size());
-    const std::vector<StoredQuality> quality = stored_qualities(part.mesh);
     Grid grid = make_grid(part, true);
-    add_quality(grid, quality, part.tet_at_facet);
+    add_quality(grid, part);
     return take(grid);
 }
 
@@ -345,7 +358,7 @@ std::string pvtu_text(const std::vector<std::string>& pieces) {
     // Only the names and types of the arrays are asked for, so that they are those of the pieces.
     const Part no_part;
     Grid grid = make_grid(no_part, true);
-    add_quality(grid, {}, {});
+    add_quality(grid, no_part);
 
     std::string xml = fmt::format(file_begin, "PUnstructuredGrid") + "<PUnstructuredGrid GhostLevel=\"0\">\n";
     for (const Section* section : {&grid.point_data(), &grid.cell_data(), &grid.points()})
