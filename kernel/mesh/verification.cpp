@@ -2,8 +2,10 @@
 //
 // Interior faces: tetrahedron t and the one across its face i, n = neighbours[t][i], must name each other over a face
 // with the same corners in opposite rotation. Two positive tetrahedra then lie on opposite sides of it. Boundary faces
-// (neighbour -1) must be the facets of the surface. Both are written with their smallest vertex first, which keeps the
-// rotation, and sorted by three counting sorts, last corner first; equal ones then meet in a merge.
+// (neighbour -1) must be the facets of the surface. A mesh that names no neighbours has interior faces where two sides
+// are the same face (mesh/faces.h): they must be turned opposite ways. Boundary faces and facets are written with their
+// smallest vertex first, which keeps the rotation, and sorted by three counting sorts, last corner first; equal ones
+// then meet in a merge.
 #include "mesh/verification.h"
 
 #include <algorithm>
@@ -14,7 +16,7 @@
 
 #include "core/check.h"
 #include "core/elements.h"
-#include "mesh/adjacency.h"
+#include "mesh/faces.h"
 #include "surface/mass_properties.h"
 
 namespace kerf {
@@ -57,16 +59,6 @@ std::vector<OwnedFace> sorted_faces(std::vector<OwnedFace> faces, std::size_t ve
     return faces;
 }
 
-std::vector<OwnedFace> sorted_boundary_faces(const TetMesh& mesh, const TetNeighbours& neighbours,
-                                             std::size_t vertex_count) {
-    std::vector<OwnedFace> faces;
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t)
-        for (int i = 0; i < 4; ++i)
-            if (neighbours[t][i] == -1)
-                faces.push_back({smallest_first(corners_of_face(mesh.tets[t], i)), static_cast<std::int32_t>(t)});
-    return sorted_faces(std::move(faces), vertex_count);
-}
-
 std::vector<OwnedFace> sorted_facets(const std::vector<Triangle>& facets, std::size_t vertex_count) {
     std::vector<OwnedFace> faces;
     faces.reserve(facets.size());
@@ -103,49 +95,51 @@ void match_facets(const std::vector<OwnedFace>& facets, const std::vector<OwnedF
     }
 }
 
-struct BoundaryMatch {
-    std::int64_t matched = 0;
-    std::int64_t boundary_faces = 0;
-};
-
-BoundaryMatch match_boundary(const TetMesh& mesh, const TetNeighbours& neighbours, const SurfaceArrays& surface) {
-    const std::size_t vertex_count = std::max(mesh.vertices.size(), surface.vertices.size());
-    const std::vector<OwnedFace> faces = sorted_boundary_faces(mesh, neighbours, vertex_count);
-    BoundaryMatch match;
-    match.boundary_faces = static_cast<std::int64_t>(faces.size());
-    match_facets(sorted_facets(surface.facets, vertex_count), faces,
-                 [&](const OwnedFace&, const OwnedFace&) { ++match.matched; });
-    return match;
-}
-
 // True if tetrahedron n names t over the same face as t names n.
-bool names_back(const TetMesh& mesh, const TetNeighbours& neighbours, std::int32_t n, std::int32_t t,
-                const Triangle& face) {
+bool names_back(const TetMesh& mesh, std::int32_t n, std::int32_t t, const Triangle& face) {
     for (int j = 0; j < 4; ++j)
-        if (neighbours[n][j] == t && opposite(corners_of_face(mesh.tets[n], j), face)) return true;
+        if (mesh.neighbours[n][j] == t && opposite(corners_of_face(mesh.tets[n], j), face)) return true;
     return false;
 }
 
 // Each pair of sides is looked at from the smaller tetrahedron only, because the other may lie far away in memory.
-std::int64_t count_mismatched_neighbours(const TetMesh& mesh, const TetNeighbours& neighbours) {
+std::int64_t count_mismatched_neighbours(const TetMesh& mesh) {
     const auto tet_count = static_cast<std::int32_t>(mesh.tets.size());
     std::int64_t inner_sides = 0, pairs = 0;
     for (std::int32_t t = 0; t < tet_count; ++t)
         for (int i = 0; i < 4; ++i) {
-            const std::int32_t n = neighbours[t][i];
+            const std::int32_t n = mesh.neighbours[t][i];
             inner_sides += n != -1;
-            pairs += t < n && n < tet_count && names_back(mesh, neighbours, n, t, corners_of_face(mesh.tets[t], i));
+            pairs += t < n && n < tet_count && names_back(mesh, n, t, corners_of_face(mesh.tets[t], i));
         }
     return inner_sides - 2 * pairs;
 }
 
-MeshLaws laws_of_faces(const TetMesh& mesh, const TetNeighbours& neighbours, const SurfaceArrays& surface) {
-    const BoundaryMatch match = match_boundary(mesh, neighbours, surface);
-    MeshLaws laws;
-    laws.missing_facets = static_cast<std::int64_t>(surface.facets.size()) - match.matched;
-    laws.extra_boundary_faces = match.boundary_faces - match.matched;
-    laws.mismatched_neighbours = count_mismatched_neighbours(mesh, neighbours);
-    return laws;
+// What is known of all faces.
+struct Faces {
+    std::vector<OwnedFace> boundary;
+    std::int64_t mismatched_sides = 0;  // of the others
+
+    void add_boundary(const TetMesh& mesh, std::int32_t t, int i) {
+        boundary.push_back({smallest_first(corners_of_face(mesh.tets[t], i)), t});
+    }
+};
+
+Faces faces_as_named(const TetMesh& mesh) {
+    Faces faces;
+    for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tets.size()); ++t)
+        for (int i = 0; i < 4; ++i)
+            if (mesh.neighbours[t][i] == -1) faces.add_boundary(mesh, t, i);
+    faces.mismatched_sides = count_mismatched_neighbours(mesh);
+    return faces;
+}
+
+Faces faces_as_found(const TetMesh& mesh) {
+    Faces faces;
+    match_faces(
+        mesh, [&](FaceSide a, FaceSide b) { faces.mismatched_sides += a.is_turned() == b.is_turned() ? 2 : 0; },
+        [&](FaceSide side) { faces.add_boundary(mesh, side.tet(), static_cast<int>(side.corner())); });
+    return faces;
 }
 
 bool positive(const TetMesh& mesh, const Tetrahedron& tet) {
@@ -189,10 +183,18 @@ MeshLaws verify_mesh(const TetMesh& mesh, const SurfaceArrays& surface) {
     KERF_CHECK(are_in_range(mesh.tets, mesh.vertices.size()));
     KERF_CHECK(are_in_range(surface.facets, surface.vertices.size()));
     KERF_CHECK(mesh.neighbours.empty() || mesh.neighbours.size() == mesh.tets.size());
-    MeshLaws laws = mesh.neighbours.empty() ? laws_of_faces(mesh, find_neighbours(mesh), surface)
-                                            : laws_of_faces(mesh, mesh.neighbours, surface);
+    Faces faces = mesh.neighbours.empty() ? faces_as_found(mesh) : faces_as_named(mesh);
+    const auto boundary_faces = static_cast<std::int64_t>(faces.boundary.size());
+    const std::size_t vertex_count = std::max(mesh.vertices.size(), surface.vertices.size());
+    std::int64_t matched = 0;
+    match_facets(sorted_facets(surface.facets, vertex_count), sorted_faces(std::move(faces.boundary), vertex_count),
+                 [&](const OwnedFace&, const OwnedFace&) { ++matched; });
+    MeshLaws laws;
     laws.inverted_tets =
         std::count_if(mesh.tets.begin(), mesh.tets.end(), [&](const Tetrahedron& tet) { return !positive(mesh, tet); });
+    laws.missing_facets = static_cast<std::int64_t>(surface.facets.size()) - matched;
+    laws.extra_boundary_faces = boundary_faces - matched;
+    laws.mismatched_neighbours = faces.mismatched_sides;
     laws.moved_vertices = count_moved_vertices(mesh, surface);
     laws.volume = total_volume(mesh);
     laws.surface_volume = enclosed_volume(surface.vertices, surface.facets);
