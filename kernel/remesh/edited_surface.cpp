@@ -264,7 +264,7 @@ void EditedSurface::note_change(std::span<const Facet> facets) {
 }
 
 bool EditedSurface::take_flip(Edge e, bool is_exact_only) {
-    if (mesh_.data(e).is_feature || !mesh_.is_flip_ok(e)) return false;
+    if (mesh_.data(e).is_feature) return false;
     const HalfEdge h = mesh_.halfedge_handle(e, 0), back = mesh_.halfedge_handle(e, 1);
     const Facet f = mesh_.face_handle(h), g = mesh_.face_handle(back);
     const Vec3 &a = mesh_.point(mesh_.from_vertex_handle(h)), &b = mesh_.point(mesh_.to_vertex_handle(h));
@@ -277,6 +277,7 @@ bool EditedSurface::take_flip(Edge e, bool is_exact_only) {
     if (std::min(sine_of(star_.corners[0]), sine_of(star_.corners[1])) <=
         (1 + 1e-6) * std::min(sine(f), sine(g)) + 1e-12)
         return false;
+    if (!mesh_.is_flip_ok(e)) return false;  // after the angles, which refuse most
     for (int i = 0; i < 2; ++i)
         if (!keeps_turn(star_.facets[i], star_.corners[i])) return false;
     points_.clear();
