@@ -43,8 +43,10 @@ Filling mesh_in_two(const SurfaceArrays& surface, const MesherOptions& options) 
     joined.vertices = surface.vertices;
     joined.boundary_vertex_count = static_cast<std::int32_t>(surface.vertices.size());
     for (const SurfaceArrays& half : halves_of(surface, options)) {
-        const auto [mesh, way] = mesh_volume(half, options);
-        if (filling.way.find(way) == std::string::npos) filling.way += (filling.way.empty() ? "" : ", ") + way;
+        const Filling of_half = mesh_volume(half, options);
+        const TetMesh& mesh = of_half.mesh;
+        if (filling.way.find(of_half.way) == std::string::npos)
+            filling.way += (filling.way.empty() ? "" : ", ") + of_half.way;
         std::vector<std::int32_t> number(mesh.vertices.size());
         const auto place = [&](std::size_t vertex, std::int32_t at) {
             if (static_cast<std::size_t>(at) >= joined.vertices.size()) joined.vertices.resize(at + 1);
