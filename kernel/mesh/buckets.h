@@ -22,6 +22,7 @@ void visit_buckets(std::size_t bucket_count, std::size_t most_items, const ForEa
     for_each_item([&](std::size_t bucket, const Item&) { ++end[bucket + 1]; });
     std::partial_sum(end.begin(), end.end(), end.begin());
     std::vector<Item> items;
+    items.reserve(std::min(end.back(), most_items));  // to grow would need the old room beside the new one
     for (std::size_t first = 0; first < bucket_count;) {
         const std::size_t begin = end[first];
         const auto beyond =

@@ -24,8 +24,13 @@ struct TetQuality {
 };
 
 /// Angles, radius_edge and aspect are those of the unoriented tetrahedron; volume and shape carry the sign. A flat
-/// tetrahedron has angles 0 and 180, infinite radius_edge and aspect, shape 0. About 100 ns.
+/// tetrahedron has angles 0 and 180, infinite radius_edge and aspect, shape 0. About 60 ns.
 TetQuality tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+/// The same of many, over the points, to the last bit: quality[i] is that of cells[i]. 30 ns each.
+void measure_cells(const std::vector<Vec3>& points, std::span<const Tetrahedron> cells, std::span<TetQuality> quality);
+/// TetQuality::min_dihedral_deg alone, to the last bit. 15 ns each.
+void measure_min_dihedrals(const std::vector<Vec3>& points, std::span<const Tetrahedron> cells,
+                           std::span<double> degrees);
 
 /// Angles of one triangle; 0 and 180 of one without area.
 struct TriangleAngles {
@@ -44,8 +49,8 @@ class Distribution {
     /// logarithmic scale.
     Distribution(Scale scale, double low, double high);
 
-    void add(double value);               ///< must not be NaN; about 7 ns
-    void add(const Distribution& other);  ///< requires the same scale and range, else throws Error(internal)
+    void add(double value, std::int64_t times = 1);  ///< must not be NaN; about 4 ns
+    void add(const Distribution& other);             ///< requires the same scale and range, else throws Error(internal)
 
     Scale scale() const { return scale_; }
     bool has_range_of(const Distribution& other) const;
@@ -147,7 +152,7 @@ struct PartQuality {
     }
 };
 
-/// The distributions of a mesh. `on_interface` (#V, or empty) tells its vertices that lie on an interface. About 150 ns
+/// The distributions of a mesh. `on_interface` (#V, or empty) tells its vertices that lie on an interface. About 70 ns
 /// a cell.
 PartQuality measure_quality(const TetMesh& mesh, std::span<const char> on_interface, double length_scale);
 

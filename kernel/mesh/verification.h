@@ -26,10 +26,16 @@ struct MeshLaws {
     }
 };
 
+/// How the faces of a mesh without neighbours are told to be those of the surface.
+enum class FaceProof {
+    sum,       ///< wrong with a probability of 3e-18 (mesh/boundary_chain.h); 20 ns a cell and no memory
+    matching,  ///< never wrong; 100 ns a cell, and as much memory as the cells
+};
+
 /// Compares facet by facet and face by face. Requires vertex indices in range, in the mesh and in the surface, and
-/// neighbours (#T), which may be anything, or none: then they are found, and forgotten. Exact but for the volumes.
-/// O(#T + #F).
-MeshLaws verify_mesh(const TetMesh& mesh, const SurfaceArrays& surface);
+/// neighbours (#T), which may be anything, or none. Exact but for the volumes, and for the faces as `proof` says; where
+/// something is broken, and where there are neighbours, faces are matched in any case, and counted. O(#T + #F).
+MeshLaws verify_mesh(const TetMesh& mesh, const SurfaceArrays& surface, FaceProof proof = FaceProof::matching);
 
 /// For each triangle of the boundary, seen from outside, the tetrahedron behind it, -1 if there is none. Corners of
 /// the triangles must be vertices of the boundary. Does not ask for neighbours and coordinates. O(#T + #F).

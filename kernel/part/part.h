@@ -72,6 +72,7 @@ struct MeshOutline {
     std::vector<PartExtent> parts;  ///< in the order of the tree; the place of a part here is its rank, from 0
     std::int64_t vertices = 0;      ///< distinct ones
     std::vector<std::string> patch_names;
+    bool is_whole = true;  ///< else others, which could not be meshed, may be neighbours of these parts
 
     /// Throws Error(internal) for a part that is none. O(K).
     std::int32_t rank_of(NodeId id) const;

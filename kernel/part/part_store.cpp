@@ -2,6 +2,7 @@
 #include "part/part_store.h"
 
 #include <array>
+#include <filesystem>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -128,6 +129,13 @@ Part StoredParts::load(std::int32_t rank) const {
     Part part = read_stored_part(place.path, place.first_interior_id, PartContent::all, &hash);
     if (hash != place.hash) fail_damaged(place.path);
     return part;
+}
+
+void StoredParts::remove(std::int32_t rank) const {
+    const std::string& path = places_[static_cast<std::size_t>(rank)].path;
+    std::error_code error;
+    std::filesystem::remove(path, error);
+    if (error) throw Error(ErrorCode::io, fmt::format("Cannot remove {}: {}.", path, error.message()));
 }
 
 Part StoredParts::load_only(std::int32_t rank, PartContent content) const {

@@ -37,6 +37,8 @@ class StoredParts : public PartSource {
     Part load(std::int32_t rank) const override;
     /// Only the whole part is compared with what was written.
     Part load_only(std::int32_t rank, PartContent content) const override;
+    /// Takes the file of a part that is not needed any more from the disk. Throws Error(io).
+    void remove(std::int32_t rank) const;
 
  private:
     MeshOutline outline_;

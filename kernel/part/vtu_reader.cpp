@@ -68,8 +68,26 @@ class PartArraysFile {
         for (; count > 0; count -= at_once)
             for (const T& value : take<T>(std::min(count, at_once))) visit(value);
     }
+    /// Opens an array of `count` integers of any of these types and calls visit(value) with each.
+    template <class... Types, class Visit>
+    void visit_integers(const char* name, std::int64_t count, Visit visit) {
+        const VtuHeader::Array* array = header_.find(name);
+        const std::string type = array ? array->type : "";
+        const auto visit_if = [&]<class T>(T) {
+            if (type != name_of<T>) return false;
+            open<T>(name, count);
+            this->visit<T>(count, visit);
+            return true;
+        };
+        if (!(visit_if(Types{}) || ...)) fail(fmt::format("it has no array {} of such integers", name));
+    }
 
  private:
+    template <class T>
+    static constexpr const char* name_of = sizeof(T) == 1   ? "Int8"
+                                           : sizeof(T) == 2 ? "Int16"
+                                           : sizeof(T) == 4 ? "Int32"
+                                                            : "Int64";
     void read(void* data, std::size_t size) {
         if (file_.read_into(data, size) != size) fail(fmt::format("it ends within the array {}", name_));
     }
@@ -94,8 +112,7 @@ std::int64_t count_tets(PartArraysFile& file) {
 
 void check_offsets(PartArraysFile& file, std::int64_t tet_count) {
     std::int64_t cell = 0, end = 0;
-    file.open<std::int64_t>("offsets", file.header().cell_count);
-    file.visit<std::int64_t>(file.header().cell_count, [&](std::int64_t offset) {
+    file.visit_integers<std::int32_t, std::int64_t>("offsets", file.header().cell_count, [&](std::int64_t offset) {
         end += cell < tet_count ? 4 : 3;
         if (offset != end) file.fail(fmt::format("the offset of cell {} is {}, not {}", cell, offset, end));
         ++cell;
@@ -112,21 +129,38 @@ std::vector<Cell> take_cells(PartArraysFile& file, std::int64_t count, std::int6
     return cells;
 }
 
+// Calls visit(value) with those of an array over all cells.
+template <class Visit>
+void visit_tags(PartArraysFile& file, const char* name, Visit visit) {
+    file.visit_integers<std::int8_t, std::int16_t, std::int32_t>(name, file.header().cell_count, visit);
+}
+
 // The values of the facets in an array over all cells; every tetrahedron must have -1.
 std::vector<std::int32_t> facet_values(PartArraysFile& file, const char* name, std::int64_t tet_count) {
-    file.open<std::int32_t>(name, file.header().cell_count);
-    file.visit<std::int32_t>(tet_count, [&](std::int32_t value) {
+    std::vector<std::int32_t> values;
+    std::int64_t cell = 0;
+    visit_tags(file, name, [&](std::int32_t value) {
+        if (cell++ >= tet_count) return values.push_back(value);
         if (value != -1) file.fail(fmt::format("a tetrahedron has a value of {} other than -1", name));
     });
-    return file.take<std::int32_t>(file.header().cell_count - tet_count);
+    return values;
+}
+
+// Those of the input, which have an array of their own unless the file is a surface or of an older version.
+std::vector<std::int32_t> read_input_facets(PartArraysFile& file, std::int64_t tet_count) {
+    const VtuHeader::Array* array = file.header().find("Facet");
+    if (array && array->tuples == file.header().cell_count) return facet_values(file, "Facet", tet_count);
+    const std::int64_t facet_count = file.header().cell_count - tet_count;
+    file.open<std::int32_t>("Facet", facet_count);
+    return file.take<std::int32_t>(facet_count);
 }
 
 std::int32_t common_part(PartArraysFile& file) {
     if (file.header().cell_count == 0) file.fail("it has no cells");
-    file.open<std::int32_t>("Part", file.header().cell_count);
-    const std::int32_t part = file.take<std::int32_t>(1).front();
-    file.visit<std::int32_t>(file.header().cell_count - 1, [&](std::int32_t value) {
-        if (value != part) file.fail("its cells belong to several parts");
+    std::int32_t part = -1;
+    visit_tags(file, "Part", [&](std::int32_t value) {
+        if (part >= 0 && value != part) file.fail("its cells belong to several parts");
+        part = value;
     });
     return part;
 }
@@ -164,7 +198,7 @@ void read_cells(PartArraysFile& file, Part& part) {
     part.facets = take_cells<Triangle>(file, facet_count, header.boundary_vertex_count);
     part.id = common_part(file);
     part.patch = facet_values(file, "Patch", tet_count);
-    part.facet = facet_values(file, "Facet", tet_count);
+    part.facet = read_input_facets(file, tet_count);
     part.neighbour = facet_values(file, "Neighbour", tet_count);
     part.patch_names = read_names(file);
 }
@@ -185,6 +219,16 @@ bool is_complete_part_file(const std::string& path) {
     std::string end(closing_tag.size(), '\0');
     file.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
     return file.read(end.data(), static_cast<std::streamsize>(end.size())) && end == closing_tag;
+}
+
+bool has_cell_values(const std::string& path, const std::string& array) {
+    CheckedFile file(path, "rb");
+    return parse_vtu_header(file.read(vtu_header_limit), path).find(array) != nullptr;
+}
+
+VtuLayout read_layout(const std::string& path) {
+    CheckedFile file(path, "rb");
+    return layout_of(parse_vtu_header(file.read(vtu_header_limit), path));
 }
 
 PartCellCounts read_cell_counts(const std::string& path) {

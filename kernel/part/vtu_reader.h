@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "part/part.h"
+#include "part/vtu_writer.h"
 
 namespace kerf {
 
@@ -27,6 +28,12 @@ struct PartCellCounts {
 
 /// Reads the file's header alone. Throws Error(io).
 PartCellCounts read_cell_counts(const std::string& path);
+
+/// Whether a part file has an array of this name. Throws Error(io).
+bool has_cell_values(const std::string& path, const std::string& array);
+
+/// As the part file was written. Throws Error(io).
+VtuLayout read_layout(const std::string& path);
 
 /// The values `first` to `first + count - 1` of a Float32 array over the cells of a part file, of which nothing else
 /// but the header is read; both numbers >= 0. Throws Error(io), also if the file has no such array or not so many

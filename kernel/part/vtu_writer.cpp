@@ -21,7 +21,6 @@
 #include "io/checked_file.h"
 #include "io/text_file.h"
 #include "io/vtk_cell_types.h"
-#include "mesh/quality.h"
 
 namespace kerf {
 
@@ -33,6 +32,10 @@ template <class T>
 constexpr const char* vtk_type = nullptr;
 template <>
 constexpr const char* vtk_type<std::uint8_t> = "UInt8";
+template <>
+constexpr const char* vtk_type<std::int8_t> = "Int8";
+template <>
+constexpr const char* vtk_type<std::int16_t> = "Int16";
 template <>
 constexpr const char* vtk_type<std::int32_t> = "Int32";
 template <>
@@ -68,25 +71,55 @@ struct Grid {
     Section& cells() { return piece[3]; }
 };
 
-// An array of `count` values value(0), value(1), ..., which are computed while they are written.
+constexpr std::size_t chunk_bytes = std::size_t{1} << 18;  // small enough to stay in the cache until it is written
+
+// value(0), value(1), ..., which are computed while they are written.
 template <class T, class Value>
-Array computed_array(std::string name, std::size_t count, Value value) {
-    return {std::move(name), vtk_type<T>, 1, count, count * sizeof(T), [count, value](CheckedFile& file) {
-                constexpr std::size_t chunk_size = (std::size_t{1} << 20) / sizeof(T);
-                std::vector<T> chunk(std::min(count, chunk_size));
-                for (std::size_t begin = 0; begin < count; begin += chunk_size) {
-                    const std::size_t size = std::min(chunk_size, count - begin);
-                    for (std::size_t i = 0; i < size; ++i) chunk[i] = static_cast<T>(value(begin + i));
-                    file.write(chunk.data(), size * sizeof(T));
-                }
-            }};
+void write_computed(CheckedFile& file, std::size_t count, const Value& value) {
+    constexpr std::size_t chunk_size = chunk_bytes / sizeof(T);
+    std::vector<T> chunk(std::min(count, chunk_size));
+    for (std::size_t begin = 0; begin < count; begin += chunk_size) {
+        const std::size_t size = std::min(chunk_size, count - begin);
+        for (std::size_t i = 0; i < size; ++i) chunk[i] = static_cast<T>(value(begin + i));
+        file.write(chunk.data(), size * sizeof(T));
+    }
 }
 
 // An array with one value per cell: of_tet(t) for the tetrahedra, then of_facet(f).
 template <class T, class OfTet, class OfFacet>
 Array cell_array(std::string name, std::size_t tet_count, std::size_t facet_count, OfTet of_tet, OfFacet of_facet) {
-    return computed_array<T>(std::move(name), tet_count + facet_count,
-                             [=](std::size_t i) { return i < tet_count ? of_tet(i) : of_facet(i - tet_count); });
+    const std::size_t count = tet_count + facet_count;
+    return {std::move(name), vtk_type<T>, 1, count, count * sizeof(T), [=](CheckedFile& file) {
+                write_computed<T>(file, tet_count, of_tet);
+                write_computed<T>(file, facet_count, of_facet);
+            }};
+}
+
+// The same with integers of so many bytes.
+template <class OfTet, class OfFacet>
+Array tag_array(int bytes, std::string name, std::size_t tet_count, std::size_t facet_count, OfTet of_tet,
+                OfFacet of_facet) {
+    if (bytes == 1) return cell_array<std::int8_t>(std::move(name), tet_count, facet_count, of_tet, of_facet);
+    if (bytes == 2) return cell_array<std::int16_t>(std::move(name), tet_count, facet_count, of_tet, of_facet);
+    return cell_array<std::int32_t>(std::move(name), tet_count, facet_count, of_tet, of_facet);
+}
+
+template <class T>
+Array array_of(std::string name, std::span<const T> values) {
+    return {std::move(name),
+            vtk_type<T>,
+            1,
+            values.size(),
+            values.size_bytes(),
+            [values](CheckedFile& file) { file.write(values.data(), values.size_bytes()); }};
+}
+
+// Where the vertices of each cell end in the connectivity.
+template <class T>
+Array offset_array(std::size_t tet_count, std::size_t facet_count) {
+    return cell_array<T>(
+        "offsets", tet_count, facet_count, [](std::size_t t) { return 4 * (t + 1); },
+        [tet_count](std::size_t f) { return 4 * tet_count + 3 * (f + 1); });
 }
 
 // Strings as bytes, each one with a zero byte behind it. VTK has a type for strings with the same bytes, but meshio
@@ -119,7 +152,7 @@ void require_sizes(bool sizes_agree) {
 }
 
 // What files of parts and of their surfaces have in common. The part must outlive the grid.
-Grid make_grid(const Part& part, bool with_cells) {
+Grid make_grid(const Part& part, bool with_cells, int tag_bytes) {
     static const std::vector<Tetrahedron> no_tets;
     const auto boundary_count = static_cast<std::size_t>(part.mesh.boundary_vertex_count);
     const std::vector<Tetrahedron>& tets = with_cells ? part.mesh.tets : no_tets;
@@ -137,71 +170,109 @@ Grid make_grid(const Part& part, bool with_cells) {
     Grid grid{
         .point_count = vertex_count, .cell_count = tet_count + facet_count, .boundary_vertex_count = boundary_count};
     grid.field_data.arrays = {string_array("PatchNames", part.patch_names)};
-    grid.point_data().arrays = {computed_array<std::int64_t>("GlobalVertexId", vertex_count,
-                                                             [&part](std::size_t v) { return part.global_id[v]; })};
+    grid.point_data().arrays = {
+        array_of("GlobalVertexId", std::span<const std::int64_t>(part.global_id).first(vertex_count))};
     grid.cell_data().arrays = {
-        cell_array<std::int32_t>("Part", tet_count, facet_count, of_part, of_part),
-        cell_array<std::int32_t>("Patch", tet_count, facet_count, none, of_facet(part.patch)),
-        cell_array<std::int32_t>("Facet", tet_count, facet_count, none, of_facet(part.facet)),
-        cell_array<std::int32_t>("Neighbour", tet_count, facet_count, none, of_facet(part.neighbour))};
+        tag_array(tag_bytes, "Part", tet_count, facet_count, of_part, of_part),
+        tag_array(tag_bytes, "Patch", tet_count, facet_count, none, of_facet(part.patch)),
+        tag_array(tag_bytes, "Neighbour", tet_count, facet_count, none, of_facet(part.neighbour))};
+    const Array facets = array_of("Facet", std::span<const std::int32_t>(part.facet));
+    if (with_cells)  // four bytes for each tetrahedron would say nothing of it
+        grid.field_data.arrays.push_back(facets);
+    else
+        grid.cell_data().arrays.insert(grid.cell_data().arrays.begin() + 2, facets);
     grid.points().arrays = {point_array(std::span(part.mesh.vertices).first(vertex_count))};
+    const bool is_short = 4 * tet_count + 3 * facet_count <= std::numeric_limits<std::int32_t>::max();
     grid.cells().arrays = {connectivity_array(tets, part.facets),
-                           cell_array<std::int64_t>(
-                               "offsets", tet_count, facet_count, [](std::size_t t) { return 4 * (t + 1); },
-                               [tet_count](std::size_t f) { return 4 * tet_count + 3 * (f + 1); }),
+                           is_short && with_cells ? offset_array<std::int32_t>(tet_count, facet_count)
+                                                  : offset_array<std::int64_t>(tet_count, facet_count),
                            cell_array<std::uint8_t>(
                                "types", tet_count, facet_count, [](std::size_t) { return vtk_tetra; },
                                [](std::size_t) { return vtk_triangle; })};
     return grid;
 }
 
-struct QualityArray {
-    const char* name;
-    double TetQuality::*measure;
+// Columns of the qualities of all cells of a part, some cells at a time. A boundary triangle has the quality of the
+// tetrahedron behind it.
+class CellQualities {
+ public:
+    CellQualities(const Part& part, CellFieldSet fields) : part_(part), fields_(fields) {}
+
+    // take(column, first cell, values) for the columns of the fields, in their order.
+    template <class Take>
+    void for_all_cells(const Take& take) const {
+        const std::vector<Tetrahedron>& tets = part_.mesh.tets;
+        for (std::size_t begin = 0; begin < tets.size(); begin += at_once)
+            measure(begin, std::span(tets).subspan(begin, std::min(at_once, tets.size() - begin)), take);
+        std::array<Tetrahedron, at_once> behind;
+        for (std::size_t begin = 0; begin < part_.tet_at_facet.size(); begin += at_once) {
+            const std::size_t count = std::min(at_once, part_.tet_at_facet.size() - begin);
+            for (std::size_t i = 0; i < count; ++i) {
+                const std::int32_t t = part_.tet_at_facet[begin + i];
+                behind[i] = t < 0 ? nothing : tets[static_cast<std::size_t>(t)];
+            }
+            measure(tets.size() + begin, std::span(behind).first(count), take);
+        }
+    }
+
+ private:
+    static constexpr std::size_t at_once = 1024;
+    static constexpr Tetrahedron nothing = {0, 0, 0, 0};
+    static constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+
+    template <class Take>
+    void measure(std::size_t first, std::span<const Tetrahedron> cells, const Take& take) const {
+        std::array<TetQuality, at_once> quality;
+        std::array<float, at_once> values;
+        const std::vector<Vec3>& points = part_.mesh.vertices;
+        if (fields_ == CellFieldSet(1)) {  // the smallest dihedral angle, as most often
+            std::array<double, at_once> degrees;
+            measure_min_dihedrals(points, cells, std::span(degrees).first(cells.size()));
+            for (std::size_t i = 0; i < cells.size(); ++i)
+                values[i] = cells[i] == nothing ? unknown : static_cast<float>(degrees[i]);
+            return take(0, first, std::span<const float>(values).first(cells.size()));
+        }
+        measure_cells(points, cells, std::span(quality).first(cells.size()));
+        for (std::size_t field = 0, column = 0; field < cell_fields.size(); ++field) {
+            if (!fields_[field]) continue;
+            for (std::size_t i = 0; i < cells.size(); ++i)
+                values[i] = cells[i] == nothing ? unknown : static_cast<float>(quality[i].*cell_fields[field].measure);
+            take(column++, first, std::span<const float>(values).first(cells.size()));
+        }
+    }
+
+    const Part& part_;
+    CellFieldSet fields_;
 };
-constexpr std::array<QualityArray, 5> quality_arrays = {{{"MinDihedralAngle", &TetQuality::min_dihedral_deg},
-                                                         {"MaxDihedralAngle", &TetQuality::max_dihedral_deg},
-                                                         {"RadiusEdgeRatio", &TetQuality::radius_edge},
-                                                         {"AspectRatio", &TetQuality::aspect},
-                                                         {"Shape", &TetQuality::shape}}};
-
-using CellQuality = std::array<float, quality_arrays.size()>;
-
-// A boundary triangle has the quality of the tetrahedron behind it.
-CellQuality quality_of_cell(const Part& part, std::size_t cell) {
-    const std::size_t tets = part.mesh.tets.size();
-    const std::int64_t t = cell < tets ? static_cast<std::int64_t>(cell) : part.tet_at_facet[cell - tets];
-    CellQuality values;
-    values.fill(std::numeric_limits<float>::quiet_NaN());
-    if (t < 0) return values;
-    const std::vector<Vec3>& p = part.mesh.vertices;
-    const auto& [a, b, c, d] = part.mesh.tets[static_cast<std::size_t>(t)];
-    const TetQuality quality = tet_quality(p[a], p[b], p[c], p[d]);
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(quality.*quality_arrays[i].measure);
-    return values;
-}
 
 // All measures of a cell are computed together, when the first array is written; the others wait until it is their
-// turn. To compute them one array at a time would spare that memory, but take half as long again. The part must outlive
-// the grid, whose arrays are written once, in order.
-void add_quality(Grid& grid, const Part& part) {
+// turn. The part must outlive the grid, whose arrays are written once, in order.
+void add_quality(Grid& grid, const Part& part, CellFieldSet fields) {
     const std::size_t cells = part.mesh.tets.size() + part.tet_at_facet.size();
-    const auto waiting = std::make_shared<std::array<std::vector<float>, quality_arrays.size()>>();
-    grid.cell_data().arrays.push_back(
-        computed_array<float>(quality_arrays[0].name, cells, [&part, waiting, cells](std::size_t cell) {
-            const CellQuality values = quality_of_cell(part, cell);
-            for (std::size_t i = 1; i < values.size(); ++i) {
-                if (cell == 0) (*waiting)[i].resize(cells);
-                (*waiting)[i][cell] = values[i];
-            }
-            return values[0];
-        }));
-    for (std::size_t i = 1; i < quality_arrays.size(); ++i)
-        grid.cell_data().arrays.push_back(
-            {quality_arrays[i].name, vtk_type<float>, 1, cells, cells * sizeof(float), [waiting, i](CheckedFile& file) {
-                 const std::vector<float> values = std::move((*waiting)[i]);
-                 file.write(values.data(), values.size() * sizeof(float));
-             }});
+    const auto waiting = std::make_shared<std::vector<std::vector<float>>>(fields.count());
+    const auto write_first = [&part, waiting, cells, fields](CheckedFile& file) {
+        for (std::size_t column = 1; column < waiting->size(); ++column) (*waiting)[column].resize(cells);
+        CellQualities(part, fields)
+            .for_all_cells([&](std::size_t column, std::size_t first, std::span<const float> values) {
+                if (column == 0)
+                    file.write(values.data(), values.size_bytes());
+                else
+                    std::copy(values.begin(), values.end(),
+                              (*waiting)[column].begin() + static_cast<std::ptrdiff_t>(first));
+            });
+    };
+    std::size_t column = 0;
+    for (std::size_t field = 0; field < cell_fields.size(); ++field) {
+        if (!fields[field]) continue;
+        const auto write_waiting = [waiting, column](CheckedFile& file) {
+            const std::vector<float> values = std::move((*waiting)[column]);
+            file.write(values.data(), values.size() * sizeof(float));
+        };
+        Array array{cell_fields[field].array, vtk_type<float>, 1, cells, cells * sizeof(float), write_waiting};
+        if (column == 0) array.write_values = write_first;
+        grid.cell_data().arrays.push_back(std::move(array));
+        ++column;
+    }
 }
 
 constexpr const char* file_begin =
@@ -255,10 +326,10 @@ void write_grid(CheckedFile& file, const Grid& grid) {
 
 // Calls take(grid) with that of the part, or of its surface.
 template <class Take>
-FileHash with_part_grid(const Part& part, Take take) {
+FileHash with_part_grid(const Part& part, const VtuLayout& layout, Take take) {
     require_sizes(part.tet_at_facet.size() == part.facets.size());
-    Grid grid = make_grid(part, true);
-    add_quality(grid, part);
+    Grid grid = make_grid(part, true, layout.tag_bytes);
+    add_quality(grid, part, layout.fields);
     return take(grid);
 }
 
@@ -342,23 +413,55 @@ class HeaderParser {
 
 }  // namespace
 
-FileHash write_part(const std::string& path, const Part& part) {
-    return with_part_grid(part, [&](const Grid& grid) { return write_grid_file(path, grid); });
+CellFieldSet parse_cell_fields(std::string_view list) {
+    if (list.empty()) return VtuLayout().fields;
+    if (list == "all") return ~CellFieldSet();
+    if (list == "none") return {};
+    CellFieldSet fields;
+    for (std::size_t begin = 0; begin <= list.size();) {
+        const std::size_t end = std::min(list.find(',', begin), list.size());
+        const std::string_view name = list.substr(begin, end - begin);
+        const auto found = std::find_if(cell_fields.begin(), cell_fields.end(),
+                                        [&](const CellField& field) { return field.name == name; });
+        if (found == cell_fields.end()) {
+            std::string known;
+            for (const CellField& field : cell_fields) known += fmt::format("{}, ", field.name);
+            throw Error(ErrorCode::usage,
+                        fmt::format("'{}' is no field of cells. There are {}all and none.", name, known));
+        }
+        fields.set(static_cast<std::size_t>(found - cell_fields.begin()));
+        begin = end + 1;
+    }
+    return fields;
 }
 
-FileHash hash_of_part(const Part& part) { return with_part_grid(part, hash_grid); }
+VtuLayout layout_for(const MeshOutline& outline, CellFieldSet fields) {
+    auto largest = static_cast<std::int64_t>(outline.patch_names.size());
+    for (const PartExtent& part : outline.parts) largest = std::max<std::int64_t>(largest, part.id);
+    const auto fits = [&](std::int64_t limit) { return outline.is_whole && largest <= limit; };
+    const int tag_bytes = fits(std::numeric_limits<std::int8_t>::max())    ? 1
+                          : fits(std::numeric_limits<std::int16_t>::max()) ? 2
+                                                                           : 4;
+    return {fields, tag_bytes};
+}
+
+FileHash write_part(const std::string& path, const Part& part, const VtuLayout& layout) {
+    return with_part_grid(part, layout, [&](const Grid& grid) { return write_grid_file(path, grid); });
+}
+
+FileHash hash_of_part(const Part& part, const VtuLayout& layout) { return with_part_grid(part, layout, hash_grid); }
 
 FileHash write_part_surface(const std::string& path, const Part& part) {
-    return write_grid_file(path, make_grid(part, false));
+    return write_grid_file(path, make_grid(part, false, sizeof(std::int32_t)));
 }
 
-FileHash hash_of_part_surface(const Part& part) { return hash_grid(make_grid(part, false)); }
+FileHash hash_of_part_surface(const Part& part) { return hash_grid(make_grid(part, false, sizeof(std::int32_t))); }
 
-std::string pvtu_text(const std::vector<std::string>& pieces) {
+std::string pvtu_text(const std::vector<std::string>& pieces, const VtuLayout& layout) {
     // Only the names and types of the arrays are asked for, so that they are those of the pieces.
     const Part no_part;
-    Grid grid = make_grid(no_part, true);
-    add_quality(grid, no_part);
+    Grid grid = make_grid(no_part, true, layout.tag_bytes);
+    add_quality(grid, no_part, layout.fields);
 
     std::string xml = fmt::format(file_begin, "PUnstructuredGrid") + "<PUnstructuredGrid GhostLevel=\"0\">\n";
     for (const Section* section : {&grid.point_data(), &grid.cell_data(), &grid.points()})
@@ -367,8 +470,8 @@ std::string pvtu_text(const std::vector<std::string>& pieces) {
     return xml + "</PUnstructuredGrid>\n</VTKFile>\n";
 }
 
-void write_pvtu(const std::string& path, const std::vector<std::string>& pieces) {
-    write_text_file(path, pvtu_text(pieces));
+void write_pvtu(const std::string& path, const std::vector<std::string>& pieces, const VtuLayout& layout) {
+    write_text_file(path, pvtu_text(pieces, layout));
 }
 
 void fail_damaged_vtu(const std::string& path, const std::string& what) {
@@ -387,6 +490,15 @@ VtuHeader parse_vtu_header(std::string_view begin_of_file, const std::string& pa
     if (!begin_of_file.starts_with(fmt::format(file_begin, "UnstructuredGrid")) || end == begin_of_file.npos)
         fail_damaged_vtu(path, "it does not begin with a complete XML header");
     return HeaderParser(begin_of_file.substr(0, end), path).parse(static_cast<std::int64_t>(end + data_begin.size()));
+}
+
+VtuLayout layout_of(const VtuHeader& header) {
+    VtuLayout layout{{}, 4};
+    for (std::size_t field = 0; field < cell_fields.size(); ++field)
+        layout.fields[field] = header.find(cell_fields[field].array) != nullptr;
+    if (const VtuHeader::Array* part = header.find("Part"))
+        layout.tag_bytes = part->type == vtk_type<std::int8_t> ? 1 : part->type == vtk_type<std::int16_t> ? 2 : 4;
+    return layout;
 }
 
 }  // namespace kerf

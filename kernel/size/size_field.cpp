@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "core/cube_root.h"
 #include "core/regular_tet.h"
 
 namespace kerf {
@@ -75,7 +76,7 @@ double SizeField::reference_volume() const { return smallest() < edge_ ? regular
 
 SizeField SizeField::coarser(double factor) const {
     SizeField field(max_volume_ * factor);
-    field.edge_factor_ = edge_factor_ * std::cbrt(factor);
+    field.edge_factor_ = edge_factor_ * cube_root(factor);
     field.sources_ = sources_;
     return field;
 }
@@ -84,6 +85,20 @@ SizeField SizeField::within(const Eigen::AlignedBox3d& box) const {
     SizeField field = *this;
     if (sources_) field.set(sources_->within(box, edge_ / edge_factor_));
     return field;
+}
+
+bool is_too_large(const SizeField& size, const std::array<Vec3, 4>& corners) {
+    if (size.is_empty()) return false;
+    const auto& [a, b, c, d] = corners;
+    if (size.is_constant()) return (b - a).cross(c - a).dot(d - a) > 6 * size.reference_volume();
+    // Of 1.0 to 1.2, and of bounds of the volume and of the longest edge, this one makes most edges 0.7 to 1.4 times as
+    // long as wanted (97 %), with 1 in the median.
+    constexpr double too_long = 1.15;
+    double sum = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t j = i + 1; j < 4; ++j) sum += (corners[i] - corners[j]).norm();
+    const double allowed = sum / 6 / too_long;
+    return size.at((a + b + c + d) / 4, allowed) < allowed;
 }
 
 }  // namespace kerf

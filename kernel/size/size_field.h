@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
 #include <type_traits>
@@ -99,5 +100,10 @@ class SizeField {
     double edge_factor_ = 1;                      // of the sources
     std::shared_ptr<const SizeSources> sources_;  // not empty; null: none
 };
+
+/// Whether a tetrahedron with these corners is to be divided: of a constant field if its volume is above the bound;
+/// where sizes differ, if its mean edge is longer than wanted at its centroid by a share that makes most edges as long
+/// as wanted.
+bool is_too_large(const SizeField& size, const std::array<Vec3, 4>& corners);
 
 }  // namespace kerf

@@ -56,7 +56,10 @@ void break_ties(const Vec3& moments, Eigen::Matrix3d& axes) {
 // Six times the signed volume of the tetrahedron from the origin to each facet, summed.
 class VolumeSum {
  public:
-    void add(const Vec3& a, const Vec3& b, const Vec3& c) { sum_ += static_cast<long double>(a.dot(b.cross(c))); }
+    void add(const Vec3& a, const Vec3& b, const Vec3& c) {
+        using Exact = Eigen::Matrix<long double, 3, 1>;
+        sum_ += a.cast<long double>().dot(Exact(b.cast<long double>()).cross(Exact(c.cast<long double>())));
+    }
     double volume() const { return static_cast<double>(sum_ / 6); }
 
  private:

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <numeric>
 #include <random>
@@ -12,6 +13,7 @@
 
 #include "core/bytes.h"
 #include "core/error.h"
+#include "core/quick_log2.h"
 
 namespace kerf {
 namespace {
@@ -189,6 +191,53 @@ TEST(TetQuality, OfATetrahedronWithTwoEqualCornersIsFlat) {
             }
 }
 
+// However many there are at once, and whatever is beside a cell.
+TEST(TetQuality, OfManyCellsIsThatOfEach) {
+    for (unsigned seed = 1; seed <= 30; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        Random random(seed);
+        std::vector<Vec3> points;
+        std::vector<Tetrahedron> cells;
+        for (unsigned t = 0; t < seed; ++t) {
+            const auto first = static_cast<std::int32_t>(points.size());
+            const Corners p = random.tet(t % 3 == 0 ? 1e-9 : 1);
+            points.insert(points.end(), p.begin(), p.end());
+            cells.push_back({first, first + 1, first + 2, first + (t % 7 == 6 ? 1 : 3)});
+        }
+        std::vector<TetQuality> quality(cells.size());
+        measure_cells(points, cells, quality);
+        std::vector<double> min_dihedrals(cells.size());
+        measure_min_dihedrals(points, cells, min_dihedrals);
+        for (std::size_t t = 0; t < cells.size(); ++t) {
+            const auto& [a, b, c, d] = cells[t];
+            const TetQuality alone = tet_quality(points[a], points[b], points[c], points[d]);
+            EXPECT_EQ(std::memcmp(&quality[t], &alone, sizeof alone), 0) << t;
+            EXPECT_EQ(min_dihedrals[t], alone.min_dihedral_deg);
+        }
+    }
+}
+
+// From needles to flat triangles, each angle to the last digits but one.
+TEST(TriangleAngles, AreAccurateHoweverSmallOrLarge) {
+    Random random(3);
+    for (int i = 0; i < 20'000; ++i) {
+        const double height = std::pow(10, random.number(-12, 0)), angle = std::atan(height) * deg;
+        const TriangleAngles right = triangle_angles(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, height, 0));
+        EXPECT_NEAR(right.min_deg, angle, 1e-14 * angle);
+        EXPECT_EQ(right.max_deg, 90);
+        const TriangleAngles blunt = triangle_angles(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(-1, height, 0));
+        EXPECT_NEAR(blunt.max_deg, 180 - angle, 1e-13);
+    }
+}
+
+TEST(QuickLogarithm, IsThatOfTheLibrary) {
+    Random random(5);
+    for (int i = 0; i < 100'000; ++i) {
+        const double value = std::pow(10, random.number(-300, 300));
+        EXPECT_NEAR(quick_log2(value), std::log2(value), 1e-10);
+    }
+}
+
 // The widest bin that a value of these tests can fall into.
 double resolution(Distribution::Scale scale, double value) {
     return scale == Distribution::Scale::linear ? 180.0 / 1440 : value * (std::pow(1e4, 1.0 / 1440) - 1);
@@ -206,6 +255,16 @@ std::vector<double> values_for(Distribution::Scale scale, Random& random, std::s
 }
 
 constexpr std::array<Distribution::Scale, 2> scales = {Distribution::Scale::linear, Distribution::Scale::logarithmic};
+
+TEST(Distribution, AValueCountsSeveralTimes) {
+    Distribution one(Distribution::Scale::linear, 0, 180), all = one;
+    for (int i = 0; i < 7; ++i) one.add(60);
+    all.add(60, 7);
+    one.add(20);
+    all.add(20);
+    EXPECT_EQ(all.count(), 8);
+    EXPECT_EQ(to_bytes(all), to_bytes(one));
+}
 
 TEST(Distribution, PercentilesAreThoseOfTheSortedValues) {
     for (unsigned seed = 1; seed <= 50; ++seed)

@@ -1,8 +1,11 @@
 // The laws of a size field: the minimum of its sources, of limited growth, the same bits wherever it travels.
 #include "size/size_field.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
+#include "core/cube_root.h"
 #include "core/regular_tet.h"
 #include "support/size_fields.h"
 
@@ -12,6 +15,15 @@ namespace {
 using namespace test;
 
 constexpr unsigned seeds = 20;
+
+TEST(CubeRoot, ScalesToTheLastBit) {
+    EXPECT_EQ(cube_root(0), 0);
+    for (double x = 1e-3; x < 1e3; x *= 1.37) {
+        EXPECT_NEAR(cube_root(x) / std::cbrt(x), 1, 5e-16);
+        for (const int k : {-300, -40, -7, -1, 1, 20, 300})
+            EXPECT_EQ(cube_root(std::ldexp(x, 3 * k)), std::ldexp(cube_root(x), k)) << x << ' ' << k;
+    }
+}
 
 TEST(SizeField, ConstantKeepsItsVolume) {
     for (const double volume : {0.1, 0.3, 1 / 3.0, 1e-12, 7e11}) {

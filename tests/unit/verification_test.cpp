@@ -9,7 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/elements.h"
 #include "mesh/adjacency.h"
+#include "mesh/boundary_chain.h"
 #include "support/shapes.h"
 
 namespace kerf {
@@ -21,6 +23,17 @@ struct MeshedSurface {
     TetMesh mesh;
     SurfaceArrays surface;
 };
+
+// Both proofs, which say the same.
+MeshLaws laws_of(const MeshedSurface& m) {
+    const MeshLaws laws = verify_mesh(m.mesh, m.surface, FaceProof::matching);
+    const MeshLaws by_sum = verify_mesh(m.mesh, m.surface, FaceProof::sum);
+    EXPECT_EQ(by_sum.hold(), laws.hold());
+    EXPECT_EQ(by_sum.missing_facets, laws.missing_facets);
+    EXPECT_EQ(by_sum.extra_boundary_faces, laws.extra_boundary_faces);
+    EXPECT_EQ(by_sum.mismatched_neighbours, laws.mismatched_neighbours);
+    return laws;
+}
 
 std::int32_t grid_vertex(int x, int y, int z) { return (x * (cells_along + 1) + y) * (cells_along + 1) + z; }
 
@@ -91,7 +104,7 @@ std::ostream& operator<<(std::ostream& out, const Counts& c) {
 }
 
 Counts counts(const MeshedSurface& m) {
-    const MeshLaws laws = verify_mesh(m.mesh, m.surface);
+    const MeshLaws laws = laws_of(m);
     return {laws.inverted_tets, laws.missing_facets, laws.extra_boundary_faces, laws.mismatched_neighbours,
             laws.moved_vertices};
 }
@@ -110,7 +123,7 @@ std::vector<std::int32_t> samples(const TetMesh& mesh) {
 
 TEST(Verification, HoldsForACorrectMesh) {
     const MeshedSurface cube = meshed_cube();
-    const MeshLaws laws = verify_mesh(cube.mesh, cube.surface);
+    const MeshLaws laws = laws_of(cube);
     EXPECT_EQ(counts(cube), Counts{});
     EXPECT_DOUBLE_EQ(laws.volume, cells_along * cells_along * cells_along);
     EXPECT_TRUE(laws.hold());
@@ -158,7 +171,7 @@ TEST(Verification, FindsADroppedTetrahedron) {
         cube.mesh.tets.erase(cube.mesh.tets.begin() + t);
         set_neighbours(cube.mesh);
         EXPECT_EQ(counts(cube), (Counts{0, outer, 4 - outer, 0, 0}));
-        EXPECT_FALSE(verify_mesh(cube.mesh, cube.surface).hold());
+        EXPECT_FALSE(laws_of(cube).hold());
     }
 }
 
@@ -194,6 +207,42 @@ TEST(Verification, FindsTheNeighboursOfAMeshThatNamesNone) {
     }
 }
 
+// Of any cells, however they overlap: the sum over them is that over their faces.
+TEST(BoundaryChain, OfCellsIsThatOfTheirFaces) {
+    for (std::uint32_t seed = 1; seed <= 50; ++seed) {
+        SCOPED_TRACE(seed);
+        std::mt19937 random(seed);
+        const auto vertex = [&] { return static_cast<std::int32_t>(random() >> (random() % 2 ? 1 : 28)); };
+        BoundaryChain of_cells, of_faces, of_others;
+        for (int t = 0; t < 100; ++t) {
+            const Tetrahedron cell = {vertex(), vertex(), vertex(), vertex()};
+            of_cells.add(cell);
+            for (int i = 3; i >= 0; --i) of_faces.add(face_of(cell, i));
+            EXPECT_TRUE(of_cells == of_faces);
+            Triangle wrong = face_of(cell, 1);
+            if (has_repeated_vertex(wrong)) continue;  // it counts nothing
+            of_others = of_faces;
+            of_others.add(wrong);
+            EXPECT_FALSE(of_others == of_cells);
+            std::swap(wrong[0], wrong[1]);
+            of_others.add(wrong);
+            EXPECT_TRUE(of_others == of_cells);
+        }
+    }
+}
+
+// Cells with the same faces but other numbers of their vertices, one facet exchanged for another: sums do not collide.
+TEST(BoundaryChain, DiffersForEveryTriangle) {
+    constexpr std::int32_t vertices = 40;
+    std::vector<BoundaryChain> chains;
+    for (std::int32_t a = 0; a < vertices; ++a)
+        for (std::int32_t b = 0; b < vertices; ++b)
+            for (std::int32_t c = 0; c < vertices; ++c)
+                if (a < std::min(b, c) && b != c) chains.emplace_back().add(Triangle{a, b, c});
+    for (std::size_t i = 0; i < chains.size(); i += 97)
+        for (std::size_t j = 0; j < chains.size(); ++j) EXPECT_EQ(chains[i] == chains[j], i == j);
+}
+
 TEST(Verification, FindsAMovedVertex) {
     for (std::size_t v = 0; v < meshed_cube().mesh.vertices.size(); ++v) {
         SCOPED_TRACE(v);
@@ -201,7 +250,7 @@ TEST(Verification, FindsAMovedVertex) {
         double& x = cube.mesh.vertices[v].x();
         x = std::nextafter(x, 10.0);
         EXPECT_EQ(counts(cube), (Counts{0, 0, 0, 0, 1}));
-        EXPECT_FALSE(verify_mesh(cube.mesh, cube.surface).hold());
+        EXPECT_FALSE(laws_of(cube).hold());
     }
     MeshedSurface cube = meshed_cube();
     cube.mesh.boundary_vertex_count -= 3;

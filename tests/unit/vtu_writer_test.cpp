@@ -30,6 +30,8 @@ class VtuWriter : public testing::Test {
     test::TemporaryFolder folder_;
 };
 
+const VtuLayout all_fields{~CellFieldSet(), 4};
+
 void expect_surface(const Part& file, const Part& part) {
     EXPECT_EQ(file.facets, part.facets);
     EXPECT_EQ(file.patch, part.patch);
@@ -53,14 +55,70 @@ std::vector<T> array_values(const std::string& file, const std::string& bytes, c
 TEST_F(VtuWriter, PartsComeBackAsTheyWere) {
     for (unsigned seed = 1; seed <= 60; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
-        const Part part = test::random_part(seed);
-        write_part(path("part.vtu"), part);
+        Part part = test::random_part(seed);
+        VtuLayout layout{CellFieldSet(seed), 1 << seed % 3};
+        if (layout.tag_bytes == 1) part.id %= 128;
+        write_part(path("part.vtu"), part, layout);
         const Part file = read_part(path("part.vtu"));
         expect_surface(file, part);
         EXPECT_EQ(file.mesh.vertices, part.mesh.vertices);
         EXPECT_EQ(file.mesh.tets, part.mesh.tets);
         EXPECT_EQ(file.global_id, part.global_id);
+        const VtuLayout read = read_layout(path("part.vtu"));
+        EXPECT_EQ(read.fields, layout.fields);
+        EXPECT_EQ(read.tag_bytes, layout.tag_bytes);
+        for (std::size_t field = 0; field < cell_fields.size(); ++field)
+            EXPECT_EQ(has_cell_values(path("part.vtu"), cell_fields[field].array), layout.fields[field]);
     }
+}
+
+// The shortest that have room for the numbers of all parts and patches, and four bytes where there may be others.
+TEST_F(VtuWriter, TagsAreAsShortAsTheMeshAllows) {
+    for (const auto& [largest, bytes] :
+         std::vector<std::pair<NodeId, int>>{{1, 1}, {127, 1}, {128, 2}, {32767, 2}, {32768, 4}, {1 << 30, 4}}) {
+        SCOPED_TRACE(largest);
+        MeshOutline outline;
+        for (const NodeId id : {1, largest, largest / 2}) outline.parts.push_back({.id = id});
+        EXPECT_EQ(layout_for(outline, {}).tag_bytes, bytes);
+        outline.is_whole = false;
+        EXPECT_EQ(layout_for(outline, {}).tag_bytes, 4);
+    }
+    MeshOutline of_patches;
+    of_patches.patch_names.resize(200);
+    EXPECT_EQ(layout_for(of_patches, {}).tag_bytes, 2);
+}
+
+TEST_F(VtuWriter, FieldsAreChosenByName) {
+    EXPECT_EQ(parse_cell_fields(""), parse_cell_fields("min-dihedral"));
+    EXPECT_EQ(parse_cell_fields("all").count(), cell_fields.size());
+    EXPECT_TRUE(parse_cell_fields("none").none());
+    CellFieldSet fields;
+    std::string list;
+    for (std::size_t field = cell_fields.size(); field-- > 0;) {
+        list += (list.empty() ? "" : ",") + std::string(cell_fields[field].name);
+        fields.set(field);
+        EXPECT_EQ(parse_cell_fields(list), fields) << list;
+    }
+    for (const char* wrong : {"volume", "all,shape", "shape,", ",", "shape,,aspect", "Shape"})
+        EXPECT_THROW(parse_cell_fields(wrong), Error) << wrong;
+}
+
+// What the default says of a cell takes no more room than it must.
+TEST_F(VtuWriter, ATetrahedronTakesThirtyBytesAndFourAField) {
+    Part part = test::random_part(3);
+    part.id = 9;
+    const auto size = [&](std::string_view fields) {
+        write_part(path("part.vtu"), part, {parse_cell_fields(fields), 1});
+        return static_cast<std::int64_t>(fs::file_size(path("part.vtu")));
+    };
+    std::vector<std::int64_t> sizes;
+    for (const char* fields : {"none", "", "all"}) {
+        part.mesh.tets.resize(100'000, {0, 1, 2, 3});
+        const std::int64_t fewer = size(fields);
+        part.mesh.tets.resize(200'000, {0, 1, 2, 3});
+        sizes.push_back((size(fields) - fewer) / 100'000);
+    }
+    EXPECT_EQ(sizes, (std::vector<std::int64_t>{24, 28, 44}));  // and 32 a vertex
 }
 
 TEST_F(VtuWriter, SurfacesComeBackAsTheyWere) {
@@ -81,7 +139,7 @@ TEST_F(VtuWriter, SomeValuesOfACellArrayAreThoseOfTheWhole) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const Part part = test::random_part(seed);
         const std::string file = path("part.vtu");
-        write_part(file, part);
+        write_part(file, part, all_fields);
         const PartCellCounts counts = read_cell_counts(file);
         EXPECT_EQ(counts.tets, static_cast<std::int64_t>(part.mesh.tets.size()));
         EXPECT_EQ(counts.facets, static_cast<std::int64_t>(part.facets.size()));
@@ -117,9 +175,10 @@ TEST_F(VtuWriter, HashesAreThoseOfTheFiles) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const Part part = test::random_part(seed);
         const std::string file = path("part.vtu");
-        const FileHash of_part = write_part(file, part);
+        const VtuLayout layout{CellFieldSet(seed), seed % 2 ? 2 : 4};
+        const FileHash of_part = write_part(file, part, layout);
         EXPECT_EQ(of_part, digest_of(read_file(file)));
-        EXPECT_EQ(of_part, hash_of_part(part));
+        EXPECT_EQ(of_part, hash_of_part(part, layout));
         const FileHash of_surface = write_part_surface(file, part);
         EXPECT_EQ(of_surface, digest_of(read_file(file)));
         EXPECT_EQ(of_surface, hash_of_part_surface(part));
@@ -135,7 +194,7 @@ TEST_F(VtuWriter, SameInputGivesTheSameBytes) {
 
 TEST_F(VtuWriter, QualityIsThatOfTheTetrahedronAndOfTheOneBehindAFacet) {
     const Part part = test::random_part(9);
-    write_part(path("part.vtu"), part);
+    write_part(path("part.vtu"), part, all_fields);
     const std::string bytes = read_file(path("part.vtu"));
     const auto expect = [&](const char* name, double TetQuality::*measure) {
         SCOPED_TRACE(name);
@@ -178,8 +237,9 @@ TEST_F(VtuWriter, LargeArraysAreWrittenInSeveralChunks) {
 
 TEST_F(VtuWriter, PvtuNamesItsPiecesAndTheArraysOfThePieces) {
     const Part part = test::random_part(4);
-    write_part(path("part.vtu"), part);
-    write_pvtu(path("mesh.pvtu"), {"parts/part_0002.vtu", "parts/a&\"<.vtu"});
+    const VtuLayout layout{~CellFieldSet(), 2};
+    write_part(path("part.vtu"), part, layout);
+    write_pvtu(path("mesh.pvtu"), {"parts/part_0002.vtu", "parts/a&\"<.vtu"}, layout);
     const std::string pvtu = read_file(path("mesh.pvtu"));
     EXPECT_NE(pvtu.find("<Piece Source=\"parts/part_0002.vtu\"/>"), pvtu.npos);
     EXPECT_NE(pvtu.find("<Piece Source=\"parts/a&amp;&quot;&lt;.vtu\"/>"), pvtu.npos);
@@ -187,7 +247,7 @@ TEST_F(VtuWriter, PvtuNamesItsPiecesAndTheArraysOfThePieces) {
     int shared = 0;
     for (const VtuHeader::Array& array : header.arrays)
         shared += pvtu.find("type=\"" + array.type + "\" Name=\"" + array.name + "\"") != pvtu.npos;
-    EXPECT_EQ(shared, 11);  // GlobalVertexId, 4 tags, 5 measures, Points
+    EXPECT_EQ(shared, 10);  // GlobalVertexId, 3 tags, 5 measures, Points
 }
 
 TEST_F(VtuWriter, AFullDiskIsAnErrorThatNamesTheFile) {

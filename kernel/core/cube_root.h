@@ -1,0 +1,16 @@
+// The cube root, the same for any unit of length.
+#pragma once
+
+#include <cmath>
+
+namespace kerf {
+
+/// Of x >= 0, within 2^-52: of 8^k x, 2^k times as much to the last bit, which std::cbrt() leaves open.
+inline double cube_root(double x) {
+    int exponent = 0;
+    const double mantissa = std::frexp(x, &exponent);
+    const int rest = ((exponent % 3) + 3) % 3;
+    return std::ldexp(std::cbrt(std::ldexp(mantissa, rest)), (exponent - rest) / 3);
+}
+
+}  // namespace kerf
