@@ -2,6 +2,9 @@
 // faces are looked up once.
 #include "delaunay/faces.h"
 
+#include <algorithm>
+#include <cstdint>
+
 #include "core/check.h"
 
 namespace kerf {
@@ -14,44 +17,48 @@ Triangle smallest_first(const Triangle& t) {
     return t[1] < t[2] ? Triangle{t[1], t[2], t[0]} : Triangle{t[2], t[0], t[1]};
 }
 
-// The vertices of face i, counter-clockwise seen from outside of the cell.
-Triangle vertices_of_face(const Tetrahedron& cell, int i) {
-    constexpr std::array<std::array<int, 3>, 4> others = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-    return {cell[others[i][0]], cell[others[i][1]], cell[others[i][2]]};
+// The other two vertices of a triangle that is turned so, as one number.
+std::uint64_t other_vertices(std::int32_t second, std::int32_t third) {
+    return static_cast<std::uint64_t>(second) << 32 | static_cast<std::uint32_t>(third);
 }
 
-// Triangles start[v] to start[v + 1] of the list have the smallest vertex v.
+// Entries start[v] to start[v + 1] of the list have the smallest vertex v.
 struct TrianglesByVertex {
-    std::vector<std::int32_t> start, list;
+    struct Entry {
+        std::uint64_t others;
+        std::int32_t triangle;
+    };
+    std::vector<std::int32_t> start;
+    std::vector<Entry> list;
 };
 
 TrianglesByVertex by_smallest_vertex(const std::vector<Triangle>& triangles, std::size_t vertices) {
-    TrianglesByVertex sorted{std::vector<std::int32_t>(vertices + 1), std::vector<std::int32_t>(triangles.size())};
-    for (const Triangle& triangle : triangles) ++sorted.start[triangle[0]];
+    TrianglesByVertex sorted{std::vector<std::int32_t>(vertices + 1),
+                             std::vector<TrianglesByVertex::Entry>(triangles.size())};
+    for (const auto& [a, b, c] : triangles) ++sorted.start[std::min({a, b, c})];
     std::int32_t end = 0;
     for (std::int32_t& start : sorted.start) start = end += start;
-    for (std::size_t t = triangles.size(); t-- > 0;)
-        sorted.list[--sorted.start[triangles[t][0]]] = static_cast<std::int32_t>(t);
+    for (std::size_t t = triangles.size(); t-- > 0;) {
+        const Triangle turned = smallest_first(triangles[t]);
+        sorted.list[--sorted.start[turned[0]]] = {other_vertices(turned[1], turned[2]), static_cast<std::int32_t>(t)};
+    }
     return sorted;
 }
 
 }  // namespace
 
 std::vector<CellFace> find_faces(const Triangulation& triangulation, const std::vector<Triangle>& triangles) {
-    std::vector<Triangle> rotated;
-    rotated.reserve(triangles.size());
-    for (const Triangle& triangle : triangles) rotated.push_back(smallest_first(triangle));
-    const auto [start, list] = by_smallest_vertex(rotated, triangulation.points().size());
+    const auto [start, list] = by_smallest_vertex(triangles, triangulation.points().size());
     std::vector<CellFace> faces(triangles.size(), Triangulation::none);
     for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell)
-        for (int i = 0; i < 4; ++i) {
+        for (int i = triangulation.is_ghost(cell) ? 3 : 0; i < 4; ++i) {
             const CellFace face = cell_face(cell, i), behind = triangulation.mirror(face);
-            if (behind < face || (triangulation.is_ghost(cell) && i != 3)) continue;
-            const Triangle seen = smallest_first(vertices_of_face(triangulation.vertices(cell), i));
-            const Triangle reversed = {seen[0], seen[2], seen[1]};
+            if (behind < face) continue;
+            const Triangle seen = smallest_first(triangulation.face_vertices(face));
+            const std::uint64_t others = other_vertices(seen[1], seen[2]), reversed = other_vertices(seen[2], seen[1]);
             for (std::int32_t k = start[seen[0]]; k < start[seen[0] + 1]; ++k) {
-                if (rotated[list[k]] == seen) faces[list[k]] = face;
-                if (rotated[list[k]] == reversed) faces[list[k]] = behind;
+                if (list[k].others == others) faces[list[k].triangle] = face;
+                if (list[k].others == reversed) faces[list[k].triangle] = behind;
             }
         }
     return faces;

@@ -52,6 +52,13 @@ void Triangulation::reserve(std::size_t vertices) {
     star_edges_.reserve_vertices(vertices);
 }
 
+Triangle Triangulation::face_vertices(CellFace face) const {
+    constexpr std::array<std::array<int, 3>, 4> others = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+    const Tetrahedron& corners = cells_[cell_of(face)].vertex;
+    const auto& [i, j, k] = others[index_in_cell(face)];
+    return {corners[i], corners[j], corners[k]};
+}
+
 int Triangulation::index_of(std::int32_t cell, std::int32_t vertex) const {
     const Tetrahedron& corners = cells_[cell].vertex;
     return static_cast<int>(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
@@ -95,6 +102,11 @@ void Triangulation::constrain(CellFace face) {
     has_constraints_ = true;
 }
 
+void Triangulation::set_region(std::int32_t cell, std::uint8_t region) {
+    regions_.resize(cells_.size());
+    regions_[cell] = region;
+}
+
 // --- Where a point is ---
 
 // Of the tetrahedron with p in place of its vertex i.
@@ -115,7 +127,8 @@ int Triangulation::face_towards(const Vec3& p, std::int32_t cell, int came_from,
 
 // Among Delaunay cells every walk ends (edelsbrunner1990); with constrained faces one that always asks the faces in the
 // same order may turn in circles.
-std::int32_t Triangulation::locate(const Vec3& p, std::int32_t hint) const {
+template <bool stops_at_constraints>
+std::int32_t Triangulation::walk(const Vec3& p, std::int32_t hint) const {
     std::int32_t cell = is_ghost(hint) ? neighbour(hint, 3) : hint;
     std::uint32_t random = 1;
     int came_from = 4;
@@ -123,12 +136,17 @@ std::int32_t Triangulation::locate(const Vec3& p, std::int32_t hint) const {
         random = random * 1664525 + 1013904223;
         const int i = face_towards(p, cell, came_from, static_cast<int>(random >> 30));
         if (i == 4) break;
+        if (stops_at_constraints && is_constrained(cell_face(cell, i))) return none;
         const CellFace behind = mirror(cell_face(cell, i));
         cell = cell_of(behind);
         came_from = index_in_cell(behind);
     }
-    return cell;
+    return stops_at_constraints && is_ghost(cell) ? none : cell;
 }
+
+std::int32_t Triangulation::locate(const Vec3& p, std::int32_t hint) const { return walk<false>(p, hint); }
+
+std::int32_t Triangulation::locate_in_sight(const Vec3& p, std::int32_t hint) const { return walk<true>(p, hint); }
 
 std::int32_t Triangulation::vertex_at(const Vec3& p, std::int32_t cell) const {
     for (std::int32_t v : cells_[cell].vertex)
@@ -231,6 +249,7 @@ void Triangulation::place_cells() {
         }
     }
     cells_.resize(static_cast<std::size_t>(next_cell));
+    if (!regions_.empty()) regions_.resize(cells_.size(), regions_[cavity_[0]]);
 }
 
 void Triangulation::set_cell(const NewCell& made, std::int32_t vertex) {
@@ -289,11 +308,13 @@ void Triangulation::remove_cells(std::vector<std::int32_t> cells) {
     for (std::int32_t cell : cells) {
         if (cell != cell_count() - 1) move_cell(cell_count() - 1, cell);
         cells_.pop_back();
+        if (!regions_.empty()) regions_.pop_back();
     }
 }
 
 void Triangulation::move_cell(std::int32_t from, std::int32_t to) {
     cells_[to] = cells_[from];
+    if (!regions_.empty()) regions_[to] = regions_[from];
     for (int i = 0; i < 4; ++i) {
         const CellFace behind = cells_[to].link[i];
         link(behind & ~constraint) = cell_face(to, i) | (behind & constraint);
@@ -306,17 +327,93 @@ void Triangulation::move_cell(std::int32_t from, std::int32_t to) {
 std::int32_t Triangulation::insert(const Vec3& p, std::int32_t hint) {
     const std::int32_t start = locate(p, hint == none ? last_cell_ : hint);
     if (const std::int32_t same = vertex_at(p, start); same != none) return same;
+    return find_cavity(p, start) ? insert_in_cavity(p) : none;
+}
+
+std::int32_t Triangulation::insert_if(const Vec3& p, std::int32_t hint,
+                                      const std::function<bool(const Star&)>& accepts) {
+    const std::int32_t start = locate(p, hint == none ? last_cell_ : hint);
+    if (const std::int32_t same = vertex_at(p, start); same != none) return same;
     if (!find_cavity(p, start)) return none;
+    star_.faces.clear();
+    for (const CavityFace& face : cavity_faces_)
+        star_.faces.push_back({face_vertices(face.inside), (face.outside & constraint) != 0});
+    star_.removed = cavity_;
+    return accepts(star_) ? insert_in_cavity(p) : none;
+}
+
+std::int32_t Triangulation::insert_in_cavity(const Vec3& p) {
     if (cell_count() + static_cast<std::int64_t>(cavity_faces_.size()) > most_cells)
         throw Error(ErrorCode::memory, fmt::format("A triangulation of {} points has {} cells; more than {} cannot be "
                                                    "numbered. Divide the surface into more parts.",
                                                    points_.size(), cell_count(), most_cells));
-    const auto vertex = static_cast<std::int32_t>(points_.size());
+    const std::int32_t vertex = add_vertex(p);
+    fill_cavity(vertex);
+    return vertex;
+}
+
+// --- Cells in place of others ---
+
+std::int32_t Triangulation::add_vertex(const Vec3& p) {
     points_.push_back(p);
     cell_at_vertex_.push_back(none);
     star_edges_.set_vertex_count(points_.size());
-    fill_cavity(vertex);
-    return vertex;
+    return static_cast<std::int32_t>(points_.size()) - 1;
+}
+
+void Triangulation::remove_unused_vertices(std::size_t count) {
+    for (std::size_t v = count; v < points_.size(); ++v) KERF_CHECK(cell_at_vertex_[v] == none);
+    points_.resize(count);
+    cell_at_vertex_.resize(count);
+    star_edges_.set_vertex_count(count);
+}
+
+void Triangulation::replace(std::span<const std::int32_t> cells, std::span<const Tetrahedron> by) {
+    struct OpenFace {
+        Triangle vertices;  // ascending
+        CellFace side;      // and `constraint` for those that stay
+    };
+    const auto key_of = [&](CellFace face) {
+        Triangle key = face_vertices(face);
+        std::sort(key.begin(), key.end());
+        return key;
+    };
+    std::vector<std::int32_t> old(cells.begin(), cells.end());
+    std::vector<OpenFace> open;
+    for (const std::int32_t cell : old) cells_[cell].flip_mark();
+    for (const std::int32_t cell : old)
+        for (int i = 0; i < 4; ++i) {
+            const CellFace behind = cells_[cell].link[i];
+            if (cells_[cell_of(behind & ~constraint)].is_marked()) continue;
+            open.push_back({key_of(behind & ~constraint), behind});
+        }
+    for (const std::int32_t cell : old) cells_[cell].flip_mark();
+    const std::uint8_t region = this->region(old[0]);
+    while (old.size() < by.size()) {
+        old.push_back(cell_count());
+        cells_.emplace_back();
+        if (!regions_.empty()) regions_.push_back(region);
+    }
+    for (std::size_t k = 0; k < by.size(); ++k) {
+        cells_[old[k]].vertex = by[k];
+        for (int i = 0; i < 4; ++i) {
+            if (by[k][i] >= 0) cell_at_vertex_[by[k][i]] = old[k];
+            const CellFace face = cell_face(old[k], i);
+            const Triangle key = key_of(face);
+            const auto other = std::find_if(open.begin(), open.end(),
+                                            [&](const OpenFace& open_face) { return open_face.vertices == key; });
+            if (other == open.end()) {
+                open.push_back({key, face});
+                continue;
+            }
+            link(face) = other->side;
+            link(other->side & ~constraint) = face | (other->side & constraint);
+            open.erase(other);
+        }
+    }
+    KERF_CHECK(open.empty());
+    last_cell_ = old[0];
+    if (by.size() < old.size()) remove_cells({old.begin() + static_cast<std::ptrdiff_t>(by.size()), old.end()});
 }
 
 void Triangulation::renumber(const std::vector<std::int32_t>& number, std::vector<Vec3> points) {

@@ -5,6 +5,8 @@
 // face seen from one of its two cells is named by 4 * cell + i, as half-edges are on a surface.
 #pragma once
 
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "core/types.h"
@@ -18,6 +20,17 @@ using CellFace = std::int32_t;
 constexpr CellFace cell_face(std::int32_t cell, int i) { return 4 * cell + i; }
 constexpr std::int32_t cell_of(CellFace face) { return face >> 2; }
 constexpr int index_in_cell(CellFace face) { return face & 3; }
+
+/// What an insertion would do.
+struct Star {
+    /// (point, vertices) is a new cell.
+    struct Face {
+        Triangle vertices;
+        bool is_constrained;
+    };
+    std::vector<Face> faces;                ///< around the cells that are removed
+    std::span<const std::int32_t> removed;  ///< these cells
+};
 
 /// Delaunay by the predicates of predicates.h, which know no ties, as long as no face was constrained. All answers and
 /// the numbers of cells depend on the calls alone. Cells are always numbered from 0 without gaps; an insertion may give
@@ -50,6 +63,8 @@ class Triangulation {
     std::int32_t opposite_vertex(CellFace face) const { return cells_[cell_of(face)].vertex[index_in_cell(face)]; }
     /// One of the cells around a vertex; none if it has no cells.
     std::int32_t cell_at(std::int32_t vertex) const { return cell_at_vertex_[vertex]; }
+    /// Of a face that is not the ghost's, counter-clockwise seen from outside of the cell.
+    Triangle face_vertices(CellFace face) const;
     /// Which of its four vertices the vertex is; 4 if none.
     int index_of(std::int32_t cell, std::int32_t vertex) const;
     /// All cells around a vertex that has some, ghosts included. Linear.
@@ -64,12 +79,32 @@ class Triangulation {
     /// Both sides of it. From then on insert() never removes the face, see there.
     void constrain(CellFace face);
 
+    // --- regions ---
+
+    /// A number of each cell, 0 at first. As no insertion reaches across constrained faces, new cells have that of the
+    /// ones that they replace.
+    std::uint8_t region(std::int32_t cell) const { return regions_.empty() ? 0 : regions_[cell]; }
+    void set_region(std::int32_t cell, std::uint8_t region);
+
+    // --- cells in place of others ---
+
+    /// Replaces cells by others that fill the same space and have the same faces around them, constrained or not; the
+    /// cells' own faces must not be constrained. Ghost cells may be among both. Only with regions of one number.
+    void replace(std::span<const std::int32_t> cells, std::span<const Tetrahedron> by);
+
+    /// A vertex without cells, for replace(): its number.
+    std::int32_t add_vertex(const Vec3& p);
+    /// Forgets the last vertices, which must have no cells, so that `count` are left.
+    void remove_unused_vertices(std::size_t count);
+
     // --- points ---
 
     /// The cell in which a point lies; one of them if it lies on a face, an edge or a vertex. A ghost cell, whose face
     /// the point is strictly beyond, if it is outside. Walks from cell to cell towards it (devillers2002), starting at
     /// `hint`: about a dozen where the hint is near. Requires cells.
     std::int32_t locate(const Vec3& p, std::int32_t hint) const;
+    /// The same, but none where the walk meets a constrained face or the hull.
+    std::int32_t locate_in_sight(const Vec3& p, std::int32_t hint) const;
     /// The number of the new vertex; that of the old one if there is one at the point.
     ///
     /// Removes the cells in whose spheres the point lies, and joins it with the faces around them (bowyer1981,
@@ -79,6 +114,8 @@ class Triangulation {
     /// the hint. Requires cells. Error (memory), and nothing has changed, if there might be more than most_cells: some
     /// 39 million vertices in space.
     std::int32_t insert(const Vec3& p, std::int32_t hint = none);
+    /// The same if `accepts` says so; none, and nothing has changed, if it does not.
+    std::int32_t insert_if(const Vec3& p, std::int32_t hint, const std::function<bool(const Star&)>& accepts);
 
     /// Gives vertex v the number number[v] in `points`, which has the same point there, and others that are no
     /// vertices. Linear.
@@ -117,6 +154,8 @@ class Triangulation {
     std::int32_t vertex_at(const Vec3& p, std::int32_t cell) const;
     int face_towards(const Vec3& p, std::int32_t cell, int came_from, int first) const;
 
+    template <bool stops_at_constraints>
+    std::int32_t walk(const Vec3& p, std::int32_t hint) const;
     bool find_cavity(const Vec3& p, std::int32_t start);
     void grow_cavity(const Vec3& p, std::int32_t start);
     void release_cavity();
@@ -127,12 +166,14 @@ class Triangulation {
     void set_cell(const NewCell& made, std::int32_t vertex);
     void join_cells();
     void join_cells_of_large_star();
+    std::int32_t insert_in_cavity(const Vec3& p);
     void remove_cells(std::vector<std::int32_t> cells);
     void move_cell(std::int32_t from, std::int32_t to);
 
     std::vector<Vec3> points_;
     std::vector<Cell> cells_;
     std::vector<std::int32_t> cell_at_vertex_;
+    std::vector<std::uint8_t> regions_;  // of each cell; empty: all 0
     std::int32_t last_cell_ = 0;
     bool has_constraints_ = false;
 
@@ -140,6 +181,7 @@ class Triangulation {
     std::vector<std::int32_t> cavity_, refused_;
     std::vector<CavityFace> cavity_faces_;
     std::vector<NewCell> new_cells_;
+    Star star_;
     StarEdges star_edges_;
 };
 
