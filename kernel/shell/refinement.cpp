@@ -1,0 +1,199 @@
+#include "shell/refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "improve/cell_shape.h"
+
+namespace kerf {
+
+namespace {
+
+// No cell is made with a dihedral angle that is smaller, or lacks less to 180 degrees: next to faces that stay it is
+// hard to mend.
+constexpr double least_angle_at_face_deg = 12, least_angle_deg = 5;
+// Of an edge to a new point, by the wanted length. A bound of the volume is to be kept on coarse facets, too.
+constexpr double least_edge_share = 0.65, least_edge_share_of_bound = 0.4;
+
+struct BadCell {
+    std::int32_t cell;
+    Tetrahedron vertices;  // when it was found
+};
+
+// Those with the largest spheres come first: where there is much room, points do no harm. Radii count in steps of a
+// fifth, and within a step the last one that was found comes first, which lies where the caches are.
+class CellsByRadius {
+ public:
+    void add(double radius_sq, const BadCell& bad) {
+        const std::size_t step = step_of(radius_sq);
+        steps_[step].push_back(bad);
+        largest_ = std::max(largest_, step);
+    }
+
+    std::optional<BadCell> take_largest() {
+        while (largest_ > 0 && steps_[largest_].empty()) --largest_;
+        if (steps_[largest_].empty()) return std::nullopt;
+        const BadCell bad = steps_[largest_].back();
+        steps_[largest_].pop_back();
+        return bad;
+    }
+
+ private:
+    static constexpr std::size_t count = 4096;
+
+    // Two to a factor of two.
+    static std::size_t step_of(double radius_sq) {
+        int exponent = 0;
+        const double mantissa = std::frexp(radius_sq, &exponent);
+        const int step = 2 * exponent + (mantissa >= std::numbers::sqrt2 / 2 ? 1 : 0) + static_cast<int>(count / 2);
+        return std::isfinite(radius_sq) ? static_cast<std::size_t>(std::clamp<int>(step, 0, count - 1)) : count - 1;
+    }
+
+    std::vector<std::vector<BadCell>> steps_{count};
+    std::size_t largest_ = 0;
+};
+
+class Refinement {
+ public:
+    Refinement(Triangulation& triangulation, std::uint8_t region, const RefinementBounds& bounds)
+        : t_(triangulation),
+          region_(region),
+          size_(bounds.size),
+          most_ratio_sq_(bounds.radius_edge > 0 ? bounds.radius_edge * bounds.radius_edge : infinity),
+          most_at_face_(square_from_degrees(least_angle_at_face_deg)),
+          most_(square_from_degrees(least_angle_deg)) {}
+
+    std::int64_t run() {
+        for (std::int32_t cell = 0; cell < t_.cell_count(); ++cell) push(cell);
+        std::int64_t points = 0;
+        while (const std::optional<BadCell> bad = bad_.take_largest())
+            if (has_cell(*bad)) points += insert_for(bad->cell);
+        return points;
+    }
+
+ private:
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+    const Vec3& point(std::int32_t vertex) const { return t_.points()[vertex]; }
+    bool has_cell(const BadCell& bad) const {
+        return bad.cell < t_.cell_count() && t_.vertices(bad.cell) == bad.vertices;
+    }
+    void push(std::int32_t cell) {
+        if (t_.region(cell) != region_) return;
+        const Corners corners = corners_of(cell);
+        const double radius_sq = circumcentre_from_first(corners).squaredNorm();
+        if (is_to_be_divided(corners, radius_sq)) bad_.add(radius_sq, {cell, t_.vertices(cell)});
+    }
+
+    using Corners = std::array<Vec3, 4>;
+    Corners corners_of(std::int32_t cell) const {
+        const Tetrahedron& v = t_.vertices(cell);
+        return {point(v[0]), point(v[1]), point(v[2]), point(v[3])};
+    }
+
+    bool is_to_be_divided(const Corners& corners, double radius_sq) const {
+        return radius_sq > most_ratio_sq_ * shortest_edge_sq(corners) || is_too_large(size_, corners);
+    }
+    double least_edge_sq_at(const Vec3& p) const {
+        const double share = size_.is_constant() ? least_edge_share_of_bound : least_edge_share;
+        return std::pow(share * size_.at(p), 2);
+    }
+
+    static double shortest_edge_sq(const Corners& corners) {
+        const Vec3 &a = corners[0], u = corners[1] - a, w = corners[2] - a, x = corners[3] - a;
+        return std::min({u.squaredNorm(), w.squaredNorm(), x.squaredNorm(), (w - u).squaredNorm(),
+                         (x - u).squaredNorm(), (x - w).squaredNorm()});
+    }
+
+    // From corner 0.
+    static Vec3 circumcentre_from_first(const Corners& corners) {
+        const Vec3 &a = corners[0], u = corners[1] - a, w = corners[2] - a, x = corners[3] - a;
+        const Vec3 sum = u.squaredNorm() * w.cross(x) + w.squaredNorm() * x.cross(u) + x.squaredNorm() * u.cross(w);
+        return sum / (2 * u.cross(w).dot(x));
+    }
+
+    // A slender cell gets no edge that is shorter than its own, a large one none that is much shorter than wanted: so
+    // this ends.
+    bool insert_for(std::int32_t cell) {
+        const Corners corners = corners_of(cell);
+        const Vec3 circumcentre = corners[0] + circumcentre_from_first(corners);
+        if (!circumcentre.allFinite()) return false;
+        const Vec3 centroid = (corners[0] + corners[1] + corners[2] + corners[3]) / 4;
+        const double least_edge_sq = least_edge_sq_at(centroid);
+        const bool is_large = is_too_large(size_, corners), exceeds_bound = is_large && size_.is_constant();
+        const double least_sq = is_large ? least_edge_sq : std::min(shortest_edge_sq(corners), least_edge_sq);
+        if (insert(circumcentre, least_sq, cell, !exceeds_bound)) return true;
+        return exceeds_bound && (insert((circumcentre + centroid) / 2, least_edge_sq, cell, false) ||
+                                 insert(centroid, least_edge_sq, cell, false));
+    }
+
+    // Whether the smallest sphere around a face that stays contains it.
+    bool is_near_face(const Vec3& p, const Star& star) const {
+        return std::any_of(star.faces.begin(), star.faces.end(), [&](const Star::Face& face) {
+            if (!face.is_constrained) return false;
+            const Vec3 &a = point(face.vertices[0]), u = point(face.vertices[1]) - a, v = point(face.vertices[2]) - a;
+            const Vec3 normal = u.cross(v);
+            const Vec3 centre =
+                (u.squaredNorm() * v.cross(normal) + v.squaredNorm() * normal.cross(u)) / (2 * normal.squaredNorm());
+            return (p - a - centre).squaredNorm() < centre.squaredNorm();
+        });
+    }
+
+    bool insert(const Vec3& p, double least_edge_sq, std::int32_t cell, bool keeps_off_faces) {
+        const std::int32_t at = t_.locate_in_sight(p, cell);
+        if (at == Triangulation::none) return false;
+        const auto before = static_cast<std::int32_t>(t_.points().size());
+        const std::int32_t vertex = t_.insert_if(p, at, [&](const Star& star) {
+            return !(keeps_off_faces && is_near_face(p, star)) && is_good(p, least_edge_sq, star);
+        });
+        if (vertex < before) return false;  // or Triangulation::none
+        for (const std::int32_t made : t_.cells_around_vertex(vertex)) push(made);
+        return true;
+    }
+
+    // Whether no new cell is bad, or worse than all that it replaces. One that will be divided anyway may be, but not
+    // next to a face that stays.
+    bool is_good(const Vec3& p, double least_edge_sq, const Star& star) const {
+        double allowed = -infinity;  // of those removed, if it was asked for
+        return std::all_of(star.faces.begin(), star.faces.end(), [&](const Star::Face& face) {
+            const Vec3 &a = point(face.vertices[0]), &b = point(face.vertices[1]), &c = point(face.vertices[2]);
+            if (std::min({(a - p).squaredNorm(), (b - p).squaredNorm(), (c - p).squaredNorm()}) < least_edge_sq)
+                return false;
+            const double badness = cell_shape(p, a, b, c).badness();
+            if (badness < (face.is_constrained ? most_at_face_ : most_)) return true;
+            if (!face.is_constrained && will_be_divided({p, a, b, c})) return true;
+            if (allowed < 0) allowed = worst_of(star.removed);
+            return badness < allowed;
+        });
+    }
+
+    bool will_be_divided(const Corners& corners) const {
+        return is_to_be_divided(corners, circumcentre_from_first(corners).squaredNorm());
+    }
+
+    double worst_of(std::span<const std::int32_t> cells) const {
+        double worst = 0;
+        for (const std::int32_t cell : cells) {
+            const Tetrahedron& v = t_.vertices(cell);
+            worst = std::max(worst, cell_shape(point(v[0]), point(v[1]), point(v[2]), point(v[3])).badness());
+        }
+        return worst;
+    }
+
+    Triangulation& t_;
+    std::uint8_t region_;
+    const SizeField& size_;
+    double most_ratio_sq_, most_at_face_, most_;
+    CellsByRadius bad_;
+};
+
+}  // namespace
+
+std::int64_t refine(Triangulation& triangulation, std::uint8_t region, const RefinementBounds& bounds) {
+    return Refinement(triangulation, region, bounds).run();
+}
+
+}  // namespace kerf

@@ -1,0 +1,260 @@
+// Polygons of a ring's vertices are divided into triangles, each of which makes two cells, one with either end of the
+// edge (klincsek1980).
+#include "shell/ring_flips.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/check.h"
+#include "delaunay/predicates.h"
+#include "improve/cell_shape.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr std::size_t most_cells_of_a_ring = 40;
+constexpr double least_share_of_star = 1e-4;
+// So that the new vertex does not lie in the plane of the polygon, where other triangles may be wanted.
+constexpr double share_towards_end = 0.2;
+constexpr double impossible = std::numeric_limits<double>::infinity();
+
+int orientation_of(const Triangulation& t, const Tetrahedron& v) {
+    const auto& points = t.points();
+    return orientation(points[v[0]], points[v[1]], points[v[2]], points[v[3]]);
+}
+
+double badness_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    if (orientation(a, b, c, d) <= 0) return impossible;
+    const double badness = cell_shape(a, b, c, d).badness();
+    constexpr double most = std::numeric_limits<double>::max();
+    return badness < most ? badness : most;  // infinite or no number where it is flat in doubles
+}
+
+double badness_of(const Triangulation& t, const Tetrahedron& v) {
+    const auto& points = t.points();
+    return badness_of(points[v[0]], points[v[1]], points[v[2]], points[v[3]]);
+}
+
+// Of the cells between a point, the polygon of a ring's vertices, and the ring's two ends.
+double badness_of_star(const Triangulation& t, const CellRing& ring, const std::vector<std::int32_t>& polygon,
+                       const Vec3& centre) {
+    const auto& points = t.points();
+    double worst = 0;
+    for (std::size_t k = 0; k < polygon.size() && worst < impossible; ++k) {
+        const Vec3 &p = points[polygon[k]], &q = points[polygon[(k + 1) % polygon.size()]];
+        worst = std::max({worst, badness_of(points[ring.c], centre, p, q), badness_of(centre, points[ring.d], p, q)});
+    }
+    return worst;
+}
+
+// The point of the line through a and b that is nearest to the one through c and d; the middle of a and b if that lies
+// beyond one of them.
+Vec3 nearest_to_line(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    const Vec3 u = b - a, v = d - c, normal = u.cross(v);
+    const double share = (c - a).cross(v).dot(normal) / normal.squaredNorm();
+    return share > 0 && share < 1 ? Vec3(a + share * u) : Vec3((a + b) / 2);
+}
+
+// The ghost, if it is a corner, moves to the last place.
+Tetrahedron with_ghost_last(Tetrahedron v) {
+    const auto i = std::find(v.begin(), v.end(), Triangulation::ghost) - v.begin();
+    if (i >= 3) return v;
+    std::swap(v[i], v[3]);
+    std::swap(v[(i + 1) % 3], v[(i + 2) % 3]);
+    return v;
+}
+
+// Triangles of a polygon of the ring's vertices, and the cells that they make.
+class PolygonCells {
+ public:
+    PolygonCells(const Triangulation& t, const CellRing& ring) : t_(&t), ring_(&ring) {}
+
+    // Appends the cells of the polygon of these vertices. False if there are none that are positive.
+    bool append(const std::vector<std::int32_t>& polygon, std::vector<Tetrahedron>& cells) {
+        const std::size_t n = polygon.size();
+        if (n < 3) return true;
+        best_.assign(n * n, 0);
+        middle_.assign(n * n, 0);
+        for (std::size_t width = 2; width < n; ++width)
+            for (std::size_t i = 0, k = width; k < n; ++i, ++k) {
+                double best = impossible;
+                for (std::size_t j = i + 1; j < k; ++j) {
+                    double worst = std::max(best_[i * n + j], best_[j * n + k]);
+                    if (worst < best) worst = std::max(worst, badness(polygon[i], polygon[j], polygon[k]));
+                    if (worst >= best) continue;
+                    best = worst;
+                    middle_[i * n + k] = j;
+                }
+                best_[i * n + k] = best;
+            }
+        if (best_[n - 1] == impossible) return false;
+        append_between(polygon, 0, n - 1, cells);
+        return true;
+    }
+
+ private:
+    // Of the two cells of a triangle. With the ghost they lie outside, and the edge in the plane of the other two.
+    double badness(std::int32_t p, std::int32_t q, std::int32_t r) const {
+        const Tetrahedron below = {ring_->c, p, q, r}, above = {p, q, r, ring_->d};
+        if (std::min({p, q, r}) >= 0) return std::max(badness_of(*t_, below), badness_of(*t_, above));
+        const std::int32_t u = p < 0 ? q : p, v = r < 0 ? q : r;
+        return orientation_of(*t_, {ring_->c, ring_->d, u, v}) == 0 ? 0 : impossible;
+    }
+
+    void append_between(const std::vector<std::int32_t>& polygon, std::size_t i, std::size_t k,
+                        std::vector<Tetrahedron>& cells) const {
+        if (k - i < 2) return;
+        const std::size_t j = middle_[i * polygon.size() + k];
+        cells.push_back(with_ghost_last({ring_->c, polygon[i], polygon[j], polygon[k]}));
+        cells.push_back(with_ghost_last({polygon[i], polygon[j], polygon[k], ring_->d}));
+        append_between(polygon, i, j, cells);
+        append_between(polygon, j, k, cells);
+    }
+
+    const Triangulation* t_;
+    const CellRing* ring_;
+    std::vector<double> best_;
+    std::vector<std::size_t> middle_;
+};
+
+// Appends the cells between the polygon of a ring's vertices, its two ends, and a new vertex, which is added. It comes
+// to lie next to the closing edge, from where the ring's own edge, which is near, sees all of these cells' outer faces.
+// False, and there is no new vertex, if none of a few places makes positive cells.
+bool append_star(Triangulation& t, const CellRing& ring, const std::vector<std::int32_t>& polygon,
+                 std::vector<Tetrahedron>& cells) {
+    if (std::find(polygon.begin(), polygon.end(), Triangulation::ghost) != polygon.end()) return false;
+    const auto point = [&](std::int32_t v) -> const Vec3& { return t.points()[v]; };
+    const Vec3 start = nearest_to_line(point(polygon.front()), point(polygon.back()), point(ring.c), point(ring.d));
+    Vec3 middle = Vec3::Zero();
+    for (std::size_t k = 1; k + 1 < polygon.size(); ++k) middle += point(polygon[k]);
+    middle /= static_cast<double>(polygon.size() - 2);
+    Vec3 best;
+    double least = impossible;
+    for (const std::int32_t end : {ring.c, ring.d})
+        for (double share = 0.5; share > least_share_of_star; share /= 2) {
+            const Vec3 p = start + share * (middle + share_towards_end * (point(end) - middle) - start);
+            const double badness = badness_of_star(t, ring, polygon, p);
+            if (badness < least) least = badness, best = p;
+        }
+    if (least == impossible) return false;
+    const std::int32_t centre = t.add_vertex(best);
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const std::int32_t p = polygon[k], q = polygon[(k + 1) % polygon.size()];
+        cells.push_back({ring.c, centre, p, q});
+        cells.push_back({centre, ring.d, p, q});
+    }
+    return true;
+}
+
+// Whether the face between cells k - 1 and k of a ring may go.
+bool is_spoke_constrained(const Triangulation& t, const CellRing& ring, std::size_t k) {
+    const std::int32_t cell = ring.cells[k];
+    return t.is_constrained(cell_face(cell, t.index_of(cell, ring.ring[(k + 1) % ring.size()])));
+}
+
+std::vector<std::int32_t> polygon_between(const CellRing& ring, std::size_t from, std::size_t to) {
+    std::vector<std::int32_t> polygon;
+    for (std::size_t k = from; k != to; k = (k + 1) % ring.size()) polygon.push_back(ring.ring[k]);
+    polygon.push_back(ring.ring[to]);
+    return polygon;
+}
+
+bool append_cells(Triangulation& t, const CellRing& ring, const std::vector<std::int32_t>& polygon,
+                  NewVertices new_vertices, std::vector<Tetrahedron>& cells) {
+    if (PolygonCells(t, ring).append(polygon, cells)) return true;
+    return new_vertices == NewVertices::allowed && append_star(t, ring, polygon, cells);
+}
+
+bool span_ring_between(Triangulation& t, const CellRing& ring, std::size_t from, std::size_t to,
+                       NewVertices new_vertices) {
+    const std::vector<std::int32_t> polygon = polygon_between(ring, from, to);
+    const Tetrahedron middle = {ring.c, ring.d, polygon.front(), polygon.back()};
+    if (std::min(middle[2], middle[3]) < 0 || polygon.size() < 3 || orientation_of(t, middle) <= 0) return false;
+    std::vector<std::int32_t> cells;
+    for (std::size_t k = from; k != to; k = (k + 1) % ring.size()) {
+        if (k != from && is_spoke_constrained(t, ring, k)) return false;
+        cells.push_back(ring.cells[k]);
+    }
+    std::vector<Tetrahedron> made = {middle};
+    if (!append_cells(t, ring, polygon, new_vertices, made)) return false;
+    t.replace(cells, made);
+    return true;
+}
+
+}  // namespace
+
+std::size_t CellRing::place_of(std::int32_t vertex) const {
+    return static_cast<std::size_t>(std::find(ring.begin(), ring.end(), vertex) - ring.begin());
+}
+
+CellRing ring_around(const Triangulation& triangulation, std::int32_t cell, std::int32_t c, std::int32_t d) {
+    CellRing ring{c, d, {}, {}};
+    ring.cells =
+        triangulation.cells_around_edge(cell, triangulation.index_of(cell, c), triangulation.index_of(cell, d));
+    const std::size_t n = ring.cells.size();
+    for (std::size_t k = 0; k < n; ++k) {
+        // What this cell has in common with the one before it, beside c and d.
+        const std::int32_t before = ring.cells[(k + n - 1) % n];
+        for (int i = 0; i < 4; ++i) {
+            const std::int32_t v = triangulation.vertices(ring.cells[k])[i];
+            if (v == c || v == d || triangulation.neighbour(ring.cells[k], i) == before) continue;
+            ring.ring.push_back(v);
+        }
+    }
+    KERF_CHECK(ring.ring.size() == n);
+    return ring;
+}
+
+bool remove_ring_edge(Triangulation& triangulation, const CellRing& ring, std::span<const std::int32_t> kept,
+                      NewVertices new_vertices) {
+    if (ring.size() > most_cells_of_a_ring) return false;
+    std::vector<std::size_t> corners;
+    for (const std::int32_t vertex : kept) {
+        corners.push_back(ring.place_of(vertex));
+        if (corners.back() == ring.size()) return false;
+    }
+    std::sort(corners.begin(), corners.end());
+    if (corners.empty()) corners = {0, ring.size() - 1};
+    for (std::size_t k = 0; k < ring.size(); ++k)
+        if (is_spoke_constrained(triangulation, ring, k)) return false;
+    std::vector<Tetrahedron> made;
+    if (corners.size() == 3 &&
+        !PolygonCells(triangulation, ring)
+             .append({ring.ring[corners[0]], ring.ring[corners[1]], ring.ring[corners[2]]}, made))
+        return false;
+    const std::size_t vertices = triangulation.points().size();
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const auto polygon = polygon_between(ring, corners[k], corners[(k + 1) % corners.size()]);
+        if (append_cells(triangulation, ring, polygon, new_vertices, made)) continue;
+        triangulation.remove_unused_vertices(vertices);
+        return false;
+    }
+    triangulation.replace(ring.cells, made);
+    return true;
+}
+
+bool span_ring(Triangulation& triangulation, const CellRing& ring, std::int32_t a, std::int32_t b,
+               NewVertices new_vertices) {
+    const std::size_t from = ring.place_of(a), to = ring.place_of(b);
+    if (from == ring.size() || to == ring.size() || ring.size() > most_cells_of_a_ring) return false;
+    return span_ring_between(triangulation, ring, from, to, new_vertices) ||
+           span_ring_between(triangulation, ring, to, from, new_vertices);
+}
+
+bool replace_face_by_edge(Triangulation& triangulation, CellFace face) {
+    const CellFace behind = triangulation.mirror(face);
+    const std::int32_t a = triangulation.opposite_vertex(face), b = triangulation.opposite_vertex(behind);
+    if (a < 0 || b < 0 || triangulation.is_constrained(face) || triangulation.is_ghost(cell_of(face))) return false;
+    const Triangle corners = triangulation.face_vertices(face);
+    std::vector<Tetrahedron> made;
+    for (int i = 0; i < 3; ++i) {
+        made.push_back({a, corners[i], corners[(i + 1) % 3], b});
+        if (orientation_of(triangulation, made.back()) <= 0) return false;
+    }
+    const std::array<std::int32_t, 2> cells = {cell_of(face), cell_of(behind)};
+    triangulation.replace(cells, made);
+    return true;
+}
+
+}  // namespace kerf

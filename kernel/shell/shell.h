@@ -1,0 +1,30 @@
+// The space between a surface and a body inside of it, filled with tetrahedra.
+#pragma once
+
+#include <vector>
+
+#include "mesh/tet_mesh.h"
+#include "shell/refinement.h"
+#include "surface/surface.h"
+
+namespace kerf {
+
+/// What is filled already: its boundary, and points around it that belong to the shell.
+struct ShellCore {
+    std::vector<Vec3> points;
+    std::vector<Triangle> faces;  ///< over `points`, counter-clockwise seen from the shell
+    std::vector<Vec3> free_points;
+};
+
+struct FilledShell {
+    TetMesh mesh;  ///< vertices: of the surface, of the core, others; the first two are its boundary. With neighbours.
+    std::int64_t recovered_facets = 0;  ///< that were not among the faces of a Delaunay triangulation
+    std::int64_t refining_points = 0;
+};
+
+/// Delaunay tetrahedra between the surface, which must be well-formed and closed, and the core, with points added for
+/// the bounds. Every facet of either is kept, and none is added. Throws Error(subdomain) where facets are missing and
+/// cannot be recovered. Deterministic. 3 us a point, 10 us a point that is added.
+FilledShell fill_shell(const SurfaceArrays& surface, ShellCore core, const RefinementBounds& bounds);
+
+}  // namespace kerf
