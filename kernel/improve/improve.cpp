@@ -1,0 +1,203 @@
+// Rounds over the bad cells, the worst first. What an operation leaves bad, or makes so, comes back in the same round.
+// Where nothing helps, a cell waits for the next round: its neighbours may have changed.
+#include "improve/improve.h"
+
+#include <queue>
+
+#include "core/check.h"
+#include "core/error.h"
+#include "improve/edge_removal.h"
+#include "improve/edited_mesh.h"
+#include "improve/smoothing.h"
+#include "improve/vertex_insertion.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr double least_gain_of_a_move = 0.1;      // of a move, in squared sines: a degree and a half at 25
+constexpr double angle_for_a_vertex_deg = 12;     // cells with a smaller one are worth a new vertex
+constexpr double looks_for_vertices = 0.25;       // of all
+constexpr double least_share_of_a_round = 0.1;    // of the bad cells, or there is no other round
+constexpr std::int64_t looks_at_any_mesh = 1000;  // beside those for each of its cells
+constexpr int cells_between_questions = 1024;     // whether it is cancelled
+
+class Improver {
+ public:
+    Improver(TetMesh& mesh, const ImproveOptions& options, Improvement& improvement)
+        : mesh_(mesh, options.frozen_cells, options.max_size,
+                [&](const CellShape& shape) { improvement.smallest_before.add(degrees_from_square(shape.sharpest)); }),
+          options_(&options),
+          result_(&improvement),
+          bad_(square_from_degrees(options.threshold_deg)),
+          bad_enough_for_a_vertex_(std::max(bad_, square_from_degrees(angle_for_a_vertex_deg))),
+          most_looks_(most_looks_of(mesh, options)),
+          is_settled_(mesh.vertices.size(), 0) {}
+
+    void run() {
+        for (std::int32_t cell = 0; cell < mesh_.cell_count(); ++cell)
+            if (is_bad(cell)) waiting_.push_back(cell);
+        result_->bad_cells_before = waiting_count();
+        while (!waiting_.empty() && result_->rounds < options_->most_rounds && !is_spent()) {
+            const std::int64_t before = waiting_count();
+            if (!run_round()) break;
+            const auto gained = static_cast<double>(before - waiting_count());
+            if (gained < least_share_of_a_round * static_cast<double>(before)) break;
+        }
+        for (std::int32_t cell = 0; cell < mesh_.cell_count(); ++cell) result_->bad_cells_after += is_bad(cell);
+    }
+    bool is_cancelled() const { return is_cancelled_; }
+    void finish() { mesh_.finish(); }
+
+ private:
+    struct Entry {
+        double badness;
+        std::int32_t cell;
+        bool operator<(const Entry& other) const {
+            return badness != other.badness ? badness < other.badness : cell > other.cell;
+        }
+    };
+
+    static std::int64_t most_looks_of(const TetMesh& mesh, const ImproveOptions& options) {
+        const auto cells = static_cast<std::int64_t>(mesh.tets.size()) - options.frozen_cells;
+        return looks_at_any_mesh + static_cast<std::int64_t>(options.most_looks * static_cast<double>(cells));
+    }
+    bool is_spent() const { return mesh_.looks() >= most_looks_; }
+    bool is_bad(std::int32_t cell) const {
+        return !mesh_.is_removed(cell) && !mesh_.is_frozen(cell) && mesh_.badness(cell) > bad_;
+    }
+    std::int64_t waiting_count() const { return static_cast<std::int64_t>(waiting_.size()); }
+    void push(std::int32_t cell) {
+        if (is_bad(cell)) queue_.push({mesh_.badness(cell), cell});
+    }
+
+    // Cells that have changed.
+    void take_up(std::span<const std::int32_t> cells) {
+        for (const std::int32_t cell : cells) {
+            for (const std::int32_t v : mesh_.corners(cell)) is_settled_[v] = 0;
+            push(cell);
+        }
+    }
+
+    // All that are waiting; then those are that nothing has helped. False if cancelled. The queue is not empty if all
+    // is spent.
+    bool run_round() {
+        ++result_->rounds;
+        for (const std::int32_t cell : waiting_) push(cell);
+        waiting_.clear();
+        for (int until_question = 0; !queue_.empty() && !is_spent(); --until_question) {
+            if (until_question == 0) {
+                is_cancelled_ = options_->is_cancelled && options_->is_cancelled();
+                if (is_cancelled_) return false;
+                until_question = cells_between_questions;
+            }
+            const auto [badness, cell] = queue_.top();
+            queue_.pop();
+            if (!is_bad(cell) || mesh_.badness(cell) != badness) continue;
+            if (!remove_an_edge(cell) && !move_a_corner(cell) && !insert_a_vertex(cell)) waiting_.push_back(cell);
+        }
+        std::sort(waiting_.begin(), waiting_.end());  // one may come twice, if its neighbours have changed it
+        waiting_.erase(std::unique(waiting_.begin(), waiting_.end()), waiting_.end());
+        std::erase_if(waiting_, [&](std::int32_t cell) { return !is_bad(cell); });
+        return true;
+    }
+
+    // The edge without which the worst of the cells around it is best.
+    bool remove_an_edge(std::int32_t cell) {
+        double best = std::numeric_limits<double>::infinity();
+        EdgeRing ring;
+        for (int i = 0; i < 4; ++i)
+            for (int j = i + 1; j < 4; ++j) {
+                if (!mesh_.find_ring(cell, i, j, ring)) continue;
+                double limit = -std::numeric_limits<double>::infinity();
+                for (std::size_t k = 0; k < ring.size; ++k) limit = std::max(limit, mesh_.badness(ring.cells[k]));
+                if (!edge_.find(mesh_, ring, std::min(limit, best))) continue;
+                best = edge_.badness();
+                best_ring_ = ring;
+                best_cells_ = edge_.cells();
+            }
+        if (best == std::numeric_limits<double>::infinity()) return false;
+        made_.clear();
+        mesh_.replace({best_ring_.cells.data(), best_ring_.size}, best_cells_, made_);
+        take_up(made_);
+        ++result_->removed_edges;
+        return true;
+    }
+
+    bool move_a_corner(std::int32_t cell) {
+        for (int i = 0; i < 4; ++i) {
+            const std::int32_t vertex = mesh_.corners(cell)[i];
+            if (is_settled_[vertex] || !mesh_.find_star(cell, i, star_)) continue;
+            if (!smoothing_.move(mesh_, vertex, star_, least_gain_of_a_move)) {
+                is_settled_[vertex] = 1;
+                continue;
+            }
+            take_up(star_);
+            ++result_->moved_vertices;
+            return true;
+        }
+        return false;
+    }
+
+    bool insert_a_vertex(std::int32_t cell) {
+        const double badness = mesh_.badness(cell);
+        if (!options_->adds_vertices || badness < bad_enough_for_a_vertex_ ||
+            looks_at_vertices_ > looks_for_vertices * most_looks_)
+            return false;
+        looks_at_vertices_ -= mesh_.looks();
+        const std::span<const std::int32_t> cavity =
+            insertion_.insert(mesh_, cell, badness - least_gain_of_a_move * (1 + badness));
+        looks_at_vertices_ += mesh_.looks();
+        if (cavity.empty()) return false;
+        is_settled_.push_back(0);
+        made_.clear();
+        mesh_.replace(cavity, insertion_.cells(), made_);
+        take_up(made_);
+        ++result_->new_vertices;
+        return true;
+    }
+
+    EditedMesh mesh_;
+    const ImproveOptions* options_;
+    Improvement* result_;
+    double bad_, bad_enough_for_a_vertex_;
+    std::int64_t most_looks_, looks_at_vertices_ = 0;
+    bool is_cancelled_ = false;
+    std::priority_queue<Entry> queue_;
+    std::vector<std::int32_t> waiting_;  // bad cells that are not in the queue; ascending between rounds
+    EdgeRemoval edge_;
+    Smoothing smoothing_;
+    VertexInsertion insertion_;
+    EdgeRing best_ring_;
+    std::vector<Tetrahedron> best_cells_;
+    std::vector<std::int32_t> star_, made_;
+    std::vector<char> is_settled_;  // #V; whether the cells around it are those that no move has helped
+};
+
+}  // namespace
+
+void Improvement::add(const Improvement& other) {
+    removed_edges += other.removed_edges;
+    moved_vertices += other.moved_vertices;
+    new_vertices += other.new_vertices;
+    bad_cells_before += other.bad_cells_before;
+    bad_cells_after += other.bad_cells_after;
+    rounds = std::max(rounds, other.rounds);
+    if (is_empty())
+        smallest_before = other.smallest_before;
+    else if (!other.is_empty())
+        smallest_before.add(other.smallest_before);
+}
+
+Improvement improve(TetMesh& mesh, const ImproveOptions& options) {
+    KERF_CHECK(options.threshold_deg > 0 && options.threshold_deg < 70);
+    Improvement improvement;
+    improvement.smallest_before = Distribution(Distribution::Scale::linear, 0, 180);
+    Improver improver(mesh, options, improvement);
+    improver.run();
+    improver.finish();
+    if (improver.is_cancelled()) throw Error(ErrorCode::cancelled, "The improvement of the mesh was cancelled.");
+    return improvement;
+}
+
+}  // namespace kerf

@@ -1,0 +1,66 @@
+// Better tetrahedra inside of the same boundary.
+#pragma once
+
+#include <functional>
+
+#include "mesh/quality.h"
+#include "mesh/tet_mesh.h"
+#include "size/size_field.h"
+
+namespace kerf {
+
+struct ImproveOptions {
+    /// Cells are bad that have a dihedral angle below this one or above 180 degrees less this one. In (0, 70).
+    double threshold_deg = 25;
+    SizeField max_size = {};        ///< hard bound of volumes, asked at the centroids of cells; empty: none
+    std::int64_t frozen_cells = 0;  ///< the first so many cells stay as they are, with their numbers
+    int most_rounds = 3;            ///< how often all bad cells are looked at; it ends sooner where that gains little
+    /// It ends when it has looked at so many new cells for each cell of the mesh, whether they are made or not. 5 to 8
+    /// are enough on good surfaces; where the surface is what makes cells bad, hundreds would not help much.
+    double most_looks = 12;
+    bool adds_vertices = true;                ///< where nothing else helps
+    std::function<bool()> is_cancelled = {};  ///< asked every few milliseconds; empty: never
+};
+
+/// What improve() did.
+struct Improvement {
+    std::int64_t removed_edges = 0, moved_vertices = 0, new_vertices = 0;  ///< operations
+    std::int64_t bad_cells_before = 0, bad_cells_after = 0;                ///< without frozen ones
+    std::int32_t rounds = 0;                                               ///< of the mesh with most
+    /// Smallest dihedral angles of all cells as they were, in degrees.
+    Distribution smallest_before;
+
+    /// Of another mesh.
+    void add(const Improvement& other);
+    /// Whether there was a mesh.
+    bool is_empty() const { return smallest_before.count() == 0; }
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(removed_edges, moved_vertices, new_vertices, bad_cells_before, bad_cells_after, rounds, smallest_before);
+    }
+};
+
+/// Replaces and moves what is worse than the threshold, the worst first: edges are removed (klincsek1980, freitag1997,
+/// shewchuk2002), where none can be, vertices are moved (freitag1997, klingner2007), and where that does not help and
+/// an angle is below 12 degrees, or above 168, a vertex is added (klingner2007). Flips of single faces are not tried:
+/// of 600,000 bad cells of the assets they helped three that the others did not.
+///
+/// All faces that have a cell on one side only stay, as do the vertices on them, the first boundary_vertex_count
+/// vertices, and those of frozen cells; no vertex is removed or gets another number, new ones come last. Cells that are
+/// left keep their order.
+///
+/// An operation makes the worst of the cells that it replaces better, by the smaller one of the smallest dihedral angle
+/// and of what the largest one lacks to 180 degrees. It makes no cell that is not positively oriented (exactly), none
+/// with an angle that is smaller than all of the mesh were, or larger, and none above the bound of volume, unless one
+/// of those that it replaces exceeded its own bound as much. So the extreme angles of the mesh never get worse; of few
+/// others that can be said.
+///
+/// Requires a mesh that obeys its laws (mesh/verification.h) but for neighbours, which it may have or not, and then has
+/// or not afterwards. Deterministic; depends on the order of cells, but for the validity of what comes out. Error
+/// (cancelled), and the mesh is valid, but not finished. Error (memory), and nothing has changed, for more than 2^29
+/// cells. About 0.2 us a cell and 5 us a bad one, at most 1.3 us a cell where
+/// most_looks is 12. Memory: 33 bytes a cell beside the mesh.
+Improvement improve(TetMesh& mesh, const ImproveOptions& options = {});
+
+}  // namespace kerf

@@ -1,0 +1,114 @@
+#include "improve/vertex_insertion.h"
+
+#include "mesh/faces.h"
+
+namespace kerf {
+
+namespace {
+constexpr std::size_t most_cavity_cells = 40;
+constexpr int most_moves = 4;
+}  // namespace
+
+bool VertexInsertion::contains(std::int32_t cell) const {
+    return std::find(cavity_.begin(), cavity_.end(), cell) != cavity_.end();
+}
+
+double VertexInsertion::badness_at(const EditedMesh& mesh, const Vec3& at, std::int32_t cell, int i) const {
+    const Triangle face = mesh.face(cell, i);
+    return mesh.badness_of(at, mesh.point(face[0]), mesh.point(face[1]), mesh.point(face[2]), excess_);
+}
+
+void VertexInsertion::find_sides(const EditedMesh& mesh) {
+    sides_.clear();
+    for (const std::int32_t cell : cavity_)
+        for (int i = 0; i < 4; ++i)
+            if (!contains(mesh.neighbour(cell, i))) sides_.push_back({cell, i, 0});
+}
+
+bool VertexInsertion::has_inner_vertex(const EditedMesh& mesh) const {
+    for (const std::int32_t cell : cavity_)
+        for (const std::int32_t vertex : mesh.corners(cell))
+            if (std::none_of(sides_.begin(), sides_.end(), [&](const Side& side) {
+                    const Triangle face = mesh.face(side.cell, side.i);
+                    return std::find(face.begin(), face.end(), vertex) != face.end();
+                }))
+                return true;
+    return false;
+}
+
+// By the cell behind the worst side for which those behind it are better.
+bool VertexInsertion::grow(const EditedMesh& mesh, const Vec3& at) {
+    if (cavity_.size() == most_cavity_cells) return false;
+    for (Side& side : sides_) side.badness = badness_at(mesh, at, side.cell, side.i);
+    std::stable_sort(sides_.begin(), sides_.end(), [](const Side& p, const Side& q) { return p.badness > q.badness; });
+    const std::vector<Side> candidates = sides_;
+    for (const Side& side : candidates) {
+        const std::int32_t next = mesh.neighbour(side.cell, side.i);
+        if (next < 0 || mesh.is_frozen(next)) continue;
+        double worst = -std::numeric_limits<double>::infinity();
+        for (int i = 0; i < 4 && worst < side.badness; ++i)
+            if (!contains(mesh.neighbour(next, i))) worst = std::max(worst, badness_at(mesh, at, next, i));
+        if (!(worst < side.badness)) continue;
+        cavity_.push_back(next);
+        find_sides(mesh);
+        if (!has_inner_vertex(mesh)) return true;
+        cavity_.pop_back();
+        find_sides(mesh);
+    }
+    return false;
+}
+
+double VertexInsertion::worst_at(const EditedMesh& mesh, const Vec3& at) const {
+    double worst = -std::numeric_limits<double>::infinity();
+    for (const Side& side : sides_) worst = std::max(worst, badness_at(mesh, at, side.cell, side.i));
+    return worst;
+}
+
+// In turn grows the cavity and moves the place, and keeps the best of both.
+void VertexInsertion::grow_and_move(const EditedMesh& mesh, const EdgeRing& ring) {
+    cavity_.assign(ring.cells.begin(), ring.cells.begin() + ring.size);
+    excess_ = mesh.most_excess(cavity_);
+    find_sides(mesh);
+    BestPlace::Place place = {(mesh.point(ring.a) + mesh.point(ring.b)) / 2, 0};
+    for (int moves = 0; moves < most_moves; ++moves) {
+        places_.clear();
+        for (const Side& side : sides_) {
+            const Triangle face = mesh.face(side.cell, side.i);
+            places_.add({mesh.point(face[0]), mesh.point(face[1]), mesh.point(face[2])});
+        }
+        place.badness = worst_at(mesh, place.at);
+        place = places_.search(mesh, place, excess_, cavity_.front());
+        if (place.badness < best_.badness) {
+            best_ = place;
+            best_cavity_ = cavity_;
+        }
+        const std::size_t before = cavity_.size();
+        while (grow(mesh, place.at)) {
+        }
+        if (cavity_.size() == before) return;
+    }
+}
+
+std::span<const std::int32_t> VertexInsertion::insert(EditedMesh& mesh, std::int32_t cell, double limit) {
+    best_ = {Vec3::Zero(), limit};
+    best_cavity_.clear();
+    EdgeRing ring;
+    for (int i = 0; i < 4; ++i)
+        for (int j = i + 1; j < 4; ++j)
+            if (mesh.find_ring(cell, i, j, ring)) grow_and_move(mesh, ring);
+    if (best_cavity_.empty()) return {};
+    cavity_ = best_cavity_;
+    find_sides(mesh);
+    const std::int32_t vertex = mesh.add_vertex(best_.at);
+    cells_.clear();
+    bool all_positive = true;
+    for (const Side& side : sides_) {
+        const Triangle face = mesh.face(side.cell, side.i);
+        all_positive &= mesh.is_positive(cells_.emplace_back(Tetrahedron{vertex, face[0], face[1], face[2]}));
+    }
+    if (all_positive) return cavity_;
+    mesh.remove_last_vertex();
+    return {};
+}
+
+}  // namespace kerf

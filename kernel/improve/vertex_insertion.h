@@ -1,0 +1,43 @@
+// Better cells around a new vertex in place of a bad one and some around it.
+#pragma once
+
+#include <optional>
+
+#include "improve/best_place.h"
+
+namespace kerf {
+
+/// A cavity begins as the cells around an edge of the bad one, the vertex in the middle of that. Then it grows, across
+/// the worst of its faces as seen from the vertex to what is better, in turn with moves of the vertex to its best place
+/// (klingner2007 grow theirs by a measure of what is gained). Every corner of the cavity stays on its boundary.
+class VertexInsertion {
+ public:
+    /// The cells that the new ones replace; empty if there is no vertex whose worst cell is better than `limit`, and
+    /// nothing has changed. The vertex has been added, and cells() are those around it.
+    std::span<const std::int32_t> insert(EditedMesh& mesh, std::int32_t cell, double limit);
+    const std::vector<Tetrahedron>& cells() const { return cells_; }
+
+ private:
+    struct Side {
+        std::int32_t cell;
+        int i;
+        double badness;  // of the cell between it and the place
+    };
+
+    void grow_and_move(const EditedMesh& mesh, const EdgeRing& ring);
+    void find_sides(const EditedMesh& mesh);
+    bool grow(const EditedMesh& mesh, const Vec3& at);
+    bool has_inner_vertex(const EditedMesh& mesh) const;
+    bool contains(std::int32_t cell) const;
+    double badness_at(const EditedMesh& mesh, const Vec3& at, std::int32_t cell, int i) const;
+    double worst_at(const EditedMesh& mesh, const Vec3& at) const;
+
+    std::vector<std::int32_t> cavity_, best_cavity_;
+    BestPlace::Place best_ = {};
+    std::vector<Side> sides_;
+    double excess_ = 1;
+    BestPlace places_;
+    std::vector<Tetrahedron> cells_;
+};
+
+}  // namespace kerf
