@@ -1,6 +1,7 @@
 // Checks the options and hands the surface to the mesher that they name.
 #include "volume/mesher.h"
 
+#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -17,6 +18,16 @@ void check_mesher_options(const MesherOptions& options) {
         throw Error(ErrorCode::usage,
                     fmt::format("--radius-edge is {}, but it must be 0 (none) or above 1.", options.radius_edge));
     find_mesher(options.name).check(options);
+}
+
+void improve_filling(Filling& filling, const MesherOptions& options, double threshold_deg) {
+    if (!options.improve || !options.tetgen.switches.empty()) return;
+    const auto start = std::chrono::steady_clock::now();
+    filling.improvement.add(
+        improve(filling.mesh, {.threshold_deg = threshold_deg,
+                               .max_size = options.size,
+                               .adds_vertices = options.radius_edge > 0 || !options.size.is_empty()}));
+    filling.improve_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 Filling mesh_volume(const SurfaceArrays& surface, const MesherOptions& options) {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "improve/improve.h"
 #include "mesh/tet_mesh.h"
 #include "size/size_field.h"
 #include "surface/surface.h"
@@ -11,15 +12,16 @@
 namespace kerf {
 
 struct MesherOptions {
-    std::string name = "tetgen";  ///< of the mesher, see meshers()
-    SizeField size = {};          ///< of tetrahedra. TetGen leaves a few larger ones: next to coarse facets, and where
-                                  ///< it improved the shape afterwards
-    double radius_edge = 1.4;     ///< upper bound of circumradius over shortest edge; > 1, 0: no refinement
-    TetgenOptions tetgen = {};    ///< also for meshers that ask TetGen where they fail
+    std::string name = "auto";  ///< of the mesher, see meshers()
+    SizeField size = {};        ///< of tetrahedra. TetGen leaves a few larger ones: next to coarse facets, and where
+                                ///< it improved the shape afterwards
+    double radius_edge = 1.4;   ///< upper bound of circumradius over shortest edge; > 1, 0: no refinement
+    bool improve = true;        ///< the cells, within `size`, see improve(); never those of TetGen's own switches
+    TetgenOptions tetgen = {};  ///< also for meshers that ask TetGen where they fail
 
     template <class Archive>
     void archive(Archive& a) {
-        a(name, size, radius_edge, tetgen);
+        a(name, size, radius_edge, improve, tetgen);
     }
 };
 
@@ -27,6 +29,9 @@ struct MesherOptions {
 struct Filling {
     TetMesh mesh;     ///< with its neighbours only if the mesher knows them anyway
     std::string way;  ///< which of its ways the mesher went, in a few words for the report; empty if it has one
+    std::int64_t core_tets = 0;    ///< the first so many cells were stamped, the others are of the shell
+    Improvement improvement = {};  ///< what was done to the cells; empty if nothing
+    double improve_seconds = 0;    ///< that took, wall clock
 };
 
 /// Throws Error(usage), naming the option, for values out of range, names of no mesher, and what the mesher refuses.

@@ -52,6 +52,11 @@ std::vector<std::string> mesher_names();
 /// By name. Throws Error(usage) with the names that there are.
 const Mesher& find_mesher(std::string_view name);
 
+/// Improves the cells of a filling with dihedral angles below the threshold, if that is wanted, and says so in it: a
+/// mesher's last step.
+void improve_filling(Filling& filling, const MesherOptions& options,
+                     double threshold_deg = ImproveOptions().threshold_deg);
+
 /// A closed surface with its hole points as a .smesh of TetGen, counted from 0, with 17 digits: Kerf reads it, too. No
 /// hole points where one cannot be found: that may be the very reason of a failure.
 std::string smesh_text(const SurfaceArrays& surface);

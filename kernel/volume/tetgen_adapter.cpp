@@ -163,20 +163,10 @@ struct AskedField {
 };
 const AskedField* asked_field = nullptr;
 
-// Mean edge over wanted edge above which a tetrahedron is split. Of 1.0 to 1.2, and of bounds of the volume and of the
-// longest edge, this one makes most edges 0.7 to 1.4 times as long as wanted (97 %), with 1 in the median.
-constexpr double too_long = 1.15;
-
-// Of a tetrahedron in TetGen's coordinates: whether it is larger than the field wants at its centroid.
-bool is_too_large(REAL* p, REAL* q, REAL* r, REAL* s, REAL*, REAL) {
-    const std::array<Vec3, 4> x = {Eigen::Map<const Vec3>(p), Eigen::Map<const Vec3>(q), Eigen::Map<const Vec3>(r),
-                                   Eigen::Map<const Vec3>(s)};
-    double sum = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t j = i + 1; j < 4; ++j) sum += (x[i] - x[j]).norm();
-    const double allowed = asked_field->frame.length_from_unit(sum / 6) / too_long;
-    const Vec3 centroid = asked_field->frame.from_unit((x[0] + x[1] + x[2] + x[3]) / 4);
-    return asked_field->size.at(centroid, allowed) < allowed;
+// Of a tetrahedron in TetGen's coordinates.
+bool is_unsuitable(REAL* p, REAL* q, REAL* r, REAL* s, REAL*, REAL) {
+    const auto point = [](const REAL* x) { return asked_field->frame.from_unit(Eigen::Map<const Vec3>(x)); };
+    return is_too_large(asked_field->size, {point(p), point(q), point(r), point(s)});
 }
 
 [[noreturn]] void throw_failure(int code) {
@@ -267,7 +257,7 @@ TetMesh mesh_with_tetgen(const SurfaceArrays& surface, const std::vector<Vec3>& 
     const AskedField asked{options.size, frame};
     if (options.tetgen.switches.empty() && !options.size.is_constant()) {
         asked_field = &asked;
-        in.tetunsuitable = is_too_large;
+        in.tetunsuitable = is_unsuitable;
     }
     run(behaviour, in, out);
     check_vertices_kept(in, out, order.vertices);

@@ -20,6 +20,7 @@ void check_tetgen_options(const MesherOptions& options) { check_tetgen_switches(
 Filling fill_with_tetgen(const SurfaceArrays& surface, const MesherOptions& options) {
     Filling filling{mesh_with_tetgen(surface, hole_points(surface), options), ""};
     ::malloc_trim(0);  // TetGen has let go of several times what is left, which other workers may need
+    improve_filling(filling, options);
     return filling;
 }
 

@@ -65,12 +65,26 @@ ErrorCode code_of(const SurfaceArrays& surface, const MesherOptions& options) {
     return ErrorCode::internal;
 }
 
-TEST(Mesher, ObeysTheLaws) {
+MesherOptions of_mesher(const std::string& name) {
+    MesherOptions options;
+    options.name = name;
+    return options;
+}
+MesherOptions of_tetgen() { return of_mesher("tetgen"); }
+
+class EachMesher : public testing::TestWithParam<std::string> {
+ protected:
+    static MesherOptions of_this_mesher() { return of_mesher(GetParam()); }
+};
+INSTANTIATE_TEST_SUITE_P(Meshers, EachMesher, testing::Values("lattice", "tetgen"),
+                         [](const auto& instance) { return instance.param; });
+
+TEST_P(EachMesher, ObeysTheLaws) {
     for (const auto& [name, surface] : surfaces())
         for (const double radius_edge : {0.0, 1.2, 1.4, 2.0})
             for (const double max_volume : {0.0, 0.02}) {
                 SCOPED_TRACE(testing::Message() << name << ", Q " << radius_edge << ", V " << max_volume);
-                MesherOptions options;
+                MesherOptions options = of_this_mesher();
                 options.radius_edge = radius_edge;
                 options.size = SizeField(max_volume);
                 const TetMesh mesh = mesh_volume(surface, options).mesh;
@@ -78,20 +92,20 @@ TEST(Mesher, ObeysTheLaws) {
             }
 }
 
-TEST(Mesher, ObeysTheLawsInAnyPlaceAndScale) {
+TEST_P(EachMesher, ObeysTheLawsInAnyPlaceAndScale) {
     for (const auto& [name, surface] : surfaces())
         for (const double scale : {1e-6, 1.0, 1e3, 1e12})
             for (const double offset : {0.0, 1e5}) {
                 SCOPED_TRACE(testing::Message() << name << ", scale " << scale << ", offset " << offset << " scales");
                 const SurfaceArrays moved = transformed(surface, scale, scale * Vec3(offset, -offset, 0.3 * offset));
-                expect_laws(mesh_volume(moved, {}).mesh, moved);
+                expect_laws(mesh_volume(moved, of_this_mesher()).mesh, moved);
             }
 }
 
-TEST(Mesher, TopologyIsInvariantToPowersOfTwo) {
+TEST_P(EachMesher, TopologyIsInvariantToPowersOfTwo) {
     for (const auto& [name, surface] : surfaces()) {
         SCOPED_TRACE(name);
-        MesherOptions options;
+        MesherOptions options = of_this_mesher();
         options.size = SizeField(0.02);
         const TetMesh mesh = mesh_volume(surface, options).mesh;
         for (const int exponent : {-40, -1, 20}) {
@@ -107,23 +121,23 @@ TEST(Mesher, TopologyIsInvariantToPowersOfTwo) {
     }
 }
 
-TEST(Mesher, ObeysTheLawsInAnyVertexOrder) {
+TEST(TetgenMesher, ObeysTheLawsInAnyVertexOrder) {
     for (const auto& [name, surface] : surfaces())
         for (const std::uint32_t seed : {1u, 2u, 3u, 4000000000u}) {
             SCOPED_TRACE(testing::Message() << name << ", seed " << seed);
-            MesherOptions options;
+            MesherOptions options = of_tetgen();
             options.size = SizeField(0.05);
             options.tetgen.shuffle = seed;
             expect_laws(mesh_volume(surface, options).mesh, surface);
         }
 }
 
-TEST(Mesher, IsDeterministic) {
+TEST(TetgenMesher, IsDeterministic) {
     const SurfaceArrays surface = test::to_arrays(test::icosphere(3));
     std::vector<std::vector<Tetrahedron>> meshes;
     for (const std::uint32_t seed : {0u, 1u, 2u}) {
         SCOPED_TRACE(seed);
-        MesherOptions options;
+        MesherOptions options = of_tetgen();
         options.tetgen.shuffle = seed;
         const TetMesh first = mesh_volume(surface, options).mesh, second = mesh_volume(surface, options).mesh;
         EXPECT_EQ(first.tets, second.tets);
@@ -134,8 +148,8 @@ TEST(Mesher, IsDeterministic) {
     EXPECT_NE(meshes[1], meshes[2]);
 }
 
-TEST(Mesher, WithoutBoundsAddsNoVertices) {
-    MesherOptions options;
+TEST_P(EachMesher, WithoutBoundsAddsNoVertices) {
+    MesherOptions options = of_this_mesher();
     options.radius_edge = 0;
     const SurfaceArrays surface = test::to_arrays(test::icosphere(3));
     EXPECT_EQ(mesh_volume(surface, options).mesh.interior_vertex_count(), 0);
@@ -143,7 +157,7 @@ TEST(Mesher, WithoutBoundsAddsNoVertices) {
     EXPECT_GT(mesh_volume(surface, options).mesh.interior_vertex_count(), 0);
 }
 
-TEST(Mesher, KeepsVerticesWithoutFacetsAndTheirNumbers) {
+TEST_P(EachMesher, KeepsVerticesWithoutFacetsAndTheirNumbers) {
     SurfaceArrays surface = test::to_arrays(test::box(Vec3::Zero(), Vec3::Ones(), 2));
     surface.vertices.insert(surface.vertices.begin(), Vec3(0.4, 0.3, 0.2));
     for (Triangle& t : surface.facets)
@@ -151,17 +165,17 @@ TEST(Mesher, KeepsVerticesWithoutFacetsAndTheirNumbers) {
     surface.vertex_key.push_back(make_key(0, static_cast<std::int32_t>(surface.vertex_key.size())));
     for (const std::uint32_t seed : {0u, 1u}) {
         SCOPED_TRACE(seed);
-        MesherOptions options;
+        MesherOptions options = of_this_mesher();
         options.tetgen.shuffle = seed;
         expect_laws(mesh_volume(surface, options).mesh, surface);
     }
 }
 
-TEST(Mesher, KeepsTheVolumeBoundWhereTheSurfaceIsFine) {
+TEST_P(EachMesher, KeepsTheVolumeBoundWhereTheSurfaceIsFine) {
     for (const double scale : {1e-6, 1.0})
         for (const double relative : {0.0008, 0.0004}) {
             SCOPED_TRACE(testing::Message() << "scale " << scale << ", bound " << relative);
-            MesherOptions options;
+            MesherOptions options = of_this_mesher();
             options.size = SizeField(relative * scale * scale * scale);
             const TetMesh mesh =
                 mesh_volume(transformed(test::to_arrays(test::icosphere(4)), scale, Vec3::Zero()), options).mesh;
@@ -174,27 +188,51 @@ TEST(Mesher, KeepsTheVolumeBoundWhereTheSurfaceIsFine) {
         }
 }
 
-TEST(Mesher, TakesExpertSwitches) {
+TEST(TetgenMesher, TakesExpertSwitches) {
     // The volume in the switches is in units of the input, whatever unit the mesher works in.
     const SurfaceArrays surface = transformed(test::to_arrays(test::icosphere(4)), 100, Vec3::Zero());
-    MesherOptions by_option, by_switch;
+    MesherOptions by_option = of_tetgen(), by_switch;
     by_option.radius_edge = 1.3;
     by_option.size = SizeField(400);
+    by_option.improve = false;
     by_switch.tetgen.switches = "q1.3a400";
     const TetMesh mesh = mesh_volume(surface, by_switch).mesh;
     expect_laws(mesh, surface);
     EXPECT_EQ(mesh.tets, mesh_volume(surface, by_option).mesh.tets);
 }
 
-TEST(Mesher, RefusesOptionsOutOfRange) {
+TEST(TetgenMesher, ImprovesCellsUnlessToldNotTo) {
+    for (const auto& [name, surface] : surfaces())
+        for (const SizeField& size : {SizeField(), SizeField(0.02)}) {
+            SCOPED_TRACE(name);
+            MesherOptions options = of_tetgen(), by_switch;
+            options.size = size;
+            by_switch.tetgen.switches = "q1.4";
+            const Filling improved = mesh_volume(surface, options), expert = mesh_volume(surface, by_switch);
+            options.improve = false;
+            const Filling raw = mesh_volume(surface, options);
+            expect_laws(improved.mesh, surface);
+            expect_laws(raw.mesh, surface);
+            EXPECT_TRUE(raw.improvement.is_empty());
+            EXPECT_TRUE(expert.improvement.is_empty());
+            TetMesh by_hand = raw.mesh;
+            improve(by_hand, {.max_size = size});
+            EXPECT_EQ(improved.mesh.tets, by_hand.tets);
+            EXPECT_EQ(improved.mesh.vertices, by_hand.vertices);
+            EXPECT_EQ(improved.improvement.smallest_before.count(), static_cast<std::int64_t>(raw.mesh.tets.size()));
+            EXPECT_LE(improved.improvement.bad_cells_after, improved.improvement.bad_cells_before);
+        }
+}
+
+TEST_P(EachMesher, RefusesOptionsOutOfRange) {
     const SurfaceArrays surface = test::to_arrays(test::box());
-    MesherOptions options;
+    MesherOptions options = of_this_mesher();
     for (const double radius_edge : {-1.0, 0.5, 1.0, std::nan("")}) {
         SCOPED_TRACE(radius_edge);
         options.radius_edge = radius_edge;
         EXPECT_EQ(code_of(surface, options), ErrorCode::usage);
     }
-    options = {};
+    options = of_this_mesher();
     for (const std::string& switches : {std::string("r"), std::string("o2"), std::string(2000, 'q')}) {
         SCOPED_TRACE(switches);
         options.tetgen.switches = switches;

@@ -8,19 +8,22 @@
 #include <gtest/gtest.h>
 
 #include "core/bytes.h"
+#include "volume/meshers.h"
 
 namespace kerf {
 namespace {
 
 std::vector<MesherOptions> options_to_try() {
     std::vector<MesherOptions> all;
-    for (const double radius_edge : {0.0, 1.2, 1.4, 2.0, 5.0})
-        for (const double max_volume : {0.0, 1e-3}) {
-            MesherOptions options;
-            options.radius_edge = radius_edge;
-            options.size = SizeField(max_volume);
-            all.push_back(options);
-        }
+    for (const std::string& name : mesher_names())
+        for (const double radius_edge : {0.0, 1.2, 1.4, 2.0, 5.0})
+            for (const double max_volume : {0.0, 1e-3}) {
+                MesherOptions options;
+                options.name = name;
+                options.radius_edge = radius_edge;
+                options.size = SizeField(max_volume);
+                all.push_back(options);
+            }
     all.emplace_back().tetgen.switches = "q1.3";
     return all;
 }
@@ -29,10 +32,12 @@ TEST(MesherCalls, BeginAsAskedForAndAllDiffer) {
     for (const MesherOptions& wanted : options_to_try()) {
         const std::vector<MesherCall> calls = mesher_calls(wanted);
         EXPECT_TRUE(calls[0].remedy.empty());
-        EXPECT_EQ(to_bytes(calls[0].options), to_bytes(wanted));
-        std::set<std::tuple<double, double, double, std::uint32_t, bool>> different;
+        MesherOptions chosen = wanted;
+        if (wanted.name == "auto") chosen.name = calls[0].options.name;
+        EXPECT_EQ(to_bytes(calls[0].options), to_bytes(chosen));
+        std::set<std::tuple<std::string, double, double, double, std::uint32_t, bool>> different;
         for (const MesherCall& call : calls) {
-            different.emplace(call.options.radius_edge, call.options.size.reference_volume(),
+            different.emplace(call.options.name, call.options.radius_edge, call.options.size.reference_volume(),
                               call.options.tetgen.tolerance, call.options.tetgen.shuffle, call.cut_first);
             EXPECT_TRUE(call.options.size.reference_volume() == wanted.size.reference_volume() ||
                         call.remedy == calls.back().remedy);

@@ -1,0 +1,154 @@
+// The lattice as a row of the table: a core of lattice cells, which is stamped, and a shell between it and the surface.
+// Where sizes differ, or there is no room, the shell is all. Where facets cannot be recovered, TetGen fills the
+// surface.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/cube_root.h"
+#include "core/error.h"
+#include "lattice/lattice_core.h"
+#include "shell/shell.h"
+#include "volume/meshers.h"
+
+namespace kerf {
+
+namespace {
+
+// Volume of the core's cells over the bound. The cells of the shell, which differ more, are to stay below the bound
+// mostly without further points; with 0.7 as many as TetGen's come out for the same bound, with 0.6 it is fastest.
+constexpr double volume_share = 0.6;
+
+constexpr double lattice_angle_deg = 60;  // the smallest one of a cell of the core
+
+double edge_for(double max_volume) { return cube_root(12 * volume_share * max_volume); }
+
+MesherOptions for_tetgen(MesherOptions options) {
+    options.name = "tetgen";
+    return options;
+}
+
+void check_lattice_options(const MesherOptions& options) {
+    if (!options.tetgen.switches.empty())
+        throw Error(ErrorCode::usage,
+                    fmt::format("--tetgen is \"{}\", but --mesher lattice has no such switches. Leave "
+                                "one of them out.",
+                                options.tetgen.switches));
+}
+
+// A cell on a facet of area A that is not above the bound V is at most 3V/A high; over the radius of the circle in an
+// equilateral facet that is the tangent of its dihedral angle. Where most facets are so coarse that the angle must be
+// small, no time is spent on such cells.
+double angle_to_improve_deg(const SurfaceArrays& surface, const MesherOptions& options) {
+    constexpr double least_deg = 10, share = 0.8, squared_radius_by_area = 0.19245;  // 1 / (3 sqrt 3)
+    const double usual_deg = ImproveOptions().threshold_deg;
+    if (options.size.is_empty() || !options.size.is_constant()) return usual_deg;
+    std::vector<double> areas;
+    for (const auto& [a, b, c] : surface.facets)
+        areas.push_back(
+            (surface.vertices[b] - surface.vertices[a]).cross(surface.vertices[c] - surface.vertices[a]).norm() / 2);
+    const auto median = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 2);
+    std::nth_element(areas.begin(), median, areas.end());
+    const double height = 3 * options.size.reference_volume() / *median;
+    const double possible_deg =
+        std::atan(height / std::sqrt(squared_radius_by_area * *median)) * (180 / std::numbers::pi);
+    return std::clamp(share * possible_deg, least_deg, usual_deg);
+}
+
+// Improved before it is joined with the core, whose cells are as they should be.
+Filling fill_shell_alone(const SurfaceArrays& surface, ShellCore core, const MesherOptions& options) {
+    Filling filling{fill_shell(surface, std::move(core), {options.size, options.radius_edge}).mesh, "shell alone"};
+    improve_filling(filling, options, angle_to_improve_deg(surface, options));
+    return filling;
+}
+
+// The core's cells first; vertices of the surface, of the core's boundary, others of the shell, others of the core.
+TetMesh join(const SurfaceArrays& surface, const LatticeCore& core, TetMesh shell) {
+    TetMesh mesh;
+    mesh.boundary_vertex_count = static_cast<std::int32_t>(surface.vertices.size());
+    mesh.vertices = std::move(shell.vertices);
+    const auto first_interior = static_cast<std::int32_t>(mesh.vertices.size());
+    shell.neighbours = {};
+    core.append_interior_points(mesh.vertices);
+    mesh.tets.reserve(static_cast<std::size_t>(core.cell_count()) + shell.tets.size());
+    core.append_cells(mesh.boundary_vertex_count, first_interior, mesh.tets);
+    mesh.tets.insert(mesh.tets.end(), shell.tets.begin(), shell.tets.end());
+    return mesh;
+}
+
+Filling fill_around_core(const SurfaceArrays& surface, const MesherOptions& options) {
+    const LatticeCore core(surface, edge_for(options.size.reference_volume()));
+    Filling filling =
+        fill_shell_alone(surface, {core.boundary_points(), core.boundary_faces(), core.free_points()}, options);
+    if (core.cell_count() == 0) return filling;
+    filling.mesh = join(surface, core, std::move(filling.mesh));
+    filling.way = "core and shell";
+    filling.core_tets = core.cell_count();
+    if (!filling.improvement.is_empty()) filling.improvement.smallest_before.add(lattice_angle_deg, core.cell_count());
+    return filling;
+}
+
+bool wants_one_size(const MesherOptions& options) { return options.size.is_constant() && !options.size.is_empty(); }
+
+// Without points of a core near the surface fewer of its facets are missing.
+Filling fill_without_core(const SurfaceArrays& surface, const MesherOptions& options) {
+    try {
+        return fill_shell_alone(surface, {}, options);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::subdomain) throw;
+        Filling filling = find_mesher("tetgen").fill(surface, for_tetgen(options));
+        filling.way = "TetGen: the shell has failed";
+        return filling;
+    }
+}
+
+Filling fill_with_lattice(const SurfaceArrays& surface, const MesherOptions& options) {
+    if (!wants_one_size(options)) return fill_without_core(surface, options);
+    try {
+        return fill_around_core(surface, options);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::subdomain) throw;
+        return fill_without_core(surface, options);
+    }
+}
+
+// TetGen, and what it has for failures.
+std::vector<MesherCall> lattice_calls(const MesherOptions& wanted) {
+    std::vector<MesherCall> calls = {{.remedy = "", .options = wanted}};
+    for (MesherCall& call : find_mesher("tetgen").calls(for_tetgen(wanted))) {
+        call.remedy = call.remedy.empty() ? "TetGen" : "TetGen, " + call.remedy;
+        calls.push_back(std::move(call));
+    }
+    return calls;
+}
+
+Reproducer lattice_reproducer(const SurfaceArrays& surface, const MesherOptions& options, const std::string& stem) {
+    std::string command =
+        fmt::format("kerf mesh {}.smesh -n 1 --mesher {} --radius-edge {:g}", stem, options.name, options.radius_edge);
+    std::string note;
+    if (options.size.is_constant() && !options.size.is_empty())
+        command += fmt::format(" --max-volume {:.17g}", options.size.reference_volume());
+    else if (!options.size.is_empty())
+        note =
+            "The wanted sizes differ from place to place: the command leaves them out, and may succeed where the run "
+            "did not.\n";
+    return {.ending = ".smesh", .bytes = smesh_text(surface), .command = std::move(command), .note = std::move(note)};
+}
+
+}  // namespace
+
+extern const Mesher lattice_mesher = {.name = "lattice",
+                                      .forecast = {.tets_per_facet = 2.5,
+                                                   .tets_per_volume_bound = 1.7,
+                                                   .seconds_per_tet = 5e-7,
+                                                   .bytes_per_tet = 70,
+                                                   .volume_weight = 0.1,
+                                                   .most_tets = (std::int64_t{1} << 31) - 2},
+                                      .check = check_lattice_options,
+                                      .fill = fill_with_lattice,
+                                      .calls = lattice_calls,
+                                      .reproducer = lattice_reproducer};
+
+}  // namespace kerf
