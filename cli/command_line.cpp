@@ -33,7 +33,8 @@ const char* type_name(const OptionField& field) {
 CLI::Option* add_field(CLI::App& app, const OptionField& field) {
     const std::string names =
         field.short_name.empty() ? "--" + field.name : "-" + field.short_name + ",--" + field.name;
-    if (bool* const* flag = std::get_if<bool*>(&field.value)) return app.add_flag(names, **flag, field.help);
+    if (bool* const* flag = std::get_if<bool*>(&field.value))
+        return app.add_flag(**flag ? names + ",!--no-" + field.name : names, **flag, field.help);
     if (const auto* list = std::get_if<OptionField::List>(&field.value))
         return app
             .add_option_function<std::vector<std::string>>(
@@ -137,6 +138,10 @@ CLI::App* add_export_command(CLI::App& app, CommandLine& line) {
         ->add_option("-o,--output", request.output,
                      "Folder for them. Default: DIR/export/NAME, so that they become part of the run.")
         ->type_name("OUT");
+    command
+        ->add_option("--fields", request.fields,
+                     "Qualities of cells in vtu files, as kerf mesh --help says. Default min-dihedral.")
+        ->type_name("LIST");
     command->add_option("--into", request.into, "Join the parts along the tree into so many pieces.")
         ->type_name("N")
         ->check(CLI::PositiveNumber);

@@ -19,8 +19,8 @@ enum class Balance { nodes, faces, volume, inertia, work };
 /// everywhere, else that of sample_volume().
 struct LoadModel {
     Balance balance = Balance::work;
-    SizeField size = {};           ///< a
-    double volume_weight = 0.606;  ///< w: time of a wanted tetrahedron inside over that of a facet; of TetGen
+    SizeField size = {};         ///< a
+    double volume_weight = 0.1;  ///< w: time of a wanted tetrahedron inside over that of a facet; of the default mesher
 
     /// Samples of the body in question, if the work depends on the place; see of().
     std::shared_ptr<const std::vector<VolumeSample>> samples = {};

@@ -23,6 +23,7 @@ struct Format {
     const char* help;                    ///< what it is and who reads it, a few words
     const char* ending;                  ///< of merged files, with its dot; null: there are none
     bool needs_face_neighbours = false;  ///< write_part() gets a part with them
+    bool asks_for_one_part = false;      ///< write_part() loads no other one, nor does write_whole() any
 
     /// The files that belong to no part, or are written by several: called once, before any part.
     void (*write_whole)(const PartSource& parts, ExportFiles& files) = nullptr;

@@ -23,13 +23,13 @@ void write_joining_file(const PartSource& parts, ExportFiles& files) {
     std::vector<std::string> pieces;
     for (const PartExtent& part : parts.outline().parts) pieces.push_back(file_of_part(part.id));
     ExportFile file = files.create("mesh.pvtu");
-    file.text(pvtu_text(pieces));
+    file.text(pvtu_text(pieces, layout_for(parts.outline(), files.fields())));
     file.close();
 }
 
-void write_piece(const PartSource&, std::int32_t, const Part& part, ExportFiles& files) {
+void write_piece(const PartSource& parts, std::int32_t, const Part& part, ExportFiles& files) {
     const std::string name = file_of_part(part.id), path = files.path_of(name);
-    const FileHash hash = write_part(path, part);
+    const FileHash hash = write_part(path, part, layout_for(parts.outline(), files.fields()));
     files.add({name, static_cast<std::int64_t>(std::filesystem::file_size(path)), hash_text(hash)});
 }
 
@@ -170,6 +170,7 @@ void write_merged(const PartSource& parts, const MergeOptions&, ExportFiles& fil
 extern const Format vtu_format = {.name = "vtu",
                                   .help = "VTK XML: ParaView, meshio, pyvista",
                                   .ending = ".vtu",
+                                  .asks_for_one_part = true,
                                   .write_whole = vtu::write_joining_file,
                                   .write_part = vtu::write_piece,
                                   .write_merged = vtu::write_merged};

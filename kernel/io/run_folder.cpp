@@ -285,7 +285,9 @@ void RunFolder::keep_only(const std::vector<int>& leaves) const {
     std::set<std::string> kept;
     for (const int leaf : leaves) {
         kept.insert("work/journal/" + fs::path(journal_file(leaf)).filename().string());
-        kept.insert("parts/" + stored_part_file_name(leaf));
+        std::error_code ignored;
+        const bool is_stored = fs::exists(stored_part_file(leaf), ignored);
+        kept.insert("parts/" + (is_stored ? stored_part_file_name(leaf) : part_file_name(leaf)));
     }
     remove_run_files(partial_, [&](const std::string& name) {
         return (name.starts_with("parts/") || name.starts_with("work/journal/")) && !kept.contains(name);
@@ -306,6 +308,7 @@ RunFolder RunFolder::join(const std::string& partial_path) {
 
 std::string RunFolder::file(const std::string& name) const { return (fs::path(partial_) / name).string(); }
 std::string RunFolder::stored_part_file(int leaf) const { return file("parts/" + stored_part_file_name(leaf)); }
+std::string RunFolder::part_file(int leaf) const { return file("parts/" + part_file_name(leaf)); }
 std::string RunFolder::part_surface_file(int leaf) const { return file("parts/" + part_surface_file_name(leaf)); }
 std::string RunFolder::part_stl_file(int leaf) const { return file("parts/" + part_stl_file_name(leaf)); }
 std::string RunFolder::saved_run_file() const { return file("work/run.json"); }

@@ -49,6 +49,7 @@ class RunFolder {
     const std::string& partial_path() const { return partial_; }
     const std::string& final_path() const { return final_; }  ///< empty if another rank has created the folder
     std::string stored_part_file(int leaf) const;             ///< .../parts/part_0008.part
+    std::string part_file(int leaf) const;                    ///< .../parts/part_0008.vtu
     std::string part_surface_file(int leaf) const;            ///< .../parts/part_0008.surface.vtu
     std::string part_stl_file(int leaf) const;                ///< .../parts/part_0008.stl
     std::string file(const std::string& name) const;
@@ -63,8 +64,8 @@ class RunFolder {
     /// Number of journal entries.
     std::size_t finished_parts() const;
 
-    /// Removes parts and journal entries of other leaves, and all surfaces, that an interrupted run has left. Only for
-    /// the creator. Throws Error(io).
+    /// Removes parts and journal entries of other leaves, and all surfaces, that an interrupted run has left; also the
+    /// files part_file() of leaves that have a stored_part_file(). Only for the creator. Throws Error(io).
     void keep_only(const std::vector<int>& leaves) const;
 
     /// From now on the destructor leaves the folder for the next run, or again does not.

@@ -71,6 +71,7 @@ void EventLog::on_part(const PartEvent& event) {
                                             : "done"},
                  {"rank", part.rank},
                  {"worker", part.worker},
+                 {"mesher", part.result.mesher},
                  {"attempts", part.attempts},
                  {"tets", part.result.tets},
                  {"part_seconds", part.seconds},
@@ -80,6 +81,8 @@ void EventLog::on_part(const PartEvent& event) {
                  {"tets_done", event.tets}};
     if (part.result.code) json["message"] = part.result.message;
     if (!part.remedy.empty()) json["remedy"] = part.remedy;
+    if (!part.result.way.empty()) json["way"] = part.result.way;
+    if (part.result.core_tets) json["core_tets"] = part.result.core_tets;
     write(std::move(json));
 }
 

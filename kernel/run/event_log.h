@@ -17,13 +17,15 @@ class CheckedFile;
 ///     {"event": "stage", "stage": "read" | "remesh" | "decompose" | "prepare" | "volume" | "reference" | "write" |
 ///                                 "hash"}
 ///     {"event": "parts", "parts": [{"id", "load", "facets", "volume", "resumed"}]}
-///     {"event": "part", "id", "state": "done" | "resumed" | "failed", "rank", "worker", "attempts", "tets",
-///                       "part_seconds", "parts_done", "parts", "load_done", "tets_done", "message", "remedy"}
+///     {"event": "part", "id", "state": "done" | "resumed" | "failed", "rank", "worker", "mesher", "attempts",
+///                       "tets", "part_seconds", "parts_done", "parts", "load_done", "tets_done", "message", "remedy",
+///                       "way", "core_tets"}
 ///     {"event": "end", "exit_code", "message"}
 ///
 /// The first one says what runs: absolute paths, "" for one that is not written, and K, 0 if the run chooses it.
 /// A reader of a pipe that leaves is told nothing more, and the run goes on.
-/// "message" is there where something failed, "remedy" where the first attempt did.
+/// "message" is there where something failed, "remedy" where the first attempt did, "way" where the mesher has several,
+/// "core_tets" where it has stamped cells.
 class EventLog : public RunListener {
  public:
     /// `target`: the path of a file, which is replaced, or fd:N, an open file descriptor, which stays open. Throws

@@ -156,6 +156,7 @@ ExportSummary export_run(const ExportRequest& request, Communicator& ranks, RunL
     const std::string staging = in_agreement(ranks, [&] {
         places = places_of(request, parse_formats(request.formats));
         check_request(request);
+        parse_cell_fields(request.fields);
         parts = std::make_unique<RunParts>(request.folder);
         if (request.into != 0) joined = std::make_unique<JoinedParts>(*parts, request.into);
         if (ranks.rank() != 0) return std::string();
@@ -173,7 +174,8 @@ ExportSummary export_run(const ExportRequest& request, Communicator& ranks, RunL
                           source.outline().vertices,
                           source.outline().tets()};
     // What belongs to no part is written by the root rank, which alone asks for files of others.
-    const WriteTarget to{shared_staging, folder, target ? target->own() : std::set<std::string>()};
+    const WriteTarget to{shared_staging, folder, target ? target->own() : std::set<std::string>(),
+                         parse_cell_fields(request.fields)};
     summary.files = write_parts(ranks, source, places, to, request.threads, listener);
     in_agreement(ranks, [&] {
         if (target) target->take(summary.files, request.output.empty());

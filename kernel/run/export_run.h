@@ -14,6 +14,7 @@ struct ExportRequest {
     std::string formats;    ///< names with commas between
     std::string output;     ///< folder for them; empty: export/NAME in that of the run
     std::int32_t into = 0;  ///< pieces into which the parts are joined; 0: as they are
+    std::string fields;     ///< of cells in vtu files (parse_cell_fields())
     int threads = 1;        ///< of each rank
 };
 

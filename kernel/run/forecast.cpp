@@ -25,7 +25,9 @@ constexpr double reserved_bytes = 100e6, safety = 1.5;
 constexpr double least_tets_per_part = 1000;
 constexpr std::int32_t parts_per_worker = 4;    // so that the last one is short against all of them
 constexpr double area_per_squared_edge = 0.69;  // of an interface triangle, and of its longest wanted edge
-constexpr double stored_bytes_per_tet = 22, file_bytes_per_tet = 70;  // of the store, of one format
+constexpr double stored_bytes_per_tet = 22, file_bytes_per_tet = 70;  // of the store, of one format but vtu
+constexpr double vtu_bytes_per_tet = 31, field_bytes_per_tet = 4;     // of vtu, and of each field of its cells
+
 constexpr double certain = 0.5;  // nearly every mesh is larger than this share of its forecast
 
 const MesherForecast& known_of(const MesherOptions& mesher) { return find_mesher(mesher.name).forecast; }
@@ -80,9 +82,16 @@ double bytes_waiting(const std::string& output) {
     return bytes;
 }
 
-// Of all files that lie there at once.
+// Of all files that lie there at once. Stores of parts that no format asks for again make room while these are written.
 double disk_bytes_per_tet(const RunOptions& options) {
-    return stored_bytes_per_tet + file_bytes_per_tet * static_cast<double>(parse_formats(options.formats).size());
+    double bytes = 0, stored = 0;
+    for (const Format* format : parse_formats(options.formats)) {
+        const bool is_vtu = format == &find_format("vtu");
+        const auto fields = static_cast<double>(parse_cell_fields(options.fields).count());
+        bytes += is_vtu ? vtu_bytes_per_tet + field_bytes_per_tet * fields : file_bytes_per_tet;
+        if (!format->asks_for_one_part) stored = stored_bytes_per_tet;
+    }
+    return bytes + stored;
 }
 
 }  // namespace

@@ -44,6 +44,8 @@ Filling mesh_in_two(const SurfaceArrays& surface, const MesherOptions& options) 
     joined.boundary_vertex_count = static_cast<std::int32_t>(surface.vertices.size());
     for (const SurfaceArrays& half : halves_of(surface, options)) {
         const Filling of_half = mesh_volume(half, options);
+        filling.improvement.add(of_half.improvement);
+        filling.improve_seconds += of_half.improve_seconds;
         const TetMesh& mesh = of_half.mesh;
         if (filling.way.find(of_half.way) == std::string::npos)
             filling.way += (filling.way.empty() ? "" : ", ") + of_half.way;
@@ -59,8 +61,12 @@ Filling mesh_in_two(const SurfaceArrays& surface, const MesherOptions& options) 
         }
         for (std::size_t v = half.vertices.size(); v < mesh.vertices.size(); ++v)
             place(v, static_cast<std::int32_t>(joined.vertices.size()));
+        const std::size_t before = joined.tets.size();
         for (const Tetrahedron& t : mesh.tets)
             joined.tets.push_back({number[t[0]], number[t[1]], number[t[2]], number[t[3]]});
+        const auto first = joined.tets.begin() + static_cast<std::ptrdiff_t>(before);
+        std::rotate(joined.tets.begin() + filling.core_tets, first, first + of_half.core_tets);  // the cores come first
+        filling.core_tets += of_half.core_tets;
     }
     return filling;
 }

@@ -11,6 +11,7 @@
 #include "export/format.h"
 #include "io/output_file.h"
 #include "io/run_folder.h"
+#include "part/vtu_writer.h"
 #include "volume/meshers.h"
 
 namespace kerf {
@@ -121,6 +122,8 @@ void RunOptions::resolve(int cores_of_rank) {
         throw Error(ErrorCode::usage, "--contour straight splits facets, and --surface keep forbids it. Drop one.");
     if (formats.empty()) formats = "vtu";
     parse_formats(formats);
+    if (fields.empty()) fields = "min-dihedral";
+    parse_cell_fields(fields);
     check_files();
     sizes.max_volume = sizes.constant_max_volume();
     if (!sizes.field_file.empty()) sizes.field_file = std::filesystem::absolute(sizes.field_file).string();
@@ -266,7 +269,10 @@ std::vector<OptionField> option_fields(RunOptions& o) {
          "Largest distance of a remeshed surface from the input, in its units, or with % of its diagonal. Default "
          "0.002%.",
          &o.deviation},
-        {"mesher", "", "What fills the parts. Default tetgen.", mesher_choice(o.mesher.name)},
+        {"mesher", "", "What fills the parts: auto, the default, takes lattice, unless --tetgen is given.",
+         mesher_choice(o.mesher.name)},
+        {"improve", "", "Better cells in place of the worst; not with --tetgen. Default true: --no-improve keeps them.",
+         &o.mesher.improve},
         {"workers", "", "Mesher processes of each rank. Default: its share of the processors that it may use.",
          &o.workers, false},
         {"timeout", "",
@@ -279,6 +285,10 @@ std::vector<OptionField> option_fields(RunOptions& o) {
         {"tetgen", "", "Expert: TetGen switches instead of q and a (p, Y are always on).", &o.mesher.tetgen.switches},
         {"format", "", "Formats of the result, with commas between; kerf export --help lists them. Default vtu.",
          &o.formats, false},
+        {"fields", "",
+         "Qualities of each cell in vtu files, with commas between: min-dihedral, max-dihedral, radius-edge, aspect, "
+         "shape; or all, or none. Default min-dihedral.",
+         &o.fields, false},
         {"reference", "", "Mesh the whole in one piece, too, and compare: comparison.svg, and a table with -v.",
          &o.reference, false},
         {"stl", "", "Write the closed surface of every part as binary STL, too.", &o.stl, false},

@@ -37,6 +37,7 @@ struct RunOptions {
     std::string trace_file;        ///< all cuts with their stages (run/trace.h); empty: none. Not inside of `output`
     std::string events_file;       ///< of an EventLog that the caller gives to the run; empty: none
     std::string formats;           ///< names of export/format.h with commas between; empty: vtu
+    std::string fields;            ///< of cells in vtu files (parse_cell_fields()); empty: min-dihedral
     bool reference = false;        ///< the whole is meshed in one piece, too, and compared
     bool stl = false;              ///< the surfaces of the parts as STL, too
     bool volume = true;            ///< false: stop at the closed surfaces of the parts

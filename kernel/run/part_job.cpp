@@ -4,10 +4,12 @@
 
 #include <fmt/format.h>
 
+#include "core/elements.h"
 #include "core/error.h"
 #include "core/record.h"
 #include "io/checked_file.h"
 #include "io/file_bytes.h"
+#include "part/vtu_reader.h"
 #include "run/mesh_hash.h"
 #include "run/mesh_in_two.h"
 
@@ -58,21 +60,34 @@ void fill_result(const PartJob& job, const MesherCall& call, const std::string& 
     });
     TetMesh& mesh = filling.mesh;
     result.way = filling.way;
-    timed(result.verify_seconds, [&] { result.laws = verify_mesh(mesh, job.surface); });
+    result.improvement = filling.improvement;
+    result.improve_seconds = filling.improve_seconds;
     mesh.neighbours = {};  // parts are stored without
+    timed(result.verify_seconds, [&] { result.laws = verify_mesh(mesh, job.surface, FaceProof::sum); });
     if (!result.laws.hold()) throw Error(ErrorCode::subdomain, broken_laws(result.laws));
     result.vertices = static_cast<std::int64_t>(mesh.vertices.size());
     result.interior_vertices = mesh.interior_vertex_count();
     result.tets = static_cast<std::int64_t>(mesh.tets.size());
+    result.core_tets = filling.core_tets;
     timed(result.verify_seconds, [&] { result.hash = hash_part(mesh, job.surface); });
     timed(result.store_seconds, [&] {
         result.sizes = measure_sizes(mesh, job.surface, call.options.size);
         result.quality = measure_quality(mesh, interface_vertices(job.surface, mesh.vertices.size()), job.length_scale);
+        result.angles = ImprovedAngles(result.improvement, result.quality);
         result.file_hash = write_stored_part(part_file, part_of_job(job, std::move(mesh)));
     });
 }
 
 }  // namespace
+
+ImprovedAngles::ImprovedAngles(const Improvement& improvement, const PartQuality& after) {
+    if (improvement.is_empty() || after.all.measures.empty()) return;
+    const Distribution &was = improvement.smallest_before, &is = after.all.measures[0];
+    min_before_deg = was.min();
+    p1_before_deg = was.percentile(0.01);
+    min_after_deg = is.min();
+    p1_after_deg = is.percentile(0.01);
+}
 
 Eigen::AlignedBox3d box_of(const PartJob& job) {
     Eigen::AlignedBox3d box;
@@ -103,6 +118,21 @@ Part part_of_job(const PartJob& job, TetMesh mesh) {
     part.shared_edges = job.shared_edges;
     part.mesh = std::move(mesh);
     return part;
+}
+
+void restore_stored_part(const std::string& part_file, const std::string& vtu_file, const PartJob& job) {
+    if (!is_complete_part_file(vtu_file)) return;
+    Part part;
+    try {
+        part = read_part(vtu_file);
+    } catch (const Error&) {  // damaged
+        return;
+    }
+    if (!are_in_range(part.facets, static_cast<std::size_t>(part.mesh.boundary_vertex_count))) return;
+    part.tet_at_facet = tets_at_facets(part.mesh, part.facets);
+    part.shared = job.shared;
+    part.shared_edges = job.shared_edges;
+    write_stored_part(part_file, part);
 }
 
 void write_job(const std::string& path, const PartJob& job) {

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "improve/improve.h"
 #include "mesh/quality.h"
 #include "mesh/verification.h"
 #include "part/part_store.h"
@@ -52,6 +53,16 @@ struct PartAttempt {
     }
 };
 
+/// Smallest dihedral angles before and after the improvement of cells; all 0 where there was none.
+struct ImprovedAngles {
+    double min_before_deg = 0, p1_before_deg = 0;  ///< of the worst cell, and of a hundredth of the cells at most
+    double min_after_deg = 0, p1_after_deg = 0;
+
+    ImprovedAngles() = default;
+    ImprovedAngles(const Improvement& improvement, const PartQuality& after);
+    bool known() const { return min_after_deg > 0; }
+};
+
 /// What the parent keeps of a part; the mesh itself goes from the worker to its file.
 struct PartResult {
     int code = 0;         ///< value of ErrorCode, 0: the part is verified and written
@@ -59,23 +70,32 @@ struct PartResult {
     std::string mesher;   ///< that has filled the part; empty if none was asked
     std::string way;      ///< Filling::way
     std::int64_t vertices = 0, interior_vertices = 0, tets = 0;
+    std::int64_t core_tets = 0;  ///< Filling::core_tets
     MeshLaws laws;
     PartQuality quality;
     SizeRatios sizes;                            ///< against the sizes of the call, which a remedy may have made larger
     std::array<std::uint64_t, 2> hash = {0, 0};  ///< of surface, keys and mesh
     FileHash file_hash = {0, 0};                 ///< of the stored part
+    Improvement improvement;                     ///< Filling::improvement
+    ImprovedAngles angles;                       ///< by it
+    double improve_seconds = 0;                  ///< of mesh_seconds
     double load_seconds = 0, mesh_seconds = 0, verify_seconds = 0, store_seconds = 0;
     std::int64_t peak_rss_bytes = 0;
 
     template <class Archive>
     void archive(Archive& a) {
-        a(code, message, mesher, way, vertices, interior_vertices, tets, laws, quality, sizes, hash, file_hash,
-          load_seconds, mesh_seconds, verify_seconds, store_seconds, peak_rss_bytes);
+        a(code, message, mesher, way, vertices, interior_vertices, tets, core_tets, laws, quality, sizes, hash,
+          file_hash, improvement, angles, improve_seconds, load_seconds, mesh_seconds, verify_seconds, store_seconds,
+          peak_rss_bytes);
     }
 };
 
 /// Of a part that did not fit into the memory of its worker.
 PartResult out_of_memory();
+
+/// Stores the part of a job again as it is in a file of write_part(), if there is a whole one: whoever finds its hash
+/// as it was has lost nothing. Throws Error(io) only if it cannot be written.
+void restore_stored_part(const std::string& part_file, const std::string& vtu_file, const PartJob& job);
 
 /// Keeps the bytes of a job in a file, from which any worker can take it. Throws Error(io).
 void write_job(const std::string& path, const PartJob& job);

@@ -243,7 +243,7 @@ void Run::hand_over_parts() {
 
 void Run::mesh_parts() {
     const Stopwatch stopwatch;
-    volume_->mesh(report_.parts, report_.quality);
+    volume_->mesh(report_.parts, report_.quality, report_.improvement);
     report_.seconds.mesh = longest(ranks_, stopwatch.seconds());
 }
 
@@ -290,6 +290,7 @@ StoredParts Run::number_parts() {
         next += part.result.interior_vertices;
     }
     report_.vertices = outline.vertices = next;
+    outline.is_whole = outline.parts.size() == report_.parts.size();
     return {std::move(outline), std::move(places)};
 }
 
@@ -299,8 +300,16 @@ void Run::write_formats() {
     const StoredParts parts = number_parts();
     std::vector<const Format*> formats = parse_formats(report_.options.formats);
     if (failure_code(report_.parts) != 0) formats = {&find_format("vtu")};
-    report_.files = write_parts(ranks_, parts, places_in_run_folder(formats), {folder_->partial_path()},
-                                report_.options.workers, listener_);
+    // The store of a part goes as soon as its file of vtu is there, which holds as much: the disk needs no room for
+    // both.
+    const bool is_whole = parts.outline().is_whole;
+    const bool stores_go =
+        is_whole && std::all_of(formats.begin(), formats.end(), [](const Format* f) { return f->asks_for_one_part; });
+    const WriteTarget target{.folder = folder_->partial_path(), .fields = parse_cell_fields(report_.options.fields)};
+    report_.files = write_parts(ranks_, parts, places_in_run_folder(formats), target, report_.options.workers,
+                                listener_, [&](std::int32_t rank) {
+                                    if (stores_go) parts.remove(rank);
+                                });
     report_.seconds.write = longest(ranks_, stopwatch.seconds());
 }
 

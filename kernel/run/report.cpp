@@ -102,6 +102,23 @@ Json node_json(const TreeNode& node) {
     return json;
 }
 
+// What it has gained a second is told by what a hundredth of the cells has at most.
+Json improvement_json(const Improvement& done, const ImprovedAngles& angles, double seconds) {
+    if (!angles.known()) return nullptr;
+    const double gain = angles.p1_after_deg - angles.p1_before_deg;
+    return {{"removed_edges", done.removed_edges},
+            {"moved_vertices", done.moved_vertices},
+            {"new_vertices", done.new_vertices},
+            {"bad_cells_before", done.bad_cells_before},
+            {"bad_cells_after", done.bad_cells_after},
+            {"min_dihedral_deg_before", angles.min_before_deg},
+            {"min_dihedral_deg_after", angles.min_after_deg},
+            {"p1_dihedral_deg_before", angles.p1_before_deg},
+            {"p1_dihedral_deg_after", angles.p1_after_deg},
+            {"seconds", seconds},
+            {"p1_dihedral_deg_per_second", seconds > 0 ? gain / seconds : 0}};
+}
+
 Json part_json(const PartReport& part, const std::string& wanted_mesher) {
     Json json = {{"id", part.id},
                  {"rank", part.rank},
@@ -126,6 +143,10 @@ Json part_json(const PartReport& part, const std::string& wanted_mesher) {
     if (!part.failures.empty()) json["failures"] = part.failures;
     if (!part.remedy.empty()) json["remedy"] = part.remedy;
     if (!part.result.way.empty()) json["way"] = part.result.way;
+    if (part.result.core_tets) json["core_tets"] = part.result.core_tets;
+    if (part.result.angles.known())
+        json["improvement"] =
+            improvement_json(part.result.improvement, part.result.angles, part.result.improve_seconds);
     if (!part.interruption.empty()) json["interruption"] = part.interruption;
     if (part.timed_out)
         json["note"] = "An attempt ran out of time, so the bytes may differ from those of an undisturbed run.";
@@ -166,6 +187,8 @@ Json totals_json(const RunReport& report) {
             {"imbalance", report.imbalance},
             {"peak_rss_bytes", report.peak_rss_bytes}};
 }
+
+ImprovedAngles angles_of(const RunReport& report) { return {report.improvement, report.quality}; }
 
 Json ratios_json(const RatioCounts& ratios) {
     return {{"edges", ratios.count()},       {"share_obeyed", ratios.share_obeyed()}, {"p1", ratios.percentile(0.01)},
@@ -236,6 +259,7 @@ std::string to_json(const RunReport& report) {
                  {"parts", parts_json(report)},
                  {"totals", totals_json(report)},
                  {"quality", quality_json(report.quality)},
+                 {"improvement", improvement_json(report.improvement, angles_of(report), report.improve_seconds)},
                  {"sizes", sizes_json(report)},
                  {"verification",
                   {{"passed", v.passed},
@@ -303,6 +327,13 @@ std::string reference_text(const RunReport& report) {
                        dihedral.percentile(0.5));
 }
 
+std::string improvement_text(const RunReport& report) {
+    const ImprovedAngles angles = angles_of(report);
+    return fmt::format("dihedral 1 % {:.1f} -> {:.1f}, min {:.1f} -> {:.1f} deg; {:.2f} s in all workers",
+                       angles.p1_before_deg, angles.p1_after_deg, angles.min_before_deg, angles.min_after_deg,
+                       report.improve_seconds);
+}
+
 // Where the seconds went.
 std::string time_text(const RunReport& report) {
     const StageSeconds& s = report.seconds;
@@ -358,6 +389,7 @@ std::string to_text(const RunReport& report) {
     if (resumed > 0) line("continued", fmt::format("{} parts were finished by an interrupted run", resumed));
     if (report.options.volume) {
         line("mesh", fmt::format("{} tetrahedra, {} vertices", grouped(report.tets), grouped(report.vertices)));
+        if (!report.improvement.is_empty()) line("improved", improvement_text(report));
         const Distribution& dihedral = report.quality.all.measures[0];
         const Distribution& ratio = report.quality.all.measures[2];
         if (!report.sizes.empty())

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "improve/improve.h"
 #include "io/run_manifest.h"
 #include "run/input.h"
 #include "run/options.h"
@@ -93,6 +94,8 @@ struct RunReport {
     double imbalance = 1;             ///< max over mean of the part seconds summed per worker
     std::int64_t peak_rss_bytes = 0;  ///< of the ranks, and of the largest worker for each worker
     PartQuality quality;
+    Improvement improvement;  ///< sum over the parts, and so are its seconds
+    double improve_seconds = 0;
     SizeRatios sizes;                    ///< sum over the parts
     std::optional<Reference> reference;  ///< on the root rank, where it was asked for
     std::string mesh_hash;

@@ -1,20 +1,45 @@
 #include "run/size_ratios.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
 
 #include "core/number_text.h"
+#include "core/quick_log2.h"
 #include "mesh/buckets.h"
 
 namespace kerf {
 
 namespace {
 
-// Calls visit(a, b) for every edge with an end beyond the boundary vertices, once. Beside the tetrahedra it needs no
-// more memory than they take.
+// The different ones among some numbers, none of which is negative, by a table of the places where they may be.
+class DistinctNumbers {
+ public:
+    /// Calls visit(number) for each, in the order of their first.
+    template <class Visit>
+    void visit(std::span<const std::int32_t> numbers, const Visit& visit) {
+        constexpr std::uint32_t golden_ratio = 0x9E3779B9;  // times 2^32: its multiples spread evenly
+        constexpr std::int32_t nobody = -1;
+        const std::size_t mask = std::bit_ceil(2 * numbers.size() + 1) - 1;
+        table_.assign(mask + 1, nobody);
+        for (const std::int32_t number : numbers) {
+            std::size_t place = (static_cast<std::uint32_t>(number) * golden_ratio) >> 16 & mask;
+            while (table_[place] != nobody && table_[place] != number) place = (place + 1) & mask;
+            if (table_[place] == number) continue;
+            table_[place] = number;
+            visit(number);
+        }
+    }
+
+ private:
+    std::vector<std::int32_t> table_;
+};
+
+// Calls visit(a, b) for every edge with an end beyond the boundary vertices, once. Beside the tetrahedra it needs half
+// of the memory that they take.
 template <class Visit>
 void for_each_inner_edge(const TetMesh& mesh, const Visit& visit) {
     const auto for_each_side = [&](const auto& take) {
@@ -24,12 +49,11 @@ void for_each_inner_edge(const TetMesh& mesh, const Visit& visit) {
                     if (std::max(t[i], t[j]) >= mesh.boundary_vertex_count)
                         take(static_cast<std::size_t>(std::min(t[i], t[j])), std::max(t[i], t[j]));
     };
-    const std::size_t most_sides = mesh.tets.size() * sizeof(Tetrahedron) / sizeof(std::int32_t);
+    const std::size_t most_sides = mesh.tets.size() * sizeof(Tetrahedron) / sizeof(std::int32_t) / 2;
+    DistinctNumbers distinct;
     visit_buckets<std::int32_t>(
         mesh.vertices.size(), most_sides, for_each_side, [&](std::size_t a, std::span<std::int32_t> others) {
-            std::sort(others.begin(), others.end());
-            const auto end = std::unique(others.begin(), others.end());
-            std::for_each(others.begin(), end, [&](std::int32_t b) { visit(static_cast<std::int32_t>(a), b); });
+            distinct.visit(others, [&](std::int32_t b) { visit(static_cast<std::int32_t>(a), b); });
         });
 }
 
@@ -49,7 +73,8 @@ std::string ratios_text(const RatioCounts& r) {
 }  // namespace
 
 void RatioCounts::add(double ratio) {
-    const double octave = std::log2(ratio / low) + octaves_below;
+    const double above_low = std::isnormal(ratio) ? quick_log2(ratio / low) : std::log2(ratio / low);
+    const double octave = above_low + octaves_below;
     const double bin = std::clamp(std::floor(octave * bins_per_octave), 0.0, static_cast<double>(bins_.size() - 1));
     ++bins_[static_cast<std::size_t>(bin)];
 }

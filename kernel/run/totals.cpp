@@ -67,6 +67,7 @@ void add_up_parts(RunReport& report) {
     for (const PartReport& part : report.parts) {
         report.tets += part.result.tets;
         report.sizes.add(part.result.sizes);
+        report.improve_seconds += part.result.improve_seconds;
         hashes.push_back({part.id, part.result.hash});
     }
     if (report.options.volume) report.mesh_hash = hash_of_parts(hashes);

@@ -18,6 +18,7 @@
 #include "io/run_manifest.h"
 #include "mesh/quality.h"
 #include "part/run_parts.h"
+#include "part/vtu_reader.h"
 #include "part/vtu_writer.h"
 #include "run/oriented_triangle.h"
 #include "run/path_text.h"
@@ -180,7 +181,8 @@ void FolderVerifier::check_boundary_arrays(const Part& part, const std::string& 
 // The arrays that follow from the mesh, and all headers: the bytes are those that the mesh would be written as.
 void FolderVerifier::check_what_follows(const Part& part, const std::string& path, const std::string& surface_path) {
     const bool is_valid = std::none_of(part.mesh.tets.begin(), part.mesh.tets.end(), has_repeated_vertex);
-    if (is_vtu(path) && is_valid && describe_file(folder_, path).hash != hash_text(hash_of_part(part)))
+    if (is_vtu(path) && is_valid &&
+        describe_file(folder_, path).hash != hash_text(hash_of_part(part, read_layout(folder_ + "/" + path))))
         differs(path + " has arrays that do not follow from its mesh");
     std::error_code ignored;
     if (!std::filesystem::exists(folder_ + "/" + surface_path, ignored)) return;  // the list of files says so
@@ -193,8 +195,9 @@ void FolderVerifier::check_pvtu() {
     for (const auto& part : report_.at("parts")) pieces.push_back("parts/" + part_file_name(part.at("id")));
     const std::string path = folder_ + "/mesh.pvtu";
     std::error_code ignored;
-    if (is_of_this_version_ && std::filesystem::exists(path, ignored) && read_file(path) != pvtu_text(pieces))
-        differs("mesh.pvtu does not name the parts");
+    if (!is_of_this_version_ || !std::filesystem::exists(path, ignored)) return;
+    const VtuLayout layout = pieces.empty() ? VtuLayout() : read_layout(folder_ + "/" + pieces.front());
+    if (read_file(path) != pvtu_text(pieces, layout)) differs("mesh.pvtu does not name the parts");
 }
 
 // What the report says of the whole.

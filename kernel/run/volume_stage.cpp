@@ -29,6 +29,7 @@ void remove_file(const std::string& path) {
 // What others are told of a part.
 PartReport without_quality(PartReport part) {
     part.result.quality = PartQuality();
+    part.result.improvement.smallest_before = Distribution();
     return part;
 }
 
@@ -74,18 +75,28 @@ class VolumeStage::Tally {
 
 void VolumeStage::hand_over(const PartJob& job, PartReport& part) {
     const std::string journal = folder_.journal_file(part.id), file = folder_.stored_part_file(part.id);
+    const std::string vtu_file = folder_.part_file(part.id);
     MesherOptions mesher = options_.mesher;
     mesher.size = mesher.size.within(part.box());
     part.job_hash = hash_of_job(job, mesher, options_.attempts, worker_hash_);
+    std::error_code ignored;
+    if (std::filesystem::exists(journal, ignored) && !std::filesystem::exists(file, ignored))
+        restore_stored_part(file, vtu_file, job);
+    remove_file(vtu_file);
     if (const auto outcome = find_finished_part(journal, file, part.job_hash, options_.timeout_seconds)) {
         static_cast<PartOutcome&>(part) = *outcome;
         part.resumed = true;
-        quality_.add(part.result.quality);
+        add_quality(part.result);
         part = without_quality(std::move(part));
         return;
     }
     for (const std::string& stale : {journal, file}) remove_file(stale);
     write_job(folder_.job_file(part.id), job);
+}
+
+void VolumeStage::add_quality(const PartResult& result) {
+    quality_.add(result.quality);
+    improvement_.add(result.improvement);
 }
 
 std::vector<std::size_t> VolumeStage::waiting_parts(const std::vector<PartReport>& parts) const {
@@ -153,12 +164,12 @@ std::vector<PartReport> VolumeStage::mesh_share(const std::vector<PartReport>& p
             tally->add(part);
         else
             ranks_.post(root, to_bytes(Message{Message::Kind::part_done, {without_quality(part)}}));
-        if (part.result.tets > 0) quality_.add(part.result.quality);
+        if (part.result.tets > 0) add_quality(part.result);
         meshed.push_back(without_quality(std::move(part)));
     }
 }
 
-void VolumeStage::mesh(std::vector<PartReport>& parts, PartQuality& quality) {
+void VolumeStage::mesh(std::vector<PartReport>& parts, PartQuality& quality, Improvement& improvement) {
     std::vector<PartReport> meshed;
     const auto mesh_or_stop_all = [&] {
         try {
@@ -180,6 +191,7 @@ void VolumeStage::mesh(std::vector<PartReport>& parts, PartQuality& quality) {
     for (std::vector<PartReport>& of_rank : all_gather(ranks_, meshed))
         for (PartReport& part : of_rank) *by_id[part.id] = std::move(part);
     for (const PartQuality& of_rank : all_gather(ranks_, quality_)) quality.add(of_rank);
+    for (const Improvement& of_rank : all_gather(ranks_, improvement_)) improvement.add(of_rank);
 }
 
 }  // namespace kerf

@@ -29,16 +29,18 @@ class VolumeStage {
     void hand_over(const PartJob& job, PartReport& part);
 
     /// Collective. `parts`: all parts of the run, the same on every rank, after they were handed over. On return they
-    /// have their outcomes on every rank, but for the distributions of their quality, which are added to `quality`.
+    /// have their outcomes on every rank, but for the distributions of their quality, which are added to `quality`
+    /// and `improvement`.
     /// Throws Error on every rank alike: `cancelled` if any was cancelled, `io` if a part could not be written, with
     /// all workers ended.
-    void mesh(std::vector<PartReport>& parts, PartQuality& quality);
+    void mesh(std::vector<PartReport>& parts, PartQuality& quality, Improvement& improvement);
 
  private:
     struct Message;
     class Tally;
     std::vector<std::size_t> waiting_parts(const std::vector<PartReport>& parts) const;
     std::vector<PartReport> mesh_share(const std::vector<PartReport>& parts);
+    void add_quality(const PartResult& result);
     void keep_outcome(const PartReport& part) const;
     void post_to_others(const Message& message);
 
@@ -47,7 +49,9 @@ class VolumeStage {
     const RunOptions& options_;
     std::string worker_hash_;
     RunListener* listener_;
-    PartQuality quality_;  // of the parts that this rank has meshed, or found finished
+    // Of the parts that this rank has meshed, or found finished.
+    PartQuality quality_;
+    Improvement improvement_;
 };
 
 }  // namespace kerf

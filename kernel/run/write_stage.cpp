@@ -41,7 +41,7 @@ std::vector<FormatFiles> open_formats(std::span<const FormatPlace> formats, cons
     for (const auto& [format, sub_folder] : formats) {
         const std::string place = target.place.empty() ? "" : below(target.place, sub_folder);
         opened.push_back({format, std::make_unique<ExportFiles>(below(target.folder, sub_folder), place,
-                                                                names_below(target.own, sub_folder))});
+                                                                names_below(target.own, sub_folder), target.fields)});
     }
     return opened;
 }
@@ -58,8 +58,9 @@ void write_part(const PartSource& parts, std::int32_t rank, const std::vector<Fo
 // The threads of one rank that write its share of the parts; the first error of any of them ends all.
 class PartWriters {
  public:
-    PartWriters(const PartSource& parts, const std::vector<FormatFiles>& formats, LeafRange share)
-        : parts_(parts), formats_(formats), share_(share), next_(share.first) {}
+    PartWriters(const PartSource& parts, const std::vector<FormatFiles>& formats, LeafRange share,
+                const PartWritten& part_written)
+        : parts_(parts), formats_(formats), share_(share), part_written_(part_written), next_(share.first) {}
 
     /// Returns when all are written. `while_waiting` is called now and then, with the number that is done.
     template <class WhileWaiting>
@@ -93,6 +94,7 @@ class PartWriters {
             std::exception_ptr error;
             try {
                 write_part(parts_, rank, formats_);
+                if (part_written_) part_written_(rank);
             } catch (...) {
                 error = std::current_exception();
             }
@@ -107,6 +109,7 @@ class PartWriters {
     const PartSource& parts_;
     const std::vector<FormatFiles>& formats_;
     LeafRange share_;
+    const PartWritten& part_written_;
     std::atomic<std::int32_t> next_;
     std::mutex mutex_;
     std::condition_variable changed_;
@@ -135,7 +138,8 @@ std::vector<FormatPlace> places_in_run_folder(const std::vector<const Format*>& 
 }
 
 std::vector<RunFile> write_parts(Communicator& ranks, const PartSource& parts, std::span<const FormatPlace> formats,
-                                 const WriteTarget& target, int threads, RunListener* listener) {
+                                 const WriteTarget& target, int threads, RunListener* listener,
+                                 const PartWritten& part_written) {
     const std::vector<FormatFiles> opened = open_formats(formats, target);
     const auto check = [&](std::int32_t done, std::int32_t total) {
         if (!listener) return;
@@ -152,7 +156,7 @@ std::vector<RunFile> write_parts(Communicator& ranks, const PartSource& parts, s
         std::any_of(formats.begin(), formats.end(), [](const FormatPlace& f) { return f.format->write_part; });
     const std::vector<RunFile> own = in_agreement(ranks, [&] {
         if (any_in_parts)
-            PartWriters(parts, opened, share).run(threads, [&](std::int32_t done) {
+            PartWriters(parts, opened, share, part_written).run(threads, [&](std::int32_t done) {
                 check(done, share.last - share.first);
             });
         if (ranks.rank() == 0)

@@ -1,6 +1,7 @@
 // Parts to files of all formats, by the threads of all ranks.
 #pragma once
 
+#include <functional>
 #include <set>
 #include <span>
 #include <string>
@@ -26,7 +27,12 @@ struct WriteTarget {
     std::string folder;
     std::string place = "";
     std::set<std::string> own = {};
+    CellFieldSet fields = VtuLayout().fields;
 };
+
+/// Told of each part that is written in all formats, by its rank in the outline: nobody loads it again, if its formats
+/// ask for no other part (Format::asks_for_one_part). From any thread; may throw Error.
+using PartWritten = std::function<void(std::int32_t)>;
 
 /// Writes all parts in all formats below the folder of the target. Collective: every rank
 /// writes its share of the parts with so many `threads`, each of which holds one part at a time; what belongs to no
@@ -34,6 +40,7 @@ struct WriteTarget {
 /// the folder, on every rank; with sizes and hashes on the root rank. The bytes depend on the parts alone. Throws Error
 /// on every rank alike.
 std::vector<RunFile> write_parts(Communicator& ranks, const PartSource& parts, std::span<const FormatPlace> formats,
-                                 const WriteTarget& target, int threads, RunListener* listener);
+                                 const WriteTarget& target, int threads, RunListener* listener,
+                                 const PartWritten& part_written = {});
 
 }  // namespace kerf

@@ -83,10 +83,10 @@ TEST_F(BadInput, SelfIntersectingSurface) {
 }
 
 // The first reason is the one that helps, whatever the remedies said.
-TEST_F(BadInput, ShellsThatAlmostTouch) {
+TEST_F(BadInput, ShellsThatAlmostTouchForTetGen) {
     const Soup ball = test::icosphere(2), inner = test::inside_out(test::icosphere(2, 1 - 1e-9));
-    const ChildResult result = test::run_kerf(
-        {"mesh", write("balls.off", test::join(ball, inner)), "-o", folder_.file("out"), "-n", "1", "-q"});
+    const ChildResult result = test::run_kerf({"mesh", write("balls.off", test::join(ball, inner)), "-o",
+                                               folder_.file("out"), "-n", "1", "-q", "--mesher", "tetgen"});
     EXPECT_EQ(result.exit_code, 4) << result.log;
     EXPECT_NE(result.log.find("could not be meshed: TetGen stopped with code 3: it found facets that intersect"),
               std::string::npos)
@@ -205,6 +205,13 @@ TEST_F(BadInput, ConfigFileGivesOptions) {
     EXPECT_EQ(printed({"--config", config, "--remesh"}), printed({"--surface", "remesh"}));
     EXPECT_NE(printed({"--config", config}), printed({"--remesh"}));
     expect_message(test::run_kerf({"mesh", good_, "--remesh", "--surface", "keep"}), 2, {"--surface"});
+
+    std::ofstream(config) << "improve = false\n";
+    EXPECT_EQ(printed({"--config", config}), printed({"--no-improve"}));
+    EXPECT_EQ(printed({"--config", config, "--improve"}), printed({}));
+    EXPECT_NE(printed({"--config", config}), printed({}));
+    std::ofstream(config) << "improve = true\n";
+    EXPECT_EQ(printed({"--config", config, "--no-improve"}), printed({"--no-improve"}));
 
     const std::vector<std::pair<std::string, std::string>> mistakes = {{"parts = 2\nsice = 1\n", "'sice'"},
                                                                        {"parts = \"many\"\n", "'many'"},

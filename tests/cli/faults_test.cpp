@@ -124,8 +124,9 @@ TEST(KilledWorker, TimeLimitIsReportedAlike) {
 
 TEST(MemoryLimit, IsReportedWithItsOwnCode) {
     const test::TemporaryFolder folder;
-    const ChildResult result = test::run_kerf({"mesh", test::asset_path("bearing_cap_14k"), "-o", folder.file("out"),
-                                               "-n", "2", "--max-volume", "0.05", "--memory", "200"});
+    const ChildResult result =
+        test::run_kerf({"mesh", test::asset_path("bearing_cap_14k"), "-o", folder.file("out"), "-n", "2",
+                        "--max-volume", "0.05", "--memory", "200", "--mesher", "tetgen"});
     EXPECT_EQ(result.exit_code, 5) << result.log;
     EXPECT_NE(result.log.find("memory"), std::string::npos) << result.log;
     EXPECT_TRUE(std::filesystem::exists(folder.file("out/failed/part_0002.smesh")));
@@ -196,7 +197,7 @@ TEST(FullDisk, EndsTheRunAndSpaceLetsItGoOn) {
     EXPECT_TRUE(test::contents(folder.file("out/parts")) == test::contents(folder.file("whole/parts")));
 }
 
-// A file system of its own, where a process may mount one: too small for a mesh of about 30 MB and its store, or by far
+// A file system of its own, where a process may mount one: too small for a mesh of about 13 MB, or by far
 // too small.
 TEST(FullDisk, OfAFileSystemOfItsOwn) {
     const test::TemporaryFolder folder;
@@ -209,7 +210,7 @@ TEST(FullDisk, OfAFileSystemOfItsOwn) {
         script += "; echo \"code=$?\"; ls '" + folder.file("") + "'";
         return test::run_program("/usr/bin/unshare", {"--map-root-user", "--mount", "/bin/sh", "-c", script});
     };
-    const ChildResult full = run_in("20");
+    const ChildResult full = run_in("11");
     EXPECT_EQ(test::output_of(full), "code=7\nout.kerf-partial\n") << full.log;
     EXPECT_NE(full.log.find("No space left on device"), std::string::npos) << full.log;
     EXPECT_NE(full.log.find("kerf mesh --resume"), std::string::npos) << full.log;

@@ -31,6 +31,18 @@ TEST_P(AllAssets, ObeyEveryLawForAnyNumberOfParts) {
     }
 }
 
+// What is asked of it on good surfaces, in several parts at once.
+TEST_P(AllAssets, HaveBetterCellsForTheImprovement) {
+    const std::string asset = test::asset_path(GetParam());
+    const FinishedRun raw = run_and_check(asset, 3, nullptr, false), better = run_and_check(asset, 3);
+    const Distribution &was = raw.report.quality.all.measures[0], &is = better.report.quality.all.measures[0];
+    EXPECT_GE(is.min(), was.min());
+    EXPECT_GE(is.percentile(0.01), 1.5 * was.percentile(0.01));
+    EXPECT_EQ(better.report.improvement.smallest_before.count(), raw.report.tets);
+    EXPECT_TRUE(raw.report.improvement.is_empty());
+    EXPECT_EQ(better.report.vertices, raw.report.vertices + better.report.improvement.new_vertices);
+}
+
 class ManyParts : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Assets, ManyParts,
                          testing::Values("bearing_cap_14k", "hollow_box", "knee_tibial", "sinter_packing",

@@ -32,11 +32,12 @@ struct FinishedRun {
 };
 
 /// Runs, checks the report, reads the files back and checks them against the input as it is read anew.
-inline FinishedRun run_and_check(const std::string& input, std::int32_t parts, RunListener* listener = nullptr) {
+inline FinishedRun run_and_check(const std::string& input, std::int32_t parts, RunListener* listener = nullptr,
+                                 bool improve = true) {
     const TemporaryFolder folder;
     Input read;
     FinishedRun run;
-    run.report = run_parts(input, folder.file("out"), parts, read, listener);
+    run.report = run_parts(input, folder.file("out"), parts, read, listener, improve);
     run.report.input = nullptr;  // ends with this function
     expect_verified(run.report, parts);
     run.parts = read_parts(folder.file("out"));

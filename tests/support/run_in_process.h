@@ -5,10 +5,11 @@
 
 namespace kerf::test {
 
-/// A run of one rank with two workers.
+/// A run of one rank with two workers; `improve`: its cells.
 inline RunReport run_parts(const std::string& input, const std::string& output, std::int32_t parts, Input& read,
-                           RunListener* listener = nullptr) {
+                           RunListener* listener = nullptr, bool improve = true) {
     RunOptions options;
+    options.mesher.improve = improve;
     options.input = input;
     options.output = output;
     options.worker_program = KERF_WORKER;

@@ -1,11 +1,17 @@
 #include "run/part_job.h"
 
+#include <filesystem>
+#include <numeric>
+#include <random>
+#include <set>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/bytes.h"
 #include "core/error.h"
 #include "io/file_bytes.h"
+#include "part/vtu_writer.h"
 #include "run/failed_part.h"
 #include "run/journal.h"
 #include "run/report.h"
@@ -33,6 +39,59 @@ TEST(PartJob, CountsAndHasAQualityWhenDone) {
     EXPECT_EQ(result.quality.all.measures.size(), quality_measures.size());
 }
 
+// The report says of each part and of all what it was before, whether it is filled as a whole or in two.
+TEST(PartJob, SaysHowMuchBetterItsCellsHaveBecome) {
+    const test::TemporaryFolder folder;
+    MesherCall call, unimproved;
+    call.options.size = unimproved.options.size = SizeField(1e-2);
+    unimproved.options.improve = false;
+    for (const bool cut_first : {false, true}) {
+        call.cut_first = unimproved.cut_first = cut_first;
+        const PartJob job = job_of(test::torus(3, 1, 30, 20));
+        const PartResult raw = run_part_job(job, unimproved, folder.file("raw"));
+        const PartResult better = run_part_job(job, call, folder.file("better"));
+        EXPECT_FALSE(raw.angles.known());
+        EXPECT_TRUE(raw.improvement.is_empty());
+        EXPECT_EQ(better.improvement.smallest_before.count(), raw.tets);
+        const Distribution &was = raw.quality.all.measures[0], &is = better.quality.all.measures[0];
+        EXPECT_NEAR(better.angles.min_before_deg, was.min(), 1e-6);
+        EXPECT_NEAR(better.angles.p1_before_deg, was.percentile(0.01), 0.2);
+        EXPECT_EQ(better.angles.min_after_deg, is.min());
+        EXPECT_EQ(better.angles.p1_after_deg, is.percentile(0.01));
+        EXPECT_GE(is.min(), was.min() - 1e-6);
+        EXPECT_GT(is.percentile(0.01), 1.5 * was.percentile(0.01));
+        EXPECT_GT(better.improve_seconds, 0);
+        EXPECT_LE(better.improve_seconds, better.mesh_seconds);
+        const auto again = from_bytes<PartResult>(to_bytes(better));
+        EXPECT_EQ(again.improvement.removed_edges, better.improvement.removed_edges);
+        EXPECT_EQ(again.angles.p1_before_deg, better.angles.p1_before_deg);
+    }
+}
+
+TEST(ReportOfParts, SaysWhatImprovementHasGained) {
+    const test::TemporaryFolder folder;
+    Input input;
+    input.path = "ball.stl";
+    RunReport report;
+    report.input = &input;
+    report.quality = PartQuality(1);
+    EXPECT_TRUE(nlohmann::json::parse(to_json(report)).at("improvement").is_null());
+    report.parts.resize(2);
+    report.parts[1].result = run_part_job(job_of(test::icosphere(3)), {}, folder.file("part"));
+    report.quality.add(report.parts[1].result.quality);
+    report.improvement.add(report.parts[1].result.improvement);
+    const nlohmann::json json = nlohmann::json::parse(to_json(report));
+    EXPECT_FALSE(json.at("parts")[0].contains("improvement"));
+    const nlohmann::json &part = json.at("parts")[1].at("improvement"), &all = json.at("improvement");
+    for (const char* key :
+         {"removed_edges", "moved_vertices", "new_vertices", "bad_cells_before", "bad_cells_after",
+          "min_dihedral_deg_before", "min_dihedral_deg_after", "p1_dihedral_deg_before", "p1_dihedral_deg_after"})
+        EXPECT_EQ(part.at(key), all.at(key)) << key;
+    EXPECT_GT(part.at("p1_dihedral_deg_after"), part.at("p1_dihedral_deg_before"));
+    EXPECT_NEAR(part.at("p1_dihedral_deg_per_second").get<double>() * part.at("seconds").get<double>(),
+                part.at("p1_dihedral_deg_after").get<double>() - part.at("p1_dihedral_deg_before").get<double>(), 1e-9);
+}
+
 // The remedy that fills two halves: what others see of the part is the same, and the vertices of the cut are inside.
 TEST(PartJob, IsTheSameFromOutsideWhenCutInTwo) {
     const test::TemporaryFolder folder;
@@ -51,6 +110,59 @@ TEST(PartJob, IsTheSameFromOutsideWhenCutInTwo) {
         EXPECT_NE(b.hash, a.hash);
         EXPECT_EQ(digest_of(read_file(folder.file("halves"))), b.file_hash);
     }
+}
+
+// A part file holds all that the store does with what the job says.
+TEST(PartJob, IsStoredAgainAsItWasFromItsPartFile) {
+    const test::TemporaryFolder folder;
+    MesherCall call;
+    call.options.size = SizeField(1e-2);
+    PartJob job = job_of(test::box());
+    job.patch_names = {"a", "b"};
+    for (std::size_t v = 0; v < job.boundary_id.size(); ++v) job.boundary_id[v] = static_cast<std::int64_t>(v * v);
+    job.neighbour[1] = 7;
+    job.surface.facet_key[1] = make_key(3, 5);
+    job.surface.patch[1] = -1;
+    job.shared = {{{1, 7}, {0, 1, 2}}};
+    job.shared_edges = {{{1, 7}, {{0, 1}}}};
+    const std::string stored = folder.file("part"), again = folder.file("again"), vtu = folder.file("vtu");
+    const PartResult result = run_part_job(job, call, stored);
+    ASSERT_EQ(result.code, 0) << result.message;
+    write_part(vtu, read_stored_part(stored, 1000), {{}, 1});
+    restore_stored_part(again, vtu, job);
+    EXPECT_EQ(read_file(again), read_file(stored));
+
+    std::filesystem::remove(again);
+    std::filesystem::resize_file(vtu, std::filesystem::file_size(vtu) - 1);
+    for (const std::string& lost : {vtu, folder.file("missing")}) {
+        restore_stored_part(again, lost, job);
+        EXPECT_FALSE(std::filesystem::exists(again));
+    }
+}
+
+// Each edge with an end inside counts once, by the definition.
+TEST(SizeRatios, CountEveryEdgeOnce) {
+    std::mt19937 random(11);
+    for (const int vertices : {4, 7, 30, 400})
+        for (const int count : {1, 20, 3000}) {
+            TetMesh mesh;
+            for (int v = 0; v < vertices; ++v) mesh.vertices.emplace_back(v, std::sqrt(v), random() % 5);
+            mesh.boundary_vertex_count = vertices / 2;
+            std::set<UndirectedEdge> edges;
+            std::vector<std::int32_t> numbers(mesh.vertices.size());
+            std::iota(numbers.begin(), numbers.end(), 0);
+            for (int t = 0; t < count; ++t) {
+                for (std::size_t i = 0; i < 4; ++i) std::swap(numbers[i], numbers[i + random() % (numbers.size() - i)]);
+                const Tetrahedron& tet =
+                    mesh.tets.emplace_back(Tetrahedron{numbers[0], numbers[1], numbers[2], numbers[3]});
+                for (std::size_t i = 0; i < 4; ++i)
+                    for (std::size_t j = 0; j < i; ++j)
+                        if (std::max(tet[i], tet[j]) >= mesh.boundary_vertex_count)
+                            edges.insert(undirected(tet[i], tet[j]));
+            }
+            const SizeRatios ratios = measure_sizes(mesh, {}, SizeField(1));
+            EXPECT_EQ(ratios.inside.count(), static_cast<std::int64_t>(edges.size())) << vertices << ", " << count;
+        }
 }
 
 // What a limit of time has shaped is not taken over by who has another one; everything else is by everybody.
@@ -94,17 +206,25 @@ TEST(ReportOfParts, SaysWhichMesherFilledEachAndWhichWayItWent) {
     RunReport report;
     report.input = &input;
     report.parts.resize(3);
-    report.parts[1].result = run_part_job(job_of(test::box()), {}, folder.file("part"));
+    MesherCall tetgen;
+    tetgen.options.name = "tetgen";
+    report.parts[1].result = run_part_job(job_of(test::box()), tetgen, folder.file("part"));
     report.parts[2].result.mesher = "another";
     report.parts[2].result.way = "by a detour";
+    report.parts[2].result.core_tets = 5;
     const nlohmann::json parts = nlohmann::json::parse(to_json(report)).at("parts");
+    EXPECT_EQ(parts[0].at("mesher"), report.options.mesher.name);
+    EXPECT_EQ(parts[1].at("mesher"), "tetgen");
     for (const int i : {0, 1}) {
-        EXPECT_EQ(parts[i].at("mesher"), report.options.mesher.name);
         EXPECT_FALSE(parts[i].contains("way"));
+        EXPECT_FALSE(parts[i].contains("core_tets"));
     }
     EXPECT_EQ(parts[2].at("mesher"), "another");
     EXPECT_EQ(parts[2].at("way"), "by a detour");
-    EXPECT_EQ(from_bytes<PartReport>(to_bytes(report.parts[2])).result.way, "by a detour");
+    EXPECT_EQ(parts[2].at("core_tets"), 5);
+    const PartResult copy = from_bytes<PartReport>(to_bytes(report.parts[2])).result;
+    EXPECT_EQ(copy.way, "by a detour");
+    EXPECT_EQ(copy.core_tets, 5);
 }
 
 // The command of tetgen has a bound of the volume where one says it all, else the file says what it lacks.
@@ -113,6 +233,7 @@ TEST(FailedPart, IsKeptWithTheCommandThatRepeatsIt) {
     const SurfaceArrays surface = test::to_arrays(test::box());
     const auto told = [&](const SizeField& size) {
         MesherOptions mesher;
+        mesher.name = "tetgen";
         mesher.size = size;
         write_failed_part(folder.file("failed"), 3, surface, mesher, "It hangs.");
         return test::bytes_of_file(folder.file("failed/part_0003.txt"));
