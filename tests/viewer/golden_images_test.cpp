@@ -9,6 +9,7 @@
 #include "support/file_contents.h"
 #include "support/program.h"
 #include "support/shapes.h"
+#include "support/stamped_part.h"
 #include "support/surface_files.h"
 #include "support/temporary_folder.h"
 #include "support/write_off.h"
@@ -144,7 +145,7 @@ TEST_F(Looks, EveryColouring) {
     for (int i = 0; i < color_by_count; ++i) {
         state().color = static_cast<ColorBy>(i);
         if (state().color == ColorBy::rank || state().color == ColorBy::level || state().color == ColorBy::patch ||
-            is_of_surface(state().color))
+            state().color == ColorBy::origin || is_of_surface(state().color))
             continue;  // of which this body has one: see below
         state().clip = {true, ClipStyle::cells, Vec3::UnitY(), 0.5, true};
         expect_golden(std::string("color-") + name(state().color));
@@ -217,6 +218,44 @@ TEST(Colourings, OfSeveralRanksLevelsAndPatches) {
         EXPECT_TRUE(is_golden(std::string("color-") + name(color), driver));
         EXPECT_EQ(std::ssize(driver.app().facts().categories), categories) << name(color);
     }
+}
+
+// The cells of a report, as if half of those of the first part had been stamped, and those of the last made by TetGen.
+TEST(Colourings, OfCoreShellAndOtherMesher) {
+    const TemporaryFolder folder;
+    std::ofstream(folder.file("box.stl")) << to_ascii_stl(box({0, 0, 0}, {3, 2, 1}, {12, 8, 4}));
+    ASSERT_EQ(
+        run_kerf({"mesh", folder.file("box.stl"), "-o", folder.file("run"), "-n", "2", "-q", "--mesher", "tetgen"})
+            .exit_code,
+        0);
+    stamp_first_part(folder.file("run/report.json"), 300);
+    Driver driver(small_pictures());
+    driver.show_panels(false);
+    driver.open(folder.file("run"));
+    driver.state().step = {Stage::tetrahedra, -1};
+    driver.state().color = ColorBy::origin;
+    driver.state().clip = {true, ClipStyle::cells, Vec3::UnitY(), 0.5, true};
+    EXPECT_TRUE(is_golden("color-origin", driver));
+    const auto legend = [&] {
+        std::string words;
+        for (const auto& category : driver.app().facts().categories) words += category.first + "; ";
+        return words;
+    };
+    EXPECT_EQ(legend(), "core: stamped cells; shell around the core; TetGen; ");
+    const auto description = [&](NodeId part, std::int32_t cell) {
+        driver.state().selection = {Selection::Kind::cell, part, cell, Vec3::Zero()};
+        driver.settle();
+        return driver.app().facts().selection;
+    };
+    EXPECT_NE(description(2, 299).find("of the core"), std::string::npos);
+    EXPECT_NE(description(2, 300).find("of the shell"), std::string::npos);
+    EXPECT_EQ(description(3, 0).find("of the shell"), std::string::npos);
+    driver.state().isolated = 3;
+    driver.settle();
+    EXPECT_EQ(legend(), "TetGen; ") << "only what is shown";
+    driver.state().isolated = 2;
+    driver.settle();
+    EXPECT_EQ(legend(), "core: stamped cells; shell around the core; ");
 }
 
 // Before and after, how far they are from each other, how fine it was to be, and where it is sharp. The surface that

@@ -9,9 +9,11 @@
 
 #include "mesh/quality.h"
 #include "run/event_log.h"
+#include "run/journal.h"
 #include "support/assets.h"
 #include "support/program.h"
 #include "support/shapes.h"
+#include "support/stamped_part.h"
 #include "support/started_run.h"
 #include "support/temporary_folder.h"
 #include "support/trace_options.h"
@@ -29,6 +31,7 @@ namespace kerf::view {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace std::string_literals;
 
 // Polls until the condition holds, at most 60 s.
 template <class Condition>
@@ -498,6 +501,8 @@ float measured(const PartCells& cells, std::size_t i, ColorBy color) {
             return static_cast<float>(q.volume);
         case ColorBy::edge_length:
             return static_cast<float>(q.max_edge);
+        case ColorBy::origin:
+            return static_cast<float>(CellOrigin::other);
         default:
             return static_cast<float>(cells.at_interface[i]);
     }
@@ -508,8 +513,8 @@ TEST_F(Data, ValuesAreThoseOfTheCells) {
     ASSERT_TRUE(settle(by_folder_));
     ASSERT_TRUE(by_folder_.document().trace) << "the report says where the trace is";
     const std::vector<NodeId> parts = by_folder_.document().tree.parts_below(1);
-    for (const ColorBy color : {ColorBy::kind, ColorBy::min_dihedral, ColorBy::radius_edge, ColorBy::aspect,
-                                ColorBy::shape, ColorBy::volume, ColorBy::edge_length}) {
+    for (const ColorBy color : {ColorBy::kind, ColorBy::origin, ColorBy::min_dihedral, ColorBy::radius_edge,
+                                ColorBy::aspect, ColorBy::shape, ColorBy::volume, ColorBy::edge_length}) {
         SCOPED_TRACE(name(color));
         std::vector<WorstCell> all;
         for (const NodeId part : parts) {
@@ -528,7 +533,7 @@ TEST_F(Data, ValuesAreThoseOfTheCells) {
             for (std::size_t f = 0; f < at_facets->size(); ++f)
                 ASSERT_EQ((*at_facets)[f], (*values)[static_cast<std::size_t>(cells->tet_at_facet[f])]);
         }
-        if (color == ColorBy::kind) {
+        if (is_kind(color)) {
             EXPECT_EQ(by_folder_.worst_cells(color, 10), nullptr);
             continue;
         }
@@ -548,6 +553,37 @@ TEST_F(Data, ValuesAreThoseOfTheCells) {
             }
         }
     }
+}
+
+TEST_F(SessionTest, CellsAreOfTheCoreTheShellOrAnotherMesher) {
+    constexpr std::int64_t core_tets = 100;
+    run("hollow_box", {"-n", "2", "--mesher", "tetgen"});
+    test::stamp_first_part(folder_.file("run/report.json"), core_tets);
+    open(folder_.file("run"));
+    const auto check = [&](NodeId part, const std::vector<float>& origins, const PartCells& cells) {
+        for (std::size_t i = 0; i < origins.size(); ++i) {
+            const CellOrigin expected = part == 3                         ? CellOrigin::other
+                                        : static_cast<int>(i) < core_tets ? CellOrigin::core
+                                                                          : CellOrigin::shell;
+            ASSERT_EQ(origins[i], static_cast<float>(expected)) << i;
+        }
+        const auto at_facets = get(session_, [&] { return session_.facet_values(part, ColorBy::origin); });
+        ASSERT_TRUE(at_facets);
+        for (std::size_t f = 0; f < at_facets->size(); ++f)
+            ASSERT_EQ((*at_facets)[f], origins[static_cast<std::size_t>(cells.tet_at_facet[f])]);
+    };
+    for (const NodeId part : {2, 3}) {
+        SCOPED_TRACE(part);
+        // Without the cells, and with them.
+        const auto origins = get(session_, [&] { return session_.cell_values(part, ColorBy::origin); });
+        const auto cells = get(session_, [&] { return session_.cells(part); });
+        ASSERT_TRUE(origins && cells) << failures_of(session_);
+        EXPECT_EQ(*origins, values_of_cells(*cells, ColorBy::origin));
+        ASSERT_EQ(origins->size(), cells->tets.size());
+        check(part, *origins, *cells);
+    }
+    EXPECT_EQ(document().tree.find(2)->filled_by, "core and shell");
+    EXPECT_EQ(document().tree.find(3)->filled_by, "TetGen");
 }
 
 TEST_F(Data, WhatCannotBeReadIsSaidOnce) {
@@ -721,7 +757,16 @@ TEST_F(SessionTest, ShowsAnInterruptedRun) {
     ASSERT_TRUE(test::await([&] { return test::finished_parts(output) >= 2; }));
     ::kill(run.process(), SIGINT);
     EXPECT_EQ(run.wait().exit_code, 130);
+    const std::string journal = output + ".kerf-partial/work/journal";
+    const std::string file = fs::directory_iterator(journal)->path();
+    std::optional<JournalEntry> entry = read_journal_entry(file);
+    ASSERT_TRUE(entry);
+    entry->outcome.result.core_tets = 5;  // as if its mesher had stamped some
+    write_journal_entry(file, *entry);
     open(output + ".kerf-partial");
+    const TreeRow& with_core = *document().tree.find(std::stoi(fs::path(file).filename()));
+    EXPECT_EQ(with_core.core_tets, 5);
+    EXPECT_EQ(with_core.filled_by, "core and shell");
     EXPECT_FALSE(document().progress.running);
     EXPECT_NE(document().progress.message.find("--resume"), std::string::npos);
     EXPECT_EQ(document().options.trace_file, "") << "another run shall not write over it";
@@ -795,6 +840,21 @@ TEST_F(SessionTest, EventsOfAFailedRunSayWhy) {
     EXPECT_EQ(session_.surface(1), nullptr);
 }
 
+TEST_F(SessionTest, EventsSayWhatHasFilledAPart) {
+    std::ofstream(folder_.file("events"))
+        << R"({"event":"run","input":"/nowhere.stl","output":"/nowhere","trace":""})" << '\n'
+        << R"({"event":"parts","parts":[{"id":2},{"id":3}]})" << '\n'
+        << R"({"event":"part","id":2,"state":"done","mesher":"a","way":"core and shell","core_tets":7,"parts_done":1,)"
+        << R"("parts":2,"load_done":0.5})" << '\n'
+        << R"({"event":"part","id":3,"state":"done","mesher":"tetgen","parts_done":2,"parts":2,"load_done":1})" << '\n';
+    open(folder_.file("events"));
+    const Tree& tree = document().tree;
+    ASSERT_TRUE(tree.find(2) && tree.find(3)) << document().error;
+    EXPECT_EQ(std::pair(tree.find(2)->core_tets, tree.find(2)->filled_by),
+              std::pair(std::int64_t{7}, "core and shell"s));
+    EXPECT_EQ(std::pair(tree.find(3)->core_tets, tree.find(3)->filled_by), std::pair(std::int64_t{0}, "TetGen"s));
+}
+
 // --- parts of it ---
 
 TEST(StoreTest, KeepsTheLimitButWhatIsInUse) {
@@ -863,10 +923,11 @@ TEST(CommandLine, HoldsWhatDiffersFromTheDefaults) {
     options.decompose.cut.axis = 2;
     options.stl = true;
     options.workers = 3;
+    options.mesher.improve = false;
     options.mesher.tetgen.switches = "q1.2";
     EXPECT_EQ(command_line_of(options, false),
               (std::vector<std::string>{"decompose", "/a b.stl", "--output=/out", "--quiet", "--parts=8", "--size=0.1",
-                                        "--axis=z", "--workers=3", "--tetgen=q1.2", "--stl"}));
+                                        "--axis=z", "--no-improve", "--workers=3", "--tetgen=q1.2", "--stl"}));
 }
 
 TEST(TreeTest, FindsAndOrders) {

@@ -79,9 +79,10 @@ void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
                    fmt::format("{}, or try:0 for the first refused try. Default: input, or tetrahedra where they are "
                                "coloured or moved.",
                                names_of_stages()));
-    app.add_option("--color", texts.color,
-                   "part, rank, level, patch, deviation, size, kind, min-dihedral, radius-edge, aspect, shape, volume "
-                   "or edge-length.");
+    app.add_option(
+        "--color", texts.color,
+        "part, rank, level, patch, deviation, size, kind, origin (core, shell or other mesher), min-dihedral, "
+        "radius-edge, aspect, shape, volume or edge-length.");
     app.add_option("--filter", texts.filter, "Only cells whose value of --color lies in LOW HIGH.")->expected(2);
     app.add_option("--clip", command.clip,
                    "Clip plane: x=0.3, -y=0.5 (other side), 1,1,0=0.4 (normal), node=5 (at its cut).");

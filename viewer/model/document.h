@@ -38,6 +38,17 @@ struct SurfaceValues {
     std::vector<float> values;  ///< #F or #V; NaN: none there
 };
 
+/// How a cell came to be.
+enum class CellOrigin {
+    core,   ///< stamped from a lattice
+    shell,  ///< of the same mesher, between core and surface
+    other,  ///< of a mesher that stamps nothing
+};
+/// Of a cell of a part by its number there.
+constexpr CellOrigin origin_of(std::int64_t tet, std::int64_t core_tets) {
+    return core_tets == 0 ? CellOrigin::other : tet < core_tets ? CellOrigin::core : CellOrigin::shell;
+}
+
 /// The tetrahedra of one part.
 struct PartCells {
     NodeId part = 1;
@@ -48,6 +59,7 @@ struct PartCells {
     std::vector<std::int32_t> tet_at_facet;               ///< per facet of the part's surface
     std::vector<std::int64_t> vertex_number;              ///< global
     std::vector<char> at_interface;                       ///< per tet: it has a vertex on an interface
+    std::int64_t core_tets = 0;                           ///< Filling::core_tets
 };
 
 /// A histogram over all cells of a run; the bins are those of report.json.

@@ -61,6 +61,14 @@ std::vector<float> values_of_tets(const TetMesh& mesh, ColorBy color) {
     return values;
 }
 
+std::vector<float> origins_of_tets(std::size_t count, std::int64_t core_tets) {
+    std::vector<float> origins;
+    origins.reserve(count);
+    for (std::size_t i = 0; i < count; ++i)
+        origins.push_back(static_cast<float>(origin_of(static_cast<std::int64_t>(i), core_tets)));
+    return origins;
+}
+
 // Of the measures; the files of parts that are not finished, or of runs in other formats, have none.
 bool has_arrays(const std::string& path) { return path.ends_with(".vtu"); }
 
@@ -120,11 +128,12 @@ NodeSurface join_part_surfaces(const std::string& folder, NodeId node, const std
     return whole;
 }
 
-PartCells read_part_cells(const std::string& folder, NodeId part) {
-    Part file = load_part(folder, part, 0);
+PartCells read_part_cells(const PartSource& source) {
+    Part file = load_part(source.folder, source.part, 0);
     connect_tets(file.mesh);
     PartCells cells;
-    cells.part = part;
+    cells.part = source.part;
+    cells.core_tets = source.core_tets;
     cells.tet_at_facet = std::move(file.tet_at_facet);
     cells.at_interface = tets_at_interfaces(file);
     cells.vertices = std::move(file.mesh.vertices);
@@ -132,7 +141,7 @@ PartCells read_part_cells(const std::string& folder, NodeId part) {
     cells.tets = std::move(file.mesh.tets);
     cells.neighbours = std::move(file.mesh.neighbours);
     cells.vertex_number = std::move(file.global_id);
-    if (!has_arrays(part_file_of(folder, part)))  // nor numbers for who does not know all other parts
+    if (!has_arrays(part_file_of(source.folder, source.part)))  // nor numbers for who does not know all other parts
         std::fill(cells.vertex_number.begin() + cells.boundary_vertex_count, cells.vertex_number.end(), -1);
     return cells;
 }
@@ -154,32 +163,33 @@ const char* stored_array(ColorBy color) {
 
 std::vector<float> values_of_cells(const PartCells& cells, ColorBy color) {
     if (color == ColorBy::kind) return {cells.at_interface.begin(), cells.at_interface.end()};
+    if (color == ColorBy::origin) return origins_of_tets(cells.tets.size(), cells.core_tets);
     std::vector<float> values;
     values.reserve(cells.tets.size());
     for (const Tetrahedron& tet : cells.tets) values.push_back(value_of_tet(cells.vertices, tet, color));
     return values;
 }
 
-std::vector<float> read_values_of_cells(const std::string& folder, NodeId part, ColorBy color, const PartCells* cells) {
-    const std::string path = part_file_of(folder, part);
-    if (const char* array = stored_array(color); array && has_arrays(path))
+std::vector<float> read_values_of_cells(const PartSource& source, ColorBy color, const PartCells* cells) {
+    const std::string path = part_file_of(source.folder, source.part);
+    if (const char* array = stored_array(color); array && has_arrays(path) && has_cell_values(path, array))
         return read_cell_values(path, array, 0, read_cell_counts(path).tets);
     if (cells) return values_of_cells(*cells, color);
-    const Part file = load_part(folder, part, 0);
+    const Part file = load_part(source.folder, source.part, 0);
+    if (color == ColorBy::origin) return origins_of_tets(file.mesh.tets.size(), source.core_tets);
     if (color != ColorBy::kind) return values_of_tets(file.mesh, color);
     const std::vector<char> at_interface = tets_at_interfaces(file);
     return {at_interface.begin(), at_interface.end()};
 }
 
-std::vector<float> read_values_at_facets(const std::string& folder, NodeId part, ColorBy color,
-                                         const PartCells* cells) {
-    const std::string path = part_file_of(folder, part);
-    if (const char* array = stored_array(color); array && has_arrays(path)) {
+std::vector<float> read_values_at_facets(const PartSource& source, ColorBy color, const PartCells* cells) {
+    const std::string path = part_file_of(source.folder, source.part);
+    if (const char* array = stored_array(color); array && has_arrays(path) && has_cell_values(path, array)) {
         const PartCellCounts counts = read_cell_counts(path);
         return read_cell_values(path, array, counts.tets, counts.facets);
     }
     PartCells read;
-    if (!cells) cells = &(read = read_part_cells(folder, part));
+    if (!cells) cells = &(read = read_part_cells(source));
     const std::vector<float> all = values_of_cells(*cells, color);
     std::vector<float> values;
     values.reserve(cells->tet_at_facet.size());
@@ -198,7 +208,7 @@ std::vector<WorstCell> find_worst_cells(const std::string& folder, const std::ve
     std::vector<WorstCell> worst;  // a heap with the best of them in front
     for (const NodeId part : parts) {
         if (is_stale()) return {};
-        const std::vector<float> values = read_values_of_cells(folder, part, color, nullptr);
+        const std::vector<float> values = read_values_of_cells({folder, part}, color, nullptr);
         for (std::size_t i = 0; i < values.size(); ++i) {
             if (std::isnan(values[i])) continue;
             const WorstCell cell{part, static_cast<std::int32_t>(i), values[i], Vec3::Zero()};

@@ -29,18 +29,25 @@ using PartBelow = std::pair<NodeId, std::shared_ptr<const NodeSurface>>;
 /// facets in the order of the parts. Reads what is not at hand. Throws Error(io).
 NodeSurface join_part_surfaces(const std::string& folder, NodeId node, const std::vector<PartBelow>& parts);
 
+/// Where a part is, and what its files do not tell.
+struct PartSource {
+    std::string folder;
+    NodeId part = 1;
+    std::int64_t core_tets = 0;  ///< Filling::core_tets
+};
+
 /// The tetrahedra of a part. Throws Error(io).
-PartCells read_part_cells(const std::string& folder, NodeId part);
+PartCells read_part_cells(const PartSource& source);
 
 /// The array of the part files with a measure; nullptr if it has to be computed from the cells.
 const char* stored_array(ColorBy color);
 
-/// A value for every cell, computed: `kind`, `volume`, `edge_length` and the measures that files hold.
+/// A value for every cell, computed: kinds (CellOrigin), `volume`, `edge_length` and the measures that files hold.
 std::vector<float> values_of_cells(const PartCells& cells, ColorBy color);
 /// As the file has them, or computed from the cells, which are read unless they are given. Throws Error(io).
-std::vector<float> read_values_of_cells(const std::string& folder, NodeId part, ColorBy color, const PartCells* cells);
+std::vector<float> read_values_of_cells(const PartSource& source, ColorBy color, const PartCells* cells);
 /// The same for the cells behind the facets of the part's surface; NaN where there is none.
-std::vector<float> read_values_at_facets(const std::string& folder, NodeId part, ColorBy color, const PartCells* cells);
+std::vector<float> read_values_at_facets(const PartSource& source, ColorBy color, const PartCells* cells);
 
 /// The `count` worst cells of the parts, worst first; of equal ones that of the smaller part, then the smaller cell.
 /// Returns nothing if `is_stale` becomes true, which is asked before each part. Throws Error(io).

@@ -42,6 +42,8 @@ RunEvent::Part ended_part(const Json& json) {
     part.tets = json.value("tets", std::int64_t{-1});
     part.seconds = json.value("part_seconds", -1.0);
     part.message = json.value("message", json.value("remedy", ""));
+    part.filled_by = name_of_filler(json.value("mesher", ""), json.value("way", ""));
+    part.core_tets = json.value("core_tets", std::int64_t{0});
     return part;
 }
 
@@ -120,6 +122,8 @@ void apply_to_tree(const RunEvent& event, Tree& tree) {
         if (part.seconds >= 0) row.seconds = part.seconds;
         if (part.rank >= 0) row.rank = part.rank;
         row.message = part.message;
+        row.filled_by = part.filled_by;
+        row.core_tets = part.core_tets;
     }
 }
 

@@ -18,6 +18,8 @@ struct RunEvent {
         std::int64_t facets = -1, tets = -1;
         std::int32_t rank = -1;
         std::string message;
+        std::string filled_by;  ///< TreeRow::filled_by
+        std::int64_t core_tets = 0;
     };
     Kind kind = Kind::other;
     double seconds = 0;                ///< since the start of the run

@@ -57,7 +57,8 @@ std::vector<std::string> command_line_of(RunOptions options, bool volume) {
         const std::string text = fields[i].text();
         if (text == default_fields[i].text()) continue;
         const bool is_flag = std::holds_alternative<bool*>(fields[i].value);
-        arguments.push_back("--" + fields[i].name + (is_flag ? "" : "=" + text));
+        const bool is_off = is_flag && text == "false";
+        arguments.push_back((is_off ? "--no-" : "--") + fields[i].name + (is_flag ? "" : "=" + text));
     }
     return arguments;
 }

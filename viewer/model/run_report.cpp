@@ -56,6 +56,8 @@ void read_part_row(const Json& part, bool meshed, Tree& tree) {
     if (!meshed) return;
     row.tets = part.at("tets").get<std::int64_t>();
     row.seconds = number(part, "seconds");
+    row.filled_by = name_of_filler(part.value("mesher", ""), part.value("way", ""));
+    row.core_tets = part.value("core_tets", std::int64_t{0});
     row.state = part.contains("error") ? NodeState::failed : NodeState::done;
     row.message = part.value("error", "");
 }

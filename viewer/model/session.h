@@ -65,7 +65,8 @@ class Session {
     std::shared_ptr<const SurfaceValues> values_on(const std::shared_ptr<const NodeSurface>& surface, ColorBy color);
     /// The tetrahedra of a part of the run folder.
     std::shared_ptr<const PartCells> cells(NodeId part);
-    /// A measure of every cell of a part. `color` must be a measure or `kind` (1 at an interface, else 0).
+    /// A measure of every cell of a part. `color` must be a measure, `kind` (1 at an interface, else 0),
+    /// or `origin` (the number of the CellOrigin).
     std::shared_ptr<const std::vector<float>> cell_values(NodeId part, ColorBy color);
     /// The same for the cells behind the facets of a part's surface; reads no more than these values of the file where
     /// it holds them.

@@ -10,7 +10,6 @@
 #include "run/size_reader.h"
 #include "surface/mass_properties.h"
 #include "viewer/model/node_surface.h"
-#include "viewer/model/part_files.h"
 #include "viewer/model/surface_values.h"
 #include "viewer/model/tree_source.h"
 
@@ -26,7 +25,7 @@ std::size_t bytes_of_value(const std::vector<T>& value) {
     return sizeof value + bytes_of(value);
 }
 
-bool can_be_fetched(ColorBy color) { return is_measure(color) || color == ColorBy::kind; }
+bool can_be_fetched(ColorBy color) { return is_measure(color) || is_kind(color); }
 
 // Depth first, parents before children.
 void sort_depth_first(std::vector<NodeId>& nodes) {
@@ -160,12 +159,17 @@ bool Session::Impl::is_meshed(NodeId part) const {
     return row && row->state == NodeState::done && folder_parts_.contains(part);
 }
 
+PartSource Session::Impl::source_of(NodeId part) const {
+    const TreeRow* row = document_.tree.find(part);
+    return {document_.folder, part, row ? row->core_tets : 0};
+}
+
 std::shared_ptr<const PartCells> Session::Impl::cells(NodeId part) {
     const Store::Key key{Store::Kind::cells, part};
     if (!is_meshed(part)) return nullptr;
     if (auto found = kept<PartCells>(key)) return found;
-    return fetch<PartCells>(key, [folder = document_.folder, part]() -> Fetched<PartCells> {
-        return {read_part_cells(folder, part), {}};
+    return fetch<PartCells>(key, [source = source_of(part)]() -> Fetched<PartCells> {
+        return {read_part_cells(source), {}};
     });
 }
 
@@ -174,10 +178,9 @@ std::shared_ptr<const std::vector<float>> Session::Impl::cell_values(NodeId part
     if (!is_meshed(part) || !can_be_fetched(color)) return nullptr;
     if (auto found = kept<std::vector<float>>(key)) return found;
     const auto at_hand = store_.find<PartCells>({Store::Kind::cells, part});
-    return fetch<std::vector<float>>(
-        key, [folder = document_.folder, part, color, at_hand]() -> Fetched<std::vector<float>> {
-            return {read_values_of_cells(folder, part, color, at_hand.get()), {}};
-        });
+    return fetch<std::vector<float>>(key, [source = source_of(part), color, at_hand]() -> Fetched<std::vector<float>> {
+        return {read_values_of_cells(source, color, at_hand.get()), {}};
+    });
 }
 
 std::shared_ptr<const std::vector<float>> Session::Impl::facet_values(NodeId part, ColorBy color) {
@@ -185,10 +188,9 @@ std::shared_ptr<const std::vector<float>> Session::Impl::facet_values(NodeId par
     if (!is_meshed(part) || !can_be_fetched(color)) return nullptr;
     if (auto found = kept<std::vector<float>>(key)) return found;
     const auto at_hand = store_.find<PartCells>({Store::Kind::cells, part});
-    return fetch<std::vector<float>>(
-        key, [folder = document_.folder, part, color, at_hand]() -> Fetched<std::vector<float>> {
-            return {read_values_at_facets(folder, part, color, at_hand.get()), {}};
-        });
+    return fetch<std::vector<float>>(key, [source = source_of(part), color, at_hand]() -> Fetched<std::vector<float>> {
+        return {read_values_at_facets(source, color, at_hand.get()), {}};
+    });
 }
 
 std::shared_ptr<const std::vector<WorstCell>> Session::Impl::worst_cells(ColorBy color, std::size_t count) {

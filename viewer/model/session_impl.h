@@ -18,6 +18,7 @@
 
 #include "viewer/model/file_kind.h"
 #include "viewer/model/loader.h"
+#include "viewer/model/part_files.h"
 #include "viewer/model/partial_run.h"
 #include "viewer/model/redo.h"
 #include "viewer/model/run_events.h"
@@ -161,6 +162,7 @@ class Session::Impl {
     std::shared_ptr<const T> kept(const Store::Key& key);
     Loader::Completion fill_row(NodeId node, std::int64_t vertices, std::int64_t facets, const MassProperties& mass);
     bool is_meshed(NodeId part) const;
+    PartSource source_of(NodeId part) const;
     void restart_data();
     void use_trace(std::shared_ptr<Replayer> replayer);
     void note_remeshing(bool remeshed);

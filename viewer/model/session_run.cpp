@@ -325,6 +325,8 @@ void Session::Impl::apply_state(const PartialRun& state) {
     for (const TreeRow& outcome : state.outcomes) {
         TreeRow& row = document_.tree.at(outcome.id);
         row.tets = outcome.tets;
+        row.core_tets = outcome.core_tets;
+        row.filled_by = outcome.filled_by;
         row.seconds = outcome.seconds;
         followed_->finished.insert(outcome.id);
     }

@@ -37,6 +37,11 @@ const char* name(NodeState state) {
     return "";
 }
 
+std::string name_of_filler(const std::string& mesher, const std::string& way) {
+    if (!way.empty()) return way;
+    return mesher == "tetgen" ? "TetGen" : mesher;
+}
+
 const TreeRow* Tree::find(NodeId id) const {
     const auto row = lower_bound(rows, id);
     return row != rows.end() && row->id == id ? &*row : nullptr;

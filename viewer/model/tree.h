@@ -25,9 +25,11 @@ struct TreeRow {
     std::int32_t leaves = 1;
     std::int64_t vertices = -1, facets = -1, tets = -1;
     double volume = -1, load = -1;
-    double seconds = -1;     ///< of meshing a part, of cutting an inner node
-    std::int32_t rank = -1;  ///< that meshed it
-    std::string message;     ///< why it failed
+    double seconds = -1;         ///< of meshing a part, of cutting an inner node
+    std::int32_t rank = -1;      ///< that meshed it
+    std::string filled_by;       ///< of a part: see name_of_filler()
+    std::int64_t core_tets = 0;  ///< of a part: Filling::core_tets
+    std::string message;         ///< why it failed
     std::optional<Vec3> centroid;
     Vec3 eigenvalues = Vec3::Zero();
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns, in the order of the eigenvalues
@@ -48,6 +50,9 @@ constexpr bool lies_below(NodeId node, NodeId ancestor) {
     while (node > ancestor) node /= 2;
     return node == ancestor;
 }
+
+/// What has filled a part, in words: the way that its mesher went, or the mesher where it has one way.
+std::string name_of_filler(const std::string& mesher, const std::string& way);
 
 /// Rows ascending by number.
 struct Tree {

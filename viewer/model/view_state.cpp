@@ -28,6 +28,7 @@ constexpr std::array<Names, color_by_count> color_texts = {{
     {"deviation", "Deviation"},
     {"size", "Wanted edge length"},
     {"kind", "At an interface or inside"},
+    {"origin", "Core, shell or other mesher"},
     {"min-dihedral", "Min dihedral angle (deg)"},
     {"radius-edge", "Radius-edge ratio"},
     {"aspect", "Aspect ratio"},

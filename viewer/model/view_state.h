@@ -51,6 +51,7 @@ enum class ColorBy {
     deviation,  ///< of a facet: its distance from the surface before or after remeshing
     size,       ///< edge length that the size field asks for
     kind,       ///< cells at an interface and inner cells
+    origin,     ///< of cells: see CellOrigin
     min_dihedral,
     radius_edge,
     aspect,
@@ -60,6 +61,8 @@ enum class ColorBy {
 };
 inline constexpr int color_by_count = static_cast<int>(ColorBy::edge_length) + 1;
 constexpr bool is_measure(ColorBy color) { return color >= ColorBy::min_dihedral; }  ///< of cells
+/// Cells are of few kinds, which the legend names.
+constexpr bool is_kind(ColorBy color) { return color == ColorBy::kind || color == ColorBy::origin; }
 /// Has values on surfaces, those of parts included, and none in cells.
 constexpr bool is_of_surface(ColorBy color) { return color == ColorBy::deviation || color == ColorBy::size; }
 

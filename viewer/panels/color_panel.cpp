@@ -122,7 +122,7 @@ void draw_color(UiContext& context, Memory& memory) {
     if (context.widgets.header("Colour", true)) {
         const ViewState& state = context.state;
         draw_choice(context);
-        const bool needs_cells = is_measure(state.color) || state.color == ColorBy::kind;
+        const bool needs_cells = is_measure(state.color) || is_kind(state.color);
         if (needs_cells && context.session.document().folder.empty())
             show_wrapped("Needs tetrahedra, which only the folder of a run has.", palette(state.theme).warning);
         else if (needs_cells && state.step.stage != Stage::tetrahedra) {

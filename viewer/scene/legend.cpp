@@ -96,6 +96,28 @@ void SceneBuild::set_range_of_values() {
     if (range.low < range.high) set_range(range);
 }
 
+// Only what there is.
+void SceneBuild::set_legend_of_origins() {
+    bool has_core = false;
+    std::set<std::string> others;
+    for (const NodeId part : document_.tree.parts_below(state_.node)) {
+        const TreeRow* row = document_.tree.find(part);
+        if (!is_shown(part) || row->state != NodeState::done) continue;
+        if (row->core_tets > 0)
+            has_core = true;
+        else
+            others.insert(row->filled_by.empty() ? "mesher not known" : row->filled_by);
+    }
+    const auto explain = [&](const std::string& text, CellOrigin origin) {
+        built_.legend.categories.emplace_back(text, category_color(static_cast<std::size_t>(origin)));
+    };
+    if (has_core) {
+        explain("core: stamped cells", CellOrigin::core);
+        explain("shell around the core", CellOrigin::shell);
+    }
+    for (const std::string& filler : others) explain(filler, CellOrigin::other);
+}
+
 void SceneBuild::set_legend() {
     auto& categories = built_.legend.categories;
     if (step_.stage == Stage::tetrahedra || state_.color == ColorBy::patch || built_.legend.values)
@@ -113,6 +135,7 @@ void SceneBuild::set_legend() {
         categories = {{"inner cells", category_color(0)}, {"cells at an interface", category_color(1)}};
         return;
     }
+    if (step_.stage == Stage::tetrahedra && state_.color == ColorBy::origin) return set_legend_of_origins();
     if (step_.stage == Stage::tetrahedra && !shows_values()) {
         std::set<std::int32_t> seen;
         for (const NodeId part : document_.tree.parts_below(state_.node)) {

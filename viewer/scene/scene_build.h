@@ -58,6 +58,7 @@ class SceneBuild {
     void set_range(const ValueRange& range);
     void set_range_of_values();
     void set_legend();
+    void set_legend_of_origins();
 
     bool is_shown(NodeId part) const {
         return !state_.is_hidden(part) && (!state_.isolated || lies_below(part, *state_.isolated));
@@ -69,13 +70,13 @@ class SceneBuild {
     std::shared_ptr<const SurfaceValues> values_on(const std::shared_ptr<const NodeSurface>& surface);
     void color_facets(const NodeSurface& surface, const SurfaceValues* values, const std::vector<float>& patches,
                       FacetChoice& choice) const;
-    bool needs_values() const { return is_measure(state_.color) || state_.color == ColorBy::kind; }
+    bool needs_values() const { return is_measure(state_.color) || is_kind(state_.color); }
     Vec3 offset_of(NodeId part, NodeId root) const {
         return explosion_offset(document_.tree, part, root, state_.explode, document_.box.diagonal().norm());
     }
     Color color_of(NodeId part) const;
     Color color_of(Stage stage) const;
-    Fill fill_of_values() const { return state_.color == ColorBy::kind ? Fill::categories : Fill::scale; }
+    Fill fill_of_values() const { return is_kind(state_.color) ? Fill::categories : Fill::scale; }
     std::string clip_key() const;
     std::string value_key() const {
         return needs_values() || state_.color == ColorBy::patch ? name(state_.color) : "plain";

@@ -113,6 +113,9 @@ std::string describe_cell(const PartCells& cells, std::size_t cell) {
     for (const std::int32_t n : cells.neighbours[cell]) neighbours.push_back(n < 0 ? "boundary" : std::to_string(n));
     text += fmt::format("neighbours {}\n", fmt::join(neighbours, ", "));
     text += cells.at_interface[cell] ? "at an interface\n" : "inside of the part\n";
+    if (cells.core_tets > 0)
+        text += origin_of(static_cast<std::int64_t>(cell), cells.core_tets) == CellOrigin::core ? "of the core\n"
+                                                                                                : "of the shell\n";
     const TetQuality q = tet_quality(p[0], p[1], p[2], p[3]);
     return text + fmt::format(
                       "dihedral angles {:.2f} to {:.2f} deg\nradius-edge {:.4g}, aspect {:.4g}, shape "
