@@ -5,16 +5,14 @@
 //
 // Seconds are those of the processor on one thread, so that other programs of the machine disturb them little; medians
 // of three runs. Memory is the largest resident set during the run less that before it, the input surface not counted.
-#include <malloc.h>
-
 #include <algorithm>
 #include <array>
 #include <ctime>
-#include <fstream>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "bench/bench.h"
 #include "decompose/decomposition.h"
 #include "run/input.h"
 #include "support/shapes.h"
@@ -23,51 +21,20 @@ namespace kerf {
 
 namespace {
 
-// Quarters every facet; the middle of an edge is numbered with its first half-edge.
-Surface quartered(const Surface& surface) {
-    SurfaceArrays fine;
-    const std::int32_t old_count = surface.vertex_count();
-    for (std::int32_t v = 0; v < old_count; ++v) fine.vertices.push_back(surface.point(v));
-    for (std::int32_t h = 0; h < 3 * surface.facet_count(); h += 2)
-        fine.vertices.push_back((surface.point(surface.from_vertex(h)) + surface.point(surface.to_vertex(h))) / 2);
-    for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
-        const Triangle corner = surface.vertices(f);
-        Triangle middle = surface.half_edges(f);
-        for (std::int32_t& h : middle) h = old_count + h / 2;
-        fine.facets.push_back(middle);
-        for (int i = 0; i < 3; ++i) fine.facets.push_back({corner[i], middle[i], middle[(i + 2) % 3]});
-    }
-    for (std::size_t v = 0; v < fine.vertices.size(); ++v)
-        fine.vertex_key.push_back(make_key(0, static_cast<std::int32_t>(v)));
-    for (std::size_t f = 0; f < fine.facets.size(); ++f)
-        fine.facet_key.push_back(make_key(0, static_cast<std::int32_t>(f)));
-    fine.patch.assign(fine.facets.size(), 0);
-    return Surface(std::move(fine));
-}
-
-// A line of /proc/self/status in bytes: VmRSS, the resident set, or VmHWM, the largest since the last reset.
-double memory_bytes(const std::string& label) {
-    std::ifstream status("/proc/self/status");
-    for (std::string line; std::getline(status, line);)
-        if (line.starts_with(label + ':')) return 1024 * std::stod(line.substr(label.size() + 1));
-    return 0;
-}
-
 struct Sample {
     double seconds = 0, peak_bytes = 0;
     std::int32_t tries = 0;  // of all cuts
 };
 
 Sample decompose_once(const Surface& surface, std::int32_t parts) {
-    malloc_trim(0);
-    std::ofstream("/proc/self/clear_refs") << 5;
-    const double resident = memory_bytes("VmRSS");
+    bench::forget_peak_memory();
+    const double resident = bench::memory_bytes("VmRSS");
     const std::clock_t start = std::clock();
     DecomposeOptions options;
     options.parts = parts;
     const Decomposition result = decompose(surface, options, {0, parts});
     const std::clock_t end = std::clock();
-    Sample sample{static_cast<double>(end - start) / CLOCKS_PER_SEC, memory_bytes("VmHWM") - resident};
+    Sample sample{static_cast<double>(end - start) / CLOCKS_PER_SEC, bench::memory_bytes("VmHWM") - resident};
     for (const TreeNode& node : result.nodes) sample.tries += node.tries;
     return sample;
 }
@@ -163,7 +130,7 @@ int main() {
     kerf::Surface surface = kerf::read_input(assets + "/bearing_cap_52k.stl").surface;
     kerf::print_row(surface);
     for (int level = 0; level < 2; ++level) {
-        surface = kerf::quartered(surface);
+        surface = kerf::bench::quartered(surface);
         kerf::print_row(surface);
     }
     kerf::print_foam();

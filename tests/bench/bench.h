@@ -1,0 +1,50 @@
+// What several benchmarks need.
+#pragma once
+
+#include <malloc.h>
+
+#include <fstream>
+#include <string>
+#include <utility>
+
+#include "surface/surface.h"
+
+namespace kerf::bench {
+
+/// Quarters every facet; the middle of an edge is numbered with its first half-edge.
+inline Surface quartered(const Surface& surface) {
+    SurfaceArrays fine;
+    const std::int32_t old_count = surface.vertex_count();
+    for (std::int32_t v = 0; v < old_count; ++v) fine.vertices.push_back(surface.point(v));
+    for (std::int32_t h = 0; h < 3 * surface.facet_count(); h += 2)
+        fine.vertices.push_back((surface.point(surface.from_vertex(h)) + surface.point(surface.to_vertex(h))) / 2);
+    for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
+        const Triangle corner = surface.vertices(f);
+        Triangle middle = surface.half_edges(f);
+        for (std::int32_t& h : middle) h = old_count + h / 2;
+        fine.facets.push_back(middle);
+        for (int i = 0; i < 3; ++i) fine.facets.push_back({corner[i], middle[i], middle[(i + 2) % 3]});
+    }
+    for (std::size_t v = 0; v < fine.vertices.size(); ++v)
+        fine.vertex_key.push_back(make_key(0, static_cast<std::int32_t>(v)));
+    for (std::size_t f = 0; f < fine.facets.size(); ++f)
+        fine.facet_key.push_back(make_key(0, static_cast<std::int32_t>(f)));
+    fine.patch.assign(fine.facets.size(), 0);
+    return Surface(std::move(fine));
+}
+
+/// A line of /proc/self/status in bytes: VmRSS, the resident set, or VmHWM, the largest since the last reset.
+inline double memory_bytes(const std::string& label) {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with(label + ':')) return 1024 * std::stod(line.substr(label.size() + 1));
+    return 0;
+}
+
+/// From here on, VmHWM is that of what follows.
+inline void forget_peak_memory() {
+    ::malloc_trim(0);
+    std::ofstream("/proc/self/clear_refs") << 5;
+}
+
+}  // namespace kerf::bench
