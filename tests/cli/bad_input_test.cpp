@@ -92,6 +92,13 @@ TEST_F(BadInput, ShellsThatAlmostTouchForTetGen) {
               std::string::npos)
         << result.log;
 }
+TEST_F(BadInput, ShellsTooNearForTheirVolume) {
+    const Soup ball = test::icosphere(2), inner = test::inside_out(test::icosphere(2, 1 - 1e-9));
+    const std::string input = write("balls.off", test::join(ball, inner));
+    const ChildResult result = test::run_kerf({"mesh", input, "-o", folder_.file("out"), "-n", "1", "-q"});
+    EXPECT_EQ(result.exit_code, 4) << result.log;
+    EXPECT_NE(result.log.find("breaks the laws: volume 1.21411e-08"), std::string::npos) << result.log;
+}
 
 TEST_F(BadInput, ZeroParts) { expect_refused(good_, 2, {"--parts is 0", "1 or more"}, {"-n", "0"}); }
 TEST_F(BadInput, NegativeParts) { expect_refused(good_, 2, {"--parts is -3", "1 or more"}, {"-n", "-3"}); }
