@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -14,6 +17,7 @@ namespace {
 constexpr int interface_sweeps = 10;
 constexpr double enough = 1.1;  // of a threshold: better is not asked for
 
+// What each triangle measures is kept, so that only those around points that are tried are measured again.
 class InterfaceSmoother {
  public:
     InterfaceSmoother(const Surface& surface, const CutOptions& options, Interface& interface);
@@ -22,7 +26,12 @@ class InterfaceSmoother {
 
  private:
     bool on_contour(std::int32_t point) const { return point < static_cast<std::int32_t>(interface_.contour.size()); }
+    std::span<const std::int32_t> around(std::int32_t point) const {
+        const auto p = static_cast<std::size_t>(point);
+        return std::span(around_).subspan(first_around_[p], first_around_[p + 1] - first_around_[p]);
+    }
     double measure(const Triangle& t) const;
+    double measure_around(std::int32_t point);
     double worst_around(std::int32_t point) const;
     Vec3 middle_around(std::int32_t point) const;
     bool improve(std::int32_t point);
@@ -30,14 +39,26 @@ class InterfaceSmoother {
     const Surface& surface_;
     const CutOptions& options_;
     Interface& interface_;
-    std::vector<std::vector<std::int32_t>> around_;  // triangles of each interior point
+    std::vector<std::size_t> first_around_;
+    std::vector<std::int32_t> around_;  // triangles of each interior point
+    std::vector<double> measures_;      // of each triangle
+    std::vector<double> tried_;         // of those around a point
 };
 
 InterfaceSmoother::InterfaceSmoother(const Surface& surface, const CutOptions& options, Interface& interface)
-    : surface_(surface), options_(options), interface_(interface), around_(interface.points.size()) {
-    for (std::size_t i = 0; i < interface.triangles.size(); ++i)
-        for (const std::int32_t point : interface.triangles[i])
-            if (!on_contour(point)) around_[point].push_back(static_cast<std::int32_t>(i));
+    : surface_(surface), options_(options), interface_(interface), first_around_(interface.points.size() + 1) {
+    const auto for_interior_corners = [&](auto visit) {
+        for (std::size_t i = 0; i < interface.triangles.size(); ++i)
+            for (const std::int32_t point : interface.triangles[i])
+                if (!on_contour(point)) visit(static_cast<std::size_t>(point), static_cast<std::int32_t>(i));
+    };
+    for_interior_corners([&](std::size_t point, std::int32_t) { ++first_around_[point + 1]; });
+    std::partial_sum(first_around_.begin(), first_around_.end(), first_around_.begin());
+    around_.resize(first_around_.back());
+    std::vector<std::size_t> next = first_around_;
+    for_interior_corners([&](std::size_t point, std::int32_t i) { around_[next[point]++] = i; });
+    measures_.reserve(interface.triangles.size());
+    for (const Triangle& t : interface.triangles) measures_.push_back(measure(t));
 }
 
 // Smallest angle of a triangle, and to the surface at its contour edges, over the thresholds.
@@ -60,16 +81,23 @@ double InterfaceSmoother::measure(const Triangle& t) const {
 
 double InterfaceSmoother::worst_around(std::int32_t point) const {
     double worst = INFINITY;
-    for (const std::int32_t i : around_[point]) worst = std::min(worst, measure(interface_.triangles[i]));
+    for (const std::int32_t i : around(point)) worst = std::min(worst, measures_[i]);
     return worst;
+}
+
+// The worst of what is in tried_ then.
+double InterfaceSmoother::measure_around(std::int32_t point) {
+    tried_.clear();
+    for (const std::int32_t i : around(point)) tried_.push_back(measure(interface_.triangles[i]));
+    return *std::min_element(tried_.begin(), tried_.end());
 }
 
 Vec3 InterfaceSmoother::middle_around(std::int32_t point) const {
     Vec3 sum = Vec3::Zero();
-    for (const std::int32_t i : around_[point])
+    for (const std::int32_t i : around(point))
         for (const std::int32_t corner : interface_.triangles[i])
             if (corner != point) sum += interface_.points[corner];
-    return sum / (2.0 * static_cast<double>(around_[point].size()));
+    return sum / (2.0 * static_cast<double>(around(point).size()));
 }
 
 bool InterfaceSmoother::improve(std::int32_t point) {
@@ -79,7 +107,10 @@ bool InterfaceSmoother::improve(std::int32_t point) {
     const Vec3 old = place, middle = middle_around(point);
     for (const double step : {1.0, 0.5, 0.25, -0.25}) {
         place = old + step * (middle - old);
-        if (worst_around(point) > before) return true;
+        if (measure_around(point) <= before) continue;
+        std::size_t k = 0;
+        for (const std::int32_t i : around(point)) measures_[i] = tried_[k++];
+        return true;
     }
     place = old;
     return false;

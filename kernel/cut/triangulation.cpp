@@ -31,6 +31,7 @@ using Cdt =
                                                CGAL::No_constraint_intersection_tag>;
 
 constexpr double growth = 0.5;             // of the size per distance from the contour
+constexpr double decline = 0.35;           // the same where the size is bounded by less than contour edges are long
 constexpr double too_large = 1.5;          // circumradius x sqrt(3) over size
 constexpr double too_flat = 1.1;           // circumradius over shortest edge; 1.1: smallest angle 27 degrees
 constexpr double edge_clearance = 0.4;     // least distance of a point from a contour edge, in lengths of that edge
@@ -107,15 +108,18 @@ class Triangulator {
 
     void mark_inside();
     std::vector<std::int32_t> misoriented_edges() const;
-    bool insert_interior(const Vec2& p, double size, Cdt::Face_handle hint);
+    bool insert_interior(const Vec2& p, double size, double least, Cdt::Face_handle hint);
     void consider(Cdt::Face_handle face);
     double mean_size(Cdt::Face_handle face) const;
+    double least_at(const Vec2& p, Cdt::Face_handle face) const;
+    double largest_at(const Vec2& p, double least) const;
     double shortest_that_counts(Cdt::Face_handle face) const;
 
     const PlanarRegion& region_;
     Cdt cdt_;
     std::vector<Cdt::Vertex_handle> vertices_;
-    std::vector<double> size_;  // wanted edge length at each vertex
+    std::vector<double> size_;   // wanted edge length at each vertex
+    std::vector<double> least_;  // not less, because of contour edges nearby
     std::priority_queue<Candidate> queue_;
 };
 
@@ -136,9 +140,7 @@ std::vector<std::int32_t> Triangulator::insert_contour() {
     }
     if (!region_.sizes.empty()) size_ = region_.sizes;
     for (double& size : size_) size = std::max(size, region_.least_edge);
-    if (region_.max_edge)
-        for (std::size_t v = 0; v < size_.size(); ++v)
-            size_[v] = std::min(size_[v], region_.max_edge(region_.contour[v]));
+    least_ = size_;
     mark_inside();
     return misoriented_edges();
 }
@@ -181,13 +183,27 @@ double Triangulator::mean_size(Cdt::Face_handle face) const {
     return (size_[face->vertex(0)->info()] + size_[face->vertex(1)->info()] + size_[face->vertex(2)->info()]) / 3;
 }
 
+// Contour edges are not split, so that triangles beside them that are much shorter would be flat.
+double Triangulator::least_at(const Vec2& p, Cdt::Face_handle face) const {
+    double least = 0;
+    for (int i = 0; i < 3; ++i) {
+        const Cdt::Vertex_handle v = face->vertex(i);
+        least = std::max(least, least_[v->info()] - decline * (to_vec(v->point()) - p).norm());
+    }
+    return least;
+}
+
+double Triangulator::largest_at(const Vec2& p, double least) const {
+    return region_.max_edge ? std::max(least, region_.max_edge(p)) : INFINITY;
+}
+
 // Shorter edges make no triangle flat.
 double Triangulator::shortest_that_counts(Cdt::Face_handle face) const {
     return region_.sizes.empty() ? region_.least_edge : std::max(region_.least_edge, foreshortened * mean_size(face));
 }
 
 // Inserts p unless it lies outside, encroaches a contour edge or crowds a vertex.
-bool Triangulator::insert_interior(const Vec2& p, double size, Cdt::Face_handle hint) {
+bool Triangulator::insert_interior(const Vec2& p, double size, double least, Cdt::Face_handle hint) {
     const Point point = to_point(p);
     Cdt::Locate_type type;
     int index = 0;
@@ -209,6 +225,7 @@ bool Triangulator::insert_interior(const Vec2& p, double size, Cdt::Face_handle 
     v->info() = static_cast<std::int32_t>(vertices_.size());
     vertices_.push_back(v);
     size_.push_back(size);
+    least_.push_back(least);
     Cdt::Face_circulator face = cdt_.incident_faces(v), end = face;
     do face->info() = true;
     while (++face != end);
@@ -221,14 +238,16 @@ void Triangulator::consider(Cdt::Face_handle face) {
                c = to_vec(face->vertex(2)->point());
     const double la = (b - c).norm(), lb = (c - a).norm(), lc = (a - b).norm();
     const double radius = la * lb * lc / (2 * cross_2d(b - a, c - a));
-    if (radius * std::sqrt(3.0) <= too_large * mean_size(face) &&
+    const Vec2 centre = to_vec(cdt_.circumcenter(face));
+    const double size = std::min(mean_size(face), largest_at(centre, least_at(centre, face)));
+    if (radius * std::sqrt(3.0) <= too_large * size &&
         radius <= too_flat * std::max(shortest_that_counts(face), std::min({la, lb, lc})))
         return;
     queue_.push({radius, {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()}});
 }
 
 void Triangulator::insert_wanted() {
-    for (const auto& [position, size] : region_.wanted) insert_interior(position, size, Cdt::Face_handle());
+    for (const auto& [position, size] : region_.wanted) insert_interior(position, size, 0, Cdt::Face_handle());
 }
 
 void Triangulator::refine() {
@@ -248,8 +267,8 @@ void Triangulator::refine() {
         double size = INFINITY;
         for (std::int32_t v : t)
             size = std::min(size, size_[v] + growth * (to_vec(vertices_[v]->point()) - centre).norm());
-        if (region_.max_edge) size = std::min(size, region_.max_edge(centre));
-        if (!insert_interior(centre, size, face)) continue;
+        const double least = least_at(centre, face);
+        if (!insert_interior(centre, std::min(size, largest_at(centre, least)), least, face)) continue;
         Cdt::Face_circulator around = cdt_.incident_faces(vertices_.back()), end = around;
         do consider(around);
         while (++around != end);
