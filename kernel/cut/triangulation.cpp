@@ -30,8 +30,7 @@ using Cdt =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
                                                CGAL::No_constraint_intersection_tag>;
 
-constexpr double growth = 0.5;             // of the size per distance from the contour
-constexpr double decline = 0.35;           // the same where the size is bounded by less than contour edges are long
+constexpr double growth = 0.5;             // of the size per distance from the contour, or the opposite
 constexpr double too_large = 1.5;          // circumradius x sqrt(3) over size
 constexpr double too_flat = 1.1;           // circumradius over shortest edge; 1.1: smallest angle 27 degrees
 constexpr double edge_clearance = 0.4;     // least distance of a point from a contour edge, in lengths of that edge
@@ -188,7 +187,7 @@ double Triangulator::least_at(const Vec2& p, Cdt::Face_handle face) const {
     double least = 0;
     for (int i = 0; i < 3; ++i) {
         const Cdt::Vertex_handle v = face->vertex(i);
-        least = std::max(least, least_[v->info()] - decline * (to_vec(v->point()) - p).norm());
+        least = std::max(least, least_[v->info()] - growth * (to_vec(v->point()) - p).norm());
     }
     return least;
 }

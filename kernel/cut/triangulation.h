@@ -38,7 +38,7 @@ struct PlanarTriangulation {
 
 /// Constrained Delaunay triangulation with interior points only: contour edges are shared with the surface and never
 /// split. Sizes start from the contour edges and wanted points and grow at rate 0.5 with the distance; where max_edge
-/// is shorter than the contour edges, they fall to it at rate 0.35, so that triangles at these edges are not flat.
+/// is shorter than the contour edges, they fall to it at the same rate, so that triangles at these edges are not flat.
 /// Triangles that are too large or too flat get their circumcentre unless it lies outside, too close to a contour edge
 /// or to a vertex. Guarded smoothing ends it. Exact predicates, deterministic. O(n log n).
 PlanarTriangulation triangulate(const PlanarRegion& region);

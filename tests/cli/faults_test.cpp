@@ -132,13 +132,13 @@ TEST(MemoryLimit, IsReportedWithItsOwnCode) {
     EXPECT_TRUE(std::filesystem::exists(folder.file("out/failed/part_0002.smesh")));
 }
 
-// An interface of some hundred thousand triangles takes half a minute. A run that does not notice the signal is ended
-// within two seconds, and says so; on a machine that gives it less than half of that, one that does may be ended, too.
+// An interface of a million triangles takes some seconds. A run that does not notice the signal is ended within two
+// seconds, and says so; on a machine that gives it less than half of that, one that does may be ended, too.
 TEST(Cancelling, EndsACutInTheMiddle) {
     const test::TemporaryFolder folder;
     for (const double seconds : {0.3, 1.2, 2.5}) {
         test::StartedRun run(KERF_PROGRAM, {"decompose", test::asset_path("hollow_box"), "-o", folder.file("out"), "-n",
-                                            "2", "--size", "0.0065"});
+                                            "32", "--size", "0.002"});
         const auto computed = [&] { return test::seconds_computed(run.process()); };
         ASSERT_TRUE(test::await([&] { return computed() >= seconds; }));
         const double before = computed();
