@@ -38,16 +38,25 @@ class DistinctNumbers {
     std::vector<std::int32_t> table_;
 };
 
-// Calls visit(a, b) for every edge with an end beyond the boundary vertices, once. Beside the tetrahedra it needs half
-// of the memory that they take.
+constexpr std::size_t most_vertices = std::size_t{1} << 18;  // of which all edges are counted
+
+// Of large meshes the edges of one vertex in so many say enough.
+std::int32_t sampling_of(const TetMesh& mesh) {
+    return static_cast<std::int32_t>(std::bit_ceil((mesh.vertices.size() + most_vertices - 1) / most_vertices));
+}
+
+// Calls visit(a, b) for every edge with an end beyond the boundary vertices, once, if its smaller end is a multiple of
+// `sampling`. Beside the tetrahedra it needs half of the memory that they take.
 template <class Visit>
-void for_each_inner_edge(const TetMesh& mesh, const Visit& visit) {
+void for_each_inner_edge(const TetMesh& mesh, std::int32_t sampling, const Visit& visit) {
+    const std::int32_t left_out = sampling - 1;  // where it has bits: a power of two
     const auto for_each_side = [&](const auto& take) {
         for (const Tetrahedron& t : mesh.tets)
             for (std::size_t i = 0; i < 4; ++i)
-                for (std::size_t j = i + 1; j < 4; ++j)
-                    if (std::max(t[i], t[j]) >= mesh.boundary_vertex_count)
-                        take(static_cast<std::size_t>(std::min(t[i], t[j])), std::max(t[i], t[j]));
+                for (std::size_t j = i + 1; j < 4; ++j) {
+                    const std::int32_t a = std::min(t[i], t[j]), b = std::max(t[i], t[j]);
+                    if ((a & left_out) == 0 && b >= mesh.boundary_vertex_count) take(static_cast<std::size_t>(a), b);
+                }
     };
     const std::size_t most_sides = mesh.tets.size() * sizeof(Tetrahedron) / sizeof(std::int32_t) / 2;
     DistinctNumbers distinct;
@@ -72,11 +81,11 @@ std::string ratios_text(const RatioCounts& r) {
 
 }  // namespace
 
-void RatioCounts::add(double ratio) {
+void RatioCounts::add(double ratio, std::int64_t times) {
     const double above_low = std::isnormal(ratio) ? quick_log2(ratio / low) : std::log2(ratio / low);
     const double octave = above_low + octaves_below;
     const double bin = std::clamp(std::floor(octave * bins_per_octave), 0.0, static_cast<double>(bins_.size() - 1));
-    ++bins_[static_cast<std::size_t>(bin)];
+    bins_[static_cast<std::size_t>(bin)] += times;
 }
 
 void RatioCounts::add(const RatioCounts& other) {
@@ -118,7 +127,9 @@ SizeRatios measure_sizes(const TetMesh& mesh, const SurfaceArrays& surface, cons
     const auto ratio = [&](std::int32_t a, std::int32_t b) {
         return 2 * (mesh.vertices[a] - mesh.vertices[b]).norm() / (wanted[a] + wanted[b]);
     };
-    for_each_inner_edge(mesh, [&](std::int32_t a, std::int32_t b) { ratios.inside.add(ratio(a, b)); });
+    const std::int32_t sampling = sampling_of(mesh);
+    for_each_inner_edge(mesh, sampling,
+                        [&](std::int32_t a, std::int32_t b) { ratios.inside.add(ratio(a, b), sampling); });
     for (std::size_t f = 0; f < surface.facets.size(); ++f) {
         const Triangle& t = surface.facets[f];
         RatioCounts& counts =

@@ -19,7 +19,7 @@ class RatioCounts {
     /// The range that counts as obeyed.
     static constexpr double low = 0.7, high = 1.4;
 
-    void add(double ratio);  ///< positive, or infinite
+    void add(double ratio, std::int64_t times = 1);  ///< positive, or infinite
     void add(const RatioCounts& other);
     std::int64_t count() const;
     /// Of all, those from `low` to `high`; 0 if there is none.
@@ -61,8 +61,9 @@ struct SizeRatios {
     }
 };
 
-/// Measures the mesh that fills a surface and has its vertices first; empty for a field that asks nothing. O(#T), and
-/// the field once for each vertex.
+/// Measures the mesh that fills a surface and has its vertices first; empty for a field that asks nothing. Of meshes of
+/// more than 2^18 vertices those edges inside count whose smaller vertex is a multiple of a power of two, each for so
+/// many. O(#T), and the field once for each vertex.
 SizeRatios measure_sizes(const TetMesh& mesh, const SurfaceArrays& surface, const SizeField& field);
 
 /// For people: a line on the edges inside, and with `every_kind` one on interfaces and on each of the first patches.

@@ -10,6 +10,7 @@
 
 #include "core/bytes.h"
 #include "core/error.h"
+#include "core/regular_tet.h"
 #include "io/file_bytes.h"
 #include "part/vtu_writer.h"
 #include "run/failed_part.h"
@@ -163,6 +164,18 @@ TEST(SizeRatios, CountEveryEdgeOnce) {
             const SizeRatios ratios = measure_sizes(mesh, {}, SizeField(1));
             EXPECT_EQ(ratios.inside.count(), static_cast<std::int64_t>(edges.size())) << vertices << ", " << count;
         }
+}
+
+// A sample tells of a large mesh what all edges would. Those of a chain of cells are 1, 2 and 3 long.
+TEST(SizeRatios, AreSampledOfLargeMeshes) {
+    for (const std::int32_t vertices : {300'000, 600'000}) {
+        TetMesh mesh;
+        for (std::int32_t v = 0; v < vertices; ++v) mesh.vertices.emplace_back(v, 0, 0);
+        for (std::int32_t v = 0; v + 3 < vertices; ++v) mesh.tets.push_back({v, v + 1, v + 2, v + 3});
+        const SizeRatios ratios = measure_sizes(mesh, {}, SizeField(regular_tet_volume(1.5)));
+        EXPECT_NEAR(static_cast<double>(ratios.inside.count()), 3.0 * vertices, 0.001 * vertices);
+        EXPECT_NEAR(ratios.inside.share_obeyed(), 1.0 / 3, 1e-3);
+    }
 }
 
 // What a limit of time has shaped is not taken over by who has another one; everything else is by everybody.
