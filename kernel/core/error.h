@@ -16,6 +16,7 @@ enum class ErrorCode : int {
     quality = 6,       ///< the quality gate was missed
     io = 7,            ///< reading or writing failed
     verification = 8,  ///< a law of the result does not hold
+    convergence = 9,   ///< the solver did not reach its tolerance
     cancelled = 130,   ///< stopped by the user
 };
 

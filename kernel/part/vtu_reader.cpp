@@ -223,7 +223,7 @@ bool is_complete_part_file(const std::string& path) {
 
 bool has_cell_values(const std::string& path, const std::string& array) {
     CheckedFile file(path, "rb");
-    return parse_vtu_header(file.read(vtu_header_limit), path).find(array) != nullptr;
+    return parse_vtu_header(file.read(vtu_header_limit), path).find_of_cells(array) != nullptr;
 }
 
 VtuLayout read_layout(const std::string& path) {
@@ -244,8 +244,8 @@ std::vector<float> read_cell_values(const std::string& path, const std::string& 
                                     std::int64_t count) {
     CheckedFile file(path, "rb");
     const VtuHeader header = parse_vtu_header(file.read(vtu_header_limit), path);
-    const VtuHeader::Array* array = header.find(name);
-    if (!array || array->type != "Float32" || array->components != 1 || array->tuples != header.cell_count)
+    const VtuHeader::Array* array = header.find_of_cells(name);
+    if (!array || array->type != "Float32" || array->components != 1)
         fail_damaged_vtu(path, fmt::format("it has no array {} with a number for every cell", name));
     if (first < 0 || count < 0 || first > header.cell_count - count)
         fail_damaged_vtu(path, fmt::format("it has {} cells, and not those from {} to {}", header.cell_count, first,

@@ -275,6 +275,49 @@ void add_quality(Grid& grid, const Part& part, CellFieldSet fields) {
     }
 }
 
+// Values of tetrahedra, then of those behind the boundary triangles.
+template <class T>
+Array values_of_cells(const PartValues& values, const std::vector<T>& numbers, const Part& part) {
+    const auto width = static_cast<std::size_t>(values.components);
+    const std::size_t cells = part.mesh.tets.size() + part.tet_at_facet.size();
+    require_sizes(numbers.size() == width * part.mesh.tets.size());
+    const auto of_facet = [&numbers, &part, width](std::size_t i) {
+        const std::int32_t t = part.tet_at_facet[i / width];
+        return t < 0 ? std::numeric_limits<T>::quiet_NaN() : numbers[width * static_cast<std::size_t>(t) + i % width];
+    };
+    return {values.name,
+            vtk_type<T>,
+            values.components,
+            cells,
+            cells * width * sizeof(T),
+            [&numbers, of_facet, count = width * part.tet_at_facet.size()](CheckedFile& file) {
+                file.write(numbers.data(), numbers.size() * sizeof(T));
+                write_computed<T>(file, count, of_facet);
+            }};
+}
+
+template <class T>
+Array values_of_points(const PartValues& values, const std::vector<T>& numbers, const Part& part) {
+    require_sizes(numbers.size() == static_cast<std::size_t>(values.components) * part.mesh.vertices.size());
+    Array array = array_of(values.name, std::span<const T>(numbers));
+    array.components = values.components;
+    array.tuples = part.mesh.vertices.size();
+    return array;
+}
+
+void add_values(Grid& grid, const Part& part, std::span<const PartValues> all) {
+    for (const PartValues& values : all) {
+        const bool of_points = values.of == PartValues::Of::points;
+        Section& section = of_points ? grid.point_data() : grid.cell_data();
+        std::visit(
+            [&](const auto& numbers) {
+                section.arrays.push_back(of_points ? values_of_points(values, numbers, part)
+                                                   : values_of_cells(values, numbers, part));
+            },
+            values.numbers);
+    }
+}
+
 constexpr const char* file_begin =
     "<?xml version=\"1.0\"?>\n"
     "<VTKFile type=\"{}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
@@ -326,10 +369,11 @@ void write_grid(CheckedFile& file, const Grid& grid) {
 
 // Calls take(grid) with that of the part, or of its surface.
 template <class Take>
-FileHash with_part_grid(const Part& part, const VtuLayout& layout, Take take) {
+FileHash with_part_grid(const Part& part, const VtuLayout& layout, std::span<const PartValues> values, Take take) {
     require_sizes(part.tet_at_facet.size() == part.facets.size());
     Grid grid = make_grid(part, true, layout.tag_bytes);
     add_quality(grid, part, layout.fields);
+    add_values(grid, part, values);
     return take(grid);
 }
 
@@ -445,11 +489,12 @@ VtuLayout layout_for(const MeshOutline& outline, CellFieldSet fields) {
     return {fields, tag_bytes};
 }
 
-FileHash write_part(const std::string& path, const Part& part, const VtuLayout& layout) {
-    return with_part_grid(part, layout, [&](const Grid& grid) { return write_grid_file(path, grid); });
+FileHash write_part(const std::string& path, const Part& part, const VtuLayout& layout,
+                    std::span<const PartValues> values) {
+    return with_part_grid(part, layout, values, [&](const Grid& grid) { return write_grid_file(path, grid); });
 }
 
-FileHash hash_of_part(const Part& part, const VtuLayout& layout) { return with_part_grid(part, layout, hash_grid); }
+FileHash hash_of_part(const Part& part, const VtuLayout& layout) { return with_part_grid(part, layout, {}, hash_grid); }
 
 FileHash write_part_surface(const std::string& path, const Part& part) {
     return write_grid_file(path, make_grid(part, false, sizeof(std::int32_t)));
@@ -457,11 +502,15 @@ FileHash write_part_surface(const std::string& path, const Part& part) {
 
 FileHash hash_of_part_surface(const Part& part) { return hash_grid(make_grid(part, false, sizeof(std::int32_t))); }
 
-std::string pvtu_text(const std::vector<std::string>& pieces, const VtuLayout& layout) {
+std::string pvtu_text(const std::vector<std::string>& pieces, const VtuLayout& layout,
+                      std::span<const PartValues> values) {
     // Only the names and types of the arrays are asked for, so that they are those of the pieces.
     const Part no_part;
     Grid grid = make_grid(no_part, true, layout.tag_bytes);
     add_quality(grid, no_part, layout.fields);
+    std::vector<PartValues> nothing(values.begin(), values.end());
+    for (PartValues& of_part : nothing) std::visit([](auto& numbers) { numbers.clear(); }, of_part.numbers);
+    add_values(grid, no_part, nothing);
 
     std::string xml = fmt::format(file_begin, "PUnstructuredGrid") + "<PUnstructuredGrid GhostLevel=\"0\">\n";
     for (const Section* section : {&grid.point_data(), &grid.cell_data(), &grid.points()})
@@ -470,8 +519,9 @@ std::string pvtu_text(const std::vector<std::string>& pieces, const VtuLayout& l
     return xml + "</PUnstructuredGrid>\n</VTKFile>\n";
 }
 
-void write_pvtu(const std::string& path, const std::vector<std::string>& pieces, const VtuLayout& layout) {
-    write_text_file(path, pvtu_text(pieces, layout));
+void write_pvtu(const std::string& path, const std::vector<std::string>& pieces, const VtuLayout& layout,
+                std::span<const PartValues> values) {
+    write_text_file(path, pvtu_text(pieces, layout, values));
 }
 
 void fail_damaged_vtu(const std::string& path, const std::string& what) {
@@ -483,6 +533,12 @@ void fail_damaged_vtu(const std::string& path, const std::string& what) {
 const VtuHeader::Array* VtuHeader::find(std::string_view name) const {
     const auto it = std::find_if(arrays.begin(), arrays.end(), [&](const Array& array) { return array.name == name; });
     return it == arrays.end() ? nullptr : &*it;
+}
+
+const VtuHeader::Array* VtuHeader::find_of_cells(std::string_view name) const {
+    const auto it = std::find_if(arrays.rbegin(), arrays.rend(),
+                                 [&](const Array& array) { return array.name == name && array.tuples == cell_count; });
+    return it == arrays.rend() ? nullptr : &*it;
 }
 
 VtuHeader parse_vtu_header(std::string_view begin_of_file, const std::string& path) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "core/hash.h"
@@ -42,15 +43,27 @@ struct VtuLayout {
 /// With the shortest tags that name all parts and patches.
 VtuLayout layout_for(const MeshOutline& outline, CellFieldSet fields);
 
+/// Values that somebody has computed for a part: of its points, or of its tetrahedra. Boundary triangles have those of
+/// the tetrahedron behind them, NaN if there is none.
+struct PartValues {
+    enum class Of { points, tets };
+    std::string name;
+    Of of = Of::points;
+    int components = 1;
+    std::variant<std::vector<float>, std::vector<double>>
+        numbers;  ///< all components of the first one, of the second...
+};
+
 /// Writes DIR/parts/part_XXXX.vtu: the tetrahedra, then the boundary triangles.
 ///
 /// Point array GlobalVertexId (Int64). Cell arrays Part, Patch, Neighbour (Int8, Int16 or Int32), and Float32 ones of
 /// the fields; a boundary triangle carries the quality of the tetrahedron behind it, NaN if there is none; a
 /// tetrahedron has Patch and Neighbour -1. Field data PatchNames (UInt8: the names' bytes in the order of their
 /// patches, a zero byte behind each), Facet (Int32: that of the input, -1 on interfaces, of each boundary triangle) and
-/// BoundaryVertexCount (Int32). 30 bytes a tetrahedron and 4 a field, with tags of one byte. The bytes depend on the
-/// part and the layout alone; their hash is returned. Throws Error(io).
-FileHash write_part(const std::string& path, const Part& part, const VtuLayout& layout = {});
+/// BoundaryVertexCount (Int32); `values` follow the arrays of their kind. 30 bytes a tetrahedron and 4 a field, with
+/// tags of one byte. The bytes depend on the part and the layout alone; their hash is returned. Throws Error(io).
+FileHash write_part(const std::string& path, const Part& part, const VtuLayout& layout = {},
+                    std::span<const PartValues> values = {});
 
 /// Writes DIR/parts/part_XXXX.surface.vtu: the boundary of a part with GlobalVertexId, cell arrays Part, Patch,
 /// Facet and Neighbour (Int32), and the same other field data. Returns the hash of its bytes. Throws Error(io).
@@ -60,11 +73,14 @@ FileHash write_part_surface(const std::string& path, const Part& part);
 FileHash hash_of_part(const Part& part, const VtuLayout& layout = {});
 FileHash hash_of_part_surface(const Part& part);
 
-/// The PVTU that joins files of write_part(); `pieces` are paths relative to the PVTU's folder.
-std::string pvtu_text(const std::vector<std::string>& pieces, const VtuLayout& layout = {});
+/// The PVTU that joins files of write_part(); `pieces` are paths relative to the PVTU's folder. Of `values`, those of
+/// any part, names and types count.
+std::string pvtu_text(const std::vector<std::string>& pieces, const VtuLayout& layout = {},
+                      std::span<const PartValues> values = {});
 
 /// Writes it. Throws Error(io).
-void write_pvtu(const std::string& path, const std::vector<std::string>& pieces, const VtuLayout& layout = {});
+void write_pvtu(const std::string& path, const std::vector<std::string>& pieces, const VtuLayout& layout = {},
+                std::span<const PartValues> values = {});
 
 /// The XML header of a file of write_part() or write_part_surface(): where its arrays lie.
 struct VtuHeader {
@@ -76,7 +92,9 @@ struct VtuHeader {
     std::int64_t point_count = 0, cell_count = 0, boundary_vertex_count = 0;
     std::vector<Array> arrays;  ///< in the order of the file
 
-    const Array* find(std::string_view name) const;  ///< nullptr if there is none
+    const Array* find(std::string_view name) const;  ///< the first; nullptr if there is none
+    /// The same with a tuple for every cell: those of points, which come first, may have the same name.
+    const Array* find_of_cells(std::string_view name) const;
 };
 
 /// Reads the header from the first bytes of a file, of which vtu_header_limit are enough. Throws Error(io) if it is not
