@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "cli/other_programs.h"
 #include "core/error.h"
 #include "export/format.h"
 #include "quality/quality_gate.h"
@@ -20,8 +21,8 @@ constexpr const char* description =
 
 constexpr const char* exit_codes =
     "Exit codes: 0 done and verified, 1 internal error, 2 usage, 3 input rejected, 4 a part could not be meshed,\n"
-    "5 out of memory, 6 a limit of quality was missed, 7 reading or writing failed, 8 verification failed, 130 "
-    "cancelled.";
+    "5 out of memory, 6 a limit of quality was missed, 7 reading or writing failed, 8 verification failed, 9 the "
+    "solver\ndid not reach its tolerance, 130 cancelled.";
 
 const char* type_name(const OptionField& field) {
     if (std::holds_alternative<double*>(field.value)) return "FLOAT";
@@ -250,9 +251,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         ->check(CLI::IsMember({"4.1", "2.2"}));
     CLI::App* quality = add_quality_command(app, line.quality);
     CLI::App* to_remesh = add_remesh_command(app, line);
-    // Only for the list of commands: main() has passed these on to kerf-view.
-    app.add_subcommand("view", "Open the viewer: every cut step by step, every cell.");
-    app.add_subcommand("screenshot", "The same as a picture, without a display.");
+    // Only for the list of commands: main() has passed these on.
+    for (const OtherProgram& other : other_programs) app.add_subcommand(other.command, other.help);
 
     // The table binds every option to one place, so the values of `mesh` and `decompose` share it.
     try {

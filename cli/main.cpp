@@ -8,12 +8,12 @@
 
 #include "cli/check.h"
 #include "cli/command_line.h"
+#include "cli/other_programs.h"
 #include "cli/progress.h"
 #include "cli/quality.h"
 #include "cli/ranks.h"
 #include "cli/remesh.h"
 #include "cli/verify.h"
-#include "cli/viewer.h"
 #include "io/standard_streams.h"
 #include "run/pipeline.h"
 #include "run/tree_text.h"
@@ -93,7 +93,8 @@ int run_command(const CommandLine& line) {
 }
 
 int run_program(int argc, char** argv) {
-    if (argc > 1 && is_viewer_command(argv[1])) become_viewer(argv);
+    if (argc > 1)
+        if (const OtherProgram* other = find_other_program(argv[1])) become(*other, argv);
     const CommandLine line = parse_command_line(argc, argv);
     if (line.finished) {
         if (!is_first_rank()) return line.exit_code;

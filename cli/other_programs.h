@@ -1,0 +1,32 @@
+// Commands that are programs of their own beside kerf, which links none of their libraries.
+#pragma once
+
+#include <string>
+
+namespace kerf {
+
+struct OtherProgram {
+    const char* command;  ///< of kerf
+    const char* program;  ///< that lies beside it
+    const char* help;     ///< for the list of commands
+    const char* remedy;   ///< where the program is missing: how to build it, and what to do without
+};
+
+/// The program of a command; null if it is kerf's own.
+const OtherProgram* find_other_program(const std::string& command);
+
+/// Replaces this program by another one, with the same arguments. Throws Error(usage), saying how to build it, if it is
+/// not there. `argv` ends with a null pointer.
+[[noreturn]] void become(const OtherProgram& other, char** argv);
+
+inline constexpr const char* viewer_remedy =
+    "The viewer is a program of its own beside kerf; build it with KERF_VIEWER=ON, which needs libglfw3-dev, "
+    "libimgui-dev and libosmesa6-dev, or open the run folder's mesh.pvtu in ParaView.";
+inline constexpr OtherProgram other_programs[] = {
+    {"solve", "kerf-solve", "Linear elasticity on the parts of a finished run: displacements and stresses.",
+     "The solver is a program of its own beside kerf; build it with KERF_SOLVE=ON, which needs libpetsc-real-dev, or "
+     "export the mesh: kerf export --format abaqus for CalculiX."},
+    {"view", "kerf-view", "Open the viewer: every cut step by step, every cell.", viewer_remedy},
+    {"screenshot", "kerf-view", "The same as a picture, without a display.", viewer_remedy}};
+
+}  // namespace kerf
