@@ -189,9 +189,9 @@ bool is_first_rank() {
     return true;
 }
 
-Ranks join_ranks() {
+Ranks join_ranks([[maybe_unused]] MpiUse use) {
 #ifdef KERF_WITH_MPI
-    if (started_by_launcher()) return join_mpi_ranks();
+    if (use == MpiUse::always || started_by_launcher()) return join_mpi_ranks();
 #endif
     const int cores = count_of(allowed_processors());
     return {std::make_unique<SingleRank>(), cores, cores, cores};

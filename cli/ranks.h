@@ -17,8 +17,12 @@ struct Ranks {
     int unbound_share = 1;  ///< what cores_of_rank would be if the launcher had bound no rank
     bool launched = false;
 };
+enum class MpiUse {
+    if_launched,  ///< a process alone does without MPI, which takes 0.3 s to initialise
+    always,       ///< for who calls MPI itself
+};
 /// Collective. Throws Error(internal) if the MPI library does not allow the threads that a rank has beside its first.
-Ranks join_ranks();
+Ranks join_ranks(MpiUse use = MpiUse::if_launched);
 
 /// A line for the user if the ranks are bound to fewer processors than there are for the workers: `workers` of each
 /// rank, 0 for the default. It says what lifts that. Empty if all is well, or nothing would lift it.

@@ -1,0 +1,20 @@
+// The connected pieces of a mesh.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solve/node_space.h"
+
+namespace kerf {
+
+/// Bodies of all ranks, ascending by their smallest row.
+struct Bodies {
+    std::int32_t count = 0;
+    std::vector<std::int32_t> of_node;  ///< of each local node, ghosts too
+};
+
+/// Cells that share a vertex are of one body. Collective; O(n), times the number of ranks that one body winds through.
+Bodies find_bodies(const NodeSpace& space);
+
+}  // namespace kerf

@@ -1,0 +1,293 @@
+#include "solve/elastic_problem.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+
+#include "core/error.h"
+
+namespace kerf {
+
+namespace {
+
+class ProblemMaker {
+ public:
+    ProblemMaker(const NodeSpace& space, const MeshOutline& outline, const ElasticCase& wanted)
+        : space_(space),
+          outline_(outline),
+          wanted_(wanted),
+          selector_(space, outline.patch_names),
+          bodies_(find_bodies(space)) {}
+
+    ElasticProblem make() {
+        problem_ = make_free_problem(space_, wanted_.materials.front().material);
+        choose_materials();
+        hold();
+        require_supported(problem_, bodies_);
+        problem_.cases = wanted_.names();
+        for (const std::string& name : problem_.cases) problem_.forces.push_back(forces_of(name));
+        return std::move(problem_);
+    }
+
+ private:
+    void choose_materials();
+    std::vector<char> bodies_at(const std::vector<std::string>& patches, const std::string& who) const;
+    void hold();
+    std::vector<double> forces_of(const std::string& load_case) const;
+    void add_surface_load(const Load& load, std::vector<double>& forces) const;
+    void add_weight(std::vector<double>& forces) const;
+
+    const NodeSpace& space_;
+    const MeshOutline& outline_;
+    const ElasticCase& wanted_;
+    SurfaceSelector selector_;
+    Bodies bodies_;
+    ElasticProblem problem_;
+};
+
+// Bodies with a triangle of these patches.
+std::vector<char> ProblemMaker::bodies_at(const std::vector<std::string>& patches, const std::string& who) const {
+    SurfaceSelection where;
+    where.patches = patches;
+    std::vector<std::int32_t> found(static_cast<std::size_t>(bodies_.count), 0);
+    for (const SurfaceFacet& facet : selector_.facets(where, who))
+        found[static_cast<std::size_t>(
+            bodies_.of_node[static_cast<std::size_t>(space_.nodes_of_facet(facet.part, facet.facet)[0])])] = 1;
+    MPI_Allreduce(MPI_IN_PLACE, found.data(), static_cast<int>(found.size()), MPI_INT32_T, MPI_MAX, space_.comm());
+    return {found.begin(), found.end()};
+}
+
+void ProblemMaker::choose_materials() {
+    constexpr std::uint8_t none = 255;
+    if (wanted_.materials.size() >= none) throw Error(ErrorCode::usage, "A case may have up to 254 materials.");
+    problem_.materials.clear();
+    std::set<NodeId> named_parts;
+    std::vector<std::int32_t> of_body(static_cast<std::size_t>(bodies_.count), none);
+    std::int32_t of_rest = none;
+    for (const MaterialUse& use : wanted_.materials) {
+        const auto number = static_cast<std::int32_t>(problem_.materials.size());
+        const std::string who = fmt::format("Material '{}'", use.material.name);
+        problem_.materials.push_back(use.material);
+        for (const NodeId id : use.parts) {
+            if (std::none_of(outline_.parts.begin(), outline_.parts.end(),
+                             [&](const PartExtent& e) { return e.id == id; }))
+                throw Error(ErrorCode::usage, fmt::format("{} names part {}, which this mesh does not have.", who, id));
+            if (!named_parts.insert(id).second)
+                throw Error(ErrorCode::usage, fmt::format("Part {} has two materials.", id));
+        }
+        if (!use.patches.empty()) {
+            const std::vector<char> here = bodies_at(use.patches, who);
+            for (std::size_t b = 0; b < here.size(); ++b) {
+                if (!here[b]) continue;
+                if (of_body[b] != none)
+                    throw Error(
+                        ErrorCode::usage,
+                        fmt::format("The body at patch '{}' has two materials: '{}' and '{}'.", use.patches.front(),
+                                    problem_.materials[static_cast<std::size_t>(of_body[b])].name, use.material.name));
+                of_body[b] = number;
+            }
+        }
+        if (use.parts.empty() && use.patches.empty()) {
+            if (of_rest != none)
+                throw Error(ErrorCode::usage,
+                            fmt::format("Materials '{}' and '{}' are for everything. Say with parts or patch where one "
+                                        "of them is.",
+                                        problem_.materials[static_cast<std::size_t>(of_rest)].name, use.material.name));
+            of_rest = number;
+        }
+    }
+    if (problem_.materials.size() == 1 && of_rest == 0) return;
+    std::int64_t without = 0;
+    for (std::size_t p = 0; p < space_.parts().size(); ++p) {
+        const Part& part = space_.parts()[p];
+        std::int32_t of_part = none;
+        for (std::size_t m = 0; m < wanted_.materials.size(); ++m)
+            for (const NodeId id : wanted_.materials[m].parts)
+                if (id == part.id) of_part = static_cast<std::int32_t>(m);
+        std::vector<std::uint8_t>& of_tet = problem_.material_of_tet.emplace_back();
+        for (std::size_t t = 0; t < part.mesh.tets.size(); ++t) {
+            const auto body =
+                static_cast<std::size_t>(bodies_.of_node[static_cast<std::size_t>(space_.nodes_of(p, t)[0])]);
+            const std::int32_t chosen = of_part != none ? of_part : of_body[body] != none ? of_body[body] : of_rest;
+            of_tet.push_back(static_cast<std::uint8_t>(chosen));
+            if (chosen == none) ++without;
+        }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &without, 1, MPI_INT64_T, MPI_SUM, space_.comm());
+    if (without > 0)
+        throw Error(ErrorCode::usage,
+                    fmt::format("{} tetrahedra have no material. Add one without parts and patch: it is for the rest.",
+                                without));
+}
+
+// A part may have a node of a patch without a triangle of it: all who have the node are told.
+void ProblemMaker::hold() {
+    for (std::size_t s = 0; s < wanted_.supports.size(); ++s) {
+        const Support& support = wanted_.supports[s];
+        const auto hold_node = [&](std::int32_t node) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                std::int32_t& of = problem_.support_of[3 * static_cast<std::size_t>(node) + c];
+                if (support.displacement[c]) of = std::min(of, static_cast<std::int32_t>(s));
+            }
+        };
+        problem_.supports.push_back(support.name);
+        if (support.where.point) {
+            const std::int64_t row = selector_.nearest_vertex(*support.where.point);
+            for (std::int32_t n = 0; n < static_cast<std::int32_t>(space_.node_count()); ++n)
+                if (space_.row_of(n) == row) hold_node(n);
+            continue;
+        }
+        for (const SurfaceFacet& facet : selector_.facets(support.where, fmt::format("Support '{}'", support.name)))
+            for (const std::int32_t node : space_.nodes_of_facet(facet.part, facet.facet))
+                if (node >= 0) hold_node(node);
+    }
+    space_.exchange().share_smallest(std::span(problem_.support_of), 3);
+    for (std::size_t dof = 0; dof < problem_.support_of.size(); ++dof)
+        if (problem_.is_held(dof))
+            problem_.prescribed[dof] =
+                *wanted_.supports[static_cast<std::size_t>(problem_.support_of[dof])].displacement[dof % 3];
+}
+
+void ProblemMaker::add_surface_load(const Load& load, std::vector<double>& forces) const {
+    const std::string who = fmt::format("Load '{}'", load.name);
+    if (load.where.point) {
+        const std::int64_t row = selector_.nearest_vertex(*load.where.point);
+        const std::int64_t own = row - space_.first_row();
+        if (own >= 0 && own < static_cast<std::int64_t>(space_.owned_count()))
+            for (std::size_t c = 0; c < 3; ++c)
+                forces[3 * static_cast<std::size_t>(own) + c] += (*load.force)[static_cast<Eigen::Index>(c)];
+        return;
+    }
+    const std::vector<SurfaceFacet> facets = selector_.facets(load.where, who);
+    double area = 0;
+    for (const SurfaceFacet& facet : facets) area += facet.area;
+    MPI_Allreduce(MPI_IN_PLACE, &area, 1, MPI_DOUBLE, MPI_SUM, space_.comm());
+    for (const SurfaceFacet& facet : facets) {
+        const Vec3 traction = load.pressure   ? Vec3(-*load.pressure * facet.normal)
+                              : load.traction ? *load.traction
+                                              : Vec3(*load.force / area);
+        const auto nodes = space_.nodes_of_facet(facet.part, facet.facet);
+        const TriangleShares shares = node_areas(facet.area, space_.order());
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+            for (std::size_t c = 0; c < 3 && nodes[i] >= 0; ++c)
+                forces[3 * static_cast<std::size_t>(nodes[i]) + c] +=
+                    shares[i] * traction[static_cast<Eigen::Index>(c)];
+    }
+}
+
+void ProblemMaker::add_weight(std::vector<double>& forces) const {
+    for_all_tets(space_, [&](std::size_t p, std::size_t t) {
+        const TetElement::Shapes volumes = space_.element(p, t).node_volumes();
+        const auto nodes = space_.nodes_of(p, t);
+        const Vec3 density = problem_.material(p, t).density * *wanted_.gravity;
+        for (std::size_t n = 0; n < static_cast<std::size_t>(element_nodes(space_.order())); ++n)
+            for (std::size_t c = 0; c < 3; ++c)
+                forces[3 * static_cast<std::size_t>(nodes[n]) + c] +=
+                    volumes[n] * density[static_cast<Eigen::Index>(c)];
+    });
+}
+
+std::vector<double> ProblemMaker::forces_of(const std::string& load_case) const {
+    std::vector<double> forces(3 * space_.node_count(), 0);
+    for (const Load& load : wanted_.loads)
+        if (load.load_case.empty() || load.load_case == load_case) add_surface_load(load, forces);
+    if (wanted_.gravity) add_weight(forces);
+    return forces;
+}
+
+using Motion = Eigen::Matrix<double, 6, 1>;  // translation, then rotation about the body's middle, in radians x scale
+using MotionMatrix = Eigen::Matrix<double, 6, 6>;
+
+// What is left of motions without the others, in words. `motions`: orthonormal columns that nothing prevents.
+std::string motions_text(const Eigen::MatrixXd& motions, const Vec3& middle, double scale) {
+    if (motions.cols() == 6) return "it is not held at all";
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(motions.bottomRows(3), Eigen::ComputeFullV);
+    const Eigen::MatrixXd sorted = motions * svd.matrixV();  // those that turn most come first
+    std::string text;
+    const auto direction = [](const Vec3& v) {
+        Eigen::Index largest = 0;
+        v.cwiseAbs().maxCoeff(&largest);
+        const Vec3 unit = (v[largest] < 0 ? -v : v).normalized();
+        const auto shown = [](double x) { return std::abs(x) < 5e-4 ? 0.0 : x; };
+        return fmt::format("({:.3g}, {:.3g}, {:.3g})", shown(unit.x()), shown(unit.y()), shown(unit.z()));
+    };
+    for (Eigen::Index i = 0; i < sorted.cols(); ++i) {
+        const Vec3 translation = sorted.col(i).head<3>(), rotation = sorted.col(i).tail<3>() / scale;
+        if (!text.empty()) text += ", and to ";
+        if (rotation.norm() * scale < 1e-6) {
+            text += fmt::format("move along {}", direction(translation));
+            continue;
+        }
+        const Vec3 on_axis = middle + rotation.cross(translation) / rotation.squaredNorm();
+        text += fmt::format("turn about {} through ({:.6g}, {:.6g}, {:.6g})", direction(rotation), on_axis.x(),
+                            on_axis.y(), on_axis.z());
+    }
+    return "it is free to " + text;
+}
+
+}  // namespace
+
+ElasticProblem make_free_problem(const NodeSpace& space, const Material& material) {
+    ElasticProblem problem;
+    problem.space = &space;
+    problem.materials = {material};
+    problem.support_of.assign(3 * space.node_count(), ElasticProblem::free);
+    problem.prescribed.assign(3 * space.node_count(), 0);
+    return problem;
+}
+
+ElasticProblem make_problem(const NodeSpace& space, const MeshOutline& outline, const ElasticCase& wanted) {
+    return ProblemMaker(space, outline, wanted).make();
+}
+
+void require_supported(const ElasticProblem& problem, const Bodies& bodies) {
+    const NodeSpace& space = *problem.space;
+    const auto count = static_cast<std::size_t>(bodies.count);
+    const auto reduce = [&](std::vector<double>& sums, MPI_Op operation) {
+        MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, operation, space.comm());
+    };
+    std::vector<double> middles(4 * count, 0), scales(count, 0), products(36 * count, 0);
+    for (std::size_t n = 0; n < space.owned_count(); ++n) {
+        double* sum = &middles[4 * static_cast<std::size_t>(bodies.of_node[n])];
+        for (int c = 0; c < 3; ++c) sum[c] += space.points()[n][c];
+        sum[3] += 1;
+    }
+    reduce(middles, MPI_SUM);
+    const auto middle_of = [&](std::size_t b) {
+        return Vec3(middles[4 * b], middles[4 * b + 1], middles[4 * b + 2]) / middles[4 * b + 3];
+    };
+    for (std::size_t n = 0; n < space.owned_count(); ++n) {
+        const auto b = static_cast<std::size_t>(bodies.of_node[n]);
+        scales[b] = std::max(scales[b], (space.points()[n] - middle_of(b)).norm());
+    }
+    reduce(scales, MPI_MAX);
+    for (std::size_t n = 0; n < space.owned_count(); ++n)
+        for (int c = 0; c < 3; ++c) {
+            if (!problem.is_held(3 * n + static_cast<std::size_t>(c))) continue;
+            const auto b = static_cast<std::size_t>(bodies.of_node[n]);
+            const Vec3 axis = Vec3::Unit(c), arm = (space.points()[n] - middle_of(b)) / scales[b];
+            Motion held;
+            held << axis, arm.cross(axis);  // component c of the motion of the node
+            Eigen::Map<MotionMatrix>(&products[36 * b]) += held * held.transpose();
+        }
+    reduce(products, MPI_SUM);
+    for (std::size_t b = 0; b < count; ++b) {
+        const Eigen::SelfAdjointEigenSolver<MotionMatrix> solver(Eigen::Map<const MotionMatrix>(&products[36 * b]));
+        const double largest = solver.eigenvalues()[5];
+        Eigen::Index left = 0;
+        while (left < 6 && solver.eigenvalues()[left] <= 1e-10 * largest) ++left;
+        if (left == 0) continue;
+        const Vec3 middle = middle_of(b);
+        throw Error(ErrorCode::usage,
+                    fmt::format("The supports leave {} around ({:.6g}, {:.6g}, {:.6g}) free: {}. Add a [[support]] "
+                                "against that.",
+                                count == 1 ? "the body" : "a body", middle.x(), middle.y(), middle.z(),
+                                motions_text(solver.eigenvectors().leftCols(left), middle, scales[b])));
+    }
+}
+
+}  // namespace kerf

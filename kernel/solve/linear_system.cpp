@@ -1,0 +1,317 @@
+// The only source that knows PETSc.
+#include "solve/linear_system.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <petscksp.h>
+
+#include "core/error.h"
+#include "solve/block_rows.h"
+
+namespace kerf {
+
+namespace {
+
+double seconds_now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// PETSc returns codes when its own handlers are out of the way; after one its objects are lost.
+void check(PetscErrorCode code) {
+    if (code == 0) return;
+    const char* text = nullptr;
+    PetscErrorMessage(code, &text, nullptr);
+    if (code == PETSC_ERR_MEM)
+        throw PetscFailure(ErrorCode::memory,
+                           "PETSc ran out of memory. Use more ranks, more hosts, a coarser mesh or order 1.");
+    throw PetscFailure(ErrorCode::internal,
+                       fmt::format("PETSc failed with code {}: {}.", static_cast<int>(code), text ? text : ""));
+}
+
+// Local to global numbers of PETSc's rows, which have 32 bits (NodeSpace sees to that).
+PetscInt row_of(const NodeSpace& space, std::int32_t node) { return static_cast<PetscInt>(space.row_of(node)); }
+
+// Blocks of each row: in columns of this rank and of others, all and those from the diagonal on.
+struct RoomForRows {
+    std::vector<PetscInt> own, others, own_upper, others_upper;
+};
+
+// What other ranks add to a row is counted there: a few blocks at interfaces are counted twice.
+RoomForRows room_for(const NodeSpace& space, const BlockRows& rows) {
+    enum { own, others, own_upper, others_upper, kinds };
+    std::vector<std::int32_t> counts(kinds * space.node_count(), 0);
+    const std::vector<std::int64_t>& starts = space.rank_rows();
+    for (std::size_t n = 0; n < rows.row_count(); ++n) {
+        const std::int64_t row = space.row_of(static_cast<std::int32_t>(n));
+        const auto after = std::upper_bound(starts.begin(), starts.end(), row);
+        for (std::int64_t i = rows.first[n]; i < rows.first[n + 1]; ++i) {
+            const std::int64_t column = space.row_of(rows.columns[static_cast<std::size_t>(i)]);
+            const bool is_own = column >= *(after - 1) && column < *after;
+            ++counts[kinds * n + (is_own ? own : others)];
+            if (column >= row) ++counts[kinds * n + (is_own ? own_upper : others_upper)];
+        }
+    }
+    space.exchange().add_to_owners(std::span(counts), kinds);
+    RoomForRows room;
+    const auto all_own = static_cast<std::int64_t>(space.owned_count()), all_others = space.total_rows() - all_own;
+    for (std::size_t n = 0; n < space.owned_count(); ++n) {
+        const auto count = [&](int kind, std::int64_t most) {
+            return static_cast<PetscInt>(
+                std::min<std::int64_t>(counts[kinds * n + static_cast<std::size_t>(kind)], most));
+        };
+        room.own.push_back(count(own, all_own));
+        room.others.push_back(count(others, all_others));
+        room.own_upper.push_back(count(own_upper, all_own));
+        room.others_upper.push_back(count(others_upper, all_others));
+    }
+    return room;
+}
+
+}  // namespace
+
+PetscSession::PetscSession(const std::string& options) {
+    ::unsetenv("PETSC_OPTIONS");
+    std::array<char*, 3> arguments = {const_cast<char*>("kerf-solve"), const_cast<char*>("-skip_petscrc"), nullptr};
+    int count = 2;
+    char** list = arguments.data();
+    check(PetscInitialize(&count, &list, nullptr, nullptr));
+    check(PetscPopSignalHandler());
+    check(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
+    const bool are_options = options.empty() || options[0] == '-';
+    if (!are_options || PetscOptionsInsertString(nullptr, options.c_str()) != 0)
+        throw Error(ErrorCode::usage, fmt::format("PETSc does not take the options '{}'.", options));
+}
+
+PetscSession::~PetscSession() { PetscFinalize(); }
+
+namespace {
+
+// Those of the case that nothing has asked for until the solver is set up.
+void refuse_unknown_options() {
+    PetscInt count = 0;
+    char **names = nullptr, **values = nullptr;
+    check(PetscOptionsLeftGet(nullptr, &count, &names, &values));
+    std::string unknown;
+    for (PetscInt i = 0; i < count; ++i)
+        if (std::string(names[i]) != "skip_petscrc")
+            unknown += fmt::format("{}-{}", unknown.empty() ? "" : ", ", names[i]);
+    check(PetscOptionsLeftRestore(nullptr, &count, &names, &values));
+    if (!unknown.empty())
+        throw Error(ErrorCode::usage, fmt::format("PETSc has no use for these options of the case: {}.", unknown));
+}
+
+}  // namespace
+
+struct LinearSystem::Impl {
+    Impl(const ElasticProblem& wanted, const SolverOptions& chosen) : problem(wanted), options(chosen) {}
+    ~Impl() {
+        KSPDestroy(&ksp);
+        VecDestroy(&right);
+        VecDestroy(&solution);
+        VecDestroy(&residual);
+        MatDestroy(&matrix);
+    }
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+
+    void assemble();
+    void create_matrix(const BlockRows& rows);
+    void insert(const BlockRows& rows);
+    double mean_diagonal(const BlockRows& rows) const;
+    void prepare_solver();
+    void give_rigid_motions();
+
+    const ElasticProblem& problem;
+    SolverOptions options;
+    Mat matrix = nullptr;
+    KSP ksp = nullptr;
+    Vec right = nullptr, solution = nullptr, residual = nullptr;
+    std::vector<double> of_prescribed;  // #dof: what held displacements put on the right, shares of ranks
+    double diagonal = 1;                // of held degrees of freedom
+    bool is_symmetric_half = false;
+    AssemblySeconds seconds;
+    std::int64_t unprepared = 0;
+};
+
+void LinearSystem::Impl::create_matrix(const BlockRows& rows) {
+    const NodeSpace& space = *problem.space;
+    const auto own = static_cast<PetscInt>(3 * space.owned_count());
+    int ranks = 1;
+    MPI_Comm_size(space.comm(), &ranks);
+    is_symmetric_half = options.preconditioner == "icc";  // multigrid wants all of it
+    check(MatCreate(space.comm(), &matrix));
+    check(MatSetSizes(matrix, own, own, PETSC_DETERMINE, PETSC_DETERMINE));
+    check(MatSetBlockSize(matrix, 3));
+    check(MatSetType(matrix, is_symmetric_half ? MATSBAIJ : MATAIJ));
+    const RoomForRows room = room_for(space, rows);
+    check(MatXAIJSetPreallocation(matrix, 3, room.own.data(), room.others.data(), room.own_upper.data(),
+                                  room.others_upper.data()));
+    if (is_symmetric_half) check(MatSetOption(matrix, MAT_IGNORE_LOWER_TRIANGULAR, PETSC_TRUE));
+    check(MatSetOption(matrix, MAT_SPD, PETSC_TRUE));
+    check(MatSetOption(matrix, MAT_ROW_ORIENTED, PETSC_TRUE));
+}
+
+double LinearSystem::Impl::mean_diagonal(const BlockRows& rows) const {
+    std::array<double, 2> sum = {0, static_cast<double>(3 * problem.space->owned_count())};
+    for (std::size_t n = 0; n < rows.row_count(); ++n)
+        for (std::int64_t i = rows.first[n]; i < rows.first[n + 1]; ++i)
+            if (static_cast<std::size_t>(rows.columns[static_cast<std::size_t>(i)]) == n) {
+                const double* block = &rows.values[9 * static_cast<std::size_t>(i)];
+                sum[0] += block[0] + block[4] + block[8];
+            }
+    MPI_Allreduce(MPI_IN_PLACE, sum.data(), 2, MPI_DOUBLE, MPI_SUM, problem.space->comm());
+    return sum[0] / sum[1];
+}
+
+void LinearSystem::Impl::insert(const BlockRows& rows) {
+    const NodeSpace& space = *problem.space;
+    of_prescribed.assign(3 * space.node_count(), 0);
+    std::vector<PetscInt> columns;
+    std::vector<double> values;  // of one row of blocks: three rows of numbers
+    for (std::size_t n = 0; n < rows.row_count(); ++n) {
+        const std::int64_t begin = rows.first[n], end = rows.first[n + 1];
+        const auto width = static_cast<std::size_t>(3 * (end - begin));
+        columns.clear();
+        values.assign(3 * width, 0);
+        for (std::int64_t i = begin; i < end; ++i) {
+            const auto at = static_cast<std::size_t>(i);
+            const auto column = static_cast<std::size_t>(rows.columns[at]);
+            columns.push_back(row_of(space, rows.columns[at]));
+            for (std::size_t r = 0; r < 3; ++r)
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const double value = rows.values[9 * at + 3 * r + c];
+                    if (problem.is_held(3 * n + r)) continue;
+                    if (problem.is_held(3 * column + c))
+                        of_prescribed[3 * n + r] -= value * problem.prescribed[3 * column + c];
+                    else
+                        values[r * width + 3 * static_cast<std::size_t>(i - begin) + c] = value;
+                }
+            if (column == n && n < space.owned_count())
+                for (std::size_t r = 0; r < 3; ++r)
+                    if (problem.is_held(3 * n + r))
+                        values[r * width + 3 * static_cast<std::size_t>(i - begin) + r] = diagonal;
+        }
+        const PetscInt row = row_of(space, static_cast<std::int32_t>(n));
+        check(MatSetValuesBlocked(matrix, 1, &row, static_cast<PetscInt>(columns.size()), columns.data(), values.data(),
+                                  ADD_VALUES));
+    }
+    check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
+    check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+    MatInfo info;
+    check(MatGetInfo(matrix, MAT_GLOBAL_SUM, &info));
+    unprepared = static_cast<std::int64_t>(info.mallocs);
+}
+
+void LinearSystem::Impl::assemble() {
+    const double start = seconds_now();
+    const BlockRows rows = stiffness_of_rank(problem);
+    seconds.elements = seconds_now() - start;
+    diagonal = mean_diagonal(rows);
+    create_matrix(rows);
+    insert(rows);
+    check(MatCreateVecs(matrix, &solution, &right));
+    check(VecDuplicate(right, &residual));
+    seconds.insert = seconds_now() - start - seconds.elements;
+}
+
+void LinearSystem::Impl::give_rigid_motions() {
+    const NodeSpace& space = *problem.space;
+    Vec places = nullptr;
+    check(MatCreateVecs(matrix, &places, nullptr));
+    double* values = nullptr;
+    check(VecGetArray(places, &values));
+    for (std::size_t n = 0; n < space.owned_count(); ++n)
+        for (std::size_t c = 0; c < 3; ++c) values[3 * n + c] = space.points()[n][static_cast<Eigen::Index>(c)];
+    check(VecRestoreArray(places, &values));
+    check(VecSetBlockSize(places, 3));
+    MatNullSpace motions = nullptr;
+    check(MatNullSpaceCreateRigidBody(places, &motions));
+    check(MatSetNearNullSpace(matrix, motions));
+    check(MatNullSpaceDestroy(&motions));
+    check(VecDestroy(&places));
+}
+
+void LinearSystem::Impl::prepare_solver() {
+    PC preconditioner = nullptr;
+    check(KSPCreate(problem.space->comm(), &ksp));
+    check(KSPSetOperators(ksp, matrix, matrix));
+    check(KSPSetType(ksp, KSPCG));
+    check(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED));
+    check(KSPSetTolerances(ksp, options.rtol, 0, PETSC_DEFAULT, options.max_iterations));
+    check(KSPGetPC(ksp, &preconditioner));
+    if (options.preconditioner == "gamg") {
+        give_rigid_motions();
+        check(PCSetType(preconditioner, PCGAMG));
+    } else {
+        check(PCSetType(preconditioner, PCBJACOBI));
+        PetscBool is_chosen = PETSC_FALSE;
+        check(PetscOptionsHasName(nullptr, nullptr, "-sub_pc_type", &is_chosen));
+        if (!is_chosen) check(PetscOptionsSetValue(nullptr, "-sub_pc_type", "icc"));
+    }
+    check(KSPSetFromOptions(ksp));
+}
+
+LinearSystem::LinearSystem(const ElasticProblem& problem, const SolverOptions& options)
+    : impl_(std::make_unique<Impl>(problem, options)) {
+    impl_->assemble();
+    impl_->prepare_solver();
+}
+
+LinearSystem::~LinearSystem() = default;
+
+const AssemblySeconds& LinearSystem::seconds() const { return impl_->seconds; }
+std::int64_t LinearSystem::unprepared_entries() const { return impl_->unprepared; }
+
+SolveOutcome LinearSystem::solve(const std::vector<double>& forces, std::vector<double>& displacement) {
+    const ElasticProblem& problem = impl_->problem;
+    const NodeSpace& space = *problem.space;
+    SolveOutcome outcome;
+    std::vector<double> right = forces;
+    for (std::size_t dof = 0; dof < right.size(); ++dof)
+        right[dof] = problem.is_held(dof) ? 0 : right[dof] + impl_->of_prescribed[dof];
+    space.exchange().add_to_owners(std::span(right), 3);
+    double* values = nullptr;
+    check(VecGetArray(impl_->right, &values));
+    for (std::size_t dof = 0; dof < 3 * space.owned_count(); ++dof)
+        values[dof] = problem.is_held(dof) ? impl_->diagonal * problem.prescribed[dof] : right[dof];
+    check(VecRestoreArray(impl_->right, &values));
+
+    const double start = seconds_now();
+    check(KSPSetUp(impl_->ksp));
+    refuse_unknown_options();
+    outcome.setup_seconds = seconds_now() - start;
+    check(VecZeroEntries(impl_->solution));
+    check(KSPSolve(impl_->ksp, impl_->right, impl_->solution));
+    outcome.solve_seconds = seconds_now() - start - outcome.setup_seconds;
+
+    KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+    check(KSPGetConvergedReason(impl_->ksp, &reason));
+    outcome.reason = KSPConvergedReasons[reason];
+    PetscInt iterations = 0;
+    check(KSPGetIterationNumber(impl_->ksp, &iterations));
+    outcome.iterations = static_cast<int>(iterations);
+    double norm = 0, of_right = 0;
+    check(MatMult(impl_->matrix, impl_->solution, impl_->residual));
+    check(VecAXPY(impl_->residual, -1, impl_->right));
+    check(VecNorm(impl_->residual, NORM_2, &norm));
+    check(VecNorm(impl_->right, NORM_2, &of_right));
+    outcome.residual = of_right > 0 ? norm / of_right : 0;
+    outcome.converged = reason > 0 && std::isfinite(outcome.residual);
+
+    displacement.assign(3 * space.node_count(), 0);
+    const double* found = nullptr;
+    check(VecGetArrayRead(impl_->solution, &found));
+    std::copy(found, found + 3 * space.owned_count(), displacement.begin());
+    check(VecRestoreArrayRead(impl_->solution, &found));
+    space.exchange().to_ghosts(std::span(displacement), 3);
+    for (std::size_t dof = 0; dof < displacement.size(); ++dof)
+        if (problem.is_held(dof)) displacement[dof] = problem.prescribed[dof];
+    return outcome;
+}
+
+}  // namespace kerf

@@ -1,0 +1,68 @@
+// The equations of an elastic body, distributed over the ranks, and their solution by PETSc.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "solve/elastic_problem.h"
+
+namespace kerf {
+
+/// What PETSc says that it cannot do: other ranks may wait for this one, so that all have to be ended.
+class PetscFailure : public Error {
+ public:
+    using Error::Error;
+};
+
+/// How a solution was found.
+struct SolveOutcome {
+    bool converged = false;
+    std::string reason;  ///< as PETSc names it
+    int iterations = 0;
+    double residual = 0;  ///< |b - A u| over |b|, computed anew from the solution
+    double setup_seconds = 0, solve_seconds = 0;
+};
+
+struct AssemblySeconds {
+    double elements = 0;  ///< stiffness of elements, summed by rows
+    double insert = 0;    ///< into PETSc's matrix
+};
+
+/// Initialises PETSc after MPI; finalises it at the end. Neither .petscrc nor PETSC_OPTIONS nor the program's arguments
+/// are read. Throws Error(usage) for `options` that PETSc does not take.
+class PetscSession {
+ public:
+    explicit PetscSession(const std::string& options = "");
+    ~PetscSession();
+    PetscSession(const PetscSession&) = delete;
+    PetscSession& operator=(const PetscSession&) = delete;
+};
+
+/// Stiffness with rows and columns of held degrees of freedom replaced by a diagonal as large as the others. Conjugate
+/// gradients, preconditioned by smoothed aggregation multigrid with the rigid motions ("gamg"; Adams) or by incomplete
+/// Cholesky factors of the ranks' blocks ("icc"), until the true residual has fallen by rtol. Bytes of the result are
+/// the same for the same number of ranks; between numbers of ranks they agree within the tolerance.
+class LinearSystem {
+ public:
+    /// Collective. O(n). 9 doubles for each pair of nodes of an element while it is assembled, then 12 bytes a number.
+    /// Throws Error(memory) or Error(internal), on all ranks alike.
+    LinearSystem(const ElasticProblem& problem, const SolverOptions& options);
+    ~LinearSystem();
+    LinearSystem(const LinearSystem&) = delete;
+    LinearSystem& operator=(const LinearSystem&) = delete;
+
+    /// Displacements for the nodal forces, of which ranks have shares: 3 for each local node, held ones as prescribed.
+    SolveOutcome solve(const std::vector<double>& forces, std::vector<double>& displacement);
+    const AssemblySeconds& seconds() const;
+    /// Entries that had no room prepared for them: 0, or assembly is slow.
+    std::int64_t unprepared_entries() const;
+
+ private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace kerf

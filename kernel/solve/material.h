@@ -1,0 +1,53 @@
+// Isotropic linear elasticity: what a material does with a strain.
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+namespace kerf {
+
+/// Stress or strain in VTK's order: XX YY ZZ XY YZ XZ. Shear strains are halves of the engineering ones.
+using SymmetricTensor = Eigen::Matrix<double, 6, 1>;
+
+/// In any consistent units: young [force / length^2], density [mass / length^3].
+struct Material {
+    std::string name;
+    double young = 1;    ///< > 0
+    double poisson = 0;  ///< in (-1, 1/2)
+    double density = 0;  ///< >= 0
+
+    /// Lame's constants.
+    double lambda() const { return young * poisson / ((1 + poisson) * (1 - 2 * poisson)); }
+    double mu() const { return young / (2 * (1 + poisson)); }
+};
+
+/// The symmetric part of the gradient of displacement, row i being that of component i.
+inline SymmetricTensor strain_of(const Eigen::Matrix3d& gradient) {
+    SymmetricTensor strain;
+    strain << gradient(0, 0), gradient(1, 1), gradient(2, 2), 0.5 * (gradient(0, 1) + gradient(1, 0)),
+        0.5 * (gradient(1, 2) + gradient(2, 1)), 0.5 * (gradient(0, 2) + gradient(2, 0));
+    return strain;
+}
+
+inline SymmetricTensor stress_of(const Material& material, const SymmetricTensor& strain) {
+    SymmetricTensor stress = 2 * material.mu() * strain;
+    stress.head<3>().array() += material.lambda() * strain.head<3>().sum();
+    return stress;
+}
+
+inline SymmetricTensor strain_of_stress(const Material& material, const SymmetricTensor& stress) {
+    SymmetricTensor strain = (1 + material.poisson) / material.young * stress;
+    strain.head<3>().array() -= material.poisson / material.young * stress.head<3>().sum();
+    return strain;
+}
+
+/// The scalar product of two tensors, of which each shear is there twice.
+inline double contracted(const SymmetricTensor& a, const SymmetricTensor& b) {
+    return a.head<3>().dot(b.head<3>()) + 2 * a.tail<3>().dot(b.tail<3>());
+}
+
+/// The stress of a uniaxial tension that distorts as much (von Mises 1913).
+double von_mises(const SymmetricTensor& stress);
+
+}  // namespace kerf

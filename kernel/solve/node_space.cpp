@@ -1,0 +1,336 @@
+#include "solve/node_space.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/number_text.h"
+#include "solve/edge_table.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr std::int32_t unset = -1;
+
+// Nodes of a part: its vertices, then its edges.
+struct NumberedPart {
+    std::int32_t place = 0;           // in the outline
+    std::optional<EdgeTable> edges;   // for order 2
+    std::vector<std::int32_t> owner;  // of each node, its part's place in the outline
+    std::vector<std::int64_t> row;    // of each node
+};
+
+// What two parts share: local nodes of one of them, in an order that is the same for both.
+using PairedNodes = std::map<std::array<std::int32_t, 2>, std::vector<std::int32_t>>;  // by (owner, holder)
+
+class NodeNumbering {
+ public:
+    NodeNumbering(MPI_Comm comm, const MeshOutline& outline, const std::vector<std::int32_t>& first_parts,
+                  const std::vector<Part>& parts, int order);
+
+    std::vector<NumberedPart> number_own();
+    void number_others(std::vector<NumberedPart>& numbered) const;
+    NodeExchange exchange(const std::vector<NumberedPart>& numbered, std::int64_t first_row, std::size_t owned,
+                          const std::vector<std::int64_t>& ghost_rows,
+                          const std::vector<std::int64_t>& rank_rows) const;
+    const std::vector<std::int64_t>& part_rows() const { return part_rows_; }
+
+ private:
+    int rank_of_part(std::int32_t place) const {
+        const auto after = std::upper_bound(first_parts_.begin(), first_parts_.end(), place);
+        return static_cast<int>(after - first_parts_.begin()) - 1;
+    }
+    std::int32_t place_of(NodeId id) const { return places_.at(id); }
+    template <class Visit>
+    void for_shared_nodes(std::size_t p, const NumberedPart& numbered, Visit visit) const;
+    void count_rows(const std::vector<NumberedPart>& numbered);
+    // By the rank at the other end.
+    std::map<int, PairedNodes> nodes_of_others(bool as_owner, const std::vector<NumberedPart>& numbered) const;
+
+    MPI_Comm comm_;
+    const std::vector<std::int32_t>& first_parts_;
+    const std::vector<Part>& parts_;
+    int order_, rank_ = 0;
+    std::map<NodeId, std::int32_t> places_;
+    std::vector<std::int64_t> part_rows_;  // the first row of each part of the outline, and their number
+};
+
+NodeNumbering::NodeNumbering(MPI_Comm comm, const MeshOutline& outline, const std::vector<std::int32_t>& first_parts,
+                             const std::vector<Part>& parts, int order)
+    : comm_(comm), first_parts_(first_parts), parts_(parts), order_(order) {
+    MPI_Comm_rank(comm, &rank_);
+    for (std::size_t i = 0; i < outline.parts.size(); ++i) places_[outline.parts[i].id] = static_cast<std::int32_t>(i);
+    part_rows_.resize(outline.parts.size() + 1);
+}
+
+// Calls visit(parts that hold the nodes, nodes) for what the part shares, in the order of its groups.
+template <class Visit>
+void NodeNumbering::for_shared_nodes(std::size_t p, const NumberedPart& numbered, Visit visit) const {
+    for (const SharedGroup& group : parts_[p].shared) visit(group.parts, group.vertices);
+    if (order_ == 1) return;
+    const std::vector<std::int64_t>& id = parts_[p].global_id;
+    for (const SharedEdgeGroup& group : parts_[p].shared_edges) {
+        std::vector<std::int32_t> nodes;
+        for (const UndirectedEdge& edge : group.edges)
+            nodes.push_back(static_cast<std::int32_t>(id.size()) + numbered.edges->find(undirected(edge[0], edge[1])));
+        visit(group.parts, nodes);
+    }
+}
+
+std::vector<NumberedPart> NodeNumbering::number_own() {
+    std::vector<NumberedPart> all(parts_.size());
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+        NumberedPart& numbered = all[p];
+        numbered.place = first_parts_[static_cast<std::size_t>(rank_)] + static_cast<std::int32_t>(p);
+        std::size_t nodes = parts_[p].mesh.vertices.size();
+        if (order_ == 2) nodes += numbered.edges.emplace(parts_[p].mesh.tets, nodes).size();
+        numbered.owner.assign(nodes, numbered.place);
+        numbered.row.assign(nodes, unset);
+        for_shared_nodes(p, numbered, [&](const std::vector<NodeId>& parts, const std::vector<std::int32_t>& shared) {
+            for (const std::int32_t n : shared) numbered.owner[static_cast<std::size_t>(n)] = place_of(parts.front());
+        });
+    }
+    count_rows(all);
+    for (NumberedPart& numbered : all) {
+        std::int64_t next = part_rows_[static_cast<std::size_t>(numbered.place)];
+        for (std::size_t n = 0; n < numbered.row.size(); ++n)
+            if (numbered.owner[n] == numbered.place) numbered.row[n] = next++;
+    }
+    return all;
+}
+
+void NodeNumbering::count_rows(const std::vector<NumberedPart>& numbered) {
+    std::vector<std::int64_t> counts(part_rows_.size());
+    for (const NumberedPart& part : numbered)
+        counts[static_cast<std::size_t>(part.place) + 1] = std::count(part.owner.begin(), part.owner.end(), part.place);
+    MPI_Allreduce(counts.data(), part_rows_.data(), static_cast<int>(counts.size()), MPI_INT64_T, MPI_SUM, comm_);
+    std::partial_sum(part_rows_.begin(), part_rows_.end(), part_rows_.begin());
+    if (3 * part_rows_.back() > std::numeric_limits<std::int32_t>::max())
+        throw Error(ErrorCode::usage,
+                    fmt::format("The mesh has {} nodes, of which three equations each are more than PETSc numbers "
+                                "by 32 bits. Use a coarser mesh{}.",
+                                grouped(part_rows_.back()), order_ == 2 ? ", or order 1" : ""));
+}
+
+std::map<int, PairedNodes> NodeNumbering::nodes_of_others(bool as_owner,
+                                                          const std::vector<NumberedPart>& numbered) const {
+    std::map<int, PairedNodes> nodes;
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+        const std::int32_t own = numbered[p].place;
+        const auto add = [&](const std::vector<NodeId>& holders, const std::vector<std::int32_t>& shared) {
+            const std::int32_t owner = place_of(holders.front());
+            for (const NodeId id : holders) {
+                const std::int32_t holder = place_of(id), other = as_owner ? holder : owner;
+                const bool is_pair = holder != owner && (as_owner ? owner : holder) == own;
+                if (!is_pair || rank_of_part(other) == rank_) continue;
+                std::vector<std::int32_t>& list = nodes[rank_of_part(other)][{owner, holder}];
+                list.insert(list.end(), shared.begin(), shared.end());
+            }
+        };
+        for_shared_nodes(p, numbered[p], add);
+    }
+    return nodes;
+}
+
+// Rows of what other parts own: those of this rank are looked up, the others are told by their ranks.
+void NodeNumbering::number_others(std::vector<NumberedPart>& numbered) const {
+    const std::int32_t first_part = first_parts_[static_cast<std::size_t>(rank_)];
+    PairedNodes owned_here, held_here;
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+        for_shared_nodes(
+            p, numbered[p], [&](const std::vector<NodeId>& holders, const std::vector<std::int32_t>& shared) {
+                const std::int32_t owner = place_of(holders.front()), own = numbered[p].place;
+                for (const NodeId id : holders) {
+                    const std::int32_t holder = place_of(id);
+                    if (holder == owner || (own != owner && own != holder)) continue;
+                    std::vector<std::int32_t>& list = (own == owner ? owned_here : held_here)[{owner, holder}];
+                    list.insert(list.end(), shared.begin(), shared.end());
+                }
+            });
+    const auto part_at = [&](std::int32_t place) -> NumberedPart& {
+        return numbered[static_cast<std::size_t>(place - first_part)];
+    };
+    const auto set_row = [&](std::int32_t holder, std::int32_t node, std::int64_t row) {
+        part_at(holder).row[static_cast<std::size_t>(node)] = row;
+    };
+    for (const auto& [pair, nodes] : held_here) {
+        if (rank_of_part(pair[0]) != rank_) continue;
+        const std::vector<std::int32_t>& of_owner = owned_here.at(pair);
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+            set_row(pair[1], nodes[i], part_at(pair[0]).row[static_cast<std::size_t>(of_owner[i])]);
+    }
+    const std::map<int, PairedNodes> sent = nodes_of_others(true, numbered), awaited = nodes_of_others(false, numbered);
+    std::vector<MPI_Request> requests;
+    std::map<int, std::vector<std::int64_t>> out, in;
+    for (const auto& [rank, pairs] : awaited) {
+        std::size_t count = 0;
+        for (const auto& [pair, nodes] : pairs) count += nodes.size();
+        in[rank].resize(count);
+        MPI_Irecv(in[rank].data(), static_cast<int>(count), MPI_INT64_T, rank, 0, comm_, &requests.emplace_back());
+    }
+    for (const auto& [rank, pairs] : sent) {
+        for (const auto& [pair, nodes] : pairs)
+            for (const std::int32_t n : nodes) out[rank].push_back(part_at(pair[0]).row[static_cast<std::size_t>(n)]);
+        MPI_Isend(out[rank].data(), static_cast<int>(out[rank].size()), MPI_INT64_T, rank, 0, comm_,
+                  &requests.emplace_back());
+    }
+    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+    for (const auto& [rank, pairs] : awaited) {
+        std::size_t i = 0;
+        for (const auto& [pair, nodes] : pairs)
+            for (const std::int32_t n : nodes) set_row(pair[1], n, in[rank][i++]);
+    }
+}
+
+// Both sides list the rows that one of them owns and the other one has: ascending, each once.
+NodeExchange NodeNumbering::exchange(const std::vector<NumberedPart>& numbered, std::int64_t first_row,
+                                     std::size_t owned, const std::vector<std::int64_t>& ghost_rows,
+                                     const std::vector<std::int64_t>& rank_rows) const {
+    std::vector<NodeExchange::Neighbour> of_own, of_ghosts;
+    for (const auto& [rank, pairs] : nodes_of_others(true, numbered)) {
+        NodeExchange::Neighbour& neighbour = of_own.emplace_back();
+        neighbour.rank = rank;
+        for (const auto& [pair, nodes] : pairs)
+            for (const std::int32_t n : nodes) {
+                const NumberedPart& part =
+                    numbered[static_cast<std::size_t>(pair[0] - first_parts_[static_cast<std::size_t>(rank_)])];
+                neighbour.nodes.push_back(static_cast<std::int32_t>(part.row[static_cast<std::size_t>(n)] - first_row));
+            }
+        std::sort(neighbour.nodes.begin(), neighbour.nodes.end());
+        neighbour.nodes.erase(std::unique(neighbour.nodes.begin(), neighbour.nodes.end()), neighbour.nodes.end());
+    }
+    for (std::size_t g = 0; g < ghost_rows.size(); ++g) {
+        const auto after = std::upper_bound(rank_rows.begin(), rank_rows.end(), ghost_rows[g]);
+        const int rank = static_cast<int>(after - rank_rows.begin()) - 1;
+        if (of_ghosts.empty() || of_ghosts.back().rank != rank) of_ghosts.emplace_back().rank = rank;
+        of_ghosts.back().nodes.push_back(static_cast<std::int32_t>(owned + g));
+    }
+    return {comm_, std::move(of_own), std::move(of_ghosts)};
+}
+
+}  // namespace
+
+std::vector<std::int32_t> first_parts_of_ranks(const MeshOutline& outline, int ranks) {
+    std::vector<std::int32_t> first(static_cast<std::size_t>(ranks) + 1);
+    const auto parts = static_cast<std::int32_t>(outline.parts.size());
+    const auto total = static_cast<double>(outline.tets());
+    std::int32_t next = 0;
+    double before = 0;  // tetrahedra of the parts before `next`
+    for (int r = 0; r < ranks; ++r) {
+        first[static_cast<std::size_t>(r)] = next;
+        const std::int32_t others = ranks - 1 - r;  // each gets a part while there are some
+        while (next < parts) {
+            const auto tets = static_cast<double>(outline.parts[static_cast<std::size_t>(next)].tets);
+            const bool is_first = next == first[static_cast<std::size_t>(r)];
+            const bool fits = before + 0.5 * tets <= total * (r + 1) / ranks && parts - next > others;
+            if (!is_first && others > 0 && !fits) break;
+            before += tets;
+            ++next;
+        }
+    }
+    first.back() = parts;
+    return first;
+}
+
+NodeSpace::NodeSpace(MPI_Comm comm, const MeshOutline& outline, const std::vector<std::int32_t>& first_parts,
+                     std::vector<Part> parts, int order)
+    : comm_(comm), order_(order), parts_(std::move(parts)), nodes_(parts_.size()) {
+    NodeNumbering numbering(comm, outline, first_parts, parts_, order);
+    std::vector<NumberedPart> numbered = numbering.number_own();
+    numbering.number_others(numbered);
+
+    for (const std::int32_t first : first_parts)
+        rank_rows_.push_back(numbering.part_rows()[static_cast<std::size_t>(first)]);
+    int rank = 0;
+    MPI_Comm_rank(comm, &rank);
+    first_row_ = rank_rows_[static_cast<std::size_t>(rank)];
+    owned_ = static_cast<std::size_t>(rank_rows_[static_cast<std::size_t>(rank) + 1] - first_row_);
+    total_rows_ = rank_rows_.back();
+
+    const auto is_owned = [&](std::int64_t row) {
+        return row >= first_row_ && row < first_row_ + static_cast<std::int64_t>(owned_);
+    };
+    for (const NumberedPart& part : numbered)
+        for (const std::int64_t row : part.row)
+            if (!is_owned(row)) ghost_rows_.push_back(row);
+    std::sort(ghost_rows_.begin(), ghost_rows_.end());
+    ghost_rows_.erase(std::unique(ghost_rows_.begin(), ghost_rows_.end()), ghost_rows_.end());
+    exchange_ = numbering.exchange(numbered, first_row_, owned_, ghost_rows_, rank_rows_);
+
+    points_.assign(owned_ + ghost_rows_.size(), Vec3::Zero());
+    const auto local = [&](std::int64_t row) {
+        if (is_owned(row)) return static_cast<std::int32_t>(row - first_row_);
+        const auto at = std::lower_bound(ghost_rows_.begin(), ghost_rows_.end(), row) - ghost_rows_.begin();
+        return static_cast<std::int32_t>(owned_) + static_cast<std::int32_t>(at);
+    };
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+        const TetMesh& mesh = parts_[p].mesh;
+        NumberedPart& part = numbered[p];
+        for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+            nodes_[p].of_vertex.push_back(local(part.row[v]));
+            points_[static_cast<std::size_t>(nodes_[p].of_vertex[v])] = mesh.vertices[v];
+        }
+        if (order == 2) {
+            std::vector<std::int32_t> of_edge(part.edges->size());
+            part.edges->for_all([&](std::int32_t number, const UndirectedEdge& edge) {
+                const auto e = static_cast<std::size_t>(number);
+                of_edge[e] = local(part.row[mesh.vertices.size() + e]);
+                points_[static_cast<std::size_t>(of_edge[e])] =
+                    0.5 * (mesh.vertices[static_cast<std::size_t>(edge[0])] +
+                           mesh.vertices[static_cast<std::size_t>(edge[1])]);
+            });
+            nodes_[p].of_edge_midpoint.reserve(mesh.tets.size());
+            for (const Tetrahedron& tet : mesh.tets) {
+                std::array<std::int32_t, 6>& midpoints = nodes_[p].of_edge_midpoint.emplace_back();
+                for (std::size_t e = 0; e < 6; ++e)
+                    midpoints[e] = of_edge[static_cast<std::size_t>(
+                        part.edges->find(undirected(tet[static_cast<std::size_t>(tet_edges[e][0])],
+                                                    tet[static_cast<std::size_t>(tet_edges[e][1])])))];
+            }
+        }
+        part = {};
+    }
+}
+
+std::array<std::int32_t, most_element_nodes> NodeSpace::nodes_of(std::size_t p, std::size_t tet) const {
+    std::array<std::int32_t, most_element_nodes> nodes;
+    nodes.fill(unset);
+    for (std::size_t i = 0; i < 4; ++i)
+        nodes[i] = nodes_[p].of_vertex[static_cast<std::size_t>(parts_[p].mesh.tets[tet][i])];
+    if (order_ == 2) std::copy_n(nodes_[p].of_edge_midpoint[tet].begin(), 6, nodes.begin() + 4);
+    return nodes;
+}
+
+std::array<std::int32_t, 6> NodeSpace::nodes_of_facet(std::size_t p, std::size_t facet) const {
+    std::array<std::int32_t, 6> nodes;
+    nodes.fill(unset);
+    const Triangle& triangle = parts_[p].facets[facet];
+    for (std::size_t i = 0; i < 3; ++i) nodes[i] = nodes_[p].of_vertex[static_cast<std::size_t>(triangle[i])];
+    if (order_ == 1) return nodes;
+    const auto tet = static_cast<std::size_t>(parts_[p].tet_at_facet[facet]);
+    const Tetrahedron& corners = parts_[p].mesh.tets[tet];
+    for (std::size_t e = 0; e < 3; ++e) {
+        const UndirectedEdge wanted = undirected(triangle[static_cast<std::size_t>(triangle_edges[e][0])],
+                                                 triangle[static_cast<std::size_t>(triangle_edges[e][1])]);
+        for (std::size_t i = 0; i < 6; ++i)
+            if (undirected(corners[static_cast<std::size_t>(tet_edges[i][0])],
+                           corners[static_cast<std::size_t>(tet_edges[i][1])]) == wanted)
+                nodes[3 + e] = nodes_[p].of_edge_midpoint[tet][i];
+    }
+    return nodes;
+}
+
+TetElement NodeSpace::element(std::size_t p, std::size_t tet) const {
+    const TetMesh& mesh = parts_[p].mesh;
+    std::array<Vec3, 4> corners;
+    for (std::size_t i = 0; i < 4; ++i) corners[i] = mesh.vertices[static_cast<std::size_t>(mesh.tets[tet][i])];
+    return {corners, order_};
+}
+
+}  // namespace kerf

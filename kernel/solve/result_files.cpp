@@ -1,0 +1,42 @@
+#include "solve/result_files.h"
+
+namespace kerf {
+
+namespace {
+
+// Stress and von Mises stress of points or cells.
+void add_stresses(const std::vector<SymmetricTensor>& stresses, PartValues::Of of, const std::string& suffix,
+                  std::vector<PartValues>& all) {
+    std::vector<float> tensors, mises;
+    tensors.reserve(6 * stresses.size());
+    mises.reserve(stresses.size());
+    for (const SymmetricTensor& stress : stresses) {
+        for (const double value : stress) tensors.push_back(static_cast<float>(value));
+        mises.push_back(static_cast<float>(von_mises(stress)));
+    }
+    all.push_back({"Stress" + suffix, of, 6, std::move(tensors)});
+    all.push_back({"VonMises" + suffix, of, 1, std::move(mises)});
+}
+
+}  // namespace
+
+std::vector<PartValues> values_of_part(const ElasticProblem& problem, const std::vector<CaseSolution>& solutions,
+                                       std::size_t p) {
+    std::vector<PartValues> values;
+    for (const CaseSolution& solution : solutions) {
+        const std::string suffix = solutions.size() > 1 ? " " + solution.name : "";
+        std::vector<double> displacement;
+        for (const std::int32_t node : problem.space->nodes_of_parts()[p].of_vertex)
+            for (std::size_t c = 0; c < 3; ++c)
+                displacement.push_back(solution.displacement[3 * static_cast<std::size_t>(node) + c]);
+        values.push_back({"Displacement" + suffix, PartValues::Of::points, 3, std::move(displacement)});
+        const PartStress& stress = solution.stress.parts[p];
+        add_stresses(stress.at_vertex, PartValues::Of::points, suffix, values);
+        add_stresses(stress.of_tet, PartValues::Of::tets, suffix, values);
+        values.push_back({"ErrorIndicator" + suffix, PartValues::Of::tets, 1,
+                          std::vector<float>(stress.error.begin(), stress.error.end())});
+    }
+    return values;
+}
+
+}  // namespace kerf

@@ -1,0 +1,26 @@
+// A solution as files: the parts again, with values.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "part/vtu_writer.h"
+#include "solve/elastic_problem.h"
+#include "solve/stress.h"
+
+namespace kerf {
+
+/// What is known of one set of loads.
+struct CaseSolution {
+    std::string name;
+    std::vector<double> displacement;  ///< 3 for each local node
+    StressField stress;
+};
+
+/// Arrays for a part of this rank, of all cases: at points Displacement (Float64), Stress (Float32, XX YY ZZ XY YZ XZ)
+/// and VonMises (Float32); of cells Stress, VonMises and ErrorIndicator (Float32; the error's energy norm). With
+/// several cases the names end with a space and the case's.
+std::vector<PartValues> values_of_part(const ElasticProblem& problem, const std::vector<CaseSolution>& solutions,
+                                       std::size_t p);
+
+}  // namespace kerf

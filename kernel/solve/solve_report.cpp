@@ -1,0 +1,137 @@
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/number_text.h"
+#include "run/path_text.h"
+#include "run/version.h"
+#include "solve/solve_run.h"
+
+namespace kerf {
+
+namespace {
+
+using SolveJson = nlohmann::ordered_json;
+
+SolveJson vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+SolveJson extreme_json(const Extreme& extreme) {
+    return {{"value", extreme.value}, {"at", vector_json(extreme.place)}};
+}
+
+SolveJson case_json(const CaseReport& of_case, const std::vector<std::string>& supports) {
+    SolveJson reactions = SolveJson::array();
+    for (std::size_t s = 0; s < supports.size(); ++s)
+        reactions.push_back({{"support", path_text(supports[s])}, {"reaction", vector_json(of_case.reactions[s])}});
+    return {{"name", path_text(of_case.name)},
+            {"converged", of_case.outcome.converged},
+            {"reason", of_case.outcome.reason},
+            {"iterations", of_case.outcome.iterations},
+            {"residual", of_case.outcome.residual},
+            {"load", vector_json(of_case.load)},
+            {"reactions", reactions},
+            {"imbalance", of_case.imbalance},
+            {"energy_norm", of_case.norms.solution},
+            {"error_norm", of_case.norms.error},
+            {"relative_error", of_case.norms.relative()},
+            {"max_displacement", extreme_json(of_case.displacement)},
+            {"max_von_mises", extreme_json(of_case.von_mises)}};
+}
+
+SolveJson materials_json(const ElasticCase& wanted) {
+    SolveJson materials = SolveJson::array();
+    for (const MaterialUse& use : wanted.materials)
+        materials.push_back({{"name", path_text(use.material.name)},
+                             {"young", use.material.young},
+                             {"poisson", use.material.poisson},
+                             {"density", use.material.density}});
+    return materials;
+}
+
+SolveJson seconds_json(const SolveSeconds& s) {
+    return {{"read", s.read},         {"number", s.number}, {"conditions", s.conditions},
+            {"assemble", s.assemble}, {"setup", s.setup},   {"solve", s.solve},
+            {"recover", s.recover},   {"write", s.write},   {"wall", s.wall}};
+}
+
+std::string vector_text(const Vec3& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x(), v.y(), v.z()); }
+
+std::string line_of(const char* name, const std::string& text) { return fmt::format("{:<12}{}\n", name, text); }
+
+std::string case_text(const CaseReport& of_case, const std::vector<std::string>& supports) {
+    std::string text;
+    if (!of_case.name.empty()) text += line_of("case", of_case.name);
+    text += line_of(
+        "solver", fmt::format("{} iterations, residual {:.1e}", of_case.outcome.iterations, of_case.outcome.residual));
+    text += line_of("load", vector_text(of_case.load));
+    for (std::size_t s = 0; s < supports.size(); ++s)
+        text += line_of("reaction", fmt::format("{} at {}", vector_text(of_case.reactions[s]), supports[s]));
+    text += line_of("balance", fmt::format("{:.1e} of the load", of_case.imbalance));
+    text += line_of("displacement", fmt::format(" max {:.6g} at {}", of_case.displacement.value,
+                                                vector_text(of_case.displacement.place)));
+    text += line_of("von Mises",
+                    fmt::format("max {:.6g} at {}", of_case.von_mises.value, vector_text(of_case.von_mises.place)));
+    return text +
+           line_of("error", fmt::format("{:.1f} % in the energy norm, estimated", 100 * of_case.norms.relative()));
+}
+
+}  // namespace
+
+std::string to_json(const SolveReport& report) {
+    const SolverOptions& solver = report.wanted.solver;
+    SolveJson cases = SolveJson::array(), files = SolveJson::array();
+    for (const CaseReport& of_case : report.cases) cases.push_back(case_json(of_case, report.supports));
+    for (const RunFile& file : report.files)
+        files.push_back({{"path", file.path}, {"bytes", file.bytes}, {"hash", file.hash}});
+    SolveJson solve = {{"mesh", path_text(report.request.folder)},
+                       {"case_file", path_text(report.request.case_file)},
+                       {"order", solver.order},
+                       {"preconditioner", solver.preconditioner},
+                       {"rtol", solver.rtol},
+                       {"materials", materials_json(report.wanted)},
+                       {"nodes", report.nodes},
+                       {"unknowns", 3 * report.nodes - report.held},
+                       {"held", report.held},
+                       {"cases", cases}};
+    const SolveJson json = {{"kerf", version},
+                            {"schema", 1},
+                            {"exit_code", report.exit_code},
+                            {"solve", solve},
+                            {"ranks", report.ranks},
+                            {"totals", {{"parts", report.parts}, {"tets", report.tets}, {"vertices", report.vertices}}},
+                            {"seconds", seconds_json(report.seconds)},
+                            {"peak_rss_bytes", report.peak_rss_bytes},
+                            {"files", files}};
+    return sealed(json.dump(2, ' ', false, SolveJson::error_handler_t::replace) + "\n");
+}
+
+std::string to_text(const SolveReport& report) {
+    const SolveSeconds& s = report.seconds;
+    std::string text = line_of("mesh", fmt::format("{} tetrahedra of order {} in {} parts, {} nodes, {} unknowns",
+                                                   grouped(report.tets), report.wanted.solver.order, report.parts,
+                                                   grouped(report.nodes), grouped(3 * report.nodes - report.held)));
+    for (const MaterialUse& use : report.wanted.materials)
+        text += line_of("material", fmt::format("{}: young {:g}, poisson {:g}, density {:g}", use.material.name,
+                                                use.material.young, use.material.poisson, use.material.density));
+    for (const CaseReport& of_case : report.cases) text += case_text(of_case, report.supports);
+    text +=
+        line_of("units", "those of the surface and of the case file: mm, N and MPa go together, and so do m, N and Pa");
+    text += line_of(
+        "time", fmt::format("{:.2f} s: read {:.2f}, number {:.2f}, conditions {:.2f}, assemble {:.2f}, "
+                            "setup {:.2f}, solve {:.2f}, recover {:.2f}, write {:.2f}",
+                            s.wall, s.read, s.number, s.conditions, s.assemble, s.setup, s.solve, s.recover, s.write));
+    return text + line_of("processes", fmt::format("{} rank{}, {} with {}, peak memory {:.0f} MB", report.ranks,
+                                                   report.ranks == 1 ? "" : "s", "conjugate gradients",
+                                                   report.wanted.solver.preconditioner,
+                                                   static_cast<double>(report.peak_rss_bytes) * 1e-6));
+}
+
+std::string to_text(const std::vector<PatchSummary>& patches) {
+    std::string text =
+        fmt::format("{:>9} {:>12}  {:<36}  {:<24}  {}\n", "triangles", "area", "centroid", "normal", "name");
+    for (const PatchSummary& patch : patches)
+        text += fmt::format(
+            "{:>9} {:>12.6g}  {:<36}  {:<24}  {}\n", patch.triangles, patch.area, vector_text(patch.centroid),
+            fmt::format("({:.3f}, {:.3f}, {:.3f})", patch.normal.x(), patch.normal.y(), patch.normal.z()), patch.name);
+    return text;
+}
+
+}  // namespace kerf

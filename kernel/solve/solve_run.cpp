@@ -1,0 +1,302 @@
+#include "solve/solve_run.h"
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "io/file_bytes.h"
+#include "io/output_file.h"
+#include "io/run_folder.h"
+#include "io/text_file.h"
+#include "part/run_parts.h"
+#include "run/peak_memory.h"
+#include "solve/elastic_problem.h"
+#include "solve/result_files.h"
+
+namespace kerf {
+
+namespace {
+
+class SolveStopwatch {
+ public:
+    /// Since the last call.
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
+    }
+
+ private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+class SolveStages {
+ public:
+    SolveStages(const SolveRequest& request, Communicator& ranks, RunListener* listener)
+        : ranks_(ranks), listener_(listener) {
+        report_.request = request;
+        report_.ranks = ranks.size();
+    }
+
+    SolveReport run();
+
+ private:
+    bool is_root() const { return ranks_.rank() == 0; }
+    void progress(const char* stage, std::size_t done, std::size_t total) {
+        const bool is_cancelled = listener_ && listener_->cancelled();
+        if (listener_ && is_root()) listener_->on_progress(stage, done, total);
+        in_agreement(ranks_, [&] {
+            if (is_cancelled) throw Error(ErrorCode::cancelled, "Interrupted; nothing was written.");
+        });
+    }
+    void read_request();
+    void open_folder();
+    NodeSpace make_space();
+    void solve_case(LinearSystem& system, std::size_t number);
+    void report_case(const std::vector<double>& forces, CaseReport& of_case);
+    Extreme largest(double value, const Vec3& place) const;
+    void write();
+    void finish();
+
+    Communicator& ranks_;
+    RunListener* listener_;
+    SolveReport report_;
+    SolveStopwatch whole_, stage_;
+    std::unique_ptr<RunParts> parts_;
+    std::optional<RunFolder> folder_;
+    std::optional<NodeSpace> space_;
+    ElasticProblem problem_;
+    std::vector<CaseSolution> solutions_;
+};
+
+void SolveStages::read_request() {
+    in_agreement(ranks_, [&] {
+        const SolveRequest& request = report_.request;
+        report_.wanted = read_case(request.case_file);
+        parts_ = std::make_unique<RunParts>(request.folder);
+        const std::size_t parts = parts_->outline().parts.size();
+        if (parts < static_cast<std::size_t>(ranks_.size()))
+            throw Error(
+                ErrorCode::usage,
+                fmt::format("{} ranks are more than the {} parts of {}, of which each rank takes whole ones. Start "
+                            "fewer ranks, or mesh into more parts.",
+                            ranks_.size(), parts, request.folder));
+        if (lies_inside(request.output, request.folder) || lies_inside(request.folder, request.output))
+            throw Error(ErrorCode::usage,
+                        fmt::format("--output is {}, which holds the mesh or lies in it: {}. Choose another folder.",
+                                    request.output, request.folder));
+        refuse_to_overwrite(request.case_file, "--output", request.output);
+    });
+    const MeshOutline& outline = parts_->outline();
+    report_.parts = static_cast<std::int64_t>(outline.parts.size());
+    report_.tets = outline.tets();
+    report_.vertices = outline.vertices;
+}
+
+// Nothing but an older solution is replaced.
+void SolveStages::open_folder() {
+    const std::string& output = report_.request.output;
+    in_agreement(ranks_, [&] {
+        if (!is_root()) return;
+        std::error_code ignored;
+        const std::string old = output + "/report.json";
+        if (std::filesystem::exists(old, ignored)) {
+            const auto json = nlohmann::json::parse(read_file(old), nullptr, false);
+            if (!json.is_object() || !json.contains("solve"))
+                throw Error(ErrorCode::io, fmt::format("{} holds another run than a solution. Move it away, or choose "
+                                                       "another folder.",
+                                                       output));
+        }
+        folder_.emplace(RunFolder::create(output));
+    });
+    const std::string partial = all_gather(ranks_, folder_ ? folder_->partial_path() : std::string()).front();
+    in_agreement(ranks_, [&] {
+        if (!folder_) folder_.emplace(RunFolder::join(partial));
+    });
+}
+
+NodeSpace SolveStages::make_space() {
+    const MeshOutline& outline = parts_->outline();
+    const std::vector<std::int32_t> first = first_parts_of_ranks(outline, ranks_.size());
+    const auto r = static_cast<std::size_t>(ranks_.rank());
+    std::vector<Part> own = in_agreement(ranks_, [&] {
+        std::vector<Part> parts;
+        for (std::int32_t p = first[r]; p < first[r + 1]; ++p) parts.push_back(parts_->load(p));
+        return parts;
+    });
+    report_.seconds.read = stage_.lap();
+    progress("number", 0, 0);
+    NodeSpace space(MPI_COMM_WORLD, outline, first, std::move(own), report_.wanted.solver.order);
+    report_.seconds.number = stage_.lap();
+    return space;
+}
+
+Extreme SolveStages::largest(double value, const Vec3& place) const {
+    struct {
+        double value;
+        int rank;
+    } best{value, ranks_.rank()};
+    MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE_INT, MPI_MAXLOC, MPI_COMM_WORLD);
+    Vec3 where = place;
+    MPI_Bcast(where.data(), 3, MPI_DOUBLE, best.rank, MPI_COMM_WORLD);
+    return {best.value, where};
+}
+
+void SolveStages::report_case(const std::vector<double>& forces, CaseReport& of_case) {
+    const CaseSolution& solution = solutions_.back();
+    for (std::size_t dof = 0; dof < forces.size(); ++dof)
+        of_case.load[static_cast<Eigen::Index>(dof % 3)] += forces[dof];
+    MPI_Allreduce(MPI_IN_PLACE, of_case.load.data(), 3, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    of_case.reactions = reactions(problem_, solution.displacement, forces);
+    Vec3 sum = of_case.load;
+    double scale = of_case.load.norm();
+    for (const Vec3& reaction : of_case.reactions) {
+        sum += reaction;
+        scale = std::max(scale, reaction.norm());
+    }
+    of_case.imbalance = scale > 0 ? sum.norm() / scale : 0;
+    of_case.norms = solution.stress.norms;
+    double most = -1, most_stress = -1;
+    Vec3 place = Vec3::Zero(), place_of_stress = Vec3::Zero();
+    for (std::size_t n = 0; n < space_->owned_count(); ++n) {
+        const double length = Eigen::Map<const Vec3>(&solution.displacement[3 * n]).norm();
+        if (length > most) {
+            most = length;
+            place = space_->points()[n];
+        }
+    }
+    for (std::size_t p = 0; p < space_->parts().size(); ++p)
+        for (std::size_t v = 0; v < solution.stress.parts[p].at_vertex.size(); ++v) {
+            const double stress = von_mises(solution.stress.parts[p].at_vertex[v]);
+            if (stress > most_stress) {
+                most_stress = stress;
+                place_of_stress = space_->parts()[p].mesh.vertices[v];
+            }
+        }
+    of_case.displacement = largest(most, place);
+    of_case.von_mises = largest(most_stress, place_of_stress);
+}
+
+void SolveStages::solve_case(LinearSystem& system, std::size_t number) {
+    CaseReport& of_case = report_.cases.emplace_back();
+    CaseSolution& solution = solutions_.emplace_back();
+    of_case.name = solution.name = problem_.cases[number];
+    of_case.outcome = system.solve(problem_.forces[number], solution.displacement);
+    report_.seconds.setup += of_case.outcome.setup_seconds;
+    report_.seconds.solve += of_case.outcome.solve_seconds;
+    stage_.lap();
+    if (!of_case.outcome.converged) {
+        const SolverOptions& solver = report_.wanted.solver;
+        throw Error(ErrorCode::convergence,
+                    fmt::format("The solver has not reached the tolerance {:g}{}: {} after {} iterations, residual "
+                                "{:.3g}. {}",
+                                solver.rtol, of_case.name.empty() ? "" : fmt::format(" in case '{}'", of_case.name),
+                                of_case.outcome.reason, of_case.outcome.iterations, of_case.outcome.residual,
+                                solver.preconditioner == "gamg"
+                                    ? "Try preconditioner = \"icc\", a larger max_iterations or rtol, or a mesh with "
+                                      "better cells (kerf quality)."
+                                    : "Try preconditioner = \"gamg\", a larger max_iterations or rtol, or a mesh with "
+                                      "better cells (kerf quality)."));
+    }
+    progress("recover", number, problem_.cases.size());
+    solution.stress = recover_stress(problem_, solution.displacement);
+    report_case(problem_.forces[number], of_case);
+    report_.seconds.recover += stage_.lap();
+}
+
+void SolveStages::write() {
+    const VtuLayout layout = layout_for(parts_->outline(), {});
+    const std::vector<RunFile> own = in_agreement(ranks_, [&] {
+        std::vector<RunFile> files;
+        for (std::size_t p = 0; p < space_->parts().size(); ++p) {
+            const Part& part = space_->parts()[p];
+            const std::string file = folder_->part_file(part.id);
+            const FileHash hash = write_part(file, part, layout, values_of_part(problem_, solutions_, p));
+            files.push_back({"parts/" + part_file_name(part.id),
+                             static_cast<std::int64_t>(std::filesystem::file_size(file)), hash_text(hash)});
+        }
+        return files;
+    });
+    for (const std::vector<RunFile>& files : all_gather(ranks_, own))
+        report_.files.insert(report_.files.end(), files.begin(), files.end());
+    in_agreement(ranks_, [&] {
+        if (!is_root()) return;
+        std::vector<std::string> pieces;
+        for (const PartExtent& part : parts_->outline().parts) pieces.push_back("parts/" + part_file_name(part.id));
+        // Its arrays are those of any part.
+        write_pvtu(folder_->file("mesh.pvtu"), pieces, layout, values_of_part(problem_, solutions_, 0));
+        report_.files.push_back(describe_file(folder_->partial_path(), "mesh.pvtu"));
+    });
+    sort_files(report_.files);
+    report_.seconds.write = stage_.lap();
+}
+
+void SolveStages::finish() {
+    std::array<double*, 8> seconds = {&report_.seconds.read,     &report_.seconds.number, &report_.seconds.conditions,
+                                      &report_.seconds.assemble, &report_.seconds.setup,  &report_.seconds.solve,
+                                      &report_.seconds.recover,  &report_.seconds.write};
+    for (double* value : seconds) MPI_Allreduce(MPI_IN_PLACE, value, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    for (const std::int64_t bytes : all_gather(ranks_, own_peak_rss_bytes())) report_.peak_rss_bytes += bytes;
+    report_.seconds.wall = whole_.lap();
+    if (!is_root()) folder_.reset();
+    in_agreement(ranks_, [&] {
+        if (!is_root()) return;
+        write_text_file(folder_->file("report.json"), to_json(report_));
+        folder_->commit(true);
+    });
+}
+
+SolveReport SolveStages::run() {
+    progress("read", 0, 0);
+    read_request();
+    space_.emplace(make_space());
+    problem_ = make_problem(*space_, parts_->outline(), report_.wanted);
+    report_.nodes = space_->total_rows();
+    report_.supports = problem_.supports;
+    for (std::size_t dof = 0; dof < 3 * space_->owned_count(); ++dof) report_.held += problem_.is_held(dof) ? 1 : 0;
+    MPI_Allreduce(MPI_IN_PLACE, &report_.held, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+    open_folder();
+    report_.seconds.conditions = stage_.lap();
+    progress("assemble", 0, 0);
+    {
+        const PetscSession petsc(report_.wanted.solver.petsc);
+        LinearSystem system(problem_, report_.wanted.solver);
+        report_.seconds.assemble = stage_.lap();
+        for (std::size_t i = 0; i < problem_.cases.size(); ++i) {
+            progress("solve", i, problem_.cases.size());
+            solve_case(system, i);
+        }
+    }
+    progress("write", 0, 0);
+    write();
+    finish();
+    return std::move(report_);
+}
+
+}  // namespace
+
+SolveReport solve_run(const SolveRequest& request, Communicator& ranks, RunListener* listener) {
+    return SolveStages(request, ranks, listener).run();
+}
+
+std::vector<PatchSummary> list_patches(const std::string& folder, Communicator& ranks) {
+    std::unique_ptr<RunParts> parts;
+    std::vector<std::int32_t> first;
+    std::vector<Part> own = in_agreement(ranks, [&] {
+        parts = std::make_unique<RunParts>(folder);
+        first = first_parts_of_ranks(parts->outline(), ranks.size());
+        std::vector<Part> surfaces;
+        const auto r = static_cast<std::size_t>(ranks.rank());
+        for (std::int32_t p = first[r]; p < first[r + 1]; ++p)
+            surfaces.push_back(parts->load_only(p, PartContent::surface));
+        return surfaces;
+    });
+    const NodeSpace space(MPI_COMM_WORLD, parts->outline(), first, std::move(own), 1);
+    return SurfaceSelector(space, parts->outline().patch_names).summaries();
+}
+
+}  // namespace kerf

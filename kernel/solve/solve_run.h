@@ -1,0 +1,74 @@
+// From a finished run and a case to displacements and stresses: the order of the stages.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "run/communicator.h"
+#include "run/listener.h"
+#include "solve/elastic_case.h"
+#include "solve/linear_system.h"
+#include "solve/stress.h"
+#include "solve/surface_selection.h"
+
+namespace kerf {
+
+struct SolveRequest {
+    std::string folder;  ///< of the run
+    std::string case_file;
+    std::string output;
+    bool measures_error = true;
+};
+
+/// The largest value of a measure and where it is.
+struct Extreme {
+    double value = 0;
+    Vec3 place = Vec3::Zero();
+};
+
+/// What came out for one set of loads.
+struct CaseReport {
+    std::string name;
+    SolveOutcome outcome;
+    Vec3 load = Vec3::Zero();     ///< sum of all nodal forces
+    std::vector<Vec3> reactions;  ///< of each support
+    double imbalance = 0;         ///< |loads + reactions| beside the largest of them
+    EnergyNorms norms;
+    Extreme displacement, von_mises;
+};
+
+/// Wall clock, the longest over the ranks.
+struct SolveSeconds {
+    double read = 0, number = 0, conditions = 0, assemble = 0, setup = 0, solve = 0, recover = 0, write = 0, wall = 0;
+};
+
+struct SolveReport {
+    SolveRequest request;
+    ElasticCase wanted;
+    int ranks = 1;
+    std::int64_t parts = 0, tets = 0, vertices = 0;
+    std::int64_t nodes = 0;  ///< of the finite elements; three unknowns each, but for held ones
+    std::int64_t held = 0;   ///< degrees of freedom
+    std::vector<std::string> supports;
+    std::vector<CaseReport> cases;
+    SolveSeconds seconds;
+    std::int64_t peak_rss_bytes = 0;  ///< sum over the ranks
+    std::vector<RunFile> files;
+    int exit_code = 0;
+};
+
+/// Solves and writes the result folder: parts with Displacement, Stress, VonMises and ErrorIndicator, mesh.pvtu and
+/// report.json, which appears as a whole or not at all (io/run_folder.h). Collective. Throws Error on all ranks alike;
+/// Error(convergence) if the tolerance is not reached, and nothing is written then.
+SolveReport solve_run(const SolveRequest& request, Communicator& ranks, RunListener* listener);
+
+/// The patches of a finished run. Collective.
+std::vector<PatchSummary> list_patches(const std::string& folder, Communicator& ranks);
+
+/// report.json, sealed (io/run_manifest.h).
+std::string to_json(const SolveReport& report);
+/// Some lines for people.
+std::string to_text(const SolveReport& report);
+std::string to_text(const std::vector<PatchSummary>& patches);
+
+}  // namespace kerf

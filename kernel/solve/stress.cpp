@@ -1,0 +1,178 @@
+#include "solve/stress.h"
+
+#include <cmath>
+
+namespace kerf {
+
+namespace {
+
+constexpr std::size_t columns = 7;  // of a node: the sum of stresses times volumes, and of the volumes
+
+std::array<Vec3, most_element_nodes> values_at(const std::array<std::int32_t, most_element_nodes>& nodes, int order,
+                                               const std::vector<double>& of_nodes) {
+    std::array<Vec3, most_element_nodes> values;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(element_nodes(order)); ++i)
+        values[i] = Eigen::Map<const Vec3>(&of_nodes[3 * static_cast<std::size_t>(nodes[i])]);
+    return values;
+}
+
+// The corners and the middles of edges of a tetrahedron.
+Barycentric place_of_node(std::size_t i) {
+    Barycentric place{};
+    if (i < 4)
+        place[i] = 1;
+    else
+        place[static_cast<std::size_t>(tet_edges[i - 4][0])] = place[static_cast<std::size_t>(tet_edges[i - 4][1])] =
+            0.5;
+    return place;
+}
+
+// The stresses of one element.
+class ElementStress {
+ public:
+    ElementStress(const ElasticProblem& problem, const std::vector<double>& displacement, std::size_t p, std::size_t t)
+        : element_(problem.space->element(p, t)),
+          material_(problem.material(p, t)),
+          values_(values_at(problem.space->nodes_of(p, t), problem.space->order(), displacement)) {}
+    const TetElement& element() const { return element_; }
+    const Material& material() const { return material_; }
+    SymmetricTensor strain(const Barycentric& point) const { return strain_of(element_.gradient_of(values_, point)); }
+    SymmetricTensor stress(const Barycentric& point) const { return stress_of(material_, strain(point)); }
+
+ private:
+    TetElement element_;
+    const Material& material_;
+    std::array<Vec3, most_element_nodes> values_;
+};
+
+class StressRecovery {
+ public:
+    StressRecovery(const ElasticProblem& problem, const std::vector<double>& displacement)
+        : problem_(problem), space_(*problem.space), displacement_(displacement) {
+        for (const Part& part : space_.parts()) {
+            PartStress& stress = field_.parts.emplace_back();
+            stress.of_tet.assign(part.mesh.tets.size(), SymmetricTensor::Zero());
+            stress.at_vertex.assign(part.mesh.vertices.size(), SymmetricTensor::Zero());
+            stress.error.assign(part.mesh.tets.size(), 0);
+        }
+    }
+
+    StressField recover() {
+        for (std::size_t m = 0; m < problem_.materials.size(); ++m) {
+            average(m);
+            compare(m);
+        }
+        std::array<double, 2> squares = {field_.norms.solution, field_.norms.error};
+        MPI_Allreduce(MPI_IN_PLACE, squares.data(), 2, MPI_DOUBLE, MPI_SUM, space_.comm());
+        field_.norms = {std::sqrt(squares[0]), std::sqrt(squares[1])};
+        return std::move(field_);
+    }
+
+ private:
+    bool is_of(std::size_t m, std::size_t p, std::size_t t) const {
+        return problem_.material_of_tet.empty() || problem_.material_of_tet[p][t] == m;
+    }
+
+    // Mean stresses of a material at nodes.
+    void average(std::size_t m) {
+        sums_.assign(columns * space_.node_count(), 0);
+        for_all_tets(space_, [&](std::size_t p, std::size_t t) {
+            if (!is_of(m, p, t)) return;
+            const ElementStress element(problem_, displacement_, p, t);
+            const auto nodes = space_.nodes_of(p, t);
+            const double volume = element.element().volume();
+            for (std::size_t i = 0; i < static_cast<std::size_t>(element_nodes(space_.order())); ++i) {
+                double* sum = &sums_[columns * static_cast<std::size_t>(nodes[i])];
+                Eigen::Map<SymmetricTensor>{sum} += volume * element.stress(place_of_node(i));
+                sum[columns - 1] += volume;
+            }
+        });
+        space_.exchange().add_to_owners(std::span(sums_), columns);
+        space_.exchange().to_ghosts(std::span(sums_), columns);
+        for (std::size_t n = 0; n < space_.node_count(); ++n) {
+            double* sum = &sums_[columns * n];
+            if (sum[columns - 1] > 0) Eigen::Map<SymmetricTensor>{sum} /= sum[columns - 1];
+        }
+    }
+    SymmetricTensor mean_at(std::int32_t node) const {
+        return Eigen::Map<const SymmetricTensor>(&sums_[columns * static_cast<std::size_t>(node)]);
+    }
+
+    void compare(std::size_t m) {
+        const auto nodes_each = static_cast<std::size_t>(element_nodes(space_.order()));
+        for_all_tets(space_, [&](std::size_t p, std::size_t t) {
+            if (!is_of(m, p, t)) return;
+            const ElementStress element(problem_, displacement_, p, t);
+            const auto nodes = space_.nodes_of(p, t);
+            const double weight = element.element().volume() / static_cast<double>(quadrature_points.size());
+            SymmetricTensor mean = SymmetricTensor::Zero();
+            double of_solution = 0, of_error = 0;
+            for (const Barycentric& point : quadrature_points) {
+                const SymmetricTensor strain = element.strain(point), stress = stress_of(element.material(), strain);
+                const TetElement::Shapes shapes = TetElement::shapes_at(space_.order(), point);
+                SymmetricTensor difference = -stress;
+                for (std::size_t i = 0; i < nodes_each; ++i) difference += shapes[i] * mean_at(nodes[i]);
+                mean += stress / static_cast<double>(quadrature_points.size());
+                of_solution += weight * contracted(stress, strain);
+                of_error += weight * contracted(difference, strain_of_stress(element.material(), difference));
+            }
+            PartStress& of_part = field_.parts[p];
+            of_part.of_tet[t] = mean;
+            of_part.error[t] = std::sqrt(of_error);
+            field_.norms.solution += of_solution;
+            field_.norms.error += of_error;
+            const Tetrahedron& corners = space_.parts()[p].mesh.tets[t];
+            for (std::size_t i = 0; i < 4; ++i)
+                of_part.at_vertex[static_cast<std::size_t>(corners[i])] = mean_at(nodes[i]);
+        });
+    }
+
+    const ElasticProblem& problem_;
+    const NodeSpace& space_;
+    const std::vector<double>& displacement_;
+    std::vector<double> sums_;
+    StressField field_;
+};
+
+}  // namespace
+
+double EnergyNorms::relative() const {
+    const double all = std::hypot(solution, error);
+    return all > 0 ? error / all : 0;
+}
+
+StressField recover_stress(const ElasticProblem& problem, const std::vector<double>& displacement) {
+    return StressRecovery(problem, displacement).recover();
+}
+
+std::vector<Vec3> reactions(const ElasticProblem& problem, const std::vector<double>& displacement,
+                            const std::vector<double>& forces) {
+    const NodeSpace& space = *problem.space;
+    std::vector<double> internal(forces.size());
+    for (std::size_t dof = 0; dof < forces.size(); ++dof) internal[dof] = -forces[dof];
+    const auto nodes_each = static_cast<std::size_t>(element_nodes(space.order()));
+    for_all_tets(space, [&](std::size_t p, std::size_t t) {
+        const ElementStress element(problem, displacement, p, t);
+        const auto nodes = space.nodes_of(p, t);
+        const std::size_t points = space.order() == 1 ? 1 : quadrature_points.size();
+        const double weight = element.element().volume() / static_cast<double>(points);
+        for (std::size_t q = 0; q < points; ++q) {
+            const SymmetricTensor s = element.stress(quadrature_points[q]);
+            Eigen::Matrix3d stress;
+            stress << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+            const TetElement::Gradients gradients = element.element().gradients_at(quadrature_points[q]);
+            for (std::size_t n = 0; n < nodes_each; ++n)
+                Eigen::Map<Vec3>(&internal[3 * static_cast<std::size_t>(nodes[n])]) += weight * stress * gradients[n];
+        }
+    });
+    std::vector<double> sums(3 * problem.supports.size(), 0);
+    for (std::size_t dof = 0; dof < internal.size(); ++dof)  // shares of ghosts belong to the same support
+        if (problem.is_held(dof))
+            sums[3 * static_cast<std::size_t>(problem.support_of[dof]) + dof % 3] += internal[dof];
+    MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, space.comm());
+    std::vector<Vec3> result;
+    for (std::size_t s = 0; s < problem.supports.size(); ++s) result.emplace_back(Eigen::Map<const Vec3>(&sums[3 * s]));
+    return result;
+}
+
+}  // namespace kerf

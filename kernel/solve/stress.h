@@ -1,0 +1,41 @@
+// From displacements to stresses, reactions, and how wrong they are.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solve/elastic_problem.h"
+
+namespace kerf {
+
+/// Stresses of a part: of its elements, and averages at its vertices.
+struct PartStress {
+    std::vector<SymmetricTensor> of_tet;     ///< #T; the mean over the tetrahedron
+    std::vector<SymmetricTensor> at_vertex;  ///< #V; mean over the cells around with the same material, by volume
+    std::vector<double> error;               ///< #T; estimate of the error in the energy norm
+};
+
+/// Norms of the whole mesh.
+struct EnergyNorms {
+    double solution = 0;  ///< square root of the integral of stress times strain
+    double error = 0;     ///< the estimate
+    /// The estimated error beside the norm of the true solution, as far as that is known; in [0, 1].
+    double relative() const;
+};
+
+struct StressField {
+    std::vector<PartStress> parts;  ///< of this rank
+    EnergyNorms norms;
+};
+
+/// Averages of the elements' stresses at nodes, which are nearer to the truth than the elements' own, tell the error by
+/// what they differ (Zienkiewicz and Zhu 1987). A tetrahedron with a vertex of another material's takes its own
+/// material's average. Collective, one exchange for each material; O(n).
+StressField recover_stress(const ElasticProblem& problem, const std::vector<double>& displacement);
+
+/// What supports do to the body: internal forces less the loads at what each of them holds. Sums over
+/// all ranks. A node that two supports hold in the same direction counts for the first one. Collective; O(n).
+std::vector<Vec3> reactions(const ElasticProblem& problem, const std::vector<double>& displacement,
+                            const std::vector<double>& forces);
+
+}  // namespace kerf

@@ -1,0 +1,166 @@
+#include "solve/surface_selection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+
+#include "core/error.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr double on_plane = 1e-6;  // of the diagonal
+constexpr std::size_t most_names = 30;
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(names.size(), most_names); ++i)
+        text += fmt::format("{}'{}'", text.empty() ? "" : ", ", names[i]);
+    if (names.size() > most_names) text += fmt::format(" and {} more", names.size() - most_names);
+    return text;
+}
+
+}  // namespace
+
+bool matches_pattern(const std::string& pattern, const std::string& text) {
+    std::vector<char> matched(text.size() + 1, 0);  // how much of the text the pattern so far may be
+    matched[0] = 1;
+    for (const char c : pattern) {
+        if (c == '*') {
+            for (std::size_t i = 0; i < text.size(); ++i)
+                if (matched[i]) matched[i + 1] = 1;
+            continue;
+        }
+        for (std::size_t i = text.size(); i > 0; --i)
+            matched[i] = static_cast<char>(matched[i - 1] && text[i - 1] == c);
+        matched[0] = 0;
+    }
+    return matched.back() != 0;
+}
+
+SurfaceSelector::SurfaceSelector(const NodeSpace& space, std::vector<std::string> names)
+    : space_(space), names_(std::move(names)) {
+    std::array<double, 6> low;  // and the opposite of what is high
+    low.fill(std::numeric_limits<double>::infinity());
+    for (std::size_t p = 0; p < space.parts().size(); ++p) {
+        const Part& part = space.parts()[p];
+        for (std::size_t f = 0; f < part.facets.size(); ++f) {
+            if (part.is_interface(f)) continue;
+            std::array<Vec3, 3> corners;
+            for (std::size_t i = 0; i < 3; ++i) {
+                corners[i] = part.mesh.vertices[static_cast<std::size_t>(part.facets[f][i])];
+                for (int c = 0; c < 3; ++c) {
+                    low[static_cast<std::size_t>(c)] = std::min(low[static_cast<std::size_t>(c)], corners[i][c]);
+                    low[static_cast<std::size_t>(c) + 3] =
+                        std::min(low[static_cast<std::size_t>(c) + 3], -corners[i][c]);
+                }
+            }
+            const Vec3 doubled = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+            surface_.push_back({p, f, 0.5 * doubled.norm(), doubled.normalized()});
+        }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, low.data(), 6, MPI_DOUBLE, MPI_MIN, space.comm());
+    diagonal_ = std::hypot(low[0] + low[3], low[1] + low[4], low[2] + low[5]);
+}
+
+std::vector<char> SurfaceSelector::match(const std::vector<std::string>& patterns, const std::string& who) const {
+    std::vector<char> matched(names_.size(), 0);
+    for (const std::string& pattern : patterns) {
+        bool any = false;
+        for (std::size_t i = 0; i < names_.size(); ++i)
+            if (matches_pattern(pattern, names_[i])) matched[i] = any = true;
+        if (!any)
+            throw Error(ErrorCode::usage,
+                        fmt::format("{} names the patch '{}', which this mesh does not have. It has {}.", who, pattern,
+                                    listed(names_)));
+    }
+    return matched;
+}
+
+bool SurfaceSelector::selects(const SurfaceSelection& where, const std::vector<char>& patches,
+                              const SurfaceFacet& facet) const {
+    const Part& part = space_.parts()[facet.part];
+    if (!where.patches.empty()) {
+        const std::int32_t patch = part.patch[facet.facet];
+        return patch >= 0 && patches[static_cast<std::size_t>(patch)] != 0;
+    }
+    const Triangle& corners = part.facets[facet.facet];
+    return std::all_of(corners.begin(), corners.end(), [&](std::int32_t v) {
+        const Vec3& p = part.mesh.vertices[static_cast<std::size_t>(v)];
+        if (where.box) return ((p - (*where.box)[0]).array() >= 0).all() && (((*where.box)[1] - p).array() >= 0).all();
+        const Vec3 normal((*where.plane)[0], (*where.plane)[1], (*where.plane)[2]);
+        return std::abs(normal.dot(p) - (*where.plane)[3]) <= on_plane * diagonal_ * normal.norm();
+    });
+}
+
+std::vector<SurfaceFacet> SurfaceSelector::facets(const SurfaceSelection& where, const std::string& who) const {
+    const std::vector<char> patches = match(where.patches, who);
+    std::vector<SurfaceFacet> selected;
+    for (const SurfaceFacet& facet : surface_)
+        if (selects(where, patches, facet)) selected.push_back(facet);
+    auto count = static_cast<std::int64_t>(selected.size());
+    MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_INT64_T, MPI_SUM, space_.comm());
+    if (count == 0)
+        throw Error(ErrorCode::usage,
+                    fmt::format("{} selects no triangle of the surface{}. kerf solve DIR --list-patches says where "
+                                "patches are.",
+                                who,
+                                where.patches.empty() ? ": those with all corners there count, those between parts "
+                                                        "do not"
+                                                      : ""));
+    return selected;
+}
+
+std::int64_t SurfaceSelector::nearest_vertex(const Vec3& point) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    std::int64_t row = std::numeric_limits<std::int64_t>::max();
+    for (const SurfaceFacet& facet : surface_)
+        for (const std::int32_t v : space_.parts()[facet.part].facets[facet.facet]) {
+            const auto vertex = static_cast<std::size_t>(v);
+            const double distance = (space_.parts()[facet.part].mesh.vertices[vertex] - point).squaredNorm();
+            const std::int64_t candidate = space_.row_of(space_.nodes_of_parts()[facet.part].of_vertex[vertex]);
+            if (distance < nearest || (distance == nearest && candidate < row)) {
+                nearest = distance;
+                row = candidate;
+            }
+        }
+    double least = nearest;
+    MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, space_.comm());
+    if (nearest > least) row = std::numeric_limits<std::int64_t>::max();
+    MPI_Allreduce(MPI_IN_PLACE, &row, 1, MPI_INT64_T, MPI_MIN, space_.comm());
+    return row;
+}
+
+std::vector<PatchSummary> SurfaceSelector::summaries() const {
+    constexpr std::size_t columns = 8;  // triangles, area, area x centroid, area x normal
+    std::vector<double> sums(names_.size() * columns, 0);
+    for (const SurfaceFacet& facet : surface_) {
+        const Part& part = space_.parts()[facet.part];
+        if (part.patch[facet.facet] < 0) continue;
+        double* sum = &sums[static_cast<std::size_t>(part.patch[facet.facet]) * columns];
+        Vec3 centroid = Vec3::Zero();
+        for (const std::int32_t v : part.facets[facet.facet])
+            centroid += part.mesh.vertices[static_cast<std::size_t>(v)] / 3;
+        sum[0] += 1;
+        sum[1] += facet.area;
+        for (int c = 0; c < 3; ++c) {
+            sum[2 + c] += facet.area * centroid[c];
+            sum[5 + c] += facet.area * facet.normal[c];
+        }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, space_.comm());
+    std::vector<PatchSummary> result;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+        const double* sum = &sums[i * columns];
+        const double area = sum[1] > 0 ? sum[1] : 1;
+        result.push_back({names_[i], static_cast<std::int64_t>(sum[0]), sum[1], Vec3(sum[2], sum[3], sum[4]) / area,
+                          Vec3(sum[5], sum[6], sum[7]) / area});
+    }
+    return result;
+}
+
+}  // namespace kerf

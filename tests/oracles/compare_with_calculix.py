@@ -1,0 +1,132 @@
+"""Has CalculiX compute the case of solve_test.sh on the elements of a solution, and compares.
+
+usage: python3 compare_with_calculix.py SOLUTION ORDER
+
+Displacements of vertices, stresses of elements (the mean over the points of integration) and the reaction must agree. The
+nodes in the middle of edges, which order 2 has, are made here. CalculiX prints seven digits. Writes into the current
+folder; the exit code is 1 if something differs.
+"""
+
+import json
+import pathlib
+import re
+import subprocess
+import sys
+
+import meshio
+import numpy as np
+
+PRESSURE, TRACTION = 2.5, np.array([1.0, 2.0, -3.0])
+FIXED, PRESSED, PULLED = 0, 3, 1  # patches
+EDGES = [(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)]  # as both programs have them
+
+
+class Solution:
+    """The parts of a solution joined by their global numbers."""
+
+    def __init__(self, folder):
+        parts = [meshio.read(file) for file in sorted((folder / "parts").glob("*.vtu"))]
+        count = 1 + max(part.point_data["GlobalVertexId"].max() for part in parts)
+        self.points, self.displacement = np.zeros((count, 3)), np.zeros((count, 3))
+        tets, stress, triangles, patch = [], [], [], []
+        for part in parts:
+            ids = part.point_data["GlobalVertexId"]
+            self.points[ids] = part.points
+            self.displacement[ids] = part.point_data["Displacement"]
+            tets.append(ids[part.cells_dict["tetra"]])
+            stress.append(part.cell_data_dict["Stress"]["tetra"])
+            triangles.append(ids[part.cells_dict["triangle"]])
+            patch.append(part.cell_data_dict["Patch"]["triangle"])
+        self.tets, self.stress = np.concatenate(tets), np.concatenate(stress)
+        self.triangles, self.patch = np.concatenate(triangles), np.concatenate(patch)
+
+
+def add_midpoints(solution):
+    """Points with those of the edges, elements of ten nodes, and the number of each edge."""
+    pairs = np.sort(np.concatenate([solution.tets[:, list(edge)] for edge in EDGES]), axis=1)
+    edges, numbers = np.unique(pairs, axis=0, return_inverse=True)
+    first = len(solution.points)
+    points = np.concatenate([solution.points, solution.points[edges].mean(axis=1)])
+    midpoints = first + numbers.reshape(len(EDGES), -1).T
+    return points, np.concatenate([solution.tets, midpoints], axis=1), {tuple(e): first + i for i, e in enumerate(edges)}
+
+
+def nodal_forces(solution, points, midpoint):
+    """What pressure and traction put on the nodes."""
+    forces = np.zeros((len(points), 3))
+    for patch, of_normal in ((PRESSED, True), (PULLED, False)):
+        for a, b, c in solution.triangles[solution.patch == patch]:
+            area = np.cross(points[b] - points[a], points[c] - points[a]) / 2
+            force = -PRESSURE * area if of_normal else TRACTION * np.linalg.norm(area)
+            nodes = [a, b, c]
+            if midpoint:
+                nodes = [midpoint[tuple(sorted(pair))] for pair in ((a, b), (b, c), (c, a))]
+            for node in nodes:
+                forces[node] += force / 3
+    return forces
+
+
+def write_deck(points, elements, held, forces):
+    kind = "C3D4" if elements.shape[1] == 4 else "C3D10"
+    lines = ["*NODE, NSET=NALL"]
+    lines += [f"{i + 1}, {x:.15g}, {y:.15g}, {z:.15g}" for i, (x, y, z) in enumerate(points)]
+    lines += [f"*ELEMENT, TYPE={kind}, ELSET=EALL"]
+    lines += [", ".join(str(n) for n in [i + 1, *(nodes + 1)]) for i, nodes in enumerate(elements)]
+    lines += ["*MATERIAL, NAME=STEEL", "*ELASTIC", "210000., 0.3", "*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL"]
+    lines += ["*BOUNDARY", *(f"{n + 1}, 1, 3" for n in held), "*STEP", "*STATIC", "*CLOAD"]
+    lines += [f"{n + 1}, {c + 1}, {forces[n, c]:.15g}" for n in np.flatnonzero(forces.any(axis=1)) for c in range(3)]
+    lines += ["*NODE PRINT, NSET=NALL", "U", "*EL PRINT, ELSET=EALL", "S", "*END STEP", ""]
+    pathlib.Path("job.inp").write_text("\n".join(lines))
+
+
+def rows_of(text, title, width):
+    """The table below a headline as numbers."""
+    lines = text[text.index(title):].splitlines()[1:]
+    rows = []
+    for line in lines:
+        words = line.split()
+        if len(words) == width:
+            rows.append([float(word.replace("D", "E")) for word in words])
+        elif rows and words:
+            break
+    return np.array(rows)
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    folder, order = pathlib.Path(sys.argv[1]), int(sys.argv[2])
+    solution = Solution(folder)
+    points, elements, midpoint = solution.points, solution.tets, {}
+    if order == 2:
+        points, elements, midpoint = add_midpoints(solution)
+    on_fixed = solution.triangles[solution.patch == FIXED]
+    held = set(on_fixed.flat)
+    if midpoint:
+        held |= {midpoint[tuple(sorted(pair))] for t in on_fixed for pair in ((t[0], t[1]), (t[1], t[2]), (t[2], t[0]))}
+    forces = nodal_forces(solution, points, midpoint)
+    write_deck(points, elements, sorted(held), forces)
+    done = subprocess.run(["ccx", "job"], capture_output=True, text=True, timeout=240)
+    if done.returncode != 0 or "Job finished" not in done.stdout or re.search(r"\*ERROR", done.stdout):
+        print(done.stdout[-4000:])
+        sys.exit("CalculiX complains")
+
+    data = pathlib.Path("job.dat").read_text()
+    moved = rows_of(data, "displacements", 4)[:, 1:]
+    stresses = rows_of(data, "stresses", 8)
+    stress = np.zeros_like(solution.stress, dtype=float)
+    points_each = len(stresses) // len(elements)
+    np.add.at(stress, stresses[:, 0].astype(int) - 1, stresses[:, [2, 3, 4, 5, 7, 6]] / points_each)  # xx yy zz xy xz yz
+
+    report = json.loads((folder / "report.json").read_text())["solve"]["cases"][0]
+    far = np.abs(moved[: len(solution.points)] - solution.displacement).max() / np.abs(moved).max()
+    off = np.abs(stress - solution.stress).max() / np.abs(stress).max()
+    reaction = np.array(report["reactions"][0]["reaction"])
+    unbalanced = np.linalg.norm(reaction + forces.sum(axis=0)) / np.linalg.norm(forces.sum(axis=0))
+    print(f"order {order}: {len(points)} nodes; displacements differ by {far:.1e}, stresses by {off:.1e} of the largest; "
+          f"reaction by {unbalanced:.1e}")
+    assert far < 1e-6 and off < 1e-4 and unbalanced < 1e-9
+
+
+if __name__ == "__main__":
+    main()

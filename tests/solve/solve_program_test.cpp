@@ -1,0 +1,211 @@
+// kerf solve as a user starts it.
+#include <array>
+#include <cmath>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "io/run_manifest.h"
+#include "part/vtu_reader.h"
+#include "support/assets.h"
+#include "support/file_contents.h"
+#include "support/mpirun.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
+
+namespace kerf {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Runs on the cube [0, 1]^3, whose faces are patches, in five parts.
+class KerfSolve : public testing::Test {
+ protected:
+    static void SetUpTestSuite() {
+        folder_ = std::make_unique<test::TemporaryFolder>();
+        const ChildResult result = test::run_kerf({"mesh", test::asset_path("cube"), "-o", mesh(), "-n", "5", "--size",
+                                                   "0.16", "--feature-angle", "40", "-q"});
+        ASSERT_EQ(result.exit_code, 0) << result.log;
+    }
+    static void TearDownTestSuite() { folder_.reset(); }
+    static std::string mesh() { return folder_->file("cube"); }
+
+    std::string write_case(const std::string& text) const {
+        std::ofstream(own_.file("case.toml")) << text;
+        return own_.file("case.toml");
+    }
+    ChildResult solve(const std::string& text, int ranks = 0) const {
+        const std::vector<std::string> command = {"solve", mesh(), "--case", write_case(text), "-o", out(), "-q"};
+        if (ranks == 0) return test::run_kerf(command);
+        std::vector<std::string> all = {KERF_PROGRAM};
+        all.insert(all.end(), command.begin(), command.end());
+        return test::run_ranks(ranks, all);
+    }
+    std::string out() const { return own_.file("out"); }
+    nlohmann::json report() const {
+        const std::string text = test::bytes_of_file(out() + "/report.json");
+        EXPECT_TRUE(is_sealed(text));
+        return nlohmann::json::parse(text);
+    }
+    // Nothing half-written stays.
+    void expect_refused(int code, const std::string& text, const std::vector<std::string>& words) const {
+        const ChildResult result = solve(text);
+        EXPECT_EQ(result.exit_code, code) << result.log;
+        for (const std::string& word : words)
+            EXPECT_NE(result.log.find(word), std::string::npos) << "'" << word << "' in: " << result.log;
+        EXPECT_EQ(own_.names(), std::vector<std::string>{"case.toml"});
+    }
+    inline static std::unique_ptr<test::TemporaryFolder> folder_;
+    test::TemporaryFolder own_;
+};
+
+constexpr const char* steel = "[material.steel]\nyoung = 1000\npoisson = 0.25\ndensity = 2\n";
+constexpr const char* three_planes =
+    "[[support]]\nname = \"left\"\nplane = [1, 0, 0, 0]\nx = 0\n"
+    "[[support]]\nname = \"front\"\nplane = [0, 1, 0, 0]\ny = 0\n"
+    "[[support]]\nname = \"foot\"\nplane = [0, 0, 1, 0]\nz = 0\n";
+
+Vec3 vector_of(const nlohmann::json& json) {
+    return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
+}
+
+TEST_F(KerfSolve, AUniformTensionIsExact) {
+    for (const int order : {1, 2})
+        for (const int ranks : {0, 3}) {
+            const ChildResult result =
+                solve(std::string(steel) + three_planes + "[[load]]\nplane = [1, 0, 0, 1]\ntraction = [10, 0, 0]\n" +
+                          "[solver]\nrtol = 1e-13\norder = " + std::to_string(order),
+                      ranks);
+            ASSERT_EQ(result.exit_code, 0) << result.log;
+            const nlohmann::json of_case = report()["solve"]["cases"][0];
+            EXPECT_LT((vector_of(of_case["load"]) - Vec3(10, 0, 0)).norm(), 1e-12);
+            EXPECT_LT((vector_of(of_case["reactions"][0]["reaction"]) - Vec3(-10, 0, 0)).norm(), 1e-9);
+            EXPECT_LT(of_case["imbalance"], 1e-10);
+            EXPECT_NEAR(of_case["max_von_mises"]["value"], 10, 1e-8);
+            EXPECT_NEAR(of_case["max_displacement"]["value"], 0.01 * std::sqrt(1 + 2 * 0.25 * 0.25), 1e-12);
+            EXPECT_LT(of_case["relative_error"], 1e-8);
+            EXPECT_EQ(report()["ranks"], std::max(ranks, 1));
+        }
+}
+
+TEST_F(KerfSolve, FilesHaveTheValues) {
+    ASSERT_EQ(solve(std::string(steel) + three_planes +
+                    "[[load]]\nplane = [1, 0, 0, 1]\nforce = [10, 0, 0]\n[solver]\nrtol = 1e-12")
+                  .exit_code,
+              0);
+    EXPECT_NE(test::bytes_of_file(out() + "/mesh.pvtu").find("Name=\"Displacement\" NumberOfComponents=\"3\""),
+              std::string::npos);
+    for (const auto& entry : fs::directory_iterator(out() + "/parts")) {
+        const PartCellCounts counts = read_cell_counts(entry.path());
+        for (const float stress : read_cell_values(entry.path(), "VonMises", 0, counts.tets + counts.facets))
+            EXPECT_NEAR(stress, 10, 1e-5);
+        const Part part = read_part(entry.path());
+        EXPECT_EQ(part.tet_count(), counts.tets);
+    }
+}
+
+// Gravity, an oblique pressure and a moved support; P1 and P2, both preconditioners, any ranks.
+TEST_F(KerfSolve, LoadsAndReactionsBalanceForAnyRanks) {
+    const std::string loads =
+        std::string(steel) +
+        "[[support]]\npatch = \"face_0\"\nfixed = true\n[[support]]\npoint = [1, 1, 1]\nx = 0.01\n"
+        "[[load]]\nbox = [-1, -1, 0.999, 2, 2, 2]\npressure = 3\n"
+        "[[load]]\npoint = [1, 0, 1]\nforce = [0, 1, 0]\n[gravity]\nacceleration = [0, 0, -9.81]\n";
+    for (const std::string& solver :
+         {std::string("order = 1"), std::string("order = 1\npreconditioner = \"icc\""), std::string("order = 2")}) {
+        std::vector<double> values;
+        for (const int ranks : {0, 2, 3}) {
+            ASSERT_EQ(solve(loads + "[solver]\nrtol = 1e-11\n" + solver, ranks).exit_code, 0);
+            const nlohmann::json of_case = report()["solve"]["cases"][0];
+            EXPECT_LT(of_case["imbalance"], 1e-9);
+            EXPECT_LE(of_case["residual"], 1e-11 * 1.1);
+            values.push_back(of_case["max_displacement"]["value"]);
+        }
+        EXPECT_NEAR(values[1] / values[0], 1, 1e-8);
+        EXPECT_NEAR(values[2] / values[0], 1, 1e-8);
+    }
+}
+
+TEST_F(KerfSolve, TheSameRanksGiveTheSameBytes) {
+    const std::string text = std::string(steel) + three_planes + "[[load]]\nplane = [1, 0, 0, 1]\nforce = [1, 2, 3]\n";
+    std::vector<nlohmann::json> files;
+    for (int i = 0; i < 2; ++i) {
+        ASSERT_EQ(solve(text, 2).exit_code, 0);
+        files.push_back(report()["files"]);
+    }
+    EXPECT_EQ(files[0], files[1]);
+}
+
+TEST_F(KerfSolve, CasesAreApart) {
+    ASSERT_EQ(solve(std::string(steel) + three_planes +
+                    "[[load]]\ncase = \"a\"\nplane = [1, 0, 0, 1]\nforce = [1, 0, 0]\n"
+                    "[[load]]\ncase = \"b\"\nplane = [0, 0, 1, 1]\npressure = 2\n")
+                  .exit_code,
+              0);
+    const nlohmann::json cases = report()["solve"]["cases"];
+    ASSERT_EQ(cases.size(), 2U);
+    EXPECT_NEAR(cases[0]["max_von_mises"]["value"], 1, 1e-5);
+    EXPECT_NEAR(cases[1]["max_von_mises"]["value"], 2, 1e-5);
+    EXPECT_TRUE(has_cell_values(out() + "/parts/part_0004.vtu", "VonMises a") ||
+                has_cell_values(out() + "/parts/part_0005.vtu", "VonMises a"));
+}
+
+TEST_F(KerfSolve, ListsPatches) {
+    const ChildResult result = test::run_kerf({"solve", mesh(), "--list-patches"});
+    EXPECT_EQ(result.exit_code, 0) << result.log;
+    const std::string text = test::output_of(result);
+    EXPECT_EQ(test::count(text, "face_"), 6);
+    EXPECT_NE(text.find("(0.5, 0.5, 1)"), std::string::npos) << text;
+    EXPECT_NE(text.find("(0.000, 0.000, 1.000)"), std::string::npos) << text;
+}
+
+TEST_F(KerfSolve, RefusesWhatCannotBe) {
+    const std::string held = "[[support]]\npatch = \"face_0\"\nfixed = true\n";
+    const std::string material = steel;
+    expect_refused(2, material, {"not held at all", "[[support]]"});
+    expect_refused(2, material + "[[support]]\npatch = \"face_9\"\nfixed = true", {"'face_9'", "It has 'face_0'"});
+    expect_refused(2, material + "[[support]]\nbox = [5, 5, 5, 6, 6, 6]\nfixed = true", {"selects no triangle"});
+    expect_refused(2, material + "[[support]]\nplane = [0, 0, 1, 0]\nz = 0", {"free to"});
+    expect_refused(2, material + held + "[[load]]\nplane = [1, 0, 0, 0.4321]\npressure = 1",
+                   {"selects no triangle of the surface", "between parts"});
+    expect_refused(2, "[material.a]\nyoung = 1\npoisson = 0\nparts = [4]\n" + held, {"have no material"});
+    expect_refused(2, "[material.a]\nyoung = 1\npoisson = 0\nparts = [77]\n" + held, {"part 77"});
+    expect_refused(2, "[material.a]\nyoung = 1\npoisson = 0.6\n" + held, {"between -1 and 0.5"});
+    expect_refused(9, material + held + "[[load]]\npatch = \"face_1\"\npressure = 1\n[solver]\nmax_iterations = 2",
+                   {"not reached", "2 iterations", "Try"});
+    expect_refused(2, material + held + "[solver]\npetsc = \"nonsense\"", {"'nonsense'"});
+}
+
+TEST_F(KerfSolve, RefusesMoreRanksThanParts) {
+    const ChildResult result = solve(std::string(steel) + three_planes, 6);
+    EXPECT_EQ(result.exit_code, 2) << result.log;
+    EXPECT_EQ(test::count(result.log, "6 ranks are more than the 5 parts"), 1) << result.log;
+}
+
+TEST_F(KerfSolve, RefusesFoldersThatAreNone) {
+    const std::string text = std::string(steel) + three_planes;
+    const auto code = [&](const std::vector<std::string>& arguments) { return test::run_kerf(arguments).exit_code; };
+    EXPECT_EQ(code({"solve", own_.file("none"), "--case", write_case(text), "-o", out()}), 7);
+    EXPECT_EQ(code({"solve", mesh(), "--case", own_.file("none"), "-o", out()}), 7);
+    EXPECT_EQ(code({"solve", mesh(), "--case", write_case(text), "-o", mesh()}), 2);
+    EXPECT_EQ(code({"solve", mesh(), "--case", write_case(text), "-o", mesh() + "/stress"}), 2);
+    EXPECT_EQ(code({"solve", mesh(), "--case", write_case(text)}), 2);
+    EXPECT_EQ(code({"solve", mesh()}), 2);
+    EXPECT_EQ(code({"solve", "--help"}), 0);
+    std::ofstream(own_.file("precious")) << "mine";
+    EXPECT_EQ(code({"solve", mesh(), "--case", write_case(text), "-o", own_.file("precious")}), 7);
+    EXPECT_EQ(test::bytes_of_file(own_.file("precious")), "mine");
+}
+
+TEST_F(KerfSolve, SurroundingsDoNotMatter) {
+    std::ofstream(own_.file(".petscrc")) << "-ksp_max_it 1\n";
+    const std::string text = std::string(steel) + three_planes + "[[load]]\nplane = [1, 0, 0, 1]\nforce = [1, 0, 0]\n";
+    const ChildResult result = test::run_program(
+        "/usr/bin/env", {"-C", own_.file(""), "HOME=" + own_.file(""), "PETSC_OPTIONS=-ksp_max_it 1", KERF_PROGRAM,
+                         "solve", mesh(), "--case", write_case(text), "-o", out(), "-q"});
+    EXPECT_EQ(result.exit_code, 0) << result.log;
+}
+
+}  // namespace
+}  // namespace kerf

@@ -1,0 +1,264 @@
+// Laws of the solution on one or more ranks: this program runs under mpirun, every test on all ranks together.
+#include <mpi.h>
+
+#include <cmath>
+#include <fstream>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "part/run_parts.h"
+#include "solve/elastic_problem.h"
+#include "solve/linear_system.h"
+#include "solve/stress.h"
+#include "support/assets.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
+
+namespace kerf {
+namespace {
+
+int rank() {
+    int number = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &number);
+    return number;
+}
+int ranks() {
+    int number = 1;
+    MPI_Comm_size(MPI_COMM_WORLD, &number);
+    return number;
+}
+
+// A cube in seven parts, made by the first rank for all.
+class CubeOfParts : public testing::Environment {
+ public:
+    void SetUp() override {
+        std::array<char, 4096> path{};
+        if (rank() == 0) {
+            folder_ = std::make_unique<test::TemporaryFolder>();
+            // It is no rank of this job.
+            const ChildResult result = test::run_program(
+                "/usr/bin/env", {"-u", "OMPI_COMM_WORLD_SIZE", "-u", "OMPI_COMM_WORLD_RANK", "-u", "PMIX_RANK", "-u",
+                                 "PMI_RANK", KERF_PROGRAM, "mesh", test::asset_path("cube"), "-o",
+                                 folder_->file("cube"), "-n", "7", "--size", "0.2", "-q"});
+            EXPECT_EQ(result.exit_code, 0) << result.log;
+            folder_->file("cube").copy(path.data(), path.size() - 1);
+        }
+        MPI_Bcast(path.data(), static_cast<int>(path.size()), MPI_CHAR, 0, MPI_COMM_WORLD);
+        parts = std::make_unique<RunParts>(path.data());
+    }
+    void TearDown() override {
+        MPI_Barrier(MPI_COMM_WORLD);
+        folder_.reset();
+    }
+    inline static std::unique_ptr<RunParts> parts;
+
+ private:
+    std::unique_ptr<test::TemporaryFolder> folder_;
+};
+
+// The space of the parts of a communicator's rank.
+std::unique_ptr<NodeSpace> space_on(MPI_Comm comm, int order) {
+    int own = 0, size = 1;
+    MPI_Comm_rank(comm, &own);
+    MPI_Comm_size(comm, &size);
+    const MeshOutline& outline = CubeOfParts::parts->outline();
+    const std::vector<std::int32_t> first = first_parts_of_ranks(outline, size);
+    std::vector<Part> parts;
+    for (std::int32_t p = first[static_cast<std::size_t>(own)]; p < first[static_cast<std::size_t>(own) + 1]; ++p)
+        parts.push_back(CubeOfParts::parts->load(p));
+    return std::make_unique<NodeSpace>(comm, outline, first, std::move(parts), order);
+}
+
+double largest(double value) {
+    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    return value;
+}
+
+class Solution : public testing::TestWithParam<int> {
+ protected:
+    void SetUp() override { space_ = space_on(MPI_COMM_WORLD, GetParam()); }
+
+    // Holds the surface where `held` says so: all three components, or one.
+    template <class Displacement>
+    void hold_surface(ElasticProblem& problem, const Displacement& displacement) const {
+        for (std::size_t p = 0; p < space_->parts().size(); ++p)
+            for (std::size_t f = 0; f < space_->parts()[p].facets.size(); ++f)
+                if (!space_->parts()[p].is_interface(f))
+                    for (const std::int32_t node : space_->nodes_of_facet(p, f))
+                        for (std::size_t c = 0; node >= 0 && c < 3; ++c)
+                            problem.support_of[3 * static_cast<std::size_t>(node) + c] = 0;
+        problem.supports = {"surface"};
+        space_->exchange().share_smallest(std::span(problem.support_of), 3);
+        for (std::size_t n = 0; n < space_->node_count(); ++n)
+            for (std::size_t c = 0; c < 3; ++c)
+                if (problem.is_held(3 * n + c))
+                    problem.prescribed[3 * n + c] = displacement(space_->points()[n])[static_cast<Eigen::Index>(c)];
+    }
+    template <class Displacement>
+    double difference(const std::vector<double>& u, const Displacement& displacement) const {
+        double most = 0;
+        for (std::size_t n = 0; n < space_->node_count(); ++n)
+            most = std::max(most, (Eigen::Map<const Vec3>(&u[3 * n]) - displacement(space_->points()[n])).norm());
+        return largest(most);
+    }
+    static SolverOptions exact(const std::string& preconditioner) {
+        SolverOptions options;
+        options.preconditioner = preconditioner;
+        options.rtol = 1e-13;
+        return options;
+    }
+    std::unique_ptr<NodeSpace> space_;
+    const Material steel_{"steel", 210e3, 0.3, 7.8e-9};
+};
+
+INSTANTIATE_TEST_SUITE_P(Orders, Solution, testing::Values(1, 2));
+
+// Irons, Bazeley: a linear field at the boundary is that field inside, whatever the elements are.
+TEST_P(Solution, PassesThePatchTest) {
+    const Eigen::Matrix3d slope = (Eigen::Matrix3d() << 1, 2, -3, 0.5, -1, 4, 2, 0.25, 3).finished() * 1e-3;
+    const auto field = [&](const Vec3& p) -> Vec3 { return slope * p + Vec3(1e-3, 0, -2e-3); };
+    for (const char* preconditioner : {"gamg", "icc"}) {
+        ElasticProblem problem = make_free_problem(*space_, steel_);
+        hold_surface(problem, field);
+        LinearSystem system(problem, exact(preconditioner));
+        EXPECT_EQ(system.unprepared_entries(), 0);
+        std::vector<double> u;
+        const std::vector<double> no_forces(3 * space_->node_count(), 0);
+        const SolveOutcome outcome = system.solve(no_forces, u);
+        EXPECT_TRUE(outcome.converged) << outcome.reason;
+        EXPECT_LT(difference(u, field), 1e-10 * 5e-3);
+        const SymmetricTensor stress = stress_of(steel_, strain_of(slope));
+        const StressField found = recover_stress(problem, u);
+        for (const PartStress& part : found.parts) {
+            for (const SymmetricTensor& s : part.of_tet) EXPECT_LT((s - stress).norm(), 1e-9 * stress.norm());
+            for (const SymmetricTensor& s : part.at_vertex) EXPECT_LT((s - stress).norm(), 1e-9 * stress.norm());
+        }
+        EXPECT_LT(found.norms.relative(), 1e-8);
+        EXPECT_LT(reactions(problem, u, no_forces).front().norm(), 1e-9 * stress.norm());
+    }
+}
+
+// What a quadratic field wants as forces is constant: elements of order 2 have it exactly.
+TEST_P(Solution, HasQuadraticFieldsExactlyInOrderTwo) {
+    if (GetParam() == 1) GTEST_SKIP();
+    const auto field = [](const Vec3& p) -> Vec3 {
+        return 1e-3 * Vec3(p.x() * p.x(), p.y() * p.z(), p.x() * p.z() - p.y() * p.y());
+    };
+    // div stress = (lambda + mu) grad(div u) + mu laplace(u); div u = (2x + z + x) / 1000
+    const Vec3 density = -1e-3 * ((steel_.lambda() + steel_.mu()) * Vec3(3, 0, 1) + steel_.mu() * Vec3(2, 0, -2));
+    ElasticProblem problem = make_free_problem(*space_, steel_);
+    hold_surface(problem, field);
+    std::vector<double> forces(3 * space_->node_count(), 0), u;
+    for_all_tets(*space_, [&](std::size_t p, std::size_t t) {
+        const auto volumes = space_->element(p, t).node_volumes();
+        const auto nodes = space_->nodes_of(p, t);
+        for (std::size_t i = 0; i < 10; ++i)
+            Eigen::Map<Vec3>(&forces[3 * static_cast<std::size_t>(nodes[i])]) += volumes[i] * density;
+    });
+    LinearSystem system(problem, exact("gamg"));
+    EXPECT_TRUE(system.solve(forces, u).converged);
+    EXPECT_LT(difference(u, field), 1e-10 * 2e-3);
+}
+
+// Rows follow from the parts alone: one rank with all parts numbers as many ranks do.
+TEST_P(Solution, RowsAreTheSameForAnyRanks) {
+    const std::unique_ptr<NodeSpace> alone = space_on(MPI_COMM_SELF, GetParam());
+    EXPECT_EQ(space_->total_rows(), alone->total_rows());
+    EXPECT_EQ(static_cast<std::int64_t>(alone->owned_count()), alone->total_rows());
+    const auto first = static_cast<std::size_t>(
+        first_parts_of_ranks(CubeOfParts::parts->outline(), ranks())[static_cast<std::size_t>(rank())]);
+    for (std::size_t p = 0; p < space_->parts().size(); ++p)
+        for (std::size_t t = 0; t < space_->parts()[p].mesh.tets.size(); ++t) {
+            const auto here = space_->nodes_of(p, t), there = alone->nodes_of(first + p, t);
+            for (std::size_t i = 0; i < static_cast<std::size_t>(element_nodes(GetParam())); ++i) {
+                ASSERT_EQ(space_->row_of(here[i]), alone->row_of(there[i]));
+                ASSERT_EQ(space_->points()[static_cast<std::size_t>(here[i])],
+                          alone->points()[static_cast<std::size_t>(there[i])]);
+            }
+        }
+}
+
+TEST_P(Solution, GhostsHaveWhatOwnersHave) {
+    const std::size_t nodes = space_->node_count();
+    std::vector<std::int64_t> rows(nodes, -1);
+    std::vector<double> counts(nodes, 1);
+    for (std::size_t n = 0; n < space_->owned_count(); ++n) rows[n] = space_->row_of(static_cast<std::int32_t>(n));
+    space_->exchange().to_ghosts(std::span(rows), 1);
+    for (std::size_t n = 0; n < nodes; ++n) EXPECT_EQ(rows[n], space_->row_of(static_cast<std::int32_t>(n)));
+    space_->exchange().add_to_owners(std::span(counts), 1);
+    double sum = 0, ghosts = static_cast<double>(nodes - space_->owned_count());
+    for (std::size_t n = 0; n < space_->owned_count(); ++n) sum += counts[n] - 1;
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    MPI_Allreduce(MPI_IN_PLACE, &ghosts, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    EXPECT_EQ(sum, ghosts);
+}
+
+TEST(Bodies, ACubeIsOne) {
+    const auto space = space_on(MPI_COMM_WORLD, 1);
+    EXPECT_EQ(find_bodies(*space).count, 1);
+}
+
+TEST(Supports, ThatLeaveMotionsAreRefusedWithTheirNames) {
+    const auto space = space_on(MPI_COMM_WORLD, 1);
+    const Bodies bodies = find_bodies(*space);
+    const auto refusal = [&](auto holds) -> std::string {
+        ElasticProblem problem = make_free_problem(*space, {"steel", 1, 0.3, 0});
+        for (std::size_t n = 0; n < space->node_count(); ++n)
+            for (std::size_t c = 0; c < 3; ++c)
+                if (holds(space->points()[n], c)) problem.support_of[3 * n + c] = 0;
+        try {
+            require_supported(problem, bodies);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "none";
+    };
+    const auto has = [](const std::string& text, const std::string& word) {
+        EXPECT_NE(text.find(word), std::string::npos) << "'" << word << "' in: " << text;
+    };
+    double low = INFINITY;
+    for (const Vec3& p : space->points()) low = std::min(low, p.z());
+    MPI_Allreduce(MPI_IN_PLACE, &low, 1, MPI_DOUBLE, MPI_MIN, MPI_COMM_WORLD);
+    const auto at_foot = [low](const Vec3& p) { return p.z() == low; };
+    has(refusal([](const Vec3&, std::size_t) { return false; }), "not held at all");
+    const std::string sliding = refusal([&](const Vec3& p, std::size_t c) { return at_foot(p) && c == 2; });
+    has(sliding, "move along (");
+    has(sliding, "turn about (0, 0, 1)");
+    const std::string one_way = refusal([&](const Vec3& p, std::size_t c) { return at_foot(p) && c != 0; });
+    has(one_way, "free to move along (1, 0, 0).");
+    EXPECT_EQ(refusal([&](const Vec3& p, std::size_t) { return at_foot(p); }), "none");
+}
+
+TEST(Parts, AreSharedOutWholeAndEvenly) {
+    const MeshOutline& outline = CubeOfParts::parts->outline();
+    for (int count = 1; count <= 10; ++count) {
+        const auto first = first_parts_of_ranks(outline, count);
+        ASSERT_EQ(first.size(), static_cast<std::size_t>(count) + 1);
+        EXPECT_EQ(first.front(), 0);
+        EXPECT_EQ(first.back(), 7);
+        for (std::size_t r = 0; r + 1 < first.size(); ++r) {
+            EXPECT_LE(first[r], first[r + 1]);
+            if (count <= 7) {
+                EXPECT_LT(first[r], first[r + 1]) << "rank " << r << " of " << count;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace kerf
+
+int main(int argc, char** argv) {
+    testing::InitGoogleTest(&argc, argv);
+    MPI_Init(&argc, &argv);
+    int result = 0;
+    {
+        const kerf::PetscSession petsc;
+        testing::AddGlobalTestEnvironment(new kerf::CubeOfParts);
+        result = RUN_ALL_TESTS();
+    }
+    MPI_Finalize();
+    return result;
+}
