@@ -26,17 +26,17 @@ class Solution:
 
     def __init__(self, folder):
         parts = [meshio.read(file) for file in sorted((folder / "parts").glob("*.vtu"))]
-        count = 1 + max(part.point_data["GlobalVertexId"].max() for part in parts)
+        count = 1 + max(int(part.point_data["GlobalVertexId"].max()) for part in parts)
         self.points, self.displacement = np.zeros((count, 3)), np.zeros((count, 3))
         tets, stress, triangles, patch = [], [], [], []
         for part in parts:
-            ids = part.point_data["GlobalVertexId"]
+            ids = part.point_data["GlobalVertexId"].ravel()
             self.points[ids] = part.points
             self.displacement[ids] = part.point_data["Displacement"]
             tets.append(ids[part.cells_dict["tetra"]])
             stress.append(part.cell_data_dict["Stress"]["tetra"])
             triangles.append(ids[part.cells_dict["triangle"]])
-            patch.append(part.cell_data_dict["Patch"]["triangle"])
+            patch.append(part.cell_data_dict["Patch"]["triangle"].ravel())
         self.tets, self.stress = np.concatenate(tets), np.concatenate(stress)
         self.triangles, self.patch = np.concatenate(triangles), np.concatenate(patch)
 
