@@ -16,7 +16,7 @@ namespace kerf {
 namespace {
 
 constexpr double least_gain_of_a_move = 0.1;      // of a move, in squared sines: a degree and a half at 25
-constexpr double angle_for_a_vertex_deg = 12;     // cells with a smaller one are worth a new vertex
+constexpr double angle_for_a_vertex_deg = 20;     // cells with a smaller one are worth a new vertex
 constexpr double looks_for_vertices = 0.25;       // of all
 constexpr double least_share_of_a_round = 0.1;    // of the bad cells, or there is no other round
 constexpr std::int64_t looks_at_any_mesh = 1000;  // beside those for each of its cells

@@ -276,7 +276,8 @@ void require_supported(const ElasticProblem& problem, const Bodies& bodies) {
         }
     reduce(products, MPI_SUM);
     for (std::size_t b = 0; b < count; ++b) {
-        const Eigen::SelfAdjointEigenSolver<MotionMatrix> solver(Eigen::Map<const MotionMatrix>(&products[36 * b]));
+        const MotionMatrix product = Eigen::Map<const MotionMatrix>(&products[36 * b]);
+        const Eigen::SelfAdjointEigenSolver<MotionMatrix> solver(product);
         const double largest = solver.eigenvalues()[5];
         Eigen::Index left = 0;
         while (left < 6 && solver.eigenvalues()[left] <= 1e-10 * largest) ++left;

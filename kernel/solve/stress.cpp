@@ -6,7 +6,7 @@ namespace kerf {
 
 namespace {
 
-constexpr std::size_t columns = 7;  // of a node: the sum of stresses times volumes, and of the volumes
+constexpr std::size_t stress_sums = 7;  // of a node: the sum of stresses times volumes, and of the volumes
 
 std::array<Vec3, most_element_nodes> values_at(const std::array<std::int32_t, most_element_nodes>& nodes, int order,
                                                const std::vector<double>& of_nodes) {
@@ -75,27 +75,27 @@ class StressRecovery {
 
     // Mean stresses of a material at nodes.
     void average(std::size_t m) {
-        sums_.assign(columns * space_.node_count(), 0);
+        sums_.assign(stress_sums * space_.node_count(), 0);
         for_all_tets(space_, [&](std::size_t p, std::size_t t) {
             if (!is_of(m, p, t)) return;
             const ElementStress element(problem_, displacement_, p, t);
             const auto nodes = space_.nodes_of(p, t);
             const double volume = element.element().volume();
             for (std::size_t i = 0; i < static_cast<std::size_t>(element_nodes(space_.order())); ++i) {
-                double* sum = &sums_[columns * static_cast<std::size_t>(nodes[i])];
+                double* sum = &sums_[stress_sums * static_cast<std::size_t>(nodes[i])];
                 Eigen::Map<SymmetricTensor>{sum} += volume * element.stress(place_of_node(i));
-                sum[columns - 1] += volume;
+                sum[stress_sums - 1] += volume;
             }
         });
-        space_.exchange().add_to_owners(std::span(sums_), columns);
-        space_.exchange().to_ghosts(std::span(sums_), columns);
+        space_.exchange().add_to_owners(std::span(sums_), stress_sums);
+        space_.exchange().to_ghosts(std::span(sums_), stress_sums);
         for (std::size_t n = 0; n < space_.node_count(); ++n) {
-            double* sum = &sums_[columns * n];
-            if (sum[columns - 1] > 0) Eigen::Map<SymmetricTensor>{sum} /= sum[columns - 1];
+            double* sum = &sums_[stress_sums * n];
+            if (sum[stress_sums - 1] > 0) Eigen::Map<SymmetricTensor>{sum} /= sum[stress_sums - 1];
         }
     }
     SymmetricTensor mean_at(std::int32_t node) const {
-        return Eigen::Map<const SymmetricTensor>(&sums_[columns * static_cast<std::size_t>(node)]);
+        return Eigen::Map<const SymmetricTensor>(&sums_[stress_sums * static_cast<std::size_t>(node)]);
     }
 
     void compare(std::size_t m) {

@@ -136,12 +136,12 @@ std::int64_t SurfaceSelector::nearest_vertex(const Vec3& point) const {
 }
 
 std::vector<PatchSummary> SurfaceSelector::summaries() const {
-    constexpr std::size_t columns = 8;  // triangles, area, area x centroid, area x normal
-    std::vector<double> sums(names_.size() * columns, 0);
+    constexpr std::size_t sums_each = 8;  // triangles, area, area x centroid, area x normal
+    std::vector<double> sums(names_.size() * sums_each, 0);
     for (const SurfaceFacet& facet : surface_) {
         const Part& part = space_.parts()[facet.part];
         if (part.patch[facet.facet] < 0) continue;
-        double* sum = &sums[static_cast<std::size_t>(part.patch[facet.facet]) * columns];
+        double* sum = &sums[static_cast<std::size_t>(part.patch[facet.facet]) * sums_each];
         Vec3 centroid = Vec3::Zero();
         for (const std::int32_t v : part.facets[facet.facet])
             centroid += part.mesh.vertices[static_cast<std::size_t>(v)] / 3;
@@ -155,7 +155,7 @@ std::vector<PatchSummary> SurfaceSelector::summaries() const {
     MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, space_.comm());
     std::vector<PatchSummary> result;
     for (std::size_t i = 0; i < names_.size(); ++i) {
-        const double* sum = &sums[i * columns];
+        const double* sum = &sums[i * sums_each];
         const double area = sum[1] > 0 ? sum[1] : 1;
         result.push_back({names_[i], static_cast<std::int64_t>(sum[0]), sum[1], Vec3(sum[2], sum[3], sum[4]) / area,
                           Vec3(sum[5], sum[6], sum[7]) / area});
