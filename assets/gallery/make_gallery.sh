@@ -20,6 +20,9 @@ trap 'rm -rf "$work"' EXIT
 "$kerf" screenshot "$work/cap.trace" --stage interface --antialias 2 --size 640x420 -o "$gallery/interface.png"
 "$kerf" screenshot assets/sinter_packing.stl -n 8 --stage tetrahedra --clip -y=0.45 --color min-dihedral --antialias 2 \
     --size 640x420 -o "$gallery/quality.png"
+"$kerf" mesh assets/bearing_cap_52k.stl -o "$work/lattice" -n 4 --max-volume 0.5 -q
+"$kerf" screenshot "$work/lattice" --stage tetrahedra --clip z=0.35 --color origin --antialias 2 --size 900x520 \
+    -o "$gallery/lattice.png"
 "$kerf" mesh assets/bearing_cap_52k.stl -o "$work/reference" -n 8 --max-volume 0.46 --reference -q
 cp "$work/reference/comparison.svg" "$gallery/comparison.svg"
 
