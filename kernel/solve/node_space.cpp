@@ -26,39 +26,48 @@ struct NumberedPart {
     std::vector<std::int64_t> row;    // of each node
 };
 
-// What two parts share: local nodes of one of them, in an order that is the same for both.
-using PairedNodes = std::map<std::array<std::int32_t, 2>, std::vector<std::int32_t>>;  // by (owner, holder)
+// By (owner, holder), places in the outline of two parts that share nodes: nodes of one of them, in an order that is
+// the same for both.
+using PairedNodes = std::map<std::array<std::int32_t, 2>, std::vector<std::int32_t>>;
 
 class NodeNumbering {
  public:
     NodeNumbering(MPI_Comm comm, const MeshOutline& outline, const std::vector<std::int32_t>& first_parts,
                   const std::vector<Part>& parts, int order);
 
-    std::vector<NumberedPart> number_own();
-    void number_others(std::vector<NumberedPart>& numbered) const;
+    // Nodes of this rank's parts with their rows. Collective.
+    std::vector<NumberedPart> number();
+    // Both sides list the rows that one of them owns and the other one has: ascending, each once.
     NodeExchange exchange(const std::vector<NumberedPart>& numbered, std::int64_t first_row, std::size_t owned,
                           const std::vector<std::int64_t>& ghost_rows,
                           const std::vector<std::int64_t>& rank_rows) const;
+    // The first row of each part of the outline, and the number of all.
     const std::vector<std::int64_t>& part_rows() const { return part_rows_; }
 
  private:
+    std::int32_t first_part() const { return first_parts_[static_cast<std::size_t>(rank_)]; }
     int rank_of_part(std::int32_t place) const {
         const auto after = std::upper_bound(first_parts_.begin(), first_parts_.end(), place);
         return static_cast<int>(after - first_parts_.begin()) - 1;
     }
-    std::int32_t place_of(NodeId id) const { return places_.at(id); }
-    template <class Visit>
-    void for_shared_nodes(std::size_t p, const NumberedPart& numbered, Visit visit) const;
+    NumberedPart& part_at(std::vector<NumberedPart>& numbered, std::int32_t place) const {
+        return numbered[static_cast<std::size_t>(place - first_part())];
+    }
+    void find_shared_nodes(std::size_t p, NumberedPart& numbered);
+    void add_group(std::int32_t own, const std::vector<NodeId>& holders, const std::vector<std::int32_t>& nodes,
+                   NumberedPart& numbered);
     void count_rows(const std::vector<NumberedPart>& numbered);
-    // By the rank at the other end.
-    std::map<int, PairedNodes> nodes_of_others(bool as_owner, const std::vector<NumberedPart>& numbered) const;
+    void tell_holders(std::vector<NumberedPart>& numbered) const;
+    // By the rank of the other part of each pair, without this one.
+    std::map<int, std::vector<PairedNodes::const_iterator>> by_rank(const PairedNodes& pairs, bool of_holder) const;
 
     MPI_Comm comm_;
     const std::vector<std::int32_t>& first_parts_;
     const std::vector<Part>& parts_;
     int order_, rank_ = 0;
     std::map<NodeId, std::int32_t> places_;
-    std::vector<std::int64_t> part_rows_;  // the first row of each part of the outline, and their number
+    PairedNodes owned_, held_;  // of this rank's parts as owners, and as holders
+    std::vector<std::int64_t> part_rows_;
 };
 
 NodeNumbering::NodeNumbering(MPI_Comm comm, const MeshOutline& outline, const std::vector<std::int32_t>& first_parts,
@@ -69,32 +78,41 @@ NodeNumbering::NodeNumbering(MPI_Comm comm, const MeshOutline& outline, const st
     part_rows_.resize(outline.parts.size() + 1);
 }
 
-// Calls visit(parts that hold the nodes, nodes) for what the part shares, in the order of its groups.
-template <class Visit>
-void NodeNumbering::for_shared_nodes(std::size_t p, const NumberedPart& numbered, Visit visit) const {
-    for (const SharedGroup& group : parts_[p].shared) visit(group.parts, group.vertices);
-    if (order_ == 1) return;
-    const std::vector<std::int64_t>& id = parts_[p].global_id;
-    for (const SharedEdgeGroup& group : parts_[p].shared_edges) {
-        std::vector<std::int32_t> nodes;
-        for (const UndirectedEdge& edge : group.edges)
-            nodes.push_back(static_cast<std::int32_t>(id.size()) + numbered.edges->find(undirected(edge[0], edge[1])));
-        visit(group.parts, nodes);
+// Nodes of the part `own` that all the holders have, of which the first one owns them.
+void NodeNumbering::add_group(std::int32_t own, const std::vector<NodeId>& holders,
+                              const std::vector<std::int32_t>& nodes, NumberedPart& numbered) {
+    const std::int32_t owner = places_.at(holders.front());
+    for (const std::int32_t n : nodes) numbered.owner[static_cast<std::size_t>(n)] = owner;
+    for (const NodeId id : holders) {
+        const std::int32_t holder = places_.at(id);
+        if (holder == owner || (own != owner && own != holder)) continue;
+        std::vector<std::int32_t>& list = (own == owner ? owned_ : held_)[{owner, holder}];
+        list.insert(list.end(), nodes.begin(), nodes.end());
     }
 }
 
-std::vector<NumberedPart> NodeNumbering::number_own() {
+void NodeNumbering::find_shared_nodes(std::size_t p, NumberedPart& numbered) {
+    for (const SharedGroup& group : parts_[p].shared) add_group(numbered.place, group.parts, group.vertices, numbered);
+    if (order_ == 1) return;
+    const auto first_edge = static_cast<std::int32_t>(parts_[p].mesh.vertices.size());
+    for (const SharedEdgeGroup& group : parts_[p].shared_edges) {
+        std::vector<std::int32_t> nodes;
+        for (const UndirectedEdge& edge : group.edges)
+            nodes.push_back(first_edge + numbered.edges->find(undirected(edge[0], edge[1])));
+        add_group(numbered.place, group.parts, nodes, numbered);
+    }
+}
+
+std::vector<NumberedPart> NodeNumbering::number() {
     std::vector<NumberedPart> all(parts_.size());
     for (std::size_t p = 0; p < parts_.size(); ++p) {
         NumberedPart& numbered = all[p];
-        numbered.place = first_parts_[static_cast<std::size_t>(rank_)] + static_cast<std::int32_t>(p);
+        numbered.place = first_part() + static_cast<std::int32_t>(p);
         std::size_t nodes = parts_[p].mesh.vertices.size();
         if (order_ == 2) nodes += numbered.edges.emplace(parts_[p].mesh.tets, nodes).size();
         numbered.owner.assign(nodes, numbered.place);
         numbered.row.assign(nodes, unset);
-        for_shared_nodes(p, numbered, [&](const std::vector<NodeId>& parts, const std::vector<std::int32_t>& shared) {
-            for (const std::int32_t n : shared) numbered.owner[static_cast<std::size_t>(n)] = place_of(parts.front());
-        });
+        find_shared_nodes(p, numbered);
     }
     count_rows(all);
     for (NumberedPart& numbered : all) {
@@ -102,6 +120,7 @@ std::vector<NumberedPart> NodeNumbering::number_own() {
         for (std::size_t n = 0; n < numbered.row.size(); ++n)
             if (numbered.owner[n] == numbered.place) numbered.row[n] = next++;
     }
+    tell_holders(all);
     return all;
 }
 
@@ -118,90 +137,60 @@ void NodeNumbering::count_rows(const std::vector<NumberedPart>& numbered) {
                                 grouped(part_rows_.back()), order_ == 2 ? ", or order 1" : ""));
 }
 
-std::map<int, PairedNodes> NodeNumbering::nodes_of_others(bool as_owner,
-                                                          const std::vector<NumberedPart>& numbered) const {
-    std::map<int, PairedNodes> nodes;
-    for (std::size_t p = 0; p < parts_.size(); ++p) {
-        const std::int32_t own = numbered[p].place;
-        const auto add = [&](const std::vector<NodeId>& holders, const std::vector<std::int32_t>& shared) {
-            const std::int32_t owner = place_of(holders.front());
-            for (const NodeId id : holders) {
-                const std::int32_t holder = place_of(id), other = as_owner ? holder : owner;
-                const bool is_pair = holder != owner && (as_owner ? owner : holder) == own;
-                if (!is_pair || rank_of_part(other) == rank_) continue;
-                std::vector<std::int32_t>& list = nodes[rank_of_part(other)][{owner, holder}];
-                list.insert(list.end(), shared.begin(), shared.end());
-            }
-        };
-        for_shared_nodes(p, numbered[p], add);
-    }
-    return nodes;
+std::map<int, std::vector<PairedNodes::const_iterator>> NodeNumbering::by_rank(const PairedNodes& pairs,
+                                                                               bool of_holder) const {
+    std::map<int, std::vector<PairedNodes::const_iterator>> grouped_pairs;
+    for (auto it = pairs.begin(); it != pairs.end(); ++it)
+        if (const int rank = rank_of_part(it->first[of_holder ? 1 : 0]); rank != rank_)
+            grouped_pairs[rank].push_back(it);
+    return grouped_pairs;
 }
 
 // Rows of what other parts own: those of this rank are looked up, the others are told by their ranks.
-void NodeNumbering::number_others(std::vector<NumberedPart>& numbered) const {
-    const std::int32_t first_part = first_parts_[static_cast<std::size_t>(rank_)];
-    PairedNodes owned_here, held_here;
-    for (std::size_t p = 0; p < parts_.size(); ++p)
-        for_shared_nodes(
-            p, numbered[p], [&](const std::vector<NodeId>& holders, const std::vector<std::int32_t>& shared) {
-                const std::int32_t owner = place_of(holders.front()), own = numbered[p].place;
-                for (const NodeId id : holders) {
-                    const std::int32_t holder = place_of(id);
-                    if (holder == owner || (own != owner && own != holder)) continue;
-                    std::vector<std::int32_t>& list = (own == owner ? owned_here : held_here)[{owner, holder}];
-                    list.insert(list.end(), shared.begin(), shared.end());
-                }
-            });
-    const auto part_at = [&](std::int32_t place) -> NumberedPart& {
-        return numbered[static_cast<std::size_t>(place - first_part)];
+void NodeNumbering::tell_holders(std::vector<NumberedPart>& numbered) const {
+    const auto row_at = [&](std::int32_t place, std::int32_t node) -> std::int64_t& {
+        return part_at(numbered, place).row[static_cast<std::size_t>(node)];
     };
-    const auto set_row = [&](std::int32_t holder, std::int32_t node, std::int64_t row) {
-        part_at(holder).row[static_cast<std::size_t>(node)] = row;
-    };
-    for (const auto& [pair, nodes] : held_here) {
+    for (const auto& [pair, nodes] : held_) {
         if (rank_of_part(pair[0]) != rank_) continue;
-        const std::vector<std::int32_t>& of_owner = owned_here.at(pair);
-        for (std::size_t i = 0; i < nodes.size(); ++i)
-            set_row(pair[1], nodes[i], part_at(pair[0]).row[static_cast<std::size_t>(of_owner[i])]);
+        const std::vector<std::int32_t>& of_owner = owned_.at(pair);
+        for (std::size_t i = 0; i < nodes.size(); ++i) row_at(pair[1], nodes[i]) = row_at(pair[0], of_owner[i]);
     }
-    const std::map<int, PairedNodes> sent = nodes_of_others(true, numbered), awaited = nodes_of_others(false, numbered);
+    const auto sent = by_rank(owned_, true), awaited = by_rank(held_, false);
     std::vector<MPI_Request> requests;
     std::map<int, std::vector<std::int64_t>> out, in;
     for (const auto& [rank, pairs] : awaited) {
         std::size_t count = 0;
-        for (const auto& [pair, nodes] : pairs) count += nodes.size();
+        for (const auto& pair : pairs) count += pair->second.size();
         in[rank].resize(count);
         MPI_Irecv(in[rank].data(), static_cast<int>(count), MPI_INT64_T, rank, 0, comm_, &requests.emplace_back());
     }
     for (const auto& [rank, pairs] : sent) {
-        for (const auto& [pair, nodes] : pairs)
-            for (const std::int32_t n : nodes) out[rank].push_back(part_at(pair[0]).row[static_cast<std::size_t>(n)]);
+        for (const auto& pair : pairs)
+            for (const std::int32_t n : pair->second) out[rank].push_back(row_at(pair->first[0], n));
         MPI_Isend(out[rank].data(), static_cast<int>(out[rank].size()), MPI_INT64_T, rank, 0, comm_,
                   &requests.emplace_back());
     }
     MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
     for (const auto& [rank, pairs] : awaited) {
         std::size_t i = 0;
-        for (const auto& [pair, nodes] : pairs)
-            for (const std::int32_t n : nodes) set_row(pair[1], n, in[rank][i++]);
+        for (const auto& pair : pairs)
+            for (const std::int32_t n : pair->second) row_at(pair->first[1], n) = in[rank][i++];
     }
 }
 
-// Both sides list the rows that one of them owns and the other one has: ascending, each once.
 NodeExchange NodeNumbering::exchange(const std::vector<NumberedPart>& numbered, std::int64_t first_row,
                                      std::size_t owned, const std::vector<std::int64_t>& ghost_rows,
                                      const std::vector<std::int64_t>& rank_rows) const {
     std::vector<NodeExchange::Neighbour> of_own, of_ghosts;
-    for (const auto& [rank, pairs] : nodes_of_others(true, numbered)) {
+    for (const auto& [rank, pairs] : by_rank(owned_, true)) {
         NodeExchange::Neighbour& neighbour = of_own.emplace_back();
         neighbour.rank = rank;
-        for (const auto& [pair, nodes] : pairs)
-            for (const std::int32_t n : nodes) {
-                const NumberedPart& part =
-                    numbered[static_cast<std::size_t>(pair[0] - first_parts_[static_cast<std::size_t>(rank_)])];
+        for (const auto& pair : pairs) {
+            const NumberedPart& part = numbered[static_cast<std::size_t>(pair->first[0] - first_part())];
+            for (const std::int32_t n : pair->second)
                 neighbour.nodes.push_back(static_cast<std::int32_t>(part.row[static_cast<std::size_t>(n)] - first_row));
-            }
+        }
         std::sort(neighbour.nodes.begin(), neighbour.nodes.end());
         neighbour.nodes.erase(std::unique(neighbour.nodes.begin(), neighbour.nodes.end()), neighbour.nodes.end());
     }
@@ -212,6 +201,20 @@ NodeExchange NodeNumbering::exchange(const std::vector<NumberedPart>& numbered, 
         of_ghosts.back().nodes.push_back(static_cast<std::int32_t>(owned + g));
     }
     return {comm_, std::move(of_own), std::move(of_ghosts)};
+}
+
+UndirectedEdge edge_of(const Tetrahedron& tet, std::size_t e) {
+    return undirected(tet[static_cast<std::size_t>(tet_edges[e][0])], tet[static_cast<std::size_t>(tet_edges[e][1])]);
+}
+
+// For each tetrahedron what its edges have, in the order of tet_edges.
+std::vector<std::array<std::int32_t, 6>> numbers_at_edges(const std::vector<Tetrahedron>& tets, const EdgeTable& edges,
+                                                          const std::vector<std::int32_t>& of_edge) {
+    std::vector<std::array<std::int32_t, 6>> numbers(tets.size());
+    for (std::size_t t = 0; t < tets.size(); ++t)
+        for (std::size_t e = 0; e < 6; ++e)
+            numbers[t][e] = of_edge[static_cast<std::size_t>(edges.find(edge_of(tets[t], e)))];
+    return numbers;
 }
 
 }  // namespace
@@ -242,8 +245,7 @@ NodeSpace::NodeSpace(MPI_Comm comm, const MeshOutline& outline, const std::vecto
                      std::vector<Part> parts, int order)
     : comm_(comm), order_(order), parts_(std::move(parts)), nodes_(parts_.size()) {
     NodeNumbering numbering(comm, outline, first_parts, parts_, order);
-    std::vector<NumberedPart> numbered = numbering.number_own();
-    numbering.number_others(numbered);
+    std::vector<NumberedPart> numbered = numbering.number();
 
     for (const std::int32_t first : first_parts)
         rank_rows_.push_back(numbering.part_rows()[static_cast<std::size_t>(first)]);
@@ -285,14 +287,7 @@ NodeSpace::NodeSpace(MPI_Comm comm, const MeshOutline& outline, const std::vecto
                     0.5 * (mesh.vertices[static_cast<std::size_t>(edge[0])] +
                            mesh.vertices[static_cast<std::size_t>(edge[1])]);
             });
-            nodes_[p].of_edge_midpoint.reserve(mesh.tets.size());
-            for (const Tetrahedron& tet : mesh.tets) {
-                std::array<std::int32_t, 6>& midpoints = nodes_[p].of_edge_midpoint.emplace_back();
-                for (std::size_t e = 0; e < 6; ++e)
-                    midpoints[e] = of_edge[static_cast<std::size_t>(
-                        part.edges->find(undirected(tet[static_cast<std::size_t>(tet_edges[e][0])],
-                                                    tet[static_cast<std::size_t>(tet_edges[e][1])])))];
-            }
+            nodes_[p].of_edge_midpoint = numbers_at_edges(mesh.tets, *part.edges, of_edge);
         }
         part = {};
     }
@@ -319,9 +314,7 @@ std::array<std::int32_t, 6> NodeSpace::nodes_of_facet(std::size_t p, std::size_t
         const UndirectedEdge wanted = undirected(triangle[static_cast<std::size_t>(triangle_edges[e][0])],
                                                  triangle[static_cast<std::size_t>(triangle_edges[e][1])]);
         for (std::size_t i = 0; i < 6; ++i)
-            if (undirected(corners[static_cast<std::size_t>(tet_edges[i][0])],
-                           corners[static_cast<std::size_t>(tet_edges[i][1])]) == wanted)
-                nodes[3 + e] = nodes_[p].of_edge_midpoint[tet][i];
+            if (edge_of(corners, i) == wanted) nodes[3 + e] = nodes_[p].of_edge_midpoint[tet][i];
     }
     return nodes;
 }

@@ -17,7 +17,6 @@ struct SolveRequest {
     std::string folder;  ///< of the run
     std::string case_file;
     std::string output;
-    bool measures_error = true;
 };
 
 /// The largest value of a measure and where it is.
