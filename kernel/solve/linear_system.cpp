@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <petscksp.h>
@@ -21,16 +22,34 @@ double seconds_now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// PETSc returns codes when its own handlers are out of the way; after one its objects are lost.
+// What PETSc has said first of a failure, which its codes on the way up no longer tell.
+struct FirstFailure {
+    bool is_of_memory = false;
+    std::string text;
+};
+FirstFailure& first_failure() {
+    static FirstFailure failure;
+    return failure;
+}
+
+// The code of PetscMallocAlign() is a number of a line.
+PetscErrorCode remember_failure(MPI_Comm, int, const char* function, const char*, PetscErrorCode code,
+                                PetscErrorType type, const char* message, void*) {
+    if (type == PETSC_ERROR_INITIAL)
+        first_failure() = {code == PETSC_ERR_MEM || std::string_view(function).starts_with("PetscMalloc"),
+                           fmt::format("{} in {}", message ? message : "", function)};
+    return code;
+}
+
+// After a failure PETSc's objects are lost.
 void check(PetscErrorCode code) {
     if (code == 0) return;
-    const char* text = nullptr;
-    PetscErrorMessage(code, &text, nullptr);
-    if (code == PETSC_ERR_MEM)
+    const FirstFailure failure = first_failure();
+    if (failure.is_of_memory)
         throw PetscFailure(ErrorCode::memory,
                            "PETSc ran out of memory. Use more ranks, more hosts, a coarser mesh or order 1.");
     throw PetscFailure(ErrorCode::internal,
-                       fmt::format("PETSc failed with code {}: {}.", static_cast<int>(code), text ? text : ""));
+                       fmt::format("PETSc failed with code {}: {}.", static_cast<int>(code), failure.text));
 }
 
 // Local to global numbers of PETSc's rows, which have 32 bits (NodeSpace sees to that).
@@ -81,7 +100,7 @@ PetscSession::PetscSession(const std::string& options) {
     char** list = arguments.data();
     check(PetscInitialize(&count, &list, nullptr, nullptr));
     check(PetscPopSignalHandler());
-    check(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
+    check(PetscPushErrorHandler(remember_failure, nullptr));
     const bool are_options = options.empty() || options[0] == '-';
     if (!are_options || PetscOptionsInsertString(nullptr, options.c_str()) != 0)
         throw Error(ErrorCode::usage, fmt::format("PETSc does not take the options '{}'.", options));

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -12,6 +13,7 @@
 #include "support/file_contents.h"
 #include "support/mpirun.h"
 #include "support/program.h"
+#include "support/slice.h"
 #include "support/temporary_folder.h"
 
 namespace kerf {
@@ -175,6 +177,27 @@ TEST_F(KerfSolve, RefusesWhatCannotBe) {
     expect_refused(9, material + held + "[[load]]\npatch = \"face_1\"\npressure = 1\n[solver]\nmax_iterations = 2",
                    {"not reached", "2 iterations", "Try"});
     expect_refused(2, material + held + "[solver]\npetsc = \"nonsense\"", {"'nonsense'"});
+}
+
+// Wherever the memory ends, also inside of PETSc.
+TEST_F(KerfSolve, OutOfMemoryIsSaid) {
+    if (test::in_slices())
+        GTEST_SKIP() << "no address space is large enough for the sanitizers and small enough for this";
+    const std::string text = std::string(steel) + three_planes + "[solver]\norder = 2";
+    const std::string command =
+        fmt::format("'{}' solve '{}' --case '{}' -o '{}' -q", KERF_PROGRAM, mesh(), write_case(text), out());
+    std::int64_t refused = 0;
+    for (const int megabytes : {300, 340, 380, 420, 460, 500, 560, 640, 800}) {
+        const ChildResult result =
+            test::run_program("/bin/sh", {"-c", fmt::format("ulimit -v {}; exec {}", megabytes * 1000, command)});
+        EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 5)
+            << megabytes << ": " << result.exit_code << result.log;
+        if (result.exit_code == 0) break;
+        EXPECT_NE(result.log.find("ut of memory"), std::string::npos) << result.log;
+        EXPECT_EQ(own_.names(), std::vector<std::string>{"case.toml"});
+        ++refused;
+    }
+    EXPECT_GT(refused, 0);
 }
 
 TEST_F(KerfSolve, RefusesMoreRanksThanParts) {
