@@ -15,12 +15,13 @@ namespace kerf {
 
 namespace {
 
-constexpr double least_gain_of_a_move = 0.1;      // of a move, in squared sines: a degree and a half at 25
-constexpr double angle_for_a_vertex_deg = 20;     // cells with a smaller one are worth a new vertex
-constexpr double looks_for_vertices = 0.25;       // of all
-constexpr double least_share_of_a_round = 0.1;    // of the bad cells, or there is no other round
-constexpr std::int64_t looks_at_any_mesh = 1000;  // beside those for each of its cells
-constexpr int cells_between_questions = 1024;     // whether it is cancelled
+constexpr double least_gain_of_a_move = 0.1;         // of a move, in squared sines: a degree and a half at 25
+constexpr double angle_for_a_vertex_deg = 20;        // cells with a smaller one are worth a new vertex, ...
+constexpr double angle_where_sizes_differ_deg = 12;  // ... and here with this one, because vertices crowd
+constexpr double looks_for_vertices = 0.25;          // of all
+constexpr double least_share_of_a_round = 0.1;       // of the bad cells, or there is no other round
+constexpr std::int64_t looks_at_any_mesh = 1000;     // beside those for each of its cells
+constexpr int cells_between_questions = 1024;        // whether it is cancelled
 
 class Improver {
  public:
@@ -30,7 +31,7 @@ class Improver {
           options_(&options),
           result_(&improvement),
           bad_(square_from_degrees(options.threshold_deg)),
-          bad_enough_for_a_vertex_(std::max(bad_, square_from_degrees(angle_for_a_vertex_deg))),
+          bad_enough_for_a_vertex_(std::max(bad_, square_from_degrees(worth_a_vertex_deg(options)))),
           most_looks_(most_looks_of(mesh, options)),
           is_settled_(mesh.vertices.size(), 0) {}
 
@@ -58,6 +59,9 @@ class Improver {
         }
     };
 
+    static double worth_a_vertex_deg(const ImproveOptions& options) {
+        return options.max_size.is_constant() ? angle_for_a_vertex_deg : angle_where_sizes_differ_deg;
+    }
     static std::int64_t most_looks_of(const TetMesh& mesh, const ImproveOptions& options) {
         const auto cells = static_cast<std::int64_t>(mesh.tets.size()) - options.frozen_cells;
         return looks_at_any_mesh + static_cast<std::int64_t>(options.most_looks * static_cast<double>(cells));
