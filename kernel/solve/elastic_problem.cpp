@@ -257,7 +257,7 @@ void require_supported(const ElasticProblem& problem, const Bodies& bodies) {
         sum[3] += 1;
     }
     reduce(middles, MPI_SUM);
-    const auto middle_of = [&](std::size_t b) {
+    const auto middle_of = [&](std::size_t b) -> Vec3 {
         return Vec3(middles[4 * b], middles[4 * b + 1], middles[4 * b + 2]) / middles[4 * b + 3];
     };
     for (std::size_t n = 0; n < space.owned_count(); ++n) {
