@@ -103,6 +103,11 @@ void SolveStages::open_folder() {
     in_agreement(ranks_, [&] {
         if (!is_root()) return;
         std::error_code ignored;
+        if (const std::string saved = RunFolder::saved_run_file(output); std::filesystem::exists(saved, ignored))
+            throw Error(ErrorCode::io,
+                        fmt::format("{} is that of an unfinished mesh. Finish it with kerf mesh --resume "
+                                    "{}, or choose another folder.",
+                                    saved, output));
         const std::string old = output + "/report.json";
         if (std::filesystem::exists(old, ignored)) {
             const auto json = nlohmann::json::parse(read_file(old), nullptr, false);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "io/run_folder.h"
 #include "io/run_manifest.h"
 #include "part/vtu_reader.h"
 #include "support/assets.h"
@@ -219,6 +220,12 @@ TEST_F(KerfSolve, RefusesFoldersThatAreNone) {
     std::ofstream(own_.file("precious")) << "mine";
     EXPECT_EQ(code({"solve", mesh(), "--case", write_case(text), "-o", own_.file("precious")}), 7);
     EXPECT_EQ(test::bytes_of_file(own_.file("precious")), "mine");
+    // What an interrupted mesh has finished is not taken for a solution's.
+    fs::create_directories(out() + ".kerf-partial/work");
+    const std::string unfinished = RunFolder::saved_run_file(out());
+    std::ofstream(unfinished) << "options";
+    EXPECT_EQ(code({"solve", mesh(), "--case", write_case(text), "-o", out()}), 7);
+    EXPECT_EQ(test::bytes_of_file(unfinished), "options");
 }
 
 TEST_F(KerfSolve, SurroundingsDoNotMatter) {
