@@ -27,7 +27,7 @@ class InterfaceJudge {
     InterfaceJudge(const Surface& surface, const Band& band, const Interface& interface);
 
     std::vector<std::int32_t> chords() const;
-    std::vector<std::int32_t> intersections();
+    std::vector<std::int32_t> intersections(const Poll& poll);
     // Quality, with the vertices below the thresholds of the options.
     InterfaceQuality measure(const CutOptions& options, std::vector<std::int32_t>& soft);
 
@@ -127,7 +127,7 @@ std::vector<std::int32_t> InterfaceJudge::chords() const {
     return vertices;
 }
 
-std::vector<std::int32_t> InterfaceJudge::intersections() {
+std::vector<std::int32_t> InterfaceJudge::intersections(const Poll& poll) {
     std::vector<std::int32_t> vertices;
     for (const NearFacet& f : slab_) {
         const Triangle t = surface_.vertices(f.facet);
@@ -139,7 +139,8 @@ std::vector<std::int32_t> InterfaceJudge::intersections() {
             add_contour_corners(s, vertices);
         });
     }
-    for (std::size_t i = 0; i < boxes_.size(); ++i)
+    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+        poll.at(i);
         grid_.for_each_overlap(boxes_[i].grown(rounding_), [&](std::int32_t j) {
             if (static_cast<std::size_t>(j) <= i) return;
             const Triangle &s = interface_.triangles[i], &t = interface_.triangles[j];
@@ -147,6 +148,7 @@ std::vector<std::int32_t> InterfaceJudge::intersections() {
             add_contour_corners(s, vertices);
             add_contour_corners(t, vertices);
         });
+    }
     return vertices;
 }
 
@@ -234,19 +236,20 @@ Verdict judge_interface(const Surface& surface, const Band& band, const Interfac
     KERF_CHECK(interface.planar.size() == interface.points.size());
     Verdict verdict;
     InterfaceJudge judge(surface, band, interface);
+    options.poll();
     verdict.failed = judge.chords();
     if (!verdict.failed.empty()) {
         verdict.refusal = Refusal::chord;
         return verdict;
     }
-    if (options.poll) options.poll();
-    verdict.failed = judge.intersections();
-    if (options.poll) options.poll();
+    options.poll();
+    verdict.failed = judge.intersections(options.poll);
     if (!verdict.failed.empty()) {
         verdict.refusal = Refusal::intersection;
         return verdict;
     }
     verdict.quality = judge.measure(options, verdict.failed);
+    options.poll();
     if (!is_good(verdict.quality, options)) verdict.refusal = Refusal::soft;  // at a vertex of the surface or within
     return verdict;
 }

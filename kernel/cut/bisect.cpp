@@ -214,6 +214,7 @@ void PlaneTrial::complete(Attempt& attempt) const {
     };
     std::array<Half, 2> halves = split(surface_, attempt.side, attempt.interface, node_);
     for (std::size_t i = 0; i < halves.size() && attempt.valid(); ++i) {
+        options_.poll();
         auto built = Surface::build(std::move(halves[i].arrays), std::move(halves[i].partner));
         if (const auto* defect = std::get_if<ManifoldDefect>(&built)) {
             refuse_half(Refusal::not_manifold, defect->where);
@@ -312,7 +313,7 @@ bool Ladder::try_plane(const PlaneCandidate& candidate, std::vector<CutTry>& tri
     PlaneTrial trial(surface_, candidate, node_, options_, record_, step_budget_);
     const std::int32_t rounds = options_.contour == ContourMethod::min_cut ? options_.repairs : 0;
     for (std::int32_t repair = 0, soft = 0; repair <= rounds && soft < soft_rounds; ++repair) {
-        if (options_.poll) options_.poll();
+        options_.poll();
         auto attempt = std::make_unique<Attempt>(trial.attempt(repair));
         const double value = attempt->valid() ? goodness(attempt->record.quality, options_) : 0;
         const bool wanted = attempt->record.refusal == Refusal::none || value > best_goodness_;

@@ -118,15 +118,17 @@ InterfaceAttempt build_interface(const Surface& surface, const Band& band, const
     for (std::int32_t i : planar.failed) attempt.failed.push_back(contour[i]);
     if (attempt.refusal != Refusal::none) return attempt;
 
+    options.poll();
     std::vector<Vec2> places = planar.points;
     if (layout == ContourLayout::unfolded) {
-        const std::vector<Vec2> moved = harmonic_displacements(planar, displacement);
+        const std::vector<Vec2> moved = harmonic_displacements(planar, displacement, options.poll);
         for (std::size_t i = 0; i < places.size(); ++i) places[i] += moved[i];
     }
     const std::vector<double> height =
         lift_heights(planar, places, contour_height, obstacles,
                      dihedral_ranges(surface, band, side, contour, planar.triangles, places,
-                                     options.good_dihedral_deg + dihedral_margin));
+                                     options.good_dihedral_deg + dihedral_margin),
+                     options.poll);
     for (std::size_t i = 0; i < places.size(); ++i)
         attempt.interface.points.push_back(i < contour.size() ? surface.point(contour[i])
                                                               : band.plane.lift(places[i], height[i]));

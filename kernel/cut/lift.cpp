@@ -65,7 +65,8 @@ WeightedGraph cotangent_graph(const PlanarTriangulation& t) {
     return graph;
 }
 
-void solve_harmonic(const WeightedGraph& graph, std::size_t contour_count, std::vector<double>& height) {
+void solve_harmonic(const WeightedGraph& graph, std::size_t contour_count, const Poll& poll,
+                    std::vector<double>& height) {
     const auto interior = static_cast<Eigen::Index>(height.size() - contour_count);
     if (interior == 0) return;
     std::vector<Eigen::Triplet<double>> entries;
@@ -85,7 +86,12 @@ void solve_harmonic(const WeightedGraph& graph, std::size_t contour_count, std::
     }
     Eigen::SparseMatrix<double> laplacian(interior, interior);
     laplacian.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(laplacian);
+    poll();
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
+    solver.analyzePattern(laplacian);
+    poll();
+    solver.factorize(laplacian);
+    poll();
     const Eigen::VectorXd solution = solver.solve(right);
     for (Eigen::Index i = 0; i < interior; ++i) height[contour_count + static_cast<std::size_t>(i)] = solution[i];
 }
@@ -122,14 +128,14 @@ void relax_within_bounds(const WeightedGraph& graph, std::size_t contour_count, 
 
 }  // namespace
 
-std::vector<Vec2> harmonic_displacements(const PlanarTriangulation& triangulation,
-                                         const std::vector<Vec2>& of_contour) {
+std::vector<Vec2> harmonic_displacements(const PlanarTriangulation& triangulation, const std::vector<Vec2>& of_contour,
+                                         const Poll& poll) {
     const WeightedGraph graph = cotangent_graph(triangulation);
     std::vector<Vec2> displacements(triangulation.points.size());
     for (int axis = 0; axis < 2; ++axis) {
         std::vector<double> values(displacements.size(), 0);
         for (std::size_t i = 0; i < of_contour.size(); ++i) values[i] = of_contour[i][axis];
-        solve_harmonic(graph, of_contour.size(), values);
+        solve_harmonic(graph, of_contour.size(), poll, values);
         for (std::size_t i = 0; i < values.size(); ++i) displacements[i][axis] = values[i];
     }
     return displacements;
@@ -137,7 +143,7 @@ std::vector<Vec2> harmonic_displacements(const PlanarTriangulation& triangulatio
 
 std::vector<double> lift_heights(const PlanarTriangulation& triangulation, const std::vector<Vec2>& places,
                                  const std::vector<double>& contour_height, const std::vector<Obstacle>& obstacles,
-                                 std::vector<HeightRange> ranges) {
+                                 std::vector<HeightRange> ranges, const Poll& poll) {
     const std::size_t contour_count = contour_height.size();
     KERF_CHECK(contour_count <= triangulation.points.size());
     KERF_CHECK(ranges.empty() || ranges.size() == triangulation.points.size());
@@ -145,7 +151,7 @@ std::vector<double> lift_heights(const PlanarTriangulation& triangulation, const
     std::vector<double> height = contour_height;
     height.resize(triangulation.points.size(), 0);
     const WeightedGraph graph = cotangent_graph(triangulation);
-    solve_harmonic(graph, contour_count, height);
+    solve_harmonic(graph, contour_count, poll, height);
     ranges.resize(height.size());
     add_obstacles(places, contour_count, obstacles, ranges);
     bool violated = false;

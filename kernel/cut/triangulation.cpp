@@ -37,7 +37,6 @@ constexpr double edge_clearance = 0.4;     // least distance of a point from a c
 constexpr double vertex_clearance = 0.35;  // least distance of a point from a vertex, in sizes
 constexpr double foreshortened = 0.6;      // of the given size: edges that are shorter are so in the plane only
 constexpr int smoothing_sweeps = 8;
-constexpr std::size_t points_between_polls = 1024;
 
 Point to_point(const Vec2& p) { return {p.x(), p.y()}; }
 Vec2 to_vec(const Point& p) { return {p.x(), p.y()}; }
@@ -252,7 +251,7 @@ void Triangulator::insert_wanted() {
 void Triangulator::refine() {
     for (const Cdt::Face_handle face : cdt_.finite_face_handles()) consider(face);
     for (std::size_t i = 0; !queue_.empty(); ++i) {
-        if (region_.poll && i % points_between_polls == 0) region_.poll();
+        region_.poll.at(i);
         if (static_cast<std::int64_t>(vertices_.size()) >= region_.max_points)
             throw Error(ErrorCode::memory,
                         fmt::format("The triangles of an interface have more than {} vertices. Use a "
@@ -289,7 +288,7 @@ double shape(const Vec2& a, const Vec2& b, const Vec2& c) {
 }
 
 // Moves interior points to the mean of their neighbours wherever the worst triangle around them does not suffer.
-void smooth(PlanarTriangulation& t, std::size_t contour_count) {
+void smooth(const PlanarRegion& region, PlanarTriangulation& t) {
     std::vector<std::vector<std::int32_t>> around(t.points.size());
     for (std::size_t i = 0; i < t.triangles.size(); ++i)
         for (std::int32_t v : t.triangles[i]) around[v].push_back(static_cast<std::int32_t>(i));
@@ -302,7 +301,8 @@ void smooth(PlanarTriangulation& t, std::size_t contour_count) {
         return worst;
     };
     for (int sweep = 0; sweep < smoothing_sweeps; ++sweep)
-        for (std::size_t v = contour_count; v < t.points.size(); ++v) {
+        for (std::size_t v = region.contour.size(); v < t.points.size(); ++v) {
+            region.poll.at(v);
             Vec2 sum = Vec2::Zero();
             for (std::int32_t i : around[v])
                 for (std::int32_t c : t.triangles[i]) sum += t.points[c];
@@ -346,8 +346,9 @@ PlanarTriangulation triangulate(const PlanarRegion& region) {
         triangulator.insert_wanted();
         triangulator.refine();
     }
+    region.poll();
     result = triangulator.extract();
-    smooth(result, region.contour.size());
+    smooth(region, result);
     return result;
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/poll.h"
 #include "cut/cut.h"
 
 namespace kerf {
@@ -25,7 +26,7 @@ struct PlanarRegion {
     double least_edge = 0;                        ///< shorter contour edges do not make the triangles small
     bool refined = true;                          ///< false: no interior points
     std::int64_t max_points = 1 << 29;            ///< beyond them triangulate() throws Error(memory)
-    std::function<void()> poll;                   ///< as CutOptions::poll
+    Poll poll;                                    ///< as CutOptions::poll
 };
 
 /// A conforming triangulation of the region, or why there is none.

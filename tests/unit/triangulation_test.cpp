@@ -206,9 +206,9 @@ TEST(Triangulation, EndsAtItsLimitAndWhenItIsAskedTo) {
     EXPECT_THROW(triangulate(region), Error);
     region.max_points = points + 1;
     int polls = 0;
-    region.poll = [&] {
+    region.poll = Poll([&] {
         if (++polls == 5) throw Error(ErrorCode::cancelled, "enough");
-    };
+    });
     EXPECT_THROW(triangulate(region), Error);
     EXPECT_EQ(polls, 5);
 }

@@ -1,0 +1,29 @@
+// How a long computation asks whether it is still wanted.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <utility>
+
+namespace kerf {
+
+/// Called every few milliseconds of a long computation, which it ends by what it throws. Without a function it does
+/// nothing.
+class Poll {
+ public:
+    Poll() = default;
+    explicit Poll(std::function<void()> function) : function_(std::move(function)) {}
+
+    void operator()() const {
+        if (function_) function_();
+    }
+    /// In a loop whose steps take some microseconds: asks at every 1024th of them.
+    void at(std::size_t step) const {
+        if (step % 1024 == 0) (*this)();
+    }
+
+ private:
+    std::function<void()> function_;
+};
+
+}  // namespace kerf
