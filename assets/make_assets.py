@@ -526,6 +526,16 @@ def hollow_box():
     return mesh_model()
 
 
+def l_bracket():
+    """Two legs of 100, 40 wide and 20 thick, whose inner edge is sharp."""
+    occ = start_model("l_bracket")
+    carve(occ, occ.addBox(0, 0, 0, 100, 20, 100),
+          [occ.addBox(40, -1, 40, 61, 22, 61)])
+    occ.synchronize()
+    set_uniform_size(7.5)
+    return mesh_model()
+
+
 def pipe_with_holes():
     occ = start_model("pipe_with_holes")
     length, outer, inner = 60.0, 10.0, 7.0
@@ -830,6 +840,7 @@ ASSETS = {
     "wing_in_box": (wing_in_box, 1, 14000, 20000),
     "sinter_packing": (sinter_packing, 1, 25000, 35000),
     "hollow_box": (hollow_box, 2, 3000, 5000),
+    "l_bracket": (l_bracket, 1, 500, 1500),
 }
 
 

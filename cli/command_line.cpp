@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "cli/option_flags.h"
 #include "cli/other_programs.h"
 #include "core/error.h"
 #include "export/format.h"
@@ -24,45 +25,15 @@ constexpr const char* exit_codes =
     "5 out of memory, 6 a limit of quality was missed, 7 reading or writing failed, 8 verification failed, 9 the "
     "solver\ndid not reach its tolerance, 130 cancelled.";
 
-const char* type_name(const OptionField& field) {
-    if (std::holds_alternative<double*>(field.value)) return "FLOAT";
-    const bool is_text = std::holds_alternative<std::string*>(field.value);
-    return is_text ? "TEXT" : std::holds_alternative<OptionField::Choice>(field.value) ? "" : "INT";
-}
-
-// Values go through OptionField::set_text(), as those of config files do.
-CLI::Option* add_field(CLI::App& app, const OptionField& field) {
-    const std::string names =
-        field.short_name.empty() ? "--" + field.name : "-" + field.short_name + ",--" + field.name;
-    if (bool* const* flag = std::get_if<bool*>(&field.value))
-        return app.add_flag(**flag ? names + ",!--no-" + field.name : names, **flag, field.help);
-    if (const auto* list = std::get_if<OptionField::List>(&field.value))
-        return app
-            .add_option_function<std::vector<std::string>>(
-                names,
-                [items = *list](const std::vector<std::string>& texts) {
-                    items->clear();
-                    for (const std::string& text : texts)
-                        for (std::string& item : split_items(text)) items->push_back(std::move(item));
-                },
-                field.help)
-            ->expected(1)
-            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-            ->type_name("TEXT");
-    CLI::Option* option = app.add_option_function<std::string>(
-        names, [field](const std::string& text) { field.set_text(text); }, field.help);
-    if (const auto* choice = std::get_if<OptionField::Choice>(&field.value))
-        option->check(CLI::IsMember(choice->names));
-    return option->default_str(field.text())->type_name(type_name(field));
-}
-
 // What a config file may say: the table, and what the program itself asks for.
+std::vector<OptionField> program_fields(CommandLine& line) {
+    return {{"output", "o", "Folder of the result; an older run there is replaced.", &line.options.output},
+            {"quiet", "q", "Print nothing but errors.", &line.quiet},
+            {"verbose", "v", "Print the tree of cuts with every node of it.", &line.verbose}};
+}
 std::vector<OptionField> config_fields(CommandLine& line) {
     std::vector<OptionField> fields = option_fields(line.options);
-    fields.insert(fields.end(),
-                  {{"output", "o", "Folder of the result; an older run there is replaced.", &line.options.output},
-                   {"quiet", "q", "Print nothing but errors.", &line.quiet},
-                   {"verbose", "v", "Print the tree of cuts with every node of it.", &line.verbose}});
+    for (OptionField& field : program_fields(line)) fields.push_back(std::move(field));
     return fields;
 }
 
@@ -84,14 +55,9 @@ CLI::App* add_run_command(CLI::App& app, const char* name, const char* text, Com
             "Closed surface: STL, OBJ, PLY, OFF, .msh, .mesh, .smesh or .poly, or CAD file: STEP, IGES, BREP; also as "
             ".gz or .zst.")
         ->type_name("INPUT");
-    for (const OptionField& field : config_fields(line)) add_field(*command, field);
+    add_run_options(*command, line.options);
+    for (const OptionField& field : program_fields(line)) add_option_field(*command, field);
     command->get_option("--output")->type_name("DIR");
-    // At once, so that all that asks whether --surface was given finds it given.
-    command
-        ->add_flag_callback(
-            "--remesh", [surface = command->get_option("--surface")] { surface->add_result("remesh"); },
-            "Short for --surface remesh.")
-        ->trigger_on_parse();
     command->add_flag("--print-config", line.print_config, "Print the options as a config file and end.");
     command->add_option("--config", line.config_file, "Read options from a TOML file; the command line wins.")
         ->type_name("FILE");
@@ -161,7 +127,7 @@ CLI::App* add_remesh_command(CLI::App& app, CommandLine& line) {
         ->required()
         ->type_name("FILE");
     for (const OptionField& field : option_fields(line.options))
-        if (shapes_surface(field.name)) add_field(*command, field);
+        if (shapes_surface(field.name)) add_option_field(*command, field);
     command->add_flag("-q,--quiet", line.quiet, "Print nothing but errors.");
     return command;
 }
@@ -236,9 +202,9 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     check->add_flag("--json", line.check.json, "Print every defect as JSON.");
     check->add_option("--offenders", line.check.offenders_file, "Write the offending facets, edges and places as VTU.")
         ->type_name("FILE");
-    add_field(*check, {"needle-angle", "", "Degrees below which a facet is a needle. Default 1.",
-                       &line.check.needle_angle_deg});
-    for (const OptionField& field : input_option_fields(line.check.options)) add_field(*check, field);
+    add_option_field(*check, {"needle-angle", "", "Degrees below which a facet is a needle. Default 1.",
+                              &line.check.needle_angle_deg});
+    for (const OptionField& field : input_option_fields(line.check.options)) add_option_field(*check, field);
     CLI::App* verify = app.add_subcommand("verify", "Check every law of a finished run again, from its files.");
     verify->add_option("folder", line.options.output, "Folder of the run.")->required()->type_name("DIR");
     CLI::App* to_export = add_export_command(app, line);

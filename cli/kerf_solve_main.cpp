@@ -1,6 +1,7 @@
-// kerf-solve: linear elasticity on the parts of a run, in a program of its own. Started by `kerf solve`, also under
-// mpirun.
+// kerf-solve: linear elasticity on a surface, which is meshed first, or on the parts of a run, in a program of its own.
+// Started by `kerf solve`, also under mpirun.
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <sstream>
 
@@ -8,47 +9,96 @@
 #include <mpi.h>
 #include <CLI/CLI.hpp>
 
+#include "cli/failed_parts.h"
+#include "cli/option_flags.h"
+#include "cli/other_programs.h"
 #include "cli/progress.h"
 #include "cli/ranks.h"
 #include "core/error.h"
 #include "io/standard_streams.h"
-#include "solve/solve_run.h"
+#include "solve/mesh_and_solve.h"
 
 namespace kerf {
 
 namespace {
 
 struct SolveLine {
-    SolveRequest request;
+    std::string input;  // a run's folder or a surface file
+    bool meshes = false;
+    MeshAndSolveRequest request;
     bool list_patches = false, quiet = false;
     bool finished = false;
     int exit_code = 0;
     std::string output;
 };
 
+// Facets stay as they are unless they are remeshed, and cells beside them are as coarse.
+void check_mesh_options(const CLI::App& solve, SolveLine& line) {
+    RunOptions& mesh = line.request.mesh;
+    if (line.meshes) {
+        if (line.list_patches)
+            throw CLI::ValidationError(
+                fmt::format("--list-patches is for the folder of a finished run. kerf check "
+                            "--json {} lists those of a surface.",
+                            line.input));
+        if (line.request.steps > 0 && solve.get_option("--surface")->count() == 0) mesh.remeshing = Remeshing::always;
+        return;
+    }
+    std::vector<std::string> names = {"adapt"};
+    for (const OptionField& field : option_fields(mesh)) names.push_back(field.name);
+    for (const std::string& name : names)
+        if (solve.get_option("--" + name)->count() > 0)
+            throw CLI::ValidationError(
+                fmt::format("--{} is for meshing, but {} is the folder of a finished run. Give "
+                            "the surface instead.",
+                            name, line.input));
+}
+
 SolveLine parse_solve_line(int argc, const char* const* argv) {
     SolveLine line;
     CLI::App app(
-        "Kerf: linear elasticity on the parts of a finished run.\n"
+        "Kerf: linear elasticity on a surface or on the parts of a finished run.\n"
         "mpirun -n P kerf solve ... shares the parts out among P ranks.",
         "kerf");
     CLI::App* solve = app.add_subcommand("solve", "Displacements and stresses of a body under loads (docs/solve.md).");
     app.require_subcommand(1);
-    solve->add_option("folder", line.request.folder, "Folder of the run.")->required()->type_name("DIR");
+    app.get_formatter()->column_width(28);
+    SolveRequest& request = line.request.solve;
+    solve->add_option("input", line.input, "Folder of a finished run, or a surface or CAD file, which is meshed first.")
+        ->required()
+        ->type_name("DIR|INPUT");
     CLI::Option* case_file =
-        solve->add_option("--case", line.request.case_file, "Materials, supports and loads, as TOML.")
-            ->type_name("FILE");
-    CLI::Option* output =
-        solve->add_option("-o,--output", line.request.output, "Folder for the solution.")->type_name("DIR");
+        solve->add_option("--case", request.case_file, "Materials, supports and loads, as TOML.")->type_name("FILE");
+    CLI::Option* output = solve
+                              ->add_option("-o,--output", request.output,
+                                           "Folder for the solution. Of a surface, for its mesh, too: OUT/mesh, "
+                                           "OUT/solution.")
+                              ->type_name("OUT");
+    solve
+        ->add_option("--adapt", line.request.steps,
+                     "Mesh and solve again, finer where the estimated error is large, up to N times: OUT/step_1, ...")
+        ->type_name("N")
+        ->check(CLI::Range(0, 50));
+    solve
+        ->add_option("--target-error", request.target_error,
+                     "Estimated error in the energy norm beside that of the solution, as 0.05, that is good enough. "
+                     "Above it the solution has size_field.vtu for the next mesh.")
+        ->type_name("FLOAT")
+        ->check(CLI::Range(1e-6, 1.0));
     solve
         ->add_flag("--list-patches", line.list_patches, "Print name, area, centroid and normal of each patch, and end.")
         ->excludes(case_file)
         ->excludes(output);
     solve->add_flag("-q,--quiet", line.quiet, "Print errors alone.");
+    RunOptions& mesh = line.request.mesh;
+    add_run_options(*solve, mesh);
     try {
         app.parse(argc, argv);
-        if (!line.list_patches && (line.request.case_file.empty() || line.request.output.empty()))
+        if (!line.list_patches && (request.case_file.empty() || request.output.empty()))
             throw CLI::RequiredError("--case FILE and --output DIR, or --list-patches");
+        line.meshes = !std::filesystem::is_directory(line.input);
+        (line.meshes ? mesh.input : request.folder) = line.input;
+        check_mesh_options(*solve, line);
     } catch (const CLI::ParseError& e) {
         std::ostringstream out, err;
         line.finished = true;
@@ -60,17 +110,37 @@ SolveLine parse_solve_line(int argc, const char* const* argv) {
 
 int solve_on_ranks(const SolveLine& line, Communicator& ranks) {
     const bool root = ranks.rank() == 0;
+    const SolveRequest& request = line.request.solve;
     if (line.list_patches) {
-        const std::vector<PatchSummary> patches = list_patches(line.request.folder, ranks);
+        const std::vector<PatchSummary> patches = list_patches(request.folder, ranks);
         if (root) print_data(to_text(patches));
         return 0;
     }
     SolveReport report;
     {
         ProgressLine progress(line.quiet || !root, nullptr);
-        report = solve_run(line.request, ranks, &progress);
+        report = solve_run(request, ranks, &progress);
     }
     if (root && !line.quiet) tell(to_text(report));
+    return report.exit_code;
+}
+
+int mesh_and_solve_on_ranks(const SolveLine& line, const Ranks& ranks) {
+    const bool root = ranks.communicator->rank() == 0;
+    MeshAndSolveRequest request = line.request;
+    request.mesh.worker_program = program_beside_this("kerf-worker");
+    MeshAndSolveReport report;
+    {
+        ProgressLine progress(line.quiet || !root, nullptr);
+        report = mesh_and_solve(request, ranks.cores_of_rank, *ranks.communicator, &progress);
+    }
+    if (!root) return report.exit_code;
+    if (!report.solution) tell_failed_parts(report.mesh);
+    if (!line.quiet) {
+        tell(to_text(report.mesh));
+        if (report.solution) tell("\n" + to_text(*report.solution));
+        if (request.steps > 0) tell("\n" + to_text(report.steps));
+    }
     return report.exit_code;
 }
 
@@ -89,7 +159,7 @@ int run_solver(int argc, char** argv) {
         return static_cast<int>(code);
     };
     try {
-        return solve_on_ranks(line, *ranks.communicator);
+        return line.meshes ? mesh_and_solve_on_ranks(line, ranks) : solve_on_ranks(line, *ranks.communicator);
     } catch (const PetscFailure& e) {
         return end_all(e.code(), e.what());
     } catch (const Error& e) {

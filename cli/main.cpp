@@ -1,13 +1,12 @@
 // kerf: the headless program. Root rank prints; data goes to files, except for --json and --print-config.
-#include <algorithm>
 #include <exception>
-#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include "cli/check.h"
 #include "cli/command_line.h"
+#include "cli/failed_parts.h"
 #include "cli/other_programs.h"
 #include "cli/progress.h"
 #include "cli/quality.h"
@@ -21,33 +20,6 @@
 namespace kerf {
 
 namespace {
-
-std::string worker_beside_this_program() {
-    return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "kerf-worker").string();
-}
-
-void report_failed_parts(const RunReport& report) {
-    std::size_t failed = 0;
-    for (const PartReport& part : report.parts) {
-        if (!part.result.code) continue;
-        const auto node = std::find_if(report.nodes.begin(), report.nodes.end(),
-                                       [&](const TreeNode& candidate) { return candidate.id == part.id; });
-        const Vec3& place = node->mass.centroid;
-        ++failed;
-        tell(
-            fmt::format("kerf: part {} around ({:.6g}, {:.6g}, {:.6g}) could not be meshed: {} How to repeat and to "
-                        "look at it: {}/failed/part_{:04}.txt.\n",
-                        part.id, place.x(), place.y(), place.z(), part.result.message, report.folder, part.id));
-    }
-    if (failed > 0 && failed < report.parts.size())
-        tell(
-            fmt::format("kerf: the other {} parts are in {}; kerf mesh --resume {} tries the failed ones again, if "
-                        "wanted with other --timeout or --memory.\n",
-                        report.parts.size() - failed, report.folder, report.options.output));
-    if (report.kept_valid_run)
-        tell(fmt::format("kerf: {} keeps the older run, which is valid; this one is in {}.\n", report.options.output,
-                         report.folder));
-}
 
 // The log of events, if there is one and this is the rank that writes it.
 std::unique_ptr<EventLog> open_event_log(const CommandLine& line, Communicator& ranks) {
@@ -65,7 +37,7 @@ int run_command(const CommandLine& line) {
     const Ranks ranks = join_ranks();
     const bool root = ranks.communicator->rank() == 0;
     RunOptions options = line.options;
-    options.worker_program = worker_beside_this_program();
+    options.worker_program = program_beside_this("kerf-worker");
     std::unique_ptr<EventLog> events;
     try {
         events = open_event_log(line, *ranks.communicator);
@@ -83,7 +55,7 @@ int run_command(const CommandLine& line) {
             tell(tree_text(report.nodes, line.verbose) + "\n");
         if (root && !line.quiet) tell(to_text(report));
         if (root && line.verbose && report.reference) tell(report.reference->comparison);
-        if (root) report_failed_parts(report);
+        if (root) tell_failed_parts(report);
         return report.exit_code;
     } catch (const Error& e) {
         if (root) tell(fmt::format("kerf: {}\n", e.what()));

@@ -14,6 +14,10 @@
 
 namespace kerf {
 
+std::string program_beside_this(const std::string& name) {
+    return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / name).string();
+}
+
 const OtherProgram* find_other_program(const std::string& command) {
     const auto found = std::find_if(std::begin(other_programs), std::end(other_programs),
                                     [&](const OtherProgram& other) { return command == other.command; });
@@ -21,11 +25,11 @@ const OtherProgram* find_other_program(const std::string& command) {
 }
 
 void become(const OtherProgram& other, char** argv) {
-    const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / other.program;
+    const std::string program = program_beside_this(other.program);
     ::execv(program.c_str(), argv);
     const int reason = errno;
     throw Error(ErrorCode::usage,
-                fmt::format("{} could not be started: {}. {}", program.string(), std::strerror(reason), other.remedy));
+                fmt::format("{} could not be started: {}. {}", program, std::strerror(reason), other.remedy));
 }
 
 }  // namespace kerf

@@ -12,6 +12,9 @@ struct OtherProgram {
     const char* remedy;   ///< where the program is missing: how to build it, and what to do without
 };
 
+/// Path of a program in the folder of this one.
+std::string program_beside_this(const std::string& name);
+
 /// The program of a command; null if it is kerf's own.
 const OtherProgram* find_other_program(const std::string& command);
 
@@ -23,7 +26,7 @@ inline constexpr const char* viewer_remedy =
     "The viewer is a program of its own beside kerf; build it with KERF_VIEWER=ON, which needs libglfw3-dev, "
     "libimgui-dev and libosmesa6-dev, or open the run folder's mesh.pvtu in ParaView.";
 inline constexpr OtherProgram other_programs[] = {
-    {"solve", "kerf-solve", "Linear elasticity on the parts of a finished run: displacements and stresses.",
+    {"solve", "kerf-solve", "Linear elasticity on a surface or a finished run: displacements and stresses.",
      "The solver is a program of its own beside kerf; build it with KERF_SOLVE=ON, which needs libpetsc-real-dev, or "
      "export the mesh: kerf export --format abaqus for CalculiX."},
     {"view", "kerf-view", "Open the viewer: every cut step by step, every cell.", viewer_remedy},

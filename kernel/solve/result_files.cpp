@@ -1,5 +1,7 @@
 #include "solve/result_files.h"
 
+#include <numeric>
+
 namespace kerf {
 
 namespace {
@@ -37,6 +39,17 @@ std::vector<PartValues> values_of_part(const ElasticProblem& problem, const std:
                           std::vector<float>(stress.error.begin(), stress.error.end())});
     }
     return values;
+}
+
+void write_sizes(const std::string& path, const SizedMesh& sizes) {
+    Part part;
+    part.mesh.vertices = sizes.vertices;
+    part.mesh.tets = sizes.tets;
+    part.global_id.resize(sizes.vertices.size());
+    std::iota(part.global_id.begin(), part.global_id.end(), 0);
+    const PartValues size = {"size", PartValues::Of::points, 1,
+                             std::vector<float>(sizes.size.begin(), sizes.size.end())};
+    write_part(path, part, {}, std::span(&size, 1));
 }
 
 }  // namespace kerf

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "part/vtu_writer.h"
+#include "size/background_sizes.h"
 #include "solve/elastic_problem.h"
 #include "solve/stress.h"
 
@@ -22,5 +23,8 @@ struct CaseSolution {
 /// several cases the names end with a space and the case's.
 std::vector<PartValues> values_of_part(const ElasticProblem& problem, const std::vector<CaseSolution>& solutions,
                                        std::size_t p);
+
+/// A file that read_size_field() takes. Throws Error(io).
+void write_sizes(const std::string& path, const SizedMesh& sizes);
 
 }  // namespace kerf

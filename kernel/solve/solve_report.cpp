@@ -90,7 +90,9 @@ std::string to_json(const SolveReport& report) {
                        {"nodes", report.nodes},
                        {"unknowns", 3 * report.nodes - report.held},
                        {"held", report.held},
+                       {"relative_error", report.relative_error()},
                        {"cases", cases}};
+    if (report.wanted_of_next > 0) solve["error_wanted_of_next_mesh"] = report.wanted_of_next;
     const SolveJson json = {{"kerf", version},
                             {"schema", 1},
                             {"exit_code", report.exit_code},
@@ -112,6 +114,11 @@ std::string to_text(const SolveReport& report) {
         text += line_of("material", fmt::format("{}: young {:g}, poisson {:g}, density {:g}", use.material.name,
                                                 use.material.young, use.material.poisson, use.material.density));
     for (const CaseReport& of_case : report.cases) text += case_text(of_case, report.supports);
+    if (report.wanted_of_next > 0)
+        text +=
+            line_of("next mesh", fmt::format("for an error of {:.1f} %: kerf mesh ... --surface remesh --size-field "
+                                             "{}/{}",
+                                             100 * report.wanted_of_next, report.request.output, size_field_file));
     text +=
         line_of("units", "those of the surface and of the case file: mm, N and MPa go together, and so do m, N and Pa");
     text += line_of(

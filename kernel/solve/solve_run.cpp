@@ -16,6 +16,7 @@
 #include "part/run_parts.h"
 #include "run/peak_memory.h"
 #include "solve/elastic_problem.h"
+#include "solve/error_sizes.h"
 #include "solve/result_files.h"
 
 namespace kerf {
@@ -60,6 +61,7 @@ class SolveStages {
     void report_case(const std::vector<double>& forces, CaseReport& of_case);
     Extreme largest(double value, const Vec3& place) const;
     void write();
+    void write_sizes_of_next();
     void finish();
 
     Communicator& ranks_;
@@ -236,8 +238,23 @@ void SolveStages::write() {
         write_pvtu(folder_->file("mesh.pvtu"), pieces, layout, values_of_part(problem_, solutions_, 0));
         report_.files.push_back(describe_file(folder_->partial_path(), "mesh.pvtu"));
     });
+    write_sizes_of_next();
     sort_files(report_.files);
     report_.seconds.write = stage_.lap();
+}
+
+void SolveStages::write_sizes_of_next() {
+    const std::optional<double> target = report_.request.target_error;
+    if (!target || report_.relative_error() <= *target) return;
+    report_.wanted_of_next = error_of_next_mesh(report_.relative_error(), *target, space_->order());
+    std::vector<const StressField*> fields;
+    for (const CaseSolution& solution : solutions_) fields.push_back(&solution.stress);
+    const SizedMesh sizes = sizes_for_error(*space_, fields, report_.wanted_of_next, ranks_);
+    in_agreement(ranks_, [&] {
+        if (!is_root()) return;
+        write_sizes(folder_->file(size_field_file), sizes);
+        report_.files.push_back(describe_file(folder_->partial_path(), size_field_file));
+    });
 }
 
 void SolveStages::finish() {
@@ -283,6 +300,12 @@ SolveReport SolveStages::run() {
 }
 
 }  // namespace
+
+double SolveReport::relative_error() const {
+    double largest = 0;
+    for (const CaseReport& of_case : cases) largest = std::max(largest, of_case.norms.relative());
+    return largest;
+}
 
 SolveReport solve_run(const SolveRequest& request, Communicator& ranks, RunListener* listener) {
     return SolveStages(request, ranks, listener).run();

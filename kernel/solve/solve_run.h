@@ -1,6 +1,7 @@
 // From a finished run and a case to displacements and stresses: the order of the stages.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct SolveRequest {
     std::string folder;  ///< of the run
     std::string case_file;
     std::string output;
+    /// If given, and the estimated error beside the norm of the solution is above it, the result has a field of sizes
+    /// for the next mesh.
+    std::optional<double> target_error;
 };
 
 /// The largest value of a measure and where it is.
@@ -50,11 +54,18 @@ struct SolveReport {
     std::int64_t held = 0;   ///< degrees of freedom
     std::vector<std::string> supports;
     std::vector<CaseReport> cases;
+    double wanted_of_next = 0;  ///< the error for which size_field.vtu asks; 0: there is none
     SolveSeconds seconds;
     std::int64_t peak_rss_bytes = 0;  ///< sum over the ranks
     std::vector<RunFile> files;
     int exit_code = 0;
+
+    /// The largest estimate of the cases, beside the norm of their solutions.
+    double relative_error() const;
 };
+
+/// The field of sizes in the result folder: a mesh for --size-field of kerf mesh.
+inline constexpr const char* size_field_file = "size_field.vtu";
 
 /// Solves and writes the result folder: parts with Displacement, Stress, VonMises and ErrorIndicator, mesh.pvtu and
 /// report.json, which appears as a whole or not at all (io/run_folder.h). Collective. Throws Error on all ranks alike;

@@ -7,9 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include "cli/ranks.h"
 #include "core/error.h"
 #include "part/run_parts.h"
 #include "solve/elastic_problem.h"
+#include "solve/error_sizes.h"
 #include "solve/linear_system.h"
 #include "solve/stress.h"
 #include "support/assets.h"
@@ -29,6 +31,8 @@ int ranks() {
     MPI_Comm_size(MPI_COMM_WORLD, &number);
     return number;
 }
+
+const Ranks* ranks_of_program = nullptr;  // those of this program
 
 // A cube in seven parts, made by the first rank for all.
 class CubeOfParts : public testing::Environment {
@@ -195,6 +199,47 @@ TEST_P(Solution, GhostsHaveWhatOwnersHave) {
     EXPECT_EQ(sum, ghosts);
 }
 
+double edge_sum(const SizedMesh& sizes) {
+    double sum = 0;
+    for (const double size : sizes.size) sum += size;
+    return sum;
+}
+
+// Equal errors of all cells need all edges shorter by the same share; where there is no error, cells may be larger; and
+// what is wanted does not depend on the ranks.
+TEST_P(Solution, SizesFollowErrors) {
+    const std::unique_ptr<NodeSpace> alone = space_on(MPI_COMM_SELF, GetParam());
+    SingleRank single;
+    const auto sizes_of = [&](const NodeSpace& space, Communicator& of_space, double aim, double from_x) {
+        StressField field;
+        for (const Part& part : space.parts()) {
+            PartStress& stress = field.parts.emplace_back();
+            for (const Tetrahedron& tet : part.mesh.tets)
+                stress.error.push_back(part.mesh.vertices[static_cast<std::size_t>(tet[0])].x() < from_x ? 0 : 1);
+        }
+        field.norms = {std::sqrt(static_cast<double>(CubeOfParts::parts->outline().tets())) * std::sqrt(0.75), 0};
+        field.norms.error = field.norms.solution / std::sqrt(3.0);  // beside the true norm: a half
+        return sizes_for_error(space, {&field}, aim, of_space);
+    };
+    const SizedMesh same = sizes_of(*alone, single, 0.5, -1), half = sizes_of(*alone, single, 0.25, -1),
+                    partly = sizes_of(*alone, single, 0.25, 0.5);
+    const double expected = GetParam() == 1 ? 0.5 : std::sqrt(0.5);
+    EXPECT_NEAR(edge_sum(half) / edge_sum(same), expected, 0.03);
+    for (std::size_t v = 0; v < partly.vertices.size(); ++v) {
+        const double x = partly.vertices[v].x();
+        if (x < 0.05) {
+            EXPECT_GT(partly.size[v], 1.5 * same.size[v]) << x;
+        }
+        if (x > 0.95) {
+            EXPECT_LT(partly.size[v], same.size[v]) << x;
+        }
+    }
+    const SizedMesh shared = sizes_of(*space_, *ranks_of_program->communicator, 0.25, 0.5);
+    EXPECT_EQ(shared.vertices, partly.vertices);
+    EXPECT_EQ(shared.size, partly.size);
+    EXPECT_EQ(shared.tets, partly.tets);
+}
+
 TEST(Bodies, ACubeIsOne) {
     const auto space = space_on(MPI_COMM_WORLD, 1);
     EXPECT_EQ(find_bodies(*space).count, 1);
@@ -252,13 +297,9 @@ TEST(Parts, AreSharedOutWholeAndEvenly) {
 
 int main(int argc, char** argv) {
     testing::InitGoogleTest(&argc, argv);
-    MPI_Init(&argc, &argv);
-    int result = 0;
-    {
-        const kerf::PetscSession petsc;
-        testing::AddGlobalTestEnvironment(new kerf::CubeOfParts);
-        result = RUN_ALL_TESTS();
-    }
-    MPI_Finalize();
-    return result;
+    const kerf::Ranks ranks = kerf::join_ranks(kerf::MpiUse::always);
+    kerf::ranks_of_program = &ranks;
+    const kerf::PetscSession petsc;
+    testing::AddGlobalTestEnvironment(new kerf::CubeOfParts);
+    return RUN_ALL_TESTS();
 }

@@ -16,7 +16,9 @@ inline const std::vector<std::string>& asset_names() {
     return names;
 }
 
-inline std::string asset_path(const std::string& name) { return std::string(KERF_ASSETS) + "/" + name + ".stl"; }
+inline std::string asset_folder() { return KERF_ASSETS; }
+
+inline std::string asset_path(const std::string& name) { return asset_folder() + "/" + name + ".stl"; }
 
 inline Surface asset_surface(const std::string& name) { return std::move(read_input(asset_path(name)).surface); }
 

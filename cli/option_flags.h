@@ -1,0 +1,17 @@
+// The table of options as flags of a command.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "run/options.h"
+
+namespace kerf {
+
+/// Adds --NAME, and -N where it has a short name. Values go through OptionField::set_text(), as those of config files
+/// do.
+CLI::Option* add_option_field(CLI::App& app, const OptionField& field);
+
+/// Adds all that shapes a mesh and how it is made (option_fields()), and --remesh, short for --surface remesh.
+void add_run_options(CLI::App& app, RunOptions& options);
+
+}  // namespace kerf

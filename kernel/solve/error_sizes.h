@@ -1,0 +1,26 @@
+// How fine the next mesh has to be for the error that is wanted.
+#pragma once
+
+#include <vector>
+
+#include "run/communicator.h"
+#include "size/background_sizes.h"
+#include "solve/node_space.h"
+#include "solve/stress.h"
+
+namespace kerf {
+
+/// Of the largest estimated error of the cases, what the next mesh shall leave: a little less than `target`, but no
+/// less than a mesh with about four times the cells can have, since an estimate is not to be trusted further.
+double error_of_next_mesh(double relative_error, double target, int order);
+
+/// Edge lengths with which the estimated error of each of the fields is about `aim` beside the norm of its solution,
+/// with as few tetrahedra as possible: errors of elements fall with the order of the elements, and are left alike per
+/// cell (Ladeveze, Coffignal and Pelle 1986). Lengths are between a quarter of and twice those of the cells there. They
+/// are means over cubes about two edges wide, which is what the mesh that is returned consists of: a small share of the
+/// cells that it stands for. Collective; the same on every rank. Rounded to steps of 4 percent, so that ranks in other
+/// numbers, whose solutions differ in the last digits, ask for the same lengths. O(n log n).
+SizedMesh sizes_for_error(const NodeSpace& space, const std::vector<const StressField*>& fields, double aim,
+                          Communicator& ranks);
+
+}  // namespace kerf

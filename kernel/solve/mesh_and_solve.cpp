@@ -1,0 +1,154 @@
+#include "solve/mesh_and_solve.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/number_text.h"
+#include "io/file_bytes.h"
+#include "io/run_manifest.h"
+#include "io/text_file.h"
+#include "run/path_text.h"
+#include "run/pipeline.h"
+#include "run/version.h"
+
+namespace kerf {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class StepFolders {
+ public:
+    explicit StepFolders(const MeshAndSolveRequest& request)
+        : output_(request.solve.output), is_adaptive_(request.steps > 0) {}
+
+    std::string mesh(std::int32_t step) const { return base(step) + "/mesh"; }
+    std::string solution(std::int32_t step) const { return base(step) + "/solution"; }
+    std::string report() const { return output_ + "/report.json"; }
+
+    /// Throws Error(io) if there is anything that no run of this kind makes.
+    void check() const {
+        std::error_code ignored;
+        for (const fs::directory_entry& entry : fs::directory_iterator(output_, ignored)) {
+            if (entry.path().filename().string().rfind("step_", 0) == 0) {
+                for (const fs::directory_entry& of_step : fs::directory_iterator(entry.path(), ignored))
+                    require_own(of_step.path());
+            } else if (!is_report(entry.path())) {
+                require_own(entry.path());
+            }
+        }
+    }
+    /// Removes what an earlier run into the folder has made beyond the last step.
+    void remove_after(std::int32_t last) const {
+        for (std::int32_t step = last + 1; is_adaptive_ && fs::exists(base(step)); ++step) fs::remove_all(base(step));
+    }
+
+ private:
+    std::string base(std::int32_t step) const {
+        return is_adaptive_ ? fmt::format("{}/step_{}", output_, step + 1) : output_;
+    }
+    static void require_own(const fs::path& path) {
+        const std::string stem = path.filename().stem().string(), ending = path.extension().string();
+        const bool is_own = (stem == "mesh" || stem == "solution") && fs::is_directory(path) &&
+                            (ending.empty() || ending == ".failed" || ending == ".kerf-partial");
+        if (!is_own)
+            throw Error(ErrorCode::io, fmt::format("{} is in the way of a mesh and its solution. Move it away, or "
+                                                   "choose another --output.",
+                                                   path.string()));
+    }
+    static bool is_report(const fs::path& path) {
+        if (path.filename() != "report.json") return false;
+        const auto json = nlohmann::json::parse(read_file(path.string()), nullptr, false);
+        return json.is_object() && json.contains("steps");
+    }
+
+    std::string output_;
+    bool is_adaptive_;
+};
+
+std::string to_json(const MeshAndSolveRequest& request, const MeshAndSolveReport& report) {
+    nlohmann::ordered_json steps = nlohmann::ordered_json::array();
+    for (const MeshAndSolveStep& step : report.steps)
+        steps.push_back({{"mesh", path_text(step.mesh)},
+                         {"solution", path_text(step.solution)},
+                         {"tets", step.tets},
+                         {"nodes", step.nodes},
+                         {"relative_error", step.relative_error},
+                         {"max_von_mises", step.von_mises},
+                         {"mesh_seconds", step.mesh_seconds},
+                         {"solve_seconds", step.solve_seconds}});
+    const nlohmann::ordered_json json = {{"kerf", version},
+                                         {"schema", 1},
+                                         {"target_error", request.solve.target_error.value_or(0)},
+                                         {"reached", report.reached},
+                                         {"steps", steps}};
+    return sealed(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+MeshAndSolveStep summary_of(const RunReport& mesh, const SolveReport& solution) {
+    MeshAndSolveStep step;
+    step.mesh = solution.request.folder;
+    step.solution = solution.request.output;
+    step.tets = solution.tets;
+    step.nodes = solution.nodes;
+    step.relative_error = solution.relative_error();
+    for (const CaseReport& of_case : solution.cases) step.von_mises = std::max(step.von_mises, of_case.von_mises.value);
+    step.mesh_seconds = mesh.seconds.wall;
+    step.solve_seconds = solution.seconds.wall;
+    return step;
+}
+
+}  // namespace
+
+MeshAndSolveReport mesh_and_solve(const MeshAndSolveRequest& request, int cores_of_rank, Communicator& ranks,
+                                  RunListener* listener) {
+    const StepFolders folders(request);
+    in_agreement(ranks, [&] {
+        read_case(request.solve.case_file);  // before the mesh, which takes longer
+        folders.check();
+    });
+    MeshAndSolveReport report;
+    RunOptions options = request.mesh;
+    for (std::int32_t step = 0; step <= request.steps; ++step) {
+        options.output = folders.mesh(step);
+        report.input = std::make_unique<Input>();
+        report.mesh = run(options, cores_of_rank, ranks, *report.input, listener);
+        report.solution.reset();
+        report.exit_code = report.mesh.exit_code;
+        if (report.exit_code != 0) return report;
+        SolveRequest solve = request.solve;
+        solve.folder = options.output;
+        solve.output = folders.solution(step);
+        if (request.steps > 0 && !solve.target_error) solve.target_error = 0;
+        report.solution = solve_run(solve, ranks, listener);
+        report.steps.push_back(summary_of(report.mesh, *report.solution));
+        report.reached = solve.target_error && report.solution->relative_error() <= *solve.target_error;
+        in_agreement(ranks, [&] {
+            if (request.steps > 0 && ranks.rank() == 0) write_text_file(folders.report(), to_json(request, report));
+        });
+        if (report.reached) break;
+        options.sizes.field_file = folders.solution(step) + "/" + size_field_file;
+    }
+    in_agreement(ranks, [&] {
+        if (ranks.rank() == 0) folders.remove_after(static_cast<std::int32_t>(report.steps.size()) - 1);
+    });
+    return report;
+}
+
+std::string to_text(const std::vector<MeshAndSolveStep>& steps) {
+    std::string text = fmt::format("{:>4} {:>12} {:>11} {:>8} {:>13} {:>8} {:>8}  {}\n", "step", "tetrahedra", "nodes",
+                                   "error %", "max von Mises", "mesh s", "solve s", "solution");
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const MeshAndSolveStep& step = steps[i];
+        text += fmt::format("{:>4} {:>12} {:>11} {:>8.2f} {:>13.6g} {:>8.2f} {:>8.2f}  {}\n", i + 1, grouped(step.tets),
+                            grouped(step.nodes), 100 * step.relative_error, step.von_mises, step.mesh_seconds,
+                            step.solve_seconds, step.solution);
+    }
+    return text;
+}
+
+}  // namespace kerf

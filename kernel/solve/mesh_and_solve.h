@@ -1,0 +1,50 @@
+// From a surface to stresses: mesh, solve, and mesh again where the error is large.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "run/options.h"
+#include "run/report.h"
+#include "solve/solve_run.h"
+
+namespace kerf {
+
+struct MeshAndSolveRequest {
+    RunOptions mesh;         ///< but for its output
+    SolveRequest solve;      ///< but for its folder; `output` is that of everything
+    std::int32_t steps = 0;  ///< meshes after the first one, at most
+};
+
+/// One mesh and what was found on it.
+struct MeshAndSolveStep {
+    std::string mesh, solution;  ///< folders
+    std::int64_t tets = 0, nodes = 0;
+    double relative_error = 0;  ///< estimated, in the energy norm; the largest of the cases
+    double von_mises = 0;       ///< the largest of the cases
+    double mesh_seconds = 0, solve_seconds = 0;
+};
+
+struct MeshAndSolveReport {
+    std::vector<MeshAndSolveStep> steps;
+    std::unique_ptr<Input> input;         ///< of the last step
+    RunReport mesh;                       ///< of the last step, refers to `input`
+    std::optional<SolveReport> solution;  ///< of the last step; none if its mesh is not whole
+    bool reached = false;                 ///< the target
+    int exit_code = 0;
+};
+
+/// Makes OUT/mesh and OUT/solution; with steps, OUT/step_1/mesh and so on, each of which stays, and OUT/report.json.
+/// It ends when the estimated error is at most solve.target_error, or after the last step; the sizes of a mesh are
+/// those that the solution before asks for (sizes_for_error()) and no larger ones than the options say. Collective;
+/// throws as run() and solve_run() do, and Error(io) for a folder with anything else in it. Steps of an earlier, longer
+/// run into the folder are removed.
+MeshAndSolveReport mesh_and_solve(const MeshAndSolveRequest& request, int cores_of_rank, Communicator& ranks,
+                                  RunListener* listener);
+
+/// A table of the steps, for people.
+std::string to_text(const std::vector<MeshAndSolveStep>& steps);
+
+}  // namespace kerf
