@@ -240,6 +240,20 @@ PartCellCounts read_cell_counts(const std::string& path) {
     return {tets, header.cell_count - tets};
 }
 
+namespace {
+
+// Of the values of an array.
+std::string read_bytes(CheckedFile& file, const VtuHeader::Array& array, std::int64_t first, std::size_t count,
+                       const std::string& path) {
+    constexpr std::int64_t size_of_array = sizeof(std::uint64_t);
+    file.seek(array.position + size_of_array + first);
+    std::string bytes = file.read(count);
+    if (bytes.size() != count) fail_damaged_vtu(path, fmt::format("it ends within the array {}", array.name));
+    return bytes;
+}
+
+}  // namespace
+
 std::vector<float> read_cell_values(const std::string& path, const std::string& name, std::int64_t first,
                                     std::int64_t count) {
     CheckedFile file(path, "rb");
@@ -251,12 +265,31 @@ std::vector<float> read_cell_values(const std::string& path, const std::string& 
         fail_damaged_vtu(path, fmt::format("it has {} cells, and not those from {} to {}", header.cell_count, first,
                                            first + count - 1));
     std::vector<float> values(static_cast<std::size_t>(count));
-    constexpr std::int64_t item_size = sizeof(float), size_of_array = sizeof(std::uint64_t);
-    file.seek(array->position + size_of_array + first * item_size);
-    const std::string bytes = file.read(values.size() * sizeof(float));
-    if (bytes.size() != values.size() * sizeof(float))
-        fail_damaged_vtu(path, fmt::format("it ends within the array {}", name));
+    const std::string bytes =
+        read_bytes(file, *array, first * std::int64_t{sizeof(float)}, values.size() * sizeof(float), path);
     if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+    return values;
+}
+
+std::vector<double> read_point_values(const std::string& path, const std::string& name, std::int64_t components) {
+    CheckedFile file(path, "rb");
+    const VtuHeader header = parse_vtu_header(file.read(vtu_header_limit), path);
+    const VtuHeader::Array* array = header.find(name);  // those of points come first
+    const bool is_double = array && array->type == "Float64";
+    if (!array || array->tuples != header.point_count || array->components != components ||
+        (!is_double && array->type != "Float32"))
+        fail_damaged_vtu(path, fmt::format("it has no array {} with {} numbers for every point", name, components));
+    std::vector<double> values(static_cast<std::size_t>(header.point_count * components));
+    const std::size_t item_size = is_double ? sizeof(double) : sizeof(float);
+    const std::string bytes = read_bytes(file, *array, 0, values.size() * item_size, path);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        float single = 0;
+        if (is_double)
+            std::memcpy(&values[i], bytes.data() + i * item_size, item_size);
+        else
+            std::memcpy(&single, bytes.data() + i * item_size, item_size);
+        if (!is_double) values[i] = single;
+    }
     return values;
 }
 

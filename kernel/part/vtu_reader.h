@@ -41,4 +41,8 @@ VtuLayout read_layout(const std::string& path);
 std::vector<float> read_cell_values(const std::string& path, const std::string& array, std::int64_t first,
                                     std::int64_t count);
 
+/// An array of Float32 or Float64 over the points of a part file, all components of the first one first. Throws
+/// Error(io), also if the file has no such array.
+std::vector<double> read_point_values(const std::string& path, const std::string& array, std::int64_t components);
+
 }  // namespace kerf

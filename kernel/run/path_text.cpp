@@ -1,6 +1,7 @@
 #include "run/path_text.h"
 
 #include <charconv>
+#include <filesystem>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -47,6 +48,10 @@ std::string path_of_text(const std::string& text) {
         if (is_escaped) i += 2;
     }
     return path;
+}
+
+std::string path_from(const std::string& folder, const std::string& path) {
+    return std::filesystem::proximate(path, folder).string();
 }
 
 }  // namespace kerf

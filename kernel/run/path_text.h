@@ -10,4 +10,7 @@ std::string path_text(const std::string& path);
 /// What path_text() was given.
 std::string path_of_text(const std::string& text);
 
+/// The path as seen from a folder: `../mesh`, which stays true where both are moved together.
+std::string path_from(const std::string& folder, const std::string& path);
+
 }  // namespace kerf

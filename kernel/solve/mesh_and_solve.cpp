@@ -73,8 +73,8 @@ class StepFolders {
 std::string to_json(const MeshAndSolveRequest& request, const MeshAndSolveReport& report) {
     nlohmann::ordered_json steps = nlohmann::ordered_json::array();
     for (const MeshAndSolveStep& step : report.steps)
-        steps.push_back({{"mesh", path_text(step.mesh)},
-                         {"solution", path_text(step.solution)},
+        steps.push_back({{"mesh", path_text(path_from(request.solve.output, step.mesh))},
+                         {"solution", path_text(path_from(request.solve.output, step.solution))},
                          {"tets", step.tets},
                          {"nodes", step.nodes},
                          {"relative_error", step.relative_error},

@@ -81,7 +81,7 @@ std::string to_json(const SolveReport& report) {
     for (const CaseReport& of_case : report.cases) cases.push_back(case_json(of_case, report.supports));
     for (const RunFile& file : report.files)
         files.push_back({{"path", file.path}, {"bytes", file.bytes}, {"hash", file.hash}});
-    SolveJson solve = {{"mesh", path_text(report.request.folder)},
+    SolveJson solve = {{"mesh", path_text(path_from(report.request.output, report.request.folder))},
                        {"case_file", path_text(report.request.case_file)},
                        {"order", solver.order},
                        {"preconditioner", solver.preconditioner},

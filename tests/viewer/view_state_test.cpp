@@ -36,6 +36,9 @@ ViewState unusual_state() {
     s.color = ColorBy::radius_edge;
     s.color_range = ValueRange{0.5, 3};
     s.filter = ValueRange{1, 2};
+    s.isolines = true;
+    s.load_case = 2;
+    s.deform = 2.5;
     s.hidden = {4, 11};
     s.isolated = 3;
     s.pick = PickMode::vertex;
@@ -48,11 +51,11 @@ ViewState unusual_state() {
 // All fields: who adds one has to name it here, and to give it a value above.
 auto fields(const ViewState& s) {
     const auto& [node, step, camera, shading, edges, context, plane, axes, contour, features, surface, interfaces,
-                 explode, shrink, clip, color, color_range, filter, legend, times, hidden, isolated, pick, selection,
-                 theme, panels] = s;
+                 explode, shrink, clip, color, color_range, filter, isolines, load_case, deform, legend, times, hidden,
+                 isolated, pick, selection, theme, panels] = s;
     return std::tie(node, step, camera, shading, edges, context, plane, axes, contour, features, surface, interfaces,
-                    explode, shrink, clip, color, color_range, filter, legend, times, hidden, isolated, pick, selection,
-                    theme, panels);
+                    explode, shrink, clip, color, color_range, filter, isolines, load_case, deform, legend, times,
+                    hidden, isolated, pick, selection, theme, panels);
 }
 auto fields(const Camera& c) {
     const auto& [target, turn, height, perspective] = c;

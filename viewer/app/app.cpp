@@ -247,7 +247,7 @@ void App::build_scene() {
     facts_.values = built_.legend.values;
     facts_.categories = built_.legend.categories;
     facts_.scale = built_.legend.scale;
-    facts_.selection = describe_selection(session_, state_.selection);
+    facts_.selection = describe_selection(session_, state_.selection, state_.load_case);
     facts_.pending = session_.pending();
     facts_.triangles = facts_.lines = 0;
     for (const Layer& layer : built_.scene.layers) {

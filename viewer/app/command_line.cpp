@@ -1,5 +1,6 @@
 #include "viewer/app/command_line.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <set>
@@ -19,8 +20,9 @@ namespace {
 constexpr const char* description =
     "The viewer of Kerf: every cut of a decomposition step by step, every cell of its mesh.";
 constexpr const char* footer =
-    "INPUT is a closed surface (it is cut and meshed then), a run folder, one that is under way, a file of --trace or "
-    "of --events.";
+    "INPUT is a closed surface (it is cut and meshed then), a run folder, one that is under way, a folder of kerf "
+    "solve,\n"
+    "a file of --trace or of --events.";
 
 template <class Number>
 bool parse_number(std::string_view text, Number& number) {
@@ -62,12 +64,13 @@ void parse_size(const std::string& text, ViewCommand& command) {
 
 // The texts of options that change the state, in the order in which they are applied.
 struct StateTexts {
-    std::string state_file, camera_file, stage, color, clip_style, size, theme, surface, config;
+    std::string state_file, camera_file, stage, color, clip_style, size, theme, surface, config, deform;
     std::vector<NodeId> hidden;
     NodeId node = 0, isolated = 0;
     double explode = -1, shrink = -1;
     bool features = false, smooth = false, no_edges = false, no_context = false, no_legend = false;
-    std::vector<double> filter;
+    bool isolines = false;
+    std::vector<double> filter, range;
 };
 
 void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
@@ -82,7 +85,14 @@ void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
     app.add_option(
         "--color", texts.color,
         "part, rank, level, patch, deviation, size, kind, origin (core, shell or other mesher), min-dihedral, "
-        "radius-edge, aspect, shape, volume or edge-length.");
+        "radius-edge, aspect, shape, volume or edge-length; of a solution error, displacement, von-mises, stress-xx, "
+        "stress-yy, stress-zz, stress-xy, stress-yz or stress-xz.");
+    app.add_option("--range", texts.range, "Values LOW HIGH of the ends of the colours. Default: those shown.")
+        ->expected(2);
+    app.add_flag("--isolines", texts.isolines, "With lines where displacements or stresses are alike.");
+    app.add_option("--deform", texts.deform, "Draw the displacements of a solution so many times as long, or auto.")
+        ->type_name("FLOAT|auto");
+    app.add_option("--case", command.load_case, "Name of the case of a solution. Default: the first one.");
     app.add_option("--filter", texts.filter, "Only cells whose value of --color lies in LOW HIGH.")->expected(2);
     app.add_option("--clip", command.clip,
                    "Clip plane: x=0.3, -y=0.5 (other side), 1,1,0=0.4 (normal), node=5 (at its cut).");
@@ -110,9 +120,10 @@ void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
 // Ranges let NaN pass.
 void require_numbers(const StateTexts& texts, const ViewCommand& command) {
     std::vector<double> numbers = texts.filter;
+    numbers.insert(numbers.end(), texts.range.begin(), texts.range.end());
     numbers.insert(numbers.end(), {texts.explode, texts.shrink, command.timeout_seconds});
     if (!std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }))
-        throw Error(ErrorCode::usage, "--explode, --shrink, --filter and --timeout need finite numbers.");
+        throw Error(ErrorCode::usage, "--explode, --shrink, --filter, --range and --timeout need finite numbers.");
 }
 
 bool is_seen_on_surfaces(const std::string& color) {
@@ -126,7 +137,8 @@ void apply(const StateTexts& texts, ViewCommand& command) {
     if (!texts.camera_file.empty()) state.camera = camera_from_json(read_file(texts.camera_file), texts.camera_file);
     if (texts.node > 0) state.node = texts.node;
     // What only cells have is not to be asked for in vain.
-    const bool is_of_cells = !texts.color.empty() || texts.explode > 0 || texts.shrink > 0 || !texts.filter.empty();
+    const bool is_of_cells =
+        !texts.color.empty() || texts.explode > 0 || texts.shrink > 0 || !texts.filter.empty() || !texts.deform.empty();
     if (!texts.stage.empty())
         state.step = step_from_name(texts.stage);
     else if (is_of_cells && texts.state_file.empty() && !is_seen_on_surfaces(texts.color))
@@ -139,6 +151,14 @@ void apply(const StateTexts& texts, ViewCommand& command) {
             throw Error(ErrorCode::usage,
                         "--filter needs LOW <= HIGH and a --color with values, such as min-dihedral.");
     }
+    if (!texts.range.empty()) {
+        state.color_range = ValueRange{texts.range[0], texts.range[1]};
+        if (!(texts.range[0] < texts.range[1])) throw Error(ErrorCode::usage, "--range needs LOW < HIGH.");
+    }
+    if (texts.isolines) state.isolines = true;
+    command.good_deformation = texts.deform == "auto";
+    if (!texts.deform.empty() && !command.good_deformation && !parse_number(texts.deform, state.deform))
+        throw Error(ErrorCode::usage, fmt::format("--deform is '{}', but it must be a number or auto.", texts.deform));
     if (texts.explode >= 0) state.explode = texts.explode;
     if (texts.shrink >= 0) state.shrink = texts.shrink;
     for (const NodeId node : texts.hidden) state.set_hidden(node, true);
@@ -168,6 +188,33 @@ void read_run_config(const std::string& path, RunOptions& run) {
 }
 
 }  // namespace
+
+bool depends_on_document(const ViewCommand& command) {
+    return command.clip.starts_with("node=") || !command.load_case.empty() || command.good_deformation;
+}
+
+void apply_document(const ViewCommand& command, const Document& document, ViewState& state) {
+    if (command.clip.starts_with("node=")) state.clip = clip_from_text(command.clip, command.state.clip, document);
+    if (command.load_case.empty() && !command.good_deformation) return;
+    if (!document.solution)
+        throw Error(ErrorCode::usage,
+                    "--case and --deform need a solution: open the folder that kerf solve has "
+                    "written.");
+    const auto& cases = document.solution->cases;
+    if (!command.load_case.empty()) {
+        const auto found = std::find_if(cases.begin(), cases.end(),
+                                        [&](const Solution::Case& one) { return one.name == command.load_case; });
+        std::vector<std::string> names;
+        for (const Solution::Case& one : cases) names.push_back(one.name);
+        if (found == cases.end())
+            throw Error(ErrorCode::usage, fmt::format("The solution has no case '{}'. It has '{}'.", command.load_case,
+                                                      fmt::join(names, "', '")));
+        state.load_case = static_cast<int>(found - cases.begin());
+    }
+    if (command.good_deformation)
+        state.deform = good_deformation(cases.at(static_cast<std::size_t>(state.load_case)).largest_displacement,
+                                        document.box.diagonal().norm());
+}
 
 Clip clip_from_text(const std::string& text, const Clip& before, const Document& document) {
     Clip clip = before;

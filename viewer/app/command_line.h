@@ -15,8 +15,10 @@ struct ViewCommand {
     int antialias = 1;    ///< the picture is drawn so many times as large and averaged
     bool panels = false;  ///< the whole user interface in the screenshot
     ViewState state;
-    std::optional<Theme> theme;  ///< if one was asked for
-    std::string clip;            ///< as given: "x=0.3", "-z=0.5", "node=5", "1,1,0=0.4"
+    std::optional<Theme> theme;     ///< if one was asked for
+    std::string clip;               ///< as given: "x=0.3", "-z=0.5", "node=5", "1,1,0=0.4"
+    std::string load_case;          ///< name; empty: the first one
+    bool good_deformation = false;  ///< deform is what good_deformation() says
     double timeout_seconds = 600;
     RunOptions run;
     std::string print;  ///< text to print instead (help, a usage error); empty: none
@@ -25,6 +27,12 @@ struct ViewCommand {
 
 /// Never throws: what is wrong becomes `print` and exit code 2.
 ViewCommand parse_view_command(int argc, const char* const* argv);
+
+/// Whether the command asks for anything that only the document can tell: a clip plane at a cut, a case, a good
+/// deformation.
+bool depends_on_document(const ViewCommand& command);
+/// Sets that. Throws Error(usage) for what the document does not have.
+void apply_document(const ViewCommand& command, const Document& document, ViewState& state);
 
 /// The clip plane that a text names; "node=N" needs the tree of the document. Throws Error(usage).
 Clip clip_from_text(const std::string& text, const Clip& before, const Document& document);

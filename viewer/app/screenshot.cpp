@@ -114,8 +114,7 @@ void take_screenshot(const ViewCommand& command, const AppOptions& options) {
     wait_for_document(app, command, deadline);
     const Document& document = app.session().document();
     app.state() = command.state;
-    if (command.clip.starts_with("node="))
-        app.state().clip = clip_from_text(command.clip, command.state.clip, document);
+    apply_document(command, document, app.state());
     check_wishes(document, app.state(), command.panels);
     do {
         deadline.check();

@@ -14,13 +14,13 @@ double seconds_to_wait(App& app) {
     return app.settled() ? 0.5 : 0;
 }
 
-// Clips at the cut of a node once that is known; returns what is still to be done.
-std::string clip_when_known(App& app, const std::string& clip) {
+// Once the document tells what is asked for; false if it does not yet.
+bool apply_when_known(App& app, const ViewCommand& command) {
     try {
-        app.state().clip = clip_from_text(clip, app.state().clip, app.session().document());
-        return "";
+        apply_document(command, app.session().document(), app.state());
+        return true;
     } catch (const Error&) {
-        return clip;
+        return false;
     }
 }
 
@@ -34,12 +34,12 @@ void view_in_window(const ViewCommand& command, const AppOptions& options) {
     const Theme theme = app.state().theme;
     app.state() = command.state;
     app.state().theme = command.theme.value_or(theme);
-    std::string clip = command.clip.starts_with("node=") ? command.clip : "";
+    bool is_applied = !depends_on_document(command);
     std::string title;
     while (!window.should_close() && !app.wants_to_quit() && !was_interrupted()) {
         if (window.take_events(seconds_to_wait(app))) app.wake();
         for (const std::string& path : window.take_dropped_files()) app.open(path);
-        if (!clip.empty()) clip = clip_when_known(app, clip);
+        if (!is_applied) is_applied = apply_when_known(app, command);
         if (!app.wants_frame()) continue;
         window.begin_frame();
         app.frame(window.pixel_width(), window.pixel_height(), window.content_scale(), true);

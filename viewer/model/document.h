@@ -12,6 +12,7 @@
 #include "run/input.h"
 #include "run/options.h"
 #include "run/trace.h"
+#include "viewer/model/solution.h"
 #include "viewer/model/tree.h"
 
 namespace kerf::view {
@@ -99,8 +100,9 @@ struct Document {
     std::shared_ptr<const CheckedSoup> checked;  ///< and what is wrong with it, once that is known
     std::shared_ptr<const Trace> trace;          ///< with all stages, if there is one
     Tree tree;
-    std::string folder;     ///< of the parts; empty: none
-    RunOptions options;     ///< of the run, or those of the next one
+    std::string folder;                ///< of the parts; empty: none
+    std::optional<Solution> solution;  ///< that was opened, and stands on these parts
+    RunOptions options;                ///< of the run, or those of the next one
     bool remeshed = false;  ///< the surface that was cut is not that of the file, which is there to compare with
     std::vector<std::string> patch_names;
     std::vector<std::array<std::uint8_t, 4>> patch_colours;  ///< as Soup has them; empty: none

@@ -57,7 +57,8 @@ OpenedPath tell_kind(const std::string& path) {
         const bool asks_for_partial = full != folder;
         if (!asks_for_partial && is_there(fs::path(folder) / "report.json")) return {OpenedPath::Kind::run, folder, ""};
         if (is_there(fs::path(partial) / "work/run.json")) return {OpenedPath::Kind::partial_run, folder, partial};
-        if (is_there(fs::path(folder) / "report.json")) return {OpenedPath::Kind::run, folder, ""};
+        for (const char* report : {"report.json", "solution/report.json"})
+            if (is_there(fs::path(folder) / report)) return {OpenedPath::Kind::run, folder, ""};
         if (is_there(full))
             throw Error(ErrorCode::io, fmt::format("{} is a folder without report.json, so it is no finished run. Open "
                                                    "the folder that kerf mesh -o has written, or a surface file.",

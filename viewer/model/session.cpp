@@ -107,6 +107,9 @@ std::shared_ptr<const std::vector<float>> Session::facet_values(NodeId part, Col
 std::shared_ptr<const std::vector<WorstCell>> Session::worst_cells(ColorBy color, std::size_t count) {
     return impl_->worst_cells(color, count);
 }
+std::shared_ptr<const PartSolution> Session::solution(NodeId part, std::size_t number) {
+    return impl_->solution(part, number);
+}
 bool Session::pending() const { return impl_->pending(); }
 const std::vector<std::string>& Session::failures() const { return impl_->failures(); }
 

@@ -23,8 +23,9 @@ class Session {
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    /// Opens a surface file, a trace, a run folder, the folder of a run that is under way (DIR or DIR.kerf-partial), or
-    /// its events (a file of --events). Cancels what was open. Never throws: what fails is in document().error.
+    /// Opens a surface file, a trace, a run folder, a solution on one (find_solution()), the folder of a run that is
+    /// under way (DIR or DIR.kerf-partial), or its events (a file of --events). Cancels what was open. Never throws:
+    /// what fails is in document().error.
     void open(const std::string& path);
     void reload();
     void close();
@@ -73,6 +74,8 @@ class Session {
     std::shared_ptr<const std::vector<float>> facet_values(NodeId part, ColorBy color);
     /// The `count` worst cells of the run by a measure, worst first: the smallest angle and shape, else the largest.
     std::shared_ptr<const std::vector<WorstCell>> worst_cells(ColorBy color, std::size_t count);
+    /// What the solution that is open has found in a part, in the case of this number.
+    std::shared_ptr<const PartSolution> solution(NodeId part, std::size_t number);
     /// Something that was asked for is being fetched.
     bool pending() const;
     /// What failed to be fetched, newest last.

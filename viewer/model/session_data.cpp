@@ -20,6 +20,10 @@ namespace {
 std::size_t bytes_of_value(const NodeSurface& value) { return bytes_of(value); }
 std::size_t bytes_of_value(const PartCells& value) { return bytes_of(value); }
 std::size_t bytes_of_value(const SurfaceValues& value) { return sizeof value + bytes_of(value.values); }
+std::size_t bytes_of_value(const PartSolution& value) {
+    return sizeof value + bytes_of(value.displacement) + bytes_of(value.stress) + bytes_of(value.von_mises) +
+           bytes_of(value.error_of_tet) + bytes_of(value.error_at_facet);
+}
 template <class T>
 std::size_t bytes_of_value(const std::vector<T>& value) {
     return sizeof value + bytes_of(value);
@@ -207,6 +211,15 @@ std::shared_ptr<const std::vector<WorstCell>> Session::Impl::worst_cells(ColorBy
          scope = std::shared_ptr<const Scope>(data_.scope)]() -> Fetched<std::vector<WorstCell>> {
             return {find_worst_cells(folder, parts, color, count, [&] { return scope->has_ended(); }), {}};
         });
+}
+
+std::shared_ptr<const PartSolution> Session::Impl::solution(NodeId part, std::size_t number) {
+    if (!document_.solution || number >= document_.solution->cases.size() || !is_meshed(part)) return nullptr;
+    const Store::Key key{Store::Kind::solution, part, 0, number};
+    if (auto found = kept<PartSolution>(key)) return found;
+    return fetch<PartSolution>(key, [of = *document_.solution, number, part]() -> Fetched<PartSolution> {
+        return {read_part_solution(of, number, part), {}};
+    });
 }
 
 // What is under way is of a tree or of files that are there no more.

@@ -52,6 +52,7 @@ class Session::Impl {
     std::shared_ptr<const std::vector<float>> cell_values(NodeId part, ColorBy color);
     std::shared_ptr<const std::vector<float>> facet_values(NodeId part, ColorBy color);
     std::shared_ptr<const std::vector<WorstCell>> worst_cells(ColorBy color, std::size_t count);
+    std::shared_ptr<const PartSolution> solution(NodeId part, std::size_t number);
 
     // session.cpp
     bool poll();
@@ -81,7 +82,8 @@ class Session::Impl {
     // --- what is open ---
     struct OpenedRun {
         RunReportFile report;
-        std::string folder, trace;  // the trace: where it is, if there is one
+        std::optional<Solution> solution;  // on it
+        std::string folder, trace;         // the trace: where it is, if there is one
         std::vector<std::string> patch_names;
         Eigen::AlignedBox3d box;
     };

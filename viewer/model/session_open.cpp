@@ -220,8 +220,10 @@ void Session::Impl::show_trace(std::shared_ptr<const Trace> trace, const RunOpti
     use_trace(std::make_shared<Replayer>(std::move(trace), replayer_bytes));
 }
 
-Session::Impl::OpenedRun Session::Impl::read_run(const std::string& folder) {
+Session::Impl::OpenedRun Session::Impl::read_run(const std::string& path) {
     OpenedRun run;
+    run.solution = find_solution(path);
+    const std::string folder = run.solution ? run.solution->mesh : path;
     run.folder = folder;
     run.report = read_report(folder);
     run.report.options.input = existing_path(run.report.options.input, folder);
@@ -237,6 +239,7 @@ void Session::Impl::complete_from_report(OpenedRun run) {
     RunReportFile& report = run.report;
     if (!report.damage.empty()) note_failure(report.damage);
     document_.folder = run.folder;
+    document_.solution = run.solution;
     document_.tree = std::move(report.tree);
     document_.options = report.options;
     document_.histograms = std::move(report.histograms);

@@ -16,12 +16,21 @@ namespace kerf::view {
 /// once, for ever.
 class Store {
  public:
-    enum class Kind : std::uint8_t { surface, part_surface, cells, cell_values, facet_values, worst_cells, on_surface };
+    enum class Kind : std::uint8_t {
+        surface,
+        part_surface,
+        cells,
+        cell_values,
+        facet_values,
+        worst_cells,
+        on_surface,
+        solution
+    };
     struct Key {
         Kind kind;
         NodeId node = 0;
         int color = 0;
-        std::size_t count = 0;     ///< of worst cells
+        std::size_t count = 0;     ///< of worst cells; the number of the case of a solution
         const void* of = nullptr;  ///< the surface on which values lie, which these keep alive
         auto operator<=>(const Key&) const = default;
     };

@@ -35,6 +35,15 @@ constexpr std::array<Names, color_by_count> color_texts = {{
     {"shape", "Shape (regular: 1)"},
     {"volume", "Volume"},
     {"edge-length", "Longest edge"},
+    {"error", "Estimated error (energy norm)"},
+    {"displacement", "Displacement"},
+    {"von-mises", "von Mises stress"},
+    {"stress-xx", "Stress XX"},
+    {"stress-yy", "Stress YY"},
+    {"stress-zz", "Stress ZZ"},
+    {"stress-xy", "Stress XY"},
+    {"stress-yz", "Stress YZ"},
+    {"stress-xz", "Stress XZ"},
 }};
 
 constexpr std::array<const char*, 2> shading_names = {"flat", "smooth"};
@@ -173,7 +182,7 @@ Selection selection_from(const OrderedJson& json, const std::string& source) {
 std::vector<std::pair<const char*, bool*>> switches(ViewState& s) {
     return {{"edges", &s.edges},       {"context", &s.context}, {"plane", &s.plane},           {"axes", &s.axes},
             {"contour", &s.contour},   {"surface", &s.surface}, {"interfaces", &s.interfaces}, {"legend", &s.legend},
-            {"features", &s.features}, {"times", &s.times}};
+            {"features", &s.features}, {"times", &s.times},     {"isolines", &s.isolines}};
 }
 std::vector<std::pair<const char*, bool*>> switches(Panels& p) {
     return {{"tree", &p.tree},        {"display", &p.display},       {"timeline", &p.timeline},
@@ -261,6 +270,8 @@ std::string to_json(const ViewState& state) {
     json["color"] = name(state.color);
     if (state.color_range) json["color_range"] = write(*state.color_range);
     if (state.filter) json["filter"] = write(*state.filter);
+    json["load_case"] = state.load_case;
+    json["deform"] = state.deform;
     json["hidden"] = state.hidden;
     if (state.isolated) json["isolated"] = *state.isolated;
     json["pick"] = pick_names[static_cast<std::size_t>(state.pick)];
@@ -293,6 +304,8 @@ ViewState state_from_json(const std::string& text, const std::string& source) {
         {"color", [&](const OrderedJson& j) { s.color = color_by_from_name(j.get<std::string>()); }},
         {"color_range", [&](const OrderedJson& j) { s.color_range = range_from(j); }},
         {"filter", [&](const OrderedJson& j) { s.filter = range_from(j); }},
+        {"load_case", [&](const OrderedJson& j) { s.load_case = std::max(0, j.get<int>()); }},
+        {"deform", [&](const OrderedJson& j) { s.deform = j.get<double>(); }},
         {"hidden",
          [&](const OrderedJson& j) {
              for (const NodeId node : j.get<std::vector<NodeId>>()) s.set_hidden(node, true);

@@ -57,10 +57,22 @@ enum class ColorBy {
     aspect,
     shape,
     volume,
-    edge_length,  ///< the longest
+    edge_length,   ///< the longest
+    error,         ///< of a solution: the estimate for a cell
+    displacement,  ///< its length
+    von_mises,
+    stress_xx,
+    stress_yy,
+    stress_zz,
+    stress_xy,
+    stress_yz,
+    stress_xz,
 };
-inline constexpr int color_by_count = static_cast<int>(ColorBy::edge_length) + 1;
-constexpr bool is_measure(ColorBy color) { return color >= ColorBy::min_dihedral; }  ///< of cells
+inline constexpr int color_by_count = static_cast<int>(ColorBy::stress_xz) + 1;
+/// Of the shape of cells.
+constexpr bool is_measure(ColorBy color) { return color >= ColorBy::min_dihedral && color <= ColorBy::edge_length; }
+constexpr bool is_of_solution(ColorBy color) { return color >= ColorBy::error; }
+constexpr bool is_at_vertices(ColorBy color) { return color >= ColorBy::displacement; }
 /// Cells are of few kinds, which the legend names.
 constexpr bool is_kind(ColorBy color) { return color == ColorBy::kind || color == ColorBy::origin; }
 /// Has values on surfaces, those of parts included, and none in cells.
@@ -107,6 +119,9 @@ struct ViewState {
     ColorBy color = ColorBy::part;
     std::optional<ValueRange> color_range;  ///< none: that of what is shown
     std::optional<ValueRange> filter;       ///< only cells with a value of `color` in it
+    bool isolines = false;                  ///< where values at vertices are alike
+    int load_case = 0;                      ///< of a solution, from 0
+    double deform = 0;                      ///< displacements of a solution are drawn so many times as long
     bool legend = true;
     bool times = true;           ///< seconds in the tree
     std::vector<NodeId> hidden;  ///< ascending; what lies below them is not shown

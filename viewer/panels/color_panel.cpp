@@ -39,6 +39,26 @@ void draw_range(UiContext& context) {
     }
 }
 
+// How a solution is drawn.
+void draw_solution(UiContext& context) {
+    ViewState& state = context.state;
+    const Document& document = context.session.document();
+    if (!document.solution) return;
+    const auto& cases = document.solution->cases;
+    if (cases.size() > 1) {
+        std::vector<std::string> names;
+        for (const Solution::Case& one : cases) names.push_back(one.name);
+        context.widgets.combo("Case", &state.load_case, names);
+    }
+    context.widgets.input_number("Deform", &state.deform);
+    ImGui::SameLine();
+    const auto number = static_cast<std::size_t>(state.load_case);
+    if (context.widgets.small_button("Auto", "So that the largest displacement is well seen") && number < cases.size())
+        state.deform = good_deformation(cases[number].largest_displacement, document.box.diagonal().norm());
+    if (is_at_vertices(state.color))
+        context.widgets.checkbox("Isolines", &state.isolines, "Lines where values are alike, at tenths of the range");
+}
+
 void draw_filter(UiContext& context) {
     ViewState& state = context.state;
     if (!state.filter) return;
@@ -122,7 +142,8 @@ void draw_color(UiContext& context, Memory& memory) {
     if (context.widgets.header("Colour", true)) {
         const ViewState& state = context.state;
         draw_choice(context);
-        const bool needs_cells = is_measure(state.color) || is_kind(state.color);
+        const bool needs_cells = is_measure(state.color) || is_kind(state.color) ||
+                                 (is_of_solution(state.color) && context.session.document().solution);
         if (needs_cells && context.session.document().folder.empty())
             show_wrapped("Needs tetrahedra, which only the folder of a run has.", palette(state.theme).warning);
         else if (needs_cells && state.step.stage != Stage::tetrahedra) {
@@ -132,6 +153,7 @@ void draw_color(UiContext& context, Memory& memory) {
         if (const char* missing = why_without_values(context.session.document(), state.color))
             show_wrapped(missing, palette(state.theme).dim);
         if (is_measure(state.color) || context.facts.values) draw_range(context);
+        draw_solution(context);
         if (is_measure(state.color)) {
             draw_histogram(context, memory);
             draw_filter(context);

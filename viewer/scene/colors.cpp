@@ -45,7 +45,8 @@ std::vector<Color> value_colors(ColorBy color) {
     std::vector<Color> colors;
     for (const char* text : viridis) colors.push_back(color_from_hex(text));
     // What is bad is dark and purple.
-    if (color == ColorBy::radius_edge || color == ColorBy::aspect || color == ColorBy::deviation)
+    if (color == ColorBy::radius_edge || color == ColorBy::aspect || color == ColorBy::deviation ||
+        color == ColorBy::error)
         std::reverse(colors.begin(), colors.end());
     return colors;
 }

@@ -58,7 +58,7 @@ void SceneBuild::set_colors() {
     scene.scale.none = colors_.none;
     for (std::size_t i = 0; i < category_count; ++i) scene.palette.push_back(category_color(i));
     if (has_patch_colors()) set_patch_palette();
-    if (!is_measure(state_.color) && !is_of_surface(state_.color)) return;
+    if (!is_measure(state_.color) && !is_of_surface(state_.color) && !is_of_solution(state_.color)) return;
     scene.scale.colors = value_colors(state_.color);
     std::optional<ValueRange> range = state_.color_range ? state_.color_range : natural_range(state_.color);
     const bool is_volume = state_.color == ColorBy::volume;
@@ -118,10 +118,21 @@ void SceneBuild::set_legend_of_origins() {
     for (const std::string& filler : others) explain(filler, CellOrigin::other);
 }
 
+// With what else there is to know of a picture of a solution.
+std::string SceneBuild::legend_title() const {
+    std::string text = title(state_.color);
+    if (!needs_solution()) return text;
+    const auto& cases = document_.solution->cases;
+    const auto number = static_cast<std::size_t>(state_.load_case);
+    if (cases.size() > 1 && number < cases.size()) text += fmt::format(", case {}", cases[number].name);
+    if (state_.deform != 0) text += fmt::format(", deformed {:g} x", state_.deform);
+    return text;
+}
+
 void SceneBuild::set_legend() {
     auto& categories = built_.legend.categories;
     if (step_.stage == Stage::tetrahedra || state_.color == ColorBy::patch || built_.legend.values)
-        built_.legend.title = title(state_.color);
+        built_.legend.title = legend_title();
     const Scene& scene = built_.scene;
     if (state_.color == ColorBy::patch) {
         for (std::size_t i = 0; i < document_.patch_names.size(); ++i)

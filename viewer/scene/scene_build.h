@@ -50,6 +50,16 @@ class SceneBuild {
     void add_stage(const Cut& cut, const NodeSurface& surface);
     Layer* add_contour(const Cut& cut, const NodeSurface& surface);
     void add_halves(const NodeSurface* parent);
+    bool needs_solution() const { return document_.solution && (is_of_solution(state_.color) || state_.deform != 0); }
+    // What was found in a part; null if nobody asks for it, or while it is being fetched.
+    std::shared_ptr<const PartSolution> solution_of(NodeId part);
+    std::vector<Vec3> moved_places(const std::vector<Vec3>& vertices, const PartSolution* solution) const;
+    std::vector<float> values_at_vertices(std::size_t count, const PartSolution* solution) const;
+    std::string solution_key() const {
+        return needs_solution() ? fmt::format(" case {} deform {}", state_.load_case, state_.deform) : "";
+    }
+    std::size_t triangles_seen(const Layer& layer) const;
+    void add_isolines();
     void add_parts();
     void add_part(NodeId part);
     bool add_cells(NodeId part, const NodeSurface& surface, const Vec3& offset);
@@ -59,13 +69,15 @@ class SceneBuild {
     void set_range_of_values();
     void set_legend();
     void set_legend_of_origins();
+    std::string legend_title() const;
 
     bool is_shown(NodeId part) const {
         return !state_.is_hidden(part) && (!state_.isolated || lies_below(part, *state_.isolated));
     }
     // Colours follow from numbers, for which there is a scale.
     bool shows_values() const {
-        return is_of_surface(state_.color) || (is_measure(state_.color) && step_.stage == Stage::tetrahedra);
+        const bool is_of_cells = is_measure(state_.color) || (is_of_solution(state_.color) && document_.solution);
+        return is_of_surface(state_.color) || (is_of_cells && step_.stage == Stage::tetrahedra);
     }
     std::shared_ptr<const SurfaceValues> values_on(const std::shared_ptr<const NodeSurface>& surface);
     void color_facets(const NodeSurface& surface, const SurfaceValues* values, const std::vector<float>& patches,
@@ -79,7 +91,8 @@ class SceneBuild {
     Fill fill_of_values() const { return is_kind(state_.color) ? Fill::categories : Fill::scale; }
     std::string clip_key() const;
     std::string value_key() const {
-        return needs_values() || state_.color == ColorBy::patch ? name(state_.color) : "plain";
+        const bool is_plain = !needs_values() && !is_of_solution(state_.color) && state_.color != ColorBy::patch;
+        return (is_plain ? "plain" : name(state_.color)) + solution_key();
     }
     const char* shading_key() const { return state_.shading == Shading::smooth ? "smooth" : "flat"; }
     void extend(Eigen::AlignedBox3d box, const Vec3& offset = Vec3::Zero()) {

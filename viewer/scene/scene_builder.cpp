@@ -247,6 +247,7 @@ BuiltScene SceneBuild::run() {
     if (step_.stage == (document_.remeshed ? Stage::before_remeshing : Stage::input)) add_defects();
     add_selection();
     set_range_of_values();
+    add_isolines();
     set_legend();
     if (state_.context) extend(document_.box);
     built_.pending &= session_.pending() || session_.busy();  // what failed does not come

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -124,6 +125,29 @@ std::string describe_cell(const PartCells& cells, std::size_t cell) {
                       q.max_edge);
 }
 
+// What was found at vertices of a part, as means over them, a fact a line; empty if nothing was, or is not there yet.
+std::string describe_solution(Session& session, NodeId part, int load_case, std::span<const std::int32_t> vertices) {
+    if (!session.document().solution) return "";
+    const auto found = session.solution(part, static_cast<std::size_t>(load_case));
+    if (!found) return "";
+    Vec3 displacement = Vec3::Zero();
+    std::array<double, 6> stress = {};
+    double von_mises = 0;
+    const auto share = 1.0 / static_cast<double>(vertices.size());
+    for (const std::int32_t vertex : vertices) {
+        const auto v = static_cast<std::size_t>(vertex);
+        if (v >= found->displacement.size()) return "";
+        displacement += share * found->displacement[v];
+        von_mises += share * found->von_mises[v];
+        for (std::size_t i = 0; i < stress.size(); ++i) stress[i] += share * found->stress[v][i];
+    }
+    const auto& [xx, yy, zz, xy, yz, xz] = stress;
+    return fmt::format(
+        "displacement ({:.6g}, {:.6g}, {:.6g}), {:.6g} long\nvon Mises {:.6g}\nstress XX {:.6g}, YY {:.6g}, ZZ {:.6g}, "
+        "XY {:.6g}, YZ {:.6g}, XZ {:.6g}\n",
+        displacement.x(), displacement.y(), displacement.z(), displacement.norm(), von_mises, xx, yy, zz, xy, yz, xz);
+}
+
 }  // namespace
 
 std::shared_ptr<const NodeSurface> surface_of(Session& session, NodeId owner) {
@@ -164,7 +188,9 @@ std::optional<Selection> select(Session& session, const Hit& hit, PickMode mode)
     return s;
 }
 
-std::string describe_selection(Session& session, const Selection& s) {
+namespace {
+
+std::string describe_mesh(Session& session, const Selection& s) {
     if (s.kind == Selection::Kind::none) return "";
     if (s.kind == Selection::Kind::place) return text_of(s.place) + "\n";
     const auto index = static_cast<std::size_t>(s.index);
@@ -183,6 +209,28 @@ std::string describe_selection(Session& session, const Selection& s) {
     if (!cells || index >= cells->vertices.size()) return "";
     return fmt::format("vertex {} of part {}, inside of it\nglobal number {}\n{}\n", index, s.owner,
                        cells->vertex_number[index], text_of(cells->vertices[index]));
+}
+
+std::vector<std::int32_t> vertices_of(Session& session, const Selection& s) {
+    const auto index = static_cast<std::size_t>(s.index);
+    if (s.kind == Selection::Kind::vertex) return {s.index};
+    if (s.kind == Selection::Kind::cell)
+        if (const auto cells = session.cells(s.owner); cells && index < cells->tets.size())
+            return {cells->tets[index].begin(), cells->tets[index].end()};
+    if (s.kind == Selection::Kind::facet)
+        if (const auto surface = surface_of(session, s.owner); surface && index < surface->facets.size())
+            return {surface->facets[index].begin(), surface->facets[index].end()};
+    return {};
+}
+
+}  // namespace
+
+std::string describe_selection(Session& session, const Selection& s, int load_case) {
+    std::string text = describe_mesh(session, s);
+    if (text.empty() || !is_leaf(session.document(), s.owner)) return text;
+    const std::vector<std::int32_t> vertices = vertices_of(session, s);
+    if (vertices.empty()) return text;
+    return text + describe_solution(session, s.owner, load_case, vertices);
 }
 
 std::vector<Vec3> selected_points(Session& session, const Selection& s) {

@@ -26,8 +26,8 @@ std::shared_ptr<const NodeSurface> surface_of(Session& session, NodeId owner);
 std::optional<Selection> select(Session& session, const Hit& hit, PickMode mode);
 
 /// Numbers (in the file, global, of the part), coordinates, neighbours and quality, a fact a line; empty if there is
-/// nothing or it is being fetched.
-std::string describe_selection(Session& session, const Selection& selection);
+/// nothing or it is being fetched. Of a solution displacement and stresses there, means over the corners.
+std::string describe_selection(Session& session, const Selection& selection, int load_case);
 
 /// The corners of what is selected, or the place; empty while it is being fetched.
 std::vector<Vec3> selected_points(Session& session, const Selection& selection);

@@ -77,9 +77,15 @@ void smooth_normals(const NodeSurface& surface, Geometry& geometry) {
     }
 }
 
-Vec3 center_of(const PartCells& cells, const std::array<std::int32_t, 4>& tet) {
+using Places = std::span<const Vec3>;
+
+Places places_of(const PartCells& cells, const CellChoice& choice) {
+    return choice.places.empty() ? Places(cells.vertices) : choice.places;
+}
+
+Vec3 center_of(const Places& places, const std::array<std::int32_t, 4>& tet) {
     Vec3 sum = Vec3::Zero();
-    for (const std::int32_t v : tet) sum += cells.vertices[static_cast<std::size_t>(v)];
+    for (const std::int32_t v : tet) sum += places[static_cast<std::size_t>(v)];
     return sum / 4;
 }
 
@@ -96,37 +102,63 @@ bool is_chosen_by_plane(const std::array<double, 4>& distance, ClipStyle style) 
     return true;
 }
 
-Corners face_of(const PartCells& cells, std::size_t tet, std::size_t face) {
-    Corners corners;
-    for (std::size_t k = 0; k < 3; ++k)
-        corners[k] =
-            cells.vertices[static_cast<std::size_t>(cells.tets[tet][static_cast<std::size_t>(tet_faces[face][k])])];
+Triangle face_of(const PartCells& cells, std::size_t tet, std::size_t face) {
+    Triangle corners{};
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = cells.tets[tet][static_cast<std::size_t>(tet_faces[face][k])];
     return corners;
 }
 
+Corners corners_at(const Places& places, const Triangle& t) {
+    return {places[static_cast<std::size_t>(t[0])], places[static_cast<std::size_t>(t[1])],
+            places[static_cast<std::size_t>(t[2])]};
+}
+
+// The last triangle gets values of its own at its corners.
+void set_corner_values(Geometry& geometry, const std::array<float, 3>& values) {
+    for (std::size_t k = 0; k < 3; ++k)
+        (geometry.corners.end() - 3 + static_cast<std::ptrdiff_t>(k))->value = values[k];
+}
+void set_corner_values(Geometry& geometry, const Triangle& t, std::span<const float> vertex_value) {
+    set_corner_values(geometry,
+                      {vertex_value[static_cast<std::size_t>(t[0])], vertex_value[static_cast<std::size_t>(t[1])],
+                       vertex_value[static_cast<std::size_t>(t[2])]});
+}
+
+struct ValuedPoint {
+    Vec3 place = Vec3::Zero();
+    float value = 0;
+};
+
 // A convex polygon as a fan of triangles whose inner edges are not drawn.
-void add_polygon(Geometry& geometry, const Frame& frame, const std::vector<Vec3>& polygon, float value,
+void add_polygon(Geometry& geometry, const Frame& frame, const std::vector<ValuedPoint>& polygon,
                  std::int32_t element) {
     for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
         std::uint16_t edges = 2;  // from i to i + 1
         if (i == 1) edges |= 1;
         if (i + 2 == polygon.size()) edges |= 4;
-        add_triangle(geometry, frame, {polygon[0], polygon[i], polygon[i + 1]}, value, edges, element);
+        const ValuedPoint &a = polygon[0], &b = polygon[i], &c = polygon[i + 1];
+        add_triangle(geometry, frame, {a.place, b.place, c.place}, 0, edges, element);
+        set_corner_values(geometry, {a.value, b.value, c.value});
     }
 }
 
 // Where the plane cuts a tetrahedron: three or four points, in the order of going around.
-std::vector<Vec3> section_of(const PartCells& cells, std::size_t tet, const std::array<double, 4>& distance) {
-    const auto corner = [&](std::size_t i) -> const Vec3& {
-        return cells.vertices[static_cast<std::size_t>(cells.tets[tet][i])];
+std::vector<ValuedPoint> section_of(const PartCells& cells, const CellChoice& choice, std::size_t tet,
+                                    const std::array<double, 4>& distance) {
+    const Places places = places_of(cells, choice);
+    const auto corner = [&](std::size_t i) -> ValuedPoint {
+        const auto v = static_cast<std::size_t>(cells.tets[tet][i]);
+        const float of_cell = choice.value.empty() ? 0 : choice.value[tet];
+        return {places[v], choice.vertex_value.empty() ? of_cell : choice.vertex_value[v]};
     };
-    const auto between = [&](std::size_t i, std::size_t j) -> Vec3 {
+    const auto between = [&](std::size_t i, std::size_t j) -> ValuedPoint {
         const double s = distance[i] / (distance[i] - distance[j]);
-        return corner(i) + s * (corner(j) - corner(i));
+        const ValuedPoint a = corner(i), b = corner(j);
+        return {a.place + s * (b.place - a.place), a.value + static_cast<float>(s) * (b.value - a.value)};
     };
     std::vector<std::size_t> below, above;
     for (std::size_t i = 0; i < 4; ++i) (distance[i] < 0 ? below : above).push_back(i);
-    std::vector<Vec3> polygon;
+    std::vector<ValuedPoint> polygon;
     if (below.size() == 2) {
         polygon = {between(below[0], above[0]), between(below[0], above[1]), between(below[1], above[1]),
                    between(below[1], above[0])};
@@ -138,9 +170,9 @@ std::vector<Vec3> section_of(const PartCells& cells, std::size_t tet, const std:
 }
 
 // Seen from the side that was cut away the polygon is to go around counter-clockwise.
-void face_towards(const Vec3& normal, std::vector<Vec3>& polygon) {
-    if (polygon.size() >= 3 && (polygon[1] - polygon[0]).cross(polygon[2] - polygon[0]).dot(normal) < 0)
-        std::reverse(polygon.begin() + 1, polygon.end());
+void face_towards(const Vec3& normal, std::vector<ValuedPoint>& polygon) {
+    const auto side = [&](std::size_t i) -> Vec3 { return polygon[i].place - polygon[0].place; };
+    if (polygon.size() >= 3 && side(1).cross(side(2)).dot(normal) < 0) std::reverse(polygon.begin() + 1, polygon.end());
 }
 
 // Corners of the rectangle, counter-clockwise seen against the normal.
@@ -181,17 +213,12 @@ std::shared_ptr<Geometry> facet_triangles(const NodeSurface& surface, const Fram
         for (std::int32_t f = 0; f < count; ++f) {
             if (surface.is_interface(f) != interfaces || (choice.wanted && !choice.wanted(f))) continue;
             const Triangle& t = surface.facets[static_cast<std::size_t>(f)];
-            const Corners corners = {surface.vertices[static_cast<std::size_t>(t[0])],
-                                     surface.vertices[static_cast<std::size_t>(t[1])],
-                                     surface.vertices[static_cast<std::size_t>(t[2])]};
+            const Corners corners = corners_at(choice.places.empty() ? Places(surface.vertices) : choice.places, t);
             const Vec3 center = (corners[0] + corners[1] + corners[2]) / 3;
             if (!center.allFinite()) continue;
             const float value = choice.value.empty() ? 0 : choice.value[static_cast<std::size_t>(f)];
             add_triangle(*geometry, frame, shrunk(corners, center, choice.shrink), value, 7, f);
-            if (choice.vertex_value.empty()) continue;
-            for (std::size_t k = 0; k < 3; ++k)
-                (geometry->corners.end() - 3 + static_cast<std::ptrdiff_t>(k))->value =
-                    choice.vertex_value[static_cast<std::size_t>(t[k])];
+            if (!choice.vertex_value.empty()) set_corner_values(*geometry, t, choice.vertex_value);
         }
     }
     if (choice.smooth) smooth_normals(surface, *geometry);
@@ -202,8 +229,7 @@ std::vector<char> chosen_cells(const PartCells& cells, const CellChoice& choice)
     std::vector<char> chosen(cells.tets.size(), 1);
     std::vector<double> distance;
     if (choice.side) {
-        distance.resize(cells.vertices.size());
-        for (std::size_t v = 0; v < distance.size(); ++v) distance[v] = choice.side->distance(cells.vertices[v]);
+        for (const Vec3& p : places_of(cells, choice)) distance.push_back(choice.side->distance(p));
     }
     for (std::size_t t = 0; t < chosen.size(); ++t) {
         if (choice.filter && !choice.value.empty()) {
@@ -236,6 +262,7 @@ std::vector<std::array<float, 4>> face_values(const PartCells& cells, const Node
 std::shared_ptr<Geometry> cell_faces(const PartCells& cells, const Frame& frame, const CellChoice& choice) {
     auto geometry = std::make_shared<Geometry>();
     const std::vector<char> chosen = chosen_cells(cells, choice);
+    const Places places = places_of(cells, choice);
     for (std::size_t t = 0; t < chosen.size(); ++t) {
         if (!chosen[t]) continue;
         const auto is_open = [&](std::size_t face) {
@@ -245,12 +272,15 @@ std::shared_ptr<Geometry> cell_faces(const PartCells& cells, const Frame& frame,
         const bool any = is_open(0) || is_open(1) || is_open(2) || is_open(3);
         if (!any) continue;
         const float value = choice.value.empty() ? 0 : choice.value[t];
-        const Vec3 center = center_of(cells, cells.tets[t]);
-        for (std::size_t face = 0; face < 4; ++face)
-            if (choice.shrink > 0 || is_open(face))
-                add_triangle(*geometry, frame, shrunk(face_of(cells, t, face), center, choice.shrink),
-                             choice.face_value.empty() ? value : choice.face_value[t][face], 7,
-                             static_cast<std::int32_t>(t));
+        const Vec3 center = center_of(places, cells.tets[t]);
+        for (std::size_t face = 0; face < 4; ++face) {
+            if (!(choice.shrink > 0) && !is_open(face)) continue;
+            const Triangle corners = face_of(cells, t, face);
+            add_triangle(*geometry, frame, shrunk(corners_at(places, corners), center, choice.shrink),
+                         choice.face_value.empty() ? value : choice.face_value[t][face], 7,
+                         static_cast<std::int32_t>(t));
+            if (!choice.vertex_value.empty()) set_corner_values(*geometry, corners, choice.vertex_value);
+        }
     }
     return geometry;
 }
@@ -259,22 +289,41 @@ std::shared_ptr<Geometry> cell_sections(const PartCells& cells, const Frame& fra
     auto geometry = std::make_shared<Geometry>();
     if (!choice.side) return geometry;
     const std::vector<char> chosen = chosen_cells(cells, choice);
+    const Places places = places_of(cells, choice);
     for (std::size_t t = 0; t < chosen.size(); ++t) {
         if (!chosen[t]) continue;
         std::array<double, 4> distance = {};
         for (std::size_t k = 0; k < 4; ++k)
-            distance[k] = choice.side->distance(cells.vertices[static_cast<std::size_t>(cells.tets[t][k])]);
-        std::vector<Vec3> polygon = section_of(cells, t, distance);
+            distance[k] = choice.side->distance(places[static_cast<std::size_t>(cells.tets[t][k])]);
+        std::vector<ValuedPoint> polygon = section_of(cells, choice, t, distance);
         if (polygon.empty()) continue;
         if (choice.shrink > 0) {
             Vec3 center = Vec3::Zero();
-            for (const Vec3& p : polygon) center += p / static_cast<double>(polygon.size());
-            for (Vec3& p : polygon) p += choice.shrink * (center - p);
+            for (const ValuedPoint& p : polygon) center += p.place / static_cast<double>(polygon.size());
+            for (ValuedPoint& p : polygon) p.place += choice.shrink * (center - p.place);
         }
         face_towards(choice.side->normal, polygon);
-        add_polygon(*geometry, frame, polygon, choice.value.empty() ? 0 : choice.value[t],
-                    static_cast<std::int32_t>(t));
+        add_polygon(*geometry, frame, polygon, static_cast<std::int32_t>(t));
     }
+    return geometry;
+}
+
+std::shared_ptr<Geometry> isolines(const Geometry& triangles, std::size_t count, const std::vector<float>& levels) {
+    auto geometry = std::make_shared<Geometry>();
+    for (std::size_t i = 0; i < 3 * count; i += 3)
+        for (const float level : levels) {
+            std::array<std::array<float, 3>, 2> ends = {};
+            std::size_t found = 0;
+            for (std::size_t k = 0; k < 3 && found < 2; ++k) {
+                const Corner &a = triangles.corners[i + k], &b = triangles.corners[i + (k + 1) % 3];
+                if ((a.value < level) == (b.value < level) || std::isnan(a.value) || std::isnan(b.value)) continue;
+                const float s = (level - a.value) / (b.value - a.value);
+                for (std::size_t c = 0; c < 3; ++c)
+                    ends[found][c] = a.position[c] + s * (b.position[c] - a.position[c]);
+                ++found;
+            }
+            if (found == 2) geometry->segments.push_back({ends[0], ends[1]});
+        }
     return geometry;
 }
 
@@ -305,8 +354,9 @@ std::shared_ptr<Geometry> points(const std::vector<Vec3>& places, const Frame& f
 
 std::shared_ptr<Geometry> plane_rectangle(const Plane& plane, const Eigen::AlignedBox3d& box, const Frame& frame) {
     auto geometry = std::make_shared<Geometry>();
-    const std::array<Vec3, 4> corners = rectangle_corners(plane, box);
-    add_polygon(*geometry, frame, {corners.begin(), corners.end()}, 0, 0);
+    std::vector<ValuedPoint> corners;
+    for (const Vec3& corner : rectangle_corners(plane, box)) corners.push_back({corner, 0});
+    add_polygon(*geometry, frame, corners, 0);
     geometry->element.clear();
     return geometry;
 }

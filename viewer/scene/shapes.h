@@ -28,6 +28,7 @@ struct FacetChoice {
     std::function<bool(std::int32_t facet)> wanted;  ///< none: all
     std::span<const float> value;                    ///< per facet; empty: 0
     std::span<const float> vertex_value;             ///< per vertex, instead of `value`; empty: none
+    std::span<const Vec3> places;                    ///< of the vertices, if not where the surface has them
     bool smooth = false;                             ///< normals over edges below 40 degrees
     double shrink = 0;                               ///< of triangles about their centres
 };
@@ -41,6 +42,8 @@ std::shared_ptr<Geometry> facet_triangles(const NodeSurface& surface, const Fram
 struct CellChoice {
     std::span<const float> value;                      ///< per cell; empty: 0
     std::span<const std::array<float, 4>> face_value;  ///< per cell and face, instead of `value`; empty: none
+    std::span<const float> vertex_value;               ///< per vertex, instead of both; empty: none
+    std::span<const Vec3> places;                      ///< of the vertices, if not where the cells have them
     std::optional<ValueRange> filter;                  ///< of the values; needs them
     const ShownSide* side = nullptr;                   ///< of a clip plane, or nullptr
     ClipStyle style = ClipStyle::cells;
@@ -58,6 +61,9 @@ std::shared_ptr<Geometry> cell_sections(const PartCells& cells, const Frame& fra
 /// The values of the facets of a part's surface at the faces of its cells; NaN at inner faces. O(#T + #F).
 std::vector<std::array<float, 4>> face_values(const PartCells& cells, const NodeSurface& surface,
                                               std::span<const float> of_facet);
+
+/// Where the values inside of the first `count` triangles are those of the levels: segments. O(count) for each level.
+std::shared_ptr<Geometry> isolines(const Geometry& triangles, std::size_t count, const std::vector<float>& levels);
 
 /// The chosen cells by number. O(#T).
 std::vector<char> chosen_cells(const PartCells& cells, const CellChoice& choice);

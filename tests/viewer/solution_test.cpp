@@ -1,0 +1,188 @@
+// Solutions in the viewer: what is opened, what is drawn, what is said of a place.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "support/assets.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
+#include "viewer/driver.h"
+#include "viewer/golden_image.h"
+#include "viewer/model/solution.h"
+#include "viewer/scene/selection.h"
+#include "viewer/scene/shapes.h"
+#include "viewer/solved_run.h"
+
+namespace kerf::test {
+namespace {
+
+using namespace view;
+
+// The unit cube in two parts, with two cases.
+class SolvedCube : public testing::Test {
+ protected:
+    static void SetUpTestSuite() {
+        folder_ = std::make_unique<TemporaryFolder>();
+        ASSERT_EQ(
+            run_kerf({"mesh", asset_path("cube"), "-o", folder_->file("out/mesh"), "-n", "2", "--size", "0.2", "-q"})
+                .exit_code,
+            0);
+        write_solution(folder_->file("out/mesh"), folder_->file("out/solution"), "../mesh", {"slow", "fast"});
+        Driver::Options options;
+        options.width = 480;
+        options.height = 360;
+        driver_ = std::make_unique<Driver>(options);
+        driver_->show_panels(false);
+        driver_->open(folder_->file("out"));
+    }
+    static void TearDownTestSuite() {
+        driver_.reset();
+        folder_.reset();
+    }
+    void SetUp() override {
+        driver_->state() = {};
+        driver_->state().step = {Stage::tetrahedra, -1};
+    }
+    // Corners of what is drawn, in coordinates of the file, with their values.
+    template <class Visit>
+    void for_corners(Visit visit) const {
+        const BuiltScene& built = driver_->app().scene();
+        for (const Layer& layer : built.scene.layers)
+            for (const Corner& corner : layer.geometry->corners)
+                visit(Vec3(corner.position[0], corner.position[1], corner.position[2]) / built.frame.scale +
+                          built.frame.center,
+                      corner.value);
+    }
+    static std::unique_ptr<TemporaryFolder> folder_;
+    static std::unique_ptr<Driver> driver_;
+};
+std::unique_ptr<TemporaryFolder> SolvedCube::folder_;
+std::unique_ptr<Driver> SolvedCube::driver_;
+
+TEST_F(SolvedCube, IsFoundByItsFolderAndTheOneAbove) {
+    for (const char* name : {"out", "out/solution"}) {
+        const auto solution = find_solution(folder_->file(name));
+        ASSERT_TRUE(solution) << name;
+        EXPECT_EQ(solution->mesh, folder_->file("out/mesh"));
+        ASSERT_EQ(solution->cases.size(), 2u);
+        EXPECT_EQ(solution->cases[1].name, "fast");
+    }
+    EXPECT_FALSE(find_solution(folder_->file("out/mesh")));
+    write_solution(folder_->file("out/mesh"), folder_->file("astray"), "../nowhere", {""});
+    EXPECT_THROW(find_solution(folder_->file("astray")), Error);
+}
+
+// Values are linear in x, and so they are in every corner of every triangle, on the surface and in sections.
+TEST_F(SolvedCube, HasTheValuesOfItsVertices) {
+    ViewState& state = driver_->state();
+    for (const bool clipped : {false, true})
+        for (int i = static_cast<int>(ColorBy::displacement); i < color_by_count; ++i) {
+            state.color = static_cast<ColorBy>(i);
+            state.clip = {clipped, ClipStyle::smooth, Vec3(1, 1, 1).normalized(), 0.5, false};
+            driver_->settle();
+            const double slope = state.color <= ColorBy::von_mises ? 1 : i - static_cast<int>(ColorBy::stress_xx) + 1;
+            std::int64_t corners = 0;
+            for_corners([&](const Vec3& p, float value) {
+                EXPECT_NEAR(value, slope * p.x(), 1e-5) << name(state.color);
+                ++corners;
+            });
+            EXPECT_GT(corners, 100);
+        }
+    state.color = ColorBy::error;
+    driver_->settle();
+    for_corners([&](const Vec3&, float value) { EXPECT_EQ(value, 1); });
+}
+
+TEST_F(SolvedCube, IsDrawnWhereItMoves) {
+    ViewState& state = driver_->state();
+    state.color = ColorBy::displacement;
+    state.deform = 0.5;
+    state.load_case = 1;
+    for (const bool clipped : {false, true}) {
+        state.clip = {clipped, ClipStyle::cells, Vec3::UnitY(), 0.5, false};
+        driver_->settle();
+        double farthest = 0;
+        for_corners([&](const Vec3& p, float value) {  // x + 0.5 * 2x, and the displacement is 2x
+            EXPECT_NEAR(value, p.x(), 1e-5);
+            farthest = std::max(farthest, p.x());
+        });
+        EXPECT_NEAR(farthest, 2, 1e-5);
+    }
+    EXPECT_NE(driver_->app().scene().legend.title.find("case fast, deformed 0.5 x"), std::string::npos)
+        << driver_->app().scene().legend.title;
+}
+
+TEST_F(SolvedCube, IsolinesAreWhereTheirValuesAre) {
+    ViewState& state = driver_->state();
+    state.color = ColorBy::von_mises;
+    state.isolines = true;
+    state.color_range = ValueRange{0, 1};
+    driver_->settle();
+    const BuiltScene& built = driver_->app().scene();
+    std::int64_t lines = 0;
+    for (const Layer& layer : built.scene.layers)
+        for (const Segment& segment : layer.geometry->segments) {
+            const double from = segment.from[0] / built.frame.scale + built.frame.center.x(),
+                         to = segment.to[0] / built.frame.scale + built.frame.center.x();
+            EXPECT_NEAR(from, std::round(10 * from) / 10, 1e-5);
+            EXPECT_NEAR(from, to, 1e-5);
+            ++lines;
+        }
+    EXPECT_GT(lines, 100);
+    state.isolines = false;
+    driver_->settle();
+    EXPECT_EQ(driver_->drawn("isolines").segments, 0);
+}
+
+TEST_F(SolvedCube, TellsWhatIsAtAPlace) {
+    ViewState& state = driver_->state();
+    state.color = ColorBy::von_mises;
+    driver_->settle();
+    const NodeId part = 2;
+    const auto surface = driver_->app().session().part_surface(part);
+    ASSERT_TRUE(surface);
+    const Selection vertex = {Selection::Kind::vertex, part, 0, surface->vertices[0]};
+    const std::string text = describe_selection(driver_->app().session(), vertex, 0);
+    EXPECT_NE(text.find(fmt::format("von Mises {:.6g}", surface->vertices[0].x())), std::string::npos) << text;
+    EXPECT_NE(text.find("stress XX"), std::string::npos);
+}
+
+TEST_F(SolvedCube, LooksAsItShould) {
+    ViewState& state = driver_->state();
+    state.color = ColorBy::von_mises;
+    state.isolines = true;
+    state.deform = 0.3;
+    state.edges = false;
+    EXPECT_TRUE(is_golden("solution", *driver_));
+}
+
+TEST_F(SolvedCube, IsAPictureByOneCommand) {
+    const std::string png = folder_->file("a.png");
+    const auto run = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all = {"screenshot", folder_->file("out/solution"), "-o", png, "--size", "320x240"};
+        all.insert(all.end(), more.begin(), more.end());
+        return run_kerf(all);
+    };
+    EXPECT_EQ(run({"--color", "von-mises", "--deform", "auto", "--isolines", "--range", "0", "1", "--case", "fast"})
+                  .exit_code,
+              0);
+    const ChildResult no_case = run({"--case", "slower"});
+    EXPECT_EQ(no_case.exit_code, 2);
+    EXPECT_NE(no_case.log.find("It has 'slow', 'fast'"), std::string::npos) << no_case.log;
+    EXPECT_EQ(run({"--deform", "much"}).exit_code, 2);
+    EXPECT_EQ(run({"--range", "2", "1"}).exit_code, 2);
+    const ChildResult no_solution =
+        run_kerf({"screenshot", folder_->file("out/mesh"), "-o", png, "--size", "320x240", "--color", "displacement"});
+    EXPECT_EQ(no_solution.exit_code, 2);
+    EXPECT_NE(no_solution.log.find("There is no solution"), std::string::npos) << no_solution.log;
+}
+
+TEST(Deformation, IsARoundNumber) {
+    EXPECT_DOUBLE_EQ(good_deformation(0.001, 1), 50);
+    EXPECT_DOUBLE_EQ(good_deformation(0.0011, 1), 20);
+    EXPECT_DOUBLE_EQ(good_deformation(3, 1), 0.01);
+    EXPECT_EQ(good_deformation(0, 1), 0);
+}
+
+}  // namespace
+}  // namespace kerf::test
