@@ -25,6 +25,14 @@ trap 'rm -rf "$work"' EXIT
     -o "$gallery/lattice.png"
 "$kerf" mesh assets/bearing_cap_52k.stl -o "$work/reference" -n 8 --max-volume 0.46 --reference -q
 cp "$work/reference/comparison.svg" "$gallery/comparison.svg"
+"$kerf" solve assets/bearing_cap_52k.stl --feature-angle 40 --case assets/bearing_cap_case.toml -o "$work/stress" -n 8 -q
+"$kerf" screenshot "$work/stress" --color von-mises --range 0 300 --isolines --deform auto --no-edges --antialias 2 \
+    --size 1000x560 -o "$gallery/stress.png"
+"$kerf" solve assets/l_bracket.stl --case assets/l_bracket_case.toml -o "$work/bracket" -n 4 --adapt 3 -q
+for step in 1 2 3 4; do
+    "$kerf" screenshot "$work/bracket/step_$step/solution" --color error --range 0 0.15 --no-legend --antialias 2 --size 420x400 \
+        -o "$gallery/bracket_$step.png"
+done
 
 # The surface of a CAD file as OpenCASCADE triangulates it, and remeshed.
 before_and_after() {

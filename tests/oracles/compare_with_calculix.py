@@ -66,15 +66,20 @@ def nodal_forces(solution, points, midpoint):
     return forces
 
 
+def number(x):
+    """CalculiX reads no more than 20 characters of one."""
+    return f"{x:.12e}"
+
+
 def write_deck(points, elements, held, forces):
     kind = "C3D4" if elements.shape[1] == 4 else "C3D10"
     lines = ["*NODE, NSET=NALL"]
-    lines += [f"{i + 1}, {x:.15g}, {y:.15g}, {z:.15g}" for i, (x, y, z) in enumerate(points)]
+    lines += [f"{i + 1}, {number(x)}, {number(y)}, {number(z)}" for i, (x, y, z) in enumerate(points)]
     lines += [f"*ELEMENT, TYPE={kind}, ELSET=EALL"]
     lines += [", ".join(str(n) for n in [i + 1, *(nodes + 1)]) for i, nodes in enumerate(elements)]
     lines += ["*MATERIAL, NAME=STEEL", "*ELASTIC", "210000., 0.3", "*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL"]
     lines += ["*BOUNDARY", *(f"{n + 1}, 1, 3" for n in held), "*STEP", "*STATIC", "*CLOAD"]
-    lines += [f"{n + 1}, {c + 1}, {forces[n, c]:.15g}" for n in np.flatnonzero(forces.any(axis=1)) for c in range(3)]
+    lines += [f"{n + 1}, {c + 1}, {number(forces[n, c])}" for n in np.flatnonzero(forces.any(axis=1)) for c in range(3)]
     lines += ["*NODE PRINT, NSET=NALL", "U", "*EL PRINT, ELSET=EALL", "S", "*END STEP", ""]
     pathlib.Path("job.inp").write_text("\n".join(lines))
 
