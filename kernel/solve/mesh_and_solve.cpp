@@ -42,15 +42,20 @@ class StepFolders {
             }
         }
     }
-    /// Removes what an earlier run into the folder has made beyond the last step.
-    void remove_after(std::int32_t last) const {
-        for (std::int32_t step = last + 1; is_adaptive_ && fs::exists(base(step)); ++step) fs::remove_all(base(step));
+    /// Removes what an earlier run into the folder has made and this one, with so many steps, has not replaced.
+    void remove_others(std::int32_t steps) const {
+        if (is_adaptive_) {
+            for (const char* name : {"mesh", "solution"}) fs::remove_all(fs::path(output_) / name);
+        } else {
+            fs::remove(report());
+        }
+        for (std::int32_t step = is_adaptive_ ? steps : 0; fs::exists(step_folder(step)); ++step)
+            fs::remove_all(step_folder(step));
     }
 
  private:
-    std::string base(std::int32_t step) const {
-        return is_adaptive_ ? fmt::format("{}/step_{}", output_, step + 1) : output_;
-    }
+    std::string step_folder(std::int32_t step) const { return fmt::format("{}/step_{}", output_, step + 1); }
+    std::string base(std::int32_t step) const { return is_adaptive_ ? step_folder(step) : output_; }
     static void require_own(const fs::path& path) {
         const std::string stem = path.filename().stem().string(), ending = path.extension().string();
         const bool is_own = (stem == "mesh" || stem == "solution") && fs::is_directory(path) &&
@@ -134,7 +139,7 @@ MeshAndSolveReport mesh_and_solve(const MeshAndSolveRequest& request, int cores_
         options.sizes.field_file = folders.solution(step) + "/" + size_field_file;
     }
     in_agreement(ranks, [&] {
-        if (ranks.rank() == 0) folders.remove_after(static_cast<std::int32_t>(report.steps.size()) - 1);
+        if (ranks.rank() == 0) folders.remove_others(static_cast<std::int32_t>(report.steps.size()));
     });
     return report;
 }

@@ -39,8 +39,8 @@ struct MeshAndSolveReport {
 /// Makes OUT/mesh and OUT/solution; with steps, OUT/step_1/mesh and so on, each of which stays, and OUT/report.json.
 /// It ends when the estimated error is at most solve.target_error, or after the last step; the sizes of a mesh are
 /// those that the solution before asks for (sizes_for_error()) and no larger ones than the options say. Collective;
-/// throws as run() and solve_run() do, and Error(io) for a folder with anything else in it. Steps of an earlier, longer
-/// run into the folder are removed.
+/// throws as run() and solve_run() do, and Error(io) for a folder with anything else in it. What an earlier run of this
+/// kind has left there goes when this one has ended well.
 MeshAndSolveReport mesh_and_solve(const MeshAndSolveRequest& request, int cores_of_rank, Communicator& ranks,
                                   RunListener* listener);
 

@@ -77,6 +77,11 @@ TEST_F(MeshAndSolve, TheErrorFallsWhereCellsAreFinerWhereItIs) {
     EXPECT_EQ(json_of("report.json")["steps"].size(), 2U);
     EXPECT_TRUE(exists("step_2/solution/mesh.pvtu"));
     EXPECT_FALSE(exists("step_3"));
+    ASSERT_EQ(test::run_kerf(bracket({"--size", "20"})).exit_code, 0);
+    EXPECT_FALSE(exists("step_1") || exists("report.json"));
+    EXPECT_TRUE(exists("solution/mesh.pvtu"));
+    ASSERT_EQ(test::run_kerf(bracket({"--size", "20", "--adapt", "1"})).exit_code, 0);
+    EXPECT_FALSE(exists("solution"));
 }
 
 TEST_F(MeshAndSolve, RefusesWhatCannotBe) {
