@@ -99,7 +99,9 @@ CLI::App* add_export_command(CLI::App& app, CommandLine& line) {
     command->footer(list +
                     "A single format goes into OUT itself, several go into sub-folders. mpirun -n P kerf export\n"
                     "shares the parts among P ranks.");
-    command->add_option("folder", request.folder, "Folder of the run.")->required()->type_name("DIR");
+    command->add_option("folder", request.folder, "Folder of the run, or of a solution, with its values.")
+        ->required()
+        ->type_name("DIR");
     command->add_option("-f,--format", request.formats, "Formats, with commas between.")->required()->type_name("LIST");
     command
         ->add_option("-o,--output", request.output,
@@ -209,7 +211,9 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     verify->add_option("folder", line.options.output, "Folder of the run.")->required()->type_name("DIR");
     CLI::App* to_export = add_export_command(app, line);
     CLI::App* to_merge = app.add_subcommand("merge", "Write a finished run as one mesh.");
-    to_merge->add_option("folder", line.merge.folder, "Folder of the run.")->required()->type_name("DIR");
+    to_merge->add_option("folder", line.merge.folder, "Folder of the run, or of a solution, with its values.")
+        ->required()
+        ->type_name("DIR");
     to_merge->add_option("-o,--output", line.merge.output, "File, whose ending chooses the format.")
         ->required()
         ->type_name("FILE");

@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "io/output_file.h"
 #include "io/standard_streams.h"
-#include "part/run_parts.h"
+#include "part/solution_parts.h"
 
 namespace kerf {
 
@@ -83,7 +83,8 @@ int merge_run(const MergeRequest& request) {
     const fs::path output = request.output;
     const Format& format = format_of(output);
     const fs::path main_place = place_for(output, request.folder);
-    const RunParts parts(request.folder);
+    const std::unique_ptr<PartSource> source = open_parts(request.folder);
+    const PartSource& parts = *source;
     const FolderBeside beside(main_place);
     ExportFiles files(beside.path());
     format.write_merged(parts, request.options, files, output.stem().string());

@@ -2,6 +2,7 @@
 // by global numbers, at the places where PETSc's DMPlex looks for it and as an XDMF file describes it to DOLFINx and
 // ParaView. The file is made with all its arrays; then parts write their rows, in any order and from any process.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -48,11 +49,27 @@ Hdf5Type corner_type(const MeshOutline& outline) {
     return type_for(most);
 }
 
+// A slash would be a group.
+std::string array_name(const PartValues& values) {
+    std::string name = values.name;
+    std::replace(name.begin(), name.end(), '/', '_');
+    return name;
+}
+// Of the pieces, and by global numbers.
+std::string piece_array_of(const PartValues& values) {
+    const bool of_points = values.of == PartValues::Of::points;
+    return (of_points ? "VTKHDF/PointData/" : "VTKHDF/CellData/") + array_name(values);
+}
+std::string whole_array_of(const PartValues& values) {
+    const bool of_points = values.of == PartValues::Of::points;
+    return (of_points ? "fields/vertices/" : "fields/cells/") + array_name(values);
+}
+
 std::vector<Hdf5Array> arrays_of(const MeshOutline& outline) {
     const auto parts = static_cast<std::int64_t>(outline.parts.size());
     const PieceRows all = rows_before(outline, outline.parts.size());
     const std::int64_t tets = outline.tets(), facets = outline.first_patch_facet(static_cast<std::int32_t>(parts));
-    return {
+    std::vector<Hdf5Array> arrays = {
         {"VTKHDF/NumberOfPoints", Hdf5Type::int64, parts},
         {"VTKHDF/NumberOfCells", Hdf5Type::int64, parts},
         {"VTKHDF/NumberOfConnectivityIds", Hdf5Type::int64, parts},
@@ -69,6 +86,13 @@ std::vector<Hdf5Array> arrays_of(const MeshOutline& outline) {
         {"viz/part", Hdf5Type::int32, tets},
         {"viz/patch", Hdf5Type::int32, facets},
     };
+    for (const PartValues& values : outline.values) {
+        const bool of_points = values.of == PartValues::Of::points;
+        const std::int64_t columns = values.components == 1 ? 0 : values.components;
+        arrays.push_back({piece_array_of(values), Hdf5Type::real, of_points ? all.points : all.cells, columns});
+        arrays.push_back({whole_array_of(values), Hdf5Type::real, of_points ? outline.vertices : tets, columns});
+    }
+    return arrays;
 }
 
 // Writes values of an array, one behind the other from a row on, through a buffer.
@@ -139,6 +163,7 @@ class Hdf5Piece {
         else
             write_cells<std::int64_t>();
         write_tags();
+        for (const PartValues& values : part_.values) write_values(values);
     }
 
  private:
@@ -189,16 +214,50 @@ class Hdf5Piece {
         patch.flush();
     }
 
-    // Those that the part owns.
-    void write_vertices() const {
+    // Vertices that the part owns, ascending by global number.
+    std::vector<std::size_t> own_vertices() const {
         const std::vector<NodeId> owner = owners_of_vertices(part_);
         std::vector<std::size_t> own;
         for (std::size_t v = 0; v < owner.size(); ++v)
             if (owner[v] == part_.id) own.push_back(v);
         std::sort(own.begin(), own.end(),
                   [this](std::size_t a, std::size_t b) { return part_.global_id[a] < part_.global_id[b]; });
+        return own;
+    }
+
+    // Boundary triangles have the values of the tetrahedron behind them.
+    void write_values(const PartValues& values) const {
+        const auto width = static_cast<std::size_t>(values.components);
+        const auto put = [&](Hdf5Rows<double>& rows, std::size_t i) {
+            for (std::size_t c = 0; c < width; ++c) rows.put(values.number(width * i + c));
+        };
+        const bool of_points = values.of == PartValues::Of::points;
+        Hdf5Rows<double> piece(file_, piece_array_of(values), of_points ? own_.points : own_.cells);
+        Hdf5Rows<double> whole(file_, whole_array_of(values), of_points ? 0 : outline_.first_tet(rank_));
+        if (of_points) {
+            for (std::size_t v = 0; v < part_.global_id.size(); ++v) put(piece, v);
+            for (const std::size_t v : own_vertices()) {
+                whole.go_to(part_.global_id[v]);
+                put(whole, v);
+            }
+        } else {
+            for (std::size_t t = 0; t < part_.mesh.tets.size(); ++t) {
+                put(piece, t);
+                put(whole, t);
+            }
+            for_each_patch_facet(part_, [&](std::size_t f) {
+                const std::int32_t tet = part_.tet_at_facet[f];
+                for (std::size_t c = 0; c < width; ++c)
+                    piece.put(tet < 0 ? NAN : values.number(width * static_cast<std::size_t>(tet) + c));
+            });
+        }
+        piece.flush();
+        whole.flush();
+    }
+
+    void write_vertices() const {
         Hdf5Rows<double> points(file_, "geometry/vertices", 0);
-        for (const std::size_t v : own) {
+        for (const std::size_t v : own_vertices()) {
             points.go_to(part_.global_id[v]);
             for (const double x : part_.mesh.vertices[v]) points.put(x);
         }
@@ -244,16 +303,20 @@ class XdmfText {
         for (std::size_t patch = 0; patch < outline_.patch_names.size(); ++patch)
             text += fmt::format("    <Information Name=\"patch {}\" Value=\"{}\"/>\n", patch,
                                 xml_text(outline_.patch_names[patch]));
-        text += grid("mesh", "Tetrahedron", 4, "viz/topology/cells", "part", "viz/part");
-        text += grid("facets", "Triangle", 3, "viz/topology/facets", "patch", "viz/patch");
+        std::string values;
+        for (const PartValues& each : outline_.values)
+            values += attribute(array_name(each), each.components, each.of == PartValues::Of::points ? "Node" : "Cell",
+                                whole_array_of(each));
+        text += grid("mesh", "Tetrahedron", 4, "viz/topology/cells", attribute("part", 1, "Cell", "viz/part") + values);
+        text += grid("facets", "Triangle", 3, "viz/topology/facets", attribute("patch", 1, "Cell", "viz/patch"));
         return text + "  </Domain>\n</Xdmf>\n";
     }
 
  private:
-    std::string item(const char* name) const {
+    std::string item(const std::string& name) const {
         const std::vector<Hdf5Array> arrays = arrays_of(outline_);
-        const auto array = std::find_if(arrays.begin(), arrays.end(),
-                                        [name](const Hdf5Array& each) { return std::string_view(each.name) == name; });
+        const auto array =
+            std::find_if(arrays.begin(), arrays.end(), [&](const Hdf5Array& each) { return each.name == name; });
         const std::string columns = array->columns ? fmt::format(" {}", array->columns) : "";
         return fmt::format(
             "<DataItem Dimensions=\"{}{}\" NumberType=\"{}\" Precision=\"{}\" Format=\"HDF\">{}:/{}</DataItem>",
@@ -261,15 +324,20 @@ class XdmfText {
             name);
     }
 
-    std::string grid(const char* name, const char* cell, int corners, const char* cells, const char* tag,
-                     const char* tags) const {
+    std::string attribute(const std::string& name, int components, const char* center, const std::string& array) const {
+        const char* type = components == 1 ? "Scalar" : components == 3 ? "Vector" : "Matrix";
+        return fmt::format("      <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n",
+                           xml_text(name), type, center, item(array));
+    }
+
+    std::string grid(const char* name, const char* cell, int corners, const char* cells,
+                     const std::string& attributes) const {
         return fmt::format(
             "    <Grid Name=\"{}\" GridType=\"Uniform\">\n"
             "      <Topology TopologyType=\"{}\" NodesPerElement=\"{}\">{}</Topology>\n"
             "      <Geometry GeometryType=\"XYZ\">{}</Geometry>\n"
-            "      <Attribute Name=\"{}\" AttributeType=\"Scalar\" Center=\"Cell\">{}</Attribute>\n"
-            "    </Grid>\n",
-            name, cell, corners, item(cells), item("geometry/vertices"), tag, item(tags));
+            "{}    </Grid>\n",
+            name, cell, corners, item(cells), item("geometry/vertices"), attributes);
     }
 
     const MeshOutline& outline_;
@@ -279,6 +347,8 @@ class XdmfText {
 void make_hdf5(const MeshOutline& outline, ExportFiles& files, const std::string& stem) {
     Hdf5Content content;
     content.groups = {"VTKHDF", "VTKHDF/PointData", "VTKHDF/CellData", "geometry", "viz", "viz/topology"};
+    if (!outline.values.empty())
+        for (const char* group : {"fields", "fields/vertices", "fields/cells"}) content.groups.push_back(group);
     content.arrays = arrays_of(outline);
     content.attributes = {{"VTKHDF", "Version", std::vector<std::int32_t>{1, 0}},
                           {"VTKHDF", "Type", "UnstructuredGrid"},

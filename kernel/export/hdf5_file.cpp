@@ -98,7 +98,7 @@ class Hdf5Creation {
     void make(const Hdf5Array& array) {
         const hsize_t size[] = {static_cast<hsize_t>(array.rows), static_cast<hsize_t>(array.columns)};
         const Hdf5Id space = open(H5Screate_simple(array.columns ? 2 : 1, size, nullptr), H5Sclose);
-        make_array(array.name, file_type(array.type), space);
+        make_array(array.name.c_str(), file_type(array.type), space);
     }
 
     // Of as many bytes as the longest, UTF-8, filled up with zero bytes.
@@ -199,7 +199,7 @@ Hdf5Bytes::Hdf5Bytes(const std::string& path, const std::vector<Hdf5Array>& arra
     H5Pset_file_locking(access, false, true);
     const Hdf5Id file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose, path);
     for (const Hdf5Array& array : arrays) {
-        const Hdf5Id opened(H5Dopen2(file, array.name, H5P_DEFAULT), H5Dclose, path);
+        const Hdf5Id opened(H5Dopen2(file, array.name.c_str(), H5P_DEFAULT), H5Dclose, path);
         places_.push_back({array.name, static_cast<std::int64_t>(H5Dget_offset(opened)),
                            std::max<std::int64_t>(array.columns, 1) * size_of(array.type)});
     }

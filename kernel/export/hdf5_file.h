@@ -14,7 +14,7 @@ enum class Hdf5Type { byte, int32, int64, real };
 constexpr std::int64_t size_of(Hdf5Type type) { return type == Hdf5Type::byte ? 1 : type == Hdf5Type::int32 ? 4 : 8; }
 
 struct Hdf5Array {
-    const char* name;  ///< with its groups
+    std::string name;  ///< with its groups
     Hdf5Type type;
     std::int64_t rows;
     std::int64_t columns = 0;  ///< 0: of one dimension
@@ -60,7 +60,7 @@ class Hdf5Bytes {
 
  private:
     struct Place {
-        std::string_view name;
+        std::string name;
         std::int64_t begin, row_size;
     };
 

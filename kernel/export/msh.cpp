@@ -223,6 +223,75 @@ class Writer {
     ExportFile file_;
 };
 
+// ---- values ----
+
+constexpr int of_tensor = 9;
+
+// Gmsh knows scalars, vectors and whole tensors.
+int components_of(const PartValues& values) { return values.components == 6 ? of_tensor : values.components; }
+
+// $NodeData and $ElementData are alike in all versions. Tags have 32 bits.
+class ValueSection {
+ public:
+    ValueSection(ExportFile& file, const PartValues& values, std::int64_t count)
+        : file_(file), name_(values.of == PartValues::Of::points ? "NodeData" : "ElementData") {
+        file_.text(fmt::format("${}\n1\n\"{}\"\n1\n0.0\n3\n0\n{}\n{}\n", name_, readable(values.name, longest_name),
+                               components_of(values), count));
+    }
+    ~ValueSection() = default;
+    ValueSection(const ValueSection&) = delete;
+    ValueSection& operator=(const ValueSection&) = delete;
+
+    void row(std::int64_t number, const PartValues& values, std::size_t i) {
+        file_.value(static_cast<std::int32_t>(tag_of(number)));
+        const auto at = [&](std::size_t c) {
+            return values.number(static_cast<std::size_t>(values.components) * i + c);
+        };
+        if (values.components != 6) {
+            for (std::size_t c = 0; c < static_cast<std::size_t>(values.components); ++c) file_.value(at(c));
+            return;
+        }
+        for (const std::size_t c : {0, 3, 5, 3, 1, 4, 5, 4, 2}) file_.value(at(c));  // of XX YY ZZ XY YZ XZ
+    }
+    void end() { file_.text(fmt::format("\n$End{}\n", name_)); }
+
+ private:
+    ExportFile& file_;
+    const char* name_;
+};
+
+void require_tags_fit(const MeshOutline& outline) {
+    if (!outline.values.empty()) require_numbers_fit(outline, "values in MSH", most_int32 - 1);
+}
+
+// What a part has, at its vertices for which wanted(v) holds, and in its tetrahedra.
+template <class Wanted>
+void write_rows_of_part(ValueSection& section, const Part& part, std::size_t k, std::int64_t first_tet,
+                        const Wanted& wanted) {
+    const PartValues& values = part.values[k];
+    if (values.of == PartValues::Of::tets) {
+        for (std::size_t t = 0; t < part.mesh.tets.size(); ++t)
+            section.row(first_tet + static_cast<std::int64_t>(t), values, t);
+        return;
+    }
+    for (std::size_t v = 0; v < part.global_id.size(); ++v)
+        if (wanted(v)) section.row(part.global_id[v], values, v);
+}
+
+void write_merged_values(const PartSource& parts, ExportFile& file) {
+    const MeshOutline& outline = parts.outline();
+    for (std::size_t k = 0; k < outline.values.size(); ++k) {
+        const bool of_points = outline.values[k].of == PartValues::Of::points;
+        ValueSection section(file, outline.values[k], of_points ? outline.vertices : outline.tets());
+        for_each_whole_part(parts, [&](std::int32_t rank, const Part& part) {
+            const std::vector<NodeId> owners = owners_of_vertices(part);
+            write_rows_of_part(section, part, k, outline.first_tet(rank),
+                               [&](std::size_t v) { return owners[v] == part.id; });
+        });
+        section.end();
+    }
+}
+
 // ---- the file of a part ----
 
 class PartFile {
@@ -244,6 +313,7 @@ class PartFile {
         write_nodes(writer);
         write_elements(writer);
         if (has_ghosts()) write_ghosts(writer);
+        write_values(writer.file());
         writer.file().close();
     }
 
@@ -317,6 +387,15 @@ class PartFile {
         writer.end("GhostElements");
     }
 
+    void write_values(ExportFile& file) const {
+        for (std::size_t k = 0; k < part_.values.size(); ++k) {
+            const bool of_points = part_.values[k].of == PartValues::Of::points;
+            ValueSection section(file, part_.values[k], of_points ? part_.vertex_count() : part_.tet_count());
+            write_rows_of_part(section, part_, k, outline_.first_tet(rank_), [](std::size_t) { return true; });
+            section.end();
+        }
+    }
+
     Entity surface_of(const PatchPiece& piece) const { return tags_.surface_of_part(rank_, piece.patch); }
 
     const MeshOutline& outline_;
@@ -334,6 +413,7 @@ std::string file_name(std::size_t parts, std::int32_t rank) {
 }
 
 void write_part(const PartSource& parts, std::int32_t rank, const Part& part, ExportFiles& files) {
+    require_tags_fit(parts.outline());
     const PartFile content(parts, rank, part);
     content.write(Writer(files.create(file_name(parts.outline().parts.size(), rank)), "4.1"));
 }
@@ -401,6 +481,7 @@ void write_merged_4_1(const PartSource& parts, const Tags& tags, ExportFiles& fi
         writer.tets(Tags::merged_volume(rank), part, outline.first_tet(rank));
     });
     writer.end("Elements");
+    write_merged_values(parts, writer.file());
     writer.file().close();
 }
 
@@ -458,11 +539,13 @@ void write_merged_2_2(const PartSource& parts, const Tags& tags, ExportFiles& fi
                               global_corners(part, tet));
     });
     writer.end("Elements");
+    write_merged_values(parts, file);
     file.close();
 }
 
 void write_merged(const PartSource& parts, const MergeOptions& options, ExportFiles& files, const std::string& stem) {
     const Tags tags(parts.outline());
+    require_tags_fit(parts.outline());
     if (options.msh_version == "4.1") return write_merged_4_1(parts, tags, files, stem + ".msh");
     if (options.msh_version == "2.2") return write_merged_2_2(parts, tags, files, stem + ".msh");
     throw Error(ErrorCode::usage,

@@ -2,6 +2,7 @@
 // the triangles on patches. The arrays of the grid have the names and values that they have in part files, which are
 // described in part/vtu_writer.h; they follow the XML as raw bytes, each behind its size.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 
@@ -23,20 +24,20 @@ void write_joining_file(const PartSource& parts, ExportFiles& files) {
     std::vector<std::string> pieces;
     for (const PartExtent& part : parts.outline().parts) pieces.push_back(file_of_part(part.id));
     ExportFile file = files.create("mesh.pvtu");
-    file.text(pvtu_text(pieces, layout_for(parts.outline(), files.fields())));
+    file.text(pvtu_text(pieces, layout_for(parts.outline(), files.fields()), parts.outline().values));
     file.close();
 }
 
 void write_piece(const PartSource& parts, std::int32_t, const Part& part, ExportFiles& files) {
     const std::string name = file_of_part(part.id), path = files.path_of(name);
-    const FileHash hash = write_part(path, part, layout_for(parts.outline(), files.fields()));
+    const FileHash hash = write_part(path, part, layout_for(parts.outline(), files.fields()), part.values);
     files.add({name, static_cast<std::int64_t>(std::filesystem::file_size(path)), hash_text(hash)});
 }
 
 struct GridArray {
     const char* section;  // element of the XML
     const char* type;
-    const char* name;
+    std::string name;
     int components;
     std::int64_t tuples;
     std::int64_t item_size;
@@ -94,6 +95,49 @@ void write_connectivity(const PartSource& parts, ExportFile& file) {
     });
 }
 
+void write_number(const PartValues& values, double number, ExportFile& file) {
+    values.is_double() ? file.value(number) : file.value(static_cast<float>(number));
+}
+
+// Of tetrahedra, then of the triangles on patches, which have those of the tetrahedron behind them.
+void write_cell_values(const PartSource& parts, std::size_t k, ExportFile& file) {
+    const auto write_row = [&](const PartValues& values, std::int32_t tet) {
+        for (int i = 0; i < values.components; ++i)
+            write_number(values, tet < 0 ? NAN : values.number(static_cast<std::size_t>(values.components * tet + i)),
+                         file);
+    };
+    for_each_whole_part(parts, [&](std::int32_t, const Part& part) {
+        for (std::int32_t tet = 0; tet < part.tet_count(); ++tet) write_row(part.values[k], tet);
+    });
+    for_each_whole_part(parts, [&](std::int32_t, const Part& part) {
+        for (std::size_t f = 0; f < part.facets.size(); ++f)
+            if (!part.is_interface(f)) write_row(part.values[k], part.tet_at_facet[f]);
+    });
+}
+
+// Behind the other arrays of their section.
+void add_values(const PartSource& parts, std::vector<GridArray>& arrays) {
+    const MeshOutline& outline = parts.outline();
+    for (std::size_t k = 0; k < outline.values.size(); ++k) {
+        const PartValues& values = outline.values[k];
+        const bool of_points = values.of == PartValues::Of::points;
+        const char* const section = of_points ? "PointData" : "CellData";
+        const auto write = [&parts, &values, k, of_points](ExportFile& file) {
+            if (!of_points) return write_cell_values(parts, k, file);
+            for_each_vertex_value(parts, k, [&](std::int64_t, std::span<const double> rows) {
+                for (const double number : rows) write_number(values, number, file);
+            });
+        };
+        const auto behind = std::find_if(arrays.rbegin(), arrays.rend(), [section](const GridArray& array) {
+            return std::string_view(array.section) == section;
+        });
+        arrays.insert(behind.base(),
+                      {section, values.is_double() ? "Float64" : "Float32", values.name, values.components,
+                       of_points ? outline.vertices : outline.tets() + outline.patch_facets(),
+                       values.is_double() ? 8 : 4, write});
+    }
+}
+
 // In the order of the file. The outline must outlive them.
 std::vector<GridArray> arrays_of(const PartSource& parts) {
     const MeshOutline& outline = parts.outline();
@@ -101,7 +145,7 @@ std::vector<GridArray> arrays_of(const PartSource& parts) {
     std::int64_t name_bytes = 0;
     for (const std::string& name : outline.patch_names) name_bytes += static_cast<std::int64_t>(name.size()) + 1;
     const bool is_small = outline.vertices <= most_of_32_bits;
-    return {
+    std::vector<GridArray> arrays = {
         {"FieldData", "UInt8", "PatchNames", 1, name_bytes, 1, [&](ExportFile& file) { write_names(outline, file); }},
         {"PointData", "Int64", "GlobalVertexId", 1, outline.vertices, 8,
          [&](ExportFile& file) {
@@ -128,6 +172,8 @@ std::vector<GridArray> arrays_of(const PartSource& parts) {
                                           [=](std::int64_t c) { return c < tets ? vtk_tetra : vtk_triangle; });
          }},
     };
+    add_values(parts, arrays);
+    return arrays;
 }
 
 std::string head_of(const MeshOutline& outline, std::span<const GridArray> arrays) {

@@ -41,26 +41,62 @@ void for_each_content(const PartSource& parts, PartContent content,
     for (std::int32_t rank = 0; rank < count; ++rank) take(rank, parts.load_only(rank, content));
 }
 
-}  // namespace
-
-void for_each_vertex(const PartSource& parts,
-                     const std::function<void(std::int64_t first, std::span<const Vec3> points)>& take) {
+// Rows of the vertices of the whole mesh in the order of their global numbers, a piece at a time; row(part, v) has
+// those of a part.
+template <class Row, class RowOf>
+void for_each_row(const PartSource& parts, PartContent content, const RowOf& row,
+                  const std::function<void(std::int64_t first, std::span<const Row> rows)>& take) {
     const std::int64_t count = parts.outline().vertices;
     std::vector<IdRanges> ranges;  // known after the first piece
-    std::vector<Vec3> points(static_cast<std::size_t>(std::min(count, vertices_at_once)));
+    std::vector<Row> rows(static_cast<std::size_t>(std::min(count, vertices_at_once)));
     for (std::int64_t begin = 0; begin < count; begin += vertices_at_once) {
         const std::int64_t end = std::min(count, begin + vertices_at_once);
         const bool is_first = begin == 0;
         for (std::size_t rank = 0; rank < parts.outline().parts.size(); ++rank) {
             if (!is_first && !ranges[rank].boundary.meets(begin, end) && !ranges[rank].interior.meets(begin, end))
                 continue;
-            const Part part = parts.load_only(static_cast<std::int32_t>(rank), PartContent::vertices);
+            const Part part = parts.load_only(static_cast<std::int32_t>(rank), content);
             if (is_first) ranges.push_back(ranges_of(part));
             for (std::size_t v = 0; v < part.global_id.size(); ++v)
                 if (const std::int64_t id = part.global_id[v]; id >= begin && id < end)
-                    points[static_cast<std::size_t>(id - begin)] = part.mesh.vertices[v];
+                    rows[static_cast<std::size_t>(id - begin)] = row(part, v);
         }
-        take(begin, std::span(points).first(static_cast<std::size_t>(end - begin)));
+        take(begin, std::span<const Row>(rows).first(static_cast<std::size_t>(end - begin)));
+    }
+}
+
+template <std::size_t width>
+void for_each_value_row(const PartSource& parts, std::size_t k,
+                        const std::function<void(std::int64_t first, std::span<const double> rows)>& take) {
+    using Row = std::array<double, width>;
+    const auto row_of = [k](const Part& part, std::size_t v) {
+        Row row;
+        for (std::size_t i = 0; i < width; ++i) row[i] = part.values[k].number(width * v + i);
+        return row;
+    };
+    for_each_row<Row>(parts, PartContent::all, row_of, [&](std::int64_t first, std::span<const Row> rows) {
+        take(first, std::span<const double>(rows.front().data(), width * rows.size()));
+    });
+}
+
+}  // namespace
+
+void for_each_vertex(const PartSource& parts,
+                     const std::function<void(std::int64_t first, std::span<const Vec3> points)>& take) {
+    for_each_row<Vec3>(
+        parts, PartContent::vertices, [](const Part& part, std::size_t v) -> Vec3 { return part.mesh.vertices[v]; },
+        take);
+}
+
+void for_each_vertex_value(const PartSource& parts, std::size_t k,
+                           const std::function<void(std::int64_t first, std::span<const double> rows)>& take) {
+    switch (parts.outline().values[k].components) {
+        case 1:
+            return for_each_value_row<1>(parts, k, take);
+        case 3:
+            return for_each_value_row<3>(parts, k, take);
+        default:
+            return for_each_value_row<6>(parts, k, take);
     }
 }
 

@@ -22,6 +22,10 @@ namespace kerf {
 void for_each_vertex(const PartSource& parts,
                      const std::function<void(std::int64_t first, std::span<const Vec3> points)>& take);
 
+/// The same with the numbers of Part::values[k], of points, a row for each vertex.
+void for_each_vertex_value(const PartSource& parts, std::size_t k,
+                           const std::function<void(std::int64_t first, std::span<const double> rows)>& take);
+
 /// Calls take(rank, part) with every part, in the order of the tree: PartContent::cells, so without coordinates.
 void for_each_part(const PartSource& parts, const std::function<void(std::int32_t rank, const Part& part)>& take);
 

@@ -89,6 +89,34 @@ std::vector<std::size_t> facets_of_piece(const Part& part, const std::vector<Nod
     return facets;
 }
 
+// The k-th values of the parts: of cells one part behind the other, of points at vertex(p, v). Those of vertices that
+// several parts have are the same in all of them.
+template <class VertexInPiece>
+PartValues join_values(const std::vector<Part>& parts, std::size_t k, const VertexInPiece& vertex) {
+    PartValues joined = parts.front().values[k];
+    const auto width = static_cast<std::size_t>(joined.components);
+    std::visit(
+        [&](auto& numbers) {
+            using Numbers = std::decay_t<decltype(numbers)>;
+            numbers.clear();
+            for (std::size_t p = 0; p < parts.size(); ++p) {
+                const auto& own = std::get<Numbers>(parts[p].values[k].numbers);
+                if (joined.of == PartValues::Of::tets) {
+                    numbers.insert(numbers.end(), own.begin(), own.end());
+                    continue;
+                }
+                for (std::size_t v = 0; v < parts[p].mesh.vertices.size(); ++v) {
+                    const std::size_t to = width * vertex(p, static_cast<std::int32_t>(v));
+                    if (numbers.size() < to + width) numbers.resize(to + width);
+                    std::copy_n(own.begin() + static_cast<std::ptrdiff_t>(width * v), width,
+                                numbers.begin() + static_cast<std::ptrdiff_t>(to));
+                }
+            }
+        },
+        joined.numbers);
+    return joined;
+}
+
 }  // namespace
 
 std::vector<PieceOfTree> divide_leaves(const std::vector<NodeId>& leaves, std::int32_t pieces) {
@@ -114,6 +142,7 @@ JoinedParts::JoinedParts(const PartSource& parts, std::int32_t pieces) : parts_(
     std::sort(piece_of_leaf_.begin(), piece_of_leaf_.end());
     outline_.vertices = whole.vertices;
     outline_.patch_names = whole.patch_names;
+    outline_.values = whole.values;
     for (const PieceOfTree& piece : pieces_) {
         PartExtent& extent = outline_.parts.emplace_back();
         extent.id = piece.id;
@@ -197,6 +226,10 @@ Part JoinedParts::load(std::int32_t rank) const {
                 edges.push_back({vertex_in_piece(p, a, piece), vertex_in_piece(p, b, piece)});
         }
     for (auto& [ranks, edges] : edges_of) piece.shared_edges.push_back(group_of(ranks, std::move(edges), piece));
+    for (std::size_t k = 0; k < outline_.values.size(); ++k)
+        piece.values.push_back(join_values(parts, k, [&](std::size_t p, std::int32_t v) {
+            return static_cast<std::size_t>(vertex_in_piece(p, v, piece));
+        }));
     return piece;
 }
 

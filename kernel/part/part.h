@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "mesh/tet_mesh.h"
@@ -32,6 +33,22 @@ struct SharedEdgeGroup {
     }
 };
 
+/// Values that somebody has computed for a part: of its points, or of its tetrahedra. Boundary triangles have those of
+/// the tetrahedron behind them, NaN if there is none.
+struct PartValues {
+    enum class Of { points, tets };
+    std::string name;
+    Of of = Of::points;
+    int components = 1;
+    std::variant<std::vector<float>, std::vector<double>>
+        numbers;  ///< all components of the first one, of the second...
+
+    bool is_double() const { return std::holds_alternative<std::vector<double>>(numbers); }
+    double number(std::size_t i) const {
+        return std::visit([i](const auto& all) { return static_cast<double>(all[i]); }, numbers);
+    }
+};
+
 /// One part of a distributed mesh. Its boundary triangles lie on the user's surface, or on an interface, where another
 /// part has the same triangle in opposite orientation over the same global numbers.
 struct Part {
@@ -47,6 +64,8 @@ struct Part {
     std::vector<SharedGroup> shared;  ///< all vertices that other parts have, too; ascending by SharedGroup::parts,
                                       ///< compared in the order of the tree
     std::vector<SharedEdgeGroup> shared_edges;  ///< all edges that other parts have, too; in the same order
+
+    std::vector<PartValues> values = {};  ///< of a solution (part/solution_parts.h), else none
 
     bool is_interface(std::size_t f) const { return neighbour[f] >= 0; }
     std::int64_t tet_count() const { return static_cast<std::int64_t>(mesh.tets.size()); }
@@ -72,7 +91,8 @@ struct MeshOutline {
     std::vector<PartExtent> parts;  ///< in the order of the tree; the place of a part here is its rank, from 0
     std::int64_t vertices = 0;      ///< distinct ones
     std::vector<std::string> patch_names;
-    bool is_whole = true;  ///< else others, which could not be meshed, may be neighbours of these parts
+    bool is_whole = true;                 ///< else others, which could not be meshed, may be neighbours of these parts
+    std::vector<PartValues> values = {};  ///< those that all parts have, without their numbers
 
     /// Throws Error(internal) for a part that is none. O(K).
     std::int32_t rank_of(NodeId id) const;

@@ -271,26 +271,74 @@ std::vector<float> read_cell_values(const std::string& path, const std::string& 
     return values;
 }
 
-std::vector<double> read_point_values(const std::string& path, const std::string& name, std::int64_t components) {
+namespace {
+
+// The arrays that are neither of every part file nor qualities of cells: those of points, then those of cells.
+struct ValueArrays {
+    std::vector<const VtuHeader::Array*> of_points, of_cells;
+};
+ValueArrays value_arrays(const VtuHeader& header) {
+    ValueArrays found;
+    std::vector<const VtuHeader::Array*>* section = nullptr;
+    for (const VtuHeader::Array& array : header.arrays) {
+        const auto is_quality = [&](const CellField& field) { return array.name == field.array; };
+        if (array.name == "Points") break;
+        if (array.name == "GlobalVertexId")
+            section = &found.of_points;
+        else if (array.name == "Part")
+            section = &found.of_cells;
+        else if (section && array.type.starts_with("Float") &&
+                 std::none_of(cell_fields.begin(), cell_fields.end(), is_quality))
+            section->push_back(&array);
+    }
+    return found;
+}
+
+PartValues nameless_numbers(const VtuHeader::Array& array, PartValues::Of of) {
+    PartValues values;
+    values.name = array.name;
+    values.of = of;
+    values.components = static_cast<int>(array.components);
+    if (array.type == "Float64") values.numbers = std::vector<double>();
+    return values;
+}
+
+}  // namespace
+
+std::vector<PartValues> read_value_names(const std::string& path) {
     CheckedFile file(path, "rb");
     const VtuHeader header = parse_vtu_header(file.read(vtu_header_limit), path);
-    const VtuHeader::Array* array = header.find(name);  // those of points come first
-    const bool is_double = array && array->type == "Float64";
-    if (!array || array->tuples != header.point_count || array->components != components ||
-        (!is_double && array->type != "Float32"))
-        fail_damaged_vtu(path, fmt::format("it has no array {} with {} numbers for every point", name, components));
-    std::vector<double> values(static_cast<std::size_t>(header.point_count * components));
-    const std::size_t item_size = is_double ? sizeof(double) : sizeof(float);
-    const std::string bytes = read_bytes(file, *array, 0, values.size() * item_size, path);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        float single = 0;
-        if (is_double)
-            std::memcpy(&values[i], bytes.data() + i * item_size, item_size);
-        else
-            std::memcpy(&single, bytes.data() + i * item_size, item_size);
-        if (!is_double) values[i] = single;
-    }
-    return values;
+    const ValueArrays arrays = value_arrays(header);
+    std::vector<PartValues> names;
+    for (const VtuHeader::Array* array : arrays.of_points)
+        names.push_back(nameless_numbers(*array, PartValues::Of::points));
+    for (const VtuHeader::Array* array : arrays.of_cells)
+        names.push_back(nameless_numbers(*array, PartValues::Of::tets));
+    return names;
+}
+
+std::vector<PartValues> read_values(const std::string& path) {
+    const std::int64_t tets = read_cell_counts(path).tets;
+    CheckedFile file(path, "rb");
+    const VtuHeader header = parse_vtu_header(file.read(vtu_header_limit), path);
+    const ValueArrays arrays = value_arrays(header);
+    std::vector<PartValues> all;
+    const auto read = [&](const VtuHeader::Array& array, PartValues::Of of, std::int64_t tuples) {
+        if (array.tuples < tuples) fail_damaged_vtu(path, fmt::format("its array {} is too short", array.name));
+        PartValues values = nameless_numbers(array, of);
+        std::visit(
+            [&](auto& numbers) {
+                using Number = typename std::decay_t<decltype(numbers)>::value_type;
+                numbers.resize(static_cast<std::size_t>(tuples * array.components));
+                const std::string bytes = read_bytes(file, array, 0, numbers.size() * sizeof(Number), path);
+                if (!bytes.empty()) std::memcpy(numbers.data(), bytes.data(), bytes.size());
+            },
+            values.numbers);
+        all.push_back(std::move(values));
+    };
+    for (const VtuHeader::Array* array : arrays.of_points) read(*array, PartValues::Of::points, header.point_count);
+    for (const VtuHeader::Array* array : arrays.of_cells) read(*array, PartValues::Of::tets, tets);
+    return all;
 }
 
 }  // namespace kerf

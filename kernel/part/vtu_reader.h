@@ -41,8 +41,9 @@ VtuLayout read_layout(const std::string& path);
 std::vector<float> read_cell_values(const std::string& path, const std::string& array, std::int64_t first,
                                     std::int64_t count);
 
-/// An array of Float32 or Float64 over the points of a part file, all components of the first one first. Throws
-/// Error(io), also if the file has no such array.
-std::vector<double> read_point_values(const std::string& path, const std::string& array, std::int64_t components);
+/// What write_part() was given as `values`; of cells those of the tetrahedra. Throws Error(io).
+std::vector<PartValues> read_values(const std::string& path);
+/// The same without numbers: reads the file's header alone.
+std::vector<PartValues> read_value_names(const std::string& path);
 
 }  // namespace kerf

@@ -7,7 +7,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "core/hash.h"
@@ -42,17 +41,6 @@ struct VtuLayout {
 
 /// With the shortest tags that name all parts and patches.
 VtuLayout layout_for(const MeshOutline& outline, CellFieldSet fields);
-
-/// Values that somebody has computed for a part: of its points, or of its tetrahedra. Boundary triangles have those of
-/// the tetrahedron behind them, NaN if there is none.
-struct PartValues {
-    enum class Of { points, tets };
-    std::string name;
-    Of of = Of::points;
-    int components = 1;
-    std::variant<std::vector<float>, std::vector<double>>
-        numbers;  ///< all components of the first one, of the second...
-};
 
 /// Writes DIR/parts/part_XXXX.vtu: the tetrahedra, then the boundary triangles.
 ///

@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "io/file_bytes.h"
-#include "run/path_text.h"
+#include "io/path_text.h"
 
 namespace kerf {
 

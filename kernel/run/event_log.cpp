@@ -6,7 +6,7 @@
 
 #include "io/checked_file.h"
 #include "io/output_file.h"
-#include "run/path_text.h"
+#include "io/path_text.h"
 
 namespace kerf {
 

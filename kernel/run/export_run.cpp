@@ -18,7 +18,7 @@
 #include "io/file_bytes.h"
 #include "io/output_file.h"
 #include "part/joined_parts.h"
-#include "part/run_parts.h"
+#include "part/solution_parts.h"
 #include "run/version.h"
 #include "run/write_stage.h"
 
@@ -148,16 +148,18 @@ void check_request(const ExportRequest& request) {
 
 }  // namespace
 
-ExportSummary export_run(const ExportRequest& request, Communicator& ranks, RunListener* listener) {
+ExportSummary export_run(const ExportRequest& asked, Communicator& ranks, RunListener* listener) {
+    ExportRequest request = asked;
     std::vector<FormatPlace> places;
-    std::unique_ptr<RunParts> parts;
+    std::unique_ptr<PartSource> parts;
     std::unique_ptr<JoinedParts> joined;
     std::unique_ptr<Target> target;  // on the root rank
     const std::string staging = in_agreement(ranks, [&] {
+        request.folder = find_solution_folder(asked.folder).value_or(asked.folder);
         places = places_of(request, parse_formats(request.formats));
         check_request(request);
         parse_cell_fields(request.fields);
-        parts = std::make_unique<RunParts>(request.folder);
+        parts = open_parts(request.folder);
         if (request.into != 0) joined = std::make_unique<JoinedParts>(*parts, request.into);
         if (ranks.rank() != 0) return std::string();
         const bool is_of_run = request.output.empty();

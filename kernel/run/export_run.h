@@ -10,7 +10,7 @@
 namespace kerf {
 
 struct ExportRequest {
-    std::string folder;     ///< of the run
+    std::string folder;     ///< of the run, or of a solution on one, whose values go into formats that hold any
     std::string formats;    ///< names with commas between
     std::string output;     ///< folder for them; empty: export/NAME in that of the run
     std::int32_t into = 0;  ///< pieces into which the parts are joined; 0: as they are

@@ -11,9 +11,9 @@
 #include "core/error.h"
 #include "core/number_text.h"
 #include "core/words.h"
+#include "io/path_text.h"
 #include "quality/quality_json.h"
 #include "run/cut_json.h"
-#include "run/path_text.h"
 #include "run/version.h"
 
 namespace kerf {

@@ -9,8 +9,8 @@
 #include "core/error.h"
 #include "io/durable_file.h"
 #include "io/file_bytes.h"
+#include "io/path_text.h"
 #include "io/run_folder.h"
-#include "run/path_text.h"
 
 namespace kerf {
 

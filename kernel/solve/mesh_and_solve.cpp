@@ -9,9 +9,9 @@
 #include "core/error.h"
 #include "core/number_text.h"
 #include "io/file_bytes.h"
+#include "io/path_text.h"
 #include "io/run_manifest.h"
 #include "io/text_file.h"
-#include "run/path_text.h"
 #include "run/pipeline.h"
 #include "run/version.h"
 

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/number_text.h"
-#include "run/path_text.h"
+#include "io/path_text.h"
 #include "run/version.h"
 #include "solve/solve_run.h"
 

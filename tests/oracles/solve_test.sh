@@ -39,3 +39,4 @@ END
     "$kerf" solve body --case case.toml -o "order$order"
     "$python" "$here/compare_with_calculix.py" "order$order" "$order"
 done
+"$python" "$here/compare_exports.py" "$kerf" order1

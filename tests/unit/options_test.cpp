@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "io/path_text.h"
 #include "run/config_file.h"
-#include "run/path_text.h"
 #include "support/temporary_folder.h"
 
 namespace kerf {

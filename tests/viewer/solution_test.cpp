@@ -5,13 +5,13 @@
 #include "core/error.h"
 #include "support/assets.h"
 #include "support/program.h"
+#include "support/solved_run.h"
 #include "support/temporary_folder.h"
 #include "viewer/driver.h"
 #include "viewer/golden_image.h"
 #include "viewer/model/solution.h"
 #include "viewer/scene/selection.h"
 #include "viewer/scene/shapes.h"
-#include "viewer/solved_run.h"
 
 namespace kerf::test {
 namespace {

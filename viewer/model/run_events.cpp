@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "run/path_text.h"
+#include "io/path_text.h"
 #include "viewer/model/tree_source.h"
 
 namespace kerf::view {

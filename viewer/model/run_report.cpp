@@ -8,9 +8,9 @@
 
 #include "core/error.h"
 #include "io/file_bytes.h"
+#include "io/path_text.h"
 #include "mesh/quality.h"
 #include "run/cut_json.h"
-#include "run/path_text.h"
 
 namespace kerf::view {
 

@@ -1,20 +1,19 @@
 #include "viewer/model/solution.h"
 
+#include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "io/file_bytes.h"
+#include "io/path_text.h"
 #include "io/run_folder.h"
+#include "part/solution_parts.h"
 #include "part/vtu_reader.h"
-#include "run/path_text.h"
 
 namespace kerf::view {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -22,59 +21,23 @@ using Json = nlohmann::json;
 
 constexpr double share_of_body = 0.05;
 
-// What the report of a folder says; null if there is none.
-Json report_of(const fs::path& folder) {
-    std::error_code ignored;
-    const fs::path path = folder / "report.json";
-    if (!fs::exists(path, ignored)) return nullptr;
-    return Json::parse(read_file(path.string()), nullptr, false);
-}
-
-std::string path_beside(const fs::path& folder, const Json& name) {
-    return (folder / path_of_text(name.get<std::string>())).lexically_normal().string();
-}
-
-Solution read_solution(const fs::path& folder, const Json& report) {
-    Solution solution;
-    const Json& solve = report.at("solve");
-    solution.folder = folder.string();
-    solution.mesh = path_beside(folder, solve.at("mesh"));
-    for (const Json& of_case : solve.at("cases"))
-        solution.cases.push_back({path_of_text(of_case.at("name").get<std::string>()),
-                                  of_case.at("max_displacement").at("value").get<double>()});
-    const Json mesh = report_of(solution.mesh);
-    if (mesh.is_null())
-        throw Error(ErrorCode::io, fmt::format("{} is the solution on the mesh {}, which is not there. Put it back, or "
-                                               "solve again.",
-                                               solution.folder, solution.mesh));
-    for (const char* count : {"tets", "vertices"})
-        if (mesh.at("totals").at(count) != report.at("totals").at(count))
-            throw Error(ErrorCode::io, fmt::format("{} is the solution on another mesh than the one that is in {} now. "
-                                                   "Solve again.",
-                                                   solution.folder, solution.mesh));
-    return solution;
-}
-
 }  // namespace
 
 std::optional<Solution> find_solution(const std::string& path) {
-    const fs::path folder(path);
-    const Json report = report_of(folder);
+    const std::optional<std::string> folder = find_solution_folder(path);
+    if (!folder) return std::nullopt;
+    Solution solution;
+    solution.folder = *folder;
+    solution.mesh = mesh_of_solution(*folder);
     try {
-        if (report.is_null()) {
-            const Json beneath = report_of(folder / "solution");
-            return beneath.is_object() && beneath.contains("solve")
-                       ? std::optional(read_solution(folder / "solution", beneath))
-                       : std::nullopt;
-        }
-        if (!report.is_object()) return std::nullopt;
-        if (report.contains("solve")) return read_solution(folder, report);
-        if (!report.contains("steps")) return std::nullopt;
-        const fs::path last = path_beside(folder, report.at("steps").back().at("solution"));
-        return read_solution(last, report_of(last));
+        const Json report = Json::parse(read_file(*folder + "/report.json"));
+        for (const Json& of_case : report.at("solve").at("cases"))
+            solution.cases.push_back({path_of_text(of_case.at("name").get<std::string>()),
+                                      of_case.at("max_displacement").at("value").get<double>()});
     } catch (const Json::exception& error) {
-        throw Error(ErrorCode::io, fmt::format("{}/report.json is damaged: {}. Solve again.", path, error.what()));
+        throw Error(ErrorCode::io, fmt::format("{}/report.json is damaged: {}. Solve again.", *folder, error.what()));
     }
+    return solution;
 }
 
 float PartSolution::value_at(ColorBy color, std::size_t vertex) const {
@@ -85,17 +48,27 @@ float PartSolution::value_at(ColorBy color, std::size_t vertex) const {
 
 PartSolution read_part_solution(const Solution& solution, std::size_t number, NodeId part) {
     const std::string path = solution.folder + "/parts/" + part_file_name(part);
-    const std::string& name = solution.cases[number].name;
-    const std::string suffix = solution.cases.size() > 1 ? " " + name : "";
+    const std::string suffix = solution.cases.size() > 1 ? " " + solution.cases[number].name : "";
+    const std::vector<PartValues> all = read_values(path);
+    const auto find = [&](const char* name, PartValues::Of of, int components) -> const PartValues& {
+        const auto found = std::find_if(all.begin(), all.end(), [&](const PartValues& values) {
+            return values.name == name + suffix && values.of == of && values.components == components;
+        });
+        if (found == all.end()) fail_damaged_vtu(path, fmt::format("it has no array {}{}", name, suffix));
+        return *found;
+    };
     PartSolution values;
-    const std::vector<double> displacement = read_point_values(path, "Displacement" + suffix, 3);
-    for (std::size_t i = 0; i + 2 < displacement.size(); i += 3)
-        values.displacement.emplace_back(displacement[i], displacement[i + 1], displacement[i + 2]);
-    const std::vector<double> stress = read_point_values(path, "Stress" + suffix, 6);
-    values.stress.resize(stress.size() / 6);
-    for (std::size_t i = 0; i < stress.size(); ++i) values.stress[i / 6][i % 6] = static_cast<float>(stress[i]);
-    const std::vector<double> von_mises = read_point_values(path, "VonMises" + suffix, 1);
-    values.von_mises.assign(von_mises.begin(), von_mises.end());
+    const PartValues& displacement = find("Displacement", PartValues::Of::points, 3);
+    const PartValues& stress = find("Stress", PartValues::Of::points, 6);
+    const PartValues& von_mises = find("VonMises", PartValues::Of::points, 1);
+    const std::size_t vertices = std::visit([](const auto& n) { return n.size(); }, von_mises.numbers);
+    for (std::size_t v = 0; v < vertices; ++v) {
+        values.displacement.emplace_back(displacement.number(3 * v), displacement.number(3 * v + 1),
+                                         displacement.number(3 * v + 2));
+        std::array<float, 6>& row = values.stress.emplace_back();
+        for (std::size_t i = 0; i < row.size(); ++i) row[i] = static_cast<float>(stress.number(6 * v + i));
+        values.von_mises.push_back(static_cast<float>(von_mises.number(v)));
+    }
     const PartCellCounts counts = read_cell_counts(path);
     values.error_of_tet = read_cell_values(path, "ErrorIndicator" + suffix, 0, counts.tets);
     values.error_at_facet = read_cell_values(path, "ErrorIndicator" + suffix, counts.tets, counts.facets);

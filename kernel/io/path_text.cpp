@@ -1,4 +1,4 @@
-#include "run/path_text.h"
+#include "io/path_text.h"
 
 #include <charconv>
 #include <filesystem>

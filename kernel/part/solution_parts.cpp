@@ -1,0 +1,100 @@
+#include "part/solution_parts.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "io/file_bytes.h"
+#include "io/path_text.h"
+#include "io/run_folder.h"
+#include "part/vtu_reader.h"
+
+namespace kerf {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = nlohmann::json;
+
+// Null if there is none.
+Json report_of(const fs::path& folder) {
+    std::error_code ignored;
+    const fs::path path = folder / "report.json";
+    if (!fs::exists(path, ignored)) return nullptr;
+    return Json::parse(read_file(path.string()), nullptr, false);
+}
+
+std::string path_beside(const fs::path& folder, const Json& name) {
+    return (folder / path_of_text(name.get<std::string>())).lexically_normal().string();
+}
+
+[[noreturn]] void fail_damaged(const std::string& folder, const char* what) {
+    throw Error(ErrorCode::io, fmt::format("{}/report.json is damaged: {}. Solve again.", folder, what));
+}
+
+}  // namespace
+
+std::optional<std::string> find_solution_folder(const std::string& path) {
+    const fs::path folder(path);
+    const Json report = report_of(folder);
+    if (report.is_null()) {
+        const Json beneath = report_of(folder / "solution");
+        return beneath.is_object() && beneath.contains("solve") ? std::optional((folder / "solution").string())
+                                                                : std::nullopt;
+    }
+    if (!report.is_object()) return std::nullopt;
+    if (report.contains("solve")) return path;
+    if (!report.contains("steps")) return std::nullopt;
+    try {
+        return path_beside(folder, report.at("steps").back().at("solution"));
+    } catch (const Json::exception& error) {
+        fail_damaged(path, error.what());
+    }
+}
+
+std::string mesh_of_solution(const std::string& solution) {
+    const Json report = report_of(solution);
+    try {
+        std::string folder = path_beside(solution, report.at("solve").at("mesh"));
+        const Json mesh = report_of(folder);
+        if (mesh.is_null())
+            throw Error(ErrorCode::io,
+                        fmt::format("{} is the solution on the mesh {}, which is not there. Put it back, "
+                                    "or solve again.",
+                                    solution, folder));
+        for (const char* count : {"tets", "vertices"})
+            if (mesh.at("totals").at(count) != report.at("totals").at(count))
+                throw Error(ErrorCode::io, fmt::format("{} is the solution on another mesh than the one that is in {} "
+                                                       "now. Solve again.",
+                                                       solution, folder));
+        return folder;
+    } catch (const Json::exception& error) {
+        fail_damaged(solution, error.what());
+    }
+}
+
+SolutionParts::SolutionParts(std::string folder)
+    : folder_(std::move(folder)), mesh_(mesh_of_solution(folder_)), outline_(mesh_.outline()) {
+    outline_.values = read_value_names(path_of_part(folder_, outline_.parts.front().id));
+}
+
+Part SolutionParts::load(std::int32_t rank) const {
+    Part part = mesh_.load(rank);
+    part.values = read_values(path_of_part(folder_, part.id));
+    return part;
+}
+
+Part SolutionParts::load_only(std::int32_t rank, PartContent content) const {
+    return content == PartContent::all ? load(rank) : mesh_.load_only(rank, content);
+}
+
+std::unique_ptr<PartSource> open_parts(const std::string& folder) {
+    if (const std::optional<std::string> solution = find_solution_folder(folder))
+        return std::make_unique<SolutionParts>(*solution);
+    return std::make_unique<RunParts>(folder);
+}
+
+}  // namespace kerf

@@ -1,0 +1,105 @@
+// Exports of a solution have its values; other programs judge all formats in tests/oracles/compare_exports.py.
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "io/tet_mesh_reader.h"
+#include "part/joined_parts.h"
+#include "part/solution_parts.h"
+#include "part/vtu_reader.h"
+#include "support/assets.h"
+#include "support/program.h"
+#include "support/solved_run.h"
+#include "support/temporary_folder.h"
+
+namespace kerf::test {
+namespace {
+
+class SolutionExport : public testing::Test {
+ protected:
+    static void SetUpTestSuite() {
+        folder_ = std::make_unique<TemporaryFolder>();
+        ASSERT_EQ(run_kerf({"mesh", asset_path("cube"), "-o", folder_->file("out/mesh"), "-n", "4", "-q"}).exit_code,
+                  0);
+        write_solution(folder_->file("out/mesh"), folder_->file("out/solution"), "../mesh", {"slow", "fast"});
+    }
+    static void TearDownTestSuite() { folder_.reset(); }
+    static std::unique_ptr<TemporaryFolder> folder_;
+};
+std::unique_ptr<TemporaryFolder> SolutionExport::folder_;
+
+// As solved_run.h has made them: functions of the place.
+void expect_values(const Part& part, const std::vector<PartValues>& all) {
+    ASSERT_EQ(all.size(), 8u);  // four of each case
+    for (const PartValues& values : all) {
+        const bool is_fast = values.name.ends_with(" fast");
+        if (values.of == PartValues::Of::tets) {
+            EXPECT_EQ(std::get<std::vector<float>>(values.numbers), std::vector<float>(part.mesh.tets.size(), 1));
+            continue;
+        }
+        for (std::size_t v = 0; v < part.mesh.vertices.size(); ++v) {
+            const double x = part.mesh.vertices[v].x();
+            const auto last = static_cast<std::size_t>(values.components) - 1;
+            const double expected = values.components == 1 ? x : values.components == 6 ? 6 * x : 0;
+            EXPECT_NEAR(values.number((last + 1) * v + last), expected, 1e-6);
+            if (values.components == 3) {
+                EXPECT_EQ(values.number(3 * v), x * (is_fast ? 2 : 1));
+            }
+        }
+    }
+}
+
+TEST_F(SolutionExport, PartsAndPiecesOfThemHaveTheValues) {
+    const auto parts = open_parts(folder_->file("out"));
+    EXPECT_EQ(parts->outline().values.size(), 8u);
+    for (std::int32_t rank = 0; rank < 4; ++rank) {
+        const Part part = parts->load(rank);
+        expect_values(part, part.values);
+    }
+    const JoinedParts joined(*parts, 2);
+    for (std::int32_t rank = 0; rank < 2; ++rank) {
+        const Part piece = joined.load(rank);
+        expect_values(piece, piece.values);
+    }
+    EXPECT_TRUE(open_parts(folder_->file("out/mesh"))->outline().values.empty());
+}
+
+TEST_F(SolutionExport, FilesHaveTheValues) {
+    ASSERT_EQ(
+        run_kerf({"export", folder_->file("out"), "--format", "vtu", "--into", "2", "-o", folder_->file("vtu"), "-q"})
+            .exit_code,
+        0);
+    for (const auto& entry : std::filesystem::directory_iterator(folder_->file("vtu/parts"))) {
+        const Part part = read_part(entry.path());
+        expect_values(part, read_values(entry.path()));
+    }
+    for (const std::vector<std::string>& file :
+         {std::vector<std::string>{"a.vtu"}, {"a.msh"}, {"b.msh", "--msh-version", "2.2"}}) {
+        std::vector<std::string> command = {"merge", folder_->file("out/solution"), "-o", folder_->file(file[0])};
+        command.insert(command.end(), file.begin() + 1, file.end());
+        ASSERT_EQ(run_kerf(command).exit_code, 0);
+        const TetFile merged = read_tets_with_scalars(folder_->file(file[0]));
+        std::int64_t found = 0;
+        for (const NodeScalar& scalar : merged.node_scalars) {
+            if (!scalar.name.starts_with("VonMises")) continue;
+            ++found;
+            for (std::size_t v = 0; v < merged.mesh.vertices.size(); ++v)
+                ASSERT_NEAR(scalar.values[v], merged.mesh.vertices[v].x(), 1e-6) << file[0];
+        }
+        EXPECT_EQ(found, 2) << file[0];
+    }
+}
+
+// Into the solution itself: they become part of it.
+TEST_F(SolutionExport, BelongsToTheSolution) {
+    write_solution(folder_->file("out/mesh"), folder_->file("again/solution"), "../../out/mesh", {""});
+    EXPECT_EQ(
+        run_kerf({"export", folder_->file("again"), "--format", "msh", "-o", folder_->file("again/solution/x"), "-q"})
+            .exit_code,
+        2)
+        << "inside of the solution";
+    EXPECT_FALSE(std::filesystem::exists(folder_->file("again/report.json")));
+}
+
+}  // namespace
+}  // namespace kerf::test
