@@ -11,7 +11,7 @@ namespace kerf {
 
 namespace {
 
-constexpr std::string_view prefix = "bytes:";
+constexpr std::string_view bytes_prefix = "bytes:";
 
 bool is_utf8(const std::string& text) {
     try {
@@ -25,8 +25,8 @@ bool is_utf8(const std::string& text) {
 }  // namespace
 
 std::string path_text(const std::string& path) {
-    if (is_utf8(path) && !path.starts_with(prefix)) return path;
-    std::string text(prefix);
+    if (is_utf8(path) && !path.starts_with(bytes_prefix)) return path;
+    std::string text(bytes_prefix);
     for (const char c : path) {
         const auto byte = static_cast<unsigned char>(c);
         if (byte < 0x80 && c != '%')
@@ -38,9 +38,9 @@ std::string path_text(const std::string& path) {
 }
 
 std::string path_of_text(const std::string& text) {
-    if (!text.starts_with(prefix)) return text;
+    if (!text.starts_with(bytes_prefix)) return text;
     std::string path;
-    for (std::size_t i = prefix.size(); i < text.size(); ++i) {
+    for (std::size_t i = bytes_prefix.size(); i < text.size(); ++i) {
         unsigned int byte = 0;
         const bool is_escaped = text[i] == '%' && i + 3 <= text.size() &&
                                 std::from_chars(text.data() + i + 1, text.data() + i + 3, byte, 16).ec == std::errc();

@@ -1,9 +1,10 @@
 // How the error of kerf solve falls: known displacements on the surface of a finished run, and the forces that go with
 // them inside.
 //
-//     solve_bench sine|sphere FOLDER ORDER
+//     solve_bench sine|bending|sphere FOLDER ORDER
 //
-// `sine`: products of sines in the unit cube. `sphere`: a thick sphere between radii 1 and 2 under pressure inside
+// `sine`: products of sines in the unit cube. `bending`: a beam under moments at its ends, of which elements of order 2
+// have all. `sphere`: a thick sphere between radii 1 and 2 under pressure inside
 // (Lame). Prints one object of JSON: errors in the norm of L2 and of the energy over those of the solution, measured
 // with 64 points in each tetrahedron, and the estimate of the latter.
 #include <cmath>
@@ -75,6 +76,24 @@ Vec3 no_force(const Material&, const Vec3&) { return Vec3::Zero(); }
 
 const KnownField sine{{"sine", 1, 0.3, 0}, sine_displacement, sine_gradient, sine_force};
 const KnownField sphere{sphere_material, sphere_displacement, sphere_gradient, no_force};
+
+// Moments about y: stress XX = young * curvature * z, and nothing else.
+constexpr double curvature = 1e-3;
+const Material beam_material{"beam", 210e3, 0.3, 0};
+Vec3 bending_displacement(const Vec3& p) {
+    const double nu = beam_material.poisson;
+    return curvature *
+           Vec3(p.x() * p.z(), -nu * p.y() * p.z(), -(p.x() * p.x() - nu * p.y() * p.y() + nu * p.z() * p.z()) / 2);
+}
+Eigen::Matrix3d bending_gradient(const Vec3& p) {
+    const double nu = beam_material.poisson;
+    Eigen::Matrix3d gradient;
+    gradient << p.z(), 0, p.x(),          //
+        0, -nu * p.z(), -nu * p.y(),      //
+        -p.x(), nu * p.y(), -nu * p.z();  //
+    return curvature * gradient;
+}
+const KnownField bending{beam_material, bending_displacement, bending_gradient, no_force};
 
 struct WeightedPoint {
     Barycentric place;
@@ -172,8 +191,11 @@ int main(int argc, char** argv) {
     int code = 2;
     if (argc == 4) try {
             const kerf::PetscSession petsc;
-            kerf::solve_and_print(std::string(argv[1]) == "sphere" ? kerf::sphere : kerf::sine, argv[2],
-                                  std::stoi(argv[3]));
+            const std::string name = argv[1];
+            kerf::solve_and_print(name == "sphere"    ? kerf::sphere
+                                  : name == "bending" ? kerf::bending
+                                                      : kerf::sine,
+                                  argv[2], std::stoi(argv[3]));
             code = 0;
         } catch (const std::exception& error) {
             fmt::print(stderr, "{}\n", error.what());

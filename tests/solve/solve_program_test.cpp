@@ -14,8 +14,10 @@
 #include "support/file_contents.h"
 #include "support/mpirun.h"
 #include "support/program.h"
+#include "support/shapes.h"
 #include "support/slice.h"
 #include "support/temporary_folder.h"
+#include "support/write_off.h"
 
 namespace kerf {
 namespace {
@@ -152,6 +154,55 @@ TEST_F(KerfSolve, CasesAreApart) {
     EXPECT_NEAR(cases[1]["max_von_mises"]["value"], 2, 1e-5);
     EXPECT_TRUE(has_cell_values(out() + "/parts/part_0004.vtu", "VonMises a") ||
                 has_cell_values(out() + "/parts/part_0005.vtu", "VonMises a"));
+}
+
+// Materials with the same constants are one; bodies have their own.
+TEST_F(KerfSolve, MaterialsBelongToPartsOrBodies) {
+    const std::string loads = std::string(three_planes) + "[[load]]\nplane = [1, 0, 0, 1]\ntraction = [10, 3, 0]\n";
+    const auto largest = [&] { return report()["solve"]["cases"][0]["max_displacement"]["value"].get<double>(); };
+    ASSERT_EQ(solve(steel + loads + "[solver]\nrtol = 1e-11").exit_code, 0);
+    const double whole = largest();
+    const std::string constants = "young = 1000\npoisson = 0.25\n";
+    const nlohmann::json parts = nlohmann::json::parse(test::bytes_of_file(mesh() + "/report.json"))["parts"];
+    const std::string some = fmt::format("parts = [{}, {}]\n", parts[0]["id"].get<int>(), parts[3]["id"].get<int>());
+    for (const int ranks : {0, 3}) {
+        const ChildResult result = solve(
+            "[material.some]\n" + some + constants + "[material.rest]\n" + constants + loads + "[solver]\nrtol = 1e-11",
+            ranks);
+        ASSERT_EQ(result.exit_code, 0) << result.log;
+        EXPECT_NEAR(largest() / whole, 1, 1e-8);
+    }
+    // Two bars, of which the second one is twice as stiff.
+    const Soup bars =
+        test::join(test::box(Vec3(0, 0, 0), Vec3(1, 1, 1), 3), test::box(Vec3(2, 0, 0), Vec3(3, 1, 1), 3));
+    test::write_off(own_.file("bars.off"), bars.vertices, bars.facets);
+    ASSERT_EQ(test::run_kerf(
+                  {"mesh", own_.file("bars.off"), "-o", own_.file("bars"), "-n", "4", "--feature-angle", "40", "-q"})
+                  .exit_code,
+              0);
+    const ChildResult listed = test::run_kerf({"solve", own_.file("bars"), "--list-patches"});
+    const std::string text = test::output_of(listed);
+    const std::size_t line = text.find("(3, 0.5, 0.5)"), end = text.find('\n', line);
+    ASSERT_NE(line, std::string::npos) << text;
+    const std::string patch = text.substr(text.rfind(' ', end) + 1, end - text.rfind(' ', end) - 1);
+    const std::string of_bars =
+        "[[support]]\nplane = [1, 0, 0, 0]\nx = 0\n[[support]]\nplane = [1, 0, 0, 2]\nx = 0\n"
+        "[[support]]\nplane = [0, 1, 0, 0]\ny = 0\n[[support]]\nplane = [0, 0, 1, 0]\nz = 0\n"
+        "[[load]]\nplane = [1, 0, 0, 1]\ntraction = [10, 0, 0]\n"
+        "[[load]]\nplane = [1, 0, 0, 3]\ntraction = [10, 0, 0]\n[solver]\nrtol = 1e-12";
+    const std::string stiff = "[material.stiff]\nyoung = 2000\npoisson = 0.25\npatch = \"" + patch + "\"\n";
+    const ChildResult result = test::run_kerf(
+        {"solve", own_.file("bars"), "--case",
+         write_case("[material.soft]\nyoung = 1000\npoisson = 0.25\n" + stiff + of_bars), "-o", out(), "-q"});
+    ASSERT_EQ(result.exit_code, 0) << result.log;
+    for (const auto& entry : fs::directory_iterator(out() + "/parts")) {
+        const Part part = read_part(entry.path());
+        for (const PartValues& values : read_values(entry.path()))
+            for (std::size_t v = 0; values.name == "Displacement" && v < part.mesh.vertices.size(); ++v) {
+                const double x = part.mesh.vertices[v].x();
+                EXPECT_NEAR(values.number(3 * v), x < 1.5 ? 0.01 * x : 0.005 * (x - 2), 1e-9);
+            }
+    }
 }
 
 TEST_F(KerfSolve, ListsPatches) {
