@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """How the error of `kerf solve` falls with the size of cells, and what it takes.
 
-First a known field of displacements, sines in a cube, the bending of a beam and a thick sphere under pressure inside, on meshes that are twice as
-fine from row to row: the errors in the norms of L2 and of the energy, and their orders between rows, against the mean
-size of cells, the cube root of the volume by their number. The estimate of the energy's error stands beside it. The field is prescribed at
-all nodes of the surface, and elements of order 2 have all of a bending.
+First a known field of displacements, sines in a cube, the bending of a beam and a thick sphere under pressure inside, on
+meshes that are twice as fine from row to row: the errors in the norms of L2 and of the energy, and their orders between
+rows, against the mean size of cells, the cube root of the volume by their number. The estimate of the energy's error stands
+beside it. The field is prescribed at all nodes of the surface, and elements of order 2 have all of a bending.
 
 Then the bearing cap under the loads of assets/bearing_cap_case.toml: time of the stages, iterations, and memory of all
 ranks by unknown. With --large at 4 million tetrahedra, too. And the whole way from its surface to stresses in one command,
