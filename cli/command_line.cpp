@@ -25,12 +25,13 @@ constexpr const char* exit_codes =
     "5 out of memory, 6 a limit of quality was missed, 7 reading or writing failed, 8 verification failed, 9 the "
     "solver\ndid not reach its tolerance, 130 cancelled.";
 
-// What a config file may say: the table, and what the program itself asks for.
+// What the program itself asks for.
 std::vector<OptionField> program_fields(CommandLine& line) {
     return {{"output", "o", "Folder of the result; an older run there is replaced.", &line.options.output},
             {"quiet", "q", "Print nothing but errors.", &line.quiet},
             {"verbose", "v", "Print the tree of cuts with every node of it.", &line.verbose}};
 }
+// What a config file may say: the table, and that.
 std::vector<OptionField> config_fields(CommandLine& line) {
     std::vector<OptionField> fields = option_fields(line.options);
     for (OptionField& field : program_fields(line)) fields.push_back(std::move(field));

@@ -83,6 +83,7 @@ int merge_run(const MergeRequest& request) {
     const fs::path output = request.output;
     const Format& format = format_of(output);
     const fs::path main_place = place_for(output, request.folder);
+    if (const auto solution = find_solution_folder(request.folder)) place_for(output, mesh_of_solution(*solution));
     const std::unique_ptr<PartSource> source = open_parts(request.folder);
     const PartSource& parts = *source;
     const FolderBeside beside(main_place);

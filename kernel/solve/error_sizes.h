@@ -17,9 +17,9 @@ double error_of_next_mesh(double relative_error, double target, int order);
 /// Edge lengths with which the estimated error of each of the fields is about `aim` beside the norm of its solution,
 /// with as few tetrahedra as possible: errors of elements fall with the order of the elements, and are left alike per
 /// cell (Ladeveze, Coffignal and Pelle 1986). Lengths are between a quarter of and twice those of the cells there. They
-/// are means over cubes about two edges wide, which is what the mesh that is returned consists of: a small share of the
-/// cells that it stands for. Collective; the same on every rank. Rounded to steps of 4 percent, so that ranks in other
-/// numbers, whose solutions differ in the last digits, ask for the same lengths. O(n log n).
+/// are means over cubes one to two edges wide, which is what the mesh that is returned consists of: about 0.4
+/// tetrahedra for each of those that it stands for. Collective; the same on every rank. Rounded to steps of 4 percent,
+/// so that ranks in other numbers, whose solutions differ in the last digits, ask for the same lengths. O(n log n).
 SizedMesh sizes_for_error(const NodeSpace& space, const std::vector<const StressField*>& fields, double aim,
                           Communicator& ranks);
 

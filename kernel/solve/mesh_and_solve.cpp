@@ -42,15 +42,18 @@ class StepFolders {
             }
         }
     }
-    /// Removes what an earlier run into the folder has made and this one, with so many steps, has not replaced.
+    /// Removes what an earlier run into the folder has made and this one, with so many steps, has not replaced. Files
+    /// of anybody else among that stay.
     void remove_others(std::int32_t steps) const {
-        if (is_adaptive_) {
-            for (const char* name : {"mesh", "solution"}) fs::remove_all(fs::path(output_) / name);
-        } else {
-            fs::remove(report());
+        std::error_code ignored;
+        if (is_adaptive_)
+            remove_runs(output_);
+        else
+            fs::remove(report(), ignored);
+        for (std::int32_t step = is_adaptive_ ? steps : 0; fs::exists(step_folder(step), ignored); ++step) {
+            remove_runs(step_folder(step));
+            fs::remove(step_folder(step), ignored);  // only if it is empty
         }
-        for (std::int32_t step = is_adaptive_ ? steps : 0; fs::exists(step_folder(step)); ++step)
-            fs::remove_all(step_folder(step));
     }
 
  private:
@@ -65,10 +68,14 @@ class StepFolders {
                                                    "choose another --output.",
                                                    path.string()));
     }
+    static void remove_runs(const std::string& folder) {
+        for (const char* name : {"/mesh", "/solution"})
+            for (const char* ending : {"", ".failed", ".kerf-partial"}) remove_run_folder(folder + name + ending);
+    }
     static bool is_report(const fs::path& path) {
         if (path.filename() != "report.json") return false;
-        const auto json = nlohmann::json::parse(read_file(path.string()), nullptr, false);
-        return json.is_object() && json.contains("steps");
+        const std::string text = read_file(path.string());
+        return is_sealed(text) && nlohmann::json::parse(text).contains("steps");
     }
 
     std::string output_;

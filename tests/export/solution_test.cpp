@@ -90,8 +90,11 @@ TEST_F(SolutionExport, FilesHaveTheValues) {
     }
 }
 
-// Into the solution itself: they become part of it.
-TEST_F(SolutionExport, BelongsToTheSolution) {
+TEST_F(SolutionExport, DoesNotWriteAmongTheFilesOfOthers) {
+    EXPECT_EQ(run_kerf({"merge", folder_->file("out/solution"), "-o", folder_->file("out/mesh/parts/part_0004.vtu")})
+                  .exit_code,
+              7)
+        << "inside of its mesh";
     write_solution(folder_->file("out/mesh"), folder_->file("again/solution"), "../../out/mesh", {""});
     EXPECT_EQ(
         run_kerf({"export", folder_->file("again"), "--format", "msh", "-o", folder_->file("again/solution/x"), "-q"})

@@ -77,8 +77,13 @@ TEST_F(MeshAndSolve, TheErrorFallsWhereCellsAreFinerWhereItIs) {
     EXPECT_EQ(json_of("report.json")["steps"].size(), 2U);
     EXPECT_TRUE(exists("step_2/solution/mesh.pvtu"));
     EXPECT_FALSE(exists("step_3"));
+    // But for what is not its own.
+    std::ofstream(out() + "/step_1/solution/notes.txt") << "mine";
     ASSERT_EQ(test::run_kerf(bracket({"--size", "20"})).exit_code, 0);
-    EXPECT_FALSE(exists("step_1") || exists("report.json"));
+    EXPECT_FALSE(exists("step_1/mesh") || exists("step_1/solution/mesh.pvtu") || exists("step_2") ||
+                 exists("report.json"));
+    EXPECT_EQ(test::bytes_of_file(out() + "/step_1/solution/notes.txt"), "mine");
+    std::filesystem::remove_all(out() + "/step_1");
     EXPECT_TRUE(exists("solution/mesh.pvtu"));
     ASSERT_EQ(test::run_kerf(bracket({"--size", "20", "--adapt", "1"})).exit_code, 0);
     EXPECT_FALSE(exists("solution"));
