@@ -16,6 +16,7 @@ uniform vec4 eye;          // where the eye is (w = 1) or in which direction (w 
 uniform vec3 key_light, fill_light, up;  // directions in draw coordinates, seen from the surface
 uniform vec4 color;        // of the range; with SCALE and CATEGORIES: where there is no value
 uniform bool two_sided;
+uniform float shading;     // 0: as bright everywhere; 1: by the light
 uniform vec2 value_range;  // the low end, 1 / (high - low)
 uniform sampler2D colors;  // with SCALE: the scale; with CATEGORIES: the palette
 
@@ -75,7 +76,7 @@ void main() {
     if (corner_normal != vec3(0)) normal = corner_normal;
 #endif
     bool back = dot(triangle_normal, eye.xyz - eye.w * place) < 0;
-    float light = brightness(back ? -normal : normal);
+    float light = mix(1.0, brightness(back ? -normal : normal), shading);
     bool greyed = back && !two_sided;
 #ifdef SCALE
     tone = vec2(light, greyed ? 1 : 0);

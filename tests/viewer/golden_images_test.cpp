@@ -238,7 +238,7 @@ TEST(Colourings, OfCoreShellAndOtherMesher) {
     EXPECT_TRUE(is_golden("color-origin", driver));
     const auto legend = [&] {
         std::string words;
-        for (const auto& category : driver.app().facts().categories) words += category.first + "; ";
+        for (const auto& category : driver.app().facts().categories) words += category.text + "; ";
         return words;
     };
     EXPECT_EQ(legend(), "core: stamped cells; shell around the core; TetGen; ");

@@ -113,11 +113,11 @@ void App::frame_selection() {
     if (!points.empty()) {
         camera_.target = framed_box(points, 0.01 * diagonal).center();
         Camera framed = camera_;
-        fit(framed, framed_box(points, 0.01 * diagonal), area_.width / area_.height);
+        fit_body(framed, framed_box(points, 0.01 * diagonal));
         state_.camera = framed;
     } else if (const auto surface = surface_of(session_, state_.node)) {
         Camera framed = camera_;
-        fit(framed, framed_box(surface->vertices, 0), 2 * area_.width / area_.height);
+        fit_body(framed, framed_box(surface->vertices, 0));
         framed.height /= 2;
         state_.camera = framed;
     }
@@ -207,7 +207,14 @@ void App::update_camera() {
     }
     camera_ = {};
     look_from(camera_, Direction::corner);
-    fit(camera_, built_.box, area_.width / std::max(area_.height, 1.f));
+    fit_body(camera_, built_.box);
+}
+
+// Into what the legend leaves of the scene.
+void App::fit_body(Camera& camera, const Eigen::AlignedBox3d& box) const {
+    const float height = std::max(body_.height, 1.f);
+    fit(camera, box, body_.width / height);
+    camera.height *= area_.height / height;
 }
 
 void App::move_step(int direction) {
@@ -281,6 +288,7 @@ void App::draw(int width, int height, float scale, bool panels) {
     ImGui::NewFrame();
     widgets_.begin_frame();
     area_ = scene_rectangle(state_, session_.document(), io.DisplaySize.x, io.DisplaySize.y, panels);
+    body_ = body_area(state_, area_);
     if (panels) {
         take_keys();
         take_mouse();
@@ -302,6 +310,8 @@ void App::draw(int width, int height, float scale, bool panels) {
 
     projection_ =
         project(camera_, built_.frame, built_.box, static_cast<int>(area_.width), static_cast<int>(area_.height));
+    move_center(projection_, (2 * body_.x + body_.width - 2 * area_.x - area_.width) / std::max(area_.width, 1.f),
+                -(2 * body_.y + body_.height - 2 * area_.y - area_.height) / std::max(area_.height, 1.f));
     projection_.x = static_cast<int>(area_.x);
     projection_.y = height - static_cast<int>(area_.y + area_.height);
     projection_.pixel_ratio = scale;

@@ -92,6 +92,7 @@ class App : private Actions {
     void follow_session();
     void begin_auto_run();
     void update_camera();
+    void fit_body(Camera& camera, const Eigen::AlignedBox3d& box) const;
     void take_keys();
     void take_character_keys();
     void take_mouse();
@@ -125,6 +126,7 @@ class App : private Actions {
     Camera camera_;
     Projection projection_;
     Rectangle area_;  // of the scene
+    Rectangle body_;  // what the legend leaves of it
 
     std::string styled_for_;  // theme and scale
     std::string opened_;      // what auto_run has been decided for

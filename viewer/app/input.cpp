@@ -109,8 +109,8 @@ void App::zoom(float x, float y, float notches) {
     if (const auto found = renderer_.pick(built_.scene, projection_, static_cast<int>(x), static_cast<int>(y)))
         focus_depth(camera, seen_point(*found));
     const double height = std::max(area_.height, 1.f);
-    zoom_at(camera, std::pow(zoom_per_notch, notches), (x - area_.x - area_.width / 2) / height,
-            -(y - area_.y - area_.height / 2) / height);
+    zoom_at(camera, std::pow(zoom_per_notch, notches), (x - body_.x - body_.width / 2) / height,
+            -(y - body_.y - body_.height / 2) / height);
     camera.height = std::clamp(camera.height, 1e-6 * diagonal, 1e2 * diagonal);
     state_.camera = camera;
 }

@@ -140,4 +140,10 @@ Projection project(const Camera& camera, const Frame& frame, const Eigen::Aligne
     return p;
 }
 
+void move_center(Projection& projection, double x, double y) {
+    Eigen::Matrix4f& m = projection.projection;
+    m.row(0) += static_cast<float>(x) * m.row(3).eval();
+    m.row(1) += static_cast<float>(y) * m.row(3).eval();
+}
+
 }  // namespace kerf::view

@@ -68,5 +68,7 @@ void zoom_at(Camera& camera, double factor, double x, double y);
 /// The matrices for a viewport of this size. `box` in coordinates of the file: everything that is drawn; it sets the
 /// near and far planes.
 Projection project(const Camera& camera, const Frame& frame, const Eigen::AlignedBox3d& box, int width, int height);
+/// Moves the target from the centre of the viewport, in fractions of half its width and height, y up.
+void move_center(Projection& projection, double x, double y);
 
 }  // namespace kerf::view

@@ -20,30 +20,43 @@ std::string tick_text(double value, double step) {
     return fmt::format("{:.{}f}", value, decimals);
 }
 
-class Legend {
- public:
-    Legend(const UiContext& context, const Rectangle& scene)
-        : context_(context), scene_(scene), colors_(palette(context.state.theme)) {}
+// The legend has more room at the right of a wide scene, and below the body in another one.
+bool is_wide(const Rectangle& scene) { return scene.width > 1.25f * scene.height; }
 
+class LegendBox {
+ public:
+    LegendBox(const UiContext& context, const Rectangle& scene)
+        : context_(context), facts_(context.facts), scene_(scene), colors_(palette(context.state.theme)) {
+        const float e = em();
+        const Rectangle body = body_area(context.state, scene);
+        widest_ = (is_wide(scene) ? scene.width - body.width : scene.width) - 2 * e;
+        highest_ = (is_wide(scene) ? scene.height - 9 * e : scene.height - body.height) - 1.5f * e;
+        if (!facts_.legend_title.empty()) highest_ -= ImGui::GetTextLineHeight() + 0.4f * e;
+    }
+
+    // Title, the scale if colours are numbers, and then what else there is, from top to bottom.
     void draw() {
-        if (context_.facts.values && context_.facts.scale.size() >= 2)
-            draw_scale();
-        else if (!context_.facts.categories.empty())
-            draw_categories();
+        const bool has_scale = facts_.values && facts_.scale.size() >= 2;
+        if (!has_scale && facts_.categories.empty()) return;
+        if (has_scale) prepare_scale();
+        prepare_entries();
+        const float gap = has_scale && shown_ > 0 ? 0.6f * em() : 0;
+        ImVec2 at = begin(scale_height_ + gap + line_height() * static_cast<float>(rows_));
+        if (has_scale) draw_scale(at);
+        at.y += scale_height_ + gap;
+        draw_entries(at);
     }
 
  private:
-    // The ground for a content of this size; returns its upper left corner, below the title.
-    ImVec2 begin(float width, float height) {
+    // The ground for a content of this height; returns its upper left corner, below the title.
+    ImVec2 begin(float height) {
         const float e = em(), line = ImGui::GetTextLineHeight();
-        const std::string& head = context_.facts.legend_title;
+        const std::string& head = facts_.legend_title;
         std::string filter;
-        if (context_.state.filter && is_measure(context_.state.color))
-            filter =
-                fmt::format("only {} to {}", rounded(context_.state.filter->low), rounded(context_.state.filter->high));
-        width = std::max({width, std::min(width_of(head), 9 * e), width_of(filter)});
-        const float head_height = ImGui::CalcTextSize(head.c_str(), nullptr, false, width).y;
-        const float lines = (head.empty() ? 0 : head_height) + (filter.empty() ? 0 : line);
+        if (filter_) filter = fmt::format("only {} to {}", rounded(filter_->low), rounded(filter_->high));
+        const float width = std::min(std::max({width_, std::min(width_of(head), 9 * e), width_of(filter)}), widest_);
+        const float head_height = head.empty() ? 0 : ImGui::CalcTextSize(head.c_str(), nullptr, false, width).y;
+        const float lines = head_height + (filter.empty() ? 0 : line);
         const float titles = lines > 0 ? lines + 0.4f * e : 0;
         const ImVec2 to = {scene_.x + scene_.width - 1.2f * e, scene_.y + scene_.height - 1.1f * e};
         const ImVec2 from = {to.x - width, to.y - height - titles};
@@ -53,73 +66,153 @@ class Legend {
         return {from.x, from.y + titles};
     }
 
-    void draw_scale() {
-        const ValueRange range = context_.state.color_range.value_or(*context_.facts.values);
-        const float e = em(), bar = 1.1f * e, height = std::clamp(0.3f * scene_.height, 5 * e, 11 * e);
-        const std::vector<double> ticks = round_ticks(range.low, range.high, 5);
-        const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : range.high - range.low;
-        const auto text_of = [&](double tick) { return ticks.size() > 1 ? tick_text(tick, step) : rounded(tick); };
-        float widest = 0;
-        for (const double tick : ticks) widest = std::max(widest, width_of(text_of(tick)));
-        ImVec2 from = begin(bar + 0.9f * e + widest, height + ImGui::GetTextLineHeight());
-        from.y += ImGui::GetTextLineHeight() / 2;  // room for the text of a tick at the very end
-        draw_bar(from, bar, height);
-        for (const double tick : ticks) {
-            const double part = range.high > range.low ? (tick - range.low) / (range.high - range.low) : 0.5;
-            const float y = from.y + height * static_cast<float>(1 - part);
-            list_.AddLine({from.x + bar, y}, {from.x + bar + 0.35f * e, y}, packed(colors_.text));
-            list_.AddText({from.x + bar + 0.6f * e, y - ImGui::GetTextLineHeight() / 2}, packed(colors_.text),
+    void prepare_scale() {
+        range_ = context_.state.color_range.value_or(*facts_.values);
+        if (is_measure(context_.state.color)) filter_ = context_.state.filter;
+        ticks_ = round_ticks(range_.low, range_.high, 5);
+        bar_height_ = std::clamp(0.7f * highest_, 4.5f * em(), 11 * em());
+        scale_height_ = bar_height_ + ImGui::GetTextLineHeight();  // room for the text of a tick at the very end
+        for (const double tick : ticks_) width_ = std::max(width_, 2 * em() + width_of(text_of(tick)));
+    }
+
+    std::string text_of(double tick) const {
+        return ticks_.size() > 1 ? tick_text(tick, ticks_[1] - ticks_[0]) : rounded(tick);
+    }
+
+    float height_of(double value) const {
+        const double part = range_.high > range_.low ? (value - range_.low) / (range_.high - range_.low) : 0.5;
+        return bar_height_ * static_cast<float>(std::clamp(part, 0.0, 1.0));
+    }
+
+    void draw_scale(const ImVec2& from) {
+        const float e = em(), bar = 1.1f * e, bottom = from.y + ImGui::GetTextLineHeight() / 2 + bar_height_;
+        draw_bar({from.x, bottom - bar_height_}, bar);
+        for (const double tick : ticks_) {
+            const float y = bottom - height_of(tick);
+            const ImVec4& color = is_filtered_out(tick) ? colors_.dim : colors_.text;
+            list_.AddLine({from.x + bar, y}, {from.x + bar + 0.35f * e, y}, packed(color));
+            list_.AddText({from.x + bar + 0.6f * e, y - ImGui::GetTextLineHeight() / 2}, packed(color),
                           text_of(tick).c_str());
         }
     }
 
-    // Highest at the top.
-    void draw_bar(const ImVec2& from, float width, float height) {
-        const std::vector<Color>& scale = context_.facts.scale;
+    bool is_filtered_out(double value) const { return filter_ && (value < filter_->low || value > filter_->high); }
+
+    // Highest at the top. What a filter leaves out is not among the colours of the picture.
+    void draw_bar(const ImVec2& from, float width) {
+        const std::vector<Color>& scale = facts_.scale;
         const auto pieces = static_cast<float>(scale.size() - 1);
         for (std::size_t i = 0; i + 1 < scale.size(); ++i) {
-            const float low = from.y + height * (1 - static_cast<float>(i) / pieces);
-            const float high = from.y + height * (1 - static_cast<float>(i + 1) / pieces);
+            const float low = from.y + bar_height_ * (1 - static_cast<float>(i) / pieces);
+            const float high = from.y + bar_height_ * (1 - static_cast<float>(i + 1) / pieces);
             const ImU32 below = packed(scale[i]), above = packed(scale[i + 1]);
             list_.AddRectFilledMultiColor({from.x, high}, {from.x + width, low}, above, above, below, below);
         }
-        list_.AddRect(from, {from.x + width, from.y + height}, packed(colors_.dim));
+        if (filter_) {
+            const float low = from.y + bar_height_ - height_of(filter_->low);
+            const float high = from.y + bar_height_ - height_of(filter_->high);
+            for (const auto& [top, bottom] : {std::pair(from.y, high), {low, from.y + bar_height_}})
+                list_.AddRectFilled({from.x, top}, {from.x + width, bottom}, packed(faded(colors_.panel, 0.9f)));
+            list_.AddRect({from.x - 1, high}, {from.x + width + 1, low}, packed(colors_.accent), 0, 0, 0.12f * em());
+        }
+        list_.AddRect(from, {from.x + width, from.y + bar_height_}, packed(colors_.dim));
     }
 
-    void draw_categories() {
-        const auto& categories = context_.facts.categories;
-        const float e = em(), line = ImGui::GetTextLineHeight() + 0.15f * e, swatch = 0.8f * e;
-        const auto fitting = static_cast<std::size_t>(std::max(1.f, (scene_.height - 11 * e) / line));
-        const std::size_t shown = std::min({categories.size(), most_categories, fitting});
-        const std::string more =
-            categories.size() > shown ? fmt::format("+ {} more", categories.size() - shown) : std::string();
-        float widest = width_of(more);
-        std::vector<std::string> names;
-        for (std::size_t i = 0; i < shown; ++i) {
-            names.push_back(shortened(categories[i].first, 12 * e));
-            widest = std::max(widest, width_of(names.back()));
+    float line_height() const { return ImGui::GetTextLineHeight() + 0.15f * em(); }
+    static float sample_width() { return 1.1f * em(); }
+
+    // One below the other at the right of the body, in columns below it.
+    void prepare_entries() {
+        const auto& entries = facts_.categories;
+        const float e = em(), sample = sample_width() + 0.6f * e, room = highest_ - scale_height_;
+        const auto rows = static_cast<std::size_t>(std::max(1.f, room / line_height()));
+        const float longest = is_wide(scene_) ? widest_ - sample : 10 * e;
+        column_width_ = 0;
+        for (const LegendEntry& entry : entries) {
+            names_.push_back(shortened(entry.text, longest));
+            column_width_ = std::max(column_width_, sample + width_of(names_.back()));
+            if (names_.size() == most_categories) break;
         }
-        const float lines = static_cast<float>(shown + (more.empty() ? 0 : 1));
-        ImVec2 at = begin(swatch + 0.6f * e + widest, lines * line);
-        for (std::size_t i = 0; i < shown; ++i, at.y += line) {
-            const float drop = (ImGui::GetTextLineHeight() - swatch) / 2;
-            list_.AddRectFilled({at.x, at.y + drop}, {at.x + swatch, at.y + drop + swatch},
-                                packed(categories[i].second), 0.15f * e);
-            list_.AddText({at.x + swatch + 0.6f * e, at.y}, packed(colors_.text), names[i].c_str());
+        const float columns = is_wide(scene_) ? 1 : std::max(1.f, std::floor(widest_ / (column_width_ + e)));
+        shown_ = std::min(names_.size(), rows * static_cast<std::size_t>(columns));
+        if (entries.size() > shown_) {
+            shown_ = std::min(shown_, rows * static_cast<std::size_t>(columns) - (rows > 1 ? 1 : 0));
+            more_ = fmt::format("+ {} more", entries.size() - shown_);
         }
-        list_.AddText({at.x + swatch + 0.6f * e, at.y}, packed(colors_.dim), more.c_str());
+        const std::size_t cells = shown_ + (more_.empty() ? 0 : 1);
+        rows_ = std::min(rows, cells);
+        const auto used = static_cast<float>(rows_ > 0 ? (cells + rows_ - 1) / rows_ : 0);
+        if (used > 0) width_ = std::max(width_, used * column_width_ + (used - 1) * e);
+    }
+
+    void draw_entries(const ImVec2& from) {
+        const float e = em(), left = sample_width() + 0.6f * e;
+        const auto place = [&](std::size_t i) {
+            return ImVec2{from.x + static_cast<float>(i / rows_) * (column_width_ + e),
+                          from.y + static_cast<float>(i % rows_) * line_height()};
+        };
+        for (std::size_t i = 0; i < shown_; ++i) {
+            const ImVec2 at = place(i);
+            draw_sample(facts_.categories[i], {at.x, at.y + ImGui::GetTextLineHeight() / 2});
+            list_.AddText({at.x + left, at.y}, packed(colors_.text), names_[i].c_str());
+        }
+        if (more_.empty()) return;
+        const ImVec2 at = place(shown_);
+        list_.AddText({at.x + left, at.y}, packed(colors_.dim), more_.c_str());
+    }
+
+    // As it is drawn in the scene; `left`: the middle of its left side.
+    void draw_sample(const LegendEntry& entry, const ImVec2& left) {
+        const float width = sample_width(), half = 0.4f * em();
+        switch (entry.mark) {
+            case LegendEntry::Mark::line:
+                list_.AddLine(left, {left.x + width, left.y}, packed(entry.color), 0.22f * em());
+                return;
+            case LegendEntry::Mark::point:
+                list_.AddCircleFilled({left.x + width / 2, left.y}, 0.32f * em(), packed(entry.color));
+                return;
+            case LegendEntry::Mark::area:
+                const ImVec2 from = {left.x, left.y - half}, to = {left.x + width, left.y + half};
+                Color outline = entry.color;
+                outline.a = 1;
+                list_.AddRectFilled(from, to, packed(entry.color), 0.15f * em());
+                if (entry.color.a < 1) list_.AddRect(from, to, packed(outline), 0.15f * em());
+        }
     }
 
     const UiContext& context_;
+    const SceneFacts& facts_;
     const Rectangle& scene_;
     const Palette& colors_;
     ImDrawList& list_ = *ImGui::GetBackgroundDrawList();
+    float widest_ = 0, highest_ = 0;  // what there is room for
+    float width_ = 0;
+    // Of the scale:
+    ValueRange range_;
+    std::optional<ValueRange> filter_;
+    std::vector<double> ticks_;
+    float bar_height_ = 0, scale_height_ = 0;
+    // Of the entries:
+    std::size_t shown_ = 0, rows_ = 0;
+    float column_width_ = 0;
+    std::vector<std::string> names_;
+    std::string more_;
 };
 
 }  // namespace
 
+Rectangle body_area(const ViewState& state, const Rectangle& scene) {
+    if (!state.legend) return scene;
+    Rectangle body = scene;
+    if (is_wide(scene))
+        body.width -= std::min(13 * em(), 0.25f * scene.width);
+    else
+        body.height -= std::min(8.5f * em(), 0.25f * scene.height);
+    return body;
+}
+
 void draw_legend(UiContext& context, const Rectangle& scene) {
-    if (context.state.legend) Legend(context, scene).draw();
+    if (context.state.legend) LegendBox(context, scene).draw();
 }
 
 }  // namespace kerf::view

@@ -34,13 +34,13 @@ class Actions {
 
 /// What the scene knows that panels show.
 struct SceneFacts {
-    std::string legend_title;          ///< empty: the legend explains what is there, not a colouring
-    std::optional<ValueRange> values;  ///< of what is shown, by ViewState::color
-    std::vector<std::pair<std::string, Color>> categories;  ///< of a legend without numbers: "part 8"
-    std::vector<Color> scale;                               ///< colours from low to high, of a legend with numbers
-    std::string selection;                                  ///< what is selected, as lines of text; empty: nothing
-    std::int64_t triangles = 0, lines = 0;                  ///< drawn
-    std::string notice;                                     ///< e.g. "saved as kerf-001.png"; shown for some seconds
+    std::string legend_title;               ///< empty: the legend explains what is there, not a colouring
+    std::optional<ValueRange> values;       ///< of what is shown, by ViewState::color
+    std::vector<LegendEntry> categories;    ///< of a legend without numbers: "part 8"
+    std::vector<Color> scale;               ///< colours from low to high, of a legend with numbers
+    std::string selection;                  ///< what is selected, as lines of text; empty: nothing
+    std::int64_t triangles = 0, lines = 0;  ///< drawn
+    std::string notice;                     ///< e.g. "saved as kerf-001.png"; shown for some seconds
     bool playing = false;
     bool pending = false;  ///< something that is to be shown is still being read
 };
@@ -70,6 +70,10 @@ struct Rectangle {
 
 /// Where the scene goes: what the panels leave. Without panels the whole window.
 Rectangle scene_rectangle(const ViewState& state, const Document& document, float width, float height, bool panels);
+
+/// What the legend leaves of the scene, on its left or above it, so that the body stands beside it. The same for all
+/// steps and colourings.
+Rectangle body_area(const ViewState& state, const Rectangle& scene);
 
 /// What Dear ImGui keeps for us between frames: open dialogs, edited options.
 class Ui {

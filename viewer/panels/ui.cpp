@@ -162,8 +162,8 @@ void reveal(ViewState& state, NodeId node) {
 const Color* part_color(const SceneFacts& facts, const ViewState& state, NodeId part) {
     if (state.color != ColorBy::part) return nullptr;
     const std::string name = "part " + std::to_string(part);
-    for (const auto& [text, color] : facts.categories)
-        if (text == name) return &color;
+    for (const LegendEntry& entry : facts.categories)
+        if (entry.text == name) return &entry.color;
     return nullptr;
 }
 

@@ -13,6 +13,7 @@ struct PaintJob {
     const GpuGeometry& geometry;
     const Scene& scene;
     const Projection& projection;
+    bool shows_fronts = false;  ///< of glass: backs and fronts are drawn one after the other
 
     const std::array<float, 4>& clip_plane() const {
         static const ClipPlane everything;

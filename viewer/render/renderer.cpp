@@ -103,7 +103,7 @@ class Renderer::Impl {
 
  private:
     PaintJob job(const Layer& layer, const Scene& scene, const Projection& projection) {
-        return {layer, cache_.get(layer.geometry), scene, projection};
+        return {layer, cache_.get(layer.geometry), scene, projection, false};
     }
     void begin(const Projection& projection);
     void end();
@@ -188,7 +188,11 @@ void Renderer::Impl::draw_see_through_triangles(const Scene& scene, const Projec
     for (GLenum hidden_side : {GL_FRONT, GL_BACK}) {
         gl_.CullFace(hidden_side);
         for (const Layer& layer : scene.layers)
-            if (has_triangles(layer) && layer.opacity < 1) triangles_.draw(job(layer, scene, projection));
+            if (has_triangles(layer) && layer.opacity < 1) {
+                PaintJob glass = job(layer, scene, projection);
+                glass.shows_fronts = hidden_side == GL_BACK;
+                triangles_.draw(glass);
+            }
     }
     gl_.Disable(GL_CULL_FACE);
     gl_.Disable(GL_BLEND);

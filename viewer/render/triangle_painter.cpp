@@ -11,7 +11,7 @@ namespace kerf::view {
 namespace {
 
 // Heights of triangles in pixels: edges are not drawn below the first, and fully the second above it.
-constexpr float least_height = 1.5f, height_span = 4.5f;
+constexpr float least_height = 2.5f, height_span = 11.5f;
 constexpr int scale_steps = 1024;  // finer than 8 bits of colour show
 
 int key_of(Fill fill, bool edges, bool smooth) { return 4 * static_cast<int>(fill) + 2 * edges + smooth; }
@@ -85,8 +85,9 @@ void TrianglePainter::draw(const PaintJob& job) {
     program.use();
     set_place(program, job);
     set_light(program, job.projection);
-    program.set("opacity", job.layer.opacity);
+    program.set("opacity", job.layer.opacity * (job.shows_fronts ? job.layer.front_share : 1));
     program.set("two_sided", job.layer.two_sided ? 1 : 0);
+    program.set("shading", job.layer.shading);
     program.set("edge", job.scene.edge);
     const float ratio = job.projection.pixel_ratio;
     program.set("edge_widths", Eigen::Vector3f(ratio, least_height * ratio, 1 / (height_span * ratio)));

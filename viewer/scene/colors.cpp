@@ -10,10 +10,21 @@ namespace {
 constexpr std::array<const char*, 8> okabe_ito = {"#56B4E9", "#E69F00", "#009E73", "#F0E442",
                                                   "#CC79A7", "#0072B2", "#D55E00", "#999999"};
 
+// From what is bad to what is good: ColorBrewer's RdYlBu (Harrower and Brewer 2003) without its darkest red, so that
+// the worst cells stand out and the best ones are the darkest. People who see fewer colours can tell its ends apart.
+constexpr std::array<const char*, 10> red_to_blue = {"#D73027", "#F46D43", "#FDAE61", "#FEE090", "#FFFFBF",
+                                                     "#E0F3F8", "#ABD9E9", "#74ADD1", "#4575B4", "#313695"};
+
 // Every 16th colour of Viridis and its last one.
 constexpr std::array<const char*, 17> viridis = {"#440154", "#481668", "#482878", "#433E85", "#3B528B", "#33638D",
                                                  "#2C728E", "#26828E", "#21918C", "#1FA088", "#28AE80", "#3FBC73",
                                                  "#5EC962", "#84D44B", "#ADDC30", "#D8E219", "#FDE725"};
+
+// Measures of which one end is bad.
+bool is_of_shape(ColorBy color) {
+    return color == ColorBy::min_dihedral || color == ColorBy::radius_edge || color == ColorBy::aspect ||
+           color == ColorBy::shape;
+}
 
 Color mixed(const Color& a, const Color& b, float share) {
     return {a.r + share * (b.r - a.r), a.g + share * (b.g - a.g), a.b + share * (b.b - a.b), a.a};
@@ -43,11 +54,12 @@ Color category_color(std::size_t i) {
 
 std::vector<Color> value_colors(ColorBy color) {
     std::vector<Color> colors;
-    for (const char* text : viridis) colors.push_back(color_from_hex(text));
-    // What is bad is dark and purple.
-    if (color == ColorBy::radius_edge || color == ColorBy::aspect || color == ColorBy::deviation ||
-        color == ColorBy::error)
-        std::reverse(colors.begin(), colors.end());
+    if (!is_of_shape(color)) {
+        for (const char* text : viridis) colors.push_back(color_from_hex(text));
+        return colors;
+    }
+    for (const char* text : red_to_blue) colors.push_back(color_from_hex(text));
+    if (color == ColorBy::radius_edge || color == ColorBy::aspect) std::reverse(colors.begin(), colors.end());
     return colors;
 }
 
@@ -78,15 +90,17 @@ SceneColors scene_colors(Theme theme) {
     c.plane = color_from_hex("#3F8FD2");
     c.normal = color_from_hex(light ? "#1F5F99" : "#7FBFF0");
     c.none = color_from_hex(light ? "#C9CED4" : "#5A6068");
-    c.crossed = color_from_hex("#0072B2");
+    c.crossed = color_from_hex("#7B4A12");
     c.contour = color_from_hex("#D5430B");
-    c.projected = color_from_hex("#009E73");
-    c.refused = color_from_hex("#C2185B");
+    c.projected = color_from_hex("#005F45");
+    c.refused = color_from_hex("#4A148C");
     c.selection = color_from_hex(light ? "#B000C8" : "#FF66FF");
     c.feature = color_from_hex(light ? "#101A26" : "#F4F6F8");
-    c.error = color_from_hex("#D32F2F");
+    c.error = color_from_hex("#E53935");
     c.warning = color_from_hex("#E68A00");
-    c.axes = {color_from_hex("#D8343B"), color_from_hex("#2E9E44"), color_from_hex("#2F6FDE")};
+    // Not those of the coordinates, which the gizmo has.
+    c.axes = {color_from_hex("#F0A000"), color_from_hex(light ? "#A83A7C" : "#7E1B5A"),
+              color_from_hex(light ? "#1C2733" : "#F4F6F8")};
     return c;
 }
 

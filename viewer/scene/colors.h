@@ -17,7 +17,8 @@ Color color_from_hex(const char* text, float alpha = 1);
 Color category_color(std::size_t i);
 inline constexpr std::size_t category_count = 24;  ///< then they repeat
 
-/// Viridis (van der Walt and Smith), from dark to light; reversed where a low value is good.
+/// Viridis (van der Walt and Smith), from dark to light; of the shape of cells, red where it is bad and blue where it
+/// is good.
 std::vector<Color> value_colors(ColorBy color);
 
 /// The range that a measure's colours span where the user gives none: that of useful cells, so that colours mean the
@@ -30,7 +31,7 @@ struct SceneColors {
     Color surface, interface, context, plane, normal, none;
     Color crossed, contour, projected, refused, selection, feature;
     Color error, warning;
-    std::array<Color, 3> axes;  ///< of inertia, the long direction first; and of the coordinates
+    std::array<Color, 3> axes;  ///< of inertia, the long direction first
 };
 SceneColors scene_colors(Theme theme);
 

@@ -5,7 +5,8 @@ namespace kerf::view {
 
 namespace {
 
-constexpr float plane_opacity = 0.22f;
+constexpr float plane_opacity = 0.3f;
+constexpr float flat_shading = 0, interface_shading = 0.4f;  // so that sections have the colour of the legend
 
 // Sides of a try or a cut that lines are drawn from.
 std::vector<std::array<Vec3, 2>> ends_of(const std::vector<SurfaceEdge>& edges, const NodeSurface& surface) {
@@ -83,10 +84,13 @@ void SceneBuild::add_plane(const Plane& plane) {
     if (!state_.plane) return;
     const auto surface = session_.surface(state_.node);
     const Eigen::AlignedBox3d box = surface ? box_of(surface->vertices) : document_.box;
-    Layer& sheet = add(name(Stage::plane), plane_rectangle(plane, box, built_.frame), colors_.plane);
-    sheet.opacity = plane_opacity;
-    sheet.clipped = sheet.edges = sheet.smooth = false;
-    sheet.two_sided = true;
+    // Where the section lies in the plane, its own colour is what is to be seen.
+    if (step_.stage < Stage::triangulation) {
+        Layer& sheet = add(name(Stage::plane), plane_rectangle(plane, box, built_.frame), colors_.plane);
+        sheet.opacity = plane_opacity;
+        sheet.clipped = sheet.edges = sheet.smooth = false;
+        sheet.two_sided = true;
+    }
     Layer& outline = add("plane outline", plane_outline(plane, box, built_.frame), colors_.normal);
     outline.pixels = thin_pixels;
     outline.clipped = false;
@@ -124,11 +128,13 @@ void SceneBuild::add_stage(const Cut& cut, const NodeSurface& surface) {
         Layer& layer = add(name(Stage::triangulation), triangles(places, cut.interface.triangles, built_.frame),
                            colors_.interface);
         layer.two_sided = true;
+        layer.shading = flat_shading;
     }
     if (step_.stage == Stage::interface) {
         Layer& layer = add(name(Stage::interface),
                            triangles(cut.interface.points, cut.interface.triangles, built_.frame), colors_.interface);
         layer.two_sided = true;
+        layer.shading = interface_shading;
     }
     for (Layer& layer : built_.scene.layers)
         if (layer.name == name(Stage::triangulation) || layer.name == name(Stage::interface)) layer.smooth = false;

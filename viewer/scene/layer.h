@@ -16,6 +16,16 @@ namespace kerf::view {
 
 struct Color {
     float r = 0, g = 0, b = 0, a = 1;
+
+    bool operator==(const Color&) const = default;
+};
+
+/// A line of a legend: a colour as it is drawn, and what it means.
+struct LegendEntry {
+    enum class Mark { area, line, point };
+    std::string text;
+    Color color;  ///< of glass, with its opacity
+    Mark mark = Mark::area;
 };
 
 /// A corner of a triangle. Triangles share no corners, so that every one has its own edges and value.
@@ -65,6 +75,8 @@ struct Layer {
     std::vector<Range> ranges;
     Fill fill = Fill::plain;
     float opacity = 1;            ///< below 1: drawn after what is opaque, writes no depth
+    float front_share = 1;        ///< of the opacity: of what faces the eye, so that glass does not tint what is inside
+    float shading = 1;            ///< 0: its colour as it is, 1: by the light on it
     bool edges = false;           ///< dark lines along the edges of triangles
     bool smooth = false;          ///< shading by the corner's normals
     bool clipped = true;          ///< by Scene::clip

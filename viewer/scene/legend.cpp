@@ -96,28 +96,6 @@ void SceneBuild::set_range_of_values() {
     if (range.low < range.high) set_range(range);
 }
 
-// Only what there is.
-void SceneBuild::set_legend_of_origins() {
-    bool has_core = false;
-    std::set<std::string> others;
-    for (const NodeId part : document_.tree.parts_below(state_.node)) {
-        const TreeRow* row = document_.tree.find(part);
-        if (!is_shown(part) || row->state != NodeState::done) continue;
-        if (row->core_tets > 0)
-            has_core = true;
-        else
-            others.insert(row->filled_by.empty() ? "mesher not known" : row->filled_by);
-    }
-    const auto explain = [&](const std::string& text, CellOrigin origin) {
-        built_.legend.categories.emplace_back(text, category_color(static_cast<std::size_t>(origin)));
-    };
-    if (has_core) {
-        explain("core: stamped cells", CellOrigin::core);
-        explain("shell around the core", CellOrigin::shell);
-    }
-    for (const std::string& filler : others) explain(filler, CellOrigin::other);
-}
-
 // With what else there is to know of a picture of a solution.
 std::string SceneBuild::legend_title() const {
     std::string text = title(state_.color);
@@ -129,55 +107,141 @@ std::string SceneBuild::legend_title() const {
     return text;
 }
 
+// Parts of the node of which something is drawn.
+std::vector<NodeId> SceneBuild::drawn_parts() const {
+    std::vector<NodeId> drawn;
+    for (const NodeId part : document_.tree.parts_below(state_.node))
+        for (const char* layer : {"part", "cells", "section"})
+            if (built_.scene.find(fmt::format("{} {}", layer, part))) {
+                drawn.push_back(part);
+                break;
+            }
+    return drawn;
+}
+
+// Whole numbers that stand for colours; NaN, where something has none, is -1.
+std::set<int> SceneBuild::drawn_categories() const {
+    std::set<int> drawn;
+    for (const Layer& layer : built_.scene.layers) {
+        if (layer.fill != Fill::categories) continue;
+        for (const Range& range : layer.ranges)
+            for (std::size_t i = 3 * std::size_t{range.first}; i < 3 * (std::size_t{range.first} + range.count);
+                 i += 3) {
+                const float value = layer.geometry->corners[i].value;
+                drawn.insert(std::isnan(value) ? -1 : static_cast<int>(std::lround(value)));
+            }
+    }
+    return drawn;
+}
+
+void SceneBuild::explain(const std::string& text, const Color& color, LegendEntry::Mark mark) {
+    built_.legend.categories.push_back({text, color, mark});
+}
+
+// Of a layer that there is; glass is explained as glass.
+void SceneBuild::explain_layer(const std::string& name, const std::string& text, const Color& color) {
+    const Layer* layer = built_.scene.find(name);
+    if (!layer || layer->fill != Fill::plain) return;
+    Color drawn = color;
+    drawn.a = layer->opacity;
+    const Geometry& geometry = *layer->geometry;
+    explain(text, drawn,
+            !geometry.segments.empty() ? LegendEntry::Mark::line
+            : !geometry.points.empty() ? LegendEntry::Mark::point
+                                       : LegendEntry::Mark::area);
+}
+
+void SceneBuild::explain_origins() {
+    bool has_core = false;
+    std::set<std::string> others;
+    for (const NodeId part : drawn_parts()) {
+        const TreeRow* row = document_.tree.find(part);
+        if (row->core_tets > 0)
+            has_core = true;
+        else
+            others.insert(row->filled_by.empty() ? "mesher not known" : row->filled_by);
+    }
+    const auto color = [](CellOrigin origin) { return category_color(static_cast<std::size_t>(origin)); };
+    if (has_core) {
+        explain("core: stamped cells", color(CellOrigin::core));
+        explain("shell around the core", color(CellOrigin::shell));
+    }
+    for (const std::string& filler : others) explain(filler, color(CellOrigin::other));
+}
+
+void SceneBuild::explain_patches() {
+    const std::set<int> drawn = drawn_categories();
+    for (std::size_t i = 0; i < document_.patch_names.size(); ++i) {
+        const float value = i < palette_of_patch_.size() ? palette_of_patch_[i] : static_cast<float>(i);
+        if (drawn.contains(static_cast<int>(value))) explain(document_.patch_names[i], patch_color(i));
+    }
+    if (drawn.contains(-1))
+        explain(step_.stage == Stage::tetrahedra ? "interface or inside" : "interface", colors_.none);
+}
+
+void SceneBuild::explain_parts() {
+    std::set<std::int32_t> seen;
+    for (const NodeId part : drawn_parts()) {
+        const std::int32_t rank = document_.tree.find(part)->rank;
+        if (state_.color == ColorBy::rank && rank < 0) continue;
+        const std::int32_t value = state_.color == ColorBy::rank ? rank : level_of(part);
+        if (state_.color == ColorBy::part)
+            explain(fmt::format("part {}", part), color_of(part));
+        else if (seen.insert(value).second)
+            explain(fmt::format("{} {}", name(state_.color), value), color_of(part));
+    }
+}
+
+// What the colours of cells and facets stand for, where they stand for few things.
+void SceneBuild::explain_coloring() {
+    if (state_.color == ColorBy::patch) return explain_patches();
+    if (step_.stage != Stage::tetrahedra || shows_values()) return;
+    if (state_.color == ColorBy::kind) {
+        const std::set<int> drawn = drawn_categories();
+        if (drawn.contains(0)) explain("inner cells", category_color(0));
+        if (drawn.contains(1)) explain("cells at an interface", category_color(1));
+    } else if (state_.color == ColorBy::origin) {
+        explain_origins();
+    } else {
+        explain_parts();
+    }
+}
+
+void SceneBuild::explain_axes() {
+    if (!built_.scene.find("axes")) return;
+    constexpr std::array<const char*, 3> names = {"long axis", "middle axis", "short axis"};
+    for (std::size_t k = 0; k < names.size(); ++k) explain(names[k], colors_.axes[k], LegendEntry::Mark::line);
+    explain_layer("centre", "centre of gravity", colors_.contour);
+}
+
+// What lies in the surfaces of nodes, by earlier cuts or by this one.
+void SceneBuild::explain_interfaces() {
+    const bool is_split = step_.stage == Stage::split;
+    if (is_split && state_.node == 1 && state_.explode == 0 && !side_ && state_.hidden.empty()) return;  // inside
+    if (built_.scene.find(name(Stage::triangulation)) || built_.scene.find(name(Stage::interface))) return;
+    for (const Layer& layer : built_.scene.layers)
+        for (const Range& range : layer.ranges)
+            if (layer.fill == Fill::plain && range.color == colors_.interface)
+                return explain_layer(layer.name, is_split ? "interfaces" : "interfaces of earlier cuts", range.color);
+}
+
 void SceneBuild::set_legend() {
-    auto& categories = built_.legend.categories;
     if (step_.stage == Stage::tetrahedra || state_.color == ColorBy::patch || built_.legend.values)
         built_.legend.title = legend_title();
-    const Scene& scene = built_.scene;
-    if (state_.color == ColorBy::patch) {
-        for (std::size_t i = 0; i < document_.patch_names.size(); ++i)
-            categories.emplace_back(document_.patch_names[i], patch_color(i));
-        if (state_.node != 1 || step_.stage >= Stage::split)
-            categories.emplace_back(step_.stage == Stage::tetrahedra ? "interface or inside" : "interface",
-                                    colors_.none);
-        return;
-    }
-    if (step_.stage == Stage::tetrahedra && state_.color == ColorBy::kind) {
-        categories = {{"inner cells", category_color(0)}, {"cells at an interface", category_color(1)}};
-        return;
-    }
-    if (step_.stage == Stage::tetrahedra && state_.color == ColorBy::origin) return set_legend_of_origins();
-    if (step_.stage == Stage::tetrahedra && !shows_values()) {
-        std::set<std::int32_t> seen;
-        for (const NodeId part : document_.tree.parts_below(state_.node)) {
-            if (!is_shown(part)) continue;
-            const std::int32_t rank = document_.tree.find(part)->rank;
-            if (state_.color == ColorBy::rank && rank < 0) continue;
-            const std::int32_t value = state_.color == ColorBy::rank ? rank : level_of(part);
-            if (state_.color == ColorBy::part)
-                categories.emplace_back(fmt::format("part {}", part), color_of(part));
-            else if (seen.insert(value).second)
-                categories.emplace_back(fmt::format("{} {}", name(state_.color), value), color_of(part));
-        }
-        return;
-    }
-    if (built_.legend.values || (is_measure(state_.color) && step_.stage == Stage::tetrahedra)) return;
-    const auto explain = [&](const char* layer, const std::string& text, const Color& color) {
-        if (scene.find(layer)) categories.emplace_back(text, color);
-    };
-    explain("axes", "long axis", colors_.axes[0]);
-    explain("axes", "middle axis", colors_.axes[1]);
-    explain("axes", "short axis", colors_.axes[2]);
-    for (int i = 0; i < stage_count; ++i)
-        explain(name(static_cast<Stage>(i)), in_words(name(static_cast<Stage>(i))), color_of(static_cast<Stage>(i)));
-    explain("features", "features", colors_.feature);
-    explain("refused", "refused contour", colors_.refused);
-    explain("places", "where it failed", colors_.error);
-    explain("defect places", "errors", colors_.error);
-    explain("warning places", "warnings", colors_.warning);
+    explain_coloring();
     for (const NodeId half : {2 * state_.node, 2 * state_.node + 1})
-        if (scene.find(fmt::format("half {}", half)))
-            categories.emplace_back(fmt::format("node {}", half), half_color(half));
+        explain_layer(fmt::format("half {}", half), fmt::format("node {}", half), half_color(half));
+    explain_axes();
+    for (int i = 0; i < stage_count; ++i) {
+        const auto stage = static_cast<Stage>(i);
+        explain_layer(name(stage), in_words(name(stage)), color_of(stage));
+    }
+    explain_interfaces();
+    explain_layer("features", "features", colors_.feature);
+    explain_layer("refused", "refused contour", colors_.refused);
+    explain_layer("places", "where it failed", colors_.error);
+    explain_layer("defect places", "errors", colors_.error);
+    explain_layer("warning places", "warnings", colors_.warning);
 }
 
 }  // namespace kerf::view

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -68,8 +69,17 @@ class SceneBuild {
     void set_range(const ValueRange& range);
     void set_range_of_values();
     void set_legend();
-    void set_legend_of_origins();
     std::string legend_title() const;
+    std::vector<NodeId> drawn_parts() const;
+    std::set<int> drawn_categories() const;
+    void explain(const std::string& text, const Color& color, LegendEntry::Mark mark = LegendEntry::Mark::area);
+    void explain_layer(const std::string& name, const std::string& text, const Color& color);
+    void explain_origins();
+    void explain_patches();
+    void explain_parts();
+    void explain_coloring();
+    void explain_axes();
+    void explain_interfaces();
 
     bool is_shown(NodeId part) const {
         return !state_.is_hidden(part) && (!state_.isolated || lies_below(part, *state_.isolated));

@@ -10,7 +10,8 @@ namespace kerf::view {
 
 namespace {
 
-constexpr float context_opacity = 0.16f, glass_opacity = 0.3f;
+constexpr float context_opacity = 0.22f, glass_opacity = 0.55f;
+constexpr float glass_front_share = 0.12f, context_front_share = 0.4f;
 
 bool is_facet_shown(const NodeSurface& surface, std::int32_t facet, const ShownSide& side, ClipStyle style) {
     const Triangle& t = surface.facets[static_cast<std::size_t>(facet)];
@@ -151,6 +152,7 @@ void SceneBuild::add_node(const std::shared_ptr<const NodeSurface>& surface) {
         layer = add_surface("surface", surface, state_.node, colors_.surface, colors_.interface, Vec3::Zero());
     if (layer && step_.stage >= Stage::projected) {
         layer->opacity = glass_opacity;
+        layer->front_share = glass_front_share;
         layer->edges = false;
         layer->two_sided = true;
     }
@@ -200,6 +202,7 @@ void SceneBuild::add_context(const std::shared_ptr<const NodeSurface>& surface) 
     if (geometry->corners.empty()) return;
     Layer& layer = add("context", geometry, colors_.context);
     layer.opacity = context_opacity;
+    layer.front_share = context_front_share;
     layer.edges = false;
     layer.smooth = true;
     layer.two_sided = true;

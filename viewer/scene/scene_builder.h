@@ -15,10 +15,10 @@ namespace kerf::view {
 
 /// What colours mean in a scene.
 struct Legend {
-    std::string title;                 ///< of a colouring; empty: what there is to see is explained
-    std::optional<ValueRange> values;  ///< of a measure
-    std::vector<Color> scale;          ///< from its low to its high end
-    std::vector<std::pair<std::string, Color>> categories;  ///< else
+    std::string title;                    ///< of a colouring; empty: what there is to see is explained
+    std::optional<ValueRange> values;     ///< of a measure
+    std::vector<Color> scale;             ///< from its low to its high end
+    std::vector<LegendEntry> categories;  ///< else
 };
 
 struct BuiltScene {
