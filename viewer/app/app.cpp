@@ -287,7 +287,7 @@ void App::draw(int width, int height, float scale, bool panels) {
     }
     ImGui::NewFrame();
     widgets_.begin_frame();
-    area_ = scene_rectangle(state_, session_.document(), io.DisplaySize.x, io.DisplaySize.y, panels);
+    area_ = scene_rectangle(state_, session_.document(), settings_.panels, io.DisplaySize.x, io.DisplaySize.y, panels);
     body_ = body_area(state_, area_);
     if (panels) {
         take_keys();

@@ -33,6 +33,12 @@ Settings load_settings(const std::string& folder) {
         settings.theme = json.value("theme", "light") == "dark" ? Theme::dark : Theme::light;
         settings.recent = json.value("recent", std::vector<std::string>());
         settings.browser_folder = json.value("browser_folder", "");
+        const auto panels = json.value("panels", nlohmann::json::object());
+        const auto size = [&](const char* name) {
+            const float ems = panels.value(name, 0.f);
+            return ems > 0 && ems < 1000 ? ems : 0;
+        };
+        settings.panels = {size("left"), size("right"), size("timeline")};
     } catch (const nlohmann::json::exception&) {
         return {};
     }
@@ -43,9 +49,12 @@ void save_settings(const std::string& folder, const Settings& settings) {
     if (folder.empty()) return;
     std::error_code ignored;
     std::filesystem::create_directories(folder, ignored);
-    const nlohmann::ordered_json json = {{"theme", settings.theme == Theme::dark ? "dark" : "light"},
-                                         {"recent", settings.recent},
-                                         {"browser_folder", settings.browser_folder}};
+    const nlohmann::ordered_json json = {
+        {"theme", settings.theme == Theme::dark ? "dark" : "light"},
+        {"recent", settings.recent},
+        {"browser_folder", settings.browser_folder},
+        {"panels",
+         {{"left", settings.panels.left}, {"right", settings.panels.right}, {"timeline", settings.panels.timeline}}}};
     const std::string path = settings_file(folder), partial = path + ".partial";
     {
         std::ofstream file(partial);

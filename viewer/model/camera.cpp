@@ -29,6 +29,14 @@ std::array<double, 2> depth_range(const Camera& camera, const Eigen::AlignedBox3
 
 double Camera::distance() const { return height / 2 / std::tan(half_field_of_view); }
 
+std::optional<Eigen::Vector2d> seen_from_target(const Camera& camera, const Vec3& point) {
+    const Vec3 from_target = camera.turn.conjugate() * (point - camera.target);
+    const double distance = camera.distance(), depth = distance - from_target.z();
+    if (camera.perspective && !(depth > 0)) return std::nullopt;
+    const double nearer = camera.perspective ? distance / depth : 1;
+    return Eigen::Vector2d(nearer / camera.height * from_target.head<2>());
+}
+
 Frame Frame::around(const Eigen::AlignedBox3d& box) {
     Frame frame;
     if (box.isEmpty()) return frame;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -39,6 +40,9 @@ struct Frame {
         return {static_cast<float>(q.x()), static_cast<float>(q.y()), static_cast<float>(q.z())};
     }
 };
+
+/// Where a point is seen from the target, in fractions of the viewport's height, y up; none: behind the eye.
+std::optional<Eigen::Vector2d> seen_from_target(const Camera& camera, const Vec3& point);
 
 /// Where the scene is looked at from and where on the picture it goes.
 struct Projection {

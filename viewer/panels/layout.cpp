@@ -38,19 +38,25 @@ bool has_remarks(const Document& document) {
     return defects || !document.error.empty() || !document.notes.empty() || !document.progress.message.empty();
 }
 
-Layout layout_of(const ViewState& state, const Document& document, float width, float height) {
+Layout layout_of(const ViewState& state, const Document& document, const PanelSizes& sizes, float width, float height) {
     const float e = em();
     const float menu = e + 2 * menu_padding(), status = std::round(1.8f * e);
     Layout layout;
     layout.has_left = wants_left(state, document);
     layout.has_right = wants_right(state, document);
     layout.has_timeline = state.panels.timeline && has_tree(document);
-    const float left =
-        layout.has_left ? std::round(std::min(std::clamp(0.285f * width, 20 * e, 28 * e), 0.36f * width)) : 0;
-    const float right =
-        layout.has_right ? std::round(std::min(std::clamp(0.22f * width, 20 * e, 24 * e), 0.34f * width)) : 0;
-    const float timeline = layout.has_timeline ? std::round(6.5f * e) : 0;
     const float middle = std::max(0.f, height - menu - status);
+    const auto size_of = [&](bool shown, float wanted, float suggested, float least, float most) {
+        if (!shown) return 0.f;
+        return std::round(wanted > 0 ? std::min(std::max(wanted * e, least), most) : suggested);
+    };
+    const float left =
+        size_of(layout.has_left, sizes.left, std::min(std::clamp(0.285f * width, 20 * e, 28 * e), 0.36f * width), 9 * e,
+                0.42f * width);
+    const float right =
+        size_of(layout.has_right, sizes.right, std::min(std::clamp(0.22f * width, 20 * e, 24 * e), 0.34f * width),
+                12 * e, 0.42f * width);
+    const float timeline = size_of(layout.has_timeline, sizes.timeline, 6.5f * e, 5.5f * e, 0.4f * middle);
     const float above = std::max(1.f, middle - timeline);
     layout.left = {0, menu, left, above};
     layout.right = {width - right, menu, right, middle};
@@ -60,8 +66,9 @@ Layout layout_of(const ViewState& state, const Document& document, float width, 
     return layout;
 }
 
-Rectangle scene_rectangle(const ViewState& state, const Document& document, float width, float height, bool panels) {
-    return panels ? layout_of(state, document, width, height).scene : Rectangle{0, 0, width, height};
+Rectangle scene_rectangle(const ViewState& state, const Document& document, const PanelSizes& sizes, float width,
+                          float height, bool panels) {
+    return panels ? layout_of(state, document, sizes, width, height).scene : Rectangle{0, 0, width, height};
 }
 
 void begin_place(const char* name, const Rectangle& place, ImGuiWindowFlags flags) {

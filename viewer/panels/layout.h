@@ -10,8 +10,9 @@ struct Layout {
     bool has_left = false, has_right = false, has_timeline = false;
 };
 
-/// Of a window of this size. A panel that has nothing to say leaves its place to the scene.
-Layout layout_of(const ViewState& state, const Document& document, float width, float height);
+/// Of a window of this size. A panel that has nothing to say leaves its place to the scene, which keeps a part of the
+/// window whatever the sizes are.
+Layout layout_of(const ViewState& state, const Document& document, const PanelSizes& sizes, float width, float height);
 
 /// Above and below the text of the menu bar.
 float menu_padding();

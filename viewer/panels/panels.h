@@ -45,11 +45,19 @@ struct SceneFacts {
     bool pending = false;  ///< something that is to be shown is still being read
 };
 
+/// Sizes that the user has given to panels, in heights of the font; 0: as the window suggests.
+struct PanelSizes {
+    float left = 0, right = 0, timeline = 0;
+
+    bool operator==(const PanelSizes&) const = default;
+};
+
 /// Settings that outlive the document, kept in the user's config folder.
 struct Settings {
     Theme theme = Theme::light;
     std::vector<std::string> recent;  ///< files, the last one first
     std::string browser_folder;       ///< of the file browser
+    PanelSizes panels;
 };
 
 struct UiContext {
@@ -69,7 +77,8 @@ struct Rectangle {
 };
 
 /// Where the scene goes: what the panels leave. Without panels the whole window.
-Rectangle scene_rectangle(const ViewState& state, const Document& document, float width, float height, bool panels);
+Rectangle scene_rectangle(const ViewState& state, const Document& document, const PanelSizes& sizes, float width,
+                          float height, bool panels);
 
 /// What the legend leaves of the scene, on its left or above it, so that the body stands beside it. The same for all
 /// steps and colourings.

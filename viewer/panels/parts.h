@@ -64,6 +64,10 @@ void draw_keys(UiContext& context);
 void draw_welcome(UiContext& context, const Rectangle& scene);
 void draw_legend(UiContext& context, const Rectangle& scene);
 void draw_gizmo(UiContext& context, const Rectangle& scene);
+/// Between panels and scene: to be dragged, or clicked twice to have the window's suggestion again.
+void draw_splitters(UiContext& context, const Layout& layout);
+/// The clip plane's outline, an arrow that moves it, and a ball at its end that turns it.
+void draw_clip_handles(UiContext& context, const Rectangle& scene);
 
 /// Shows another node, at the step nearest to the one that is shown.
 void go_to_node(UiContext& context, NodeId node);

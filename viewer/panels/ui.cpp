@@ -116,8 +116,9 @@ void Ui::draw(UiContext& context, float width, float height) {
         impl_->theme = context.state.theme;
         set_style(impl_->theme, impl_->scale > 0 ? impl_->scale : 1);
     }
-    const Layout layout = layout_of(context.state, context.session.document(), width, height);
+    const Layout layout = layout_of(context.state, context.session.document(), context.settings.panels, width, height);
     draw_menu(context, impl_->memory);
+    draw_splitters(context, layout);  // before the panels: of windows that stay where they are the first is in front
     if (layout.has_left) draw_left(context, impl_->memory, layout);
     if (layout.has_right) draw_right(context, impl_->memory, layout);
     if (layout.has_timeline) {
@@ -131,6 +132,7 @@ void Ui::draw(UiContext& context, float width, float height) {
     draw_status(context, impl_->memory);
     ImGui::End();
     draw_overlays(context, layout.scene);
+    if (has_body(context.session.document())) draw_clip_handles(context, layout.scene);
     draw_keys(context);
     draw_browser(context, impl_->memory);
 }
