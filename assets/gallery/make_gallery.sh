@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws the pictures of the README with the program itself. From the repository's root:
+# Draws the pictures of the README and of docs/ with the program itself. From the repository's root:
 #
 #     assets/gallery/make_gallery.sh [FOLDER]
 #
@@ -32,6 +32,18 @@ cp "$work/reference/comparison.svg" "$gallery/comparison.svg"
 for step in 1 2 3 4; do
     "$kerf" screenshot "$work/bracket/step_$step/solution" --color error --range 0 0.15 --no-legend --antialias 2 --size 420x400 \
         -o "$gallery/bracket_$step.png"
+done
+
+# Each stage of the first cut.
+"$kerf" mesh assets/bearing_cap_14k.stl -o "$work/halves" -n 2 --trace "$work/halves.trace" -q
+mkdir -p "$gallery/stages"
+for stage in input plane crossed-edges hanging-removed closed-loops paths-removed contour projected triangulation interface \
+    split tetrahedra; do
+    opened=$work/halves.trace apart=()
+    if [[ $stage = tetrahedra ]]; then opened=$work/halves; fi
+    if [[ $stage = split || $stage = tetrahedra ]]; then apart=(--explode 0.3); fi
+    "$kerf" screenshot "$opened" --stage "$stage" "${apart[@]}" --camera assets/cameras/first_cut.json --no-legend \
+        --antialias 2 --size 320x240 -o "$gallery/stages/$stage.png"
 done
 
 # The surface of a CAD file as OpenCASCADE triangulates it, and remeshed.
