@@ -1,0 +1,228 @@
+#!/usr/bin/env python3
+"""The commands of one page are run as they stand there, so that no page goes stale.
+
+commands_test.py SOURCE BUILD PAGE
+
+Every line of a ```sh block is a command, a backslash joins lines. They run in order in one folder of temporary files, in
+which `assets`, `docs` and `build` are those of Kerf, and which has the files that pages speak of (INPUTS). Each has to end
+with 0, or with N where its comment says `# exit N`. What is too long for a test is shortened by SHORTENED, and what cannot
+be run is named, with the reason, in NOT_RUN: an entry of either that fits to no command of its page is an error. Blocks
+of files (OF_PAGES) are those files.
+
+Slurm and ssh are programs that stand in for them (stand_ins). Programs of others that are missing are passed over, but
+for those of Kerf's packages. `kerf view` has to come as far as to miss a display.
+"""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+PATIENCE = 120  # seconds for each command
+
+SURFACE = {  # that part.stl is
+    "docs/solve.md": "bearing_cap_14k",  # whose patches the page's case.toml names
+    "docs/solvers.md": "bearing_cap_14k",
+    "docs/cluster.md": "bearing_cap_14k",
+}
+
+SHORTENED = {
+    "docs/solve.md": [
+        ("-n 8 --feature-angle 40", "-n 4 --feature-angle 40"),
+        ("--adapt 5", "--adapt 1"),
+        ("part.step --case case.toml -o out -n 8 --size 2", "part.step --case box.toml -o from_cad -n 2 --size 4"),
+    ],
+    "docs/sizes.md": [("pump.stl", "part.stl"), ("--size 4 --size-on patch_3=0.5", "--size 1 --size-on face_1=0.1")],
+    "docs/cluster.md": [("-n 16 --size 0.5", "-n 8")],
+    "docs/solvers.md": [("gmsh part.msh", "gmsh part.msh -0 -o read.geo_unrolled")],
+    # Interrupted when the first of many parts is done.
+    "docs/options.md": [(
+        "kerf mesh part.stl -o big --size 0.5 --memory 2000 --events progress.jsonl",
+        "kerf mesh part.stl -o big --size 0.05 -n 24 --workers 1 --memory 2000 --events progress.jsonl & "
+        "until grep -q '\"done\"' progress.jsonl; do sleep 0.02; done; kill $!; wait $! || test $? = 130")],
+}
+
+NOT_RUN = {
+    "README.md": {
+        "./run demo": "builds",
+        "./run bench": "measures for minutes",
+        "./run bench scaling": "measures for half an hour",
+        "./run test": "runs this",
+    },
+    "docs/first_steps.md": {"./run demo": "builds"},
+    "docs/cluster.md": {
+        "git archive HEAD | docker build -t kerf -f docs/cluster/Dockerfile -": "loads Debian",
+        'docker run --rm -v "$PWD:$PWD" -w "$PWD" kerf mesh part.stl -o out -n 8': "needs the image",
+        "git archive -o kerf.tar HEAD && apptainer build kerf.sif docs/cluster/kerf.def": "loads Debian",
+        "mpirun --bind-to none -n 2 apptainer run kerf.sif mesh part.stl -o out -n 8": "needs the image",
+    },
+    "docs/developing.md": {
+        "./run test": "runs this",
+        "./run sanitize": "builds",
+        "./run fuzz": "builds",
+        "./run torture 60": "takes an hour",
+        "./run bench": "measures for minutes",
+        "./run goldens": "builds",
+        "./run format": "changes sources",
+        "./run lint": "takes minutes",
+        ".ci/run": "is all of these",
+    },
+}
+
+# Blocks that are files: language, how they begin, name.
+OF_PAGES = [("toml", "[material", "case.toml"), ("python", "from dolfinx", "solve.py"), ("", "*INCLUDE", "job.inp")]
+
+OF_OTHERS = {"checkMesh", "ccx", "gmsh"}  # run if found
+
+BOX_CASE = """[material.iron]
+young = 110e3
+poisson = 0.26
+[[support]]
+plane = [1, 0, 0, 0]
+fixed = true
+[[load]]
+plane = [1, 0, 0, 10]
+force = [0, 0, -100]
+"""
+
+
+def fail(text):
+    sys.exit("commands_test: " + text)
+
+
+def blocks(text, language):
+    """The texts between fences of this language, which may be none."""
+    fenced = re.findall(r"^```(\w*)\n(.*?)^```$", text, re.M | re.S)
+    return [block for its, block in fenced if its == language]
+
+
+def commands(text):
+    """Of all blocks, with a line each."""
+    for block in blocks(text, "sh"):
+        for command in block.replace("\\\n", " ").split("\n"):
+            if command.strip():
+                yield command.strip()
+
+
+def bare(command):
+    """Without its comment."""
+    return re.sub(r"\s+#.*$", "", command)
+
+
+def without_last_facet(stl):
+    """The bytes of a binary STL file that lacks a facet."""
+    facets = int.from_bytes(stl[80:84], "little") - 1
+    return stl[:80] + facets.to_bytes(4, "little") + stl[84:84 + 50 * facets]
+
+
+def prepare(folder, source, build, page, text):
+    for name in ("assets", "docs", "kernel", "run"):
+        (folder / name).symlink_to(source / name)
+    (folder / "build").symlink_to(build)
+    shutil.copy(source / "assets" / (SURFACE.get(page, "cylinder") + ".stl"), folder / "part.stl")
+    (folder / "open.stl").write_bytes(without_last_facet((folder / "part.stl").read_bytes()))
+    (folder / "hosts").write_text("node1 slots=2\nnode2 slots=2\n")
+    (folder / "box.toml").write_text(BOX_CASE)
+    shutil.copy(source / "assets/bearing_cap_case.toml", folder / "case.toml")
+    for language, opening, name in OF_PAGES:
+        for block in blocks(text, language):
+            if block.startswith(opening):
+                (folder / name).write_text(block)
+    # Debian's interpreter has Debian's packages.
+    (folder / "bin").mkdir()
+    (folder / "bin/python3").symlink_to("/usr/bin/python3")
+    if "part.step" in text:  # a box of 10 x 6 x 4
+        (folder / "box.geo").write_text(
+            'SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 10, 6, 4}; Save "part.step";\n')
+        subprocess.run(["gmsh", "-0", "box.geo"], cwd=folder, check=True, capture_output=True, timeout=PATIENCE)
+
+
+def environment(folder, source, build):
+    kept = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    return kept | {
+        "PATH": f"{folder}/bin:{build}:{source}/tests/docs/stand_ins:{os.environ['PATH']}",
+        "OMPI_ALLOW_RUN_AS_ROOT": "1",
+        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+        "OMPI_MCA_rmaps_base_oversubscribe": "1",
+        "OMPI_MCA_mpi_yield_when_idle": "1",
+        "WM_PROJECT_DIR": "/usr/share/openfoam",  # where Debian keeps etc/
+        "OMPI_MCA_plm_rsh_agent": f"{source}/tests/docs/stand_ins/ssh",
+        "KERF_NODES": "2",
+        "KERF_CPUS_PER_TASK": "1",
+    }
+
+
+def shortened(command, rules, used):
+    for k, (old, new) in enumerate(rules):
+        if old in command:
+            used.add(k)
+            command = command.replace(old, new)
+    return command
+
+
+def known_to_run(source, command):
+    """What is not run is at least a command of ./run."""
+    words = command.split()
+    if words[0] != "./run":
+        return True
+    text = subprocess.run([source / "run", "help"], capture_output=True, text=True, timeout=PATIENCE).stdout
+    return re.search(rf"^  {re.escape(words[1])}\b", text, re.M) is not None
+
+
+def is_missing(command):
+    program = next((word for word in command.split() if word in OF_OTHERS), None)
+    return program is not None and shutil.which(program) is None
+
+
+def run(command, wanted, folder, environ):
+    """What is wrong, or None."""
+    start = time.monotonic()
+    try:
+        done = subprocess.run(["bash", "-o", "pipefail", "-c", command], cwd=folder, env=environ, capture_output=True,
+                              text=True, errors="replace", stdin=subprocess.DEVNULL, timeout=PATIENCE)
+    except subprocess.TimeoutExpired:
+        return f"takes more than {PATIENCE} s"
+    print(f"{time.monotonic() - start:6.2f} s  {command}", flush=True)
+    if command.startswith("kerf view"):
+        said = done.returncode == 7 and "There is no display" in done.stderr
+        return None if said else f"ends with {done.returncode}, not for want of a display:\n{done.stderr}"
+    if done.returncode != wanted:
+        return f"ends with {done.returncode}, not {wanted}:\n{done.stdout[-2000:]}{done.stderr[-2000:]}"
+    return None
+
+
+def main():
+    source, build = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+    page = sys.argv[3]
+    text = (source / page).read_text()
+    not_run, rules, used, passed_over = NOT_RUN.get(page, {}), SHORTENED.get(page, []), set(), set()
+    wrong, count = [], 0
+    with tempfile.TemporaryDirectory(prefix="kerf_docs_test_") as name:
+        folder = pathlib.Path(name)
+        prepare(folder, source, build, page, text)
+        environ = environment(folder, source, build)
+        for command in commands(text):
+            if bare(command) in not_run:
+                passed_over.add(bare(command))
+                if not known_to_run(source, bare(command)):
+                    wrong.append(f"{page}: {command}\n./run does not know it")
+                continue
+            if is_missing(command):
+                continue
+            code = re.search(r"# exit (\d+)", command)
+            problem = run(shortened(command, rules, used), int(code[1]) if code else 0, folder, environ)
+            count += 1
+            if problem:
+                wrong.append(f"{page}: {command}\n{problem}")
+    wrong += [f"{page} has no command {command!r} of NOT_RUN" for command in not_run if command not in passed_over]
+    wrong += [f"{page} has no command with {old!r} of SHORTENED" for k, (old, _) in enumerate(rules) if k not in used]
+    if wrong:
+        fail("\n".join(wrong))
+    print(f"{page}: {count} commands")
+
+
+main()

@@ -1,0 +1,147 @@
+#!/usr/bin/env python3
+"""What the pages say without being run: links and pictures lead somewhere, options and commands in the text exist, the
+README is short and leads to every page, and computed columns are right.
+
+pages_test.py SOURCE KERF
+"""
+
+import pathlib
+import re
+import subprocess
+import sys
+
+WORDS_OF_README = 900
+
+OPTIONS_OF_OTHERS = {  # as the text has them
+    "--bind-to": "mpirun",
+    "--install": "cmake",
+    "--prefix": "cmake",
+}
+
+
+class Pages:
+    def __init__(self, source):
+        self.source = source
+        paths = [*source.glob("*.md"), *source.glob("docs/**/*.md"), source / "kernel/README.md",
+                 source / "assets/README.md"]
+        self.texts = {path: path.read_text() for path in sorted(paths)}
+
+    def prose(self, path):
+        """Without blocks of commands and files."""
+        return re.sub(r"^```.*?^```$", "", self.texts[path], flags=re.M | re.S)
+
+    def name(self, path):
+        return str(path.relative_to(self.source))
+
+
+def anchor(heading):
+    """As GitHub makes it of a heading."""
+    kept = re.sub(r"[^\w\- ]", "", heading.replace("`", "").strip().lower())
+    return kept.replace(" ", "-")
+
+
+def anchors(text):
+    return {anchor(heading) for heading in re.findall(r"^#+ (.*)$", text, re.M)}
+
+
+def links(pages, path):
+    """(target, file, anchor) of the links of a page that stay in the repository."""
+    for target in re.findall(r"\]\(([^)\s]+)\)", pages.prose(path)):
+        if not re.match(r"[a-z]+:", target):
+            file, _, place = target.partition("#")
+            yield target, (path.parent / file).resolve() if file else path, place
+
+
+def check_links(pages):
+    for path, text in pages.texts.items():
+        for target, file, place in links(pages, path):
+            if not file.exists():
+                yield f"{pages.name(path)}: the link {target} leads nowhere"
+            elif place and place not in anchors(pages.texts.get(file, "")):
+                yield f"{pages.name(path)}: no heading fits to {target}"
+
+
+def check_front(pages):
+    readme = pages.source / "README.md"
+    words = len(pages.texts[readme].split())
+    if words > WORDS_OF_README:
+        yield f"README.md has {words} words; {WORDS_OF_README} are the limit"
+    led_to = {file for _, file, _ in links(pages, readme)}
+    for path in pages.texts:
+        if path.parent == pages.source / "docs" and path not in led_to:
+            yield f"README.md does not lead to {pages.name(path)}"
+
+
+def code_spans(pages, path):
+    return [" ".join(span.split()) for span in re.findall(r"`([^`]+)`", pages.prose(path))]
+
+
+def helps(source, kerf):
+    """Names of the commands, and all that they and ./run say of themselves."""
+    def help_of(*command):
+        return subprocess.run([*command, "--help"], capture_output=True, text=True, check=True, timeout=60).stdout
+    top = help_of(kerf)
+    commands = re.findall(r"^  (\w[\w-]*) {2,}\S", top.partition("Subcommands:")[2], re.M) or \
+        re.findall(r"^  (\w[\w-]*) {2,}\S", top, re.M)
+    return commands, top + "".join(help_of(kerf, command) for command in commands) + help_of(source / "run")
+
+
+def check_words(pages, kerf):
+    commands, text = helps(pages.source, kerf)
+    known = set(re.findall(r"(?<![\w-])--[a-z][\w-]*", text))
+    unused = set(OPTIONS_OF_OTHERS)
+    for path in pages.texts:
+        for span in code_spans(pages, path):
+            for option in re.findall(r"(?<![\w-])--[a-z][\w-]*", span):
+                unused.discard(option)
+                if option not in known and option not in OPTIONS_OF_OTHERS:
+                    yield f"{pages.name(path)}: no command has the option of `{span}`"
+            called = re.match(r"(?:build/)?kerf (\w[\w-]*)", span)
+            if called and called[1] not in commands:
+                yield f"{pages.name(path)}: there is no command `{span}`"
+    for option in sorted(unused):
+        yield f"no page speaks of {option} of {OPTIONS_OF_OTHERS[option]}"
+
+
+def rows(text, heading):
+    """Cells of the table below the first line that begins like this."""
+    lines = text[text.index(heading):].split("\n")[2:]
+    for line in lines:
+        if not line.startswith("|"):
+            return
+        yield [cell.strip() for cell in line.strip("|").split("|")]
+
+
+def check_efficiency(pages):
+    """Speed-up over Kerf's own single process over the number of processes, in percent."""
+    table = list(rows(pages.texts[pages.source / "docs/measurements.md"], "| processes |"))
+    if len(table) < 6:
+        yield "docs/measurements.md: the table of processes is too short"
+    for cells in table:
+        processes, _, how = cells[0].partition(", ")
+        if how != ("measured" if int(processes) <= 2 else "projected"):
+            yield f"docs/measurements.md: {processes} processes are not {how}"
+        for column in (1, 3, 5):
+            wanted = 100 * float(cells[column]) / float(table[0][column]) / int(processes)
+            if abs(wanted - float(cells[column + 1].removesuffix(" %"))) > 0.51:
+                yield f"docs/measurements.md: {cells[column]} with {processes} processes are {wanted:.1f} %"
+
+
+def check_scripts(pages):
+    for script in sorted([*pages.source.glob("docs/cluster/*.slurm"), *pages.source.glob("tests/docs/stand_ins/*")]):
+        done = subprocess.run(["bash", "-n", script], capture_output=True, text=True, timeout=60)
+        if done.returncode:
+            yield done.stderr
+
+
+def main():
+    source, kerf = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+    pages = Pages(source)
+    wrong = [*check_links(pages), *check_front(pages), *check_words(pages, kerf), *check_efficiency(pages),
+             *check_scripts(pages)]
+    if wrong:
+        sys.exit("\n".join(wrong))
+    print(f"{len(pages.texts)} pages")
+
+
+main()
