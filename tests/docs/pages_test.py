@@ -16,6 +16,7 @@ OPTIONS_OF_OTHERS = {  # as the text has them
     "--bind-to": "mpirun",
     "--install": "cmake",
     "--prefix": "cmake",
+    "--test-dir": "ctest",
 }
 
 
@@ -96,9 +97,12 @@ def check_words(pages, kerf):
                 unused.discard(option)
                 if option not in known and option not in OPTIONS_OF_OTHERS:
                     yield f"{pages.name(path)}: no command has the option of `{span}`"
-            called = re.match(r"(?:build/)?kerf (\w[\w-]*)", span)
+            called = re.match(r"(?:build/)?kerf ([a-z][\w-]*)", span)
             if called and called[1] not in commands:
                 yield f"{pages.name(path)}: there is no command `{span}`"
+            made = re.match(r"\./run ([a-z]+)", span)
+            if made and not re.search(rf"^  {made[1]}\b", text, re.M):
+                yield f"{pages.name(path)}: ./run has no command `{span}`"
     for option in sorted(unused):
         yield f"no page speaks of {option} of {OPTIONS_OF_OTHERS[option]}"
 
@@ -127,6 +131,16 @@ def check_efficiency(pages):
                 yield f"docs/measurements.md: {cells[column]} with {processes} processes are {wanted:.1f} %"
 
 
+def check_versions(pages, kerf):
+    text = subprocess.run([kerf, "--version"], capture_output=True, text=True, timeout=60).stdout
+    version = text.split()[-1]
+    for name, form in (("CHANGELOG.md", rf"^## {re.escape(version)} - "),
+                       ("CITATION.cff", rf"^version: {re.escape(version)}$"),
+                       ("docs/promises.md", rf"prints `kerf {re.escape(version)}`")):
+        if not re.search(form, (pages.source / name).read_text(), re.M):
+            yield f"{name} does not speak of version {version}"
+
+
 def check_scripts(pages):
     for script in sorted([*pages.source.glob("docs/cluster/*.slurm"), *pages.source.glob("tests/docs/stand_ins/*")]):
         done = subprocess.run(["bash", "-n", script], capture_output=True, text=True, timeout=60)
@@ -138,7 +152,7 @@ def main():
     source, kerf = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
     pages = Pages(source)
     wrong = [*check_links(pages), *check_front(pages), *check_words(pages, kerf), *check_efficiency(pages),
-             *check_scripts(pages)]
+             *check_versions(pages, kerf), *check_scripts(pages)]
     if wrong:
         sys.exit("\n".join(wrong))
     print(f"{len(pages.texts)} pages")
