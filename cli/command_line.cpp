@@ -7,6 +7,8 @@
 #include "cli/other_programs.h"
 #include "core/error.h"
 #include "export/format.h"
+#include "help/nearest.h"
+#include "help/program_help.h"
 #include "quality/quality_gate.h"
 #include "run/config_file.h"
 #include "run/saved_run.h"
@@ -21,15 +23,16 @@ constexpr const char* description =
     "mpirun -n P kerf mesh ... runs the same command on P ranks.";
 
 constexpr const char* exit_codes =
-    "Exit codes: 0 done and verified, 1 internal error, 2 usage, 3 input rejected, 4 a part could not be meshed,\n"
-    "5 out of memory, 6 a limit of quality was missed, 7 reading or writing failed, 8 verification failed, 9 the "
-    "solver\ndid not reach its tolerance, 130 cancelled.";
+    "Exit codes: 0 done and verified, 1 internal error, 2 usage, 3 input rejected, 4 a part could not be meshed, 5 out "
+    "of memory, 6 a limit of quality was missed, 7 reading or writing failed, 8 verification failed, 9 the solver did "
+    "not reach its tolerance, 130 cancelled.";
 
 // What the program itself asks for.
 std::vector<OptionField> program_fields(CommandLine& line) {
-    return {{"output", "o", "Folder of the result; an older run there is replaced.", &line.options.output},
-            {"quiet", "q", "Print nothing but errors.", &line.quiet},
-            {"verbose", "v", "Print the tree of cuts with every node of it.", &line.verbose}};
+    return {{"output", "o", option_group::output, "DIR", "Folder of the result; an older run there is replaced.",
+             &line.options.output},
+            {"quiet", "q", option_group::output, "", "Print nothing but errors.", &line.quiet},
+            {"verbose", "v", option_group::output, "", "Print the tree of cuts with every node of it.", &line.verbose}};
 }
 // What a config file may say: the table, and that.
 std::vector<OptionField> config_fields(CommandLine& line) {
@@ -58,7 +61,7 @@ CLI::App* add_run_command(CLI::App& app, const char* name, const char* text, Com
         ->type_name("INPUT");
     add_run_options(*command, line.options);
     for (const OptionField& field : program_fields(line)) add_option_field(*command, field);
-    command->get_option("--output")->type_name("DIR");
+    command->option_defaults()->group(option_group::running);
     command->add_flag("--print-config", line.print_config, "Print the options as a config file and end.");
     command->add_option("--config", line.config_file, "Read options from a TOML file; the command line wins.")
         ->type_name("FILE");
@@ -97,13 +100,17 @@ CLI::App* add_export_command(CLI::App& app, CommandLine& line) {
     CLI::App* command = app.add_subcommand("export", "Write a finished run in the formats of solvers, part by part.");
     std::string list = "Formats:\n";
     for (const Format* format : formats()) list += fmt::format("  {:<10} {}\n", format->name, format->help);
-    command->footer(list +
-                    "A single format goes into OUT itself, several go into sub-folders. mpirun -n P kerf export\n"
-                    "shares the parts among P ranks.");
+    command->footer(
+        list +
+        "\nA single format goes into OUT itself, several go into sub-folders. mpirun -n P kerf export shares "
+        "the parts among P ranks.");
     command->add_option("folder", request.folder, "Folder of the run, or of a solution, with its values.")
         ->required()
         ->type_name("DIR");
-    command->add_option("-f,--format", request.formats, "Formats, with commas between.")->required()->type_name("LIST");
+    command->add_option("-f,--format", request.formats, "Formats, with commas between.")
+        ->required()
+        ->type_name("LIST")
+        ->check(suggest_formats());
     command
         ->add_option("-o,--output", request.output,
                      "Folder for them. Default: DIR/export/NAME, so that they become part of the run.")
@@ -111,11 +118,13 @@ CLI::App* add_export_command(CLI::App& app, CommandLine& line) {
     command
         ->add_option("--fields", request.fields,
                      "Qualities of cells in vtu files, as kerf mesh --help says. Default min-dihedral.")
-        ->type_name("LIST");
+        ->type_name("LIST")
+        ->check(suggest_cell_fields());
     command->add_option("--into", request.into, "Join the parts along the tree into so many pieces.")
         ->type_name("N")
         ->check(CLI::PositiveNumber);
     command->add_option("--workers", request.threads, "Parts that each rank writes at once. Default: its processors.")
+        ->type_name("W")
         ->check(CLI::Range(1, 4096));
     command->add_flag("-q,--quiet", line.quiet, "Print nothing but errors.");
     return command;
@@ -126,12 +135,14 @@ CLI::App* add_remesh_command(CLI::App& app, CommandLine& line) {
     command->add_option("input", line.options.input, "Closed surface, as for kerf mesh.")
         ->required()
         ->type_name("INPUT");
+    command->option_defaults()->group(option_group::output);
     command->add_option("-o,--output", line.remeshed_file, "Surface, .obj (with patches) or .stl.")
         ->required()
         ->type_name("FILE");
     for (const OptionField& field : option_fields(line.options))
         if (shapes_surface(field.name)) add_option_field(*command, field);
     command->add_flag("-q,--quiet", line.quiet, "Print nothing but errors.");
+    put_help_last(*command, option_group::output);
     return command;
 }
 
@@ -141,10 +152,13 @@ void apply_config(const CLI::App& command, CommandLine& line) {
     for (const OptionText& given : read_config(line.config_file)) {
         const auto field =
             std::find_if(fields.begin(), fields.end(), [&](const OptionField& f) { return f.name == given.name; });
-        if (field == fields.end())
+        if (field == fields.end()) {
+            std::vector<std::string> names;
+            for (const OptionField& known : fields) names.push_back(known.name);
             throw Error(ErrorCode::usage,
-                        fmt::format("'{}' in {} is not an option. kerf mesh --print-config lists them.", given.name,
-                                    line.config_file));
+                        fmt::format("'{}' in {} is not an option.{} kerf mesh --print-config lists them.", given.name,
+                                    line.config_file, did_you_mean(given.name, names)));
+        }
         if (command.get_option("--" + given.name)->count() == 0) field->set_text(given.text);
     }
 }
@@ -172,13 +186,10 @@ RunOptions resumed_options(const CLI::App& command, CommandLine& line) {
     return options;
 }
 
-// CLI11 only says that a subcommand is missing.
-std::string usage_error(const CLI::App& app, int argc, const char* const* argv, const std::string& message) {
-    const auto is_named = [&](const CLI::App* command) { return argc > 1 && command->get_name() == argv[1]; };
-    const std::vector<const CLI::App*> commands = app.get_subcommands(nullptr);
-    if (argc > 1 && argv[1][0] != '-' && std::none_of(commands.begin(), commands.end(), is_named))
-        return fmt::format("kerf: '{}' is not a command. Run kerf --help for the commands.\n", argv[1]);
-    return "kerf: " + message;
+void finish(CommandLine& line, const Answer& answer) {
+    line.finished = true;
+    line.exit_code = answer.exit_code;
+    line.output = answer.text;
 }
 
 }  // namespace
@@ -187,9 +198,9 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     CommandLine line;
     CLI::App app(description, "kerf");
     app.footer(exit_codes);
-    app.set_version_flag("--version", std::string("kerf ") + version);
+    use_help_text(app);
+    app.set_version_flag("--version", std::string("kerf ") + version, "Print the version and end.");
     app.require_subcommand(1);
-    app.get_formatter()->column_width(28);
     CLI::App* mesh = add_run_command(app, "mesh", "Decompose, mesh every part, verify, write, report.", line);
     CLI::App* decompose =
         add_run_command(app, "decompose", "The same, up to the closed surfaces of the parts; print the tree.", line);
@@ -200,14 +211,17 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
             ->type_name("DIR");
     for (const char* name : {"input", "--output", "--config"}) resume->excludes(mesh->get_option(name));
     mesh->add_flag("--dry-run", line.options.dry_run, "Cut, print what every part will take, and end; write nothing.");
+    for (CLI::App* command : {mesh, decompose}) put_help_last(*command, option_group::running);
     CLI::App* check = app.add_subcommand("check", "Diagnose a surface without meshing it.");
     check->add_option("input", line.check.path, "Surface file.")->required()->type_name("INPUT");
+    for (const OptionField& field : input_option_fields(line.check.options)) add_option_field(*check, field);
+    check->option_defaults()->group(option_group::output);
     check->add_flag("--json", line.check.json, "Print every defect as JSON.");
     check->add_option("--offenders", line.check.offenders_file, "Write the offending facets, edges and places as VTU.")
         ->type_name("FILE");
-    add_option_field(*check, {"needle-angle", "", "Degrees below which a facet is a needle. Default 1.",
-                              &line.check.needle_angle_deg});
-    for (const OptionField& field : input_option_fields(line.check.options)) add_option_field(*check, field);
+    add_option_field(*check, {"needle-angle", "", option_group::output, "DEG",
+                              "Degrees below which a facet is a needle. Default 1.", &line.check.needle_angle_deg});
+    put_help_last(*check, option_group::output);
     CLI::App* verify = app.add_subcommand("verify", "Check every law of a finished run again, from its files.");
     verify->add_option("folder", line.options.output, "Folder of the run.")->required()->type_name("DIR");
     CLI::App* to_export = add_export_command(app, line);
@@ -223,7 +237,13 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     CLI::App* quality = add_quality_command(app, line.quality);
     CLI::App* to_remesh = add_remesh_command(app, line);
     // Only for the list of commands: main() has passed these on.
-    for (const OtherProgram& other : other_programs) app.add_subcommand(other.command, other.help);
+    for (const OtherProgram& other : other_programs) app.add_subcommand(other.command, other.help)->disabled();
+    if (const auto answer = document(app, argc, argv, version, [](const std::string& shell) {
+            return output_of_other_programs({"--completion", shell});
+        })) {
+        finish(line, *answer);
+        return line;
+    }
 
     // The table binds every option to one place, so the values of `mesh` and `decompose` share it.
     try {
@@ -234,10 +254,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
                 require_input_and_output(line);
             }
     } catch (const CLI::ParseError& e) {
-        std::ostringstream out, err;
-        line.finished = true;
-        line.exit_code = app.exit(e, out, err) == 0 ? 0 : static_cast<int>(ErrorCode::usage);
-        line.output = line.exit_code == 0 ? out.str() : usage_error(app, argc, argv, err.str());
+        finish(line, answer_to(app, e, argc, argv));
         return line;
     }
     if (mesh->parsed() || decompose->parsed()) {
@@ -245,12 +262,10 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         if (!line.resume.empty()) line.options = resumed_options(*mesh, line);
         line.options.volume = mesh->parsed();
         const CLI::Option* parts = (mesh->parsed() ? mesh : decompose)->get_option("--parts");
-        if (parts->count() > 0 && line.options.decompose.parts < 1) {
-            line.finished = true;
-            line.exit_code = static_cast<int>(ErrorCode::usage);
-            line.output =
-                fmt::format("kerf: --parts is {}, but a mesh has 1 or more parts.\n", line.options.decompose.parts);
-        }
+        if (parts->count() > 0 && line.options.decompose.parts < 1)
+            finish(line, {static_cast<int>(ErrorCode::usage),
+                          fmt::format("kerf: --parts is {}, but a mesh has 1 or more parts.\n",
+                                      line.options.decompose.parts)});
         if (line.print_config) line.config = to_config(config_fields(line));
     } else if (check->parsed()) {
         line.command = Command::check;

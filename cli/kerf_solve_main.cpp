@@ -3,7 +3,6 @@
 #include <exception>
 #include <filesystem>
 #include <new>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <mpi.h>
@@ -15,7 +14,9 @@
 #include "cli/progress.h"
 #include "cli/ranks.h"
 #include "core/error.h"
+#include "help/program_help.h"
 #include "io/standard_streams.h"
+#include "run/version.h"
 #include "solve/mesh_and_solve.h"
 
 namespace kerf {
@@ -54,16 +55,23 @@ void check_mesh_options(const CLI::App& solve, SolveLine& line) {
                             name, line.input));
 }
 
+void finish(SolveLine& line, const Answer& answer) {
+    line.finished = true;
+    line.exit_code = answer.exit_code;
+    line.output = answer.text;
+}
+
 SolveLine parse_solve_line(int argc, const char* const* argv) {
     SolveLine line;
     CLI::App app(
         "Kerf: linear elasticity on a surface or on the parts of a finished run.\n"
         "mpirun -n P kerf solve ... shares the parts out among P ranks.",
         "kerf");
+    use_help_text(app);
     CLI::App* solve = app.add_subcommand("solve", "Displacements and stresses of a body under loads (docs/solve.md).");
     app.require_subcommand(1);
-    app.get_formatter()->column_width(28);
     SolveRequest& request = line.request.solve;
+    solve->option_defaults()->group("Solution");
     solve->add_option("input", line.input, "Folder of a finished run, or a surface or CAD file, which is meshed first.")
         ->required()
         ->type_name("DIR|INPUT");
@@ -83,7 +91,7 @@ SolveLine parse_solve_line(int argc, const char* const* argv) {
         ->add_option("--target-error", request.target_error,
                      "Estimated error in the energy norm beside that of the solution, as 0.05, that is good enough. "
                      "Above it the solution has size_field.vtu for the next mesh.")
-        ->type_name("FLOAT")
+        ->type_name("E")
         ->check(CLI::Range(1e-6, 1.0));
     solve
         ->add_flag("--list-patches", line.list_patches, "Print name, area, centroid and normal of each patch, and end.")
@@ -92,6 +100,11 @@ SolveLine parse_solve_line(int argc, const char* const* argv) {
     solve->add_flag("-q,--quiet", line.quiet, "Print errors alone.");
     RunOptions& mesh = line.request.mesh;
     add_run_options(*solve, mesh);
+    put_help_last(*solve, option_group::running);
+    if (const auto answer = document(app, argc, argv, version)) {
+        finish(line, *answer);
+        return line;
+    }
     try {
         app.parse(argc, argv);
         if (!line.list_patches && (request.case_file.empty() || request.output.empty()))
@@ -100,10 +113,7 @@ SolveLine parse_solve_line(int argc, const char* const* argv) {
         (line.meshes ? mesh.input : request.folder) = line.input;
         check_mesh_options(*solve, line);
     } catch (const CLI::ParseError& e) {
-        std::ostringstream out, err;
-        line.finished = true;
-        line.exit_code = app.exit(e, out, err) == 0 ? 0 : static_cast<int>(ErrorCode::usage);
-        line.output = line.exit_code == 0 ? out.str() : "kerf: " + err.str();
+        finish(line, answer_to(app, e, argc, argv));
     }
     return line;
 }

@@ -1,4 +1,5 @@
 // kerf: the headless program. Root rank prints; data goes to files, except for --json and --print-config.
+#include <cstring>
 #include <exception>
 #include <memory>
 
@@ -65,8 +66,9 @@ int run_command(const CommandLine& line) {
 }
 
 int run_program(int argc, char** argv) {
-    if (argc > 1)
-        if (const OtherProgram* other = find_other_program(argv[1])) become(*other, argv);
+    const int place = argc > 2 && std::strcmp(argv[1], "--man") == 0 ? 2 : 1;
+    if (argc > place)
+        if (const OtherProgram* other = find_other_program(argv[place])) become(*other, argv);
     const CommandLine line = parse_command_line(argc, argv);
     if (line.finished) {
         if (!is_first_rank()) return line.exit_code;

@@ -1,22 +1,18 @@
 #include "cli/option_flags.h"
 
+#include <fmt/format.h>
+
+#include "export/format.h"
+#include "help/command_help.h"
+#include "part/vtu_writer.h"
+
 namespace kerf {
-
-namespace {
-
-const char* type_name(const OptionField& field) {
-    if (std::holds_alternative<double*>(field.value)) return "FLOAT";
-    const bool is_text = std::holds_alternative<std::string*>(field.value);
-    return is_text ? "TEXT" : std::holds_alternative<OptionField::Choice>(field.value) ? "" : "INT";
-}
-
-}  // namespace
 
 CLI::Option* add_option_field(CLI::App& app, const OptionField& field) {
     const std::string names =
         field.short_name.empty() ? "--" + field.name : "-" + field.short_name + ",--" + field.name;
     if (bool* const* flag = std::get_if<bool*>(&field.value))
-        return app.add_flag(**flag ? names + ",!--no-" + field.name : names, **flag, field.help);
+        return app.add_flag(**flag ? names + ",!--no-" + field.name : names, **flag, field.help)->group(field.group);
     if (const auto* list = std::get_if<OptionField::List>(&field.value))
         return app
             .add_option_function<std::vector<std::string>>(
@@ -29,21 +25,40 @@ CLI::Option* add_option_field(CLI::App& app, const OptionField& field) {
                 field.help)
             ->expected(1)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-            ->type_name("TEXT");
+            ->type_name(field.value_name)
+            ->group(field.group);
     CLI::Option* option = app.add_option_function<std::string>(
         names, [field](const std::string& text) { field.set_text(text); }, field.help);
     if (const auto* choice = std::get_if<OptionField::Choice>(&field.value))
         option->check(CLI::IsMember(choice->names));
-    return option->default_str(field.text())->type_name(type_name(field));
+    return option->type_name(field.value_name)->group(field.group);
 }
 
 void add_run_options(CLI::App& app, RunOptions& options) {
-    for (const OptionField& field : option_fields(options)) add_option_field(app, field);
+    const std::vector<OptionField> fields = option_fields(options);
+    for (const std::string group : option_group::all)
+        for (const OptionField& field : fields)
+            if (field.group == group) add_option_field(app, field);
+    app.get_option("--format")->check(suggest_formats());
+    app.get_option("--fields")->check(suggest_cell_fields());
     // At once, so that all that asks whether --surface was given finds it given.
     app.add_flag_callback(
            "--remesh", [surface = app.get_option("--surface")] { surface->add_result("remesh"); },
            "Short for --surface remesh.")
-        ->trigger_on_parse();
+        ->trigger_on_parse()
+        ->group(option_group::input);
+}
+
+CLI::Validator suggest_formats() {
+    std::string names;
+    for (const Format* format : formats()) names += fmt::format("{}{}", names.empty() ? "" : ",", format->name);
+    return suggest(names);
+}
+
+CLI::Validator suggest_cell_fields() {
+    std::string names;
+    for (const CellField& field : cell_fields) names += fmt::format("{},", field.name);
+    return suggest(names + "all,none");
 }
 
 }  // namespace kerf

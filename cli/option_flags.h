@@ -14,4 +14,8 @@ CLI::Option* add_option_field(CLI::App& app, const OptionField& field);
 /// Adds all that shapes a mesh and how it is made (option_fields()), and --remesh, short for --surface remesh.
 void add_run_options(CLI::App& app, RunOptions& options);
 
+/// Names of all formats, and of the qualities that vtu files may have, as values that are suggested.
+CLI::Validator suggest_formats();
+CLI::Validator suggest_cell_fields();
+
 }  // namespace kerf

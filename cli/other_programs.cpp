@@ -7,10 +7,12 @@
 #include <cstring>
 #include <filesystem>
 #include <iterator>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "volume/child_process.h"
 
 namespace kerf {
 
@@ -22,6 +24,21 @@ const OtherProgram* find_other_program(const std::string& command) {
     const auto found = std::find_if(std::begin(other_programs), std::end(other_programs),
                                     [&](const OtherProgram& other) { return command == other.command; });
     return found == std::end(other_programs) ? nullptr : found;
+}
+
+std::string output_of_other_programs(const std::vector<std::string>& arguments) {
+    constexpr double patience_seconds = 60;
+    std::set<std::string> programs;
+    for (const OtherProgram& other : other_programs) programs.insert(program_beside_this(other.program));
+    std::string output;
+    for (const std::string& program : programs) {
+        if (!std::filesystem::exists(program)) continue;
+        ChildPool pool;
+        pool.start(0, program, arguments, {}, patience_seconds);
+        const ChildResult result = pool.wait_any()->result;
+        output.append(result.output.begin(), result.output.end());
+    }
+    return output;
 }
 
 void become(const OtherProgram& other, char** argv) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace kerf {
 
@@ -17,6 +18,9 @@ std::string program_beside_this(const std::string& name);
 
 /// The program of a command; null if it is kerf's own.
 const OtherProgram* find_other_program(const std::string& command);
+
+/// What those that are there print with these arguments, each once.
+std::string output_of_other_programs(const std::vector<std::string>& arguments);
 
 /// Replaces this program by another one, with the same arguments. Throws Error(usage), saying how to build it, if it is
 /// not there. `argv` ends with a null pointer.

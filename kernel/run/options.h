@@ -52,6 +52,18 @@ struct RunOptions {
     void check_files() const;
 };
 
+/// Headings under which help and manual list the options, in this order.
+namespace option_group {
+inline constexpr const char* input = "Input";
+inline constexpr const char* cuts = "Cuts";
+inline constexpr const char* sizes = "Sizes";
+inline constexpr const char* meshing = "Meshing";
+inline constexpr const char* output = "Output";
+inline constexpr const char* running = "Running";
+inline constexpr const char* expert = "Expert";
+inline constexpr const char* all[] = {input, cuts, sizes, meshing, output, running, expert};
+}  // namespace option_group
+
 /// One option: its name on the command line and in the config file, and where its value lives.
 struct OptionField {
     /// An enumeration by its names.
@@ -62,6 +74,8 @@ struct OptionField {
     };
     std::string name;        ///< without dashes
     std::string short_name;  ///< a letter, or empty
+    std::string group;       ///< of option_group
+    std::string value_name;  ///< stands for the value in the help, as FILE; empty for flags and choices
     std::string help;        ///< one sentence with unit and default
     /// Of an option that may be given several times; as one text, with semicolons between (join_items()).
     using List = std::vector<std::string>*;

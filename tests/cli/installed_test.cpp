@@ -1,9 +1,13 @@
-// An installed copy works by itself, from any folder.
+// An installed tree works by itself: from any folder, moved to another place, for users and for programs of others.
 #include <filesystem>
+#include <map>
+#include <memory>
+#include <set>
 
 #include <gtest/gtest.h>
 
 #include "support/assets.h"
+#include "support/file_contents.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -12,41 +16,106 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Installed once for all tests, and moved then.
 class Installed : public testing::Test {
  protected:
-    void SetUp() override {
+    static void SetUpTestSuite() {
+        folder_ = std::make_unique<test::TemporaryFolder>();
         const ChildResult installed =
-            test::run_program(KERF_CMAKE, {"--install", KERF_BUILD, "--prefix", file("copy")});
+            test::run_program(KERF_CMAKE, {"--install", KERF_BUILD, "--prefix", file("first place")});
         ASSERT_EQ(installed.exit_code, 0) << installed.log;
+        fs::rename(file("first place"), file("a copy"));
         fs::create_directory(file("elsewhere"));
         fs::copy_file(test::asset_path("cube"), file("elsewhere/cube.stl"));
     }
-    std::string file(const std::string& name) const { return folder_.file(name); }
+    static void TearDownTestSuite() { folder_.reset(); }
+
+    static std::string file(const std::string& name) { return folder_->file(name); }
 
     // OSMesa keeps what LLVM has compiled.
-    ChildResult kerf_elsewhere(const std::string& arguments) const {
+    static ChildResult kerf_elsewhere(const std::string& arguments, const std::string& tree = "a copy") {
         return test::run_program("/bin/sh", {"-c", "cd '" + file("elsewhere") + "' && ASAN_OPTIONS=detect_leaks=0 '" +
-                                                       file("copy/bin/kerf") + "' " + arguments});
+                                                       file(tree + "/bin/kerf") + "' " + arguments});
     }
 
-    test::TemporaryFolder folder_;
+    static inline std::unique_ptr<test::TemporaryFolder> folder_;
 };
 
-TEST_F(Installed, CopyFindsItsWorker) {
+TEST_F(Installed, FindsItsWorker) {
     const ChildResult meshed = kerf_elsewhere("mesh cube.stl -o out -n 2 --workers 1 -q");
     EXPECT_EQ(meshed.exit_code, 0) << meshed.log;
     EXPECT_EQ(kerf_elsewhere("verify out").exit_code, 0);
-    fs::remove(file("copy/bin/kerf-worker"));
-    EXPECT_NE(kerf_elsewhere("mesh cube.stl -o again -n 2 --workers 1 -q").exit_code, 0) << "whose worker was it?";
+    fs::create_directories(file("alone/bin"));
+    fs::copy_file(file("a copy/bin/kerf"), file("alone/bin/kerf"));
+    EXPECT_NE(kerf_elsewhere("mesh cube.stl -o again -n 2 --workers 1 -q", "alone").exit_code, 0)
+        << "whose worker was it?";
 }
 
 #if KERF_HAS_VIEWER
-TEST_F(Installed, CopyFindsItsViewerAndShaders) {
+TEST_F(Installed, FindsItsViewerAndShaders) {
     const ChildResult drawn = kerf_elsewhere("screenshot cube.stl --size 64x64 -o cube.png");
     EXPECT_EQ(drawn.exit_code, 0) << drawn.log;
     EXPECT_TRUE(fs::exists(file("elsewhere/cube.png")));
 }
+
+TEST_F(Installed, OpensItsWindow) {
+    const ChildResult shown = test::run_program(
+        "/usr/bin/env", {"ASAN_OPTIONS=detect_leaks=0", KERF_PYTHON, KERF_SOURCE "/tests/viewer/window_test.py",
+                         file("a copy/bin/kerf"), file("elsewhere/cube.stl")});
+    EXPECT_EQ(shown.exit_code, 0) << shown.log;
+}
 #endif
+
+#if KERF_HAS_SOLVER
+TEST_F(Installed, Solves) {
+    const std::string examples = "'" + file("a copy/share/kerf/examples/");
+    const ChildResult solved = kerf_elsewhere("solve " + examples + "l_bracket.stl' --case " + examples +
+                                              "l_bracket_case.toml' -o bracket -n 2 --workers 1 -q");
+    EXPECT_EQ(solved.exit_code, 0) << solved.log;
+    EXPECT_TRUE(fs::exists(file("elsewhere/bracket/solution/report.json")));
+}
+#endif
+
+TEST_F(Installed, HasManualAndCompletionForEveryProgram) {
+    std::set<std::string> pages;
+    for (const auto& [name, text] : test::contents(file("a copy/share/man/man1"))) {
+        EXPECT_TRUE(text.starts_with(".TH KERF")) << name;
+        pages.insert(name);
+    }
+    for (const char* command :
+         {"", "-check", "-decompose", "-export", "-merge", "-mesh", "-quality", "-remesh", "-verify"})
+        EXPECT_TRUE(pages.contains(std::string("kerf") + command + ".1")) << command;
+    EXPECT_EQ(pages.contains("kerf-view.1"), KERF_HAS_VIEWER == 1);
+    EXPECT_EQ(pages.contains("kerf-screenshot.1"), KERF_HAS_VIEWER == 1);
+    EXPECT_EQ(pages.contains("kerf-solve.1"), KERF_HAS_SOLVER == 1);
+    for (const char* script :
+         {"bash-completion/completions/kerf", "zsh/site-functions/_kerf", "fish/vendor_completions.d/kerf.fish"})
+        EXPECT_NE(test::bytes_of_file(file("a copy/share/") + script).find("radius-edge"), std::string::npos) << script;
+}
+
+// Flags of our own builds are nothing for others, and no file knows where it was made or first lay.
+TEST_F(Installed, PackageNamesNoPlaceAndNoWarnings) {
+    const std::map<std::string, std::string> files = test::contents(file("a copy/lib/cmake/Kerf"));
+    EXPECT_TRUE(files.contains("KerfConfig.cmake"));
+    for (const auto& [name, text] : files)
+        for (const std::string& word :
+             {std::string(KERF_SOURCE), std::string(KERF_BUILD), file(""), std::string("-Werror")})
+            EXPECT_EQ(text.find(word), std::string::npos) << name << " has " << word;
+}
+
+TEST_F(Installed, KernelServesProgramsOfOthers) {
+    const std::string build = file("consumer");
+    const ChildResult configured =
+        test::run_program(KERF_CMAKE, {"-S", KERF_SOURCE "/tests/install/consumer", "-B", build, "-G", KERF_GENERATOR,
+                                       "-DCMAKE_PREFIX_PATH=" + file("a copy"), "-DCMAKE_CXX_COMPILER=" KERF_COMPILER});
+    ASSERT_EQ(configured.exit_code, 0) << configured.log;
+    const ChildResult built = test::run_program(KERF_CMAKE, {"--build", build});
+    ASSERT_EQ(built.exit_code, 0) << test::output_of(built) << built.log;
+    const ChildResult run = test::run_program(build + "/consumer", {file("elsewhere/cube.stl")});
+    EXPECT_EQ(run.exit_code, 0) << run.log;
+    for (const char* part : {"part 4: ", "part 5: ", "part 6: ", "part 7: "})
+        EXPECT_NE(test::output_of(run).find(part), std::string::npos) << test::output_of(run);
+}
 
 }  // namespace
 }  // namespace kerf

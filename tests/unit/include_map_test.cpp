@@ -53,7 +53,7 @@ std::vector<Include> includes_of(const fs::path& folder) {
 
 std::vector<Include> all_includes() {
     std::vector<Include> all = includes_of(root / "kernel");
-    for (const char* folder : {"cli", "viewer"})
+    for (const char* folder : {"cli", "help", "viewer"})
         for (Include& include : includes_of(root / folder)) all.push_back(std::move(include));
     return all;
 }

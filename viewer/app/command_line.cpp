@@ -4,14 +4,16 @@
 #include <charconv>
 #include <cmath>
 #include <set>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include "core/error.h"
+#include "help/command_help.h"
+#include "help/program_help.h"
 #include "io/file_bytes.h"
 #include "run/config_file.h"
+#include "run/version.h"
 
 namespace kerf::view {
 
@@ -21,8 +23,7 @@ constexpr const char* description =
     "The viewer of Kerf: every cut of a decomposition step by step, every cell of its mesh.";
 constexpr const char* footer =
     "INPUT is a closed surface (it is cut and meshed then), a run folder, one that is under way, a folder of kerf "
-    "solve,\n"
-    "a file of --trace or of --events.";
+    "solve, a file of --trace or of --events.";
 
 template <class Number>
 bool parse_number(std::string_view text, Number& number) {
@@ -73,35 +74,32 @@ struct StateTexts {
     std::vector<double> filter, range;
 };
 
+std::string names_of_colors() {
+    std::string names;
+    for (std::size_t i = 0; i < color_by_count; ++i)
+        names += fmt::format("{}{}", i == 0 ? "" : ",", name(static_cast<ColorBy>(i)));
+    return names;
+}
+
 void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
+    app.option_defaults()->group("Scene");
     app.add_option("--state", texts.state_file, "Read the whole view from a JSON file; other options win.")
         ->type_name("FILE");
     app.add_option("--node", texts.node, "Node of the tree: the root is 1, the children of i are 2i and 2i+1.")
+        ->type_name("N")
         ->check(CLI::PositiveNumber);
     app.add_option("--stage", texts.stage,
                    fmt::format("{}, or try:0 for the first refused try. Default: input, or tetrahedra where they are "
                                "coloured or moved.",
-                               names_of_stages()));
-    app.add_option(
-        "--color", texts.color,
-        "part, rank, level, patch, deviation, size, kind, origin (core, shell or other mesher), min-dihedral, "
-        "radius-edge, aspect, shape, volume or edge-length; of a solution error, displacement, von-mises, stress-xx, "
-        "stress-yy, stress-zz, stress-xy, stress-yz or stress-xz.");
-    app.add_option("--range", texts.range, "Values LOW HIGH of the ends of the colours. Default: those shown.")
-        ->expected(2);
-    app.add_flag("--isolines", texts.isolines, "With lines where displacements or stresses are alike.");
-    app.add_option("--deform", texts.deform, "Draw the displacements of a solution so many times as long, or auto.")
-        ->type_name("FLOAT|auto");
-    app.add_option("--case", command.load_case, "Name of the case of a solution. Default: the first one.");
-    app.add_option("--filter", texts.filter, "Only cells whose value of --color lies in LOW HIGH.")->expected(2);
-    app.add_option("--clip", command.clip,
-                   "Clip plane: x=0.3, -y=0.5 (other side), 1,1,0=0.4 (normal), node=5 (at its cut).");
-    app.add_option("--clip-style", texts.clip_style, "cells (whole ones, default), smooth, or layer (at the plane).");
-    app.add_option("--explode", texts.explode, "Pull the parts apart along the tree; 0 to 1.")
-        ->check(CLI::Range(0.0, 1e6));
-    app.add_option("--shrink", texts.shrink, "Shrink cells about their centres; 0 to 1.")->check(CLI::Range(0.0, 1.0));
-    app.add_option("--hide", texts.hidden, "Nodes that are not shown.")->delimiter(',');
-    app.add_option("--isolate", texts.isolated, "Only what lies below this node.")->check(CLI::PositiveNumber);
+                               names_of_stages()))
+        ->type_name("STAGE")
+        ->check(suggest(names_of_stages()));
+    app.add_option("--hide", texts.hidden, "Nodes that are not shown, with commas between.")
+        ->delimiter(',')
+        ->type_name("LIST");
+    app.add_option("--isolate", texts.isolated, "Only what lies below this node.")
+        ->type_name("N")
+        ->check(CLI::PositiveNumber);
     app.add_option("--camera", texts.camera_file, "JSON file with the camera, as the viewer copies it.")
         ->type_name("FILE");
     app.add_flag("--features", texts.features, "With sharp edges and the borders of patches as lines.");
@@ -109,10 +107,48 @@ void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
     app.add_flag("--no-edges", texts.no_edges, "Without the edges of triangles.");
     app.add_flag("--no-context", texts.no_context, "Without the rest of the body.");
     app.add_flag("--no-legend", texts.no_legend, "Without the legend.");
-    app.add_option("--theme", texts.theme, "light or dark.")->check(CLI::IsMember({"light", "dark"}));
+    app.add_option("--theme", texts.theme, "Colours of the background and of all around.")
+        ->type_name("")
+        ->check(CLI::IsMember({"light", "dark"}));
+    app.option_defaults()->group("Colours");
+    app.add_option(
+           "--color", texts.color,
+           "part, rank, level, patch, deviation, size, kind, origin (core, shell or other mesher), min-dihedral, "
+           "radius-edge, aspect, shape, volume or edge-length; of a solution error, displacement, von-mises, "
+           "stress-xx, stress-yy, stress-zz, stress-xy, stress-yz or stress-xz.")
+        ->type_name("NAME")
+        ->check(suggest(names_of_colors()));
+    app.add_option("--range", texts.range, "Values of the ends of the colours. Default: those shown.")
+        ->expected(2)
+        ->type_name("LOW HIGH");
+    app.add_flag("--isolines", texts.isolines, "With lines where displacements or stresses are alike.");
+    app.add_option("--deform", texts.deform, "Draw the displacements of a solution so many times as long, or auto.")
+        ->type_name("FACTOR|auto");
+    app.add_option("--case", command.load_case, "Name of the case of a solution. Default: the first one.")
+        ->type_name("NAME");
+    app.add_option("--filter", texts.filter, "Only cells whose value of --color lies in this range.")
+        ->expected(2)
+        ->type_name("LOW HIGH");
+    app.option_defaults()->group("Clipping and moving");
+    app.add_option("--clip", command.clip,
+                   "Clip plane: x=0.3, -y=0.5 (other side), 1,1,0=0.4 (normal), node=5 (at its cut).")
+        ->type_name("PLANE");
+    app.add_option("--clip-style", texts.clip_style, "cells (whole ones, default), smooth, or layer (at the plane).")
+        ->type_name("")
+        ->check(suggest("cells,smooth,layer"));
+    app.add_option("--explode", texts.explode, "Pull the parts apart along the tree; 0 to 1.")
+        ->type_name("X")
+        ->check(CLI::Range(0.0, 1e6));
+    app.add_option("--shrink", texts.shrink, "Shrink cells about their centres; 0 to 1.")
+        ->type_name("X")
+        ->check(CLI::Range(0.0, 1.0));
+    app.option_defaults()->group("Run");
     app.add_option("-n,--parts", command.run.decompose.parts, "Number of parts, if INPUT is a surface.")
+        ->type_name("K")
         ->check(CLI::PositiveNumber);
-    app.add_option("--surface", texts.surface, "Of that run: keep, split, remesh or auto, as of kerf mesh.");
+    app.add_option("--surface", texts.surface, "Of that run: keep, split, remesh or auto, as of kerf mesh.")
+        ->type_name("")
+        ->check(suggest("keep,split,remesh,auto,by-file"));
     app.add_option("--config", texts.config, "Other options of that run: a file of kerf mesh --print-config.")
         ->type_name("FILE");
 }
@@ -243,22 +279,32 @@ ViewCommand parse_view_command(int argc, const char* const* argv) {
     StateTexts texts;
     CLI::App app(description, "kerf");
     app.footer(footer);
+    use_help_text(app);
     app.require_subcommand(1);
     CLI::App* view = app.add_subcommand("view", "Open the viewer.");
     view->add_option("input", command.input, "What to open.")->type_name("INPUT");
     CLI::App* screenshot = app.add_subcommand("screenshot", "Draw a picture without a display.");
     screenshot->add_option("input", command.input, "What to open.")->type_name("INPUT")->required();
+    screenshot->option_defaults()->group("Picture");
     screenshot->add_option("-o,--output", command.output, "PNG file.")->type_name("FILE")->required();
     screenshot->add_option("--size", texts.size, "Pixels of the picture. Default 1280x800.")->type_name("WxH");
     screenshot->add_option("--antialias", command.antialias, "Draw 2 to 4 times as large and average. Default 1.")
+        ->type_name("N")
         ->check(CLI::Range(1, 4));
     screenshot->add_flag("--ui", command.panels, "With all panels, as in the window.");
     screenshot->add_option("--timeout", command.timeout_seconds, "Seconds after which to give up. Default 600.")
+        ->type_name("S")
         ->check(CLI::PositiveNumber);
     for (CLI::App* each : {view, screenshot}) {
-        each->get_formatter()->column_width(30);
         add_scene_options(*each, command, texts);
+        put_help_last(*each, "Run");
     }
+    const auto answer = [&](const Answer& given) {
+        command.exit_code = given.exit_code;
+        command.print = given.text;
+        return command;
+    };
+    if (const auto document_text = document(app, argc, argv, version)) return answer(*document_text);
     try {
         app.parse(argc, argv);
         command.screenshot = screenshot->parsed();
@@ -266,9 +312,7 @@ ViewCommand parse_view_command(int argc, const char* const* argv) {
         read_run_config(texts.config, command.run);
         if (!texts.surface.empty()) set_options(command.run, {{"surface", texts.surface}}, "The command line");
     } catch (const CLI::ParseError& e) {
-        std::ostringstream out, err;
-        command.exit_code = app.exit(e, out, err) == 0 ? 0 : static_cast<int>(ErrorCode::usage);
-        command.print = command.exit_code == 0 ? out.str() : "kerf: " + err.str();
+        return answer(answer_to(app, e, argc, argv));
     } catch (const Error& error) {
         command.exit_code = static_cast<int>(error.code());
         command.print = fmt::format("kerf: {}\n", error.what());

@@ -1,0 +1,42 @@
+#include "help/help_text.h"
+
+#include <fmt/format.h>
+
+#include "help/wrapped_text.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr std::size_t text_column = 24;
+
+// The text stands beside its heading, or below where that is long.
+std::string entry(const std::string& heading, const std::string& text) {
+    const std::string gap(text_column, ' ');
+    std::string line = "  " + heading;
+    if (line.size() + 2 > text_column)
+        line += "\n" + gap;
+    else
+        line.resize(text_column, ' ');
+    return line + wrapped(text, text_column) + "\n";
+}
+
+std::string section(const std::string& name, const std::vector<OptionHelp>& options) {
+    std::string text = "\n" + name + ":\n";
+    for (const OptionHelp& option : options) text += entry(heading_of(option), option.text);
+    return text;
+}
+
+}  // namespace
+
+std::string help_text(const CommandHelp& command) {
+    std::string text = "Usage: " + wrapped(usage_of(command), 7) + "\n" + wrapped(command.text, 0) + "\n";
+    if (!command.positionals.empty()) text += section("Arguments", command.positionals);
+    for (const OptionGroup& group : command.groups) text += section(group.name, group.options);
+    if (!command.commands.empty()) text += "\nCommands:\n";
+    for (const CommandHelp& one : command.commands) text += entry(one.name, one.text);
+    if (!command.footer.empty()) text += "\n" + wrapped(command.footer, 0) + "\n";
+    return text;
+}
+
+}  // namespace kerf

@@ -1,0 +1,262 @@
+// Help, manual and completion: laws over all commands, and what a wrong word is answered.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "run/options.h"
+#include "support/assets.h"
+#include "support/file_contents.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
+
+namespace kerf {
+namespace {
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+bool is_heading(const std::string& line) { return !line.empty() && line.front() != ' ' && line.back() == ':'; }
+bool is_entry(const std::string& line) { return line.starts_with("  ") && line.size() > 2 && line[2] != ' '; }
+
+// "-o, --output DIR" of an entry.
+std::string heading_of_entry(const std::string& line) { return line.substr(2, line.find("  ", 2) - 2); }
+
+std::string printed(const std::vector<std::string>& arguments) {
+    const ChildResult result = test::run_kerf(arguments);
+    EXPECT_EQ(result.exit_code, 0) << arguments.front() << ": " << result.log;
+    return test::output_of(result);
+}
+
+struct HelpPage {
+    std::string command;  // empty: of kerf itself
+    std::vector<std::string> lines;
+
+    std::set<std::string> long_options() const {
+        std::set<std::string> names;
+        for (const std::string& line : lines) {
+            if (!is_entry(line)) continue;
+            std::istringstream words(heading_of_entry(line));
+            for (std::string word; words >> word;)
+                if (word.starts_with("--")) names.insert(word.substr(0, word.find(',')));
+        }
+        return names;
+    }
+    // Heading -> options below it.
+    std::map<std::string, std::set<std::string>> groups() const {
+        std::map<std::string, std::set<std::string>> all;
+        HelpPage group;
+        for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
+            if (!is_heading(*line)) {
+                group.lines.push_back(*line);
+                continue;
+            }
+            const std::set<std::string> options = group.long_options();
+            if (!options.empty()) all[line->substr(0, line->size() - 1)] = options;
+            group.lines.clear();
+        }
+        return all;
+    }
+};
+
+// Of every command whose program was built.
+std::vector<HelpPage> help_pages() {
+    std::vector<HelpPage> pages = {{"", lines_of(printed({"--help"}))}};
+    const std::vector<std::string> lines = pages.front().lines;
+    for (auto line = std::find(lines.begin(), lines.end(), "Commands:"); line != lines.end() && !line->empty();
+         ++line) {
+        if (!is_entry(*line)) continue;
+        const std::string command = line->substr(2, line->find(' ', 2) - 2);
+        const ChildResult help = test::run_kerf({command, "--help"});
+        if (help.log.find("build it with") != help.log.npos) continue;
+        EXPECT_EQ(help.exit_code, 0) << command << ": " << help.log;
+        pages.push_back({command, lines_of(test::output_of(help))});
+    }
+    EXPECT_GE(pages.size(), 9u);
+    return pages;
+}
+
+TEST(Help, FitsAScreenOrIsGrouped) {
+    for (const HelpPage& page : help_pages()) {
+        SCOPED_TRACE("kerf " + page.command);
+        for (const std::string& line : page.lines) EXPECT_LE(line.size(), 80u) << line;
+        const auto groups = page.groups();
+        EXPECT_TRUE(page.lines.size() <= 50 || groups.size() >= 3);
+        EXPECT_TRUE(groups.contains("Options") == (groups.size() == 1)) << "an option is outside of the groups";
+    }
+}
+
+// What the user has not given is described by the text; 0 often means something else.
+TEST(Help, PrintsNoNumberAsDefaultBesideAnOption) {
+    for (const HelpPage& page : help_pages())
+        for (const std::string& line : page.lines) {
+            if (!is_entry(line)) continue;
+            const std::string heading = heading_of_entry(line);
+            EXPECT_EQ(heading.find_first_of("0123456789"), heading.npos) << page.command << ": " << line;
+            EXPECT_EQ(heading.find_first_of("{}[]"), heading.npos) << page.command << ": " << line;
+        }
+}
+
+TEST(Help, HasEveryOptionOfTheTableInItsGroup) {
+    HelpPage mesh;
+    for (const HelpPage& page : help_pages())
+        if (page.command == "mesh") mesh = page;
+    auto groups = mesh.groups();
+    RunOptions options;
+    for (const OptionField& field : option_fields(options)) {
+        EXPECT_TRUE(std::count(std::begin(option_group::all), std::end(option_group::all), field.group)) << field.name;
+        EXPECT_TRUE(groups[field.group].contains("--" + field.name)) << field.group << ": " << field.name;
+        const bool has_value =
+            !std::holds_alternative<bool*>(field.value) && !std::holds_alternative<OptionField::Choice>(field.value);
+        EXPECT_EQ(field.value_name.empty(), !has_value) << field.name;
+    }
+}
+
+// Whether `name` stands there by itself, not as the beginning of a longer one.
+bool has_word(const std::string& text, const std::string& name) {
+    for (std::size_t at = text.find(name); at != text.npos; at = text.find(name, at + 1)) {
+        const char next = at + name.size() < text.size() ? text[at + name.size()] : ' ';
+        if (!std::isalnum(static_cast<unsigned char>(next)) && next != '-' && next != '\\') return true;
+    }
+    return false;
+}
+
+std::string in_roff(const std::string& name) {
+    std::string text;
+    for (const char c : name) text += c == '-' ? "\\-" : std::string(1, c);
+    return text;
+}
+
+TEST(Manual, AndCompletionKnowEveryOption) {
+    const std::string bash = printed({"--completion", "bash"}), zsh = printed({"--completion", "zsh"});
+    const std::vector<std::string> fish = lines_of(printed({"--completion", "fish"}));
+    for (const HelpPage& page : help_pages()) {
+        SCOPED_TRACE("kerf " + page.command);
+        const std::string manual = printed({"--man", page.command.empty() ? "kerf" : page.command});
+        const std::string key = "_kerf_words['kerf" + (page.command.empty() ? "" : " " + page.command) + "']=";
+        const std::string words = bash.substr(bash.find(key), bash.find('\n', bash.find(key)) - bash.find(key));
+        const std::size_t begin = page.command.empty() ? 0 : zsh.find("\n_kerf_" + page.command + "()");
+        const std::string function = zsh.substr(begin, zsh.find("\n}", begin) - begin);
+        const std::string seen = page.command.empty() ? "use_subcommand" : "from " + page.command + "'";
+        for (const std::string& option : page.long_options()) {
+            EXPECT_TRUE(has_word(manual, in_roff(option))) << option;
+            EXPECT_TRUE(has_word(words, option)) << option;
+            EXPECT_TRUE(has_word(page.command.empty() ? zsh : function, option)) << option;
+            EXPECT_TRUE(std::any_of(fish.begin(), fish.end(), [&](const std::string& line) {
+                return line.find(seen) != line.npos && has_word(line, " -l " + option.substr(2));
+            })) << option;
+        }
+    }
+}
+
+bool has_program(const std::string& name) {
+    return test::run_program("/bin/sh", {"-c", "command -v " + name}).exit_code == 0;
+}
+
+TEST(Manual, IsFreeOfWarnings) {
+    if (!has_program("groff")) GTEST_SKIP() << "no groff";
+    const test::TemporaryFolder folder;
+    for (const HelpPage& page : help_pages()) {
+        const std::string command = page.command.empty() ? "kerf" : page.command, file = folder.file(command + ".1");
+        std::ofstream(file) << printed({"--man", command});
+        const ChildResult set =
+            test::run_program("/bin/sh", {"-c", "groff -man -ww -Tascii '" + file + "' 2>&1 >/dev/null"});
+        EXPECT_EQ(set.exit_code, 0);
+        EXPECT_EQ(test::output_of(set), "") << command;
+    }
+}
+
+TEST(Manual, OfNoCommandIsRefused) {
+    EXPECT_EQ(test::run_kerf({"--man", "saw"}).exit_code, 2);
+    const ChildResult shell = test::run_kerf({"--completion", "tcsh"});
+    EXPECT_EQ(shell.exit_code, 2);
+    EXPECT_NE(shell.log.find("bash, fish, zsh"), std::string::npos) << shell.log;
+}
+
+// What bash offers after these words, of which the last one is being typed.
+class BashCompletion : public testing::Test {
+ protected:
+    void SetUp() override {
+        std::ofstream(folder_.file("completion")) << printed({"--completion", "bash"});
+        std::ofstream(folder_.file("part.stl"));
+        std::ofstream(folder_.file("part two.stl"));
+    }
+    std::set<std::string> offers(const std::string& words) const {
+        const ChildResult result = test::run_program(
+            "/usr/bin/env", {"bash", "-c",
+                             "cd '" + folder_.file(".") + "' && source ./completion && COMP_WORDS=(kerf " + words +
+                                 ") && COMP_CWORD=$((${#COMP_WORDS[@]} - 1)) && _kerf && printf "
+                                 "'%s\\n' \"${COMPREPLY[@]}\""});
+        EXPECT_EQ(result.exit_code, 0) << result.log;
+        EXPECT_EQ(result.log, "");
+        std::set<std::string> set;
+        for (const std::string& line : lines_of(test::output_of(result))) set.insert(line);
+        return set;
+    }
+    test::TemporaryFolder folder_;
+};
+
+using Words = std::set<std::string>;
+
+TEST_F(BashCompletion, OffersCommandsOptionsValuesAndFiles) {
+    EXPECT_EQ(offers("me"), (Words{"merge", "mesh"}));
+    EXPECT_TRUE(offers("''").contains("screenshot"));
+    EXPECT_EQ(offers("mesh part.stl --size-"), (Words{"--size-field", "--size-in", "--size-near", "--size-on"}));
+    EXPECT_EQ(offers("mesh part.stl --cut ''"), (Words{"equidistant", "inertia", "volume"}));
+    EXPECT_EQ(offers("mesh part.stl --cut = e"), (Words{"equidistant"})) << "bash takes --cut=e for three words";
+    EXPECT_EQ(offers("mesh part.stl --cut ="), offers("mesh part.stl --cut ''"));
+    EXPECT_TRUE(offers("export out --format ''").contains("openfoam"));
+    EXPECT_EQ(offers("mesh p"), (Words{"part two.stl", "part.stl"}));
+    EXPECT_EQ(offers("mesh --stl p"), offers("mesh p")) << "a flag takes no value";
+    EXPECT_EQ(offers("mesh part.stl --size-field p"), offers("mesh p"));
+    EXPECT_EQ(offers("mesh part.stl --size p"), Words{""}) << "a number is no file";
+    EXPECT_FALSE(offers("verify --").contains("--size")) << "an option of another command";
+#if KERF_HAS_VIEWER
+    EXPECT_EQ(offers("screenshot part.stl --theme ''"), (Words{"dark", "light"}));
+    EXPECT_TRUE(offers("view part.stl --color ''").contains("min-dihedral"));
+    EXPECT_TRUE(offers("view part.stl --stage ''").contains("triangulation"));
+#endif
+}
+
+void expect_suggestion(const std::vector<std::string>& arguments, const std::string& suggestion) {
+    const ChildResult result = test::run_kerf(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    if (suggestion.empty())
+        EXPECT_EQ(result.log.find("Did you mean"), std::string::npos) << result.log;
+    else
+        EXPECT_NE(result.log.find("Did you mean " + suggestion + "?"), std::string::npos) << result.log;
+    EXPECT_NE(result.log.find("--help"), std::string::npos) << result.log;
+}
+
+TEST(Suggestion, IsTheNearestWord) {
+    const std::string cube = test::asset_path("cube");
+    expect_suggestion({"mehs", cube}, "mesh");
+    expect_suggestion({"screen-shot"}, "screenshot");
+    expect_suggestion({"saw"}, "");
+    expect_suggestion({"--versoin"}, "--version");
+    expect_suggestion({"mesh", cube, "--sizes", "3"}, "--size");
+    expect_suggestion({"mesh", cube, "--sizes=3"}, "--size");
+    expect_suggestion({"mesh", cube, "--optimise", "3"}, "--optimise-surface");
+    expect_suggestion({"merge", "out", "--outptu", "a.msh"}, "--output");
+    expect_suggestion({"mesh", cube, "--qwertz"}, "");
+    expect_suggestion({"mesh", cube, "--tetgen", "--sizes"}, "");  // its value
+}
+
+TEST(Suggestion, OfAChoiceAreAllOfThem) {
+    const ChildResult result = test::run_kerf({"mesh", test::asset_path("cube"), "--cut", "inert"});
+    EXPECT_EQ(result.exit_code, 2);
+    for (const char* choice : {"inertia", "volume", "equidistant"})
+        EXPECT_NE(result.log.find(choice), std::string::npos) << result.log;
+}
+
+}  // namespace
+}  // namespace kerf
