@@ -149,7 +149,9 @@ TEST(IncludeMap, LibrariesStayInTheirPlaces) {
     EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "GLFW"; }),
               std::set<std::string>{"viewer/render/window.cpp"});
     EXPECT_EQ(files_including([](const std::string& name) { return name == "GL/osmesa.h"; }),
-              std::set<std::string>{"viewer/render/offscreen.cpp"});
+              std::set<std::string>{"viewer/render/osmesa_context.cpp"});
+    EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "EGL"; }),
+              std::set<std::string>{"viewer/render/egl_context.cpp"});
     for (const std::string& file : files_including(
              [](const std::string& name) { return name.starts_with("imgui") || first_folder(name) == "GL"; }))
         EXPECT_TRUE(file.starts_with("viewer/render/") || file.starts_with("viewer/panels/") ||

@@ -38,7 +38,7 @@ Driver::Driver(const Options& options) : options_(options) {
     clipboard.clear();
     io.SetClipboardTextFn = [](void*, const char* text) { clipboard = text; };
     io.GetClipboardTextFn = [](void*) { return clipboard.c_str(); };
-    app_ = std::make_unique<view::App>(context_.gl(), app_options(options));
+    app_ = std::make_unique<view::App>(context_->gl(), app_options(options));
 }
 
 void Driver::frame(float seconds) {

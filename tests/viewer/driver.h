@@ -65,7 +65,7 @@ class Driver {
     void frames(int count);
 
     Options options_;
-    view::OffscreenContext context_;
+    std::unique_ptr<view::OffscreenContext> context_ = view::make_offscreen_context();
     view::ImGuiOwner imgui_;
     std::unique_ptr<view::App> app_;
     bool panels_ = true;

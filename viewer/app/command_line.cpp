@@ -291,6 +291,12 @@ ViewCommand parse_view_command(int argc, const char* const* argv) {
     screenshot->add_option("--antialias", command.antialias, "Draw 2 to 4 times as large and average. Default 1.")
         ->type_name("N")
         ->check(CLI::Range(1, 4));
+    screenshot
+        ->add_option_function<std::string>(
+            "--context", [&](const std::string& library) { command.context = offscreen_library_from_name(library); },
+            fmt::format("Library that makes the OpenGL context: osmesa or egl. The picture is the same. Default {}.",
+                        name(offscreen_libraries().front())))
+        ->type_name("NAME");
     screenshot->add_flag("--ui", command.panels, "With all panels, as in the window.");
     screenshot->add_option("--timeout", command.timeout_seconds, "Seconds after which to give up. Default 600.")
         ->type_name("S")

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "viewer/app/app.h"
+#include "viewer/render/offscreen.h"
 
 namespace kerf::view {
 
@@ -12,8 +13,9 @@ struct ViewCommand {
     std::string input;   ///< to open; empty: nothing
     std::string output;  ///< PNG of a screenshot
     int width = 1280, height = 800;
-    int antialias = 1;    ///< the picture is drawn so many times as large and averaged
-    bool panels = false;  ///< the whole user interface in the screenshot
+    int antialias = 1;                        ///< the picture is drawn so many times as large and averaged
+    std::optional<OffscreenLibrary> context;  ///< of a screenshot; none: the default
+    bool panels = false;                      ///< the whole user interface in the screenshot
     ViewState state;
     std::optional<Theme> theme;     ///< if one was asked for
     std::string clip;               ///< as given: "x=0.3", "-z=0.5", "node=5", "1,1,0=0.4"

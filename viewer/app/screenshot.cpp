@@ -104,12 +104,12 @@ void take_screenshot(const ViewCommand& command, const AppOptions& options) {
         throw Error(ErrorCode::io, fmt::format("--output is {}, which lies in the run {}. Choose another place.",
                                                command.output, command.input));
     require_writable("--output", command.output);
-    const OffscreenContext context;
+    const auto context = make_offscreen_context(command.context);
     const ImGuiOwner imgui;
     ImGui::GetIO().DeltaTime = frame_seconds;
     AppOptions own = options;
     own.auto_run = false;
-    App app(context.gl(), own);
+    App app(context->gl(), own);
     app.open(command.input);
     wait_for_document(app, command, deadline);
     const Document& document = app.session().document();

@@ -1,5 +1,5 @@
 // The OpenGL 3.3 core functions that the renderer calls, looked up at run time: the same program draws in a window
-// (GLFW) and without a display (OSMesa), and links neither's OpenGL.
+// (GLFW) and without a display (OSMesa, EGL), and links none of their OpenGL.
 #pragma once
 
 #include <cstddef>

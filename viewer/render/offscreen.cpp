@@ -1,54 +1,44 @@
 #include "viewer/render/offscreen.h"
 
-#include <array>
+#include <algorithm>
 
-// Before osmesa.h, whose own OpenGL header hides the types of the functions of 1.1.
-#include "viewer/render/gl.h"
-
-#include <GL/osmesa.h>
+#include <fmt/format.h>
 
 #include "core/error.h"
+#include "viewer/render/offscreen_contexts.h"
 
 namespace kerf::view {
 
-namespace {
+std::string name(OffscreenLibrary library) { return library == OffscreenLibrary::osmesa ? "osmesa" : "egl"; }
 
-// The renderer draws into a framebuffer of its own, so that the one that OSMesa asks for need not be large.
-constexpr int buffer_size = 16;
-
-OSMesaContext create_context() {
-    const std::array attributes = {OSMESA_FORMAT,
-                                   OSMESA_RGBA,
-                                   OSMESA_PROFILE,
-                                   OSMESA_CORE_PROFILE,
-                                   OSMESA_CONTEXT_MAJOR_VERSION,
-                                   3,
-                                   OSMESA_CONTEXT_MINOR_VERSION,
-                                   3,
-                                   0};
-    return OSMesaCreateContextAttribs(attributes.data(), nullptr);
+OffscreenLibrary offscreen_library_from_name(const std::string& name) {
+    if (name == "osmesa") return OffscreenLibrary::osmesa;
+    if (name == "egl") return OffscreenLibrary::egl;
+    throw Error(ErrorCode::usage, fmt::format("'{}' makes no OpenGL contexts. Choose osmesa or egl.", name));
 }
 
-}  // namespace
-
-struct OffscreenContext::Impl {
-    struct Destroy {
-        void operator()(OSMesaContext unused) const { OSMesaDestroyContext(unused); }
-    };
-    std::array<unsigned char, 4 * buffer_size* buffer_size> pixels = {};
-    std::unique_ptr<osmesa_context, Destroy> context{create_context()};
-    Gl gl;
-};
-
-OffscreenContext::OffscreenContext() : impl_(std::make_unique<Impl>()) {
-    if (!impl_->context ||
-        !OSMesaMakeCurrent(impl_->context.get(), impl_->pixels.data(), GL_UNSIGNED_BYTE, buffer_size, buffer_size))
-        throw Error(ErrorCode::internal, "OSMesa cannot make an OpenGL 3.3 core context. Reinstall libosmesa6.");
-    impl_->gl = load_gl([](const char* name) { return reinterpret_cast<void*>(OSMesaGetProcAddress(name)); });
+std::vector<OffscreenLibrary> offscreen_libraries() {
+    std::vector<OffscreenLibrary> libraries;
+#ifdef KERF_HAS_OSMESA
+    libraries.push_back(OffscreenLibrary::osmesa);
+#endif
+#ifdef KERF_HAS_EGL
+    libraries.push_back(OffscreenLibrary::egl);
+#endif
+    return libraries;
 }
 
-OffscreenContext::~OffscreenContext() = default;
-
-const Gl& OffscreenContext::gl() const { return impl_->gl; }
+std::unique_ptr<OffscreenContext> make_offscreen_context(std::optional<OffscreenLibrary> library) {
+    const std::vector<OffscreenLibrary> built = offscreen_libraries();
+    const OffscreenLibrary wanted = library.value_or(built.front());
+#ifdef KERF_HAS_OSMESA
+    if (wanted == OffscreenLibrary::osmesa) return make_osmesa_context();
+#endif
+#ifdef KERF_HAS_EGL
+    if (wanted == OffscreenLibrary::egl) return make_egl_context();
+#endif
+    throw Error(ErrorCode::usage,
+                fmt::format("This program was built without {}. It has {}.", name(wanted), name(built.front())));
+}
 
 }  // namespace kerf::view

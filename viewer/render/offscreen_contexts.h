@@ -1,0 +1,13 @@
+// The contexts behind offscreen.h; the build compiles those whose libraries are there.
+#pragma once
+
+#include <memory>
+
+#include "viewer/render/offscreen.h"
+
+namespace kerf::view {
+
+std::unique_ptr<OffscreenContext> make_osmesa_context();
+std::unique_ptr<OffscreenContext> make_egl_context();
+
+}  // namespace kerf::view
