@@ -1,6 +1,7 @@
 #include "viewer/driver.h"
 
 #include <chrono>
+#include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -32,7 +33,6 @@ view::AppOptions app_options(const Driver::Options& options) {
 
 Driver::Driver(const Options& options) : options_(options) {
     ImGuiIO& io = ImGui::GetIO();
-    io.MousePos = {-1000, -1000};
     // The clipboard is the test's own.
     static std::string clipboard;
     clipboard.clear();
@@ -41,9 +41,19 @@ Driver::Driver(const Options& options) : options_(options) {
     app_ = std::make_unique<view::App>(context_->gl(), app_options(options));
 }
 
+view::FrameSize Driver::size() const {
+    const auto pixels = [&](int units) {
+        return static_cast<int>(std::lround(options_.pixels_per_unit * static_cast<float>(units)));
+    };
+    return view::frame_size_of_window(pixels(options_.width), pixels(options_.height), options_.width, options_.height,
+                                      options_.scale);
+}
+
 void Driver::frame(float seconds) {
-    ImGui::GetIO().DeltaTime = seconds;
-    app_->frame(options_.width, options_.height, 1, panels_);
+    ImGuiIO& io = ImGui::GetIO();
+    io.DeltaTime = seconds;
+    io.MousePos = {mouse_x_ / options_.pixels_per_unit, mouse_y_ / options_.pixels_per_unit};
+    app_->frame(size(), panels_);
 }
 
 void Driver::frames(int count) {
@@ -82,8 +92,16 @@ void Driver::open(const std::string& path) {
     settle();
 }
 
+void Driver::move_to_screen(float pixels_per_unit, float scale) {
+    options_.pixels_per_unit = pixels_per_unit;
+    options_.scale = scale;
+    app_->wake();
+    frames(2);
+}
+
 void Driver::move_to(float x, float y) {
-    ImGui::GetIO().MousePos = {x, y};
+    mouse_x_ = x;
+    mouse_y_ = y;
     frame();
 }
 
@@ -138,8 +156,8 @@ view::ItemRect Driver::item_in_sight(const std::string& label) {
     view::ItemRect rect = item(label);
     for (int i = 0; i < 200 && !rect.visible; ++i) {
         // The wheel scrolls the panel that the item belongs to; its column is where the item would be.
-        const bool is_below = rect.bottom > static_cast<float>(options_.height) / 2;
-        wheel((rect.left + rect.right) / 2, static_cast<float>(options_.height) / 2, is_below ? -1.f : 1.f);
+        const float middle = static_cast<float>(size().height) / 2;
+        wheel((rect.left + rect.right) / 2, middle, rect.bottom > middle ? -1.f : 1.f);
         rect = item(label);
     }
     if (!rect.visible || !rect.enabled)

@@ -15,7 +15,9 @@ namespace kerf::test {
 class Driver {
  public:
     struct Options {
-        int width = 1280, height = 800;
+        int width = 1280, height = 800;  ///< of the window, in its units
+        float pixels_per_unit = 1;       ///< the picture is so many times as large
+        float scale = 1;                 ///< of fonts and lines
         bool auto_run = true, volume = true;
         std::int32_t parts = 4;
         ContourMethod contour = ContourMethod::min_cut;
@@ -39,6 +41,10 @@ class Driver {
     /// Without panels: only the scene and its legend.
     void show_panels(bool shown) { panels_ = shown; }
 
+    /// As if the window had been moved to a screen with another scale.
+    void move_to_screen(float pixels_per_unit, float scale);
+
+    // Places are pixels of the picture, as those of items. The mouse comes in units of the window, as there.
     void move_to(float x, float y);
     void press(int button = 0);
     void release(int button = 0);
@@ -63,12 +69,14 @@ class Driver {
     view::ItemRect item(const std::string& label);
     view::ItemRect item_in_sight(const std::string& label);
     void frames(int count);
+    view::FrameSize size() const;
 
     Options options_;
     std::unique_ptr<view::OffscreenContext> context_ = view::make_offscreen_context();
     view::ImGuiOwner imgui_;
     std::unique_ptr<view::App> app_;
     bool panels_ = true;
+    float mouse_x_ = -1000, mouse_y_ = -1000;
 };
 
 }  // namespace kerf::test

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The real window on a virtual display: it starts, answers a mouse click and keys, shows the same picture as
-`kerf screenshot`, and closes with code 0. And without a display it says so.
+`kerf screenshot`, remembers its size, and closes with code 0. And without a display it says so.
 
 window_test.py KERF SURFACE; needs Xvfb and xdotool.
 """
@@ -8,6 +8,7 @@ window_test.py KERF SURFACE; needs Xvfb and xdotool.
 import json
 import os
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
@@ -61,6 +62,10 @@ def press(environment, key):
     time.sleep(0.5)
 
 
+def size_of_png(path):
+    return struct.unpack(">II", path.read_bytes()[16:24])
+
+
 def take_picture(environment, folder, number):
     press(environment, "F12")
     state = folder / f"kerf-{number:03}.json"
@@ -79,6 +84,10 @@ def main():
         try:
             run = folder / "run"
             subprocess.run([kerf, "mesh", surface, "-o", run, "-n", "4", "-q"], check=True, timeout=PATIENCE)
+            # As large as it was last, but no larger than the screen.
+            settings = folder / "kerf" / "viewer.json"
+            settings.parent.mkdir()
+            settings.write_text(json.dumps({"window": {"width": 2480, "height": 5000, "scale": 2}}))
             environment = dict(os.environ, DISPLAY=display, XDG_CONFIG_HOME=str(folder), LIBGL_ALWAYS_SOFTWARE="1")
             viewer = subprocess.Popen([kerf, "view", str(run), "--stage", "tetrahedra"], env=environment, cwd=folder)
             window = await_value("the window", lambda: xdotool(environment, "search", "--onlyvisible", "--name",
@@ -97,16 +106,20 @@ def main():
             _, stepped = take_picture(environment, folder, 2)
             assert stepped["stage"] == "split", stepped
 
-            size = "1280x800"
-            subprocess.run([kerf, "screenshot", run, "--state", folder / "kerf-001.json", "--size", size, "-o",
+            assert size_of_png(picture) == (1240, 900), size_of_png(picture)
+            subprocess.run([kerf, "screenshot", run, "--state", folder / "kerf-001.json", "--size", "1240x900", "-o",
                             folder / "offscreen.png"], check=True, timeout=PATIENCE)
             assert picture.read_bytes() == (folder / "offscreen.png").read_bytes(), "window and screenshot differ"
 
+            xdotool(environment, "windowsize", "--sync", window, "1100", "700")
+            time.sleep(0.5)
             xdotool(environment, "keydown", "ctrl")
             time.sleep(0.3)
             press(environment, "q")
             xdotool(environment, "keyup", "ctrl")
             assert viewer.wait(PATIENCE) == 0, viewer.returncode
+            kept = json.loads(settings.read_text())["window"]
+            assert kept == {"width": 1100, "height": 700, "scale": 1}, kept
         finally:
             for process in (viewer, server):
                 if process and process.poll() is None:

@@ -17,6 +17,7 @@ namespace kerf::view {
 namespace {
 
 constexpr double seconds_per_step = 0.8, seconds_of_notice = 6;
+constexpr float nearby_pixels = 6;  // how far the hand may tremble at a double click
 
 // What the scene depends on.
 std::string scene_key(ViewState state) {
@@ -276,12 +277,14 @@ void App::save_picture() {
     }
 }
 
-void App::draw(int width, int height, float scale, bool panels) {
+void App::draw(bool panels) {
     ImGuiIO& io = ImGui::GetIO();
-    io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
-    const std::string style = fmt::format("{} {}", static_cast<int>(state_.theme), scale);
+    io.DisplaySize = {static_cast<float>(size_.width), static_cast<float>(size_.height)};
+    io.DisplayFramebufferScale = {1, 1};
+    const std::string style = fmt::format("{} {}", static_cast<int>(state_.theme), size_.scale);
     if (style != styled_for_) {
-        ui_.apply(state_.theme, scale);
+        ui_.apply(state_.theme, size_.scale);
+        io.MouseDragThreshold = io.MouseDoubleClickMaxDist = nearby_pixels * size_.scale;
         styled_for_ = style;
         renderer_.draw_ui(nullptr, *io.Fonts);  // its texture has to be there before it is used
     }
@@ -313,25 +316,29 @@ void App::draw(int width, int height, float scale, bool panels) {
     move_center(projection_, (2 * body_.x + body_.width - 2 * area_.x - area_.width) / std::max(area_.width, 1.f),
                 -(2 * body_.y + body_.height - 2 * area_.y - area_.height) / std::max(area_.height, 1.f));
     projection_.x = static_cast<int>(area_.x);
-    projection_.y = height - static_cast<int>(area_.y + area_.height);
-    projection_.pixel_ratio = scale;
-    renderer_.resize(width, height);
+    projection_.y = size_.height - static_cast<int>(area_.y + area_.height);
+    projection_.pixel_ratio = size_.scale;
+    renderer_.resize(size_.width, size_.height);
     renderer_.clear(built_.scene.background_bottom);
     if (area_.width >= 1 && area_.height >= 1) renderer_.draw(built_.scene, projection_);
     renderer_.draw_ui(ImGui::GetDrawData(), *io.Fonts);
 }
 
-void App::frame(int width, int height, float scale, bool panels) {
+void App::frame(const FrameSize& size, bool panels) {
+    size_ = size;
+    if (panels) settings_.window = {size.width, size.height, size.scale};
+    if (ImVec2& mouse = ImGui::GetIO().MousePos; ImGui::IsMousePosValid(&mouse))
+        mouse = {mouse.x * size.pixels_per_unit_x, mouse.y * size.pixels_per_unit_y};
     if (frames_wanted_ > 0) --frames_wanted_;
     follow_session();
     if (facts_.notice.size() && ImGui::GetTime() > notice_until_) facts_.notice.clear();
     if (capture_) {
         capture_ = false;
-        draw(width, height, scale, false);
+        draw(false);
         save_picture();
         wake();
     }
-    draw(width, height, scale, panels);
+    draw(panels);
     // What was asked for is mostly there at once: better than a picture without it.
     if (built_.pending) wait(0.04);
 }

@@ -9,6 +9,7 @@
 
 #include "viewer/model/session.h"
 #include "viewer/panels/panels.h"
+#include "viewer/render/frame_size.h"
 #include "viewer/render/renderer.h"
 #include "viewer/scene/scene_builder.h"
 #include "viewer/scene/selection.h"
@@ -47,9 +48,9 @@ class App : private Actions {
     Session& session() { return session_; }
     const Settings& settings() const { return settings_; }
 
-    /// Takes ImGui's input and draws the picture: with the panels, or only the scene with its legend. `scale`: of fonts
-    /// and lines, 2 on a HiDPI screen. Requires io.DeltaTime to be set.
-    void frame(int width, int height, float scale, bool panels);
+    /// Takes ImGui's input and draws the picture: with the panels, or only the scene with its legend. Requires
+    /// io.DeltaTime to be set, and io.MousePos to be anew before every frame, in the window's units.
+    void frame(const FrameSize& size, bool panels);
     Image picture() { return renderer_.read(); }
     void present() { renderer_.present(); }
 
@@ -88,7 +89,7 @@ class App : private Actions {
     void start_run(const RunOptions& options, bool volume) override;
     void redo_cut(NodeId node, const RunOptions& options) override;
 
-    void draw(int width, int height, float scale, bool panels);
+    void draw(bool panels);
     void follow_session();
     void begin_auto_run();
     void update_camera();
@@ -128,6 +129,7 @@ class App : private Actions {
     Rectangle area_;  // of the scene
     Rectangle body_;  // what the legend leaves of it
 
+    FrameSize size_;
     std::string styled_for_;  // theme and scale
     std::string opened_;      // what auto_run has been decided for
     bool quit_ = false, capture_ = false, dragging_ = false, pressed_in_scene_ = false;

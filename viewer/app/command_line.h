@@ -10,9 +10,9 @@ namespace kerf::view {
 
 struct ViewCommand {
     bool screenshot = false;
-    std::string input;   ///< to open; empty: nothing
-    std::string output;  ///< PNG of a screenshot
-    int width = 1280, height = 800;
+    std::string input;                        ///< to open; empty: nothing
+    std::string output;                       ///< PNG of a screenshot
+    int width = 1280, height = 800;           ///< of a screenshot
     int antialias = 1;                        ///< the picture is drawn so many times as large and averaged
     std::optional<OffscreenLibrary> context;  ///< of a screenshot; none: the default
     bool panels = false;                      ///< the whole user interface in the screenshot

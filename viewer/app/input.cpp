@@ -12,7 +12,7 @@ namespace kerf::view {
 
 namespace {
 
-constexpr float click_pixels = 4;  // a press that moves further is a drag
+constexpr float click_pixels = 4;  // at scale 1; a press that moves further is a drag
 constexpr double zoom_per_notch = 0.88;
 
 bool pressed(int key, bool repeat = false) { return ImGui::IsKeyPressed(key, repeat); }
@@ -83,10 +83,10 @@ void App::take_mouse() {
     if (pressed_in_scene_) {
         const bool pans = ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2) || (ImGui::IsMouseDown(0) && io.KeyShift);
         const bool orbits = ImGui::IsMouseDown(0) && !pans;
+        const float least_drag = click_pixels * size_.scale;
         if (!dragging_ && (pans || orbits))
             for (int button = 0; button < 3; ++button)  // those that are up still have their last drag's
-                dragging_ |=
-                    ImGui::IsMouseDown(button) && io.MouseDragMaxDistanceSqr[button] > click_pixels * click_pixels;
+                dragging_ |= ImGui::IsMouseDown(button) && io.MouseDragMaxDistanceSqr[button] > least_drag * least_drag;
         if (dragging_ && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0) && (pans || orbits)) {
             Camera camera = camera_;
             (pans ? pan : orbit)(camera, io.MouseDelta.x / height, io.MouseDelta.y / height);

@@ -116,10 +116,12 @@ void take_screenshot(const ViewCommand& command, const AppOptions& options) {
     app.state() = command.state;
     apply_document(command, document, app.state());
     check_wishes(document, app.state(), command.panels);
+    const FrameSize size = {.width = command.width * command.antialias,
+                            .height = command.height * command.antialias,
+                            .scale = static_cast<float>(command.antialias)};
     do {
         deadline.check();
-        app.frame(command.width * command.antialias, command.height * command.antialias,
-                  static_cast<float>(command.antialias), command.panels);
+        app.frame(size, command.panels);
     } while (!app.settled());
     if (!app.session().failures().empty()) throw Error(ErrorCode::io, app.session().failures().back());
     write_png(command.output, averaged(app.picture(), command.antialias));

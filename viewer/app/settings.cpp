@@ -13,6 +13,22 @@ namespace {
 
 constexpr std::size_t most_recent = 10;
 
+constexpr double smallest_side = 100, largest_side = 16384;  // of a window, in pixels at scale 1
+
+// The default for what no window can be.
+WindowSize window_from(const nlohmann::json& settings) {
+    const nlohmann::json window = settings.value("window", nlohmann::json::object());
+    const auto number = [&](const char* name) {
+        return window.contains(name) && window[name].is_number() ? window[name].get<double>() : 0;
+    };
+    if (!window.is_object()) return {};
+    const double width = number("width"), height = number("height"), scale = number("scale");
+    if (!(scale >= 0.5 && scale <= 8)) return {};
+    for (const double side : {width / scale, height / scale})
+        if (!(side >= smallest_side && side <= largest_side)) return {};
+    return {static_cast<int>(width), static_cast<int>(height), scale};
+}
+
 std::string settings_file(const std::string& folder) { return folder + "/viewer.json"; }
 
 }  // namespace
@@ -39,6 +55,7 @@ Settings load_settings(const std::string& folder) {
             return ems > 0 && ems < 1000 ? ems : 0;
         };
         settings.panels = {size("left"), size("right"), size("timeline")};
+        settings.window = window_from(json);
     } catch (const nlohmann::json::exception&) {
         return {};
     }
@@ -49,12 +66,13 @@ void save_settings(const std::string& folder, const Settings& settings) {
     if (folder.empty()) return;
     std::error_code ignored;
     std::filesystem::create_directories(folder, ignored);
-    const nlohmann::ordered_json json = {
-        {"theme", settings.theme == Theme::dark ? "dark" : "light"},
-        {"recent", settings.recent},
-        {"browser_folder", settings.browser_folder},
-        {"panels",
-         {{"left", settings.panels.left}, {"right", settings.panels.right}, {"timeline", settings.panels.timeline}}}};
+    nlohmann::ordered_json json = {{"theme", settings.theme == Theme::dark ? "dark" : "light"},
+                                   {"recent", settings.recent},
+                                   {"browser_folder", settings.browser_folder}};
+    const PanelSizes& panels = settings.panels;
+    json["panels"] = {{"left", panels.left}, {"right", panels.right}, {"timeline", panels.timeline}};
+    const WindowSize& window = settings.window;
+    json["window"] = {{"width", window.width}, {"height", window.height}, {"scale", window.scale}};
     const std::string path = settings_file(folder), partial = path + ".partial";
     {
         std::ofstream file(partial);

@@ -1,7 +1,10 @@
 #include "viewer/app/view_window.h"
 
+#include <cmath>
+
 #include "core/error.h"
 #include "viewer/app/interruption.h"
+#include "viewer/app/settings.h"
 #include "viewer/render/window.h"
 
 namespace kerf::view {
@@ -13,6 +16,8 @@ double seconds_to_wait(App& app) {
     if (app.facts().playing || app.session().busy() || app.session().document().progress.running) return 0.05;
     return app.settled() ? 0.5 : 0;
 }
+
+int at_scale_1(int pixels, double scale) { return static_cast<int>(std::lround(pixels / scale)); }
 
 // Once the document tells what is asked for; false if it does not yet.
 bool apply_when_known(App& app, const ViewCommand& command) {
@@ -28,7 +33,8 @@ bool apply_when_known(App& app, const ViewCommand& command) {
 
 void view_in_window(const ViewCommand& command, const AppOptions& options) {
     const ImGuiOwner imgui;
-    Window window("Kerf", command.width, command.height);
+    const WindowSize last = load_settings(options.config_folder).window;
+    Window window("Kerf", at_scale_1(last.width, last.scale), at_scale_1(last.height, last.scale));
     App app(window.gl(), options);
     if (!command.input.empty()) app.open(command.input);
     const Theme theme = app.state().theme;
@@ -42,7 +48,7 @@ void view_in_window(const ViewCommand& command, const AppOptions& options) {
         if (!is_applied) is_applied = apply_when_known(app, command);
         if (!app.wants_frame()) continue;
         window.begin_frame();
-        app.frame(window.pixel_width(), window.pixel_height(), window.content_scale(), true);
+        app.frame(window.frame_size(), true);
         app.present();
         window.swap();
         if (title != app.window_title()) window.set_title(title = app.window_title());

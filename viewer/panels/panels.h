@@ -52,12 +52,19 @@ struct PanelSizes {
     bool operator==(const PanelSizes&) const = default;
 };
 
+/// Of the picture in the window: pixels, and the scale of the screen (FrameSize::scale) that it was on.
+struct WindowSize {
+    int width = 1280, height = 800;
+    double scale = 1;
+};
+
 /// Settings that outlive the document, kept in the user's config folder.
 struct Settings {
     Theme theme = Theme::light;
     std::vector<std::string> recent;  ///< files, the last one first
     std::string browser_folder;       ///< of the file browser
     PanelSizes panels;
+    WindowSize window;                ///< when it was last drawn
 };
 
 struct UiContext {

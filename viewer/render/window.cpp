@@ -38,6 +38,39 @@ class Glfw {
     Glfw& operator=(const Glfw&) = delete;
 };
 
+FrameSize frame_size_of(GLFWwindow* window) {
+    int pixel_width = 0, pixel_height = 0, width = 0, height = 0;
+    float scale = 1;
+    glfwGetFramebufferSize(window, &pixel_width, &pixel_height);
+    glfwGetWindowSize(window, &width, &height);
+    glfwGetWindowContentScale(window, &scale, nullptr);
+    return frame_size_of_window(pixel_width, pixel_height, width, height, scale);
+}
+
+// Not so small that it could not be read, and no larger than the largest screen: it may have been made for another one.
+void fit_to_screens(GLFWwindow* window) {
+    const FrameSize size = frame_size_of(window);
+    int least_width = static_cast<int>(900 * size.scale / size.pixels_per_unit_x);
+    int least_height = static_cast<int>(560 * size.scale / size.pixels_per_unit_y);
+    int screen_width = 0, screen_height = 0, count = 0;
+    GLFWmonitor** const monitors = glfwGetMonitors(&count);
+    for (int i = 0; i < count; ++i) {
+        int x = 0, y = 0, width = 0, height = 0;
+        glfwGetMonitorWorkarea(monitors[i], &x, &y, &width, &height);
+        screen_width = std::max(screen_width, width);
+        screen_height = std::max(screen_height, height);
+    }
+    if (screen_width > 0 && screen_height > 0) {
+        least_width = std::min(least_width, screen_width);
+        least_height = std::min(least_height, screen_height);
+        int width = 0, height = 0;
+        glfwGetWindowSize(window, &width, &height);
+        if (width > screen_width || height > screen_height)
+            glfwSetWindowSize(window, std::min(width, screen_width), std::min(height, screen_height));
+    }
+    glfwSetWindowSizeLimits(window, least_width, least_height, GLFW_DONT_CARE, GLFW_DONT_CARE);
+}
+
 GLFWwindow* create_window(const std::string& title, int width, int height) {
     glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_API);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
@@ -58,7 +91,7 @@ GLFWwindow* create_window(const std::string& title, int width, int height) {
                     fmt::format("The display offers no OpenGL 3.3 ({}). Update its driver, set LIBGL_ALWAYS_SOFTWARE=1,"
                                 " or use kerf screenshot.",
                                 glfw_reason()));
-    glfwSetWindowSizeLimits(window, 900, 560, GLFW_DONT_CARE, GLFW_DONT_CARE);  // less would not be readable
+    fit_to_screens(window);
     return window;
 }
 
@@ -145,23 +178,7 @@ Window::~Window() { ImGui_ImplGlfw_Shutdown(); }
 
 const Gl& Window::gl() const { return impl_->gl; }
 
-int Window::pixel_width() const {
-    int width = 0;
-    glfwGetFramebufferSize(impl_->window.get(), &width, nullptr);
-    return std::max(width, 1);
-}
-
-int Window::pixel_height() const {
-    int height = 0;
-    glfwGetFramebufferSize(impl_->window.get(), nullptr, &height);
-    return std::max(height, 1);
-}
-
-float Window::content_scale() const {
-    float scale = 1;
-    glfwGetWindowContentScale(impl_->window.get(), &scale, nullptr);
-    return scale;
-}
+FrameSize Window::frame_size() const { return frame_size_of(impl_->window.get()); }
 
 bool Window::should_close() const { return glfwWindowShouldClose(impl_->window.get()); }
 

@@ -6,23 +6,25 @@
 #include <string>
 #include <vector>
 
+#include "viewer/render/frame_size.h"
+
 namespace kerf::view {
 
 struct Gl;
 
 class Window {
  public:
-    /// Opens the window and makes its context current. An ImGui context must exist. Throws Error(io) where there is no
-    /// display, saying so and naming `kerf screenshot`; Error(internal) if the display offers no OpenGL 3.3.
+    /// Opens the window and makes its context current. Width and height are pixels of a screen of scale 1: a HiDPI
+    /// screen has more for it. It becomes no larger than the largest screen. An ImGui context must exist. Throws
+    /// Error(io) where there is no display, saying so and naming `kerf screenshot`; Error(internal) if the display
+    /// offers no OpenGL 3.3.
     Window(const std::string& title, int width, int height);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
     const Gl& gl() const;
-    int pixel_width() const;  ///< of the framebuffer
-    int pixel_height() const;
-    float content_scale() const;  ///< 2 on a HiDPI screen
+    FrameSize frame_size() const;
     bool should_close() const;
     void close();
     void set_title(const std::string& title);
