@@ -1,12 +1,15 @@
 #include "viewer/model/redo.h"
 
 #include <algorithm>
+#include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "cut/bisect.h"
 #include "cut/place.h"
-#include "cut/straight.h"
+#include "decompose/cap_quality.h"
+#include "decompose/cap_triangulation.h"
 #include "run/size_reader.h"
 #include "viewer/model/tree_source.h"
 
@@ -26,19 +29,74 @@ TreeRow row_of(NodeId id, const Surface& surface) {
     return row;
 }
 
-// As the run divides what no contour of edges divides; its interface is not triangulated finely.
+// Keys of its own tell all vertices and facets of one surface apart, also the pieces of a facet that were split before.
+Leaf with_own_keys(const Surface& surface, NodeId node) {
+    Leaf leaf;
+    leaf.id = node;
+    leaf.surface = surface.arrays();
+    std::iota(leaf.surface.vertex_key.begin(), leaf.surface.vertex_key.end(), make_key(0, 0));
+    std::iota(leaf.surface.facet_key.begin(), leaf.surface.facet_key.end(), make_key(0, 0));
+    return leaf;
+}
+
+// The faces of the cap as the interface of the cut. `parent_vertex`: per vertex of the complex that the parent has.
+Interface interface_of(const FaceComplex& complex, const Cut& cut, const std::vector<std::int32_t>& parent_vertex) {
+    Interface interface;
+    interface.contour = cut.interface.contour;
+    const std::size_t corners = interface.contour.size();
+    interface.points.assign(cut.interface.points.begin(),
+                            cut.interface.points.begin() + static_cast<std::ptrdiff_t>(corners));
+    std::map<std::int32_t, std::int32_t> number_of_parent, number_of_new;
+    for (std::size_t i = 0; i < corners; ++i) number_of_parent[interface.contour[i]] = static_cast<std::int32_t>(i);
+    const auto number = [&](std::int32_t vertex) {
+        if (static_cast<std::size_t>(vertex) < parent_vertex.size())
+            return number_of_parent.at(parent_vertex[static_cast<std::size_t>(vertex)]);
+        const auto [place, is_new] =
+            number_of_new.try_emplace(vertex, static_cast<std::int32_t>(interface.points.size()));
+        if (is_new) interface.points.push_back(complex.point(vertex));
+        return place->second;
+    };
+    for (const ComplexFace& face : complex.faces())
+        if (face.cap == cut.node)
+            interface.triangles.push_back({number(face.corners[0]), number(face.corners[1]), number(face.corners[2])});
+    for (const Vec3& p : interface.points) interface.planar.push_back(cut.plane.project(p));
+    return interface;
+}
+
+// As the run divides what no contour of edges divides, its interface triangulated as if no other cut crossed it.
 bool cut_straight(const Surface& surface, NodeId node, const CutPlace& place, const CutOptions& options,
                   MadeCut& made) {
-    std::vector<CutTry> tries;
-    std::optional<StraightCut> straight = kerf::cut_straight(surface, node, place.fraction, options, tries);
-    made.cut.tries.insert(made.cut.tries.end(), tries.begin(), tries.end());
+    FaceComplex complex({with_own_keys(surface, node)});
+    const FaceComplex::Part part = complex.part(node);
+    std::vector<CutTry>& tries = made.cut.tries;
+    std::optional<StraightCut> straight =
+        kerf::cut_straight(Surface(part.arrays), node, place.fraction, options, tries, part.untested);
     if (!straight) return false;
-    tries = std::move(made.cut.tries);
+    complex.divide(node, part, *straight);
+    std::vector<std::int32_t> parent_vertex(part.vertex.size());  // of a vertex of the surface, and then of the complex
+    for (std::size_t i = 0; i < part.vertex.size(); ++i)
+        parent_vertex[static_cast<std::size_t>(part.vertex[i])] = static_cast<std::int32_t>(i);
+    for (CutTry& one : tries)
+        for (SurfaceEdge& edge : one.contour)
+            for (std::int32_t& v : edge) v = parent_vertex[static_cast<std::size_t>(v)];
+    for (std::size_t i = parent_vertex.size(); i < straight->split.arrays.vertices.size(); ++i)
+        parent_vertex.push_back(static_cast<std::int32_t>(i));
+    triangulate_caps(complex, options);
+    straight->cut.tries = std::move(tries);
     made.cut = std::move(straight->cut);
-    made.cut.tries = std::move(tries);
     made.cut.place = place;
+    made.cut.interface = interface_of(complex, made.cut, parent_vertex);
+    made.cut.quality = measure_caps(complex).at(node).quality;
     made.cut.side = straight->split.side;
-    made.cut.split_parent = straight->split.arrays;
+    SurfaceArrays& arrays = made.cut.split_parent = std::move(straight->split.arrays);
+    // Interior points of the interface have the first keys of the node (split()).
+    const std::size_t interior = made.cut.interface.points.size() - made.cut.interface.contour.size();
+    for (std::size_t i = 0; i < arrays.vertices.size(); ++i)
+        arrays.vertex_key[i] = i < part.vertex.size()
+                                   ? surface.vertex_key(part.vertex[i])
+                                   : make_key(node, static_cast<std::int32_t>(interior + i - part.vertex.size()));
+    for (std::size_t f = 0; f < arrays.facets.size(); ++f)
+        arrays.facet_key[f] = surface.facet_key(straight->split.parent[f]);
     return true;
 }
 

@@ -197,20 +197,29 @@ std::shared_ptr<const std::vector<float>> Session::Impl::facet_values(NodeId par
     });
 }
 
+// The list of fewer parts is shown while that of more is being made. A run that is under way gets a new one when it has
+// a quarter more parts, so that all lists together read no part more than a few times.
 std::shared_ptr<const std::vector<WorstCell>> Session::Impl::worst_cells(ColorBy color, std::size_t count) {
-    const Store::Key key{Store::Kind::worst_cells, 0, static_cast<int>(color), count};
     if (!is_measure(color)) return nullptr;
-    if (auto found = kept<std::vector<WorstCell>>(key)) return found;
     std::vector<NodeId> parts;
     for (const NodeId part : document_.tree.parts_below(1))
         if (is_meshed(part)) parts.push_back(part);
-    if (parts.empty()) return nullptr;
-    return fetch<std::vector<WorstCell>>(
-        key,
+    const auto all = static_cast<NodeId>(parts.size());
+    const auto key_of = [&](NodeId parts_read) {
+        return Store::Key{Store::Kind::worst_cells, parts_read, static_cast<int>(color), count};
+    };
+    NodeId known = all;
+    while (known > 0 && !store_.holds(key_of(known))) --known;
+    const auto found = known > 0 ? kept<std::vector<WorstCell>>(key_of(known)) : nullptr;
+    const bool is_enough = document_.progress.running && 4 * all < 5 * known;
+    if (all == 0 || known == all || is_enough) return found;
+    fetch<std::vector<WorstCell>>(
+        key_of(all),
         [folder = document_.folder, parts, color, count,
          scope = std::shared_ptr<const Scope>(data_.scope)]() -> Fetched<std::vector<WorstCell>> {
             return {find_worst_cells(folder, parts, color, count, [&] { return scope->has_ended(); }), {}};
         });
+    return found;
 }
 
 std::shared_ptr<const PartSolution> Session::Impl::solution(NodeId part, std::size_t number) {

@@ -78,15 +78,16 @@ void fly_to_cell(UiContext& context, const WorstCell& cell) {
     state.selection = {Selection::Kind::cell, cell.part, cell.cell, cell.center};
 }
 
-void draw_worst_row(UiContext& context, Memory& memory, const WorstCell& cell, int i) {
+void draw_worst_row(UiContext& context, const WorstCell& cell, int i) {
+    const Selection& selection = context.state.selection;
+    const bool is_selected =
+        selection.kind == Selection::Kind::cell && selection.owner == cell.part && selection.index == cell.cell;
     ImGui::TableNextRow();
     ImGui::TableSetColumnIndex(0);
     const std::string label = fmt::format("worst {}", i + 1);
-    if (ImGui::Selectable(fmt::format("{}##{}", i + 1, label).c_str(), memory.chosen_worst == i,
-                          ImGuiSelectableFlags_SpanAllColumns)) {
-        memory.chosen_worst = i;
+    if (ImGui::Selectable(fmt::format("{}##{}", i + 1, label).c_str(), is_selected,
+                          ImGuiSelectableFlags_SpanAllColumns))
         fly_to_cell(context, cell);
-    }
     const ImVec2 from = ImGui::GetItemRectMin();  // the row spans columns, which are clipped one by one
     context.widgets.record(label, from, {from.x + 2 * em(), ImGui::GetItemRectMax().y});
     const ImVec4& color = palette(context.state.theme).text;
@@ -98,7 +99,7 @@ void draw_worst_row(UiContext& context, Memory& memory, const WorstCell& cell, i
     show_right(fmt::format("{}", cell.cell), color);
 }
 
-void draw_worst_table(UiContext& context, Memory& memory, const std::vector<WorstCell>& cells) {
+void draw_worst_table(UiContext& context, const std::vector<WorstCell>& cells) {
     constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoSavedSettings;
     const float rows = std::min(10.f, static_cast<float>(cells.size()) + 1.3f);
     if (!ImGui::BeginTable("##worst", 4, flags, {0, rows * (ImGui::GetTextLineHeight() + 0.4f * em())})) return;
@@ -116,13 +117,13 @@ void draw_worst_table(UiContext& context, Memory& memory, const std::vector<Wors
     clipper.Begin(static_cast<int>(cells.size()));
     while (clipper.Step())
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
-            draw_worst_row(context, memory, cells[static_cast<std::size_t>(i)], i);
+            draw_worst_row(context, cells[static_cast<std::size_t>(i)], i);
     ImGui::EndTable();
 }
 
 }  // namespace
 
-void draw_worst_cells(UiContext& context, Memory& memory) {
+void draw_worst_cells(UiContext& context) {
     ImGui::SetNextItemOpen(context.state.panels.quality);
     context.state.panels.quality = context.widgets.header("Worst cells", false);
     if (!context.state.panels.quality) return;
@@ -135,7 +136,7 @@ void draw_worst_cells(UiContext& context, Memory& memory) {
     const auto cells = context.session.worst_cells(context.state.color, 100);
     if (!cells) return show("Reading the cells...", colors.dim);
     if (cells->empty()) return show("No cells have been written yet.", colors.dim);
-    draw_worst_table(context, memory, *cells);
+    draw_worst_table(context, *cells);
 }
 
 void draw_color(UiContext& context, Memory& memory) {
@@ -160,7 +161,7 @@ void draw_color(UiContext& context, Memory& memory) {
         }
         ImGui::Spacing();
     }
-    draw_worst_cells(context, memory);
+    draw_worst_cells(context);
 }
 
 }  // namespace kerf::view

@@ -37,7 +37,6 @@ struct Memory {
     NodeId scrolled_to = 0;  ///< node that the tree has been scrolled to
     int defect_group = -1;   ///< kind and severity of the only defects that are listed; -1: all
     int chosen_defect = -1;
-    std::int64_t chosen_worst = -1;
     bool log_counts = false;            ///< of the histogram
     double brush_from = 0;              ///< bin where a drag over the histogram began
     std::array<double, 3> normal = {};  ///< of the clip plane while it is typed
@@ -54,7 +53,7 @@ void draw_display(UiContext& context);
 void draw_clip(UiContext& context, Memory& memory);
 void draw_color(UiContext& context, Memory& memory);
 void draw_histogram(UiContext& context, Memory& memory);
-void draw_worst_cells(UiContext& context, Memory& memory);
+void draw_worst_cells(UiContext& context);
 void draw_parameters(UiContext& context, Memory& memory);
 void draw_comparison(UiContext& context);
 void draw_timeline(UiContext& context);

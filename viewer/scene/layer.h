@@ -70,7 +70,7 @@ enum class Fill {
 };
 
 struct Layer {
-    std::string name;  ///< "surface", "context", "contour", ... unique in a scene
+    std::string name;  ///< "surface", "context 2", "contour", ... unique in a scene
     std::shared_ptr<const Geometry> geometry;
     std::vector<Range> ranges;
     Fill fill = Fill::plain;

@@ -43,7 +43,7 @@ class SceneBuild {
     void add_file_surface();
     void add_features(const std::string& name, const std::shared_ptr<const NodeSurface>& surface, NodeId owner,
                       const Vec3& offset);
-    void add_context(const std::shared_ptr<const NodeSurface>& surface);
+    void add_context();
     void add_defects();
     void add_axes(const TreeRow& row);
     void add_plane(const Plane& plane);

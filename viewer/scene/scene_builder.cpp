@@ -186,27 +186,29 @@ void SceneBuild::add_features(const std::string& name, const std::shared_ptr<con
     add(name, geometry, colors_.feature, owner, offset).pixels = feature_pixels;
 }
 
-// The facets of the input that the node's surface does not have.
-void SceneBuild::add_context(const std::shared_ptr<const NodeSurface>& surface) {
-    if (!state_.context || state_.node == 1) return;
-    const auto whole = session_.surface(1);
-    if (!whole) return;
-    std::vector<char> is_own(whole->facets.size(), 0);
-    for (const std::int32_t f : surface->facet_number)
-        if (f >= 0 && static_cast<std::size_t>(f) < is_own.size()) is_own[static_cast<std::size_t>(f)] = 1;
-    FacetChoice choice;
-    choice.wanted = [&](std::int32_t f) { return !is_own[static_cast<std::size_t>(f)]; };
-    choice.smooth = true;
-    auto geometry = cache_.get(fmt::format("context {}", state_.node), surface,
-                               [&] { return facet_triangles(*whole, built_.frame, choice); });
-    if (geometry->corners.empty()) return;
-    Layer& layer = add("context", geometry, colors_.context);
-    layer.opacity = context_opacity;
-    layer.front_share = context_front_share;
-    layer.edges = false;
-    layer.smooth = true;
-    layer.two_sided = true;
-    extend(document_.box);
+// The facets of the input that the node does not have: those of the other half at each cut above it. Numbers would not
+// tell, since a facet that a straight cut has split has pieces on both sides.
+void SceneBuild::add_context() {
+    if (!state_.context) return;
+    for (NodeId node = state_.node; node > 1; node /= 2) {
+        const NodeId other = node ^ 1;
+        const auto surface = session_.surface(other);
+        built_.pending |= !surface;
+        if (!surface) continue;
+        FacetChoice choice;
+        choice.wanted = [&](std::int32_t f) { return !surface->is_interface(f); };
+        choice.smooth = true;
+        auto geometry = cache_.get(fmt::format("context {}", other), surface,
+                                   [&] { return facet_triangles(*surface, built_.frame, choice); });
+        if (geometry->corners.empty()) continue;
+        Layer& layer = add(fmt::format("context {}", other), geometry, colors_.context);
+        layer.opacity = context_opacity;
+        layer.front_share = context_front_share;
+        layer.edges = false;
+        layer.smooth = true;
+        layer.two_sided = true;
+        extend(document_.box);
+    }
 }
 
 void SceneBuild::add_selection() {
@@ -246,7 +248,7 @@ BuiltScene SceneBuild::run() {
         add_halves(surface.get());
     else if (surface)
         add_node(surface);
-    if (surface) add_context(surface);
+    if (surface) add_context();
     if (step_.stage == (document_.remeshed ? Stage::before_remeshing : Stage::input)) add_defects();
     add_selection();
     set_range_of_values();
