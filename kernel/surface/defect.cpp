@@ -95,8 +95,8 @@ const char* remedy(const Defect& defect) {
         case DefectKind::coincident_shell:
             return "remove all copies of the body but one";
         case DefectKind::open_edge:
-            return "close the holes, merge vertices that are nearly equal with --weld, or fill small holes with "
-                   "--fill-holes";
+            return "close the holes, merge vertices that are nearly equal with --weld, fill small holes with "
+                   "--fill-holes, or drop loose pieces with --keep-largest";
         case DefectKind::non_manifold_edge:
         case DefectKind::non_manifold_vertex:
             return "unite the bodies that touch there, or move them apart";
@@ -108,9 +108,10 @@ const char* remedy(const Defect& defect) {
             return "nothing needs to be done, it is turned";
         case DefectKind::ambiguous_shell:
             return repaired ? "nothing needs to be done, it is made a void"
-                            : "make it a void with --voids parity, turn it, or remove it";
+                            : "make it a void with --voids parity, turn it, or leave all out but the largest with "
+                              "--keep-largest";
         case DefectKind::touching_shells:
-            return "unite the bodies or move them apart";
+            return "unite the bodies, move them apart, or leave all out but the largest with --keep-largest";
         case DefectKind::self_intersection:
             return "unite the parts that overlap where the surface was made";
         case DefectKind::needle:

@@ -111,10 +111,6 @@ TEST(Advice, IsInWhatProblemsSay) {
     ASSERT_TRUE(of_slivers);
     EXPECT_EQ(words_of(*of_slivers), "Remesh the surface");
     EXPECT_FALSE(is_set(RunOptions(), *of_slivers));
-    const auto of_void = advised_option(
-        remedy({.kind = DefectKind::ambiguous_shell, .severity = Severity::error, .facets = {}, .vertices = {}}));
-    ASSERT_TRUE(of_void);
-    EXPECT_EQ(words_of(*of_void), "Run with --voids parity");
     const auto of_needle = advised_option(
         remedy({.kind = DefectKind::needle, .severity = Severity::warning, .facets = {}, .vertices = {}}));
     ASSERT_TRUE(of_needle);

@@ -160,7 +160,10 @@ std::string App::clipboard() {
     return text ? text : "";
 }
 
-void App::start_run(const RunOptions& options, bool volume) { session_.start_run(options, volume); }
+void App::start_run(const RunOptions& options, bool volume) {
+    opened_ = session_.document().path;  // what a user runs is not run once more when its repairs have made it clean
+    session_.start_run(options, volume);
+}
 void App::redo_cut(NodeId node, const RunOptions& options) { session_.redo_cut(node, options); }
 
 void App::notify(const std::string& text) {

@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <cstdlib>
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
+
+#include "core/error.h"
 
 namespace kerf::view {
 
@@ -16,16 +21,43 @@ std::string word_at(const std::string& text, std::size_t begin) {
     return text.substr(begin, end - begin);
 }
 
-// The values that one can choose without asking; empty: none.
-std::vector<std::string> choices_of(const OptionField& field) {
-    if (const auto* choice = std::get_if<OptionField::Choice>(&field.value)) return choice->names;
-    return {};
+// What a text says of an option right behind its name; empty: nothing, or no such value.
+std::string value_behind(const OptionField& field, const std::string& text, std::size_t end_of_name) {
+    if (std::holds_alternative<bool*>(field.value)) return "true";
+    if (end_of_name >= text.size() || text[end_of_name] != ' ') return "";
+    if (const auto* choice = std::get_if<OptionField::Choice>(&field.value)) {
+        const std::string value = word_at(text, end_of_name + 1);
+        return std::find(choice->names.begin(), choice->names.end(), value) == choice->names.end() ? "" : value;
+    }
+    // A number, which may end a sentence.
+    const std::size_t end = text.find_first_not_of("0123456789.e-", end_of_name + 1);
+    std::string value = text.substr(end_of_name + 1, end == text.npos ? end : end - end_of_name - 1);
+    if (value.ends_with('.')) value.pop_back();
+    return !value.empty() && std::isdigit(static_cast<unsigned char>(value.front())) ? value : "";
+}
+
+// 3.7e-5 as 1e-5: nobody takes it for more exact than it is.
+std::string power_of_ten_below(double value) {
+    return fmt::format("{:g}", std::pow(10, std::floor(std::log10(value))));
+}
+
+std::string twice(const std::string& number) {
+    char* end = nullptr;
+    const double value = std::strtod(number.c_str(), &end);
+    return end == number.c_str() || *end != 0 || !(value > 0) ? "" : fmt::format("{:.12g}", 2 * value);
+}
+
+double diagonal_of_soup(const Soup& soup) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : soup.vertices)
+        if (p.allFinite()) box.extend(p);
+    return box.isEmpty() ? 0 : box.diagonal().norm();
 }
 
 }  // namespace
 
-std::optional<OptionText> advised_option(const std::string& text) {
-    std::optional<OptionText> advice;
+std::vector<OptionText> advised_options(const std::string& text) {
+    std::vector<OptionText> advice;
     RunOptions options;
     const std::vector<OptionField> fields = option_fields(options);
     for (std::size_t at = text.find("--"); at != text.npos; at = text.find("--", at + 2)) {
@@ -33,17 +65,28 @@ std::optional<OptionText> advised_option(const std::string& text) {
         const auto field =
             std::find_if(fields.begin(), fields.end(), [&](const OptionField& f) { return f.name == option; });
         if (field == fields.end()) continue;  // of another program, or a path
-        if (advice) return std::nullopt;
-        if (std::holds_alternative<bool*>(field->value)) {
-            advice = {option, "true"};
-            continue;
-        }
-        const std::string value = word_at(text, std::min(text.size(), at + 3 + option.size()));
-        const std::vector<std::string> choices = choices_of(*field);
-        if (std::find(choices.begin(), choices.end(), value) == choices.end()) return std::nullopt;
-        advice = {option, value};
+        const std::string value = value_behind(*field, text, at + 2 + option.size());
+        const auto known = std::find_if(advice.begin(), advice.end(), [&](const OptionText& a) {
+            return a.name == option && (a.text == value || a.text.empty() || value.empty());
+        });
+        if (known == advice.end())
+            advice.push_back({option, value});
+        else if (known->text.empty())
+            known->text = value;
     }
     return advice;
+}
+
+std::optional<OptionText> advised_option(const std::string& text) {
+    const std::vector<OptionText> all = advised_options(text);
+    if (all.size() != 1 || all.front().text.empty()) return std::nullopt;
+    RunOptions options;
+    for (const OptionField& field : option_fields(options)) {
+        const bool is_choice = std::holds_alternative<OptionField::Choice>(field.value);
+        if (field.name == all.front().name && !is_choice && !std::holds_alternative<bool*>(field.value))
+            return std::nullopt;
+    }
+    return all.front();
 }
 
 bool is_set(const RunOptions& options, const OptionText& option) {
@@ -52,10 +95,36 @@ bool is_set(const RunOptions& options, const OptionText& option) {
     return false;
 }
 
+std::optional<RunOptions> options_with(RunOptions options, const OptionText& option) {
+    try {
+        set_options(options, {option}, "The advice");
+        RunOptions(options).resolve(1);
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+    return options;
+}
+
 std::string words_of(const OptionText& advice) {
     if (advice.name == "surface" && advice.text == "remesh") return "Remesh the surface";
     if (advice.text == "true") return fmt::format("Run with --{}", advice.name);
-    return fmt::format("Run with --{} {}", advice.name, advice.text);
+    return fmt::format("Run with --{}{}{}", advice.name, advice.text.empty() ? "" : " ", advice.text);
+}
+
+std::string usual_value(const std::string& option, const RunOptions& options, const CheckedSoup* checked) {
+    if (option == "fill-holes" && checked) {
+        std::size_t edges = 0;
+        for (const Defect& defect : checked->diagnosis.defects)
+            if (defect.kind == DefectKind::open_edge) edges = std::max(edges, defect.facets.size());
+        return edges > 0 ? fmt::format("{}", edges) : "";
+    }
+    if (option == "weld" && checked) {
+        const double diagonal = diagonal_of_soup(checked->soup);
+        return diagonal > 0 ? power_of_ten_below(1e-5 * diagonal) : "";
+    }
+    for (const OptionText& own : option_texts(options, false))
+        if (own.name == option) return twice(own.text);
+    return "";
 }
 
 }  // namespace kerf::view

@@ -3,19 +3,33 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "run/input.h"
 #include "run/options.h"
 
 namespace kerf::view {
 
-/// The option that a text advises, if it is one that needs no number: a choice with its value, as "--surface remesh",
-/// or a switch. Nothing if the text names several options, or one that is not to be known without asking.
+/// All options of a run that a text names as "--name", each once, in this order: with the value that follows, "true" of
+/// a switch, or an empty text where the value is left to the reader: "--weld".
+std::vector<OptionText> advised_options(const std::string& text);
+
+/// The option that a text advises, if it names one alone, and that needs no number: a choice with its value, as
+/// "--surface remesh", or a switch.
 std::optional<OptionText> advised_option(const std::string& text);
 
 /// Whether the options have it.
 bool is_set(const RunOptions& options, const OptionText& option);
 
-/// What a button says: "Remesh the surface", or "Run with --voids parity".
+/// `options` with one of them changed; nothing if it has no such value, or one out of its range.
+std::optional<RunOptions> options_with(RunOptions options, const OptionText& option);
+
+/// What a button says: "Remesh the surface", "Run with --voids parity", or "Run with --weld" as long as it has no
+/// value.
 std::string words_of(const OptionText& advice);
+
+/// A value to begin with where a text names none: what would fill the largest hole, weld what is as good as equal, or
+/// give a run twice as much as it had. Empty if nothing is known. `checked` may be null.
+std::string usual_value(const std::string& option, const RunOptions& options, const CheckedSoup* checked);
 
 }  // namespace kerf::view

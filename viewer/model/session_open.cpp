@@ -186,8 +186,9 @@ void Session::Impl::show_soup(const std::shared_ptr<const Soup>& soup,
 }
 
 void Session::Impl::check_soup_in_background() {
-    const auto check = [this, soup = document_.soup, path = document_.options.input]() -> Loader::Completion {
-        const auto checked = std::make_shared<const CheckedSoup>(check_soup(*soup));
+    const auto check = [this, soup = document_.soup, path = document_.options.input,
+                        repairs = document_.options.input_options]() -> Loader::Completion {
+        const auto checked = std::make_shared<const CheckedSoup>(check_soup(*soup, repairs));
         std::optional<Oriented> oriented;
         if (checked->diagnosis.clean()) oriented = orient_copy(*checked);
         const std::string note = oriented ? note_of_slivers(*checked, path) : "";

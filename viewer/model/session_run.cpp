@@ -26,6 +26,12 @@ bool exists(const std::string& path) {
     return !path.empty() && fs::exists(path, ignored);
 }
 
+bool same_repairs(InputOptions a, InputOptions b) {
+    const std::vector<OptionField> of_a = input_option_fields(a), of_b = input_option_fields(b);
+    return std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
+                      [](const OptionField& x, const OptionField& y) { return x.text() == y.text(); });
+}
+
 std::string message_of(int exit_code, const Tree& tree) {
     if (exit_code == static_cast<int>(ErrorCode::verification)) return "The verification of the mesh has failed.";
     const auto failed = std::count_if(tree.rows.begin(), tree.rows.end(),
@@ -68,7 +74,10 @@ void Session::Impl::start_run(RunOptions options, bool volume) {
     followed_->options = options;
     followed_->has_scratch_output = options.output.empty();
     if (document_.trace || !document_.folder.empty()) followed_->tree_before = document_.tree;
+    const bool checks_again =
+        document_.soup && document_.checked && !same_repairs(options.input_options, document_.options.input_options);
     document_.options = options;
+    if (checks_again) check_soup_in_background();
     store_.erase_if([](const Store::Key& key) { return key.kind == Store::Kind::on_surface; });  // of other sizes
     options.input = input.empty() ? scratch.file("surface.mesh") : input;
     options.output = options.output.empty() ? scratch.file("run") : absolute_path(options.output);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,8 @@ struct Memory {
     NodeId scrolled_to = 0;  ///< node that the tree has been scrolled to
     int defect_group = -1;   ///< kind and severity of the only defects that are listed; -1: all
     int chosen_defect = -1;
+    std::map<std::string, std::string> advised;  ///< values of options that texts advise, as edited
+    std::string advised_for;                     ///< path of the document that they are for
     bool log_counts = false;            ///< of the histogram
     double brush_from = 0;              ///< bin where a drag over the histogram began
     std::array<double, 3> normal = {};  ///< of the clip plane while it is typed

@@ -36,20 +36,37 @@ double radius_of(const Defect& defect, const Soup& soup, double diagonal) {
     return radius > 0 ? std::clamp(1.5 * radius, 1e-3 * diagonal, 0.5 * diagonal) : 0.02 * diagonal;
 }
 
-// Where a text advises an option that the run did not have: a button that runs again with it.
-void draw_advice(UiContext& context, const std::string& text) {
+// A button that runs again with an option; before it a field for the value if the text left that to the reader.
+void draw_option(UiContext& context, Memory& memory, OptionText advice) {
     const Document& document = context.session.document();
-    const std::optional<OptionText> advice = advised_option(text);
-    if (!advice || is_set(document.options, *advice)) return;
-    ImGui::PushID(text.c_str());  // several texts may advise the same
+    ImGui::PushID(advice.name.c_str());
     ImGui::BeginDisabled(document.progress.running || document.kind == Document::Kind::none);
-    if (context.widgets.small_button(words_of(*advice).c_str(),
-                                     fmt::format("Runs again with --{} {}", advice->name, advice->text).c_str())) {
-        RunOptions options = document.options;
-        set_options(options, {*advice}, "The advice");
-        context.actions.start_run(options, document.options.volume);
+    if (advice.text.empty()) {
+        auto [value, is_new] = memory.advised.try_emplace(advice.name);
+        if (is_new) value->second = usual_value(advice.name, document.options, document.checked.get());
+        context.widgets.input_text(("--" + advice.name).c_str(), &value->second);
+        advice.text = value->second;
+    }
+    const std::optional<RunOptions> options =
+        advice.text.empty() ? std::nullopt : options_with(document.options, advice);
+    const std::string tip =
+        options ? fmt::format("Checks the surface and runs again with --{} {}", advice.name, advice.text)
+                : fmt::format("Needs a value of --{}", advice.name);
+    ImGui::BeginDisabled(!options);
+    if (context.widgets.small_button((words_of(advice) + "###run").c_str(), tip.c_str()) && options) {
+        RunOptions wanted = *options;
+        context.actions.start_run(wanted, wanted.volume);
     }
     ImGui::EndDisabled();
+    ImGui::EndDisabled();
+    ImGui::PopID();
+}
+
+// Where a text advises options that the run did not have: a button for each.
+void draw_advice(UiContext& context, Memory& memory, const std::string& text) {
+    ImGui::PushID(text.c_str());  // several texts may advise the same
+    for (const OptionText& advice : advised_options(text))
+        if (!is_set(context.session.document().options, advice)) draw_option(context, memory, advice);
     ImGui::PopID();
 }
 
@@ -117,7 +134,7 @@ class ProblemList {
         if (!with_remedy) return;
         ImGui::Indent(1.1f * em());
         show_wrapped(fmt::format("To do: {}.", remedy(first)), colors_.dim);
-        draw_advice(context_, remedy(first));
+        draw_advice(context_, memory_, remedy(first));
         ImGui::Unindent(1.1f * em());
     }
 
@@ -194,7 +211,7 @@ void draw_message(const char* head, const std::string& text, const Palette& colo
     ImGui::Spacing();
 }
 
-void draw_remarks(UiContext& context) {
+void draw_remarks(UiContext& context, Memory& memory) {
     const Document& document = context.session.document();
     const Palette& colors = palette(context.state.theme);
     if (!document.error.empty()) {
@@ -203,10 +220,10 @@ void draw_remarks(UiContext& context) {
     }
     if (!document.progress.running && !document.progress.message.empty())
         draw_message("The run has ended.", document.progress.message, colors);
-    draw_advice(context, document.progress.message);
+    draw_advice(context, memory, document.progress.message);
     for (const std::string& note : document.notes) {
         show_wrapped("Note: " + note, colors.dim);
-        draw_advice(context, note);
+        draw_advice(context, memory, note);
     }
     if (!document.notes.empty()) ImGui::Spacing();
 }
@@ -216,13 +233,17 @@ void draw_remarks(UiContext& context) {
 void draw_problems(UiContext& context, Memory& memory) {
     const Document& document = context.session.document();
     const Palette& colors = palette(context.state.theme);
+    if (memory.advised_for != document.path) {
+        memory.advised_for = document.path;
+        memory.advised.clear();
+    }
     if (document.checked && document.error.empty()) {
         const bool clean = document.checked->diagnosis.clean();
         show_wrapped(clean ? "This surface can be meshed." : "This surface cannot be meshed as it is.",
                      clean ? colors.good : colors.bad);
         ImGui::Spacing();
     }
-    draw_remarks(context);
+    draw_remarks(context, memory);
     if (document.checked && !document.checked->diagnosis.defects.empty())
         ProblemList(context, memory, *document.checked).draw();
 }
