@@ -285,7 +285,7 @@ TEST(Ui, PicksTheFacetThatIsSeen) {
     driver.open(asset_path("cylinder"));
     const auto surface = driver.app().session().surface(1);
     ASSERT_TRUE(surface);
-    const Rectangle scene = driver.app().scene_area();
+    const Rectangle scene = driver.app().scene_area(), body = body_area(driver.state(), scene);
     const Camera camera = driver.app().camera();
     const Vec3 eye = camera.target + camera.distance() * camera.back();
     int picked = 0;
@@ -297,8 +297,8 @@ TEST(Ui, PicksTheFacetThatIsSeen) {
             driver.click_at(x, y);
             const Selection& s = driver.state().selection;
             // The ray through the pixel's centre.
-            const double px = (x + 0.5 - scene.x - scene.width / 2) / scene.height;
-            const double py = -(y + 0.5 - scene.y - scene.height / 2) / scene.height;
+            const double px = (x + 0.5 - body.x - body.width / 2) / scene.height;
+            const double py = -(y + 0.5 - body.y - body.height / 2) / scene.height;
             const Vec3 to = camera.target + camera.height * (px * camera.right() + py * camera.up());
             const Vec3 ray = to - eye;
             double nearest = 1e300;
