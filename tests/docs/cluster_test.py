@@ -13,19 +13,14 @@ import subprocess
 import sys
 import tempfile
 
+from surroundings import environment
+
 GROUPS = ("build", "cad", "solve")  # of packages.txt, that the images have
 
 
 def check(holds, text):
     if not holds:
         sys.exit("cluster_test: " + text)
-
-
-def environment(source, kerf, mpirun, **more):
-    return dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_mpi_yield_when_idle="1",
-                OMPI_MCA_plm_rsh_agent=f"{source}/tests/docs/stand_ins/ssh", KERF_NODES="2", KERF_CPUS_PER_TASK="1",
-                PATH=f"{kerf.parent}:{source}/tests/docs/stand_ins:{mpirun.parent}:{os.environ['PATH']}", **more)
 
 
 def run(folder, environ, *command):
@@ -43,7 +38,7 @@ def check_hosts(source, kerf, mpirun):
     with tempfile.TemporaryDirectory(prefix="kerf_cluster_test_") as name:
         folder = pathlib.Path(name)
         (folder / "hosts").write_text("node1 slots=2\nnode2 slots=2\n")
-        run(folder, environment(source, kerf, mpirun), kerf, "mesh", surface, "-o", "alone", "-n", "5", "-q")
+        run(folder, environment(source, kerf.parent, folder), kerf, "mesh", surface, "-o", "alone", "-n", "5", "-q")
         alone = parts(folder / "alone")
         check(len(alone) == 10, f"{len(alone)} files")
         ways = {
@@ -53,7 +48,7 @@ def check_hosts(source, kerf, mpirun):
         }
         for way, command in ways.items():
             reached = folder / f"{way}.hosts"
-            log = run(folder, environment(source, kerf, mpirun, KERF_HOSTS_REACHED=str(reached)), *command)
+            log = run(folder, environment(source, kerf.parent, folder, KERF_HOSTS_REACHED=str(reached)), *command)
             check(reached.exists() and sorted(reached.read_text().split()) == ["node1", "node2"],
                   f"{way} has not started on two hosts")
             check("2 ranks x " in log, f"{way} has not made two ranks:\n{log}")

@@ -22,6 +22,8 @@ import sys
 import tempfile
 import time
 
+from surroundings import environment
+
 PATIENCE = 120  # seconds for each command
 
 SURFACE = {  # that part.stl is
@@ -34,6 +36,7 @@ SHORTENED = {
     "docs/solve.md": [
         ("-n 8 --feature-angle 40", "-n 4 --feature-angle 40"),
         ("--adapt 5", "--adapt 1"),
+        ("bearing_cap_52k", "bearing_cap_14k"),
         ("part.step --case case.toml -o out -n 8 --size 2", "part.step --case box.toml -o from_cad -n 2 --size 4"),
     ],
     "docs/sizes.md": [("pump.stl", "part.stl"), ("--size 4 --size-on patch_3=0.5", "--size 1 --size-on face_1=0.1")],
@@ -134,26 +137,12 @@ def prepare(folder, source, build, page, text):
                 (folder / name).write_text(block)
     # Debian's interpreter has Debian's packages.
     (folder / "bin").mkdir()
+    (folder / "tmp").mkdir()
     (folder / "bin/python3").symlink_to("/usr/bin/python3")
     if "part.step" in text:  # a box of 10 x 6 x 4
         (folder / "box.geo").write_text(
             'SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 10, 6, 4}; Save "part.step";\n')
         subprocess.run(["gmsh", "-0", "box.geo"], cwd=folder, check=True, capture_output=True, timeout=PATIENCE)
-
-
-def environment(folder, source, build):
-    kept = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    return kept | {
-        "PATH": f"{folder}/bin:{build}:{source}/tests/docs/stand_ins:{os.environ['PATH']}",
-        "OMPI_ALLOW_RUN_AS_ROOT": "1",
-        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-        "OMPI_MCA_rmaps_base_oversubscribe": "1",
-        "OMPI_MCA_mpi_yield_when_idle": "1",
-        "WM_PROJECT_DIR": "/usr/share/openfoam",  # where Debian keeps etc/
-        "OMPI_MCA_plm_rsh_agent": f"{source}/tests/docs/stand_ins/ssh",
-        "KERF_NODES": "2",
-        "KERF_CPUS_PER_TASK": "1",
-    }
 
 
 def shortened(command, rules, used):
@@ -204,7 +193,8 @@ def main():
     with tempfile.TemporaryDirectory(prefix="kerf_docs_test_") as name:
         folder = pathlib.Path(name)
         prepare(folder, source, build, page, text)
-        environ = environment(folder, source, build)
+        environ = environment(source, build, folder / "tmp")
+        environ["PATH"] = f"{folder}/bin:" + environ["PATH"]
         for command in commands(text):
             if bare(command) in not_run:
                 passed_over.add(bare(command))
@@ -218,6 +208,8 @@ def main():
             count += 1
             if problem:
                 wrong.append(f"{page}: {command}\n{problem}")
+    if not count:
+        wrong.append(f"{page} has no command that is run")
     wrong += [f"{page} has no command {command!r} of NOT_RUN" for command in not_run if command not in passed_over]
     wrong += [f"{page} has no command with {old!r} of SHORTENED" for k, (old, _) in enumerate(rules) if k not in used]
     if wrong:
