@@ -6,7 +6,7 @@
 
 namespace kerf {
 
-/// Closed set of outcomes; the value is the exit code of every program of Kerf (see README.md).
+/// Closed set of outcomes; the value is the exit code of every program of Kerf (see docs/output.md).
 enum class ErrorCode : int {
     internal = 1,      ///< a bug of Kerf
     usage = 2,         ///< wrong command line or options

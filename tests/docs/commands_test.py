@@ -4,13 +4,13 @@
 commands_test.py SOURCE BUILD PAGE
 
 Every line of a ```sh block is a command, a backslash joins lines. They run in order in one folder of temporary files, in
-which `assets`, `docs` and `build` are those of Kerf, and which has the files that pages speak of (INPUTS). Each has to end
-with 0, or with N where its comment says `# exit N`. What is too long for a test is shortened by SHORTENED, and what cannot
-be run is named, with the reason, in NOT_RUN: an entry of either that fits to no command of its page is an error. Blocks
-of files (OF_PAGES) are those files.
+which `assets`, `docs` and `build` are those of Kerf, and which has the files that pages speak of (see prepare()). Each
+has to end with 0, or with N where its comment says `# exit N`. What takes too long is shortened by SHORTENED, and what
+cannot be run is named, with the reason, in NOT_RUN: an entry of either that fits to no command of its page is an error.
+Blocks of files (OF_PAGES) are those files.
 
-Slurm and ssh are programs that stand in for them (stand_ins). Programs of others that are missing are passed over, but
-for those of Kerf's packages. `kerf view` has to come as far as to miss a display.
+Programs stand in for Slurm and ssh (stand_ins). Other programs that are missing (OF_OTHERS) are passed over. `kerf view`
+has to come as far as to miss a display.
 """
 
 import os

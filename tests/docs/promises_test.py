@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What docs/promises.md and docs/output.md promise is what a run writes: fields of the report and their types, arrays of
-the files and theirs, paths, exit codes.
+"""What docs/promises.md and docs/output.md promise is what a run writes: fields of the report and their types, arrays
+of the files and theirs, paths, exit codes.
 
 promises_test.py SOURCE KERF; the fields of a solution only where KERF can solve.
 """

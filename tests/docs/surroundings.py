@@ -1,5 +1,5 @@
-"""What commands of the tests find around them: Kerf's programs, stand-ins for Slurm and ssh, Open MPI as it has to be where
-several hosts are one machine."""
+"""What commands of the tests find around them: Kerf's programs, stand-ins for Slurm and ssh, Open MPI as it has to be
+where several hosts are one machine."""
 
 import os
 
