@@ -16,6 +16,8 @@ def environment(source, build, folder, **more):
         "OMPI_MCA_rmaps_base_oversubscribe": "1",
         "OMPI_MCA_mpi_yield_when_idle": "1",
         "OMPI_MCA_btl": "self,tcp",  # in shared memory, ranks of different hosts would take each other's places
+        "OMPI_MCA_btl_tcp_if_include": "lo",  # also where there is no network
+        "OMPI_MCA_oob_tcp_if_include": "lo",
         "OMPI_MCA_plm_rsh_agent": f"{stand_ins}/ssh",
         "KERF_NODES": "2",
         "KERF_CPUS_PER_TASK": "1",
