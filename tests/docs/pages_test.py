@@ -82,8 +82,7 @@ def helps(source, kerf):
     def help_of(*command):
         return subprocess.run([*command, "--help"], capture_output=True, text=True, check=True, timeout=60).stdout
     top = help_of(kerf)
-    commands = re.findall(r"^  (\w[\w-]*) {2,}\S", top.partition("Subcommands:")[2], re.M) or \
-        re.findall(r"^  (\w[\w-]*) {2,}\S", top, re.M)
+    commands = re.findall(r"^  ([a-z][\w-]*) {2,}\S", top, re.M)
     return commands, top + "".join(help_of(kerf, command) for command in commands) + help_of(source / "run")
 
 
