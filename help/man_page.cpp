@@ -46,8 +46,9 @@ std::string options_of(const std::vector<OptionHelp>& options) {
     std::string text;
     for (const OptionHelp& option : options) {
         text += tagged(heading_of(option), option.text);
+        const bool are_in_heading = option.value == fmt::format("{}", fmt::join(option.choices, "|"));
         const std::string choices = fmt::format("{}", fmt::join(option.choices, ", "));
-        if (!choices.empty()) text += ".br\n" + roff("Values: " + choices + ".") + "\n";
+        if (!option.choices.empty() && !are_in_heading) text += ".br\n" + roff("Values: " + choices + ".") + "\n";
     }
     return text;
 }
@@ -58,7 +59,8 @@ std::string man_page(const CommandHelp& command, const std::string& version) {
     const std::string name = page_name(command.name);
     std::string title = name;
     std::transform(title.begin(), title.end(), title.begin(), [](unsigned char c) { return std::toupper(c); });
-    const std::string first_line = command.text.substr(0, command.text.find('\n'));
+    std::string first_line = command.text.substr(0, command.text.find('\n'));
+    if (first_line.ends_with('.')) first_line.pop_back();
     std::string page = fmt::format(".TH {} 1 \"\" \"Kerf {}\" \"Kerf\"\n", roff(title), version);
     page += fmt::format(".SH NAME\n{} \\- {}\n", roff(name), roff(first_line));
     page += fmt::format(".SH SYNOPSIS\n.B {}\n", roff(usage_of(command)));

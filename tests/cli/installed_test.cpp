@@ -59,9 +59,9 @@ TEST_F(Installed, FindsItsViewerAndShaders) {
 }
 
 TEST_F(Installed, OpensItsWindow) {
-    const ChildResult shown = test::run_program(
-        "/usr/bin/env", {"ASAN_OPTIONS=detect_leaks=0", KERF_PYTHON, KERF_SOURCE "/tests/viewer/window_test.py",
-                         file("a copy/bin/kerf"), file("elsewhere/cube.stl")});
+    const ChildResult shown =
+        test::run_program("/usr/bin/env", {"ASAN_OPTIONS=detect_leaks=0", KERF_SOURCE "/tests/install/window_opens.sh",
+                                           file("a copy/bin/kerf"), file("")});
     EXPECT_EQ(shown.exit_code, 0) << shown.log;
 }
 #endif
