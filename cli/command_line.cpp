@@ -20,7 +20,8 @@ namespace {
 
 constexpr const char* description =
     "Kerf: parallel tetrahedral meshes by decomposition of the closed surface.\n"
-    "mpirun -n P kerf mesh ... runs the same command on P ranks.";
+    "mpirun -n P kerf mesh ... runs the same command on P ranks.\n"
+    "kerf COMMAND --help lists the options of a command.";
 
 constexpr const char* exit_codes =
     "Exit codes: 0 done and verified, 1 internal error, 2 usage, 3 input rejected, 4 a part could not be meshed, 5 out "

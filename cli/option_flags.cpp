@@ -1,5 +1,7 @@
 #include "cli/option_flags.h"
 
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "export/format.h"
@@ -36,7 +38,7 @@ CLI::Option* add_option_field(CLI::App& app, const OptionField& field) {
 
 void add_run_options(CLI::App& app, RunOptions& options) {
     const std::vector<OptionField> fields = option_fields(options);
-    for (const std::string group : option_group::all)
+    for (const std::string_view group : option_group::all)
         for (const OptionField& field : fields)
             if (field.group == group) add_option_field(app, field);
     app.get_option("--format")->check(suggest_formats());

@@ -55,8 +55,7 @@ CommandHelp describe(const CLI::App& app) {
     for (const std::string& name : app.get_groups()) {
         if (name.empty()) continue;
         OptionGroup group = {name, {}};
-        for (const CLI::Option* option :
-             app.get_options([&](const CLI::Option* o) { return o->get_group() == name; }))
+        for (const CLI::Option* option : app.get_options([&](const CLI::Option* o) { return o->get_group() == name; }))
             (option->get_positional() ? help.positionals : group.options).push_back(describe_option(*option));
         if (!group.options.empty()) help.groups.push_back(std::move(group));
     }

@@ -76,8 +76,7 @@ std::string zsh_part(const CommandHelp& command) {
     for (const OptionGroup& group : command.groups)
         for (const OptionHelp& option : group.options)
             for (const std::string& name : option.names) {
-                const std::string others =
-                    option.repeatable ? "*" : fmt::format("({})", fmt::join(option.names, " "));
+                const std::string others = option.repeatable ? "*" : fmt::format("({})", fmt::join(option.names, " "));
                 const std::string text = quoted("[" + option.text, "]:\\", "'\\''");
                 specs += fmt::format(" \\\n        '{}'{}{}']{}'", others, name, text, zsh_value(option));
             }

@@ -1,14 +1,14 @@
 // Scripts by which a shell completes commands, options, their values, and files.
 #pragma once
 
+#include <array>
 #include <string>
-#include <vector>
 
 #include "help/command_help.h"
 
 namespace kerf {
 
-inline const std::vector<std::string> shells = {"bash", "fish", "zsh"};
+inline constexpr std::array<const char*, 3> shells = {"bash", "fish", "zsh"};
 
 /// The part of the script of `shell` that knows one command. Programs beside kerf write those of their own commands.
 std::string command_completion(const CommandHelp& command, const std::string& shell);

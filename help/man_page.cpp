@@ -1,6 +1,7 @@
 #include "help/man_page.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include <fmt/format.h>
 

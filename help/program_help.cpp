@@ -86,9 +86,8 @@ Answer completion_of(const CLI::App& app, const std::string& shell, const OtherC
 
 void use_help_text(CLI::App& app) {
     app.set_help_flag(help_names, help_of_help);
-    app.formatter_fn([](const CLI::App* command, const std::string&, CLI::AppFormatMode) {
-        return help_text(describe(*command));
-    });
+    app.formatter_fn(
+        [](const CLI::App* command, const std::string&, CLI::AppFormatMode) { return help_text(describe(*command)); });
 }
 
 void put_help_last(CLI::App& command, const std::string& group) {

@@ -1,5 +1,7 @@
 #include "help/wrapped_text.h"
 
+#include <algorithm>
+
 namespace kerf {
 
 namespace {
