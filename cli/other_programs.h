@@ -28,7 +28,8 @@ std::string output_of_other_programs(const std::vector<std::string>& arguments);
 
 inline constexpr const char* viewer_remedy =
     "The viewer is a program of its own beside kerf; build it with KERF_VIEWER=ON, which needs libglfw3-dev, "
-    "libimgui-dev, and libosmesa6-dev or libegl-dev, or open the run folder's mesh.pvtu in ParaView.";
+    "libimgui-dev, libfontconfig-dev, and libosmesa6-dev or libegl-dev, or open the run folder's mesh.pvtu in "
+    "ParaView.";
 inline constexpr OtherProgram other_programs[] = {
     {"solve", "kerf-solve", "Linear elasticity on a surface or a finished run: displacements and stresses.",
      "The solver is a program of its own beside kerf; build it with KERF_SOLVE=ON, which needs libpetsc-real-dev, or "

@@ -152,6 +152,8 @@ TEST(IncludeMap, LibrariesStayInTheirPlaces) {
               std::set<std::string>{"viewer/render/osmesa_context.cpp"});
     EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "EGL"; }),
               std::set<std::string>{"viewer/render/egl_context.cpp"});
+    EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "fontconfig"; }),
+              std::set<std::string>{"viewer/panels/font_file.cpp"});
     for (const std::string& file : files_including(
              [](const std::string& name) { return name.starts_with("imgui") || first_folder(name) == "GL"; }))
         EXPECT_TRUE(file.starts_with("viewer/render/") || file.starts_with("viewer/panels/") ||

@@ -112,7 +112,7 @@ class Ui {
     std::unique_ptr<Impl> impl_;
 };
 
-/// Loads DejaVu Sans at the size if it is installed, else ImGui's own font.
+/// Loads DejaVu Sans at the size, or what fontconfig has in its place, or else ImGui's own font.
 void load_fonts(ImFontAtlas& atlas, float pixels);
 
 }  // namespace kerf::view

@@ -1,14 +1,13 @@
 #include "viewer/panels/style.h"
 
-#include <filesystem>
-
+#include "viewer/panels/font_file.h"
 #include "viewer/panels/panels.h"
 
 namespace kerf::view {
 
 namespace {
 
-constexpr const char* font_file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+constexpr const char* font_family = "DejaVu Sans";
 constexpr float title_ratio = 1.6f;
 
 ImVec4 rgb(unsigned hex, float alpha = 1) {
@@ -133,8 +132,8 @@ void load_fonts(ImFontAtlas& atlas, float pixels) {
     // Names of files and patches may be in any European language.
     static const ImWchar letters[] = {0x20, 0x17f, 0x370, 0x3ff, 0x400, 0x45f, 0x2010, 0x2027, 0};
     atlas.Clear();
-    std::error_code missing;
-    if (!std::filesystem::is_regular_file(font_file, missing)) {  // ImGui would abort
+    const FontFile file = find_font(font_family);
+    if (file.path.empty()) {  // ImGui would abort
         ImFontConfig config;
         config.SizePixels = pixels;
         atlas.AddFontDefault(&config);
@@ -144,8 +143,9 @@ void load_fonts(ImFontAtlas& atlas, float pixels) {
         ImFontConfig config;
         config.OversampleH = 2;
         config.OversampleV = 1;
-        atlas.AddFontFromFileTTF(font_file, pixels, &config, letters);
-        atlas.AddFontFromFileTTF(font_file, title_ratio * pixels, &config);
+        config.FontNo = file.number;
+        atlas.AddFontFromFileTTF(file.path.c_str(), pixels, &config, letters);
+        atlas.AddFontFromFileTTF(file.path.c_str(), title_ratio * pixels, &config);
     }
     atlas.Build();
 }
