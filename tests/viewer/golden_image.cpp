@@ -26,13 +26,6 @@ namespace fs = std::filesystem;
 const fs::path goldens = fs::path(KERF_SOURCE) / "tests/golden/images";
 const fs::path candidates = fs::path(KERF_GOLDEN_CANDIDATES) / "images";
 
-// The driver of the golden pictures that are for all. Without one it is this one.
-std::string common_driver(const std::string& drawn_by) {
-    std::ifstream file(goldens / "driver.txt");
-    std::string line;
-    return std::getline(file, line) ? line : drawn_by;
-}
-
 // Of a driver: "llvmpipe (LLVM 15)" gives "llvmpipe-llvm-15".
 std::string folder_of(const std::string& drawn_by) {
     std::string folder;
@@ -53,7 +46,7 @@ fs::path golden_path(const std::string& name, const std::string& drawn_by) {
 
 // What to know about a picture that is not as it should be.
 std::string about_drivers(const std::string& drawn_by) {
-    const std::string common = common_driver(drawn_by);
+    const std::string common = golden_driver(drawn_by);
     if (common == drawn_by) return fmt::format("Both were drawn by {}.", drawn_by);
     return fmt::format("It was drawn by {}, the golden pictures by {}. If it looks right, it goes to {}.", drawn_by,
                        common, (goldens / folder_of(drawn_by)).string());
@@ -61,8 +54,14 @@ std::string about_drivers(const std::string& drawn_by) {
 
 }  // namespace
 
+std::string golden_driver(const std::string& drawn_by) {
+    std::ifstream file(goldens / "driver.txt");
+    std::string line;
+    return std::getline(file, line) ? line : drawn_by;
+}
+
 std::string candidate_path(const std::string& name, const std::string& drawn_by) {
-    const fs::path folder = common_driver(drawn_by) == drawn_by ? candidates : candidates / folder_of(drawn_by);
+    const fs::path folder = golden_driver(drawn_by) == drawn_by ? candidates : candidates / folder_of(drawn_by);
     return (folder / fmt::format("{}.png", name)).string();
 }
 

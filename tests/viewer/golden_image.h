@@ -36,6 +36,9 @@ testing::AssertionResult is_golden(const std::string& name, const view::Image& p
 /// The same of the picture as it is after settle().
 testing::AssertionResult is_golden(const std::string& name, Driver& driver);
 
+/// The driver of the golden pictures that are for all; `drawn_by` where they do not say.
+std::string golden_driver(const std::string& drawn_by);
+
 /// Where the candidate of a picture is left.
 std::string candidate_path(const std::string& name, const std::string& drawn_by);
 

@@ -1,0 +1,65 @@
+// The pictures of the README and of docs/ are those that this program draws.
+#include <filesystem>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "support/file_contents.h"
+#include "viewer/driver.h"
+#include "viewer/golden_image.h"
+#include "volume/child_process.h"
+
+namespace kerf::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path gallery = KERF_ASSETS "/gallery";
+
+std::set<std::string> pictures_in(const fs::path& folder) {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (const fs::path& path = entry.path(); path.extension() == ".png" || path.extension() == ".svg")
+            names.insert(path.filename().string());
+    return names;
+}
+
+// CAD files are not in the repository, and a solver need not be there.
+bool may_be_left_out(const std::string& name) {
+    const bool is_of_solution = name.starts_with("stress") || name.starts_with("bracket");
+    return name.starts_with("cad_") || (is_of_solution && !KERF_HAS_SOLVE);
+}
+
+// The same driver draws the same pixels; another one rounds a little differently.
+bool is_same_picture(const std::string& name, const std::string& drawn_by) {
+    const std::string ours = (gallery / name).string(), now = (fs::path(KERF_GALLERY) / name).string();
+    if (name.ends_with(".svg")) return bytes_of_file(ours) == bytes_of_file(now);
+    const ImageDifference difference = compare(read_png(ours), read_png(now));
+    if (!difference.same_size) return false;
+    return golden_driver(drawn_by) == drawn_by ? difference.largest == 0 : difference.differing <= most_differing;
+}
+
+TEST(Gallery, IsDrawnByThisProgram) {
+    constexpr double timeout_seconds = 280;
+    fs::remove_all(KERF_GALLERY);
+    fs::create_directories(KERF_GALLERY);
+    ChildPool pool;
+    pool.start(0, (gallery / "make_gallery.sh").string(), {"--kerf", KERF_PROGRAM, "--into", KERF_GALLERY}, {},
+               timeout_seconds);
+    const ChildResult drawn = pool.wait_any()->result;
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.log;
+    const std::set<std::string> kept = pictures_in(gallery), now = pictures_in(KERF_GALLERY);
+    const std::string driver = Driver().app().graphics_driver();
+    constexpr const char* remedy = "To draw it again: assets/gallery/make_gallery.sh";
+    EXPECT_GE(now.size(), 6u);
+    for (const std::string& name : kept)
+        EXPECT_TRUE(now.contains(name) || may_be_left_out(name)) << "Nothing draws assets/gallery/" << name;
+    for (const std::string& name : now) {
+        ASSERT_TRUE(kept.contains(name)) << "assets/gallery/" << name << " is missing. " << remedy;
+        EXPECT_TRUE(is_same_picture(name, driver)) << "assets/gallery/" << name << " is out of date: now it is "
+                                                   << KERF_GALLERY << "/" << name << ". " << remedy;
+    }
+}
+
+}  // namespace
+}  // namespace kerf::test
