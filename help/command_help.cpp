@@ -42,7 +42,7 @@ OptionHelp describe_option(const CLI::Option& option) {
 }
 
 std::string full_name(const CLI::App& app) {
-    const std::string own = app.get_name();
+    const std::string& own = app.get_name();
     return app.get_parent() ? full_name(*app.get_parent()) + " " + own : own;
 }
 
