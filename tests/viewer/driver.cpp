@@ -52,7 +52,10 @@ view::FrameSize Driver::size() const {
 void Driver::frame(float seconds) {
     ImGuiIO& io = ImGui::GetIO();
     io.DeltaTime = seconds;
+    // As ImGui's backend of GLFW sets them before every frame.
     io.MousePos = {mouse_x_ / options_.pixels_per_unit, mouse_y_ / options_.pixels_per_unit};
+    io.DisplaySize = {static_cast<float>(options_.width), static_cast<float>(options_.height)};
+    io.DisplayFramebufferScale = {options_.pixels_per_unit, options_.pixels_per_unit};
     app_->frame(size(), panels_);
 }
 
