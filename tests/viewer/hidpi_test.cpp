@@ -124,7 +124,9 @@ TEST(WindowSettings, KeepSizeAndScale) {
     {
         Driver::Options options = options_of_screen(2, 2);
         options.config_folder = folder.file("config");
-        Driver(options).frame();
+        Driver driver(options);
+        driver.frame();
+        driver.app().frame(frame_size_of_window(0, 0, 0, 0, 2), true);  // iconified
     }
     const WindowSize window = load_settings(folder.file("config")).window;
     EXPECT_EQ(window.width, 2000);

@@ -329,7 +329,7 @@ void App::draw(bool panels) {
 
 void App::frame(const FrameSize& size, bool panels) {
     size_ = size;
-    if (panels) settings_.window = {size.width, size.height, size.scale};
+    if (panels && size.width > 1) settings_.window = {size.width, size.height, size.scale};  // else it is iconified
     if (ImVec2& mouse = ImGui::GetIO().MousePos; ImGui::IsMousePosValid(&mouse))
         mouse = {mouse.x * size.pixels_per_unit_x, mouse.y * size.pixels_per_unit_y};
     if (frames_wanted_ > 0) --frames_wanted_;
