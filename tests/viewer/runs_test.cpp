@@ -14,8 +14,10 @@
 #include "support/started_run.h"
 #include "support/temporary_folder.h"
 #include "support/write_off.h"
+#include "viewer/app/command_line.h"
 #include "viewer/app/keys.h"
 #include "viewer/driver.h"
+#include "viewer/golden_image.h"
 
 namespace kerf::test {
 namespace {
@@ -23,10 +25,43 @@ namespace {
 namespace fs = std::filesystem;
 using namespace view;
 
-std::int64_t outer_facets(Driver& driver, NodeId node) {
+// The facets of the input that a node has, or that are drawn around it.
+struct OuterFacets {
+    std::int64_t count = 0;
+    double area = 0;
+
+    void add(const Vec3& a, const Vec3& b, const Vec3& c) {
+        ++count;
+        area += (b - a).cross(c - a).norm() / 2;
+    }
+};
+
+OuterFacets outer_facets(Driver& driver, NodeId node) {
     std::shared_ptr<const NodeSurface> surface;
     driver.await("a surface", [&] { return (surface = driver.app().session().surface(node)) != nullptr; });
-    return std::count(surface->interface_of.begin(), surface->interface_of.end(), 0);
+    OuterFacets outer;
+    for (std::size_t f = 0; f < surface->facets.size(); ++f) {
+        const auto corner = [&](std::size_t i) -> const Vec3& {
+            return surface->vertices[static_cast<std::size_t>(surface->facets[f][i])];
+        };
+        if (surface->interface_of[f] == 0) outer.add(corner(0), corner(1), corner(2));
+    }
+    return outer;
+}
+
+OuterFacets context_of(Driver& driver) {
+    driver.settle();
+    OuterFacets context;
+    for (const Layer& layer : driver.app().scene().scene.layers) {
+        const std::vector<Corner>& corners = layer.geometry->corners;
+        const auto place = [&](std::size_t i) -> Vec3 {
+            const std::array<float, 3>& p = corners[i].position;
+            return Vec3(p[0], p[1], p[2]) / driver.app().scene().frame.scale;
+        };
+        for (std::size_t i = 0; layer.name.starts_with("context") && i < corners.size(); i += 3)
+            context.add(place(i), place(i + 1), place(i + 2));
+    }
+    return context;
 }
 
 // The facets of a node and those around it are the surface of the input, each once, with a trace and without one; also
@@ -40,12 +75,12 @@ TEST(Runs, TheContextIsTheRestOfTheSurface) {
         Driver driver;
         driver.open(folder.file("run"));
         ASSERT_FALSE(driver.document().trace);
-        const std::int64_t all = outer_facets(driver, 1);
+        const OuterFacets all = outer_facets(driver, 1);
         for (const NodeId node : {3, 4, 6}) {
             driver.state().node = node;
-            driver.settle();
-            EXPECT_GT(driver.drawn("context").triangles, 0);
-            EXPECT_EQ(driver.drawn("context").triangles + outer_facets(driver, node), all) << input << " " << node;
+            const OuterFacets own = outer_facets(driver, node), context = context_of(driver);
+            EXPECT_EQ(context.count + own.count, all.count) << input << " " << node;
+            EXPECT_NEAR(context.area + own.area, all.area, 1e-5 * all.area) << input << " " << node;
         }
     }
 }
@@ -135,6 +170,195 @@ TEST(Runs, AStraightCutMadeAgainIsThatOfARun) {
     driver.state().node = 3;
     driver.settle();
     EXPECT_EQ(driver.document().tree.parts_below(1), (std::vector<NodeId>{2, 3}));
+}
+
+// The run before stays, with its cells, and is shown again under the same camera, however the other one came to be.
+TEST(Runs, TwoAreComparedUnderOneCamera) {
+    Driver::Options options;
+    options.parts = 3;
+    Driver driver(options);
+    driver.open(asset_path("hollow_box"));
+    Session& session = driver.app().session();
+    ViewState& state = driver.state();
+    state.panels.parameters = true;
+    state.step = {Stage::tetrahedra, -1};
+    const Image first = driver.picture();
+    EXPECT_FALSE(driver.app().widgets().find("A"));
+    driver.click("parts");
+    driver.key(key_of('A'), true);
+    driver.type("5");
+    driver.key(key_enter);
+    driver.click("Run all");
+    driver.await("five parts", [&] { return driver.document().tree.parts_below(1).size() == 5 && !session.busy(); });
+    driver.settle();
+    EXPECT_EQ(driver.drawn("part").triangles > 0, true);
+    const Camera camera = driver.app().camera();
+    const auto second_triangles = driver.drawn("part").triangles;
+    driver.click("A");
+    EXPECT_TRUE(session.shows_before());
+    EXPECT_EQ(driver.document().tree.parts_below(1).size(), 3u);
+    EXPECT_EQ(session.other_document()->tree.parts_below(1).size(), 5u);
+    EXPECT_EQ(driver.app().camera(), camera);
+    driver.settle();
+    EXPECT_LT(driver.drawn("part").triangles, second_triangles) << "fewer interfaces";
+    EXPECT_TRUE(session.failures().empty());
+    for (const Document* document : {&driver.document(), session.other_document()}) {
+        EXPECT_GE(document->cut_seconds, 0);
+        EXPECT_GE(document->mesh_seconds, 0);
+        EXPECT_GT(document->histograms[0]->p1, document->histograms[0]->min);
+        EXPECT_LT(document->histograms[0]->p1, document->histograms[0]->median);
+    }
+    driver.key(key_of('B'));
+    EXPECT_FALSE(session.shows_before());
+    driver.settle();
+    EXPECT_EQ(driver.drawn("part").triangles, second_triangles);
+
+    // A cut made again takes the place of the later run, and what it was made of can be seen with all its cells.
+    driver.click("Re-run cut of node 1");
+    driver.await("the cut", [&] { return driver.document().tree.parts_below(1).size() == 2 && !session.busy(); });
+    EXPECT_FALSE(driver.document().histograms[0]) << "of cells that are gone";
+    EXPECT_FALSE(session.can_save_run()) << "no run has made this";
+    driver.click("A");
+    driver.settle();
+    EXPECT_EQ(driver.document().tree.parts_below(1).size(), 5u);
+    EXPECT_EQ(driver.drawn("part").triangles, second_triangles);
+    EXPECT_TRUE(driver.document().histograms[0]);
+}
+
+// A temporary run is copied to where the user wants it, and is a run like any other; nobody's files are replaced.
+TEST(Runs, ATemporaryRunIsSaved) {
+    const TemporaryFolder folder;
+    const std::string place = folder.file("kept");
+    {
+        Driver driver;
+        driver.open(asset_path("cube"));
+        Session& session = driver.app().session();
+        driver.state().panels.parameters = true;
+        driver.frame();
+        const auto save_to = [&](const std::string& path) {
+            session.save_run(path);
+            driver.await("the copy", [&] { return !session.busy(); });
+        };
+        fs::create_directory(folder.file("mine"));
+        std::ofstream(folder.file("mine/letter.txt")) << "mine";
+        save_to(folder.file("mine"));
+        ASSERT_EQ(session.failures().size(), 1u);
+        EXPECT_NE(session.failures()[0].find("letter.txt"), std::string::npos) << session.failures()[0];
+        EXPECT_EQ(bytes_of_file(folder.file("mine/letter.txt")), "mine");
+        std::ofstream(place + ".trace") << "mine";
+        save_to(place);
+        ASSERT_EQ(session.failures().size(), 1u) << "the other one is no more of interest";
+        EXPECT_NE(session.failures()[0].find("kept.trace"), std::string::npos) << session.failures()[0];
+        EXPECT_FALSE(fs::exists(place));
+        fs::remove(place + ".trace");
+        driver.click("Save to");
+        driver.key(key_of('A'), true);
+        driver.type(place);
+        driver.key(key_enter);
+        driver.click("Save run");
+        driver.await("the copy", [&] { return !session.busy(); });
+        EXPECT_TRUE(session.failures().empty());
+        EXPECT_EQ(driver.document().saved_as, place);
+        EXPECT_FALSE(session.can_save_run());
+    }
+    EXPECT_EQ(run_kerf({"verify", place}).exit_code, 0);
+    Driver driver;
+    driver.open(place);
+    EXPECT_EQ(driver.document().tree.parts_below(1).size(), 4u);
+    EXPECT_TRUE(driver.document().trace) << "with every step of its cuts";
+}
+
+// What went wrong before is not what is said of what went well.
+TEST(Runs, AnOldErrorLeavesTheStatusBar) {
+    const TemporaryFolder folder;
+    Driver::Options options;
+    options.screenshot_folder = folder.file("missing");
+    options.auto_run = false;
+    Driver driver(options);
+    driver.open(asset_path("cube"));
+    Session& session = driver.app().session();
+    session.redo_cut(1, {});
+    ASSERT_EQ(session.failures().size(), 1u);
+    RunOptions run;
+    run.decompose.parts = 2;
+    session.start_run(run, false);
+    driver.await("the run", [&] { return !session.busy(); });
+    EXPECT_TRUE(session.failures().empty());
+
+    // A picture that could not be saved is an error, with a way out; the next one that is takes it away.
+    driver.key(key_f12);
+    driver.settle();
+    EXPECT_TRUE(driver.app().facts().notice_is_error);
+    EXPECT_NE(driver.app().facts().notice.find("not saved"), std::string::npos);
+    EXPECT_NE(driver.app().facts().notice.find("Start the viewer in"), std::string::npos);
+    EXPECT_NE(driver.app().facts().notice.find("kerf-001.png"), std::string::npos);
+    driver.frame(100);
+    EXPECT_TRUE(driver.app().facts().notice_is_error) << "nobody has read it";
+    fs::create_directory(folder.file("missing"));
+    driver.key(key_f12);
+    driver.settle();
+    EXPECT_FALSE(driver.app().facts().notice_is_error);
+    EXPECT_TRUE(fs::exists(folder.file("missing/kerf-001.png")));
+}
+
+// One that is chosen in the menu is.
+TEST(Runs, TheThemeOfOneStartIsNotThatOfTheNext) {
+    const TemporaryFolder folder;
+    Driver::Options options;
+    options.config_folder = folder.file("config");
+    {
+        Driver driver(options);
+        driver.state().theme = Theme::dark;  // as --theme does
+        driver.settle();
+    }
+    EXPECT_EQ(Driver(options).state().theme, Theme::light);
+}
+
+// The JSON beside a picture says of what and how large it was, so that the command needs nothing else.
+TEST(Runs, AViewKnowsWhatItWasMadeOf) {
+    const TemporaryFolder folder;
+    Driver::Options options;
+    options.width = 640;
+    options.height = 480;
+    options.parts = 3;
+    options.volume = false;
+    options.screenshot_folder = folder.file("");
+    Driver driver(options);
+    driver.open(asset_path("cube"));
+    driver.key(key_of('3'));
+    driver.state().node = 3;
+    driver.key(key_f12);
+    driver.settle();
+    const std::string state = folder.file("kerf-001.json");
+    const auto parse = [&](std::vector<const char*> arguments) {
+        arguments.insert(arguments.begin(), "kerf");
+        return parse_view_command(static_cast<int>(arguments.size()), arguments.data());
+    };
+    const ViewCommand same = parse({"screenshot", "--state", state.c_str(), "-o", "a.png"});
+    EXPECT_EQ(same.print, "");
+    EXPECT_EQ(same.input, asset_path("cube"));
+    EXPECT_EQ(same.width, 640);
+    EXPECT_EQ(same.height, 480);
+    EXPECT_EQ(same.run.decompose.parts, 3);
+    const ViewCommand other =
+        parse({"screenshot", "other.stl", "--state", state.c_str(), "--size", "800x600", "-o", "a.png"});
+    EXPECT_EQ(other.input, "other.stl");
+    EXPECT_EQ(other.width, 800);
+    EXPECT_EQ(parse({"screenshot", "-o", "a.png"}).exit_code, 2);
+    EXPECT_TRUE(parse({"view", "a.stl"}).auto_run);
+    EXPECT_FALSE(parse({"view", "a.stl", "--no-run"}).auto_run);
+
+    // Bit for bit, and of another body in its middle.
+    const std::string again = folder.file("again.png");
+    ASSERT_EQ(run_kerf({"screenshot", "--state", state, "-o", again}).exit_code, 0);
+    EXPECT_TRUE(bytes_of_file(again) == bytes_of_file(folder.file("kerf-001.png")));
+    ASSERT_EQ(run_kerf({"screenshot", asset_path("bearing_cap_52k"), "--state", state, "-o", again}).exit_code, 0);
+    const Image picture = read_png(again);
+    const auto at = [&](int x, int y) {
+        const std::uint8_t* p = picture.pixel(x, y);
+        return std::array{p[0], p[1], p[2]};
+    };
+    EXPECT_NE(at(320, 240), at(5, 240)) << "the body is where one looks";
 }
 
 }  // namespace

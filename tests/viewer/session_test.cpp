@@ -248,7 +248,7 @@ TEST_F(OwnRun, FillsTheDocumentAsItGoes) {
         EXPECT_EQ(all, tets);
         EXPECT_EQ(both, tets);
     }
-    EXPECT_TRUE(session_.tree_before().rows.empty());
+    EXPECT_EQ(session_.other_document(), nullptr);
     EXPECT_EQ(scratch_folders().size(), 1u);
     session_.close();
     EXPECT_TRUE(scratch_folders().empty());
@@ -259,9 +259,10 @@ TEST_F(OwnRun, TheRunBeforeIsKeptForComparison) {
     finish();
     session_.start_run(options(3), true);
     finish();
-    EXPECT_EQ(session_.tree_before().parts_below(1).size(), 4u);
+    ASSERT_TRUE(session_.other_document());
+    EXPECT_EQ(session_.other_document()->tree.parts_below(1).size(), 4u);
     EXPECT_EQ(document().tree.parts_below(1).size(), 3u);
-    EXPECT_EQ(scratch_folders().size(), 1u);
+    EXPECT_EQ(scratch_folders().size(), 2u);
     session_.start_run(options(1000000), true);  // too many
     ASSERT_TRUE(settle(session_));
     EXPECT_NE(document().progress.message.find("too few"), std::string::npos) << document().progress.message;
@@ -619,7 +620,7 @@ TEST_F(Data, ACutMadeAgainWithTheSameOptionsIsTheSame) {
     ASSERT_TRUE(settle(by_folder_));
     const std::shared_ptr<const Trace> old = by_folder_.document().trace;
     ASSERT_TRUE(old);
-    EXPECT_EQ(by_folder_.cut_before(2), nullptr);
+    EXPECT_EQ(by_folder_.other_document(), nullptr);
     by_folder_.redo_cut(2, test::options_of(*old));
     by_folder_.redo_cut(1, test::options_of(*old));
     ASSERT_TRUE(settle(by_folder_));
@@ -629,9 +630,8 @@ TEST_F(Data, ACutMadeAgainWithTheSameOptionsIsTheSame) {
     ASSERT_TRUE(d.trace->find(1));
     EXPECT_TRUE(without_time(*d.trace->find(1)) == without_time(*old->find(1)));
     EXPECT_EQ(d.trace->cuts.size(), 1u) << "those below are gone";
-    ASSERT_TRUE(by_folder_.cut_before(1));
-    EXPECT_TRUE(to_bytes(*by_folder_.cut_before(1)) == to_bytes(*old->find(1)));
-    EXPECT_EQ(by_folder_.cut_before(2), nullptr) << "it lay below";
+    ASSERT_TRUE(by_folder_.other_document());
+    EXPECT_TRUE(to_bytes(*by_folder_.other_document()->trace->find(1)) == to_bytes(*old->find(1)));
     EXPECT_EQ(d.tree.parts_below(1), (std::vector<NodeId>{2, 3}));
     EXPECT_EQ(d.tree.find(1)->leaves, 2);
     EXPECT_EQ(by_folder_.cells(4), nullptr);
@@ -658,7 +658,8 @@ TEST_F(Data, ACutMadeAgainWithOtherOptionsTakesItsPlace) {
     ASSERT_TRUE(d.trace->find(2) && d.trace->find(2)->made());
     EXPECT_EQ(d.trace->find(2)->plane.normal.cwiseAbs().z(), 1);
     EXPECT_NE(d.trace->find(2)->plane.normal, old->find(2)->plane.normal);
-    EXPECT_TRUE(to_bytes(*by_folder_.cut_before(2)) == to_bytes(*old->find(2)));
+    ASSERT_TRUE(by_folder_.other_document());
+    EXPECT_EQ(by_folder_.other_document()->trace, old);
     EXPECT_LE(d.tree.rows.size(), nodes);
     EXPECT_EQ(d.tree.find(2)->plane()->normal, d.trace->find(2)->plane.normal);
     double volume = 0;

@@ -88,6 +88,37 @@ TEST(ViewState, ReadsBackWhatItHasWritten) {
         EXPECT_TRUE(state_from_json(to_json(state), "it") == state) << to_json(state);
 }
 
+// What it was seen of goes with it, and all of that may be missing.
+TEST(ViewState, KnowsWhatItWasMadeOf) {
+    ViewOrigin origin{"/models/body.stl", {{"parts", "24"}}, 1600, 900, 2, {Vec3(-1, -2, -3), Vec3(4, 5, 6)}}, read,
+        none;
+    EXPECT_TRUE(state_from_json(to_json(unusual_state(), origin), "it", &read) == unusual_state());
+    EXPECT_TRUE(read == origin);
+    state_from_json(to_json(unusual_state()), "it", &none);
+    EXPECT_TRUE(none == ViewOrigin());
+    origin.width = 4;
+    EXPECT_THROW(state_from_json(to_json(unusual_state(), origin), "it"), Error);
+}
+
+// Of another body the camera keeps its direction only.
+TEST(ViewState, FitsAnotherBody) {
+    const Eigen::AlignedBox3d unit(Vec3(0, 0, 0), Vec3(1, 1, 1)), far(Vec3(50, 50, 50), Vec3(70, 60, 60));
+    ViewState state;
+    state.camera = Camera{{0.2, 0.3, 0.4}, Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), 0.1, false};
+    const ViewState before = state;
+    ViewOrigin origin;
+    fit_to_body(state, origin, far, 1.5);
+    EXPECT_TRUE(state == before) << "nobody knows of which body it was";
+    origin.body = unit;
+    fit_to_body(state, origin, {Vec3(0, 0, 0), Vec3(1, 1, 1.001)}, 1.5);
+    EXPECT_TRUE(state == before) << "remeshed";
+    fit_to_body(state, origin, far, 1.5);
+    EXPECT_EQ(state.camera->target, far.center());
+    EXPECT_GT(state.camera->height, 10);
+    EXPECT_TRUE(state.camera->turn.isApprox(before.camera->turn));
+    EXPECT_FALSE(state.camera->perspective);
+}
+
 // Otherwise a field that is neither written nor read would go unnoticed.
 TEST(ViewState, TheUnusualOneDiffersInEveryField) {
     const ViewState usual, unusual = unusual_state();

@@ -10,6 +10,7 @@
 #include "io/text_file.h"
 #include "viewer/app/keys.h"
 #include "viewer/app/settings.h"
+#include "viewer/model/file_kind.h"
 #include "viewer/scene/selection.h"
 
 namespace kerf::view {
@@ -36,7 +37,8 @@ Eigen::AlignedBox3d framed_box(const std::vector<Vec3>& points, double least) {
 std::string unused_picture(const std::string& folder) {
     for (int i = 1;; ++i) {
         const std::string path = fmt::format("{}/kerf-{:03}.png", folder, i);
-        if (!std::filesystem::exists(path)) return path;
+        std::error_code ignored;
+        if (!std::filesystem::exists(path, ignored)) return path;
     }
 }
 
@@ -166,9 +168,26 @@ void App::start_run(const RunOptions& options, bool volume) {
 }
 void App::redo_cut(NodeId node, const RunOptions& options) { session_.redo_cut(node, options); }
 
+// Under the same camera, so that what is alike stays where it is. Numbers of cells mean others there.
+void App::swap_runs() {
+    if (!session_.can_swap_runs()) return;
+    session_.swap_runs();
+    state_.camera = camera_;
+    if (state_.selection.kind != Selection::Kind::place) state_.selection = {};
+    unresolved_.reset();
+    session_changed_ = true;
+    wake();
+}
+
 void App::notify(const std::string& text) {
     facts_.notice = text;
+    facts_.notice_is_error = false;
     notice_until_ = ImGui::GetTime() + seconds_of_notice;
+}
+
+void App::complain(const std::string& text) {
+    facts_.notice = text;
+    facts_.notice_is_error = true;
 }
 
 // A surface that can be cut is cut once, after it was opened.
@@ -267,16 +286,39 @@ void App::build_scene() {
     }
 }
 
-void App::save_picture() {
+ViewOrigin App::origin_of_picture(float scale) const {
+    const Document& document = session_.document();
+    ViewOrigin origin;
+    const bool is_temporary = session_.can_save_run() || document.kind == Document::Kind::surface;
+    const std::string& input = !document.saved_as.empty() ? document.saved_as
+                               : is_temporary             ? document.options.input
+                                                          : document.path;
+    if (!input.empty()) origin.input = absolute_path(input);
+    const std::vector<OptionText> usual = option_texts({}, true);
+    for (const OptionText& option : option_texts(document.options, true))
+        if (is_temporary && document.saved_as.empty() &&
+            std::none_of(usual.begin(), usual.end(),
+                         [&](const OptionText& u) { return u.name == option.name && u.text == option.text; }))
+            origin.run.push_back(option);
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    origin.width = static_cast<int>(size.x);
+    origin.height = static_cast<int>(size.y);
+    origin.scale = static_cast<double>(scale);
+    origin.body = document.box;
+    return origin;
+}
+
+void App::save_picture(float scale) {
     const std::string path = unused_picture(options_.screenshot_folder);
     try {
         write_png(path, renderer_.read());
         ViewState state = state_;
         state.camera = camera_;
-        write_text_file(path.substr(0, path.size() - 4) + ".json", to_json(state));
+        write_text_file(path.substr(0, path.size() - 4) + ".json", to_json(state, origin_of_picture(scale)));
         notify("saved as " + std::filesystem::path(path).lexically_normal().string() + ", its view as .json beside it");
     } catch (const Error& error) {
-        notify(error.what());
+        complain(fmt::format("The picture was not saved: {} Start the viewer in a folder that can be written.",
+                             error.what()));
     }
 }
 
@@ -308,7 +350,6 @@ void App::draw(bool panels) {
     else
         ui_.draw_overlays(context, area_);
     ImGui::Render();
-    settings_.theme = state_.theme;
     // What the panels have changed is part of this picture.
     steps_ = steps_of(session_.document(), shown_state().node);
     build_scene();
@@ -334,11 +375,12 @@ void App::frame(const FrameSize& size, bool panels) {
         mouse = {mouse.x * size.pixels_per_unit_x, mouse.y * size.pixels_per_unit_y};
     if (frames_wanted_ > 0) --frames_wanted_;
     follow_session();
-    if (facts_.notice.size() && ImGui::GetTime() > notice_until_) facts_.notice.clear();
+    const bool is_read = facts_.notice_is_error ? ImGui::IsMouseClicked(0) : ImGui::GetTime() > notice_until_;
+    if (is_read) facts_.notice.clear();
     if (capture_) {
         capture_ = false;
         draw(false);
-        save_picture();
+        save_picture(static_cast<float>(size.scale));
         wake();
     }
     draw(panels);
@@ -357,7 +399,7 @@ bool App::wants_frame() {
     follow_session();
     // Progress in words, a few times a second.
     const auto now = std::chrono::steady_clock::now();
-    const bool tells = session_.document().progress.running || !facts_.notice.empty();
+    const bool tells = session_.document().progress.running || (!facts_.notice.empty() && !facts_.notice_is_error);
     if (settled() && !(tells && now - last_frame_ > std::chrono::milliseconds(300))) return false;
     last_frame_ = now;
     return true;

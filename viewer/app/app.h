@@ -88,6 +88,8 @@ class App : private Actions {
     std::string clipboard() override;
     void start_run(const RunOptions& options, bool volume) override;
     void redo_cut(NodeId node, const RunOptions& options) override;
+    void swap_runs() override;
+    void complain(const std::string& text) override;
 
     void draw(bool panels);
     void follow_session();
@@ -106,7 +108,8 @@ class App : private Actions {
     void play();
     void build_scene();
     ViewState shown_state() const;  ///< as the tree that is known allows
-    void save_picture();
+    void save_picture(float scale);
+    ViewOrigin origin_of_picture(float scale) const;
     void notify(const std::string& text);
 
     AppOptions options_;

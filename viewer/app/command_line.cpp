@@ -166,10 +166,29 @@ bool is_seen_on_surfaces(const std::string& color) {
     return color == "patch" || (!color.empty() && is_of_surface(color_by_from_name(color)));
 }
 
+// What the command line says itself wins; options of a run are of use for its own input only.
+void take_origin(ViewCommand& command) {
+    const ViewOrigin& origin = command.origin;
+    if (command.input.empty()) {
+        command.input = origin.input;
+        const std::int32_t parts = command.run.decompose.parts;
+        const bool is_given = parts != RunOptions().decompose.parts;
+        set_options(command.run, origin.run, "The state");
+        if (is_given) command.run.decompose.parts = parts;
+    }
+    if (origin.width == 0) return;
+    command.width = origin.width;
+    command.height = origin.height;
+    command.scale = static_cast<float>(origin.scale);
+}
+
 void apply(const StateTexts& texts, ViewCommand& command) {
     require_numbers(texts, command);
     ViewState& state = command.state;
-    if (!texts.state_file.empty()) state = state_from_json(read_file(texts.state_file), texts.state_file);
+    if (!texts.state_file.empty()) {
+        state = state_from_json(read_file(texts.state_file), texts.state_file, &command.origin);
+        take_origin(command);
+    }
     if (!texts.camera_file.empty()) state.camera = camera_from_json(read_file(texts.camera_file), texts.camera_file);
     if (texts.node > 0) state.node = texts.node;
     // What only cells have is not to be asked for in vain.
@@ -207,7 +226,10 @@ void apply(const StateTexts& texts, ViewCommand& command) {
     if (!texts.state_file.empty()) command.theme = state.theme;
     if (!texts.theme.empty()) command.theme = texts.theme == "dark" ? Theme::dark : Theme::light;
     state.theme = command.theme.value_or(state.theme);
-    if (!texts.size.empty()) parse_size(texts.size, command);
+    if (!texts.size.empty()) {
+        parse_size(texts.size, command);
+        command.scale = 1;
+    }
     if (!command.clip.empty() && !command.clip.starts_with("node="))
         state.clip = clip_from_text(command.clip, state.clip, {});
 }
@@ -226,11 +248,13 @@ void read_run_config(const std::string& path, RunOptions& run) {
 }  // namespace
 
 bool depends_on_document(const ViewCommand& command) {
-    return command.clip.starts_with("node=") || !command.load_case.empty() || command.good_deformation;
+    const bool has_camera = command.state.camera && !command.origin.body.isEmpty();
+    return has_camera || command.clip.starts_with("node=") || !command.load_case.empty() || command.good_deformation;
 }
 
-void apply_document(const ViewCommand& command, const Document& document, ViewState& state) {
+void apply_document(const ViewCommand& command, const Document& document, double aspect, ViewState& state) {
     if (command.clip.starts_with("node=")) state.clip = clip_from_text(command.clip, command.state.clip, document);
+    fit_to_body(state, command.origin, document.box, aspect);
     if (command.load_case.empty() && !command.good_deformation) return;
     if (!document.solution)
         throw Error(ErrorCode::usage,
@@ -283,8 +307,11 @@ ViewCommand parse_view_command(int argc, const char* const* argv) {
     app.require_subcommand(1);
     CLI::App* view = app.add_subcommand("view", "Open the viewer.");
     view->add_option("input", command.input, "What to open.")->type_name("INPUT");
+    bool no_run = false;
+    view->add_flag("--no-run", no_run, "Only show a surface: it is cut and meshed else.");
     CLI::App* screenshot = app.add_subcommand("screenshot", "Draw a picture without a display.");
-    screenshot->add_option("input", command.input, "What to open.")->type_name("INPUT")->required();
+    screenshot->add_option("input", command.input, "What to open. Default: what --state was made of.")
+        ->type_name("INPUT");
     screenshot->option_defaults()->group("Picture");
     screenshot->add_option("-o,--output", command.output, "PNG file.")->type_name("FILE")->required();
     screenshot->add_option("--size", texts.size, "Pixels of the picture. Default 1280x800.")->type_name("WxH");
@@ -314,7 +341,10 @@ ViewCommand parse_view_command(int argc, const char* const* argv) {
     try {
         app.parse(argc, argv);
         command.screenshot = screenshot->parsed();
+        command.auto_run = !no_run;
         apply(texts, command);
+        if (command.screenshot && command.input.empty())
+            throw Error(ErrorCode::usage, "Say what to draw: an INPUT, or a --state that knows what it was made of.");
         read_run_config(texts.config, command.run);
         if (!texts.surface.empty()) set_options(command.run, {{"surface", texts.surface}}, "The command line");
     } catch (const CLI::ParseError& e) {

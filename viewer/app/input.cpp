@@ -47,6 +47,7 @@ void App::take_character_keys() {
     if (pressed(key_of('F'))) frame_selection();
     if (pressed(key_of('C'))) state_.clip.on = !state_.clip.on;
     if (pressed(key_of('E'))) state_.edges = !state_.edges;
+    if (pressed(key_of('B'))) swap_runs();
     if (pressed(key_space)) toggle_play();
 }
 

@@ -36,6 +36,7 @@ int run(int argc, const char* const* argv) {
     }
     AppOptions options = options_beside_this_program();
     options.run = command.run;
+    options.auto_run = command.auto_run;
     watch_for_interruption();
     if (command.screenshot) {
         take_screenshot(command, options);

@@ -114,11 +114,11 @@ void take_screenshot(const ViewCommand& command, const AppOptions& options) {
     wait_for_document(app, command, deadline);
     const Document& document = app.session().document();
     app.state() = command.state;
-    apply_document(command, document, app.state());
+    apply_document(command, document, static_cast<double>(command.width) / command.height, app.state());
     check_wishes(document, app.state(), command.panels);
     const FrameSize size = {.width = command.width * command.antialias,
                             .height = command.height * command.antialias,
-                            .scale = static_cast<float>(command.antialias)};
+                            .scale = command.scale * static_cast<float>(command.antialias)};
     do {
         deadline.check();
         app.frame(size, command.panels);

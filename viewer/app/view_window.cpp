@@ -22,7 +22,10 @@ int at_scale_1(int pixels, double scale) { return static_cast<int>(std::lround(p
 // Once the document tells what is asked for; false if it does not yet.
 bool apply_when_known(App& app, const ViewCommand& command) {
     try {
-        apply_document(command, app.session().document(), app.state());
+        const Document& document = app.session().document();
+        const Rectangle scene = app.scene_area();
+        if (document.box.isEmpty() || scene.height < 1) return false;
+        apply_document(command, document, static_cast<double>(scene.width / scene.height), app.state());
         return true;
     } catch (const Error&) {
         return false;

@@ -68,6 +68,7 @@ struct MeasureHistogram {
     std::vector<double> edges;                           ///< n + 1
     std::vector<std::int64_t> all, interface, interior;  ///< n
     double min = 0, max = 0, median = 0;
+    double p1 = -1;  ///< 1 % of the cells are below; negative: not known
 };
 
 /// One of the worst cells.
@@ -100,9 +101,11 @@ struct Document {
     std::shared_ptr<const CheckedSoup> checked;  ///< and what is wrong with it, once that is known
     std::shared_ptr<const Trace> trace;          ///< with all stages, if there is one
     Tree tree;
-    std::string folder;                ///< of the parts; empty: none
-    std::optional<Solution> solution;  ///< that was opened, and stands on these parts
-    RunOptions options;                ///< of the run, or those of the next one
+    std::string folder;                          ///< of the parts; empty: none
+    std::string saved_as;                        ///< where Session::save_run() has put a copy of it; empty: nowhere
+    double cut_seconds = -1, mesh_seconds = -1;  ///< of the whole run, wall clock; negative: not known
+    std::optional<Solution> solution;            ///< that was opened, and stands on these parts
+    RunOptions options;                          ///< of the run, or those of the next one
     bool remeshed = false;  ///< the surface that was cut is not that of the file, which is there to compare with
     std::vector<std::string> patch_names;
     std::vector<std::array<std::uint8_t, 4>> patch_colours;  ///< as Soup has them; empty: none

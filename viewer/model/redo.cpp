@@ -125,7 +125,6 @@ RedoneCut redo_cut(Replayer& replayer, NodeId node, RunOptions options) {
         options.use_sizes(read_size_field(options.sizes, old.surface, old.patch_names));
     const Cut* before = old.find(node);
     RedoneCut redone;
-    if (before) redone.before = std::make_shared<const Cut>(*before);
     const std::shared_ptr<const Surface> surface = replayer.uncut_surface(node);
     options.decompose.cut = options.decompose.cut.of(*surface);
     const CutOptions& cut_options = options.decompose.cut;

@@ -11,7 +11,6 @@ namespace kerf::view {
 /// What came of it.
 struct RedoneCut {
     std::shared_ptr<Replayer> replayer;  ///< of the trace with this cut instead of the old one, without those below it
-    std::shared_ptr<const Cut> before;   ///< nullptr if none was tried there
     std::vector<TreeRow> rows;           ///< of the node and, if a cut was made, its halves
 };
 

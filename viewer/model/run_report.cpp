@@ -91,6 +91,7 @@ std::optional<MeasureHistogram> read_histogram(const Json& quality, const char* 
     histogram.min = number(all, "min");
     histogram.max = number(all, "max");
     histogram.median = number(all, "median");
+    histogram.p1 = number(all, "p1");
     const bool is_empty =
         std::all_of(histogram.all.begin(), histogram.all.end(), [](std::int64_t count) { return count == 0; });
     return is_empty ? std::nullopt : std::optional(std::move(histogram));
@@ -115,6 +116,8 @@ RunReportFile report_from_json(const Json& json) {
     for (std::size_t i = 0; i < quality_measures.size(); ++i)
         report.histograms[i] = read_histogram(json.at("quality"), quality_measures[i].name);
     report.seconds = number(json.at("totals"), "wall_seconds");
+    report.cut_seconds = number(json.at("totals"), "decompose_seconds");
+    report.mesh_seconds = number(json.at("totals"), "mesh_seconds");
     report.exit_code = json.at("exit_code").get<int>();
     if (report.exit_code == static_cast<int>(ErrorCode::verification))
         report.notes.push_back("The verification of this run has failed: see its report");

@@ -17,7 +17,8 @@ struct RunReportFile {
     std::int64_t input_facets = 0, input_vertices = 0;
     bool remeshed = false;  ///< the surface that was cut is not that of the file
     double volume = 0;
-    double seconds = 0;  ///< of the whole run
+    double seconds = 0;                          ///< of the whole run
+    double cut_seconds = -1, mesh_seconds = -1;  ///< as in Document
     std::array<std::optional<MeasureHistogram>, 8> histograms;
     std::vector<std::string> notes;
     int exit_code = 0;

@@ -71,11 +71,6 @@ bool Session::Impl::busy() const { return open_.jobs > 0 || data_.jobs > 0 || do
 
 bool Session::Impl::pending() const { return opening_ || !fetching_.empty(); }
 
-const Cut* Session::Impl::cut_before(NodeId node) const {
-    const auto found = before_.find(node);
-    return found == before_.end() ? nullptr : found->second.get();
-}
-
 Session::Session(std::string kerf_program) : impl_(std::make_unique<Impl>(std::move(kerf_program))) {}
 Session::~Session() = default;
 
@@ -89,8 +84,12 @@ const Document& Session::document() const { return impl_->document(); }
 void Session::start_run(RunOptions options, bool volume) { impl_->start_run(std::move(options), volume); }
 void Session::cancel_run() { impl_->cancel_run(); }
 void Session::redo_cut(NodeId node, const RunOptions& options) { impl_->redo_cut(node, options); }
-const Cut* Session::cut_before(NodeId node) const { return impl_->cut_before(node); }
-const Tree& Session::tree_before() const { return impl_->tree_before(); }
+const Document* Session::other_document() const { return impl_->other_document(); }
+bool Session::shows_before() const { return impl_->shows_before(); }
+bool Session::can_swap_runs() const { return impl_->can_swap_runs(); }
+void Session::swap_runs() { impl_->swap_runs(); }
+bool Session::can_save_run() const { return impl_->can_save_run(); }
+void Session::save_run(const std::string& path) { impl_->save_run(path); }
 std::shared_ptr<const NodeSurface> Session::surface(NodeId node) { return impl_->surface(node); }
 std::shared_ptr<const NodeSurface> Session::part_surface(NodeId part) { return impl_->part_surface(part); }
 std::shared_ptr<const SurfaceValues> Session::values_on(const std::shared_ptr<const NodeSurface>& surface,

@@ -46,12 +46,24 @@ class Session {
     void cancel_run();
 
     /// Makes the cut of one node again with other options, in the background; needs a trace. The result takes the
-    /// place of that cut in document().trace, and the one before is kept for comparison; what lay below it is gone.
+    /// place of that cut in document().trace; what lay below it is gone, and so are measures of the whole run.
     void redo_cut(NodeId node, const RunOptions& options);
-    /// The cut of the node before redo_cut(), nullptr if there is none.
-    const Cut* cut_before(NodeId node) const;
-    /// The tree before the last start_run() that was finished, to compare with; empty if there is none.
-    const Tree& tree_before() const;
+
+    /// Once start_run() or redo_cut() has something to show, what was shown before is kept, whole, to compare with:
+    /// the other document, until the next one of these or open(); nullptr if there is none.
+    const Document* other_document() const;
+    /// document() is the one before, other_document() the one after.
+    bool shows_before() const;
+    /// Shows the other document. Not while anything is under way.
+    void swap_runs();
+    bool can_swap_runs() const;
+
+    /// A finished run is open that goes with this session.
+    bool can_save_run() const;
+    /// Copies it, in the background, to a place where it stays, as kerf mesh would have written it there: only a run
+    /// of Kerf is ever replaced. Its trace goes to `path`.trace. At the end Document::saved_as is the folder, or
+    /// failures() says why not.
+    void save_run(const std::string& path);
 
     // What follows returns what is in memory, or nullptr, and then fetches it: poll() says when it is there. The least
     // recently used leave the memory.
@@ -78,7 +90,7 @@ class Session {
     std::shared_ptr<const PartSolution> solution(NodeId part, std::size_t number);
     /// Something that was asked for is being fetched.
     bool pending() const;
-    /// What failed to be fetched, newest last.
+    /// What failed to be fetched or made, newest last, since a run or a cut was last started or shown.
     const std::vector<std::string>& failures() const;
 
  private:

@@ -246,7 +246,6 @@ void Session::Impl::forget_data() {
     replayer_.reset();
     folder_parts_.clear();
     redo_queue_.clear();
-    before_.clear();
 }
 
 // Without its file there is nothing to compare with.
@@ -331,6 +330,7 @@ void Session::Impl::prefetch_surfaces() {
 }
 
 void Session::Impl::redo_cut(NodeId node, const RunOptions& options) {
+    failures_.clear();
     if (!replayer_ || !document_.tree.find(node)) {
         note_failure("A cut can be made again where a trace of the run is open.");
         return;
@@ -357,6 +357,12 @@ void Session::Impl::start_redo() {
 }
 
 void Session::Impl::take_redone(NodeId node, RedoneCut redone) {
+    set_aside(document_);
+    store_.share(other_->store);
+    document_.histograms = {};
+    document_.cut_seconds = document_.mesh_seconds = -1;
+    document_.progress.message.clear();
+    document_.saved_as.clear();
     const auto is_gone = [&](NodeId id) { return id != node && lies_below(id, node); };
     std::erase_if(document_.tree.rows, [&](const TreeRow& row) { return is_gone(row.id); });
     for (TreeRow& row : redone.rows) {
@@ -364,10 +370,7 @@ void Session::Impl::take_redone(NodeId node, RedoneCut redone) {
         document_.tree.at(row.id) = row;
     }
     count_leaves(document_.tree);
-    tree_before_ = {};  // whole runs cannot be compared with this
     std::erase_if(folder_parts_, [&](NodeId id) { return lies_below(id, node); });
-    std::erase_if(before_, [&](const auto& entry) { return is_gone(entry.first); });
-    if (redone.before) before_[node] = redone.before;
     store_.erase_if([&](const Store::Key& key) {
         return key.kind == Store::Kind::worst_cells || key.kind == Store::Kind::on_surface ||
                (key.node > 0 && lies_below(key.node, node));

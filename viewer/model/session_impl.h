@@ -1,5 +1,5 @@
-// The inside of Session, in four parts: what is open (session_open.cpp), runs that are followed (session_run.cpp), what
-// is fetched (session_data.cpp), and the calls from outside (session.cpp).
+// The inside of Session, in five parts: what is open (session_open.cpp), runs that are followed (session_run.cpp), the
+// run before (session_pair.cpp), what is fetched (session_data.cpp), and the calls from outside (session.cpp).
 //
 // The first thread owns all members. Tasks of the loader get copies and shared constants, and give back a completion,
 // which the first thread runs. Tasks belong to a Group; when it is reset, those that wait and all results are dropped.
@@ -43,6 +43,14 @@ class Session::Impl {
     void start_run(RunOptions options, bool volume);
     void cancel_run();
 
+    // session_pair.cpp
+    const Document* other_document() const { return other_ ? &other_->document : nullptr; }
+    bool shows_before() const { return shows_before_; }
+    bool can_swap_runs() const;
+    void swap_runs();
+    bool can_save_run() const;
+    void save_run(const std::string& path);
+
     // session_data.cpp
     void redo_cut(NodeId node, const RunOptions& options);
     std::shared_ptr<const NodeSurface> surface(NodeId node);
@@ -60,8 +68,6 @@ class Session::Impl {
     bool busy() const;
     bool pending() const;
     const Document& document() const { return document_; }
-    const Cut* cut_before(NodeId node) const;
-    const Tree& tree_before() const { return tree_before_; }
     const std::vector<std::string>& failures() const { return failures_; }
 
  private:
@@ -127,8 +133,8 @@ class Session::Impl {
         // Of ours:
         std::shared_ptr<ScratchFolder> scratch;
         bool has_scratch_output = false;
-        RunOptions options;  // as they were asked for
-        Tree tree_before;
+        RunOptions options;              // as they were asked for
+        std::optional<Document> before;  // what was shown; empty: nothing to compare with, or it is in other_
 
         std::string partial() const { return output + ".kerf-partial"; }
     };
@@ -152,6 +158,20 @@ class Session::Impl {
     void apply_state(const PartialRun& state);
     void mark_taken(const std::set<NodeId>& taken);
 
+    static constexpr std::size_t store_bytes = std::size_t{4} << 30, replayer_bytes = std::size_t{1} << 30,
+                                 prefetch_bytes = std::size_t{1} << 30, bytes_aside = std::size_t{1} << 30;
+
+    // --- the run before ---
+    // All that belongs to one document.
+    struct Shown {
+        Document document;
+        std::shared_ptr<Replayer> replayer;
+        std::set<NodeId> folder_parts;
+        std::shared_ptr<ScratchFolder> scratch;
+        Store store{store_bytes};
+    };
+    void set_aside(Document before);
+
     // --- what is fetched ---
     template <class T>
     struct Fetched {
@@ -174,9 +194,6 @@ class Session::Impl {
     void start_redo();
     void take_redone(NodeId node, RedoneCut redone);
 
-    static constexpr std::size_t store_bytes = std::size_t{4} << 30, replayer_bytes = std::size_t{1} << 30,
-                                 prefetch_bytes = std::size_t{1} << 30;
-
     std::string kerf_program_;
     Document document_;
     bool opening_ = false;
@@ -192,9 +209,9 @@ class Session::Impl {
     std::set<NodeId> folder_parts_;       // of which the folder has files that are those of the tree
     std::deque<std::pair<NodeId, RunOptions>> redo_queue_;
     bool redoing_ = false;
-    std::map<NodeId, std::shared_ptr<const Cut>> before_;
 
-    Tree tree_before_;
+    std::optional<Shown> other_;
+    bool shows_before_ = false;
     std::shared_ptr<ScratchFolder> scratch_;  // that the document's folder is in
     std::size_t looks_in_vain_ = 0;           // completions that have changed nothing
     std::optional<Followed> followed_;

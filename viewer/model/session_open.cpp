@@ -79,7 +79,9 @@ std::string note_of_slivers(const CheckedSoup& checked, const std::string& path)
 
 // A run that is made from the options of another one shall not write over its files. Returns where its trace is.
 std::string take_files(RunOptions& options, const std::string& folder) {
-    const std::string trace = options.trace_file.empty() ? "" : existing_path(options.trace_file, folder);
+    std::string trace = options.trace_file.empty() ? "" : existing_path(options.trace_file, folder);
+    std::error_code ignored;
+    if (!trace.empty() && !fs::exists(trace, ignored)) trace = folder + ".trace";  // of a run that the viewer has saved
     for (std::string* file : {&options.report_file, &options.events_file, &options.trace_file}) file->clear();
     return trace;
 }
@@ -106,7 +108,8 @@ void Session::Impl::close() {
     }
     followed_.reset();
     scratch_.reset();
-    tree_before_ = {};
+    other_.reset();
+    shows_before_ = false;
     failures_.clear();
     document_ = {};
     opening_ = false;
@@ -253,6 +256,8 @@ void Session::Impl::complete_from_report(OpenedRun run) {
     for (const std::string& note : report.notes) add_note(note);
     note_remeshing(report.remeshed);
     document_.volume = report.volume;
+    document_.cut_seconds = report.cut_seconds;
+    document_.mesh_seconds = report.mesh_seconds;
     document_.box = run.box;
     document_.patch_names = run.patch_names;
     document_.input_facets = report.input_facets;

@@ -55,6 +55,9 @@ void Session::Impl::start_run(RunOptions options, bool volume) {
     }
     watch_.reset();
     followed_.reset();
+    std::optional<Document> before;
+    if (!document_.progress.running && (document_.trace || !document_.folder.empty())) before = document_;
+    failures_.clear();
     document_.progress = {};
     const std::string input = input_of_next_run();
     if (input.empty() && !document_.trace) {
@@ -73,7 +76,7 @@ void Session::Impl::start_run(RunOptions options, bool volume) {
     options.volume = volume;
     followed_->options = options;
     followed_->has_scratch_output = options.output.empty();
-    if (document_.trace || !document_.folder.empty()) followed_->tree_before = document_.tree;
+    followed_->before = std::move(before);
     const bool checks_again =
         document_.soup && document_.checked && !same_repairs(options.input_options, document_.options.input_options);
     document_.options = options;
@@ -243,10 +246,14 @@ void Session::Impl::load_trace_of_run() {
 
 // From now on the document is about this run. Without a trace the tree follows from the parts.
 void Session::Impl::show_run_under_way(std::shared_ptr<const Trace> trace) {
+    if (followed_->before) set_aside(std::move(*followed_->before));
+    followed_->before.reset();
     forget_data();
     document_.trace.reset();
     document_.folder.clear();
+    document_.saved_as.clear();
     document_.histograms = {};
+    document_.cut_seconds = document_.mesh_seconds = -1;
     document_.tree = {};
     document_.remeshed = false;
     scratch_ = followed_->scratch;
@@ -393,7 +400,6 @@ void Session::Impl::show_result(OpenedRun run) {
         document_.options = followed_->options;
         note_remeshing(document_.remeshed);
     }
-    if (ours) tree_before_ = std::move(followed_->tree_before);
     document_.progress.running = document_.progress.ours = false;
     document_.progress.exit_code = exit_code;
     document_.progress.message = message_of(exit_code, document_.tree);

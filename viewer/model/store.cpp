@@ -31,6 +31,15 @@ void Store::remove(Place entry) {
     entries_.erase(entry);
 }
 
+void Store::share(const Store& other) {
+    for (auto entry = other.entries_.rbegin(); entry != other.entries_.rend(); ++entry)
+        insert(entry->key, entry->value, entry->bytes);
+}
+
+void Store::shrink(std::size_t bytes) {
+    while (bytes_ > bytes) remove(std::prev(entries_.end()));
+}
+
 void Store::clear() {
     entries_.clear();
     places_.clear();

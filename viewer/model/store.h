@@ -36,6 +36,10 @@ class Store {
     };
 
     explicit Store(std::size_t limit_bytes) : limit_(limit_bytes) {}
+    Store(const Store&) = delete;  // places lead into the entries
+    Store& operator=(const Store&) = delete;
+    Store(Store&&) = default;
+    Store& operator=(Store&&) = default;
 
     void next_frame() { ++frame_; }
 
@@ -57,6 +61,11 @@ class Store {
             entry = next;
         }
     }
+
+    /// Holds all that the other one does; the values are the same objects.
+    void share(const Store& other);
+    /// Drops the least recently used, whatever is in use, until they take no more than this.
+    void shrink(std::size_t bytes);
 
     bool holds(const Key& key) const { return places_.contains(key); }
     std::size_t bytes() const { return bytes_; }

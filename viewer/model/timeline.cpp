@@ -95,13 +95,16 @@ std::string describe_edges(const Cut& cut, Stage stage) {
     }
 }
 
-std::string describe_interface(const Cut& cut) {
+std::string describe_interface(const Cut& cut, const TreeRow* row) {
+    const InterfaceQuality quality = row && row->cut ? row->cut->quality : cut.quality;
+    if (quality.angle_deg < 0)
+        return fmt::format("{} triangles, area {:.5g}. The run makes better ones after its last cut.",
+                           grouped(cut.interface.triangles.size()), cut.interface_area);
     return fmt::format(
         "{} triangles, area {:.5g} ({:.3f} of the plane section); smallest angle {:.1f} deg, to the "
         "surface {:.1f} deg.",
         grouped(cut.interface.triangles.size()), cut.interface_area,
-        cut.section_area > 0 ? cut.interface_area / cut.section_area : 0, cut.quality.angle_deg,
-        cut.quality.dihedral_deg);
+        cut.section_area > 0 ? cut.interface_area / cut.section_area : 0, quality.angle_deg, quality.dihedral_deg);
 }
 
 std::string describe_halves(const Document& document, NodeId node) {
@@ -171,7 +174,7 @@ std::string describe_step(const Document& document, NodeId node, const Step& ste
             return row && row->plane() ? describe_plane(*row) : "";
         case Stage::triangulation:
         case Stage::interface:
-            return cut ? describe_interface(*cut) : "";
+            return cut ? describe_interface(*cut, document.tree.find(node)) : "";
         case Stage::split:
             return describe_halves(document, node);
         case Stage::tetrahedra:

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "io/path_text.h"
 
 namespace kerf::view {
 
@@ -203,6 +204,38 @@ void add_switches(Value& value, Fields& fields) {
         fields.emplace_back(name, [place = place](const OrderedJson& j) { *place = j.get<bool>(); });
 }
 
+OrderedJson write(const ViewOrigin& origin) {
+    OrderedJson json = OrderedJson::object();
+    if (!origin.input.empty()) json["input"] = path_text(origin.input);
+    for (const OptionText& option : origin.run) json["run"][option.name] = path_text(option.text);
+    if (origin.width > 0) json["size"] = {origin.width, origin.height, origin.scale};
+    if (!origin.body.isEmpty()) json["body"] = {write(Vec3(origin.body.min())), write(Vec3(origin.body.max()))};
+    return json;
+}
+
+void add_origin(ViewOrigin& origin, Fields& fields, const std::string& source) {
+    fields.emplace_back("input", [&](const OrderedJson& j) { origin.input = path_of_text(j.get<std::string>()); });
+    fields.emplace_back("run", [&](const OrderedJson& j) {
+        for (const auto& [option, text] : j.items())
+            origin.run.push_back({option, path_of_text(text.get<std::string>())});
+    });
+    fields.emplace_back("size", [&, source](const OrderedJson& j) {
+        const auto numbers = j.get<std::array<double, 3>>();
+        const auto is_good = [](double pixels) { return pixels >= 16 && pixels <= 16384; };
+        if (!is_good(numbers[0]) || !is_good(numbers[1]) || !(numbers[2] > 0 && numbers[2] <= 16))
+            throw Error(ErrorCode::usage, fmt::format("{}: 'size' is {}, but it must be width and height in pixels, "
+                                                      "16 to 16384, and the scale of fonts, up to 16.",
+                                                      source, j.dump()));
+        origin.width = static_cast<int>(numbers[0]);
+        origin.height = static_cast<int>(numbers[1]);
+        origin.scale = numbers[2];
+    });
+    fields.emplace_back("body", [&](const OrderedJson& j) {
+        origin.body = Eigen::AlignedBox3d(vector_from(j.at(0)));
+        origin.body.extend(vector_from(j.at(1)));
+    });
+}
+
 OrderedJson parse(const std::string& text, const std::string& source) {
     try {
         return OrderedJson::parse(text);
@@ -259,8 +292,17 @@ Camera camera_from_json(const std::string& text, const std::string& source) {
     return camera_from(parse(text, source), source);
 }
 
-std::string to_json(const ViewState& state) {
-    OrderedJson json = {{"node", state.node}, {"stage", name(state.step)}};
+bool ViewOrigin::operator==(const ViewOrigin& o) const {
+    const auto is_same = [](const OptionText& a, const OptionText& b) { return a.name == b.name && a.text == b.text; };
+    return input == o.input && std::equal(run.begin(), run.end(), o.run.begin(), o.run.end(), is_same) &&
+           width == o.width && height == o.height && scale == o.scale && body.isEmpty() == o.body.isEmpty() &&
+           (body.isEmpty() || (body.min() == o.body.min() && body.max() == o.body.max()));
+}
+
+std::string to_json(const ViewState& state, const ViewOrigin& origin) {
+    OrderedJson json = write(origin);
+    json["node"] = state.node;
+    json["stage"] = name(state.step);
     if (state.camera) json["camera"] = write(*state.camera);
     json["shading"] = shading_names[static_cast<std::size_t>(state.shading)];
     json.update(write_switches(state));
@@ -281,8 +323,9 @@ std::string to_json(const ViewState& state) {
     return json.dump(2) + "\n";
 }
 
-ViewState state_from_json(const std::string& text, const std::string& source) {
+ViewState state_from_json(const std::string& text, const std::string& source, ViewOrigin* origin) {
     ViewState s;
+    ViewOrigin unused;
     const auto unit = [&](const char* field, const OrderedJson& j) {
         const double value = j.get<double>();
         if (!(value >= 0 && value <= 1))
@@ -328,8 +371,16 @@ ViewState state_from_json(const std::string& text, const std::string& source) {
          }},
     };
     add_switches(s, fields);
+    add_origin(origin ? *origin : unused, fields, source);
     read_fields(parse(text, source), fields, source);
     return s;
+}
+
+void fit_to_body(ViewState& state, const ViewOrigin& origin, const Eigen::AlignedBox3d& body, double aspect) {
+    if (!state.camera || origin.body.isEmpty() || body.isEmpty()) return;
+    constexpr double tolerance = 0.01;  // of the diagonal: a surface is remeshed, but the same one
+    const double moved = std::max((origin.body.min() - body.min()).norm(), (origin.body.max() - body.max()).norm());
+    if (moved > tolerance * body.diagonal().norm()) fit(*state.camera, body, aspect);
 }
 
 }  // namespace kerf::view

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cut/cut.h"
+#include "run/options.h"
 #include "viewer/model/camera.h"
 #include "viewer/model/stage.h"
 
@@ -137,10 +138,25 @@ struct ViewState {
     bool operator==(const ViewState&) const = default;
 };
 
+/// What a view was seen of, so that it can be drawn again. In its JSON: "input", "run": {"parts": "8"}, "size": [width,
+/// height, scale], and "body": [lowest corner, highest corner]. What is not known is missing there.
+struct ViewOrigin {
+    std::string input;              ///< absolute path of what was open; empty: not known
+    std::vector<OptionText> run;    ///< of `input`, if that is a surface; those that differ from the defaults
+    int width = 0, height = 0;      ///< of the picture in pixels; 0: not known
+    double scale = 1;               ///< of fonts and lines
+    Eigen::AlignedBox3d body = {};  ///< the box that the camera was made for; empty: not known
+
+    bool operator==(const ViewOrigin& o) const;
+};
+
 /// JSON as people write it; every field may be missing and then has its default.
-std::string to_json(const ViewState& state);
+std::string to_json(const ViewState& state, const ViewOrigin& origin = {});
 /// Throws Error(usage) naming the first field that is unknown or has a value of another kind.
-ViewState state_from_json(const std::string& text, const std::string& source);
+ViewState state_from_json(const std::string& text, const std::string& source, ViewOrigin* origin = nullptr);
+/// Makes the camera of the state, if it has one, fit a body that is another one than that it was made for: the
+/// direction stays. `aspect`: width over height.
+void fit_to_body(ViewState& state, const ViewOrigin& origin, const Eigen::AlignedBox3d& body, double aspect);
 /// "target", "turn" (a quaternion w, x, y, z), "height", "perspective"; for who writes it by hand, "back" (from the
 /// target to the eye) and "up" are read instead of "turn".
 std::string to_json(const Camera& camera);

@@ -1,4 +1,7 @@
-// What a repetition with other options has changed: of one cut, or of the whole run.
+// What a repetition with other options has changed: of one cut, and of the whole run.
+#include <algorithm>
+#include <filesystem>
+
 #include <fmt/format.h>
 
 #include "core/words.h"
@@ -20,7 +23,7 @@ class Table {
         ImGui::TableSetupColumn("##what", ImGuiTableColumnFlags_WidthStretch, 1.5f);
         ImGui::TableSetupColumn("##before");
         ImGui::TableSetupColumn("##now");
-        row("", "before", "now", colors.dim);
+        row("", "A", "B", colors.dim);
     }
     ~Table() {
         if (open_) ImGui::EndTable();
@@ -31,15 +34,15 @@ class Table {
     void add(const char* what, const std::string& before, const std::string& now) {
         row(what, before, now, colors_.text);
     }
-    // The new value is green or red if one of them is better.
+    // The new value is green or red if one of them is better. Negative: not known.
     void add(const char* what, double before, double now, Better better = Better::neither) {
-        const bool same = before == now || better == Better::neither;
+        const bool same = before == now || better == Better::neither || before < 0 || now < 0;
         const bool gain = better == Better::more ? now > before : now < before;
         row(what, number(before), number(now), same ? colors_.text : gain ? colors_.good : colors_.bad);
     }
 
  private:
-    static std::string number(double value) { return fmt::format("{:.5g}", value); }
+    static std::string number(double value) { return value < 0 ? "-" : fmt::format("{:.5g}", value); }
 
     void row(const char* what, const std::string& before, const std::string& now, const ImVec4& color) {
         if (!open_) return;
@@ -56,54 +59,120 @@ class Table {
     bool open_ = false;
 };
 
-void compare_cuts(const Cut& before, const Cut& now, const Palette& colors) {
-    Table table(fmt::format("Cut of node {}", now.node).c_str(), colors);
+bool is_same(const CutSummary& a, const CutSummary& b) {
+    return a.rung == b.rung && a.tries == b.tries && a.contour_edges == b.contour_edges &&
+           a.plane.origin == b.plane.origin && a.plane.normal == b.plane.normal && a.interface_area == b.interface_area;
+}
+
+void compare_cuts(NodeId node, const CutSummary& before, const CutSummary& now, const Palette& colors) {
+    Table table(fmt::format("Cut of node {}", node).c_str(), colors);
     table.add("cut by", in_words(name(before.rung)), in_words(name(now.rung)));
-    table.add("tries", static_cast<double>(before.tries.size()), static_cast<double>(now.tries.size()), Better::less);
+    table.add("tries", before.tries, now.tries, Better::less);
     table.add("contour length", before.contour_length, now.contour_length, Better::less);
     table.add("contour edges", static_cast<double>(before.contour_edges), static_cast<double>(now.contour_edges));
-    table.add("loops", static_cast<double>(before.loops.size()), static_cast<double>(now.loops.size()));
+    table.add("loops", before.loops, now.loops);
     table.add("interface area", before.interface_area, now.interface_area, Better::less);
     table.add("smallest angle", before.quality.angle_deg, now.quality.angle_deg, Better::more);
     table.add("dihedral angle", before.quality.dihedral_deg, now.quality.dihedral_deg, Better::more);
     table.add("off the plane", before.max_deviation, now.max_deviation);
 }
 
-struct Sums {
-    double parts = 0, tets = 0, area = 0, failed = 0;
+// Of a run; negative: not known.
+struct RunNumbers {
+    double parts = 0, failed = 0, tries = 0, tets = 0, area = 0, imbalance = -1, angle = -1;
+    double smallest = -1, percentile = -1, median = -1;  // dihedral angles
 };
 
-Sums sums_of(const Tree& tree) {
-    Sums sums;
-    for (const TreeRow& row : tree.rows) {
-        sums.parts += row.leaf();
-        sums.failed += row.state == NodeState::failed;
-        if (row.leaf() && row.tets > 0) sums.tets += static_cast<double>(row.tets);
-        if (row.plane()) sums.area += row.cut->interface_area;
+RunNumbers numbers_of(const Document& document) {
+    RunNumbers n;
+    double load = 0, largest_load = 0;
+    bool has_loads = true;
+    for (const TreeRow& row : document.tree.rows) {
+        if (row.cut) n.tries += row.cut->tries;
+        if (row.plane()) n.area += row.cut->interface_area;
+        if (row.plane() && row.cut->quality.angle_deg >= 0)
+            n.angle = n.angle < 0 ? row.cut->quality.angle_deg : std::min(n.angle, row.cut->quality.angle_deg);
+        if (!row.leaf()) continue;
+        ++n.parts;
+        n.failed += row.state == NodeState::failed;
+        if (row.tets > 0) n.tets += static_cast<double>(row.tets);
+        has_loads &= row.load > 0;
+        load += row.load;
+        largest_load = std::max(largest_load, row.load);
     }
-    return sums;
+    if (has_loads && load > 0) n.imbalance = largest_load * n.parts / load;
+    if (const auto& angles = document.histograms[0]) {
+        n.smallest = angles->min;
+        n.percentile = angles->p1;
+        n.median = angles->median;
+    }
+    return n;
 }
 
-void compare_runs(const Tree& before, const Tree& now, const Palette& colors) {
-    const Sums old_sums = sums_of(before), new_sums = sums_of(now);
+std::string count_text(double count) { return count > 0 ? compact(count) : "-"; }
+
+void compare_runs(const Document& before, const Document& now, const Palette& colors) {
+    const RunNumbers a = numbers_of(before), b = numbers_of(now);
     Table table("Run", colors);
-    table.add("parts", old_sums.parts, new_sums.parts);
-    table.add("tetrahedra", compact(old_sums.tets), compact(new_sums.tets));
-    table.add("interface area", old_sums.area, new_sums.area, Better::less);
-    if (old_sums.failed > 0 || new_sums.failed > 0)
-        table.add("failed parts", old_sums.failed, new_sums.failed, Better::less);
+    table.add("parts", a.parts, b.parts);
+    table.add("tries", a.tries, b.tries, Better::less);
+    table.add("cutting, s", before.cut_seconds, now.cut_seconds, Better::less);
+    table.add("meshing, s", before.mesh_seconds, now.mesh_seconds, Better::less);
+    table.add("load imbalance", a.imbalance, b.imbalance, Better::less);
+    table.add("tetrahedra", count_text(a.tets), count_text(b.tets));
+    table.add("smallest dihedral", a.smallest, b.smallest, Better::more);
+    table.add("1 % are below", a.percentile, b.percentile, Better::more);
+    table.add("median dihedral", a.median, b.median, Better::more);
+    table.add("interface angle", a.angle, b.angle, Better::more);
+    table.add("interface area", a.area, b.area, Better::less);
+    if (a.failed > 0 || b.failed > 0) table.add("failed parts", a.failed, b.failed, Better::less);
+}
+
+// Which of the two is shown.
+void draw_switch(UiContext& context) {
+    const bool shows_before = context.session.shows_before();
+    ImGui::BeginDisabled(!context.session.can_swap_runs());
+    const bool wants_a = context.widgets.radio("A##run", shows_before);
+    explain("What was there before the last run or cut was made, under the same camera (key B)");
+    ImGui::SameLine();
+    const bool wants_b = context.widgets.radio("B##run", !shows_before);
+    explain("What the last run or cut has made (key B)");
+    ImGui::EndDisabled();
+    if ((wants_a && !shows_before) || (wants_b && shows_before)) context.actions.swap_runs();
+}
+
+void draw_saving(UiContext& context, Memory& memory) {
+    Session& session = context.session;
+    const Document& document = session.document();
+    const Palette& colors = palette(context.state.theme);
+    if (!document.saved_as.empty()) show_wrapped("Saved as " + document.saved_as, colors.dim);
+    if (!session.can_save_run()) return;
+    if (memory.save_of != document.path) {
+        memory.save_of = document.path;
+        memory.save_to = std::filesystem::path(document.options.input).replace_extension().string() + "_run";
+    }
+    context.widgets.input_text("Save to", &memory.save_to);
+    if (context.widgets.button("Save run", "Keeps this run, which is removed else when the viewer ends"))
+        session.save_run(memory.save_to);
 }
 
 }  // namespace
 
-void draw_comparison(UiContext& context) {
-    const Document& document = context.session.document();
+void draw_comparison(UiContext& context, Memory& memory) {
+    const Session& session = context.session;
     const Palette& colors = palette(context.state.theme);
-    const Cut* before = context.session.cut_before(context.state.node);
-    const Cut* now = document.trace ? document.trace->find(context.state.node) : nullptr;
-    if (before && now) compare_cuts(*before, *now, colors);
-    const Tree& tree_before = context.session.tree_before();
-    if (!tree_before.rows.empty() && !document.progress.running) compare_runs(tree_before, document.tree, colors);
+    const Document *other = session.other_document(), *shown = &session.document();
+    if (other && !shown->progress.running) {
+        const Document &before = session.shows_before() ? *shown : *other,
+                       &now = session.shows_before() ? *other : *shown;
+        draw_switch(context);
+        const NodeId node = context.state.node;
+        const TreeRow *old_row = before.tree.find(node), *new_row = now.tree.find(node);
+        if (old_row && new_row && old_row->cut && new_row->cut && !is_same(*old_row->cut, *new_row->cut))
+            compare_cuts(node, *old_row->cut, *new_row->cut, colors);
+        compare_runs(before, now, colors);
+    }
+    draw_saving(context, memory);
 }
 
 }  // namespace kerf::view

@@ -24,6 +24,7 @@ constexpr Key stepping[] = {{"Left, right", "previous step, next step"},
                             {"Space", "play the steps, or pause"},
                             {"C", "clip plane on or off"},
                             {"E", "edges on or off"},
+                            {"B", "the run before, or the one after"},
                             {"Escape", "select nothing, close a dialog"}};
 constexpr Key files[] = {{"Ctrl+O", "open a file or folder"},
                          {"Ctrl+R", "read it again"},

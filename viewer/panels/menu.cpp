@@ -42,12 +42,11 @@ void draw_file_menu(UiContext& context, Memory& memory) {
     end_menu(w, "File");
 }
 
-void paste_camera(UiContext& context, Memory& memory) {
-    memory.message.clear();
+void paste_camera(UiContext& context) {
     try {
         context.state.camera = camera_from_json(context.actions.clipboard(), "the clipboard");
     } catch (const Error& error) {
-        memory.message = error.what();
+        context.actions.complain(error.what());
     }
 }
 
@@ -68,7 +67,7 @@ void draw_views(UiContext& context) {
     if (context.widgets.menu_item("Perspective", "5", &camera.perspective)) context.state.camera = camera;
 }
 
-void draw_view_menu(UiContext& context, Memory& memory) {
+void draw_view_menu(UiContext& context) {
     Widgets& w = context.widgets;
     if (!begin_menu(w, "View")) return;
     Panels& panels = context.state.panels;
@@ -89,7 +88,7 @@ void draw_view_menu(UiContext& context, Memory& memory) {
     draw_views(context);
     ImGui::Separator();
     if (w.menu_item("Copy camera")) context.actions.copy(to_json(context.camera));
-    if (w.menu_item("Paste camera")) paste_camera(context, memory);
+    if (w.menu_item("Paste camera")) paste_camera(context);
     end_menu(w, "View");
 }
 
@@ -107,7 +106,7 @@ void draw_menu(UiContext& context, Memory& memory) {
     ImGui::PopStyleVar();
     if (!shown) return;
     draw_file_menu(context, memory);
-    draw_view_menu(context, memory);
+    draw_view_menu(context);
     draw_help_menu(context);
     const Document& document = context.session.document();
     ImGui::SameLine(0, 1.5f * em());

@@ -30,6 +30,9 @@ class Actions {
     virtual std::string clipboard() = 0;
     virtual void start_run(const RunOptions& options, bool volume) = 0;
     virtual void redo_cut(NodeId node, const RunOptions& options) = 0;
+    virtual void swap_runs() = 0;
+    /// Shows what could not be done, until the next notice or click.
+    virtual void complain(const std::string& text) = 0;
 };
 
 /// What the scene knows that panels show.
@@ -41,6 +44,7 @@ struct SceneFacts {
     std::string selection;                  ///< what is selected, as lines of text; empty: nothing
     std::int64_t triangles = 0, lines = 0;  ///< drawn
     std::string notice;                     ///< e.g. "saved as kerf-001.png"; shown for some seconds
+    bool notice_is_error = false;
     bool playing = false;
     bool pending = false;  ///< something that is to be shown is still being read
 };

@@ -151,7 +151,7 @@ void draw_parameters(UiContext& context, Memory& memory) {
     const std::string wrong = complaint(memory.options);
     draw_buttons(context, memory, wrong.empty());
     draw_remark(wrong, palette(context.state.theme));
-    draw_comparison(context);
+    draw_comparison(context, memory);
     draw_group(context, memory, "Parts and cells", Group::parts);
     draw_group(context, memory, "Surface", Group::input);
     draw_group(context, memory, "Running", Group::running);

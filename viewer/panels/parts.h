@@ -33,7 +33,6 @@ struct FileBrowser {
 
 /// What ImGui does not keep for us.
 struct Memory {
-    std::string message;  ///< of what the user interface itself could not do; until the next try
     FileBrowser browser;
     NodeId scrolled_to = 0;  ///< node that the tree has been scrolled to
     int defect_group = -1;   ///< kind and severity of the only defects that are listed; -1: all
@@ -46,6 +45,7 @@ struct Memory {
     RunOptions options;                 ///< as edited
     std::string options_of;             ///< path and options of the document that they were taken from
     bool parameters_open = false;
+    std::string save_to, save_of;  ///< where a run is to be saved, as typed; path of the document
 };
 
 void draw_menu(UiContext& context, Memory& memory);
@@ -58,9 +58,9 @@ void draw_color(UiContext& context, Memory& memory);
 void draw_histogram(UiContext& context, Memory& memory);
 void draw_worst_cells(UiContext& context);
 void draw_parameters(UiContext& context, Memory& memory);
-void draw_comparison(UiContext& context);
+void draw_comparison(UiContext& context, Memory& memory);
 void draw_timeline(UiContext& context);
-void draw_status(UiContext& context, Memory& memory);
+void draw_status(UiContext& context);
 void draw_browser(UiContext& context, Memory& memory);
 void draw_keys(UiContext& context);
 void draw_welcome(UiContext& context, const Rectangle& scene);

@@ -26,11 +26,11 @@ struct Message {
 };
 
 // The most urgent thing.
-Message left_message(UiContext& context, const Memory& memory) {
+Message left_message(UiContext& context) {
     const Document& document = context.session.document();
     const Palette& colors = palette(context.state.theme);
-    if (!memory.message.empty()) return {memory.message, colors.bad};
-    if (!context.facts.notice.empty()) return {context.facts.notice, colors.accent};
+    if (!context.facts.notice.empty())
+        return {context.facts.notice, context.facts.notice_is_error ? colors.bad : colors.accent};
     if (!document.error.empty()) return {document.error, colors.bad};
     if (!document.progress.running && !document.progress.message.empty())
         return {document.progress.message, colors.bad};
@@ -95,12 +95,11 @@ void draw_progress(UiContext& context) {
 
 }  // namespace
 
-void draw_status(UiContext& context, Memory& memory) {
+void draw_status(UiContext& context) {
     const Palette& colors = palette(context.state.theme);
     ImGui::SetCursorPosY((ImGui::GetWindowHeight() - ImGui::GetTextLineHeight()) / 2);
     const bool running = context.session.document().progress.running;
-    const Message message = left_message(context, memory);
-    if (ImGui::IsMouseClicked(0)) memory.message.clear();  // it has been read
+    const Message message = left_message(context);
     show(shortened(message.text, (running ? 0.45f : 0.85f) * ImGui::GetWindowWidth()), message.color);
     explain(message.text);
     if (running) return draw_progress(context);

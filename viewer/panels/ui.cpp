@@ -129,7 +129,7 @@ void Ui::draw(UiContext& context, float width, float height) {
     }
     begin_place("##status", layout.status);
     draw_border(layout.status, ImGuiDir_Up);
-    draw_status(context, impl_->memory);
+    draw_status(context);
     ImGui::End();
     draw_overlays(context, layout.scene);
     if (has_body(context.session.document())) draw_clip_handles(context, layout.scene);
