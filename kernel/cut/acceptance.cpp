@@ -27,7 +27,7 @@ class InterfaceJudge {
     InterfaceJudge(const Surface& surface, const Band& band, const Interface& interface);
 
     std::vector<std::int32_t> chords() const;
-    std::vector<std::int32_t> intersections(const Poll& poll);
+    std::vector<std::int32_t> intersections(const Poll& poll, std::vector<Collision>& collisions);
     // Quality, with the vertices below the thresholds of the options.
     InterfaceQuality measure(const CutOptions& options, std::vector<std::int32_t>& soft);
 
@@ -127,14 +127,18 @@ std::vector<std::int32_t> InterfaceJudge::chords() const {
     return vertices;
 }
 
-std::vector<std::int32_t> InterfaceJudge::intersections(const Poll& poll) {
+std::vector<std::int32_t> InterfaceJudge::intersections(const Poll& poll, std::vector<Collision>& collisions) {
     std::vector<std::int32_t> vertices;
+    const auto keep = [&](const std::array<Vec3, 3>& first, const std::array<Vec3, 3>& second) {
+        if (collisions.size() < max_collisions) collisions.push_back({first, second});
+    };
     for (const NearFacet& f : slab_) {
         const Triangle t = surface_.vertices(f.facet);
         grid_.for_each_overlap(f.box.grown(rounding_), [&](std::int32_t i) {
             if (low_[i] > f.high + rounding_ || high_[i] < f.low - rounding_) return;
             const Triangle& s = interface_.triangles[i];
             if (!triangles_intersect(corners(s), ids(s), facet_corners(t), t)) return;
+            keep(corners(s), facet_corners(t));
             vertices.insert(vertices.end(), t.begin(), t.end());
             add_contour_corners(s, vertices);
         });
@@ -145,6 +149,7 @@ std::vector<std::int32_t> InterfaceJudge::intersections(const Poll& poll) {
             if (static_cast<std::size_t>(j) <= i) return;
             const Triangle &s = interface_.triangles[i], &t = interface_.triangles[j];
             if (!triangles_intersect(corners(s), ids(s), corners(t), ids(t))) return;
+            keep(corners(s), corners(t));
             add_contour_corners(s, vertices);
             add_contour_corners(t, vertices);
         });
@@ -243,8 +248,8 @@ Verdict judge_interface(const Surface& surface, const Band& band, const Interfac
         return verdict;
     }
     options.poll();
-    verdict.failed = judge.intersections(options.poll);
-    if (!verdict.failed.empty()) {
+    verdict.failed = judge.intersections(options.poll, verdict.collisions);
+    if (!verdict.collisions.empty()) {  // which may lie off the contour, and then at no vertex of the surface
         verdict.refusal = Refusal::intersection;
         return verdict;
     }

@@ -11,8 +11,9 @@ namespace kerf {
 /// What was found about an interface.
 struct Verdict {
     Refusal refusal = Refusal::none;
-    std::vector<std::int32_t> failed;  ///< vertices of the surface at the failure
-    InterfaceQuality quality;          ///< set if the refusal is none or soft
+    std::vector<std::int32_t> failed;        ///< vertices of the surface at the failure
+    InterfaceQuality quality;                ///< set if the refusal is none or soft
+    std::vector<Collision> collisions = {};  ///< of an intersection, at most max_collisions
 };
 
 /// Checks an interface, which must have triangles, against the surface that it cuts: no edge off the contour in common,

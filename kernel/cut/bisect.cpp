@@ -203,6 +203,7 @@ void PlaneTrial::span_interface(Attempt& attempt) const {
         spanned = better(std::move(spanned), span(attempt, ContourLayout::unfolded));
     attempt.interface = std::move(spanned.interface);
     attempt.record.quality = spanned.verdict.quality;
+    if (record_) attempt.record.collisions = std::move(spanned.verdict.collisions);
     if (spanned.verdict.refusal != Refusal::none)
         refuse(attempt, spanned.verdict.refusal, std::move(spanned.verdict.failed));
 }
@@ -229,6 +230,7 @@ void PlaneTrial::complete(Attempt& attempt) const {
 Attempt PlaneTrial::attempt(std::int32_t repair) {
     Attempt attempt;
     attempt.record.plane = candidate_.plane;
+    attempt.record.method = options_.contour;
     attempt.record.axis = candidate_.axis;
     attempt.record.step = candidate_.step;
     attempt.record.repair = repair;

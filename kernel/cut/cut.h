@@ -90,20 +90,35 @@ struct InterfaceQuality {
 /// An edge of the parent surface by its vertices; a contour edge has the half below on its left.
 using SurfaceEdge = std::array<std::int32_t, 2>;
 
-/// One attempt: a plane, a round of local repair, and what came of it.
-struct CutTry {
-    Plane plane;
-    std::int32_t axis = 0;    ///< principal axis, 0 the longest direction
-    std::int32_t step = 0;    ///< step along the axis, 0 at the load's bisection
-    std::int32_t repair = 0;  ///< round of local repair
-    Refusal refusal = Refusal::none;
-    std::vector<Vec3> places;          ///< where it failed
-    std::vector<SurfaceEdge> contour;  ///< pinched ones too; empty without a listener
-    InterfaceQuality quality;          ///< meaningful if refusal is none or soft
+/// Two triangles that meet where they must not.
+struct Collision {
+    std::array<Vec3, 3> first;   ///< of the interface; of a straight cut: a facet that it has split
+    std::array<Vec3, 3> second;  ///< a facet of the surface, or another triangle like the first
 
     template <class Archive>
     void archive(Archive& a) {
-        a(plane, axis, step, repair, refusal, places, contour, quality);
+        for (std::size_t i = 0; i < 3; ++i) a(first[i], second[i]);
+    }
+};
+inline constexpr std::size_t max_collisions = 1000;  ///< of a try that are kept
+
+/// One attempt: a plane, a round of local repair, and what came of it.
+struct CutTry {
+    Plane plane;
+    ContourMethod method = ContourMethod::min_cut;  ///< by which its contour was sought
+    std::int32_t axis = 0;    ///< rank of the direction, 0 is tried first; of a straight cut: coordinate axis
+    std::int32_t step = 0;    ///< step along the axis, 0 at the load's bisection; of a straight cut: rank of the plane
+    std::int32_t repair = 0;  ///< round of local repair
+    Refusal refusal = Refusal::none;
+    std::vector<Vec3> places;           ///< where it failed
+    std::vector<Collision> collisions;  ///< if refused for an intersection, the first of them; empty without a
+                                        ///< listener, but for the one of a straight cut
+    std::vector<SurfaceEdge> contour;   ///< pinched ones too; empty without a listener
+    InterfaceQuality quality;           ///< meaningful if refusal is none or soft
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(plane, method, axis, step, repair, refusal, places, collisions, contour, quality);
     }
 };
 

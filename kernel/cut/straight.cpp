@@ -147,25 +147,33 @@ Refusal span_plane(const Surface& parent, Cut& cut) {
     return planar.refusal;
 }
 
-// Whether a piece of a split or of an untested facet meets another facet.
-bool intersects(const PlaneSplit& split, const std::vector<char>& untested) {
+// A piece of a split or of an untested facet that meets another facet, with that.
+std::vector<Collision> first_collision(const PlaneSplit& split, const std::vector<char>& untested) {
     const std::vector<std::int32_t>& parent = split.parent;
     std::vector<char> chosen(parent.size(), 0);
     for (std::size_t i = 0; i < parent.size(); ++i)
         chosen[i] = (!untested.empty() && untested[parent[i]]) || (i > 0 && parent[i - 1] == parent[i]) ||
                     (i + 1 < parent.size() && parent[i + 1] == parent[i]);
-    return !find_intersections_of(chosen, split.arrays.vertices, split.arrays.facets, 1).empty();
+    const auto corners = [&](std::int32_t facet) -> std::array<Vec3, 3> {
+        const Triangle& t = split.arrays.facets[facet];
+        return {split.arrays.vertices[t[0]], split.arrays.vertices[t[1]], split.arrays.vertices[t[2]]};
+    };
+    std::vector<Collision> found;
+    for (const auto& [a, b] : find_intersections_of(chosen, split.arrays.vertices, split.arrays.facets, 1))
+        found.push_back(chosen[a] ? Collision{corners(a), corners(b)} : Collision{corners(b), corners(a)});
+    return found;
 }
 
 Refusal try_plane(const Surface& surface, const StraightPlane& plane, const std::vector<char>& untested,
-                  StraightCut& result) {
+                  StraightCut& result, std::vector<Collision>& collisions) {
     Cut& cut = result.cut;
     cut.plane = coordinate_plane(plane.axis, plane.height);
     std::optional<PlaneSplit> split = split_at_plane(surface, plane.axis, plane.height, cut.node);
     if (!split) return Refusal::coincident_vertices;
     result.split = std::move(*split);
     const SurfaceArrays& arrays = result.split.arrays;
-    if (intersects(result.split, untested)) return Refusal::intersection;
+    collisions = first_collision(result.split, untested);
+    if (!collisions.empty()) return Refusal::intersection;
     result.parent = Surface(SurfaceArrays(arrays));
     const std::vector<SurfaceEdge> edges = contour_of(result.parent, result.split);
     if (edges.empty()) return Refusal::empty_side;
@@ -206,8 +214,9 @@ std::optional<StraightCut> cut_straight(const Surface& surface, NodeId node, dou
         StraightCut result;
         result.cut.node = node;
         CutTry record;
-        record.refusal = try_plane(surface, plane, untested, result);
+        record.refusal = try_plane(surface, plane, untested, result, record.collisions);
         record.plane = result.cut.plane;
+        record.method = ContourMethod::straight;
         record.axis = plane.axis;
         record.step = step++;
         tries.push_back(record);

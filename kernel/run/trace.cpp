@@ -18,7 +18,7 @@ namespace kerf {
 namespace {
 
 constexpr std::uint64_t trace_magic = 0x636172746672656b;  // "kerftrac" in little-endian order
-constexpr std::uint32_t trace_version = 4;  // is raised whenever a field of the record is added, dropped or changed
+constexpr std::uint32_t trace_version = 5;  // is raised whenever a field of the record is added, dropped or changed
 
 struct TraceHeader {
     std::uint64_t magic = trace_magic;

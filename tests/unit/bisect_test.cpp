@@ -104,7 +104,10 @@ TEST_P(Bisections, LoadIsNearTheWantedOne) {
 Bytes bytes_of(Bisection& result) {
     result.cut.side.clear();
     result.cut.stages = {};
-    for (CutTry& attempt : result.cut.tries) attempt.contour.clear();
+    for (CutTry& attempt : result.cut.tries) {
+        attempt.contour.clear();
+        attempt.collisions.clear();
+    }
     result.cut.seconds = 0;
     Bytes bytes = to_bytes(result.cut);
     for (const Surface& half : result.halves) {

@@ -12,6 +12,7 @@
 #include "support/shapes.h"
 #include "support/temporary_folder.h"
 #include "support/trace_options.h"
+#include "surface/intersections.h"
 
 namespace kerf {
 namespace {
@@ -109,6 +110,16 @@ bool has_places(Refusal refusal) {
     return refusal != Refusal::none && refusal != Refusal::empty_side && refusal != Refusal::flow_limit;
 }
 
+// Corners in one place are one vertex.
+bool do_collide(const Collision& pair) {
+    Triangle second;
+    for (std::int32_t i = 0; i < 3; ++i) {
+        const auto same = std::find(pair.first.begin(), pair.first.end(), pair.second[i]);
+        second[i] = same == pair.first.end() ? 3 + i : static_cast<std::int32_t>(same - pair.first.begin());
+    }
+    return triangles_intersect(pair.first, {0, 1, 2}, pair.second, second);
+}
+
 TEST(TracedTries, SayWhereTheyFailedAndOnWhichContour) {
     Witness witness;
     DecomposeOptions options;
@@ -121,6 +132,8 @@ TEST(TracedTries, SayWhereTheyFailedAndOnWhichContour) {
             ++refused;
             EXPECT_FALSE(attempt.places.empty()) << node << " " << name(attempt.refusal);
             EXPECT_FALSE(attempt.contour.empty()) << node << " " << name(attempt.refusal);
+            EXPECT_EQ(attempt.collisions.empty(), attempt.refusal != Refusal::intersection) << node;
+            for (const Collision& pair : attempt.collisions) EXPECT_TRUE(do_collide(pair)) << node;
         }
     EXPECT_GT(refused, 0) << "choose an asset with a refused try";
 }
@@ -169,7 +182,7 @@ TEST_F(TraceFile, ForeignFilesAreRefused) {
     expect_refused(std::string(1000, '\0'), "no trace of Kerf");
     std::string newer = good_;
     ++newer[sizeof(std::uint64_t)];
-    expect_refused(newer, "reads format 4");
+    expect_refused(newer, "reads format 5");
     std::filesystem::remove(path_);
     EXPECT_THROW(read_trace(path_), Error);
 }
@@ -199,7 +212,7 @@ TEST(TraceLayout, NeedsANewVersionWhenItChanges) {
     Trace trace;
     trace.cuts.resize(1);
     trace.cuts[0].tries.resize(1);
-    EXPECT_EQ(to_bytes(trace).size(), 569u) << "raise trace_version in run/trace.cpp, then correct this number";
+    EXPECT_EQ(to_bytes(trace).size(), 581u) << "raise trace_version in run/trace.cpp, then correct this number";
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include "viewer/model/timeline.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -49,15 +51,31 @@ bool is_meshed(const Document& document, NodeId node) {
     return false;
 }
 
-std::string describe_try(const CutTry& attempt, std::size_t number, std::size_t count) {
+std::string counted(std::int64_t n, const char* noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
+
+// Planes are moved along their normal, which points into the half above.
+std::string describe_plane_of(const CutTry& attempt, NodeId node) {
+    if (attempt.method == ContourMethod::straight)
+        return fmt::format("straight across {}, choice {} of the planes", "xyz"[std::clamp(attempt.axis, 0, 2)],
+                           attempt.step + 1);
+    constexpr std::array<const char*, 3> ordinals = {"first", "second", "third"};
+    std::string text = fmt::format("{} axis, ", ordinals[static_cast<std::size_t>(std::clamp(attempt.axis, 0, 2))]);
+    text += attempt.step == 0 ? "the plane in its first place"
+                              : fmt::format("the plane moved {} into the half of node {}",
+                                            counted(std::abs(attempt.step), "step"), 2 * node + (attempt.step > 0));
+    return text + (attempt.repair == 0 ? ", no repairs yet" : ", after " + counted(attempt.repair, "repair"));
+}
+
+std::string describe_try(const CutTry& attempt, std::size_t number, std::size_t count, NodeId node) {
     std::string text = fmt::format("Refused: {}", in_words(name(attempt.refusal)));
-    if (!attempt.places.empty())
-        text += fmt::format(" at {} place{}", attempt.places.size(), attempt.places.size() == 1 ? "" : "s");
+    if (!attempt.places.empty()) text += " at " + counted(std::ssize(attempt.places), "place");
+    if (!attempt.collisions.empty())
+        text += fmt::format(", {}{} of triangles", attempt.collisions.size() < max_collisions ? "" : "at least ",
+                            counted(std::ssize(attempt.collisions), "pair"));
     if (attempt.refusal == Refusal::soft)
         text += fmt::format(" (dihedral {:.1f} deg, angle {:.1f} deg, gap {:.2f})", attempt.quality.dihedral_deg,
                             attempt.quality.angle_deg, attempt.quality.gap_rel);
-    return text + fmt::format(". Try {} of {}: axis {}, step {}, repair {}.", number + 1, count, attempt.axis,
-                              attempt.step, attempt.repair);
+    return text + fmt::format(". Try {} of {}: {}.", number + 1, count, describe_plane_of(attempt, node));
 }
 
 std::string describe_input(const Document& document, const TreeRow* row) {
@@ -89,9 +107,13 @@ std::string describe_edges(const Cut& cut, Stage stage) {
         case Stage::paths_removed:
             return count(cut.stages.multiple_paths_removed) + ": no vertex has more than two of them.";
         default:
-            return fmt::format("{} edges in {} loop{}, length {:.5g}; at most {:.3g} off the plane.",
-                               grouped(cut.contour_edges), cut.loops.size(), cut.loops.size() == 1 ? "" : "s",
-                               cut.contour_length, cut.max_deviation);
+            if (cut.method == ContourMethod::straight)
+                return fmt::format("Straight contour: {} edges in {}, length {:.5g}, in the plane; facets were split.",
+                                   grouped(cut.contour_edges), counted(std::ssize(cut.loops), "loop"),
+                                   cut.contour_length);
+            return fmt::format("{} edges in {}, length {:.5g}; at most {:.3g} off the plane.",
+                               grouped(cut.contour_edges), counted(std::ssize(cut.loops), "loop"), cut.contour_length,
+                               cut.max_deviation);
     }
 }
 
@@ -163,7 +185,7 @@ std::string describe_step(const Document& document, NodeId node, const Step& ste
     if (step.refused_try >= 0) {
         const auto number = static_cast<std::size_t>(step.refused_try);
         if (!cut || number >= cut->tries.size()) return "";
-        return describe_try(cut->tries[number], number, cut->tries.size());
+        return describe_try(cut->tries[number], number, cut->tries.size(), node);
     }
     switch (step.stage) {
         case Stage::before_remeshing:
@@ -182,6 +204,29 @@ std::string describe_step(const Document& document, NodeId node, const Step& ste
         default:
             return cut ? describe_edges(*cut, step.stage) : "";
     }
+}
+
+bool has_no_stages(const Document& document, NodeId node) {
+    const TreeRow* row = document.tree.find(node);
+    return !document.progress.running && !document.trace && row && row->state == NodeState::divided;
+}
+
+std::vector<FailurePlace> failure_places(const Document& document, NodeId node, const Step& step) {
+    const Cut* cut = document.trace ? document.trace->find(node) : nullptr;
+    const auto number = static_cast<std::size_t>(step.refused_try);
+    std::vector<FailurePlace> places;
+    if (!cut || step.refused_try < 0 || number >= cut->tries.size()) return places;
+    const CutTry& attempt = cut->tries[number];
+    for (const Collision& pair : attempt.collisions) {
+        FailurePlace& place = places.emplace_back();
+        for (const Vec3& p : pair.first) place.where += p / 6;
+        for (const Vec3& p : pair.second) place.where += p / 6;
+        for (const auto& triangle : {pair.first, pair.second})
+            for (const Vec3& p : triangle) place.radius = std::max(place.radius, (p - place.where).norm());
+    }
+    if (attempt.collisions.empty())
+        for (const Vec3& p : attempt.places) places.push_back({p, 0});
+    return places;
 }
 
 NodeId next_node(const Tree& tree, NodeId node, int direction) {

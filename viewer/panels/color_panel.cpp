@@ -162,6 +162,7 @@ void draw_color(UiContext& context, Memory& memory) {
         ImGui::Spacing();
     }
     draw_worst_cells(context);
+    draw_worst_interfaces(context, memory);
 }
 
 }  // namespace kerf::view

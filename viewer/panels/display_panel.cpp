@@ -36,6 +36,21 @@ void draw_switches(UiContext& context) {
     }
 }
 
+// Elsewhere it would do nothing, and not say so.
+void draw_explode(UiContext& context) {
+    const Document& document = context.session.document();
+    const Step& step = context.state.step;
+    const bool has_pieces = document.tree.rows.size() > 1 && step.refused_try < 0 &&
+                            (step.stage == Stage::split || step.stage == Stage::tetrahedra);
+    ImGui::BeginDisabled(!has_pieces);
+    context.widgets.slider("Explode", &context.state.explode, 0, 1);
+    ImGui::EndDisabled();
+    explain(has_pieces                       ? "Pulls the pieces apart across the planes of the cuts"
+            : document.tree.rows.size() <= 1 ? "There is one piece: cut the surface first"
+                                             : "There is one piece here: only the halves (Split) and the parts "
+                                               "(Tetrahedra) can be pulled apart");
+}
+
 template <class Enum, std::size_t N>
 void draw_choice(Widgets& widgets, const char* title, const char* const (&labels)[N], Enum& value) {
     const float left = ImGui::GetCursorPosX(), room = ImGui::GetContentRegionAvail().x;
@@ -108,7 +123,7 @@ void draw_display(UiContext& context) {
     ImGui::Spacing();
     draw_choice(context.widgets, "Shading", {"Flat", "Smooth"}, state.shading);
     draw_choice(context.widgets, "Pick", {"Facet", "Cell", "Vertex"}, state.pick);
-    context.widgets.slider("Explode", &state.explode, 0, 1);
+    draw_explode(context);
     context.widgets.slider("Shrink cells", &state.shrink, 0, 0.9);
     ImGui::Spacing();
 }

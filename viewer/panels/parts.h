@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "viewer/panels/panels.h"
 #include "viewer/panels/style.h"
 #include "viewer/panels/text.h"
+#include "viewer/panels/tree_columns.h"
 
 namespace kerf::view {
 
@@ -35,10 +37,19 @@ struct FileBrowser {
 struct Memory {
     FileBrowser browser;
     NodeId scrolled_to = 0;  ///< node that the tree has been scrolled to
-    int defect_group = -1;   ///< kind and severity of the only defects that are listed; -1: all
+    TreeOrder tree_order;
+    std::set<int> tree_columns;    ///< about cuts, that were chosen
+    std::set<NodeId> folded;       ///< nodes of the tree whose children are not listed
+    bool worst_by_angle = false;   ///< interfaces by the angles of their triangles, not those with the surface
+    NodeId chosen_interface = 0;   ///< of the worst, by its node
+    NodeId awaited_interface = 0;  ///< it is flown to as soon as its surface is there
+    int defect_group = -1;         ///< kind and severity of the only defects that are listed; -1: all
     int chosen_defect = -1;
     std::map<std::string, std::string> advised;  ///< values of options that texts advise, as edited
     std::string advised_for;                     ///< path of the document that they are for
+    int chosen_place = -1;                       ///< of a refused try, that was flown to last
+    NodeId place_node = 0;                       ///< of that try
+    Step place_step;
     bool log_counts = false;            ///< of the histogram
     double brush_from = 0;              ///< bin where a drag over the histogram began
     std::array<double, 3> normal = {};  ///< of the clip plane while it is typed
@@ -57,9 +68,10 @@ void draw_clip(UiContext& context, Memory& memory);
 void draw_color(UiContext& context, Memory& memory);
 void draw_histogram(UiContext& context, Memory& memory);
 void draw_worst_cells(UiContext& context);
+void draw_worst_interfaces(UiContext& context, Memory& memory);
 void draw_parameters(UiContext& context, Memory& memory);
 void draw_comparison(UiContext& context, Memory& memory);
-void draw_timeline(UiContext& context);
+void draw_timeline(UiContext& context, Memory& memory);
 void draw_status(UiContext& context);
 void draw_browser(UiContext& context, Memory& memory);
 void draw_keys(UiContext& context);

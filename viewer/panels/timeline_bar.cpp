@@ -11,16 +11,17 @@ namespace {
 
 class TimelineBar {
  public:
-    explicit TimelineBar(UiContext& context)
+    TimelineBar(UiContext& context, Memory& memory)
         : context_(context),
+          memory_(memory),
           steps_(context.steps),
           colors_(palette(context.state.theme)),
           current_(steps_.empty() ? 0 : nearest_step(steps_, context.state.step)) {}
 
     void draw() {
         draw_controls();
-        draw_description();
-        ImGui::SetCursorPosY(ImGui::GetWindowHeight() - ImGui::GetStyle().WindowPadding.y - step_height());
+        draw_heading();
+        draw_text();
         draw_steps();
     }
 
@@ -54,16 +55,59 @@ class TimelineBar {
         ImGui::SameLine(0, 0.6f * em());
     }
 
-    void draw_description() {
+    // Beside the buttons: what is shown, and what more can be done with it.
+    void draw_heading() {
+        ImGui::AlignTextToFramePadding();
         if (steps_.empty()) return show("This node has not been cut.", colors_.dim);
+        show(fmt::format("Node {}: {}", context_.state.node, title(steps_[current_])), colors_.text);
+        draw_places();
+        if (!has_no_stages(context_.session.document(), context_.state.node)) return;
+        ImGui::SameLine(0, 1.2f * em());
+        show("No stages were recorded.", colors_.warning);
+        ImGui::SameLine(0, 0.6f * em());
+        if (context_.widgets.button("Re-run cut",
+                                    "Makes all cuts again, in another process, and records their stages; "
+                                    "the parts are not meshed"))
+            record_stages();
+    }
+
+    // Every run that is started here leaves a trace. The folder that is open stays as it is.
+    void record_stages() {
+        RunOptions options = context_.session.document().options;
+        options.output.clear();
+        options.trace_file.clear();
+        context_.actions.start_run(options, false);
+    }
+
+    // From one place to the next where a try has failed.
+    void draw_places() {
         const Step& step = steps_[current_];
-        const bool refused = step.refused_try >= 0;
-        ImGui::BeginGroup();
-        show(fmt::format("Node {}: {}", context_.state.node, title(step)), colors_.text);
-        const std::string text = describe_step(context_.session.document(), context_.state.node, step);
-        show(shortened(text, ImGui::GetContentRegionAvail().x), refused ? colors_.bad : colors_.dim);
-        explain(text);
-        ImGui::EndGroup();
+        const std::vector<FailurePlace> places = failure_places(context_.session.document(), context_.state.node, step);
+        if (places.empty()) return;
+        if (memory_.place_node != context_.state.node || memory_.place_step != step) memory_.chosen_place = -1;
+        memory_.place_node = context_.state.node;
+        memory_.place_step = step;
+        const int count = static_cast<int>(places.size()), chosen = memory_.chosen_place;
+        ImGui::SameLine(0, 1.2f * em());
+        if (control("previous place", Icon::left, "Fly to the place before", chosen > 0)) fly_to(places, chosen - 1);
+        if (control("next place", Icon::right, "Fly to the next place where it failed", chosen + 1 < count))
+            fly_to(places, chosen + 1);
+        ImGui::AlignTextToFramePadding();
+        show(chosen < 0 ? number_of(count, "place") : fmt::format("place {} of {}", chosen + 1, count), colors_.dim);
+    }
+
+    void fly_to(const std::vector<FailurePlace>& places, int index) {
+        memory_.chosen_place = index;
+        const FailurePlace& place = places[static_cast<std::size_t>(index)];
+        const double diagonal = diagonal_of(context_.session.document());
+        context_.actions.fly_to(place.where, place.radius > 0 ? 1.5 * place.radius : 0.02 * diagonal);
+    }
+
+    void draw_text() {
+        if (steps_.empty()) return;
+        const Step& step = steps_[current_];
+        show_wrapped(describe_step(context_.session.document(), context_.state.node, step),
+                     step.refused_try >= 0 ? colors_.bad : colors_.dim);
     }
 
     static float width_of_button(const Step& step) { return width_of(title(step)) + 0.5f * em(); }
@@ -74,31 +118,56 @@ class TimelineBar {
         return width;
     }
 
+    // The steps of a row: as wide as their words, and wider where there is room.
+    struct StepRow {
+        std::size_t first = 0, last = 0;  // of `steps_`
+        float words = 0;
+        float stages = 0;
+    };
+    // One row, or two where the words need more room. `tick`: of each refused try that lies among them.
+    std::vector<StepRow> rows_of_steps(float room, float tick) const {
+        std::vector<StepRow> rows(1);
+        float all = 0;
+        for (const Step& step : steps_) all += step.refused_try < 0 ? width_of_button(step) : tick;
+        for (std::size_t i = 0; i < steps_.size(); ++i) {
+            const bool is_stage = steps_[i].refused_try < 0;
+            const float width = is_stage ? width_of_button(steps_[i]) : tick;
+            if (all > room && rows.size() == 1 && rows[0].words + width > std::min(room, all / 2 + 3 * em()))
+                rows.push_back({i, i, 0, 0});
+            rows.back().last = i + 1;
+            rows.back().words += width;
+            rows.back().stages += is_stage ? 1.f : 0.f;
+        }
+        return rows;
+    }
+
     // Refused tries lie between their neighbours as long as there is room, else in a strip of their own above.
     void draw_steps() {
         const auto tries = static_cast<float>(
             std::count_if(steps_.begin(), steps_.end(), [](const Step& step) { return step.refused_try >= 0; }));
-        const float stages = static_cast<float>(steps_.size()) - tries;
-        const float room = ImGui::GetContentRegionAvail().x;
-        const float words = width_of_buttons();
+        const float room = ImGui::GetContentRegionAvail().x, words = width_of_buttons();
         const bool apart = words + 0.6f * em() * tries > room;
         const float tick = tries > 0 ? std::min(0.9f * em(), (apart ? room : room - words) / tries) : 0;
-        const float left = room - words - (apart ? 0 : tick * tries);  // makes all of them wider, or narrower
-        const float more = stages > 0 ? std::clamp(left / stages, 0.f, 3 * em()) : 0;
-        const float scale = left < 0 ? 1 + left / words : 1;
-        const ImVec2 start = ImGui::GetCursorScreenPos();
-        float x = start.x, tick_x = start.x;
-        for (std::size_t i = 0; i < steps_.size(); ++i) {
-            if (steps_[i].refused_try < 0) {
-                const float width = scale * width_of_button(steps_[i]) + more;
-                draw_step(i, {x, start.y}, {x + width, start.y + step_height()});
-                x += width;
-            } else {
-                float& at = apart ? tick_x : x;
-                const float top = apart ? start.y - 0.95f * em() : start.y;
-                draw_step(i, {at, top}, {at + tick, apart ? start.y : start.y + step_height()});
-                at += tick;
+        const std::vector<StepRow> rows = rows_of_steps(room, apart ? 0 : tick);
+        const float height = rows.size() > 1 ? 1.4f * em() : step_height();
+        const float bottom = ImGui::GetWindowPos().y + ImGui::GetWindowHeight() - ImGui::GetStyle().WindowPadding.y;
+        const ImVec2 start = {ImGui::GetCursorScreenPos().x, bottom - height * static_cast<float>(rows.size())};
+        float y = start.y, tick_x = start.x;
+        for (const StepRow& row : rows) {
+            const float left = room - row.words;
+            const float more = row.stages > 0 ? std::clamp(left / row.stages, 0.f, 3 * em()) : 0;
+            const float scale = left < 0 ? room / row.words : 1;
+            float x = start.x;
+            for (std::size_t i = row.first; i < row.last; ++i) {
+                const bool refused = steps_[i].refused_try >= 0;
+                const float width = refused ? tick : scale * width_of_button(steps_[i]) + more;
+                if (refused && apart)
+                    draw_step(i, {tick_x, start.y - 0.8f * em()}, {tick_x + tick, start.y});
+                else
+                    draw_step(i, {x, y}, {x + width, y + height});
+                (refused && apart ? tick_x : x) += width;
             }
+            y += height;
         }
     }
 
@@ -145,6 +214,7 @@ class TimelineBar {
     }
 
     UiContext& context_;
+    Memory& memory_;
     const std::vector<Step>& steps_;
     const Palette& colors_;
     std::size_t current_;
@@ -153,6 +223,6 @@ class TimelineBar {
 
 }  // namespace
 
-void draw_timeline(UiContext& context) { TimelineBar(context).draw(); }
+void draw_timeline(UiContext& context, Memory& memory) { TimelineBar(context, memory).draw(); }
 
 }  // namespace kerf::view

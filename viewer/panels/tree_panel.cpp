@@ -22,6 +22,16 @@ std::string short_seconds(double seconds) {
     return seconds < 0 ? "" : fmt::format("{:.{}f}", seconds, seconds < 9.995 ? 2 : seconds < 99.95 ? 1 : 0);
 }
 
+template <class T>
+void set_in(std::set<T>& set, const T& item, bool is_in) {
+    if (is_in)
+        set.insert(item);
+    else
+        set.erase(item);
+}
+
+constexpr float fold_size = 0.85f;  // of the button before a node, in ems
+
 class TreeTable {
  public:
     TreeTable(UiContext& context, Memory& memory)
@@ -30,15 +40,19 @@ class TreeTable {
     void draw() {
         const Tree& tree = context_.session.document().tree;
         rows_ = tree.in_order();
-        const TreeColumns columns(rows_, context_.state.times, room());
+        const TreeColumns columns(rows_, context_.state.times, memory_.tree_columns, room());
         total_load_ = columns.total_load;
+        const bool is_sortable = memory_.tree_order.by && columns.shown[*memory_.tree_order.by];
+        if (!is_sortable) memory_.tree_order = {};
+        is_sortable ? sort_rows(rows_, memory_.tree_order) : leave_out_folded();
         // Widths that a user has changed stay as long as the columns are the same.
-        const std::string id = fmt::format("##tree {} {} {} {} {}", tree.levels(), columns.load, columns.seconds,
-                                           columns.rank, columns.tets);
+        std::string id = fmt::format("##tree {}", tree.levels());
+        for (const bool shown : columns.shown) id += shown ? '1' : '0';
         constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_Resizable |
                                           ImGuiTableFlags_NoSavedSettings | ImGuiTableFlags_NoBordersInBody;
         if (!ImGui::BeginTable(id.c_str(), column_count, flags, {0, 0})) return;
         columns.set_up();
+        draw_heads();
         scroll_to_node();
         ImGuiListClipper clipper;
         clipper.Begin(static_cast<int>(rows_.size()), row_height());
@@ -49,6 +63,52 @@ class TreeTable {
     }
 
  private:
+    bool is_tree() const { return !memory_.tree_order.by; }
+
+    void leave_out_folded() {
+        // The node that is shown comes into sight when it is chosen.
+        if (memory_.scrolled_to != context_.state.node)
+            for (NodeId node = context_.state.node / 2; node > 0; node /= 2) memory_.folded.erase(node);
+        if (memory_.folded.empty()) return;
+        std::erase_if(rows_, [&](const TreeRow* row) {
+            for (NodeId node = row->id / 2; node > 0; node /= 2)
+                if (memory_.folded.contains(node)) return true;
+            return false;
+        });
+    }
+
+    // A click sorts.
+    void draw_heads() {
+        ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+        for (int i = 0; i < column_count; ++i) {
+            const auto column = static_cast<TreeColumn>(i);
+            if (!ImGui::TableSetColumnIndex(i) || column == eye_column) continue;
+            draw_head(column);
+        }
+    }
+
+    void draw_head(TreeColumn column) {
+        const bool chosen = memory_.tree_order.by == column, sorts = column == node_column || column >= facets_column;
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        if (sorts) {
+            const std::string label = fmt::format("sort by {}", title(column));
+            if (ImGui::InvisibleButton(label.c_str(), {ImGui::GetContentRegionAvail().x, line_height()}))
+                memory_.tree_order = memory_.tree_order.after_click(column);
+            context_.widgets.record(label);
+            explain(column == node_column ? meaning(column) : fmt::format("{}. A click sorts by it.", meaning(column)));
+            if (ImGui::IsItemHovered())
+                ImGui::GetWindowDrawList()->AddRectFilled(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(),
+                                                          packed(faded(colors_.accent, 0.2f)));
+            ImGui::SetCursorScreenPos(at);
+        }
+        const ImVec4& color = chosen ? colors_.accent : colors_.dim;
+        column >= facets_column ? show_right(title(column), color) : show(title(column), color);
+        // Down: what deserves a look is at the top.
+        if (chosen)
+            draw_icon(*ImGui::GetWindowDrawList(), memory_.tree_order.reversed ? Icon::up : Icon::down,
+                      {at.x - 0.1f * em(), at.y + line_height() / 2}, 0.5f * em(), packed(colors_.accent));
+    }
+
     static float line_height() { return ImGui::GetTextLineHeight() + 0.15f * em(); }
     static float row_height() { return line_height() + 2 * ImGui::GetStyle().CellPadding.y; }
 
@@ -83,12 +143,18 @@ class TreeTable {
         draw_number(load_column, share(row.load));
         draw_number(seconds_column, short_seconds(row.seconds));
         draw_number(rank_column, row.rank < 0 ? "" : fmt::format("{}", row.rank));
+        draw_number(tries_column, formatted(number_in(row, tries_column), 0));
+        draw_number(angle_column, formatted(number_in(row, angle_column), 1));
+        draw_number(dihedral_column, formatted(number_in(row, dihedral_column), 1));
+        draw_number(ratio_column, formatted(number_in(row, ratio_column), 2));
         ImGui::PopID();
     }
 
     void draw_node(const TreeRow& row, float alpha) {
         ImGui::TableSetColumnIndex(node_column);
-        const float left = ImGui::GetCursorPosX() + tree_indent * em() * static_cast<float>(level_of(row.id));
+        const int level = is_tree() ? level_of(row.id) : 0;
+        const float left = ImGui::GetCursorPosX() + tree_indent * em() * static_cast<float>(level);
+        const ImVec2 cell = ImGui::GetCursorScreenPos();
         const float width = ImGui::GetContentRegionAvail().x;
         const bool is_picked = context_.state.selection.kind != Selection::Kind::none &&
                                context_.state.selection.kind != Selection::Kind::place &&
@@ -100,14 +166,37 @@ class TreeTable {
                               {0, line_height()}))
             choose(row.id);
         const ImVec2 from = ImGui::GetItemRectMin();  // the row spans columns, which are clipped one by one
-        context_.widgets.record(fmt::format("node {}", row.id), from, {from.x + width, ImGui::GetItemRectMax().y});
+        const float number = cell.x + tree_indent * em() * static_cast<float>(level) + em();  // right of what folds it
+        context_.widgets.record(fmt::format("node {}", row.id), {number, from.y},
+                                {from.x + width, ImGui::GetItemRectMax().y});
         if (ImGui::IsItemHovered()) explain(details(row));
+        draw_guides(cell, level);
         ImGui::SameLine(left, 0);
         const ImVec2 at = ImGui::GetCursorScreenPos();
         const float size = 0.7f * em();
         if (row.leaf()) draw_swatch(row, {at.x, at.y + (line_height() - size) / 2}, size, alpha);
-        ImGui::SetCursorPosX(left + em());
+        if (!row.leaf() && is_tree()) draw_fold(row.id);
+        ImGui::SetCursorScreenPos({at.x + em(), at.y});
         show(fmt::format("{}", row.id), text_);
+    }
+
+    // A line for each level above, from row to row.
+    void draw_guides(const ImVec2& cell, int level) const {
+        const float padding = ImGui::GetStyle().CellPadding.y;
+        const ImU32 color = packed(faded(colors_.dim, 0.4f));
+        for (int i = 0; i < level; ++i) {
+            const float x = std::round(cell.x + (tree_indent * static_cast<float>(i) + 0.35f) * em());
+            ImGui::GetWindowDrawList()->AddLine({x, cell.y - padding}, {x, cell.y - padding + row_height()}, color);
+        }
+    }
+
+    void draw_fold(NodeId node) {
+        const bool folded = memory_.folded.contains(node);
+        ImGui::SetCursorPosY(ImGui::GetCursorPosY() + (line_height() - fold_size * em()) / 2);
+        if (icon_button(context_.widgets, fmt::format("fold {}", node), folded ? Icon::right : Icon::down,
+                        fold_size * em(), packed(folded ? colors_.accent : colors_.dim),
+                        folded ? "Lists what lies below" : "Leaves what lies below out of this list"))
+            set_in(memory_.folded, node, !folded);
     }
 
     void draw_swatch(const TreeRow& row, const ImVec2& from, float size, float alpha) {
@@ -152,6 +241,10 @@ class TreeTable {
         if (ImGui::TableSetColumnIndex(column)) show_right(text, text_);
     }
 
+    static std::string formatted(const std::optional<double>& number, int digits) {
+        return number ? fmt::format("{:.{}f}", *number, digits) : "";
+    }
+
     std::string share(double load) const {
         if (load < 0 || total_load_ <= 0) return "";
         const double percent = 100 * load / total_load_;
@@ -182,13 +275,34 @@ std::string summary(const Document& document) {
     return text;
 }
 
-void draw_tree_head(UiContext& context) {
+float width_of_button(const char* label) { return width_of(label) + 2 * ImGui::GetStyle().FramePadding.x; }
+
+void draw_column_menu(UiContext& context, Memory& memory) {
+    if (context.widgets.button("Columns", "What the tree says about cuts: tries, angles, areas"))
+        ImGui::OpenPopup("##columns");
+    if (!ImGui::BeginPopup("##columns")) return;
+    for (int i = tries_column; i < column_count; ++i) {
+        const auto column = static_cast<TreeColumn>(i);
+        bool chosen = memory.tree_columns.contains(i);
+        if (context.widgets.checkbox(fmt::format("column {}", title(column)).c_str(), &chosen, meaning(column)))
+            set_in(memory.tree_columns, i, chosen);
+    }
+    ImGui::EndPopup();
+}
+
+void draw_tree_head(UiContext& context, Memory& memory) {
     ViewState& state = context.state;
+    const float gap = 0.4f * em(), right = ImGui::GetContentRegionMax().x;
+    const bool some_hidden = !state.hidden.empty() || state.isolated;
+    const float all = some_hidden ? width_of_button("Show all") + gap : 0, columns = width_of_button("Columns");
     ImGui::AlignTextToFramePadding();
-    show(summary(context.session.document()), palette(state.theme).dim);
-    if (state.hidden.empty() && !state.isolated) return;
-    const float width = ImGui::CalcTextSize("Show all").x + 2 * ImGui::GetStyle().FramePadding.x;
-    ImGui::SameLine(ImGui::GetContentRegionMax().x - width);
+    const std::string text = summary(context.session.document());
+    show(shortened(text, right - ImGui::GetCursorPosX() - columns - all - gap), palette(state.theme).dim);
+    explain(text);
+    ImGui::SameLine(right - columns - all);
+    draw_column_menu(context, memory);
+    if (!some_hidden) return;
+    ImGui::SameLine(0, gap);
     if (context.widgets.button("Show all", "Hides nothing and isolates nothing any more")) {
         state.hidden.clear();
         state.isolated.reset();
@@ -218,7 +332,7 @@ void draw_without_tree(UiContext& context) {
 void draw_tree(UiContext& context, Memory& memory) {
     const Document& document = context.session.document();
     if (!has_tree(document)) return draw_without_tree(context);
-    draw_tree_head(context);
+    draw_tree_head(context, memory);
     TreeTable(context, memory).draw();
 }
 

@@ -124,7 +124,7 @@ void Ui::draw(UiContext& context, float width, float height) {
     if (layout.has_timeline) {
         begin_place("##timeline", layout.timeline);
         draw_border(layout.timeline, ImGuiDir_Up);
-        draw_timeline(context);
+        draw_timeline(context, impl_->memory);
         ImGui::End();
     }
     begin_place("##status", layout.status);

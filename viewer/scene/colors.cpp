@@ -101,6 +101,8 @@ SceneColors scene_colors(Theme theme) {
     // Not those of the coordinates, which the gizmo has.
     c.axes = {color_from_hex("#F0A000"), color_from_hex(light ? "#A83A7C" : "#7E1B5A"),
               color_from_hex(light ? "#1C2733" : "#F4F6F8")};
+    c.colliding = color_from_hex("#FFB000");
+    c.collided = color_from_hex(light ? "#3B2FA0" : "#9C8CFF");
     return c;
 }
 

@@ -31,6 +31,7 @@ struct SceneColors {
     Color surface, interface, context, plane, normal, none;
     Color crossed, contour, projected, refused, selection, feature;
     Color error, warning;
+    Color colliding, collided;  ///< of two triangles that meet: that of the interface and the other one
     std::array<Color, 3> axes;  ///< of inertia, the long direction first
 };
 SceneColors scene_colors(Theme theme);

@@ -102,6 +102,26 @@ void SceneBuild::add_try(const CutTry& attempt, const NodeSurface& surface) {
     if (state_.contour && !attempt.contour.empty())
         add_lines("refused", ends_of(attempt.contour, surface), colors_.refused, contour_pixels);
     if (!attempt.places.empty()) add_points("places", attempt.places, colors_.error, place_pixels);
+    add_collisions(attempt);
+}
+
+// Pairs of triangles of which one goes through the other.
+void SceneBuild::add_collisions(const CutTry& attempt) {
+    if (attempt.collisions.empty() || !state_.interfaces) return;
+    const auto add_side = [&](const char* layer_name, std::array<Vec3, 3> Collision::*side, const Color& color) {
+        std::vector<Vec3> corners;
+        std::vector<Triangle> sides;
+        for (const Collision& pair : attempt.collisions) {
+            const auto first = static_cast<std::int32_t>(corners.size());
+            corners.insert(corners.end(), (pair.*side).begin(), (pair.*side).end());
+            sides.push_back({first, first + 1, first + 2});
+        }
+        Layer& layer = add(layer_name, triangles(corners, sides, built_.frame), color);
+        layer.two_sided = layer.edges = true;
+        layer.smooth = false;
+    };
+    add_side("colliding", &Collision::first, colors_.colliding);
+    add_side("collided", &Collision::second, colors_.collided);
 }
 
 Layer* SceneBuild::add_contour(const Cut& cut, const NodeSurface& surface) {

@@ -240,6 +240,8 @@ void SceneBuild::set_legend() {
     explain_layer("features", "features", colors_.feature);
     explain_layer("refused", "refused contour", colors_.refused);
     explain_layer("places", "where it failed", colors_.error);
+    explain_layer("colliding", "interface that collides", colors_.colliding);
+    explain_layer("collided", "what it collides with", colors_.collided);
     explain_layer("defect places", "errors", colors_.error);
     explain_layer("warning places", "warnings", colors_.warning);
 }

@@ -48,6 +48,7 @@ class SceneBuild {
     void add_axes(const TreeRow& row);
     void add_plane(const Plane& plane);
     void add_try(const CutTry& attempt, const NodeSurface& surface);
+    void add_collisions(const CutTry& attempt);
     void add_stage(const Cut& cut, const NodeSurface& surface);
     Layer* add_contour(const Cut& cut, const NodeSurface& surface);
     void add_halves(const NodeSurface* parent);

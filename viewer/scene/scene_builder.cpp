@@ -150,17 +150,19 @@ void SceneBuild::add_node(const std::shared_ptr<const NodeSurface>& surface) {
     Layer* layer = nullptr;
     if (!state_.is_hidden(state_.node))
         layer = add_surface("surface", surface, state_.node, colors_.surface, colors_.interface, Vec3::Zero());
-    if (layer && step_.stage >= Stage::projected) {
+    const Cut* cut = document_.trace ? document_.trace->find(state_.node) : nullptr;
+    const TreeRow* row = document_.tree.find(state_.node);
+    const auto number = static_cast<std::size_t>(step_.refused_try);
+    const CutTry* attempt = step_.refused_try >= 0 && cut && number < cut->tries.size() ? &cut->tries[number] : nullptr;
+    // What lies inside is to be seen.
+    if (layer && (step_.stage >= Stage::projected || (attempt && !attempt->collisions.empty()))) {
         layer->opacity = glass_opacity;
         layer->front_share = glass_front_share;
         layer->edges = false;
         layer->two_sided = true;
     }
-    const Cut* cut = document_.trace ? document_.trace->find(state_.node) : nullptr;
-    const TreeRow* row = document_.tree.find(state_.node);
-    const auto attempt = static_cast<std::size_t>(step_.refused_try);
-    if (step_.refused_try >= 0 && cut && attempt < cut->tries.size())
-        add_try(cut->tries[attempt], *surface);
+    if (attempt)
+        add_try(*attempt, *surface);
     else if (step_.stage >= Stage::plane && row && row->plane())
         add_plane(*row->plane());
     if (cut && step_.refused_try < 0) add_stage(*cut, *surface);

@@ -1,0 +1,113 @@
+// The cuts whose interfaces have the smallest angles.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "viewer/model/interface_places.h"
+#include "viewer/panels/parts.h"
+
+namespace kerf::view {
+
+namespace {
+
+class WorstInterfaces {
+ public:
+    WorstInterfaces(UiContext& context, Memory& memory)
+        : context_(context),
+          memory_(memory),
+          colors_(palette(context.state.theme)),
+          by_{memory.worst_by_angle ? angle_column : dihedral_column, false},
+          rows_(context.session.document().tree.in_order()) {
+        std::erase_if(rows_, [&](const TreeRow* row) { return !number_in(*row, *by_.by); });
+        sort_rows(rows_, by_);
+    }
+
+    void draw() {
+        if (rows_.empty()) return show_wrapped("No angles of interfaces are known: nothing has been cut.", colors_.dim);
+        if (context_.widgets.radio("By dihedral", !memory_.worst_by_angle)) memory_.worst_by_angle = false;
+        explain("The smallest angle between interface and surface along the contour");
+        ImGui::SameLine(0, em());
+        if (context_.widgets.radio("By angle", memory_.worst_by_angle)) memory_.worst_by_angle = true;
+        explain("The smallest angle of a triangle of the interface");
+        constexpr ImGuiTableFlags flags =
+            ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoSavedSettings;
+        const float rows = std::min(10.f, static_cast<float>(rows_.size()) + 1.3f);
+        if (!ImGui::BeginTable("##worst interfaces", 4, flags, {0, rows * (ImGui::GetTextLineHeight() + 0.4f * em())}))
+            return;
+        draw_heads();
+        ImGuiListClipper clipper;
+        clipper.Begin(static_cast<int>(rows_.size()));
+        while (clipper.Step())
+            for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) draw_row(i);
+        ImGui::EndTable();
+    }
+
+ private:
+    void draw_heads() const {
+        ImGui::TableSetupScrollFreeze(0, 1);
+        ImGui::TableSetupColumn("##number", ImGuiTableColumnFlags_WidthFixed, 2 * em());
+        for (const char* column : {"##node", "##dihedral", "##angle"}) ImGui::TableSetupColumn(column);
+        ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+        int index = 0;
+        for (const char* head : {"", "node", "dihedral", "angle"}) {
+            ImGui::TableSetColumnIndex(index++);
+            show_right(head, colors_.dim);
+        }
+    }
+
+    void draw_row(int i) {
+        const TreeRow& row = *rows_[static_cast<std::size_t>(i)];
+        ImGui::TableNextRow();
+        ImGui::TableSetColumnIndex(0);
+        const std::string label = fmt::format("worst interface {}", i + 1);
+        if (ImGui::Selectable(fmt::format("{}##{}", i + 1, label).c_str(), memory_.chosen_interface == row.id,
+                              ImGuiSelectableFlags_SpanAllColumns))
+            choose(row.id);
+        const ImVec2 from = ImGui::GetItemRectMin();  // the row spans columns, which are clipped one by one
+        context_.widgets.record(label, from, {from.x + 2 * em(), ImGui::GetItemRectMax().y});
+        ImGui::TableSetColumnIndex(1);
+        show_right(fmt::format("{}", row.id), colors_.text);
+        for (const auto& [index, column] : {std::pair(2, dihedral_column), {3, angle_column}}) {
+            ImGui::TableSetColumnIndex(index);
+            const std::optional<double> degrees = number_in(row, column);
+            show_right(degrees ? fmt::format("{:.1f}", *degrees) : "", colors_.text);
+        }
+    }
+
+    void choose(NodeId node) {
+        memory_.chosen_interface = memory_.awaited_interface = node;
+        context_.state.step = {Stage::interface, -1};
+        reveal(context_.state, node);
+        go_to_node(context_, node);
+    }
+
+    UiContext& context_;
+    Memory& memory_;
+    const Palette& colors_;
+    TreeOrder by_;
+    std::vector<const TreeRow*> rows_;
+};
+
+// The angle with the surface needs the surface, which may have to be made first.
+void fly_when_there(UiContext& context, Memory& memory) {
+    if (memory.awaited_interface == 0) return;
+    const NodeId node = memory.awaited_interface;
+    const Document& document = context.session.document();
+    const Cut* cut = document.trace ? document.trace->find(node) : nullptr;
+    const std::shared_ptr<const NodeSurface> surface = cut ? context.session.surface(node) : nullptr;
+    if (cut && !surface && context.state.node == node) return;
+    memory.awaited_interface = 0;
+    if (!surface || context.state.node != node) return;
+    const std::optional<InterfacePlace> place =
+        memory.worst_by_angle ? smallest_angle(cut->interface) : smallest_dihedral(cut->interface, *surface);
+    if (place) context.actions.fly_to(place->where, 2 * place->radius);
+}
+
+}  // namespace
+
+void draw_worst_interfaces(UiContext& context, Memory& memory) {
+    fly_when_there(context, memory);
+    if (context.widgets.header("Worst interfaces", false)) WorstInterfaces(context, memory).draw();
+}
+
+}  // namespace kerf::view
