@@ -57,10 +57,15 @@ float lamp(float cosine) {
     return wrapped * wrapped;
 }
 
+#if defined(SCALE) || defined(CATEGORIES)
+// From the eye and weak: a face that is seen from the front has the colour of the legend, and none is far from it.
+float brightness(vec3 n, vec3 to_eye) { return 0.64 + 0.36 * max(dot(n, normalize(to_eye)), 0); }
+#else
 // A headlight from the upper left, a weak one against it, and a sky that is brighter above.
-float brightness(vec3 n) {
+float brightness(vec3 n, vec3 to_eye) {
     return 0.38 + 0.07 * dot(n, up) + 0.60 * lamp(dot(n, key_light)) + 0.12 * lamp(dot(n, fill_light));
 }
+#endif
 
 vec3 back_color(vec3 c) { return 0.62 * mix(c, vec3(dot(c, vec3(0.299, 0.587, 0.114))), 0.6); }
 
@@ -75,8 +80,9 @@ void main() {
 #ifdef SMOOTH
     if (corner_normal != vec3(0)) normal = corner_normal;
 #endif
-    bool back = dot(triangle_normal, eye.xyz - eye.w * place) < 0;
-    float light = mix(1.0, brightness(back ? -normal : normal), shading);
+    vec3 to_eye = eye.xyz - eye.w * place;
+    bool back = dot(triangle_normal, to_eye) < 0;
+    float light = mix(1.0, brightness(back ? -normal : normal, to_eye), shading);
     bool greyed = back && !two_sided;
 #ifdef SCALE
     tone = vec2(light, greyed ? 1 : 0);

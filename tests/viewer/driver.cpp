@@ -179,14 +179,21 @@ void Driver::drag_over(const std::string& label, float from, float to) {
     drag(rect.left + from * width, y, rect.left + to * width, y);
 }
 
-void Driver::key(int key, bool control) {
+void Driver::key(int key, bool control, bool shift) {
     ImGuiIO& io = ImGui::GetIO();
+    app_->press({.key = key, .control = control, .shift = shift});
     io.KeyCtrl = control;
+    io.KeyShift = shift;
     io.KeysDown[key] = true;
     frame();
     io.KeysDown[key] = false;
-    io.KeyCtrl = false;
+    io.KeyCtrl = io.KeyShift = false;
     frames(2);
+}
+
+void Driver::keys_in_one_frame(const std::vector<view::KeyEvent>& keys) {
+    for (const view::KeyEvent& event : keys) app_->press(event);
+    frames(3);
 }
 
 void Driver::type(const std::string& text) {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "viewer/app/app.h"
 #include "viewer/render/offscreen.h"
@@ -55,7 +56,9 @@ class Driver {
     void click(const std::string& label);
     /// Drags over an item; places are fractions of its width.
     void drag_over(const std::string& label, float from, float to);
-    void key(int key, bool control = false);
+    void key(int key, bool control = false, bool shift = false);
+    /// So short that all of them are pressed and released before the next frame.
+    void keys_in_one_frame(const std::vector<view::KeyEvent>& keys);
     void type(const std::string& text);
     /// What the window does with a dropped file.
     void drop(const std::string& path);

@@ -126,17 +126,44 @@ void App::frame_selection() {
     }
 }
 
-void App::fly_to(const Vec3& point, double radius) {
+void App::fly_to(const Vec3& point, double radius, const Vec3& back) {
     Camera camera = camera_;
+    if (back.squaredNorm() > 0 && !back.isApprox(camera.back())) look_from(camera, back);
     camera.target = point;
     camera.height = std::max(6 * radius, 1e-4 * session_.document().box.diagonal().norm());
-    state_.camera = camera;
+    state_.camera = camera_ = camera;
     if (state_.selection.kind != Selection::Kind::cell) {
         state_.selection = {};
         state_.selection.kind = Selection::Kind::place;
         state_.selection.owner = state_.node;
         state_.selection.place = point;
     }
+}
+
+void App::resolve_turn() {
+    if (!turning_to_) return;
+    const Selection& s = *turning_to_;
+    const auto cells = session_.cells(s.owner);
+    const auto part = session_.part_surface(s.owner), shown = surface_of(session_, state_.node);
+    const bool is_known = cells && part && shown;
+    if (!is_known && session_.pending()) return;
+    if (is_known && state_.selection == s && state_.camera)
+        if (const auto back = direction_to_cell(*cells, *part, *shown, s.index, camera_.back())) {
+            if (!back->isApprox(state_.camera->back())) look_from(*state_.camera, *back);
+            wake();
+        }
+    turning_to_.reset();
+}
+
+void App::clip_through_selection(bool faces_eye) {
+    const std::vector<Vec3> points = selected_points(session_, state_.selection);
+    if (points.empty() || session_.document().box.isEmpty()) return notify("Select something to clip through first.");
+    Vec3 middle = Vec3::Zero();
+    for (const Vec3& p : points) middle += p / static_cast<double>(points.size());
+    // What lies towards the eye is cut away.
+    const Vec3 normal = faces_eye ? camera_.back() : state_.clip.normal;
+    if (faces_eye) state_.clip.flipped = false;
+    snap_to(state_.clip, Plane(middle, normal), session_.document().box);
 }
 
 void App::look(Direction direction) {
@@ -208,6 +235,7 @@ void App::follow_session() {
     }
     begin_auto_run();
     if (session_changed_) resolve_click();
+    resolve_turn();
     const Document& document = session_.document();
     // A node that is asked for before the tree is known is waited for.
     const bool is_final = !session_.busy() && !session_.pending() && !document.progress.running;

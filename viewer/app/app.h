@@ -10,6 +10,7 @@
 #include "viewer/model/session.h"
 #include "viewer/panels/panels.h"
 #include "viewer/render/frame_size.h"
+#include "viewer/render/key_event.h"
 #include "viewer/render/renderer.h"
 #include "viewer/scene/scene_builder.h"
 #include "viewer/scene/selection.h"
@@ -54,6 +55,9 @@ class App : private Actions {
     Image picture() { return renderer_.read(); }
     void present() { renderer_.present(); }
 
+    /// Of the window, or a test; the next frame with panels takes them in the order in which they came.
+    void press(const KeyEvent& event) { key_events_.push_back(event); }
+
     /// The next frame would look like the last: nothing arrives, plays, or is being moved.
     bool settled() const;
     /// Waits until something arrives from files or runs, at most `seconds`; false if nothing did.
@@ -79,7 +83,9 @@ class App : private Actions {
     void reload() override;
     void fit_all() override { state_.camera.reset(); }
     void frame_selection() override;
-    void fly_to(const Vec3& point, double radius) override;
+    void fly_to(const Vec3& point, double radius, const Vec3& back) override;
+    void turn_to_selection() override { turning_to_ = state_.selection; }
+    void clip_through_selection(bool faces_eye) override;
     void look(Direction direction) override;
     void toggle_play() override;
     void quit() override;
@@ -97,10 +103,13 @@ class App : private Actions {
     void update_camera();
     void fit_body(Camera& camera, const Eigen::AlignedBox3d& box) const;
     void take_keys();
-    void take_character_keys();
+    void take_key(const KeyEvent& event);
+    void take_character_key(const KeyEvent& event);
+    bool take_digit(int key);
     void take_mouse();
     void take_click(float x, float y, bool center);
     void resolve_click();
+    void resolve_turn();
     void zoom(float x, float y, float notches);
     Vec3 seen_point(const PickHit& hit) const;
     void move_step(int direction);
@@ -124,7 +133,8 @@ class App : private Actions {
     BuiltScene built_;
     std::string built_for_;  // the state as JSON, without camera and panels
     bool session_changed_ = true;
-    std::optional<Hit> unresolved_;  // a click whose cells are being read
+    std::optional<Hit> unresolved_;        // a click whose cells are being read
+    std::optional<Selection> turning_to_;  // a cell that is being read
     SceneFacts facts_;
     std::vector<Step> steps_;
     Camera camera_;
@@ -133,6 +143,8 @@ class App : private Actions {
     Rectangle body_;  // what the legend leaves of it
 
     FrameSize size_;
+    std::vector<KeyEvent> key_events_;  // that no frame has taken yet
+
     std::string styled_for_;  // theme and scale
     std::string opened_;      // what auto_run has been decided for
     bool quit_ = false, capture_ = false, dragging_ = false, pressed_in_scene_ = false;

@@ -1,6 +1,7 @@
 // Keys and mouse of the scene; panels take theirs first.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <imgui.h>
 
@@ -15,9 +16,6 @@ namespace {
 constexpr float click_pixels = 4;  // at scale 1; a press that moves further is a drag
 constexpr double zoom_per_notch = 0.88;
 
-bool pressed(int key, bool repeat = false) { return ImGui::IsKeyPressed(key, repeat); }
-bool digit_pressed(int digit) { return pressed(key_0 + digit) || pressed(key_keypad_0 + digit); }
-
 bool contains(const Rectangle& r, const ImVec2& p) {
     return p.x >= r.x && p.y >= r.y && p.x < r.x + r.width && p.y < r.y + r.height;
 }
@@ -29,50 +27,70 @@ bool is_of_facets(const std::string& layer) {
 
 }  // namespace
 
-void App::take_character_keys() {
-    if (digit_pressed(1)) look(Direction::front);
-    if (digit_pressed(3)) look(Direction::right);
-    if (digit_pressed(7)) look(Direction::top);
-    if (digit_pressed(9)) {
-        Camera camera = camera_;
-        camera.turn = (Eigen::AngleAxisd(M_PI, Vec3::UnitZ()) * camera.turn).normalized();
-        state_.camera = camera;
+bool App::take_digit(int key) {
+    Camera camera = camera_;
+    switch (key >= key_keypad_0 ? key - key_keypad_0 : key - key_0) {
+        case 1:
+            look_from(camera, Direction::front);
+            break;
+        case 3:
+            look_from(camera, Direction::right);
+            break;
+        case 7:
+            look_from(camera, Direction::top);
+            break;
+        case 9:
+            camera.turn = (Eigen::AngleAxisd(M_PI, Vec3::UnitZ()) * camera.turn).normalized();
+            break;
+        case 5:
+            camera.perspective = !camera.perspective;
+            break;
+        default:
+            return false;
     }
-    if (digit_pressed(5)) {
-        Camera camera = camera_;
-        camera.perspective = !camera.perspective;
-        state_.camera = camera;
-    }
-    if (pressed(key_of('H'))) state_.panels.keys = !state_.panels.keys;
-    if (pressed(key_of('F'))) frame_selection();
-    if (pressed(key_of('C'))) state_.clip.on = !state_.clip.on;
-    if (pressed(key_of('E'))) state_.edges = !state_.edges;
-    if (pressed(key_of('B'))) swap_runs();
-    if (pressed(key_space)) toggle_play();
+    state_.camera = camera_ = camera;  // the next key of this frame goes on from here
+    return true;
 }
 
-void App::take_keys() {
-    const ImGuiIO& io = ImGui::GetIO();
-    if (io.WantTextInput || ui_.wants_keyboard()) return;
-    if (io.KeyCtrl) {
-        if (pressed(key_of('O'))) ui_.open_browser();
-        if (pressed(key_of('R'))) reload();
-        if (pressed(key_of('Q'))) quit();
+void App::take_character_key(const KeyEvent& event) {
+    if (event.repeat || take_digit(event.key)) return;
+    if (event.key == key_of('H')) state_.panels.keys = !state_.panels.keys;
+    if (event.key == key_of('F')) frame_selection();
+    if (event.key == key_of('C')) event.shift ? clip_through_selection(false) : void(state_.clip.on = !state_.clip.on);
+    if (event.key == key_of('E')) state_.edges = !state_.edges;
+    if (event.key == key_of('B')) swap_runs();
+    if (event.key == key_of('N')) state_.neighbours = !state_.neighbours;
+    if (event.key == key_space) toggle_play();
+}
+
+void App::take_key(const KeyEvent& event) {
+    if (event.key == key_escape && ui_.close_menu()) return;
+    if (ImGui::GetIO().WantTextInput || ui_.wants_keyboard()) return;
+    if (event.control) {
+        if (event.repeat) return;
+        if (event.key == key_of('O')) ui_.open_browser();
+        if (event.key == key_of('R')) reload();
+        if (event.key == key_of('Q')) quit();
         return;
     }
-    if (pressed(key_left, true)) move_step(-1);
-    if (pressed(key_right, true)) move_step(1);
-    if (pressed(key_up, true)) move_node(-1);
-    if (pressed(key_down, true)) move_node(1);
-    if (pressed(key_home)) fit_all();
-    if (pressed(key_f12)) take_screenshot();
-    if (pressed(key_escape)) {
+    if (event.key == key_left) move_step(-1);
+    if (event.key == key_right) move_step(1);
+    if (event.key == key_up && !ui_.step_in_list(-1)) move_node(-1);
+    if (event.key == key_down && !ui_.step_in_list(1)) move_node(1);
+    if (event.key == key_home) fit_all();
+    if (event.key == key_f12) take_screenshot();
+    if (event.key == key_escape) {
+        ui_.leave_list();
         if (state_.panels.keys)
             state_.panels.keys = false;
         else
             state_.selection = {};
     }
-    take_character_keys();
+    take_character_key(event);
+}
+
+void App::take_keys() {
+    for (const KeyEvent& event : std::exchange(key_events_, {})) take_key(event);
 }
 
 void App::take_mouse() {

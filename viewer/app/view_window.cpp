@@ -48,6 +48,7 @@ void view_in_window(const ViewCommand& command, const AppOptions& options) {
     while (!window.should_close() && !app.wants_to_quit() && !was_interrupted()) {
         if (window.take_events(seconds_to_wait(app))) app.wake();
         for (const std::string& path : window.take_dropped_files()) app.open(path);
+        for (const KeyEvent& event : window.take_key_events()) app.press(event);
         if (!is_applied) is_applied = apply_when_known(app, command);
         if (!app.wants_frame()) continue;
         window.begin_frame();

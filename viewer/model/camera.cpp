@@ -67,13 +67,18 @@ void look_from(Camera& camera, Direction direction) {
         case Direction::bottom:
             camera.turn = turn_of(x, -y);
             break;
-        case Direction::corner: {
-            const Vec3 back = Vec3(0.5, -0.8, 0.5).normalized();
-            const Vec3 right = z.cross(back).normalized();
-            camera.turn = turn_of(right, back.cross(right));
+        case Direction::corner:
+            look_from(camera, Vec3(0.5, -0.8, 0.5).normalized());
             break;
-        }
     }
+}
+
+void look_from(Camera& camera, const Vec3& back) {
+    Vec3 right = Vec3::UnitZ().cross(back);
+    if (right.norm() < 1e-3) right = camera.right() - back * back.dot(camera.right());
+    if (right.norm() < 1e-3) right = back.unitOrthogonal();
+    right.normalize();
+    camera.turn = turn_of(right, back.cross(right));
 }
 
 void fit(Camera& camera, const Eigen::AlignedBox3d& box, double aspect) {

@@ -56,6 +56,8 @@ struct Projection {
 /// Named directions as in Blender; the z axis is up.
 enum class Direction { front, back, right, left, top, bottom, corner };
 void look_from(Camera& camera, Direction direction);
+/// `back`: from the target to the eye, of length 1. The z axis is up where it can be.
+void look_from(Camera& camera, const Vec3& back);
 
 /// Fits a sphere around the box into a viewport of the given width over height.
 void fit(Camera& camera, const Eigen::AlignedBox3d& box, double aspect);

@@ -51,7 +51,7 @@ constexpr std::array<const char*, 2> shading_names = {"flat", "smooth"};
 constexpr std::array<const char*, 3> clip_names = {"cells", "smooth", "layer"};
 constexpr std::array<const char*, 2> theme_names = {"light", "dark"};
 constexpr std::array<const char*, 3> pick_names = {"facet", "cell", "vertex"};
-constexpr std::array<const char*, 5> selection_names = {"none", "facet", "cell", "vertex", "place"};
+constexpr std::array<const char*, 6> selection_names = {"none", "facet", "cell", "vertex", "place", "defect"};
 
 template <std::size_t N>
 int index_of(const std::array<const char*, N>& names, const std::string& text, const char* what) {
@@ -181,9 +181,12 @@ Selection selection_from(const OrderedJson& json, const std::string& source) {
 
 // The switches of a value, by name: written and read by the same list.
 std::vector<std::pair<const char*, bool*>> switches(ViewState& s) {
-    return {{"edges", &s.edges},       {"context", &s.context}, {"plane", &s.plane},           {"axes", &s.axes},
-            {"contour", &s.contour},   {"surface", &s.surface}, {"interfaces", &s.interfaces}, {"legend", &s.legend},
-            {"features", &s.features}, {"times", &s.times},     {"isolines", &s.isolines}};
+    return {{"edges", &s.edges},           {"context", &s.context},
+            {"plane", &s.plane},           {"axes", &s.axes},
+            {"contour", &s.contour},       {"surface", &s.surface},
+            {"interfaces", &s.interfaces}, {"legend", &s.legend},
+            {"features", &s.features},     {"times", &s.times},
+            {"isolines", &s.isolines},     {"neighbours", &s.neighbours}};
 }
 std::vector<std::pair<const char*, bool*>> switches(Panels& p) {
     return {{"tree", &p.tree},        {"display", &p.display},       {"timeline", &p.timeline},

@@ -85,10 +85,10 @@ enum class Theme { light, dark };
 enum class PickMode { facet, cell, vertex };
 
 struct Selection {
-    enum class Kind { none, facet, cell, vertex, place };
+    enum class Kind { none, facet, cell, vertex, place, defect };
     Kind kind = Kind::none;
     NodeId owner = 0;           ///< node or part whose numbers follow
-    std::int32_t index = -1;    ///< of the facet, cell or vertex there
+    std::int32_t index = -1;    ///< of the facet, cell or vertex there, or in Diagnosis::defects
     Vec3 place = Vec3::Zero();  ///< of the click, or of a defect
 
     bool operator==(const Selection&) const = default;
@@ -120,6 +120,7 @@ struct ViewState {
     ColorBy color = ColorBy::part;
     std::optional<ValueRange> color_range;  ///< none: that of what is shown
     std::optional<ValueRange> filter;       ///< only cells with a value of `color` in it
+    bool neighbours = false;                ///< of a selected cell: only it and the cells that share a vertex with it
     bool isolines = false;                  ///< where values at vertices are alike
     int load_case = 0;                      ///< of a solution, from 0
     double deform = 0;                      ///< displacements of a solution are drawn so many times as long

@@ -1,5 +1,8 @@
 // What colours mean: the choice, its range, its distribution, the worst cells.
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -9,6 +12,8 @@
 namespace kerf::view {
 
 namespace {
+
+constexpr float title_place = 0.24f;  // of a row: its title
 
 void draw_choice(UiContext& context) {
     static const std::vector<std::string> titles = [] {
@@ -23,20 +28,33 @@ void draw_choice(UiContext& context) {
     context.state.color_range.reset();
 }
 
-void draw_range(UiContext& context) {
+// A title and two fields in a row. True if one of them was changed.
+bool draw_limits(Widgets& widgets, const char* title, const std::array<const char*, 2>& labels, const ValueRange& value,
+                 ValueRange& typed, ValueRange& changed) {
+    const float left = ImGui::GetCursorPosX(), room = ImGui::GetContentRegionAvail().x;
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x, width = ((1 - title_place) * room - gap) / 2;
+    ImGui::AlignTextToFramePadding();
+    show(title);
+    ImGui::SameLine(left + title_place * room, 0);
+    const bool low = input_on_leaving(widgets, labels[0], width, value.low, typed.low);
+    if (low) changed.low = typed.low;
+    ImGui::SameLine(0, gap);
+    const bool high = input_on_leaving(widgets, labels[1], width, value.high, typed.high);
+    if (high) changed.high = typed.high;
+    return low || high;
+}
+
+// Always there, so that nothing below moves when it is used.
+void draw_range(UiContext& context, Memory& memory) {
     ViewState& state = context.state;
-    const Palette& colors = palette(state.theme);
     bool fixed = state.color_range.has_value();
     if (context.widgets.checkbox("Fixed range", &fixed, "The same colours for the same values, whatever is shown"))
         state.color_range = fixed ? std::optional(context.facts.values.value_or(ValueRange{0, 1})) : std::nullopt;
-    if (state.color_range) {
-        context.widgets.input_number("Lowest", &state.color_range->low);
-        context.widgets.input_number("Highest", &state.color_range->high);
-    } else if (context.facts.values) {
-        ImGui::SameLine();
-        show_right(fmt::format("{} to {}", rounded(context.facts.values->low), rounded(context.facts.values->high)),
-                   colors.dim);
-    }
+    draw_color_bar(context, memory);
+    const ValueRange shown = state.color_range.value_or(context.facts.values.value_or(ValueRange{0, 1}));
+    ValueRange changed = shown;
+    if (draw_limits(context.widgets, "Colours", {"Lowest", "Highest"}, shown, memory.range, changed))
+        state.color_range = changed;
 }
 
 // How a solution is drawn.
@@ -59,14 +77,21 @@ void draw_solution(UiContext& context) {
         context.widgets.checkbox("Isolines", &state.isolines, "Lines where values are alike, at tenths of the range");
 }
 
-void draw_filter(UiContext& context) {
+// Always there, so that nothing below moves when a filter begins.
+void draw_filter(UiContext& context, Memory& memory) {
     ViewState& state = context.state;
-    if (!state.filter) return;
-    ImGui::AlignTextToFramePadding();
-    show(fmt::format("Only {} to {}", rounded(state.filter->low), rounded(state.filter->high)),
-         palette(state.theme).accent);
-    ImGui::SameLine();
+    const ValueRange all = values_of_run(context);
+    const ValueRange shown = state.filter.value_or(all);
+    ValueRange changed = shown;
+    if (draw_limits(context.widgets, "Only", {"Only from", "Only to"}, shown, memory.filter, changed))
+        state.filter = changed;
+    ImGui::BeginDisabled(!state.filter);
     if (context.widgets.button("Clear filter", "Shows cells of all values again")) state.filter.reset();
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    show(state.filter ? "Only some cells are shown." : "Cells of all values are shown.",
+         state.filter ? palette(state.theme).accent : palette(state.theme).dim);
 }
 
 void fly_to_cell(UiContext& context, const WorstCell& cell) {
@@ -74,11 +99,22 @@ void fly_to_cell(UiContext& context, const WorstCell& cell) {
     if (!lies_below(cell.part, state.node)) state.node = cell.part;
     state.step = {Stage::tetrahedra, -1};
     reveal(state, cell.part);
-    context.actions.fly_to(cell.center, 0.02 * diagonal_of(context.session.document()));
+    context.actions.fly_to(cell.center, 0.02 * diagonal_of(context.session.document()), Vec3::Zero());
     state.selection = {Selection::Kind::cell, cell.part, cell.cell, cell.center};
+    context.actions.turn_to_selection();
 }
 
-void draw_worst_row(UiContext& context, const WorstCell& cell, int i) {
+// As far as keys have asked for; the row comes into sight.
+void step_through_worst(UiContext& context, Memory& memory, const std::vector<WorstCell>& cells) {
+    if (memory.list != Memory::List::worst_cells || memory.list_steps == 0) return;
+    const int last = static_cast<int>(cells.size()) - 1;
+    memory.chosen_worst = std::clamp(memory.chosen_worst + std::exchange(memory.list_steps, 0), 0, last);
+    fly_to_cell(context, cells[static_cast<std::size_t>(memory.chosen_worst)]);
+    const float height = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
+    scroll_to_row(static_cast<float>(memory.chosen_worst) * height, 2 * height);
+}
+
+void draw_worst_row(UiContext& context, Memory& memory, const WorstCell& cell, int i) {
     const Selection& selection = context.state.selection;
     const bool is_selected =
         selection.kind == Selection::Kind::cell && selection.owner == cell.part && selection.index == cell.cell;
@@ -86,8 +122,11 @@ void draw_worst_row(UiContext& context, const WorstCell& cell, int i) {
     ImGui::TableSetColumnIndex(0);
     const std::string label = fmt::format("worst {}", i + 1);
     if (ImGui::Selectable(fmt::format("{}##{}", i + 1, label).c_str(), is_selected,
-                          ImGuiSelectableFlags_SpanAllColumns))
+                          ImGuiSelectableFlags_SpanAllColumns)) {
+        memory.chosen_worst = i;
+        memory.list = Memory::List::worst_cells;
         fly_to_cell(context, cell);
+    }
     const ImVec2 from = ImGui::GetItemRectMin();  // the row spans columns, which are clipped one by one
     context.widgets.record(label, from, {from.x + 2 * em(), ImGui::GetItemRectMax().y});
     const ImVec4& color = palette(context.state.theme).text;
@@ -99,7 +138,7 @@ void draw_worst_row(UiContext& context, const WorstCell& cell, int i) {
     show_right(fmt::format("{}", cell.cell), color);
 }
 
-void draw_worst_table(UiContext& context, const std::vector<WorstCell>& cells) {
+void draw_worst_table(UiContext& context, Memory& memory, const std::vector<WorstCell>& cells) {
     constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoSavedSettings;
     const float rows = std::min(10.f, static_cast<float>(cells.size()) + 1.3f);
     if (!ImGui::BeginTable("##worst", 4, flags, {0, rows * (ImGui::GetTextLineHeight() + 0.4f * em())})) return;
@@ -113,19 +152,27 @@ void draw_worst_table(UiContext& context, const std::vector<WorstCell>& cells) {
         ImGui::TableSetColumnIndex(index++);
         show_right(head, dim);
     }
+    step_through_worst(context, memory, cells);
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(cells.size()));
     while (clipper.Step())
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
-            draw_worst_row(context, cells[static_cast<std::size_t>(i)], i);
+            draw_worst_row(context, memory, cells[static_cast<std::size_t>(i)], i);
     ImGui::EndTable();
 }
 
 }  // namespace
 
-void draw_worst_cells(UiContext& context) {
-    ImGui::SetNextItemOpen(context.state.panels.quality);
-    context.state.panels.quality = context.widgets.header("Worst cells", false);
+ValueRange values_of_run(const UiContext& context) {
+    const int measure = histogram_number(context.state.color);
+    if (measure >= 0)
+        if (const auto& histogram = context.session.document().histograms[static_cast<std::size_t>(measure)])
+            return {histogram->min, histogram->max};
+    return context.facts.values.value_or(ValueRange{0, 1});
+}
+
+void draw_worst_cells(UiContext& context, Memory& memory) {
+    draw_head(context.widgets, "Worst cells", context.state.panels.quality, memory.worst_cells);
     if (!context.state.panels.quality) return;
     const Palette& colors = palette(context.state.theme);
     if (context.session.document().folder.empty())
@@ -136,7 +183,7 @@ void draw_worst_cells(UiContext& context) {
     const auto cells = context.session.worst_cells(context.state.color, 100);
     if (!cells) return show("Reading the cells...", colors.dim);
     if (cells->empty()) return show("No cells have been written yet.", colors.dim);
-    draw_worst_table(context, *cells);
+    draw_worst_table(context, memory, *cells);
 }
 
 void draw_color(UiContext& context, Memory& memory) {
@@ -153,15 +200,15 @@ void draw_color(UiContext& context, Memory& memory) {
         }
         if (const char* missing = why_without_values(context.session.document(), state.color))
             show_wrapped(missing, palette(state.theme).dim);
-        if (is_measure(state.color) || context.facts.values) draw_range(context);
+        if (is_measure(state.color) || context.facts.values) draw_range(context, memory);
         draw_solution(context);
         if (is_measure(state.color)) {
             draw_histogram(context, memory);
-            draw_filter(context);
+            draw_filter(context, memory);
         }
         ImGui::Spacing();
     }
-    draw_worst_cells(context);
+    draw_worst_cells(context, memory);
     draw_worst_interfaces(context, memory);
 }
 

@@ -1,4 +1,5 @@
 // What is shown, and the plane that clips it.
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -114,6 +115,33 @@ void draw_normal(UiContext& context, Memory& memory) {
     if (!ImGui::IsItemActive()) memory.normal = {clip.normal.x(), clip.normal.y(), clip.normal.z()};
 }
 
+// The position in units of the file: along the normal from the origin.
+void draw_distance(UiContext& context, Memory& memory) {
+    Clip& clip = context.state.clip;
+    const Eigen::AlignedBox3d& box = context.session.document().box;
+    if (box.isEmpty()) return;
+    const ValueRange range = extent_along(box, clip.normal);
+    const double length = range.high - range.low;
+    const float left = ImGui::GetCursorPosX(), room = ImGui::GetContentRegionAvail().x;
+    ImGui::AlignTextToFramePadding();
+    show("At, in units of the file");
+    ImGui::SameLine(left + value_place * room + 6 * em(), 0);
+    const bool changed = input_on_leaving(context.widgets, "Clip at", ImGui::GetContentRegionAvail().x,
+                                          range.low + clip.position * length, memory.clip_at);
+    explain("The distance of the plane from the origin along its normal");
+    if (changed && length > 0) clip.position = std::clamp((memory.clip_at - range.low) / length, 0., 1.);
+}
+
+void draw_selection_buttons(UiContext& context) {
+    ImGui::BeginDisabled(context.state.selection.kind == Selection::Kind::none);
+    if (context.widgets.button("Through selection", "Clips through what is selected, with this normal (Shift+C)"))
+        context.actions.clip_through_selection(false);
+    ImGui::SameLine();
+    if (context.widgets.button("Facing me", "Clips through what is selected, across the line of sight"))
+        context.actions.clip_through_selection(true);
+    ImGui::EndDisabled();
+}
+
 }  // namespace
 
 void draw_display(UiContext& context) {
@@ -132,20 +160,15 @@ void draw_clip(UiContext& context, Memory& memory) {
     if (!context.widgets.header("Clip", true)) return;
     Clip& clip = context.state.clip;
     context.widgets.checkbox("Clip plane", &clip.on, "Shows one side of a plane (C)");
-    const Eigen::AlignedBox3d& box = context.session.document().box;
-    if (clip.on && !box.isEmpty()) {
-        const ValueRange range = extent_along(box, clip.normal);
-        ImGui::SameLine();
-        show_right(fmt::format("at {:.4g}", range.low + clip.position * (range.high - range.low)),
-                   palette(context.state.theme).dim);
-    }
     draw_axis_buttons(context);
     ImGui::BeginDisabled(!clip.on);
     context.widgets.slider("Position", &clip.position, 0, 1, "%.3f");
+    draw_distance(context, memory);
     draw_normal(context, memory);
     draw_choice(context.widgets, "Cells", {"Whole", "Cut", "Layer"}, clip.style);
     ImGui::EndDisabled();
     draw_snap_button(context);
+    draw_selection_buttons(context);
     ImGui::Spacing();
 }
 

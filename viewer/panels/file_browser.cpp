@@ -84,13 +84,16 @@ class Dialog {
             browser_.go_to(folder.parent_path());
         ImGui::SameLine();
         ImGui::SetNextItemWidth(-1);
-        const bool entered = ImGui::InputText("##path", &browser_.typed, ImGuiInputTextFlags_EnterReturnsTrue);
+        if (browser_.frames_to_focus > 0 && --browser_.frames_to_focus == 0) ImGui::SetKeyboardFocusHere();
+        const bool entered = ImGui::InputText("##path", &browser_.typed,
+                                              ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
         context_.widgets.record("folder path");
         typing_ |= ImGui::IsItemActive() || entered;
         if (entered) try_typed();
     }
 
     void try_typed() {
+        if (browser_.typed == browser_.folder && browser_.chosen >= 0) return activate(browser_.chosen);
         std::error_code ignored;  // neither: the browser says so
         if (fs::is_regular_file(browser_.typed, ignored)) return open(browser_.typed);
         browser_.go_to(browser_.typed);
@@ -228,6 +231,7 @@ void begin_browsing(const Settings& settings, FileBrowser& browser) {
     browser.filter.clear();
     browser.go_to(folder);
     browser.open = true;
+    browser.frames_to_focus = 2;  // a dialog takes the keyboard when it appears
     ImGui::OpenPopup(popup_title);
 }
 

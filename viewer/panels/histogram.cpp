@@ -10,26 +10,6 @@ namespace kerf::view {
 
 namespace {
 
-// Its place in quality_measures; -1: it is no measure.
-int measure_of(ColorBy color) {
-    switch (color) {
-        case ColorBy::min_dihedral:
-            return 0;
-        case ColorBy::radius_edge:
-            return 2;
-        case ColorBy::aspect:
-            return 3;
-        case ColorBy::shape:
-            return 4;
-        case ColorBy::volume:
-            return 5;
-        case ColorBy::edge_length:
-            return 7;
-        default:
-            return -1;
-    }
-}
-
 // The bins that hold cells, so that the picture is not mostly empty.
 struct Span {
     std::size_t first = 0, last = 0;  // last: one behind
@@ -170,8 +150,27 @@ void draw_key(const Palette& colors) {
 
 }  // namespace
 
+int histogram_number(ColorBy color) {
+    switch (color) {
+        case ColorBy::min_dihedral:
+            return 0;
+        case ColorBy::radius_edge:
+            return 2;
+        case ColorBy::aspect:
+            return 3;
+        case ColorBy::shape:
+            return 4;
+        case ColorBy::volume:
+            return 5;
+        case ColorBy::edge_length:
+            return 7;
+        default:
+            return -1;
+    }
+}
+
 void draw_histogram(UiContext& context, Memory& memory) {
-    const int measure = measure_of(context.state.color);
+    const int measure = histogram_number(context.state.color);
     if (measure < 0) return;
     const auto& histogram = context.session.document().histograms[static_cast<std::size_t>(measure)];
     const Palette& colors = palette(context.state.theme);

@@ -21,7 +21,12 @@ class Actions {
     virtual void fit_all() = 0;
     virtual void frame_selection() = 0;
     /// Turns the camera's target to a point and comes as close as `radius` (units of the file) asks for; selects it.
-    virtual void fly_to(const Vec3& point, double radius) = 0;
+    /// `back`: where the eye goes from there, of length 1; zero: as before.
+    virtual void fly_to(const Vec3& point, double radius, const Vec3& back) = 0;
+    /// Once it is known where a selected cell at the surface can be seen from, the camera turns there.
+    virtual void turn_to_selection() = 0;
+    /// The clip plane with its normal, or facing the eye, goes through the middle of what is selected.
+    virtual void clip_through_selection(bool faces_eye) = 0;
     virtual void look(Direction direction) = 0;
     virtual void toggle_play() = 0;
     virtual void quit() = 0;
@@ -68,7 +73,7 @@ struct Settings {
     std::vector<std::string> recent;  ///< files, the last one first
     std::string browser_folder;       ///< of the file browser
     PanelSizes panels;
-    WindowSize window;                ///< when it was last drawn
+    WindowSize window;  ///< when it was last drawn
 };
 
 struct UiContext {
@@ -108,6 +113,11 @@ class Ui {
     /// Legend, gizmo and caption in the scene's rectangle: part of every picture, also without panels.
     void draw_overlays(UiContext& context, const Rectangle& scene);
     void open_browser();
+    /// Closes what has popped up last, unless it is a dialog; false: there is none.
+    bool close_menu();
+    /// The list of defects or cells that was used last goes on by so many entries; false: none was.
+    bool step_in_list(int count);
+    void leave_list();
     /// A dialog is open or a text field has the keyboard.
     bool wants_keyboard() const;
 

@@ -141,11 +141,7 @@ void draw_remark(const std::string& wrong, const Palette& colors) {
 }  // namespace
 
 void draw_parameters(UiContext& context, Memory& memory) {
-    const bool opened_elsewhere = context.state.panels.parameters && !memory.parameters_open;
-    ImGui::SetNextItemOpen(context.state.panels.parameters);
-    context.state.panels.parameters = context.widgets.header("Parameters", false);
-    memory.parameters_open = context.state.panels.parameters;
-    if (opened_elsewhere) ImGui::SetScrollHereY(0);
+    draw_head(context.widgets, "Parameters", context.state.panels.parameters, memory.parameters);
     if (!context.state.panels.parameters) return;
     take_options(context.session.document(), memory);
     const std::string wrong = complaint(memory.options);

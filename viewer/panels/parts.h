@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -25,12 +26,19 @@ struct FileBrowser {
     };
     bool requested = false;  ///< is to open in the next frame
     bool open = false;
+    int frames_to_focus = 0;  ///< until the path has the keyboard
     bool all_files = false;
     std::string folder, typed, filter, error;
     std::vector<Entry> entries;
     int chosen = -1;  ///< index in `entries`
 
     void go_to(const std::filesystem::path& new_folder);
+};
+
+/// A collapsing section, and for how many frames more the panel scrolls to it: it grows when it opens.
+struct Section {
+    bool open = false;
+    int frames_to_scroll = 0;
 };
 
 /// What ImGui does not keep for us.
@@ -43,20 +51,29 @@ struct Memory {
     bool worst_by_angle = false;   ///< interfaces by the angles of their triangles, not those with the surface
     NodeId chosen_interface = 0;   ///< of the worst, by its node
     NodeId awaited_interface = 0;  ///< it is flown to as soon as its surface is there
-    int defect_group = -1;         ///< kind and severity of the only defects that are listed; -1: all
-    int chosen_defect = -1;
     std::map<std::string, std::string> advised;  ///< values of options that texts advise, as edited
     std::string advised_for;                     ///< path of the document that they are for
     int chosen_place = -1;                       ///< of a refused try, that was flown to last
     NodeId place_node = 0;                       ///< of that try
     Step place_step;
+    int defect_group = -1;  ///< kind and severity of the only defects that are listed; -1: all
+    enum class List { none, defects, worst_cells };
+    List list = List::none;  ///< that was used last: keys go on in it
+    int list_steps = 0;      ///< that keys have asked for
+    int chosen_defect = -1;
+    int chosen_worst = -1;
+    std::optional<ValueRange> colored;  ///< values of what is shown, as it was without a fixed range
+    std::string colored_of;             ///< colouring and document that they were of
+    double drag_from = 0;               ///< value where a drag over the colour bar began, or that it leaves in place
+    double clip_at = 0;                 ///< of the clip plane, in units of the file, while it is typed
+    ValueRange range, filter;           ///< while they are typed
     bool log_counts = false;            ///< of the histogram
     double brush_from = 0;              ///< bin where a drag over the histogram began
     std::array<double, 3> normal = {};  ///< of the clip plane while it is typed
     RunOptions options;                 ///< as edited
     std::string options_of;             ///< path and options of the document that they were taken from
-    bool parameters_open = false;
-    std::string save_to, save_of;  ///< where a run is to be saved, as typed; path of the document
+    std::string save_to, save_of;       ///< where a run is to be saved, as typed; path of the document
+    Section parameters, worst_cells;
 };
 
 void draw_menu(UiContext& context, Memory& memory);
@@ -66,8 +83,9 @@ void draw_problems(UiContext& context, Memory& memory);
 void draw_display(UiContext& context);
 void draw_clip(UiContext& context, Memory& memory);
 void draw_color(UiContext& context, Memory& memory);
+void draw_color_bar(UiContext& context, Memory& memory);
 void draw_histogram(UiContext& context, Memory& memory);
-void draw_worst_cells(UiContext& context);
+void draw_worst_cells(UiContext& context, Memory& memory);
 void draw_worst_interfaces(UiContext& context, Memory& memory);
 void draw_parameters(UiContext& context, Memory& memory);
 void draw_comparison(UiContext& context, Memory& memory);
@@ -89,6 +107,17 @@ void go_to_node(UiContext& context, NodeId node);
 void reveal(ViewState& state, NodeId node);
 /// The colour of a part in the scene, where parts have one.
 const Color* part_color(const SceneFacts& facts, const ViewState& state, NodeId part);
+/// Where Document::histograms has a measure; -1: it is none.
+int histogram_number(ColorBy color);
+/// Of the colouring: of all cells as far as is known, else of what is shown.
+ValueRange values_of_run(const UiContext& context);
+/// Scrolls the list that is being drawn so that what is there between `top` and `top` + `height` is seen.
+void scroll_to_row(float top, float height);
+/// The head of a section that a switch opens and closes, too. When it opens it comes into sight.
+void draw_head(Widgets& widgets, const char* label, bool& open, Section& section);
+/// A field of this width without its label, for a number that takes effect when it is left: then true. `typed` is what
+/// stands there, which is `value` as long as nobody types.
+bool input_on_leaving(Widgets& widgets, const char* label, float width, double value, double& typed);
 /// The length of the body's diagonal, of the soup's if there is no body, or 1.
 double diagonal_of(const Document& document);
 /// A message as long as the mouse is over the last item; `text` may be long.

@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "viewer/model/advice.h"
+#include "viewer/model/line_of_sight.h"
 #include "viewer/panels/parts.h"
 
 namespace kerf::view {
@@ -86,6 +88,7 @@ class ProblemList {
             context_.actions.copy(text());
         ImGui::SameLine();
         show(fmt::format("{} listed; click to fly there", listed_.size()), colors_.dim);
+        explain("Up and Down go on from there.");
         draw_entries();
     }
 
@@ -148,12 +151,25 @@ class ProblemList {
 
     void draw_entries() {
         ImGui::BeginChild("##defects", {0, 0}, true);
+        if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(0)) memory_.list = Memory::List::defects;
+        take_steps();
         ImGuiListClipper clipper;
         clipper.Begin(static_cast<int>(listed_.size()), entry_height() + ImGui::GetStyle().ItemSpacing.y);
         while (clipper.Step())
             for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
                 draw_entry(listed_[static_cast<std::size_t>(i)]);
         ImGui::EndChild();
+    }
+
+    // As far as keys have asked for; the entry comes into sight.
+    void take_steps() {
+        if (memory_.list != Memory::List::defects || memory_.list_steps == 0 || listed_.empty()) return;
+        const int steps = std::exchange(memory_.list_steps, 0), last = static_cast<int>(listed_.size()) - 1;
+        const auto at = std::find(listed_.begin(), listed_.end(), memory_.chosen_defect);
+        const int next = at == listed_.end() ? 0 : std::clamp(static_cast<int>(at - listed_.begin()) + steps, 0, last);
+        fly_to(listed_[static_cast<std::size_t>(next)]);
+        const float height = entry_height() + ImGui::GetStyle().ItemSpacing.y;
+        scroll_to_row(static_cast<float>(next) * height, 2 * height);
     }
 
     static float entry_height() { return 2 * ImGui::GetTextLineHeight() + 0.2f * em(); }
@@ -183,8 +199,13 @@ class ProblemList {
         const Defect& defect = checked_.diagnosis.defects[static_cast<std::size_t>(index)];
         memory_.chosen_defect = index;
         if (!defect.where.allFinite()) return;
-        context_.actions.fly_to(defect.where,
-                                radius_of(defect, checked_.soup, diagonal_of(context_.session.document())));
+        const Soup& soup = checked_.soup;
+        const double radius = radius_of(defect, soup, diagonal_of(context_.session.document()));
+        const Vec3 outward = mean_normal(soup.vertices, soup.facets, defect.facets);
+        const std::optional<Vec3> back =
+            direction_to_eye(soup.vertices, soup.facets, defect.where, 0.01 * radius, outward, context_.camera.back());
+        context_.actions.fly_to(defect.where, radius, back.value_or(Vec3::Zero()));
+        context_.state.selection = {Selection::Kind::defect, context_.state.node, index, defect.where};
     }
 
     std::string text() const {

@@ -34,6 +34,15 @@ void draw_selection(UiContext& context) {
         context.actions.copy(context.facts.selection);
     ImGui::SameLine();
     if (context.widgets.small_button("Clear", "Select nothing (Escape)")) context.state.selection = {};
+    if (context.state.selection.kind == Selection::Kind::cell) {
+        ImGui::SameLine();
+        bool& only_ring = context.state.neighbours;
+        if (context.widgets.small_button(only_ring ? "All cells" : "Neighbours",
+                                         only_ring
+                                             ? "Shows the other cells again (N)"
+                                             : "Shows only the cells that share a vertex with it, of all parts (N)"))
+            only_ring = !only_ring;
+    }
     ImGui::BeginChild("##selection");
     draw_lines(context.facts.selection, palette(context.state.theme));
     ImGui::EndChild();

@@ -100,7 +100,7 @@ class TimelineBar {
         memory_.chosen_place = index;
         const FailurePlace& place = places[static_cast<std::size_t>(index)];
         const double diagonal = diagonal_of(context_.session.document());
-        context_.actions.fly_to(place.where, place.radius > 0 ? 1.5 * place.radius : 0.02 * diagonal);
+        context_.actions.fly_to(place.where, place.radius > 0 ? 1.5 * place.radius : 0.02 * diagonal, Vec3::Zero());
     }
 
     void draw_text() {

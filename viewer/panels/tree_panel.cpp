@@ -126,8 +126,7 @@ class TreeTable {
             std::find_if(rows_.begin(), rows_.end(), [&](const TreeRow* r) { return r->id == context_.state.node; });
         if (row == rows_.end()) return;
         const float top = static_cast<float>(row - rows_.begin()) * row_height();
-        const float seen = ImGui::GetWindowHeight() - 2 * row_height();
-        if (top < ImGui::GetScrollY() || top > ImGui::GetScrollY() + seen) ImGui::SetScrollY(top - seen / 2);
+        scroll_to_row(top, 2 * row_height());
     }
 
     void draw_row(const TreeRow& row) {

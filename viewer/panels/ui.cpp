@@ -1,6 +1,7 @@
 // The order in which panels are drawn, and what they share.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <imgui_internal.h>  // whether any popup is open
@@ -117,7 +118,9 @@ void Ui::draw(UiContext& context, float width, float height) {
         set_style(impl_->theme, impl_->scale > 0 ? impl_->scale : 1);
     }
     const Layout layout = layout_of(context.state, context.session.document(), context.settings.panels, width, height);
-    draw_menu(context, impl_->memory);
+    Memory& memory = impl_->memory;
+    if (ImGui::IsMouseClicked(0) && ImGui::GetIO().WantCaptureMouse) memory.list = Memory::List::none;
+    draw_menu(context, memory);
     draw_splitters(context, layout);  // before the panels: of windows that stay where they are the first is in front
     if (layout.has_left) draw_left(context, impl_->memory, layout);
     if (layout.has_right) draw_right(context, impl_->memory, layout);
@@ -135,6 +138,7 @@ void Ui::draw(UiContext& context, float width, float height) {
     if (has_body(context.session.document())) draw_clip_handles(context, layout.scene);
     draw_keys(context);
     draw_browser(context, impl_->memory);
+    if (std::exchange(memory.list_steps, 0) != 0) memory.list = Memory::List::none;  // it is not shown any more
 }
 
 void Ui::draw_overlays(UiContext& context, const Rectangle& scene) {
@@ -143,6 +147,24 @@ void Ui::draw_overlays(UiContext& context, const Rectangle& scene) {
     draw_legend(context, scene);
     draw_gizmo(context, scene);
 }
+
+bool Ui::close_menu() {
+    const ImVector<ImGuiPopupData>& open = ImGui::GetCurrentContext()->OpenPopupStack;
+    int dialogs = 0;
+    while (dialogs < open.Size && (!open[dialogs].Window || (open[dialogs].Window->Flags & ImGuiWindowFlags_Modal)))
+        ++dialogs;
+    if (dialogs == open.Size) return false;
+    ImGui::ClosePopupToLevel(dialogs, true);
+    return true;
+}
+
+bool Ui::step_in_list(int count) {
+    if (impl_->memory.list == Memory::List::none) return false;
+    impl_->memory.list_steps += count;
+    return true;
+}
+
+void Ui::leave_list() { impl_->memory.list = Memory::List::none; }
 
 void Ui::open_browser() { impl_->memory.browser.requested = true; }
 
@@ -159,6 +181,30 @@ void go_to_node(UiContext& context, NodeId node) {
 
 void reveal(ViewState& state, NodeId node) {
     for (; node > 0; node /= 2) state.set_hidden(node, false);
+}
+
+void scroll_to_row(float top, float height) {
+    const float seen = ImGui::GetWindowHeight() - height;
+    if (top < ImGui::GetScrollY() || top > ImGui::GetScrollY() + seen) ImGui::SetScrollY(top - seen / 2);
+}
+
+void draw_head(Widgets& widgets, const char* label, bool& open, Section& section) {
+    ImGui::SetNextItemOpen(open);
+    open = widgets.header(label, false);
+    if (open && !section.open) section.frames_to_scroll = 2;
+    section.open = open;
+    if (section.frames_to_scroll <= 0) return;
+    --section.frames_to_scroll;
+    ImGui::SetScrollHereY(0);
+}
+
+bool input_on_leaving(Widgets& widgets, const char* label, float width, double value, double& typed) {
+    ImGui::SetNextItemWidth(width);
+    ImGui::InputScalar((std::string("##") + label).c_str(), ImGuiDataType_Double, &typed, nullptr, nullptr, "%.6g");
+    widgets.record(label);
+    const bool left = ImGui::IsItemDeactivatedAfterEdit() && std::isfinite(typed);
+    if (!left && !ImGui::IsItemActive()) typed = value;
+    return left;
 }
 
 const Color* part_color(const SceneFacts& facts, const ViewState& state, NodeId part) {

@@ -1,5 +1,8 @@
 #include "viewer/panels/widgets.h"
 
+#include <algorithm>
+#include <cfloat>
+
 #include <imgui.h>
 #include <imgui_internal.h>  // flags of the last item, the dialog on top
 #include <imgui_stdlib.h>
@@ -101,7 +104,16 @@ bool Widgets::slider(const char* label, double* value, double low, double high, 
 }
 
 bool Widgets::combo(const char* label, int* index, const std::vector<std::string>& names) {
-    const std::string id = label_left(label);
+    // Words that would be cut beside the label get a line of their own.
+    float widest = 0;
+    for (const std::string& name : names) widest = std::max(widest, ImGui::CalcTextSize(name.c_str()).x);
+    widest += 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetFrameHeight();
+    const bool is_wide = widest > (1 - value_place) * ImGui::GetContentRegionAvail().x;
+    if (is_wide) {
+        ImGui::TextUnformatted(name_of(label).c_str());
+        ImGui::SetNextItemWidth(-FLT_MIN);
+    }
+    const std::string id = is_wide ? std::string("##") + label : label_left(label);
     const bool known = *index >= 0 && *index < static_cast<int>(names.size());
     const bool open = ImGui::BeginCombo(id.c_str(), known ? names[static_cast<std::size_t>(*index)].c_str() : "",
                                         ImGuiComboFlags_HeightLarge);

@@ -81,7 +81,7 @@ std::optional<PickHit> Picker::pick(const Scene& scene, const Projection& projec
     gl_.Enable(GL_DEPTH_TEST);
     for (std::size_t i = 0; i < scene.layers.size(); ++i) {
         const Layer& layer = scene.layers[i];
-        if (!layer.geometry || layer.opacity < 1) continue;
+        if (!layer.geometry || layer.opacity < 1 || layer.backs_only) continue;
         const std::uint32_t id = is_pickable(layer) ? static_cast<std::uint32_t>(i) + 1 : 0;
         const PaintJob job = {layer, cache.get(layer.geometry), scene, pixel};
         if (!layer.geometry->corners.empty())

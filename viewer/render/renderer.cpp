@@ -164,11 +164,11 @@ void Renderer::Impl::draw_background(const Scene& scene) {
 }
 
 void Renderer::Impl::draw_opaque_triangles(const Scene& scene, const Projection& projection) {
-    gl_.CullFace(GL_BACK);
     for (const Layer& layer : scene.layers) {
         if (!has_triangles(layer) || layer.opacity < 1) continue;
         const PaintJob triangles = job(layer, scene, projection);
-        if (triangles.hides_backs()) gl_.Enable(GL_CULL_FACE);
+        gl_.CullFace(layer.backs_only ? GL_FRONT : GL_BACK);
+        if (layer.backs_only || triangles.hides_backs()) gl_.Enable(GL_CULL_FACE);
         triangles_.draw(triangles);
         gl_.Disable(GL_CULL_FACE);
     }
@@ -188,7 +188,7 @@ void Renderer::Impl::draw_see_through_triangles(const Scene& scene, const Projec
     for (GLenum hidden_side : {GL_FRONT, GL_BACK}) {
         gl_.CullFace(hidden_side);
         for (const Layer& layer : scene.layers)
-            if (has_triangles(layer) && layer.opacity < 1) {
+            if (has_triangles(layer) && layer.opacity < 1 && !(layer.backs_only && hidden_side == GL_BACK)) {
                 PaintJob glass = job(layer, scene, projection);
                 glass.shows_fronts = hidden_side == GL_BACK;
                 triangles_.draw(glass);

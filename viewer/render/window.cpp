@@ -3,6 +3,7 @@
 #include "viewer/render/window.h"
 
 #include <algorithm>
+#include <deque>
 #include <set>
 #include <utility>
 
@@ -105,17 +106,20 @@ struct Window::Impl {
     Impl(const std::string& title, int width, int height) : window(create_window(title, width, height)) {}
 
     void install_callbacks();
-    void install_key_callback();
+    void install_key_callbacks();
+    void hand_keys_to_imgui();
 
     Glfw glfw;
     std::unique_ptr<GLFWwindow, Destroy> window;
     Gl gl;
-    struct Release {
-        int key, scancode, mods;
+    // A change of a key or, where that is -1, a character.
+    struct KeyChange {
+        int key = -1, scancode = 0, action = 0, mods = 0;
+        unsigned character = 0;
     };
-    std::set<int> pressed;                             // since the last frame
-    std::vector<Release> released_too_soon, released;  // in the frame of the press, and in the one before
-    bool happened = true;                              // the first picture is due
+    std::deque<KeyChange> for_imgui;  // that it has not seen yet
+    std::vector<KeyEvent> key_events;
+    bool happened = true;  // the first picture is due
     std::vector<std::string> dropped;
 };
 
@@ -151,18 +155,43 @@ void Window::Impl::install_callbacks() {
     });
 }
 
-// Takes the place of ImGui's own, which it calls.
-void Window::Impl::install_key_callback() {
+// These take the place of ImGui's own, which are called frame by frame.
+void Window::Impl::install_key_callbacks() {
     glfwSetKeyCallback(window.get(), [](GLFWwindow* source, int key, int scancode, int action, int mods) {
         Impl& impl = impl_of<Impl>(source);
-        if (action == GLFW_PRESS) impl.pressed.insert(key);
-        if (action == GLFW_RELEASE && impl.pressed.contains(key)) {
-            impl.happened = true;
-            impl.released_too_soon.push_back({key, scancode, mods});
-        } else {
-            ImGui_ImplGlfw_KeyCallback(source, key, scancode, action, mods);
-        }
+        impl.happened = true;
+        impl.for_imgui.push_back({.key = key, .scancode = scancode, .action = action, .mods = mods});
+        if (action == GLFW_RELEASE) return;
+        impl.key_events.push_back({.key = key,
+                                   .control = (mods & GLFW_MOD_CONTROL) != 0,
+                                   .shift = (mods & GLFW_MOD_SHIFT) != 0,
+                                   .repeat = action == GLFW_REPEAT});
     });
+    glfwSetCharCallback(window.get(), [](GLFWwindow* source, unsigned character) {
+        Impl& impl = impl_of<Impl>(source);
+        impl.happened = true;
+        impl.for_imgui.push_back({.character = character});
+    });
+}
+
+// ImGui looks at the state of keys once a frame, after the characters: what would hide from it an earlier change waits
+// for the next frame.
+void Window::Impl::hand_keys_to_imgui() {
+    std::set<int> changed;
+    for (; !for_imgui.empty(); for_imgui.pop_front()) {
+        const KeyChange& change = for_imgui.front();
+        if (change.key >= 0) {
+            if (changed.contains(change.key)) break;
+            // Other keys matter to it by their characters.
+            if (change.key >= GLFW_KEY_ESCAPE || (change.mods & GLFW_MOD_CONTROL) != 0) changed.insert(change.key);
+            ImGui_ImplGlfw_KeyCallback(window.get(), change.key, change.scancode, change.action, change.mods);
+        } else {
+            const bool is_after_key = changed.lower_bound(GLFW_KEY_ESCAPE) != changed.lower_bound(GLFW_KEY_F1);
+            if (is_after_key) break;
+            ImGui_ImplGlfw_CharCallback(window.get(), change.character);
+        }
+    }
+    if (!for_imgui.empty()) happened = true;
 }
 
 Window::Window(const std::string& title, int width, int height) : impl_(std::make_unique<Impl>(title, width, height)) {
@@ -171,7 +200,7 @@ Window::Window(const std::string& title, int width, int height) : impl_(std::mak
     impl_->gl = load_gl([](const char* name) { return reinterpret_cast<void*>(glfwGetProcAddress(name)); });
     impl_->install_callbacks();
     ImGui_ImplGlfw_InitForOpenGL(impl_->window.get(), true);
-    impl_->install_key_callback();
+    impl_->install_key_callbacks();
 }
 
 Window::~Window() { ImGui_ImplGlfw_Shutdown(); }
@@ -195,14 +224,11 @@ bool Window::take_events(double wait_seconds) {
 }
 
 void Window::begin_frame() {
-    // ImGui looks at the keys once a frame: who presses and releases one in between has pressed it all the same.
-    for (const auto& [key, scancode, mods] : std::exchange(impl_->released, {}))
-        ImGui_ImplGlfw_KeyCallback(impl_->window.get(), key, scancode, GLFW_RELEASE, mods);
-    impl_->released = std::exchange(impl_->released_too_soon, {});
-    if (!impl_->released.empty()) impl_->happened = true;
-    impl_->pressed.clear();
+    impl_->hand_keys_to_imgui();
     ImGui_ImplGlfw_NewFrame();
 }
+
+std::vector<KeyEvent> Window::take_key_events() { return std::exchange(impl_->key_events, {}); }
 
 std::vector<std::string> Window::take_dropped_files() { return std::exchange(impl_->dropped, {}); }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "viewer/render/frame_size.h"
+#include "viewer/render/key_event.h"
 
 namespace kerf::view {
 
@@ -34,6 +35,8 @@ class Window {
     bool take_events(double wait_seconds);
     /// Hands it to ImGui's input, and the time since the last call. Before every frame.
     void begin_frame();
+    /// Keys that were pressed since the last call.
+    std::vector<KeyEvent> take_key_events();
     /// Files that were dropped onto the window since the last call.
     std::vector<std::string> take_dropped_files();
     /// Shows what was drawn.

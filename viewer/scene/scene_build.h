@@ -19,6 +19,8 @@ inline Color half_color(NodeId half) { return category_color(half % 2 == 0 ? 0 :
 
 inline constexpr float contour_pixels = 3.5f, thin_pixels = 1.5f, feature_pixels = 2.2f, place_pixels = 9;
 
+inline constexpr float context_opacity = 0.22f, glass_opacity = 0.3f;
+
 /// One scene under construction. Its layers come from several files: cut_layers, part_layers, defect_layers, legend.
 class SceneBuild {
  public:
@@ -32,6 +34,21 @@ class SceneBuild {
     BuiltScene run();
 
  private:
+    // What the colours of cells are made from, and the choice that looks at it; it stays where it is.
+    struct CellColors {
+        CellColors() = default;
+        CellColors(const CellColors&) = delete;
+        CellColors& operator=(const CellColors&) = delete;
+
+        std::shared_ptr<const std::vector<float>> values;
+        std::shared_ptr<const PartSolution> solution;
+        std::vector<Vec3> moved;
+        std::vector<float> at_vertices, patches;
+        std::shared_ptr<const void> source;
+        Fill fill = Fill::plain;
+        CellChoice choice;
+    };
+
     Layer& add(const std::string& name, std::shared_ptr<const Geometry> geometry, const Color& color, NodeId owner = 0,
                const Vec3& offset = Vec3::Zero());
     Layer& add_lines(const std::string& name, const std::vector<std::array<Vec3, 2>>& ends, const Color& color,
@@ -62,9 +79,18 @@ class SceneBuild {
     }
     std::size_t triangles_seen(const Layer& layer) const;
     void add_isolines();
+    void add_tetrahedra(const std::shared_ptr<const NodeSurface>& surface);
     void add_parts();
     void add_part(NodeId part);
     bool add_cells(NodeId part, const NodeSurface& surface, const Vec3& offset);
+    bool find_cell_colors(const std::shared_ptr<const PartCells>& cells, const NodeSurface& surface,
+                          CellColors& colors);
+    Layer* add_faces(const std::string& name, const std::string& chosen, const PartCells& cells,
+                     const NodeSurface& surface, const Vec3& offset, CellColors& colors);
+    void add_section(const PartCells& cells, const Vec3& offset, const CellColors& colors);
+    void add_outline(NodeId owner, const std::shared_ptr<const NodeSurface>& surface, const Vec3& offset);
+    void show_selected_cell(const NodeSurface* shown);
+    bool is_seen(const PartCells& cells, const NodeSurface& part, const NodeSurface* shown, std::int32_t cell) const;
     void add_selection();
     void set_colors();
     void set_range(const ValueRange& range);
@@ -93,6 +119,7 @@ class SceneBuild {
     std::shared_ptr<const SurfaceValues> values_on(const std::shared_ptr<const NodeSurface>& surface);
     void color_facets(const NodeSurface& surface, const SurfaceValues* values, const std::vector<float>& patches,
                       FacetChoice& choice) const;
+    bool has_filter() const { return state_.filter && is_measure(state_.color) && !ring_; }
     bool needs_values() const { return is_measure(state_.color) || is_kind(state_.color); }
     Vec3 offset_of(NodeId part, NodeId root) const {
         return explosion_offset(document_.tree, part, root, state_.explode, document_.box.diagonal().norm());
@@ -100,7 +127,7 @@ class SceneBuild {
     Color color_of(NodeId part) const;
     Color color_of(Stage stage) const;
     Fill fill_of_values() const { return is_kind(state_.color) ? Fill::categories : Fill::scale; }
-    std::string clip_key() const;
+    std::string clip_key(double shrink) const;
     std::string value_key() const {
         const bool is_plain = !needs_values() && !is_of_solution(state_.color) && state_.color != ColorBy::patch;
         return (is_plain ? "plain" : name(state_.color)) + solution_key();
@@ -128,6 +155,7 @@ class SceneBuild {
     const SceneColors colors_;
     BuiltScene built_;
     std::optional<ShownSide> side_;
+    std::optional<std::array<std::int64_t, 4>> ring_;  // global numbers of the cell whose neighbours are shown
     std::map<NodeId, std::size_t> part_order_;
     std::vector<float> palette_of_patch_;  // where colours are those of the file
     Step step_;

@@ -10,8 +10,8 @@ namespace kerf::view {
 
 namespace {
 
-constexpr float context_opacity = 0.22f, glass_opacity = 0.55f;
-constexpr float glass_front_share = 0.12f, context_front_share = 0.4f;
+constexpr float shell_opacity = 0.55f, shell_front_share = 0.12f;  // of the node's surface around what is inside
+constexpr float context_front_share = 0.4f;
 
 bool is_facet_shown(const NodeSurface& surface, std::int32_t facet, const ShownSide& side, ClipStyle style) {
     const Triangle& t = surface.facets[static_cast<std::size_t>(facet)];
@@ -33,13 +33,13 @@ bool is_outward(const Document& document) {
 
 }  // namespace
 
-std::string SceneBuild::clip_key() const {
-    std::string key = fmt::format("shrink {}", state_.shrink);
+std::string SceneBuild::clip_key(double shrink) const {
+    std::string key = fmt::format("shrink {}", shrink);
     if (side_)
         key += fmt::format(" {} {} {} {} {}", name(state_.clip.style), side_->normal.x(), side_->normal.y(),
                            side_->normal.z(), side_->offset);
-    if (state_.filter && is_measure(state_.color))
-        key += fmt::format(" filter {} {}", state_.filter->low, state_.filter->high);
+    if (ring_) key += fmt::format(" around {}", fmt::join(*ring_, " "));
+    if (has_filter()) key += fmt::format(" filter {} {}", state_.filter->low, state_.filter->high);
     return key;
 }
 
@@ -118,7 +118,7 @@ Layer* SceneBuild::add_surface(const std::string& name, const std::shared_ptr<co
     const auto values = values_on(surface);
     color_facets(*surface, values.get(), patches, choice);
     const std::string key = fmt::format("{} of {} {} {} {}", name, owner, shading_key(),
-                                        by_facets ? clip_key() : fmt::format("shrink {}", state_.shrink),
+                                        by_facets ? clip_key(state_.shrink) : fmt::format("shrink {}", state_.shrink),
                                         values || !patches.empty() ? view::name(state_.color) : "plain");
     const std::shared_ptr<const void> source = values ? std::shared_ptr<const void>(values) : surface;
     auto geometry = cache_.get(key, source, [&] { return facet_triangles(*surface, built_.frame, choice); });
@@ -156,8 +156,8 @@ void SceneBuild::add_node(const std::shared_ptr<const NodeSurface>& surface) {
     const CutTry* attempt = step_.refused_try >= 0 && cut && number < cut->tries.size() ? &cut->tries[number] : nullptr;
     // What lies inside is to be seen.
     if (layer && (step_.stage >= Stage::projected || (attempt && !attempt->collisions.empty()))) {
-        layer->opacity = glass_opacity;
-        layer->front_share = glass_front_share;
+        layer->opacity = shell_opacity;
+        layer->front_share = shell_front_share;
         layer->edges = false;
         layer->two_sided = true;
     }
@@ -218,12 +218,15 @@ void SceneBuild::add_selection() {
     if (s.kind == Selection::Kind::none) return;
     std::vector<Vec3> corners = selected_points(session_, s);
     built_.pending |= corners.empty();
-    const bool apart = step_.stage >= Stage::split && s.kind != Selection::Kind::place && s.owner != state_.node;
+    const bool moves = s.kind != Selection::Kind::place && s.kind != Selection::Kind::defect;
+    const bool apart = step_.stage >= Stage::split && moves && s.owner != state_.node;
     const Vec3 offset = apart ? offset_of(s.owner, state_.node) : Vec3::Zero();
     for (Vec3& p : corners) p += offset;
-    std::vector<std::array<Vec3, 2>> edges;
-    for (std::size_t i = 0; i < corners.size(); ++i)
-        for (std::size_t j = i + 1; j < corners.size(); ++j) edges.push_back({corners[i], corners[j]});
+    std::vector<std::array<Vec3, 2>> edges = selected_edges(session_, s);
+    for (auto& [from, to] : edges) {
+        from += offset;
+        to += offset;
+    }
     if (!edges.empty()) add_lines("selection", edges, colors_.selection, contour_pixels);
     if (corners.size() == 1) add_points("selected place", corners, colors_.selection, 12);
 }
@@ -245,7 +248,7 @@ BuiltScene SceneBuild::run() {
     if (step_.stage == Stage::before_remeshing)
         add_file_surface();
     else if (step_.stage == Stage::tetrahedra)
-        add_parts();
+        add_tetrahedra(surface);
     else if (step_.stage == Stage::split)
         add_halves(surface.get());
     else if (surface)

@@ -43,7 +43,10 @@ struct BuiltScene {
 ///     triangulation, interface               the section in the plane, and on the surface
 ///     half N            of a split, by node
 ///     part N, cells N, section N             of the tetrahedra: a part's boundary; its cells at the clip plane, by
-///                                            filter or shrunk; their smooth sections
+///                                            filter, shrunk or around another; their smooth sections
+///     wall N                                 behind shrunk cells
+///     selected cell                          where it is seen only through others, which are translucent then
+///     outline N, glass N                     of the node, or its parts, where only some cells are shown
 ///     selection, selected place
 ///
 /// Deterministic: a function of state and document. What was drawn before costs no more than a look-up.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <span>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 
 #include "mesh/quality.h"
 #include "mesh/tet_mesh.h"
+#include "viewer/model/line_of_sight.h"
 
 namespace kerf::view {
 
@@ -190,9 +192,25 @@ std::optional<Selection> select(Session& session, const Hit& hit, PickMode mode)
 
 namespace {
 
+// nullptr if there is none of this number.
+const Defect* defect_of(const Document& document, const Selection& s) {
+    if (s.kind != Selection::Kind::defect || !document.checked) return nullptr;
+    const auto& defects = document.checked->diagnosis.defects;
+    const auto index = static_cast<std::size_t>(s.index);
+    return index < defects.size() ? &defects[index] : nullptr;
+}
+
+std::string describe_defect(const Document& document, const Selection& s) {
+    const Defect* defect = defect_of(document, s);
+    if (!defect) return "";
+    return fmt::format("{} {}\n{}\nto do: {}\n", name(defect->severity), name(defect->kind),
+                       place(*defect, document.checked->soup), remedy(*defect));
+}
+
 std::string describe_mesh(Session& session, const Selection& s) {
     if (s.kind == Selection::Kind::none) return "";
     if (s.kind == Selection::Kind::place) return text_of(s.place) + "\n";
+    if (s.kind == Selection::Kind::defect) return describe_defect(session.document(), s);
     const auto index = static_cast<std::size_t>(s.index);
     if (s.kind == Selection::Kind::cell) {
         const auto cells = session.cells(s.owner);
@@ -238,6 +256,14 @@ std::vector<Vec3> selected_points(Session& session, const Selection& s) {
     const auto index = static_cast<std::size_t>(s.index);
     if (s.kind == Selection::Kind::none) return points;
     if (s.kind == Selection::Kind::place) return {s.place};
+    if (s.kind == Selection::Kind::defect) {
+        for (const auto& [from, to] : selected_edges(session, s)) {
+            points.push_back(from);
+            points.push_back(to);
+        }
+        if (points.empty()) points.push_back(s.place);
+        return points;
+    }
     const bool needs_cells = s.kind == Selection::Kind::cell;
     const auto surface = needs_cells ? nullptr : surface_of(session, s.owner);
     if (s.kind == Selection::Kind::facet) {
@@ -256,6 +282,61 @@ std::vector<Vec3> selected_points(Session& session, const Selection& s) {
         for (const std::int32_t v : cells->tets[index]) points.push_back(cells->vertices[static_cast<std::size_t>(v)]);
     }
     return points;
+}
+
+std::vector<std::array<Vec3, 2>> selected_edges(Session& session, const Selection& s) {
+    std::vector<std::array<Vec3, 2>> edges;
+    if (s.kind != Selection::Kind::defect) {
+        const std::vector<Vec3> corners = selected_points(session, s);
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            for (std::size_t j = i + 1; j < corners.size(); ++j) edges.push_back({corners[i], corners[j]});
+        return edges;
+    }
+    const Defect* defect = defect_of(session.document(), s);
+    if (!defect) return edges;
+    const Soup& soup = session.document().checked->soup;
+    std::set<UndirectedEdge> numbers;
+    for (const std::int32_t f : defect->facets) {
+        const Triangle& t = soup.facets[static_cast<std::size_t>(f)];
+        for (std::size_t k = 0; k < 3; ++k) numbers.insert(undirected(t[k], t[(k + 1) % 3]));
+    }
+    for (const UndirectedEdge& edge : numbers) {
+        const Vec3& a = soup.vertices[static_cast<std::size_t>(edge[0])];
+        const Vec3& b = soup.vertices[static_cast<std::size_t>(edge[1])];
+        if (a.allFinite() && b.allFinite()) edges.push_back({a, b});
+    }
+    return edges;
+}
+
+std::optional<Vec3> direction_to_cell(const PartCells& cells, const NodeSurface& part, const NodeSurface& shown,
+                                      std::int32_t cell, const Vec3& present) {
+    for (std::int32_t f = 0; f < std::ssize(part.facets); ++f) {
+        if (cells.tet_at_facet[static_cast<std::size_t>(f)] != cell || part.is_interface(f)) continue;
+        Vec3 middle = Vec3::Zero();
+        double size = 0;
+        for (const std::int32_t v : part.facets[static_cast<std::size_t>(f)]) {
+            const Vec3& corner = part.vertices[static_cast<std::size_t>(v)];
+            middle += corner / 3;
+            size = std::max(
+                size,
+                (corner - part.vertices[static_cast<std::size_t>(part.facets[static_cast<std::size_t>(f)][0])]).norm());
+        }
+        const Vec3 outward = mean_normal(part.vertices, part.facets, {f});
+        if (const auto found = direction_to_eye(shown.vertices, shown.facets, middle, 1e-3 * size, outward, present))
+            return found;
+    }
+    return std::nullopt;
+}
+
+std::optional<std::array<std::int64_t, 4>> selected_cell(Session& session, const Selection& s) {
+    if (s.kind != Selection::Kind::cell) return std::nullopt;
+    const auto cells = session.cells(s.owner);
+    const auto index = static_cast<std::size_t>(s.index);
+    if (!cells || index >= cells->tets.size()) return std::nullopt;
+    std::array<std::int64_t, 4> numbers = {};
+    for (std::size_t k = 0; k < 4; ++k)
+        numbers[k] = cells->vertex_number[static_cast<std::size_t>(cells->tets[index][k])];
+    return numbers;
 }
 
 }  // namespace kerf::view

@@ -1,6 +1,7 @@
 // From a click to the thing clicked, and that in words.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,5 +32,16 @@ std::string describe_selection(Session& session, const Selection& selection, int
 
 /// The corners of what is selected, or the place; empty while it is being fetched.
 std::vector<Vec3> selected_points(Session& session, const Selection& selection);
+
+/// The edges of what is selected, each once; of a defect those of its facets. Empty where it is a point.
+std::vector<std::array<Vec3, 2>> selected_edges(Session& session, const Selection& selection);
+
+/// Where the eye goes to see a cell of a part at the surface of what is shown, see direction_to_eye() in
+/// model/line_of_sight.h; none if the cell lies inside, or nobody outside can see it. O(#F).
+std::optional<Vec3> direction_to_cell(const PartCells& cells, const NodeSurface& part, const NodeSurface& shown,
+                                      std::int32_t cell, const Vec3& present);
+
+/// The global numbers of the corners of a selected cell; none if that is no cell or it is being fetched.
+std::optional<std::array<std::int64_t, 4>> selected_cell(Session& session, const Selection& selection);
 
 }  // namespace kerf::view

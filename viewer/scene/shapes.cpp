@@ -236,6 +236,7 @@ std::vector<char> chosen_cells(const PartCells& cells, const CellChoice& choice)
             const double value = choice.value[t];
             chosen[t] = value >= choice.filter->low && value <= choice.filter->high;
         }
+        if (chosen[t] && choice.wanted) chosen[t] = choice.wanted(t);
         if (!choice.side || !chosen[t]) continue;
         std::array<double, 4> d = {};
         for (std::size_t k = 0; k < 4; ++k) d[k] = distance[static_cast<std::size_t>(cells.tets[t][k])];
@@ -263,20 +264,29 @@ std::shared_ptr<Geometry> cell_faces(const PartCells& cells, const Frame& frame,
     auto geometry = std::make_shared<Geometry>();
     const std::vector<char> chosen = chosen_cells(cells, choice);
     const Places places = places_of(cells, choice);
+    const auto is_open = [&](std::size_t t, std::size_t face) {
+        const std::int32_t neighbour = cells.neighbours[t][face];
+        return neighbour < 0 || !chosen[static_cast<std::size_t>(neighbour)];
+    };
+    const auto is_outer = [&](std::size_t t) {
+        return is_open(t, 0) || is_open(t, 1) || is_open(t, 2) || is_open(t, 3);
+    };
+    const bool shrinks = choice.shrink > 0;
     for (std::size_t t = 0; t < chosen.size(); ++t) {
         if (!chosen[t]) continue;
-        const auto is_open = [&](std::size_t face) {
-            const std::int32_t neighbour = cells.neighbours[t][face];
-            return neighbour < 0 || !chosen[static_cast<std::size_t>(neighbour)];
-        };
-        const bool any = is_open(0) || is_open(1) || is_open(2) || is_open(3);
-        if (!any) continue;
+        const bool outer = is_outer(t);
+        if (!outer && !shrinks) continue;
         const float value = choice.value.empty() ? 0 : choice.value[t];
         const Vec3 center = center_of(places, cells.tets[t]);
+        // Of a cell behind shrunk ones, what these would cover.
+        const auto is_drawn = [&](std::size_t face) {
+            if (outer) return shrinks || is_open(t, face);
+            return is_outer(static_cast<std::size_t>(cells.neighbours[t][face]));
+        };
         for (std::size_t face = 0; face < 4; ++face) {
-            if (!(choice.shrink > 0) && !is_open(face)) continue;
+            if (!is_drawn(face)) continue;
             const Triangle corners = face_of(cells, t, face);
-            add_triangle(*geometry, frame, shrunk(corners_at(places, corners), center, choice.shrink),
+            add_triangle(*geometry, frame, shrunk(corners_at(places, corners), center, outer ? choice.shrink : 0),
                          choice.face_value.empty() ? value : choice.face_value[t][face], 7,
                          static_cast<std::int32_t>(t));
             if (!choice.vertex_value.empty()) set_corner_values(*geometry, corners, choice.vertex_value);

@@ -45,13 +45,15 @@ struct CellChoice {
     std::span<const float> vertex_value;               ///< per vertex, instead of both; empty: none
     std::span<const Vec3> places;                      ///< of the vertices, if not where the cells have them
     std::optional<ValueRange> filter;                  ///< of the values; needs them
+    std::function<bool(std::size_t cell)> wanted;      ///< besides; none: all
     const ShownSide* side = nullptr;                   ///< of a clip plane, or nullptr
     ClipStyle style = ClipStyle::cells;
     double shrink = 0;
 };
 
 /// What is seen of the chosen cells: faces between a chosen cell and one that is not, and boundary faces; with shrink
-/// all faces of the cells that have one of these. `element` is the cell. O(#T).
+/// all faces of the cells that have one of these, and behind them, whole, what these cells cover. `element` is the
+/// cell. O(#T).
 std::shared_ptr<Geometry> cell_faces(const PartCells& cells, const Frame& frame, const CellChoice& choice);
 
 /// The sections of the chosen cells with the plane of choice.side: triangles, of which only the sides of sections are
