@@ -127,7 +127,7 @@ TEST(Legend, ColoursAreThoseOfThePicture) {
             }
         }
     for (const char* text : {"long axis", "crossed edges", "contour", "projected", "triangulation", "interface",
-                             "interfaces of earlier cuts", "node 2", "part 4"})
+                             "earlier interfaces", "node 2", "part 4"})
         EXPECT_TRUE(explained.contains(text)) << text;
 }
 

@@ -50,7 +50,7 @@ bool drag(UiContext& context, const char* label, const ImVec2& at, const char* t
     context.widgets.record(label);
     const bool held = ImGui::IsItemActive(), lit = held || ImGui::IsItemHovered();
     if (!held) explain(tip);
-    ImDrawList& list = *ImGui::GetForegroundDrawList();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
     const Palette& colors = palette(context.state.theme);
     list.AddCircleFilled(at, (lit ? 0.5f : 0.4f) * em(), packed(colors.accent));
     list.AddCircle(at, (lit ? 0.5f : 0.4f) * em(), packed(colors.on_accent), 0, 0.1f * em());

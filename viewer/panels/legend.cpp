@@ -69,8 +69,10 @@ class LegendBox {
     void prepare_scale() {
         range_ = context_.state.color_range.value_or(*facts_.values);
         if (is_measure(context_.state.color)) filter_ = context_.state.filter;
-        ticks_ = round_ticks(range_.low, range_.high, 5);
-        bar_height_ = std::clamp(0.7f * highest_, 4.5f * em(), 11 * em());
+        const float entries = line_height() * static_cast<float>(facts_.categories.size() + 2);
+        bar_height_ = std::clamp(std::min(0.7f * highest_, highest_ - entries), 4.5f * em(), 11 * em());
+        const float most_ticks = bar_height_ / (1.3f * ImGui::GetTextLineHeight());
+        ticks_ = round_ticks(range_.low, range_.high, std::clamp(static_cast<int>(most_ticks), 2, 5));
         scale_height_ = bar_height_ + ImGui::GetTextLineHeight();  // room for the text of a tick at the very end
         for (const double tick : ticks_) width_ = std::max(width_, 2 * em() + width_of(text_of(tick)));
     }
@@ -205,7 +207,7 @@ Rectangle body_area(const ViewState& state, const Rectangle& scene) {
     if (!state.legend) return scene;
     Rectangle body = scene;
     if (is_wide(scene))
-        body.width -= std::min(13 * em(), 0.25f * scene.width);
+        body.width -= std::clamp(0.25f * scene.width, std::min(10.5f * em(), 0.34f * scene.width), 13 * em());
     else
         body.height -= std::min(8.5f * em(), 0.25f * scene.height);
     return body;

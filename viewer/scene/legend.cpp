@@ -222,7 +222,7 @@ void SceneBuild::explain_interfaces() {
     for (const Layer& layer : built_.scene.layers)
         for (const Range& range : layer.ranges)
             if (layer.fill == Fill::plain && range.color == colors_.interface)
-                return explain_layer(layer.name, is_split ? "interfaces" : "interfaces of earlier cuts", range.color);
+                return explain_layer(layer.name, is_split ? "interfaces" : "earlier interfaces", range.color);
 }
 
 void SceneBuild::set_legend() {
