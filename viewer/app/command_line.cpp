@@ -307,8 +307,6 @@ ViewCommand parse_view_command(int argc, const char* const* argv) {
     app.require_subcommand(1);
     CLI::App* view = app.add_subcommand("view", "Open the viewer.");
     view->add_option("input", command.input, "What to open.")->type_name("INPUT");
-    bool no_run = false;
-    view->add_flag("--no-run", no_run, "Only show a surface: it is cut and meshed else.");
     CLI::App* screenshot = app.add_subcommand("screenshot", "Draw a picture without a display.");
     screenshot->add_option("input", command.input, "What to open. Default: what --state was made of.")
         ->type_name("INPUT");
@@ -328,10 +326,10 @@ ViewCommand parse_view_command(int argc, const char* const* argv) {
     screenshot->add_option("--timeout", command.timeout_seconds, "Seconds after which to give up. Default 600.")
         ->type_name("S")
         ->check(CLI::PositiveNumber);
-    for (CLI::App* each : {view, screenshot}) {
-        add_scene_options(*each, command, texts);
-        put_help_last(*each, "Run");
-    }
+    for (CLI::App* each : {view, screenshot}) add_scene_options(*each, command, texts);
+    bool no_run = false;
+    view->add_flag("--no-run", no_run, "Only show a surface: it is cut and meshed else.")->group("Run");
+    for (CLI::App* each : {view, screenshot}) put_help_last(*each, "Run");
     const auto answer = [&](const Answer& given) {
         command.exit_code = given.exit_code;
         command.print = given.text;

@@ -10,7 +10,7 @@ namespace kerf::view {
 
 // What follows belongs to a new document, whose store is empty.
 void Session::Impl::set_aside(Document before) {
-    other_.emplace();
+    other_ = Shown();
     other_->document = std::move(before);
     other_->replayer = replayer_;
     other_->folder_parts = folder_parts_;
