@@ -233,7 +233,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     to_merge->add_option("-o,--output", line.merge.output, "File, whose ending chooses the format.")
         ->required()
         ->type_name("FILE");
-    to_merge->add_option("--msh-version", line.merge.options.msh_version, "Of Gmsh's files.")
+    to_merge->add_option("--msh-version", line.merge.options.msh_version, "Of Gmsh's files: 4.1 or 2.2.")
+        ->type_name("V")
         ->check(CLI::IsMember({"4.1", "2.2"}));
     CLI::App* quality = add_quality_command(app, line.quality);
     CLI::App* to_remesh = add_remesh_command(app, line);

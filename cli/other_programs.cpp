@@ -36,6 +36,9 @@ std::string output_of_other_programs(const std::vector<std::string>& arguments) 
         ChildPool pool;
         pool.start(0, program, arguments, {}, patience_seconds);
         const ChildResult result = pool.wait_any()->result;
+        if (result.exit_code != 0)
+            throw Error(ErrorCode::internal,
+                        fmt::format("{} {} has failed: {}", program, fmt::join(arguments, " "), result.log));
         output.append(result.output.begin(), result.output.end());
     }
     return output;

@@ -15,6 +15,7 @@ namespace kerf {
 
 namespace {
 
+constexpr double least_fraction = 0.01;  // of the load, of a place that somebody chose
 constexpr std::size_t bins = 128;
 constexpr std::int32_t least_leaves = 8;  // below, what a cut unbalances is not evened out any more
 constexpr double least_gain = 0.25;       // of the section's area
@@ -92,6 +93,25 @@ CutPlace choose_place(const Surface& surface, const MassProperties& mass, std::i
             place = {fraction, static_cast<std::int32_t>(axis), 1 - area / usual};
         }
     }
+    return place;
+}
+
+CutPlace place_of(const Plane& plane, const Surface& surface, const MassProperties& mass, const CutOptions& options) {
+    const std::vector<Vec3> directions = cut_directions(surface, mass, options);
+    CutPlace place;
+    for (std::size_t axis = 1; axis < directions.size(); ++axis) {
+        const double nearest = std::abs(plane.normal.dot(directions[static_cast<std::size_t>(place.axis)]));
+        if (std::abs(plane.normal.dot(directions[axis])) > nearest) place.axis = static_cast<std::int32_t>(axis);
+    }
+    const Plane through_centroid(mass.centroid, directions[static_cast<std::size_t>(place.axis)]);
+    const LoadProfile profile(surface, through_centroid, options.bisected_load());
+    const double height = through_centroid.distance(plane.origin);
+    const double extent = profile.highest() - profile.lowest();
+    if (options.criterion == Criterion::equidistant)
+        place.fraction = extent > 0 ? (height - profile.lowest()) / extent : 0.5;
+    else
+        place.fraction = profile.fraction_below(height);
+    place.fraction = std::clamp(place.fraction, least_fraction, 1 - least_fraction);
     return place;
 }
 

@@ -99,7 +99,7 @@ TEST_F(Installed, PackageNamesNoPlaceAndNoWarnings) {
     EXPECT_TRUE(files.contains("KerfConfig.cmake"));
     for (const auto& [name, text] : files)
         for (const std::string& word :
-             {std::string(KERF_SOURCE), std::string(KERF_BUILD), file(""), std::string("-Werror")})
+             {std::string(KERF_SOURCE) + "/", std::string(KERF_BUILD) + "/", file(""), std::string("-Werror")})
             EXPECT_EQ(text.find(word), std::string::npos) << name << " has " << word;
 }
 

@@ -37,7 +37,7 @@ def check_hosts(source, kerf, mpirun):
     surface, script = source / "assets/hollow_box.stl", source / "docs/cluster/kerf.slurm"
     with tempfile.TemporaryDirectory(prefix="kerf_cluster_test_") as name:
         folder = pathlib.Path(name)
-        (folder / "hosts").write_text("node1 slots=2\nnode2 slots=2\n")
+        (folder / "hosts").write_text("kerftest1 slots=2\nkerftest2 slots=2\n")
         run(folder, environment(source, kerf.parent, folder), kerf, "mesh", surface, "-o", "alone", "-n", "5", "-q")
         alone = parts(folder / "alone")
         check(len(alone) == 10, f"{len(alone)} files")
@@ -49,7 +49,7 @@ def check_hosts(source, kerf, mpirun):
         for way, command in ways.items():
             reached = folder / f"{way}.hosts"
             log = run(folder, environment(source, kerf.parent, folder, KERF_HOSTS_REACHED=str(reached)), *command)
-            check(reached.exists() and sorted(reached.read_text().split()) == ["node1", "node2"],
+            check(reached.exists() and sorted(reached.read_text().split()) == ["kerftest1", "kerftest2"],
                   f"{way} has not started on two hosts")
             check("2 ranks x " in log, f"{way} has not made two ranks:\n{log}")
             check(parts(folder / way) == alone, f"parts made by way of {way} are others")

@@ -15,6 +15,7 @@ WORDS_OF_README = 900
 OPTIONS_OF_OTHERS = {  # as the text has them
     "--bind-to": "mpirun",
     "--install": "cmake",
+    "--oversubscribe": "mpirun",
     "--prefix": "cmake",
     "--test-dir": "ctest",
 }

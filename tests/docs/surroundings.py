@@ -6,7 +6,9 @@ import os
 
 def environment(source, build, folder, **more):
     """Without a display. `folder`: for temporary files."""
-    kept = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    foreign = ("SLURM_", "OMPI_", "PMI")  # of a job that the tests run in
+    kept = {k: v for k, v in os.environ.items()
+            if k not in ("DISPLAY", "WAYLAND_DISPLAY") and not k.startswith(foreign)}
     stand_ins = f"{source}/tests/docs/stand_ins"
     return kept | {
         "PATH": f"{build}:{stand_ins}:{os.environ['PATH']}",

@@ -18,9 +18,9 @@ const fs::path gallery = KERF_ASSETS "/gallery";
 
 std::set<std::string> pictures_in(const fs::path& folder) {
     std::set<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder))
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
         if (const fs::path& path = entry.path(); path.extension() == ".png" || path.extension() == ".svg")
-            names.insert(path.filename().string());
+            names.insert(path.lexically_relative(folder).string());
     return names;
 }
 

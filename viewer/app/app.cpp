@@ -193,7 +193,9 @@ void App::start_run(const RunOptions& options, bool volume) {
     opened_ = session_.document().path;  // what a user runs is not run once more when its repairs have made it clean
     session_.start_run(options, volume);
 }
-void App::redo_cut(NodeId node, const RunOptions& options) { session_.redo_cut(node, options); }
+void App::redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane) {
+    session_.redo_cut(node, options, plane);
+}
 
 // Under the same camera, so that what is alike stays where it is. Numbers of cells mean others there.
 void App::swap_runs() {

@@ -93,7 +93,7 @@ class App : private Actions {
     void copy(const std::string& text) override;
     std::string clipboard() override;
     void start_run(const RunOptions& options, bool volume) override;
-    void redo_cut(NodeId node, const RunOptions& options) override;
+    void redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane) override;
     void swap_runs() override;
     void complain(const std::string& text) override;
 

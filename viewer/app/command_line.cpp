@@ -146,7 +146,7 @@ void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
     app.add_option("-n,--parts", command.run.decompose.parts, "Number of parts, if INPUT is a surface.")
         ->type_name("K")
         ->check(CLI::PositiveNumber);
-    app.add_option("--surface", texts.surface, "Of that run: keep, split, remesh or auto, as of kerf mesh.")
+    app.add_option("--surface", texts.surface, "Of that run, as of kerf mesh.")
         ->type_name("")
         ->check(suggest("keep,split,remesh,auto,by-file"));
     app.add_option("--config", texts.config, "Other options of that run: a file of kerf mesh --print-config.")
@@ -254,8 +254,8 @@ bool depends_on_document(const ViewCommand& command) {
 
 void apply_document(const ViewCommand& command, const Document& document, double aspect, ViewState& state) {
     if (command.clip.starts_with("node=")) state.clip = clip_from_text(command.clip, command.state.clip, document);
-    fit_to_body(state, command.origin, document.box, aspect);
-    if (command.load_case.empty() && !command.good_deformation) return;
+    if (command.load_case.empty() && !command.good_deformation)
+        return fit_to_body(state, command.origin, document.box, aspect);
     if (!document.solution)
         throw Error(ErrorCode::usage,
                     "--case and --deform need a solution: open the folder that kerf solve has "
@@ -274,6 +274,7 @@ void apply_document(const ViewCommand& command, const Document& document, double
     if (command.good_deformation)
         state.deform = good_deformation(cases.at(static_cast<std::size_t>(state.load_case)).largest_displacement,
                                         document.box.diagonal().norm());
+    fit_to_body(state, command.origin, document.box, aspect);  // once, when nothing is refused any more
 }
 
 Clip clip_from_text(const std::string& text, const Clip& before, const Document& document) {

@@ -53,7 +53,7 @@ bool App::take_digit(int key) {
 }
 
 void App::take_character_key(const KeyEvent& event) {
-    if (event.repeat || take_digit(event.key)) return;
+    if (take_digit(event.key)) return;
     if (event.key == key_of('H')) state_.panels.keys = !state_.panels.keys;
     if (event.key == key_of('F')) frame_selection();
     if (event.key == key_of('C')) event.shift ? clip_through_selection(false) : void(state_.clip.on = !state_.clip.on);
@@ -77,6 +77,7 @@ void App::take_key(const KeyEvent& event) {
     if (event.key == key_right) move_step(1);
     if (event.key == key_up && !ui_.step_in_list(-1)) move_node(-1);
     if (event.key == key_down && !ui_.step_in_list(1)) move_node(1);
+    if (event.repeat) return;
     if (event.key == key_home) fit_all();
     if (event.key == key_f12) take_screenshot();
     if (event.key == key_escape) {

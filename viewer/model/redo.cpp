@@ -118,7 +118,7 @@ MadeCut make_cut(const Surface& surface, NodeId node, const CutPlace& place, con
 
 }  // namespace
 
-RedoneCut redo_cut(Replayer& replayer, NodeId node, RunOptions options) {
+RedoneCut redo_cut(Replayer& replayer, NodeId node, RunOptions options, const std::optional<Plane>& plane) {
     options.resolve(1);
     const Trace& old = *replayer.trace();
     if (options.sizes.depends_on_place())
@@ -128,7 +128,10 @@ RedoneCut redo_cut(Replayer& replayer, NodeId node, RunOptions options) {
     const std::shared_ptr<const Surface> surface = replayer.uncut_surface(node);
     options.decompose.cut = options.decompose.cut.of(*surface);
     const CutOptions& cut_options = options.decompose.cut;
-    const CutPlace place = before ? before->place : choose_place(*surface, mass_properties(*surface), 2, cut_options);
+    const MassProperties mass = mass_properties(*surface);
+    const CutPlace place = plane    ? place_of(*plane, *surface, mass, cut_options)
+                           : before ? before->place
+                                    : choose_place(*surface, mass, 2, cut_options);
     MadeCut made = make_cut(*surface, node, place, options.decompose);
     redone.rows.push_back(row_of(node, *surface));
     describe_cut(made.cut, redone.rows.front());

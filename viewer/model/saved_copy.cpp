@@ -42,7 +42,8 @@ std::string copy_run(const std::string& folder, const std::string& trace, const 
     const std::string full = absolute_path(path);
     std::error_code ignored;
     const bool has_trace = fs::exists(trace, ignored);
-    if (has_trace) require_replaceable_trace(full + ".trace");
+    if (has_trace)
+        for (const char* end : {".trace", ".failed.trace"}) require_replaceable_trace(full + end);
     RunFolder copy = RunFolder::create(full);
     if (copy.finished_parts() > 0)
         throw Error(ErrorCode::io, fmt::format("An interrupted run into {} would be lost. Choose another folder, or "

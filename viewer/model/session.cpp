@@ -83,7 +83,9 @@ bool Session::busy() const { return impl_->busy(); }
 const Document& Session::document() const { return impl_->document(); }
 void Session::start_run(RunOptions options, bool volume) { impl_->start_run(std::move(options), volume); }
 void Session::cancel_run() { impl_->cancel_run(); }
-void Session::redo_cut(NodeId node, const RunOptions& options) { impl_->redo_cut(node, options); }
+void Session::redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane) {
+    impl_->redo_cut(node, options, plane);
+}
 const Document* Session::other_document() const { return impl_->other_document(); }
 bool Session::shows_before() const { return impl_->shows_before(); }
 bool Session::can_swap_runs() const { return impl_->can_swap_runs(); }

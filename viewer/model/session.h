@@ -47,7 +47,8 @@ class Session {
 
     /// Makes the cut of one node again with other options, in the background; needs a trace. The result takes the
     /// place of that cut in document().trace; what lay below it is gone, and so are measures of the whole run.
-    void redo_cut(NodeId node, const RunOptions& options);
+    /// It is made at the plane if there is one, else where it was (view::redo_cut()).
+    void redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane = {});
 
     /// Once start_run() or redo_cut() has something to show, what was shown before is kept, whole, to compare with:
     /// the other document, until the next one of these or open(); nullptr if there is none.
@@ -61,8 +62,8 @@ class Session {
     /// A finished run is open that goes with this session.
     bool can_save_run() const;
     /// Copies it, in the background, to a place where it stays, as kerf mesh would have written it there: only a run
-    /// of Kerf is ever replaced. Its trace goes to `path`.trace. At the end Document::saved_as is the folder, or
-    /// failures() says why not.
+    /// of Kerf is ever replaced. Its trace goes beside it, to its name and ".trace". At the end Document::saved_as is
+    /// the folder, or failures() says why not.
     void save_run(const std::string& path);
 
     // What follows returns what is in memory, or nullptr, and then fetches it: poll() says when it is there. The least

@@ -329,25 +329,25 @@ void Session::Impl::prefetch_surfaces() {
     for (std::size_t i = state->nodes.size(); i > 0; --i) loader_.post_idle({data_.scope, next, {}});
 }
 
-void Session::Impl::redo_cut(NodeId node, const RunOptions& options) {
+void Session::Impl::redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane) {
     failures_.clear();
     if (!replayer_ || !document_.tree.find(node)) {
         note_failure("A cut can be made again where a trace of the run is open.");
         return;
     }
-    redo_queue_.emplace_back(node, options);
+    redo_queue_.push_back({node, options, plane});
     start_redo();
 }
 
 // One after the other: each changes the trace.
 void Session::Impl::start_redo() {
     if (redoing_ || redo_queue_.empty()) return;
-    const auto [node, options] = redo_queue_.front();
+    const Redo redo = redo_queue_.front();
     redo_queue_.pop_front();
     redoing_ = true;
-    const auto work = [this, replayer = replayer_, id = node, given = options]() -> Loader::Completion {
-        const auto redone = std::make_shared<RedoneCut>(view::redo_cut(*replayer, id, given));
-        return [this, id, redone] { take_redone(id, std::move(*redone)); };
+    const auto work = [this, replayer = replayer_, redo]() -> Loader::Completion {
+        const auto redone = std::make_shared<RedoneCut>(view::redo_cut(*replayer, redo.node, redo.options, redo.plane));
+        return [this, id = redo.node, redone] { take_redone(id, std::move(*redone)); };
     };
     post(data_, work, [this](const std::string& message) {
         redoing_ = false;

@@ -8,7 +8,6 @@
 #include <chrono>
 #include <deque>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -52,7 +51,7 @@ class Session::Impl {
     void save_run(const std::string& path);
 
     // session_data.cpp
-    void redo_cut(NodeId node, const RunOptions& options);
+    void redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane);
     std::shared_ptr<const NodeSurface> surface(NodeId node);
     std::shared_ptr<const NodeSurface> part_surface(NodeId part);
     std::shared_ptr<const SurfaceValues> values_on(const std::shared_ptr<const NodeSurface>& surface, ColorBy color);
@@ -207,7 +206,12 @@ class Session::Impl {
     std::set<Store::Key> fetching_, failed_;
     std::shared_ptr<Replayer> replayer_;  // only the loader's thread looks inside
     std::set<NodeId> folder_parts_;       // of which the folder has files that are those of the tree
-    std::deque<std::pair<NodeId, RunOptions>> redo_queue_;
+    struct Redo {
+        NodeId node = 1;
+        RunOptions options;
+        std::optional<Plane> plane;
+    };
+    std::deque<Redo> redo_queue_;
     bool redoing_ = false;
 
     std::optional<Shown> other_;

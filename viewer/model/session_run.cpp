@@ -53,10 +53,13 @@ void Session::Impl::start_run(RunOptions options, bool volume) {
         process_->interrupt();
         leaving_.push_back(std::move(process_));
     }
+    std::optional<Document> before;
+    if (followed_ && followed_->before)
+        before = std::move(followed_->before);
+    else if (!document_.progress.running && (document_.trace || !document_.folder.empty()))
+        before = document_;
     watch_.reset();
     followed_.reset();
-    std::optional<Document> before;
-    if (!document_.progress.running && (document_.trace || !document_.folder.empty())) before = document_;
     failures_.clear();
     document_.progress = {};
     const std::string input = input_of_next_run();

@@ -163,9 +163,9 @@ void draw_comparison(UiContext& context, Memory& memory) {
     const Palette& colors = palette(context.state.theme);
     const Document *other = session.other_document(), *shown = &session.document();
     if (other && !shown->progress.running) {
+        draw_switch(context);  // first: it may exchange the two
         const Document &before = session.shows_before() ? *shown : *other,
                        &now = session.shows_before() ? *other : *shown;
-        draw_switch(context);
         const NodeId node = context.state.node;
         const TreeRow *old_row = before.tree.find(node), *new_row = now.tree.find(node);
         if (old_row && new_row && old_row->cut && new_row->cut && !is_same(*old_row->cut, *new_row->cut))

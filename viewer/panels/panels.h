@@ -34,7 +34,8 @@ class Actions {
     virtual void copy(const std::string& text) = 0;  ///< to the clipboard
     virtual std::string clipboard() = 0;
     virtual void start_run(const RunOptions& options, bool volume) = 0;
-    virtual void redo_cut(NodeId node, const RunOptions& options) = 0;
+    /// At the plane, or where it was.
+    virtual void redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane) = 0;
     virtual void swap_runs() = 0;
     /// Shows what could not be done, until the next notice or click.
     virtual void complain(const std::string& text) = 0;
@@ -44,12 +45,12 @@ class Actions {
 struct SceneFacts {
     std::string legend_title;               ///< empty: the legend explains what is there, not a colouring
     std::optional<ValueRange> values;       ///< of what is shown, by ViewState::color
-    std::vector<LegendEntry> categories;    ///< of a legend without numbers: "part 8"
+    std::vector<LegendEntry> categories;    ///< what else a legend explains: "part 8"
     std::vector<Color> scale;               ///< colours from low to high, of a legend with numbers
     std::string selection;                  ///< what is selected, as lines of text; empty: nothing
     std::int64_t triangles = 0, lines = 0;  ///< drawn
     std::string notice;                     ///< e.g. "saved as kerf-001.png"; shown for some seconds
-    bool notice_is_error = false;
+    bool notice_is_error = false;           ///< then until the next click
     bool playing = false;
     bool pending = false;  ///< something that is to be shown is still being read
 };

@@ -118,7 +118,7 @@ void draw_buttons(UiContext& context, Memory& memory, bool valid) {
     if (w.button(label.c_str(), has_cut ? "Makes this cut again with these options; what lies below it is left out"
                                 : document.progress.running ? "A run is under way"
                                                             : "Needs a trace with a cut of this node"))
-        context.actions.redo_cut(node, memory.options);
+        context.actions.redo_cut(node, memory.options, std::nullopt);
     ImGui::EndDisabled();
 }
 

@@ -53,6 +53,8 @@ struct Memory {
     NodeId awaited_interface = 0;  ///< it is flown to as soon as its surface is there
     std::map<std::string, std::string> advised;  ///< values of options that texts advise, as edited
     std::string advised_for;                     ///< path of the document that they are for
+    double dragged_plane = 0;                    ///< how far the plane of a cut is from where it is, along its normal
+    NodeId dragged_cut = 0;                      ///< the node of that cut
     int chosen_place = -1;                       ///< of a refused try, that was flown to last
     NodeId place_node = 0;                       ///< of that try
     Step place_step;
@@ -98,8 +100,9 @@ void draw_legend(UiContext& context, const Rectangle& scene);
 void draw_gizmo(UiContext& context, const Rectangle& scene);
 /// Between panels and scene: to be dragged, or clicked twice to have the window's suggestion again.
 void draw_splitters(UiContext& context, const Layout& layout);
-/// The clip plane's outline, an arrow that moves it, and a ball at its end that turns it.
-void draw_clip_handles(UiContext& context, const Rectangle& scene);
+/// The clip plane's outline, an arrow that moves it, and a ball at its end that turns it; and what moves the plane of
+/// the cut that is shown, which is then made there.
+void draw_plane_handles(UiContext& context, Memory& memory, const Rectangle& scene);
 
 /// Shows another node, at the step nearest to the one that is shown.
 void go_to_node(UiContext& context, NodeId node);

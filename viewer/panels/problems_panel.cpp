@@ -241,12 +241,15 @@ void draw_remarks(UiContext& context, Memory& memory) {
     }
     if (!document.progress.running && !document.progress.message.empty())
         draw_message("The run has ended.", document.progress.message, colors);
-    draw_advice(context, memory, document.progress.message);
-    for (const std::string& note : document.notes) {
+    // A run that is started here changes what the document says.
+    const std::string message = document.progress.message;
+    const std::vector<std::string> notes = document.notes;
+    draw_advice(context, memory, message);
+    for (const std::string& note : notes) {
         show_wrapped("Note: " + note, colors.dim);
         draw_advice(context, memory, note);
     }
-    if (!document.notes.empty()) ImGui::Spacing();
+    if (!notes.empty()) ImGui::Spacing();
 }
 
 }  // namespace

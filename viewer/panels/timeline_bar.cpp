@@ -84,7 +84,9 @@ class TimelineBar {
         const Step& step = steps_[current_];
         const std::vector<FailurePlace> places = failure_places(context_.session.document(), context_.state.node, step);
         if (places.empty()) return;
-        if (memory_.place_node != context_.state.node || memory_.place_step != step) memory_.chosen_place = -1;
+        if (memory_.place_node != context_.state.node || memory_.place_step != step ||
+            memory_.chosen_place >= static_cast<int>(places.size()))  // a cut that was made again has others
+            memory_.chosen_place = -1;
         memory_.place_node = context_.state.node;
         memory_.place_step = step;
         const int count = static_cast<int>(places.size()), chosen = memory_.chosen_place;

@@ -41,9 +41,9 @@ bool is_large_first(TreeColumn column) { return column != angle_column && column
 
 std::optional<double> if_known(double value) { return value >= 0 ? std::optional(value) : std::nullopt; }
 
-// Where nothing was measured it is a straight angle.
+// Where nothing was measured it is negative, or a straight angle.
 std::optional<double> if_measured(double angle_deg) {
-    return angle_deg < 180 ? std::optional(angle_deg) : std::nullopt;
+    return angle_deg >= 0 && angle_deg < 180 ? std::optional(angle_deg) : std::nullopt;
 }
 
 }  // namespace

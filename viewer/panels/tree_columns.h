@@ -30,8 +30,6 @@ inline constexpr float tree_indent = 0.5f;  ///< of a level, in ems
 const char* title(TreeColumn column);
 /// What the head of the column explains.
 const char* meaning(TreeColumn column);
-/// Columns about cuts, which are shown if a user has chosen them.
-constexpr bool is_chosen_by_user(TreeColumn column) { return column >= tries_column; }
 
 /// The number of a row in a column; none if it has none, or is not known.
 std::optional<double> number_in(const TreeRow& row, TreeColumn column);

@@ -135,7 +135,7 @@ void Ui::draw(UiContext& context, float width, float height) {
     draw_status(context);
     ImGui::End();
     draw_overlays(context, layout.scene);
-    if (has_body(context.session.document())) draw_clip_handles(context, layout.scene);
+    if (has_body(context.session.document())) draw_plane_handles(context, memory, layout.scene);
     draw_keys(context);
     draw_browser(context, impl_->memory);
     if (std::exchange(memory.list_steps, 0) != 0) memory.list = Memory::List::none;  // it is not shown any more

@@ -1,7 +1,5 @@
 #include "viewer/render/offscreen.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "core/error.h"

@@ -188,7 +188,7 @@ void Renderer::Impl::draw_see_through_triangles(const Scene& scene, const Projec
     for (GLenum hidden_side : {GL_FRONT, GL_BACK}) {
         gl_.CullFace(hidden_side);
         for (const Layer& layer : scene.layers)
-            if (has_triangles(layer) && layer.opacity < 1 && !(layer.backs_only && hidden_side == GL_BACK)) {
+            if (has_triangles(layer) && layer.opacity < 1 && !(layer.front_share == 0 && hidden_side == GL_BACK)) {
                 PaintJob glass = job(layer, scene, projection);
                 glass.shows_fronts = hidden_side == GL_BACK;
                 triangles_.draw(glass);

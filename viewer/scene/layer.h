@@ -86,7 +86,8 @@ struct Layer {
     /// Every range is the whole boundary of a body, facing outwards: who is outside sees no backs. The renderer then
     /// draws none unless the plane or the eye cuts the body open, which is up to twice as fast.
     bool closed = false;
-    /// Only what is seen from its back is drawn: a ground behind other things that covers none of them. Not picked.
+    /// Of an opaque layer only what is seen from its back is drawn: a ground behind other things that covers none of
+    /// them. Not picked.
     bool backs_only = false;
 };
 

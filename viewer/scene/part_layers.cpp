@@ -236,6 +236,7 @@ void SceneBuild::add_tetrahedra(const std::shared_ptr<const NodeSurface>& surfac
 
 // Where the cells that are left lie: sharp edges, and the far side as glass, which covers no cell.
 void SceneBuild::add_outline(NodeId owner, const std::shared_ptr<const NodeSurface>& surface, const Vec3& offset) {
+    extend(box_of(surface->vertices), offset);
     const auto lines = cache_.get(fmt::format("features of {}", owner), surface,
                                   [&] { return segments(feature_edges(*surface), built_.frame); });
     if (!lines->segments.empty()) {
@@ -250,7 +251,8 @@ void SceneBuild::add_outline(NodeId owner, const std::shared_ptr<const NodeSurfa
     Layer& layer = add(fmt::format("glass {}", owner), facets, colors_.context, owner, offset);
     layer.opacity = context_opacity;
     layer.edges = layer.clipped = false;
-    layer.smooth = layer.two_sided = layer.backs_only = true;
+    layer.front_share = 0;
+    layer.smooth = layer.two_sided = true;
 }
 
 // From somewhere: a cell at the surface, unless that is the wall of a void, and whatever is drawn as a cell.

@@ -18,7 +18,7 @@ struct Legend {
     std::string title;                    ///< of a colouring; empty: what there is to see is explained
     std::optional<ValueRange> values;     ///< of a measure
     std::vector<Color> scale;             ///< from its low to its high end
-    std::vector<LegendEntry> categories;  ///< else
+    std::vector<LegendEntry> categories;  ///< what else there is to explain, also beside a scale
 };
 
 struct BuiltScene {
@@ -34,16 +34,17 @@ struct BuiltScene {
 ///     surface           the closed surface of the node, its interface facets in their own colour
 ///     file surface      the surface as the file has it, where another one was cut
 ///     features [N]      sharp edges and borders of patches, of either or of a half
-///     context           the rest of the body, translucent
-///     defects, defect edges, defect places   what kerf check found
+///     context N         the rest of the body, translucent: the other half, N, of each cut above the node
+///     defects, defect edges, warning places, defect places   what kerf check found
 ///     axes, centre      principal axes and centre of gravity
-///     plane, plane outline                   the cutting plane with its normal
+///     plane, plane outline                   the cutting plane, until there is a section in it, with its normal
 ///     crossed-edges, hanging-removed, closed-loops, paths-removed, contour, projected   the contour at the stage
-///     refused, places                        a refused try's contour, and where it failed
+///     refused, places, colliding, collided   a refused try's contour, where it failed, pairs of triangles that meet
 ///     triangulation, interface               the section in the plane, and on the surface
 ///     half N            of a split, by node
 ///     part N, cells N, section N             of the tetrahedra: a part's boundary; its cells at the clip plane, by
 ///                                            filter, shrunk or around another; their smooth sections
+///     isolines of NAME                       of the layer NAME
 ///     wall N                                 behind shrunk cells
 ///     selected cell                          where it is seen only through others, which are translucent then
 ///     outline N, glass N                     of the node, or its parts, where only some cells are shown
