@@ -10,6 +10,8 @@
 
 #include "core/bytes.h"
 #include "core/error.h"
+#include "cut/place.h"
+#include "cut/plane.h"
 #include "decompose/decomposition.h"
 #include "support/assets.h"
 #include "support/shapes.h"
@@ -53,6 +55,27 @@ void Bisections::expect_valid(const Bisection& result) const {
     EXPECT_EQ(contour, static_cast<std::size_t>(cut.contour_edges));
     EXPECT_EQ(contour, cut.interface.contour.size());
     EXPECT_FALSE(cut.tries.empty());
+}
+
+// Who puts a plane where the kernel would, gets the kernel's cut.
+TEST_P(Bisections, PlaceOfAPlaneIsThatOfItsCut) {
+    for (const Criterion criterion : {Criterion::inertia, Criterion::equidistant})
+        for (const double fraction : {0.2, 0.5, 0.7}) {
+            CutOptions options;
+            options.criterion = criterion;
+            const std::vector<Vec3> directions = cut_directions(surface_, mass_, options);
+            for (std::size_t axis = 0; axis < directions.size(); ++axis) {
+                const auto rank = static_cast<std::int32_t>(axis);
+                Plane plane = PlaneSequence(surface_, mass_, directions[axis], rank, fraction, options).at(0)->plane;
+                if (axis == 1) plane.normal = -plane.normal;  // whichever way it looks
+                const CutPlace place = place_of(plane, surface_, mass_, options);
+                EXPECT_EQ(place.axis, rank);
+                EXPECT_NEAR(place.fraction, fraction, 1e-3) << static_cast<int>(criterion) << " " << axis;
+            }
+        }
+    Plane beyond;
+    beyond.origin = 1e6 * Vec3::UnitX();
+    EXPECT_LT(place_of(beyond, surface_, mass_, {}).fraction, 1) << "a cut leaves something on both sides";
 }
 
 TEST_P(Bisections, HalvesAreClosedAndAddUp) {
