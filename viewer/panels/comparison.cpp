@@ -149,7 +149,7 @@ void draw_saving(UiContext& context, Memory& memory) {
     if (!session.can_save_run()) return;
     if (memory.save_of != document.path) {
         memory.save_of = document.path;
-        memory.save_to = std::filesystem::path(document.options.input).replace_extension().string() + "_run";
+        memory.save_to = std::filesystem::path(document.options.input).stem().string() + "_run";
     }
     context.widgets.input_text("Save to", &memory.save_to);
     if (context.widgets.button("Save run", "Keeps this run, which is removed else when the viewer ends"))
