@@ -290,6 +290,24 @@ TEST_F(CutWing, AClickOnTheWorstInterfaceFliesThere) {
     driver_->click("Worst interfaces");
 }
 
+// A run of one part has nothing to cut and a part to choose.
+TEST(TreeOfOnePart, IsShownOnceItHasRun) {
+    Driver::Options options;
+    options.auto_run = false;
+    Driver driver(options);
+    driver.open(asset_path("cube"));
+    EXPECT_GT(times_on_screen("has not been cut yet"), 0);
+    EXPECT_FALSE(driver.app().widgets().find("node 1"));
+    RunOptions run;
+    run.decompose.parts = 1;
+    driver.app().session().start_run(run, true);
+    driver.await("the run", [&] { return !driver.app().session().busy(); });
+    driver.settle();
+    EXPECT_EQ(times_on_screen("has not been cut yet"), 0);
+    EXPECT_TRUE(driver.app().widgets().find("node 1"));
+    EXPECT_TRUE(driver.app().widgets().find("step tetrahedra"));
+}
+
 TEST(RefusedTry, PlacesAreFlownToAndPairsDrawn) {
     Driver::Options options;
     options.parts = 16;

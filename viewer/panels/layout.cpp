@@ -29,8 +29,8 @@ float menu_padding() { return std::round(0.35f * em()); }
 bool has_body(const Document& document) { return document.kind != Document::Kind::none || document.checked; }
 
 bool has_tree(const Document& document) {
-    return document.tree.rows.size() > 1 ||
-           (document.tree.rows.size() == 1 && document.kind != Document::Kind::surface);
+    const bool has_run = document.kind != Document::Kind::surface || document.trace || !document.folder.empty();
+    return document.tree.rows.size() > 1 || (document.tree.rows.size() == 1 && has_run);
 }
 
 bool has_remarks(const Document& document) {

@@ -19,7 +19,7 @@ float menu_padding();
 
 /// There is something to look at.
 bool has_body(const Document& document);
-/// Nodes to choose from: more than the body itself.
+/// Nodes to choose from, or the only part of a run: more than a surface that nothing was done to.
 bool has_tree(const Document& document);
 /// Defects, notes, or a message that the problems panel shows.
 bool has_remarks(const Document& document);
