@@ -7,6 +7,7 @@
 #include "support/program.h"
 #include "support/solved_run.h"
 #include "support/temporary_folder.h"
+#include "viewer/app/command_line.h"
 #include "viewer/driver.h"
 #include "viewer/golden_image.h"
 #include "viewer/model/solution.h"
@@ -73,6 +74,25 @@ TEST_F(SolvedCube, IsFoundByItsFolderAndTheOneAbove) {
 }
 
 // Values are linear in x, and so they are in every corner of every triangle, on the surface and in sections.
+TEST_F(SolvedCube, IsSeenByItsStressUntilSomebodyChooses) {
+    const auto color_of = [](const std::string& path, std::vector<const char*> more) {
+        std::vector<const char*> all = {"kerf", "screenshot", path.c_str(), "-o", "a.png"};
+        all.insert(all.end(), more.begin(), more.end());
+        const ViewCommand command = parse_view_command(static_cast<int>(all.size()), all.data());
+        EXPECT_EQ(command.print, "");
+        return command.state.color;
+    };
+    EXPECT_EQ(color_of(folder_->file("out"), {}), ColorBy::von_mises);
+    EXPECT_EQ(color_of(folder_->file("out"), {"--color", "part"}), ColorBy::part);
+    EXPECT_EQ(color_of(folder_->file("out/mesh"), {}), ColorBy::part);
+    for (const bool is_solution : {false, true}) {
+        driver_->open(folder_->file(is_solution ? "out" : "out/mesh"));
+        driver_->settle();
+        EXPECT_EQ(driver_->app().scene().legend.title.find("von Mises") != std::string::npos, is_solution)
+            << driver_->app().scene().legend.title;
+    }
+}
+
 TEST_F(SolvedCube, HasTheValuesOfItsVertices) {
     ViewState& state = driver_->state();
     for (const bool clipped : {false, true})

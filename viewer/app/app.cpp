@@ -11,6 +11,7 @@
 #include "viewer/app/keys.h"
 #include "viewer/app/settings.h"
 #include "viewer/model/file_kind.h"
+#include "viewer/model/solution.h"
 #include "viewer/scene/selection.h"
 
 namespace kerf::view {
@@ -96,7 +97,7 @@ void App::open(const std::string& path) {
     save_settings(options_.config_folder, settings_);
     opened_.clear();
     const ViewState before = state_;
-    state_ = {};
+    state_ = first_view_of(path);
     state_.theme = before.theme;
     state_.panels = before.panels;
     state_.shading = before.shading;

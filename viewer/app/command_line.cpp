@@ -14,6 +14,7 @@
 #include "io/file_bytes.h"
 #include "run/config_file.h"
 #include "run/version.h"
+#include "viewer/model/solution.h"
 
 namespace kerf::view {
 
@@ -188,6 +189,8 @@ void apply(const StateTexts& texts, ViewCommand& command) {
     if (!texts.state_file.empty()) {
         state = state_from_json(read_file(texts.state_file), texts.state_file, &command.origin);
         take_origin(command);
+    } else {
+        state = first_view_of(command.input);
     }
     if (!texts.camera_file.empty()) state.camera = camera_from_json(read_file(texts.camera_file), texts.camera_file);
     if (texts.node > 0) state.node = texts.node;
