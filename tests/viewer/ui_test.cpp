@@ -12,6 +12,7 @@
 
 #include "core/words.h"
 #include "io/surface_reader.h"
+#include "run/options.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/shapes.h"
@@ -319,6 +320,35 @@ TEST(Ui, PicksTheFacetThatIsSeen) {
             picked += expected >= 0;
         }
     EXPECT_GT(picked, 10);
+}
+
+// Whatever the help of kerf mesh has, but files that a run writes besides its result.
+TEST(Ui, HasEveryOptionUnderTheHeadingsOfTheHelp) {
+    Driver::Options options;
+    options.auto_run = false;
+    Driver driver(options);
+    driver.open(asset_path("cube"));
+    driver.state().panels.display = false;
+    driver.state().panels.parameters = true;
+    driver.settle();
+    RunOptions run;
+    const auto expect_options_of = [&](const std::string& heading) {
+        for (const OptionField& field : option_fields(run)) {
+            if (field.group != heading) continue;
+            const bool is_file = field.name == "report" || field.name == "events" || field.name == "trace";
+            EXPECT_EQ(driver.app().widgets().find(field.name).has_value(), !is_file) << field.name;
+        }
+    };
+    for (const std::string heading : {"Cuts", "Sizes"}) {
+        expect_options_of(heading);
+        driver.click(heading);
+    }
+    for (const std::string heading : option_group::all) {
+        EXPECT_FALSE(driver.app().widgets().find("parts") || driver.app().widgets().find("attempts")) << heading;
+        driver.click(heading);
+        expect_options_of(heading);
+        driver.click(heading);
+    }
 }
 
 TEST(Ui, ChangesOptionsRunsAgainAndCompares) {

@@ -11,25 +11,9 @@ namespace kerf::view {
 
 namespace {
 
-enum class Group { parts, input, running };
-
 // Files that a run writes besides the result are no business of the viewer.
 bool is_file(const OptionField& field) {
     return field.name == "report" || field.name == "events" || field.name == "trace";
-}
-
-bool is_of_input(const std::string& name) {
-    static const std::vector<std::string> names = [] {
-        InputOptions options;
-        std::vector<std::string> all;
-        for (const OptionField& field : input_option_fields(options)) all.push_back(field.name);
-        return all;
-    }();
-    return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-Group group_of(const OptionField& field) {
-    return is_of_input(field.name) ? Group::input : field.shapes_parts ? Group::parts : Group::running;
 }
 
 struct Editor {
@@ -62,30 +46,39 @@ std::string text_in(const std::vector<OptionField>& fields, const std::string& n
     return "";
 }
 
-void draw_fields(UiContext& context, Memory& memory, Group group) {
-    RunOptions given = context.session.document().options;
-    const std::vector<OptionField> before = option_fields(given);
-    const Palette& colors = palette(context.state.theme);
-    for (const OptionField& field : option_fields(memory.options)) {
-        if (is_file(field) || group_of(field) != group) continue;
-        const bool changed = field.text() != text_in(before, field.name);
-        const ImVec2 at = ImGui::GetCursorScreenPos();
-        const float room = ImGui::GetContentRegionAvail().x;
-        ImGui::BeginGroup();
-        std::visit(Editor{context.widgets, field.name.c_str()}, field.value);
-        ImGui::EndGroup();
-        explain(field.help);
-        if (!changed) continue;
-        const ImVec2 bar = {at.x + value_place * room - 0.35f * em(), at.y};
-        ImGui::GetWindowDrawList()->AddRectFilled(bar, {bar.x + 0.2f * em(), bar.y + ImGui::GetFrameHeight()},
-                                                  packed(colors.accent));
-    }
+// Left of an item whose value is `at`: it was changed.
+void mark(const ImVec2& at, const Palette& colors) {
+    ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + 0.2f * em(), at.y + ImGui::GetFrameHeight()},
+                                              packed(colors.accent));
 }
 
-void draw_group(UiContext& context, Memory& memory, const char* title, Group group) {
-    ImGui::Spacing();
-    show(title, palette(context.state.theme).accent);
-    draw_fields(context, memory, group);
+void draw_field(Widgets& widgets, const OptionField& field, bool changed, const Palette& colors) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float room = ImGui::GetContentRegionAvail().x;
+    ImGui::BeginGroup();
+    std::visit(Editor{widgets, field.name.c_str()}, field.value);
+    ImGui::EndGroup();
+    explain(field.help);
+    if (changed) mark({at.x + value_place * room - 0.35f * em(), at.y}, colors);
+}
+
+// Under the headings of the help. What most runs change is open.
+void draw_fields(UiContext& context, Memory& memory) {
+    RunOptions given = context.session.document().options;
+    const std::vector<OptionField> before = option_fields(given), now = option_fields(memory.options);
+    const Palette& colors = palette(context.state.theme);
+    const auto is_changed = [&](const OptionField& field) { return field.text() != text_in(before, field.name); };
+    for (const std::string heading : option_group::all) {
+        std::vector<OptionField> fields;
+        for (const OptionField& field : now)
+            if (field.group == heading && !is_file(field)) fields.push_back(field);
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const bool open =
+            context.widgets.header(heading.c_str(), heading == option_group::cuts || heading == option_group::sizes);
+        if (std::any_of(fields.begin(), fields.end(), is_changed)) mark(at, colors);
+        if (!open) continue;
+        for (const OptionField& field : fields) draw_field(context.widgets, field, is_changed(field), colors);
+    }
 }
 
 // The message of the first option that is out of its range.
@@ -148,9 +141,7 @@ void draw_parameters(UiContext& context, Memory& memory) {
     draw_buttons(context, memory, wrong.empty());
     draw_remark(wrong, palette(context.state.theme));
     draw_comparison(context, memory);
-    draw_group(context, memory, "Parts and cells", Group::parts);
-    draw_group(context, memory, "Surface", Group::input);
-    draw_group(context, memory, "Running", Group::running);
+    draw_fields(context, memory);
 }
 
 }  // namespace kerf::view
