@@ -385,7 +385,7 @@ CadBody import_model(Model model, const CadOptions& options, const std::string& 
     result.soup.is_of_model = true;
     result.soup.notes = {description(result)};
     if (result.file_unit.empty() && options.unit != LengthUnit::mm)
-        result.soup.notes.emplace_back("The file names no unit, so that --unit changes nothing.");
+        result.soup.notes.emplace_back("The file names no unit: its numbers stay, whatever unit is asked for.");
     result.soup.notes.insert(result.soup.notes.end(), model.notes.begin(), model.notes.end());
     return result;
 }

@@ -237,7 +237,7 @@ TEST_F(CadFile, UnitsAreReadAndConverted) {
         }
     const CadBody without = import_file(write("box.brep", test::box({0, 0, 0}, {1, 2, 3})), {.unit = LengthUnit::m});
     EXPECT_NEAR(without.volume, 6, 1e-12) << "a file without a unit keeps its numbers";
-    EXPECT_EQ(without.soup.notes.back(), "The file names no unit, so that --unit changes nothing.");
+    EXPECT_EQ(without.soup.notes.back(), "The file names no unit: its numbers stay, whatever unit is asked for.");
 }
 
 TEST_F(CadFile, AssemblyGivesNamesAndColours) {

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "io/cad_body.h"
 #include "io/surface_reader.h"
 #include "support/assets.h"
 #include "support/program.h"
@@ -130,6 +131,56 @@ TEST_F(ProblemButtons, MakeAVoidOrLeaveItOut) {
     run_by("Run with --voids parity");
     EXPECT_EQ(driver_->document().input_facets, 4660 + 80);
     EXPECT_LT(driver_->document().volume, 0.98);
+}
+
+// A shell script in the place of kerf-cad, which opens a file with --unite only.
+class RefusingCad {
+ public:
+    explicit RefusingCad(const std::string& step) {
+        std::ofstream(folder_.file("two.step")) << step;
+        CadBody body;
+        const Soup tetrahedron = test::tetrahedron();
+        body.soup = tetrahedron;
+        body.soup.patch.assign(body.soup.facets.size(), 0);
+        body.soup.patch_names = {"one/face 1"};
+        body.file_hash = digest_of(step);
+        write("united", {0, "", body});
+        write("refused", {3, "two.step: they touch. Join what touches by --unite, or choose one by --solid N.", {}});
+        const std::string program = folder_.file("cad");
+        std::ofstream(program) << "#!/bin/sh\ncase \"$*\" in *--unite*) a=united;; *) a=refused;; esac\ncat '"
+                               << folder_.file("") << "'$a\n";
+        std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+        setenv("KERF_CAD", program.c_str(), 1);
+    }
+    ~RefusingCad() { unsetenv("KERF_CAD"); }
+    std::string file() const { return folder_.file("two.step"); }
+
+ private:
+    void write(const std::string& name, const CadAnswer& answer) const {
+        const Bytes bytes = to_cad_bytes(answer);
+        const std::string text(bytes.begin(), bytes.end());
+        std::ofstream(folder_.file(name), std::ios::binary) << text;
+    }
+    const TemporaryFolder folder_;
+};
+
+TEST(ProblemsOfAFile, AreMendedByOpeningItAgain) {
+    const RefusingCad cad("ISO-10303-21;\nHEADER;\nENDSEC;\nEND-ISO-10303-21;\n");
+    Driver::Options options;
+    options.auto_run = false;
+    Driver driver(options);
+    driver.open(cad.file());
+    EXPECT_NE(driver.document().error.find("they touch"), std::string::npos) << driver.document().error;
+    EXPECT_TRUE(driver.app().widgets().find("--solid")) << "its number is the user's";
+    EXPECT_FALSE(is_offered(driver, "Open with --solid"));
+    driver.click("Open with --unite");
+    driver.await("the surface", [&] { return driver.document().input_facets == 4; });
+    EXPECT_EQ(driver.document().error, "");
+    EXPECT_TRUE(driver.document().options.input_options.cad.unite) << "a run reads it so, too";
+    const auto before = driver.document().soup;
+    driver.key(key_of('R'), true);
+    driver.await("the surface, by the same options",
+                 [&] { return driver.document().soup && driver.document().soup != before; });
 }
 
 // --- the tree, interfaces, tries ---
@@ -296,6 +347,7 @@ TEST(TreeOfOnePart, IsShownOnceItHasRun) {
     options.auto_run = false;
     Driver driver(options);
     driver.open(asset_path("cube"));
+    EXPECT_EQ(driver.document().options.decompose.parts, 4) << "what the run is to have is known before it";
     EXPECT_GT(times_on_screen("has not been cut yet"), 0);
     EXPECT_FALSE(driver.app().widgets().find("node 1"));
     RunOptions run;

@@ -92,7 +92,7 @@ std::string App::window_title() const {
 }
 
 void App::open(const std::string& path) {
-    session_.open(path);
+    session_.open(path, options_.run);
     remember(settings_, path);
     save_settings(options_.config_folder, settings_);
     opened_.clear();
@@ -109,6 +109,13 @@ void App::reload() {
     session_.reload();
     opened_.clear();
     session_changed_ = true;
+}
+
+void App::open_again(const RunOptions& options) {
+    session_.open(std::string(session_.document().path), options);
+    opened_.clear();
+    session_changed_ = true;
+    wake();
 }
 
 void App::frame_selection() {
@@ -226,9 +233,7 @@ void App::begin_auto_run() {
     if (!options_.auto_run || document.kind != Document::Kind::surface || opened_ == document.path) return;
     if (!document.checked || document.has_problems()) return;
     opened_ = document.path;
-    RunOptions run = options_.run;
-    run.input = document.path;
-    session_.start_run(run, options_.volume);
+    session_.start_run(document.options, options_.volume);
 }
 
 void App::follow_session() {

@@ -81,6 +81,7 @@ class App : private Actions {
 
  private:
     void reload() override;
+    void open_again(const RunOptions& options) override;
     void fit_all() override { state_.camera.reset(); }
     void frame_selection() override;
     void fly_to(const Vec3& point, double radius, const Vec3& back) override;

@@ -105,10 +105,16 @@ std::optional<RunOptions> options_with(RunOptions options, const OptionText& opt
     return options;
 }
 
-std::string words_of(const OptionText& advice) {
+std::string words_of(const OptionText& advice, const char* verb) {
     if (advice.name == "surface" && advice.text == "remesh") return "Remesh the surface";
-    if (advice.text == "true") return fmt::format("Run with --{}", advice.name);
-    return fmt::format("Run with --{}{}{}", advice.name, advice.text.empty() ? "" : " ", advice.text);
+    if (advice.text == "true") return fmt::format("{} with --{}", verb, advice.name);
+    return fmt::format("{} with --{}{}{}", verb, advice.name, advice.text.empty() ? "" : " ", advice.text);
+}
+
+bool is_input_option(const std::string& option) {
+    InputOptions options;
+    const std::vector<OptionField> fields = input_option_fields(options);
+    return std::any_of(fields.begin(), fields.end(), [&](const OptionField& field) { return field.name == option; });
 }
 
 std::string usual_value(const std::string& option, const RunOptions& options, const CheckedSoup* checked) {

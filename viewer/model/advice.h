@@ -25,8 +25,11 @@ bool is_set(const RunOptions& options, const OptionText& option);
 std::optional<RunOptions> options_with(RunOptions options, const OptionText& option);
 
 /// What a button says: "Remesh the surface", "Run with --voids parity", or "Run with --weld" as long as it has no
-/// value.
-std::string words_of(const OptionText& advice);
+/// value. `verb`: what it does with the option.
+std::string words_of(const OptionText& advice, const char* verb = "Run");
+
+/// Whether an option, by its name, has a say in how a file is read.
+bool is_input_option(const std::string& option);
 
 /// A value to begin with where a text names none: what would fill the largest hole, weld what is as good as equal, or
 /// give a run twice as much as it had. Empty if nothing is known. `checked` may be null.

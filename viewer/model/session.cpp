@@ -74,7 +74,7 @@ bool Session::Impl::pending() const { return opening_ || !fetching_.empty(); }
 Session::Session(std::string kerf_program) : impl_(std::make_unique<Impl>(std::move(kerf_program))) {}
 Session::~Session() = default;
 
-void Session::open(const std::string& path) { impl_->open(path); }
+void Session::open(const std::string& path, const RunOptions& options) { impl_->open(path, options); }
 void Session::reload() { impl_->reload(); }
 void Session::close() { impl_->close(); }
 bool Session::poll() { return impl_->poll(); }

@@ -115,14 +115,15 @@ void Session::Impl::close() {
     opening_ = false;
 }
 
-void Session::Impl::open(const std::string& path) {
+void Session::Impl::open(const std::string& path, const RunOptions& options) {
     close();
     document_.path = path;
+    document_.options = options;
     document_.title = title_of(path);
     opening_ = true;
-    const auto read = [this, path]() -> Loader::Completion {
+    const auto read = [this, path, cad = options.input_options.cad]() -> Loader::Completion {
         try {
-            return read_what_is_there(path);
+            return read_what_is_there(path, cad);
         } catch (const Error& error) {
             return [this, code = error.code(), message = std::string(error.what())] { show_error(code, message); };
         }
@@ -131,14 +132,14 @@ void Session::Impl::open(const std::string& path) {
 }
 
 void Session::Impl::reload() {
-    if (!document_.path.empty()) open(std::string(document_.path));
+    if (!document_.path.empty()) open(std::string(document_.path), RunOptions(document_.options));
 }
 
-Loader::Completion Session::Impl::read_what_is_there(const std::string& path) {
+Loader::Completion Session::Impl::read_what_is_there(const std::string& path, const CadOptions& cad) {
     const OpenedPath what = tell_kind(path);
     switch (what.kind) {
         case OpenedPath::Kind::surface: {
-            auto soup = std::make_shared<const Soup>(read_surface_or_cad(path));
+            auto soup = std::make_shared<const Soup>(read_surface_or_cad(path, cad));
             auto surface = std::make_shared<const NodeSurface>(node_surface_of(*soup));
             return [this, soup, surface] { show_soup(soup, surface); };
         }

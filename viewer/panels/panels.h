@@ -18,6 +18,7 @@ class Actions {
     virtual ~Actions() = default;
     virtual void open(const std::string& path) = 0;
     virtual void reload() = 0;
+    virtual void open_again(const RunOptions& options) = 0;  ///< what is open, read by them
     virtual void fit_all() = 0;
     virtual void frame_selection() = 0;
     /// Turns the camera's target to a point and comes as close as `radius` (units of the file) asks for; selects it.

@@ -38,11 +38,13 @@ double radius_of(const Defect& defect, const Soup& soup, double diagonal) {
     return radius > 0 ? std::clamp(1.5 * radius, 1e-3 * diagonal, 0.5 * diagonal) : 0.02 * diagonal;
 }
 
-// A button that runs again with an option; before it a field for the value if the text left that to the reader.
+// A button that runs again with an option, or opens again what could not be opened; before it a field for the value if
+// the text left that to the reader.
 void draw_option(UiContext& context, Memory& memory, OptionText advice) {
     const Document& document = context.session.document();
+    const bool opens = !document.error.empty();
     ImGui::PushID(advice.name.c_str());
-    ImGui::BeginDisabled(document.progress.running || document.kind == Document::Kind::none);
+    ImGui::BeginDisabled(document.progress.running);
     if (advice.text.empty()) {
         auto [value, is_new] = memory.advised.try_emplace(advice.name);
         if (is_new) value->second = usual_value(advice.name, document.options, document.checked.get());
@@ -51,24 +53,32 @@ void draw_option(UiContext& context, Memory& memory, OptionText advice) {
     }
     const std::optional<RunOptions> options =
         advice.text.empty() ? std::nullopt : options_with(document.options, advice);
-    const std::string tip =
-        options ? fmt::format("Checks the surface and runs again with --{} {}", advice.name, advice.text)
-                : fmt::format("Needs a value of --{}", advice.name);
+    const char* does = opens ? "Reads the file again" : "Checks the surface and runs again";
+    const std::string tip = options ? fmt::format("{} with --{} {}", does, advice.name, advice.text)
+                                    : fmt::format("Needs a value of --{}", advice.name);
     ImGui::BeginDisabled(!options);
-    if (context.widgets.small_button((words_of(advice) + "###run").c_str(), tip.c_str()) && options) {
-        RunOptions wanted = *options;
-        context.actions.start_run(wanted, wanted.volume);
+    const std::string label = words_of(advice, opens ? "Open" : "Run") + "###run";
+    if (context.widgets.small_button(label.c_str(), tip.c_str()) && options) {
+        const RunOptions wanted = *options;
+        if (opens)
+            context.actions.open_again(wanted);
+        else
+            context.actions.start_run(wanted, wanted.volume);
     }
     ImGui::EndDisabled();
     ImGui::EndDisabled();
     ImGui::PopID();
 }
 
-// Where a text advises options that the run did not have: a button for each.
+// Where a text advises options that the run did not have: a button for each. A file that could not be opened needs
+// those by which it is read.
 void draw_advice(UiContext& context, Memory& memory, const std::string& text) {
+    const Document& document = context.session.document();
+    const bool opens = !document.error.empty();
     ImGui::PushID(text.c_str());  // several texts may advise the same
     for (const OptionText& advice : advised_options(text))
-        if (!is_set(context.session.document().options, advice)) draw_option(context, memory, advice);
+        if (!is_set(document.options, advice) && (!opens || is_input_option(advice.name)))
+            draw_option(context, memory, advice);
     ImGui::PopID();
 }
 
@@ -237,6 +247,7 @@ void draw_remarks(UiContext& context, Memory& memory) {
     const Palette& colors = palette(context.state.theme);
     if (!document.error.empty()) {
         draw_message((document.title + " could not be opened.").c_str(), document.error, colors);
+        draw_advice(context, memory, std::string(document.error));
         show_wrapped("Correct the file and press Ctrl+R, or open another one with Ctrl+O.", colors.dim);
     }
     if (!document.progress.running && !document.progress.message.empty())
