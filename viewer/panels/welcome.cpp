@@ -1,5 +1,6 @@
 // What one sees before anything is open.
 #include <algorithm>
+#include <iterator>
 
 #include "viewer/panels/parts.h"
 
@@ -8,6 +9,14 @@ namespace kerf::view {
 namespace {
 
 constexpr std::size_t most_recent = 8;
+
+constexpr const char* what_can_be_opened[] = {
+    "Surfaces: STL, OBJ, PLY, OFF, .msh, .mesh, .smesh, .poly, also .gz or .zst",
+    "CAD files: STEP, IGES, BREP",
+    "Traces: what kerf mesh --trace FILE has written",
+    "Runs: the folder of kerf mesh -o DIR, finished or under way",
+    "Solutions: the folder of kerf solve -o DIR",
+};
 
 void show_centered(const std::string& text, const ImVec4& color) {
     const float room = ImGui::GetContentRegionAvail().x, width = ImGui::CalcTextSize(text.c_str()).x;
@@ -38,7 +47,8 @@ float content_height(const UiContext& context) {
     const std::size_t recent = std::min(context.settings.recent.size(), most_recent);
     const float titles = context.session.document().error.empty() ? title : 2 * title;
     const float list = recent > 0 ? static_cast<float>(recent + 1) * line + em() + gap : 0;
-    return titles + 4 * line + 3.6f * em() + 3 * gap + list;
+    const auto lines = static_cast<float>(1 + std::size(what_can_be_opened));
+    return titles + lines * line + 3.6f * em() + 3 * gap + list;
 }
 
 }  // namespace
@@ -63,9 +73,7 @@ void draw_welcome(UiContext& context, const Rectangle& scene) {
     ImGui::Dummy({0, 0.4f * e});
     show_centered("or press Ctrl+O to choose one", colors.text);
     ImGui::Dummy({0, 0.6f * e});
-    show_centered("Surfaces: STL, OBJ, PLY, OFF, .msh, .mesh, .smesh, .poly, also .gz or .zst", colors.dim);
-    show_centered("Traces: what kerf mesh --trace FILE has written", colors.dim);
-    show_centered("Runs: the folder of kerf mesh -o DIR, finished or under way", colors.dim);
+    for (const char* kind : what_can_be_opened) show_centered(kind, colors.dim);
     draw_recent(context, colors);
     ImGui::End();
 }
