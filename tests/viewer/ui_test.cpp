@@ -482,6 +482,29 @@ TEST(Ui, OpensAFileFromTheBrowser) {
     EXPECT_EQ(driver.document().title, "cube.stl");
 }
 
+TEST(Ui, ListsWhatItCanOpen) {
+    const TemporaryFolder folder;
+    for (const char* name : {"a.stl.gz", "a.STEP", "a.igs", "a.brep", "a.kerftrace", "letter.txt"})
+        std::ofstream(folder.file(name)) << "-";
+    std::filesystem::create_directories(folder.file("solved/solution"));
+    std::ofstream(folder.file("solved/solution/report.json")) << "{}";
+    Driver::Options options;
+    options.auto_run = false;
+    Driver driver(options);
+    driver.key(key_of('O'), true);
+    driver.click("folder path");
+    driver.key(key_of('A'), true);
+    driver.type(folder.file(""));
+    driver.key(key_enter);
+    driver.settle();
+    for (const char* name : {"a.stl.gz", "a.STEP", "a.igs", "a.brep", "a.kerftrace", "solved"})
+        EXPECT_TRUE(driver.app().widgets().find(std::string("entry ") + name)) << name;
+    EXPECT_FALSE(driver.app().widgets().find("entry letter.txt"));
+    driver.click("entry solved");
+    driver.click("Open");
+    driver.await("what is wrong with it: it was opened, not entered", [&] { return !driver.document().error.empty(); });
+}
+
 TEST(Ui, RemembersThemeAndRecentFiles) {
     const TemporaryFolder folder;
     Driver::Options options;

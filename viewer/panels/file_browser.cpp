@@ -26,7 +26,8 @@ Kind kind_of_file(const fs::path& path) {
     fs::path name = lower(path.filename().string());
     if (name.extension() == ".gz" || name.extension() == ".zst") name = name.stem();
     const std::string extension = name.extension().string();
-    constexpr const char* surfaces[] = {".stl", ".obj", ".ply", ".off", ".msh", ".mesh", ".smesh", ".poly"};
+    constexpr const char* surfaces[] = {".stl",  ".obj",  ".ply", ".off",  ".msh", ".mesh", ".smesh",
+                                        ".poly", ".step", ".stp", ".iges", ".igs", ".brep"};
     if (std::find(std::begin(surfaces), std::end(surfaces), extension) != std::end(surfaces)) return Kind::surface;
     if (extension.ends_with("trace")) return Kind::trace;
     return extension == ".jsonl" ? Kind::events : Kind::other;
@@ -34,7 +35,8 @@ Kind kind_of_file(const fs::path& path) {
 
 Kind kind_of_folder(const fs::path& path) {
     std::error_code ignored;  // what cannot be looked into is a folder
-    const bool run = path.extension() == ".kerf-partial" || fs::is_regular_file(path / "report.json", ignored);
+    const bool run = path.extension() == ".kerf-partial" || fs::is_regular_file(path / "report.json", ignored) ||
+                     fs::is_regular_file(path / "solution/report.json", ignored);
     return run ? Kind::run : Kind::folder;
 }
 
