@@ -123,6 +123,18 @@ TEST_F(ProblemButtons, WeldACrackWithinATypedDistance) {
     driver_->settle();
     run_by("Run with --weld 0.001");
     EXPECT_EQ(driver_->document().input_vertices, std::ssize(whole.vertices));
+
+    // Who reloads, or asks for it from the beginning, is not told of it again.
+    driver_->key(key_of('R'), true);
+    driver_->await("the run", [&] { return driver_->document().trace && !driver_->app().session().busy(); });
+    EXPECT_FALSE(driver_->document().has_problems());
+    RunOptions welded;
+    welded.input_options.weld_tolerance = 0.001;
+    for (const RunOptions& options : {RunOptions(), welded}) {
+        driver_->app().session().open(folder_.file("bad.off"), options);
+        driver_->await("its check", [&] { return driver_->document().checked != nullptr; });
+        EXPECT_EQ(driver_->document().has_problems(), options.input_options.weld_tolerance == 0);
+    }
 }
 
 TEST_F(ProblemButtons, MakeAVoidOrLeaveItOut) {
