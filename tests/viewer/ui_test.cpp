@@ -339,11 +339,11 @@ TEST(Ui, HasEveryOptionUnderTheHeadingsOfTheHelp) {
             EXPECT_EQ(driver.app().widgets().find(field.name).has_value(), !is_file) << field.name;
         }
     };
-    for (const std::string heading : {"Cuts", "Sizes"}) {
+    for (const char* heading : {option_group::cuts, option_group::sizes}) {
         expect_options_of(heading);
         driver.click(heading);
     }
-    for (const std::string heading : option_group::all) {
+    for (const char* heading : option_group::all) {
         EXPECT_FALSE(driver.app().widgets().find("parts") || driver.app().widgets().find("attempts")) << heading;
         driver.click(heading);
         expect_options_of(heading);

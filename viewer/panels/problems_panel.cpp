@@ -59,11 +59,10 @@ void draw_option(UiContext& context, Memory& memory, OptionText advice) {
     ImGui::BeginDisabled(!options);
     const std::string label = words_of(advice, opens ? "Open" : "Run") + "###run";
     if (context.widgets.small_button(label.c_str(), tip.c_str()) && options) {
-        const RunOptions wanted = *options;
         if (opens)
-            context.actions.open_again(wanted);
+            context.actions.open_again(*options);
         else
-            context.actions.start_run(wanted, wanted.volume);
+            context.actions.start_run(*options, options->volume);
     }
     ImGui::EndDisabled();
     ImGui::EndDisabled();
