@@ -47,7 +47,7 @@ std::string text_in(const std::vector<OptionField>& fields, const std::string& n
     return "";
 }
 
-// Left of an item whose value is `at`: it was changed.
+// A bar from `at` down: the item to the right of it was changed.
 void mark(const ImVec2& at, const Palette& colors) {
     ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + 0.2f * em(), at.y + ImGui::GetFrameHeight()},
                                               packed(colors.accent));
