@@ -4,10 +4,10 @@
 
 #include "core/error.h"
 #include "support/assets.h"
+#include "support/file_contents.h"
 #include "support/program.h"
 #include "support/solved_run.h"
 #include "support/temporary_folder.h"
-#include "viewer/app/command_line.h"
 #include "viewer/driver.h"
 #include "viewer/golden_image.h"
 #include "viewer/model/solution.h"
@@ -73,26 +73,27 @@ TEST_F(SolvedCube, IsFoundByItsFolderAndTheOneAbove) {
     EXPECT_THROW(find_solution(folder_->file("astray")), Error);
 }
 
-// Values are linear in x, and so they are in every corner of every triangle, on the surface and in sections.
 TEST_F(SolvedCube, IsSeenByItsStressUntilSomebodyChooses) {
-    const auto color_of = [](const std::string& path, std::vector<const char*> more) {
-        std::vector<const char*> all = {"kerf", "screenshot", path.c_str(), "-o", "a.png"};
+    const auto picture = [](const std::string& path, const std::vector<std::string>& more) {
+        const std::string png = folder_->file("seen.png");
+        std::vector<std::string> all = {"screenshot", folder_->file(path), "-o", png, "--size", "320x240"};
         all.insert(all.end(), more.begin(), more.end());
-        const ViewCommand command = parse_view_command(static_cast<int>(all.size()), all.data());
-        EXPECT_EQ(command.print, "");
-        return command.state.color;
+        EXPECT_EQ(run_kerf(all).exit_code, 0);
+        return bytes_of_file(png);
     };
-    EXPECT_EQ(color_of(folder_->file("out"), {}), ColorBy::von_mises);
-    EXPECT_EQ(color_of(folder_->file("out"), {"--color", "part"}), ColorBy::part);
-    EXPECT_EQ(color_of(folder_->file("out/mesh"), {}), ColorBy::part);
+    EXPECT_EQ(picture("out", {}), picture("out", {"--color", "von-mises"}));
+    EXPECT_EQ(picture("out", {"--color", "part"}), picture("out/mesh", {"--color", "part"}));
+    EXPECT_EQ(picture("out", {"--stage", "input"}), picture("out/mesh", {}));
     for (const bool is_solution : {false, true}) {
         driver_->open(folder_->file(is_solution ? "out" : "out/mesh"));
         driver_->settle();
+        EXPECT_EQ(driver_->state().color, is_solution ? ColorBy::von_mises : ColorBy::part);
         EXPECT_EQ(driver_->app().scene().legend.title.find("von Mises") != std::string::npos, is_solution)
             << driver_->app().scene().legend.title;
     }
 }
 
+// Values are linear in x, and so they are in every corner of every triangle, on the surface and in sections.
 TEST_F(SolvedCube, HasTheValuesOfItsVertices) {
     ViewState& state = driver_->state();
     for (const bool clipped : {false, true})

@@ -465,17 +465,21 @@ TEST(Ui, AFileThatIsNoSurfaceSaysSo) {
     EXPECT_NE(driver.document().error.find("missing.stl"), std::string::npos);
 }
 
+void browse(Driver& driver, const std::string& folder) {
+    driver.key(key_of('O'), true);
+    driver.click("folder path");
+    driver.key(key_of('A'), true);
+    driver.type(folder);
+    driver.key(key_enter);
+}
+
 TEST(Ui, OpensAFileFromTheBrowser) {
     const TemporaryFolder folder;
     std::filesystem::copy_file(asset_path("cube"), folder.file("cube.stl"));
     Driver::Options options;
     options.auto_run = false;
     Driver driver(options);
-    driver.key(key_of('O'), true);
-    driver.click("folder path");
-    driver.key(key_of('A'), true);
-    driver.type(folder.file(""));
-    driver.key(key_enter);
+    browse(driver, folder.file(""));
     driver.click("entry cube.stl");
     driver.click("Open");
     driver.await("the cube", [&] { return driver.document().input_facets == 4660; });
@@ -491,11 +495,7 @@ TEST(Ui, ListsWhatItCanOpen) {
     Driver::Options options;
     options.auto_run = false;
     Driver driver(options);
-    driver.key(key_of('O'), true);
-    driver.click("folder path");
-    driver.key(key_of('A'), true);
-    driver.type(folder.file(""));
-    driver.key(key_enter);
+    browse(driver, folder.file(""));
     driver.settle();
     for (const char* name : {"a.stl.gz", "a.STEP", "a.igs", "a.brep", "a.kerftrace", "solved"})
         EXPECT_TRUE(driver.app().widgets().find(std::string("entry ") + name)) << name;

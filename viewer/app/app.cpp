@@ -11,7 +11,6 @@
 #include "viewer/app/keys.h"
 #include "viewer/app/settings.h"
 #include "viewer/model/file_kind.h"
-#include "viewer/model/solution.h"
 #include "viewer/scene/selection.h"
 
 namespace kerf::view {
@@ -95,27 +94,34 @@ void App::open(const std::string& path) {
     session_.open(path, options_.run);
     remember(settings_, path);
     save_settings(options_.config_folder, settings_);
-    opened_.clear();
     const ViewState before = state_;
-    state_ = first_view_of(path);
+    state_ = {};
     state_.theme = before.theme;
     state_.panels = before.panels;
     state_.shading = before.shading;
+    is_view_chosen_ = false;
+    await_document();
+}
+
+void App::show(const ViewState& state, bool is_chosen) {
+    state_ = state;
+    is_view_chosen_ = is_chosen;
+}
+
+void App::await_document() {
+    opened_.clear();
     session_changed_ = true;
     wake();
 }
 
 void App::reload() {
     session_.reload();
-    opened_.clear();
-    session_changed_ = true;
+    await_document();
 }
 
 void App::open_again(const RunOptions& options) {
     session_.open(std::string(session_.document().path), options);
-    opened_.clear();
-    session_changed_ = true;
-    wake();
+    await_document();
 }
 
 void App::frame_selection() {
@@ -236,12 +242,23 @@ void App::begin_auto_run() {
     session_.start_run(document.options, options_.volume);
 }
 
+// A solution is seen by its stress, unless somebody has chosen something else.
+void App::choose_view() {
+    const Document& document = session_.document();
+    if (is_view_chosen_ || document.kind == Document::Kind::none) return;
+    is_view_chosen_ = true;
+    if (!document.solution) return;
+    state_.color = ColorBy::von_mises;
+    state_.step.stage = Stage::tetrahedra;
+}
+
 void App::follow_session() {
     if (session_.poll()) {
         session_changed_ = true;
         wake();
     }
     begin_auto_run();
+    choose_view();
     if (session_changed_) resolve_click();
     resolve_turn();
     const Document& document = session_.document();

@@ -46,6 +46,8 @@ class App : private Actions {
 
     void open(const std::string& path) override;
     ViewState& state() { return state_; }
+    /// `is_chosen`: somebody wants to see it so; else what is opened may choose colours and stage that suit it.
+    void show(const ViewState& state, bool is_chosen);
     Session& session() { return session_; }
     const Settings& settings() const { return settings_; }
 
@@ -100,7 +102,9 @@ class App : private Actions {
 
     void draw(bool panels);
     void follow_session();
+    void await_document();
     void begin_auto_run();
+    void choose_view();
     void update_camera();
     void fit_body(Camera& camera, const Eigen::AlignedBox3d& box) const;
     void take_keys();
@@ -148,6 +152,7 @@ class App : private Actions {
 
     std::string styled_for_;  // theme and scale
     std::string opened_;      // what auto_run has been decided for
+    bool is_view_chosen_ = false;
     bool quit_ = false, capture_ = false, dragging_ = false, pressed_in_scene_ = false;
     double notice_until_ = 0, played_until_ = 0;
     std::chrono::steady_clock::time_point last_frame_;

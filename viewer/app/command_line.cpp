@@ -14,7 +14,6 @@
 #include "io/file_bytes.h"
 #include "run/config_file.h"
 #include "run/version.h"
-#include "viewer/model/solution.h"
 
 namespace kerf::view {
 
@@ -189,8 +188,6 @@ void apply(const StateTexts& texts, ViewCommand& command) {
     if (!texts.state_file.empty()) {
         state = state_from_json(read_file(texts.state_file), texts.state_file, &command.origin);
         take_origin(command);
-    } else {
-        state = first_view_of(command.input);
     }
     if (!texts.camera_file.empty()) state.camera = camera_from_json(read_file(texts.camera_file), texts.camera_file);
     if (texts.node > 0) state.node = texts.node;
@@ -202,6 +199,7 @@ void apply(const StateTexts& texts, ViewCommand& command) {
     else if (is_of_cells && texts.state_file.empty() && !is_seen_on_surfaces(texts.color))
         state.step.stage = Stage::tetrahedra;
     if (!texts.color.empty()) state.color = color_by_from_name(texts.color);
+    command.is_view_chosen = !texts.state_file.empty() || !texts.stage.empty() || !texts.color.empty();
     if (!texts.clip_style.empty()) state.clip.style = clip_style_from_name(texts.clip_style);
     if (!texts.filter.empty()) {
         state.filter = ValueRange{texts.filter[0], texts.filter[1]};

@@ -113,7 +113,7 @@ void take_screenshot(const ViewCommand& command, const AppOptions& options) {
     app.open(command.input);
     wait_for_document(app, command, deadline);
     const Document& document = app.session().document();
-    app.state() = command.state;
+    app.show(command.state, command.is_view_chosen);
     apply_document(command, document, static_cast<double>(command.width) / command.height, app.state());
     check_wishes(document, app.state(), command.panels);
     const FrameSize size = {.width = command.width * command.antialias,

@@ -40,18 +40,6 @@ std::optional<Solution> find_solution(const std::string& path) {
     return solution;
 }
 
-ViewState first_view_of(const std::string& path) {
-    ViewState view;
-    try {
-        if (!find_solution_folder(path)) return view;
-    } catch (const Error&) {
-        return view;
-    }
-    view.color = ColorBy::von_mises;
-    view.step.stage = Stage::tetrahedra;
-    return view;
-}
-
 float PartSolution::value_at(ColorBy color, std::size_t vertex) const {
     if (color == ColorBy::displacement) return static_cast<float>(displacement[vertex].norm());
     if (color == ColorBy::von_mises) return von_mises[vertex];

@@ -25,10 +25,6 @@ struct Solution {
 /// folder is no solution's. Throws Error(io) for a report that is damaged, or whose run is not where it was.
 std::optional<Solution> find_solution(const std::string& folder);
 
-/// How a path is shown until somebody chooses: a solution by its von Mises stress, anything else as ViewState has it.
-/// Throws nothing: what cannot be read is told by who opens it.
-ViewState first_view_of(const std::string& path);
-
 /// The values of a part, in the units of the case.
 struct PartSolution {
     std::vector<Vec3> displacement;            ///< #V; the boundary's vertices first

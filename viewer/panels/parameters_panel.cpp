@@ -1,6 +1,5 @@
 // The options of the next run, from the kernel's table, and what a repetition has changed.
 #include <algorithm>
-#include <iterator>
 #include <limits>
 
 #include <fmt/format.h>
@@ -63,20 +62,21 @@ void draw_field(Widgets& widgets, const OptionField& field, bool changed, const 
     if (changed) mark({at.x + value_place * room - 0.35f * em(), at.y}, colors);
 }
 
-// Under the headings of the help. What most runs change is open.
+// Most runs change some of these.
+bool is_common(const std::string& heading) { return heading == option_group::cuts || heading == option_group::sizes; }
+
+// Under the headings of the help.
 void draw_fields(UiContext& context, Memory& memory) {
     RunOptions given = context.session.document().options;
     const std::vector<OptionField> before = option_fields(given), now = option_fields(memory.options);
     const Palette& colors = palette(context.state.theme);
     const auto is_changed = [&](const OptionField& field) { return field.text() != text_in(before, field.name); };
-    const std::string common[] = {option_group::cuts, option_group::sizes};
     for (const char* heading : option_group::all) {
         std::vector<OptionField> fields;
         for (const OptionField& field : now)
             if (field.group == heading && !is_file(field)) fields.push_back(field);
         const ImVec2 at = ImGui::GetCursorScreenPos();
-        const bool is_common = std::find(std::begin(common), std::end(common), heading) != std::end(common);
-        const bool open = context.widgets.header(heading, is_common);
+        const bool open = context.widgets.header(heading, is_common(heading));
         if (std::any_of(fields.begin(), fields.end(), is_changed)) mark(at, colors);
         if (!open) continue;
         for (const OptionField& field : fields) draw_field(context.widgets, field, is_changed(field), colors);
