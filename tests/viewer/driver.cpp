@@ -168,6 +168,11 @@ view::ItemRect Driver::item_in_sight(const std::string& label) {
     return rect;
 }
 
+bool Driver::offers(const std::string& label) const {
+    const std::optional<view::ItemRect> found = app_->widgets().find(label);
+    return found && found->enabled;
+}
+
 void Driver::click(const std::string& label) {
     const view::ItemRect rect = item_in_sight(label);
     click_at((rect.left + rect.right) / 2, (rect.top + rect.bottom) / 2);

@@ -52,6 +52,8 @@ class Driver {
     void click_at(float x, float y, int button = 0);
     void drag(float from_x, float from_y, float to_x, float to_y, int button = 0);
     void wheel(float x, float y, float notches);
+    /// Whether an item is there and can be used.
+    bool offers(const std::string& label) const;
     /// Clicks an item by its label. Scrolls to it if it is out of sight.
     void click(const std::string& label);
     /// Drags over an item; places are fractions of its width.

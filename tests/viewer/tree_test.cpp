@@ -1,24 +1,16 @@
-// Problems with a button for each remedy, the tree sorted and folded, the worst interfaces, refused tries: as a user
-// works with them.
+// The tree sorted and folded, the worst interfaces, refused tries, the timeline: as a user works with them.
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <iterator>
-#include <regex>
 #include <set>
 
 #include <gtest/gtest.h>
 
-#include "io/cad_body.h"
-#include "io/surface_reader.h"
 #include "support/assets.h"
 #include "support/program.h"
-#include "support/shapes.h"
 #include "support/temporary_folder.h"
-#include "support/write_off.h"
 #include "viewer/app/keys.h"
 #include "viewer/driver.h"
-#include "viewer/model/advice.h"
 #include "viewer/model/interface_places.h"
 #include "viewer/words_on_screen.h"
 
@@ -26,11 +18,6 @@ namespace kerf::test {
 namespace {
 
 using namespace view;
-
-bool is_offered(Driver& driver, const std::string& label) {
-    const std::optional<ItemRect> item = driver.app().widgets().find(label);
-    return item && item->enabled;
-}
 
 // The text in one line, as often as it is on the screen; lines may be broken anywhere.
 int times_on_screen(const std::string& text) {
@@ -46,156 +33,6 @@ int times_on_screen(const std::string& text) {
     for (std::size_t at = all.find(wanted); at != all.npos; at = all.find(wanted, at + 1)) ++times;
     return times;
 }
-// --- problems ---
-
-TEST(Problems, EveryOptionThatARemedyNamesIsAdvised) {
-    const std::regex option("--([a-z-]+[a-z])");
-    std::set<std::string> all;
-    for (std::size_t kind = 0; kind < defect_kind_count; ++kind)
-        for (const Severity severity : {Severity::error, Severity::repaired, Severity::warning}) {
-            const std::string text =
-                remedy({.kind = static_cast<DefectKind>(kind), .severity = severity, .facets = {}, .vertices = {}});
-            std::set<std::string> named, advised;
-            for (std::sregex_iterator i(text.begin(), text.end(), option), end; i != end; ++i) named.insert((*i)[1]);
-            for (const OptionText& advice : advised_options(text)) {
-                advised.insert(advice.name);
-                EXPECT_TRUE(advice.text.empty() || options_with({}, advice)) << words_of(advice);
-            }
-            EXPECT_EQ(advised, named) << text;
-            all.merge(named);
-        }
-    EXPECT_EQ(all, (std::set<std::string>{"fill-holes", "keep-largest", "surface", "voids", "weld"}));
-}
-
-class ProblemButtons : public testing::Test {
- protected:
-    void open(const Soup& soup) {
-        write_off(folder_.file("bad.off"), soup.vertices, soup.facets);
-        Driver::Options options;
-        options.parts = 2;
-        options.volume = false;
-        driver_ = std::make_unique<Driver>(options);
-        driver_->open(folder_.file("bad.off"));
-        ASSERT_TRUE(driver_->document().has_problems());
-    }
-    void run_by(const std::string& button) {
-        driver_->click(button);
-        driver_->await("the run", [&] { return driver_->document().trace && !driver_->app().session().busy(); });
-        driver_->settle();
-        EXPECT_FALSE(driver_->document().has_problems()) << "it was checked again";
-        EXPECT_TRUE(driver_->app().widgets().find("node 1")) << "the tree is in their place";
-        EXPECT_EQ(driver_->document().progress.message, "");
-    }
-
-    const TemporaryFolder folder_;
-    std::unique_ptr<Driver> driver_;
-};
-
-TEST_F(ProblemButtons, FillAHole) {
-    Soup soup = read_surface(asset_path("cube"));
-    soup.facets.erase(soup.facets.begin() + 100);
-    open(soup);
-    EXPECT_TRUE(is_offered(*driver_, "Run with --keep-largest"));
-    EXPECT_TRUE(is_offered(*driver_, "Run with --weld 1e-05")) << "the cube is 1 long";
-    run_by("Run with --fill-holes 3");
-    EXPECT_EQ(driver_->document().input_facets, 4660);
-}
-
-// Every facet has corners of its own, a little off.
-TEST_F(ProblemButtons, WeldACrackWithinATypedDistance) {
-    const Soup whole = test::icosphere(3);
-    Soup soup = whole;
-    soup.vertices.clear();
-    for (std::size_t f = 0; f < soup.facets.size(); ++f)
-        for (std::int32_t& v : soup.facets[f]) {
-            soup.vertices.push_back(whole.vertices[static_cast<std::size_t>(v)] *
-                                    (1 + 1e-4 * static_cast<double>(f % 3)));
-            v = static_cast<std::int32_t>(soup.vertices.size()) - 1;
-        }
-    open(soup);
-    driver_->click("--weld");
-    driver_->key(key_of('A'), true);
-    driver_->type("nonsense");
-    driver_->settle();
-    EXPECT_FALSE(is_offered(*driver_, "Run with --weld nonsense"));
-    driver_->key(key_of('A'), true);
-    driver_->type("0.001");
-    driver_->settle();
-    run_by("Run with --weld 0.001");
-    EXPECT_EQ(driver_->document().input_vertices, std::ssize(whole.vertices));
-
-    // Who reloads, or asks for it from the beginning, is not told of it again.
-    driver_->key(key_of('R'), true);
-    driver_->await("the run", [&] { return driver_->document().trace && !driver_->app().session().busy(); });
-    EXPECT_FALSE(driver_->document().has_problems());
-    RunOptions welded;
-    welded.input_options.weld_tolerance = 0.001;
-    for (const RunOptions& options : {RunOptions(), welded}) {
-        driver_->app().session().open(folder_.file("bad.off"), options);
-        driver_->await("its check", [&] { return driver_->document().checked != nullptr; });
-        EXPECT_EQ(driver_->document().has_problems(), options.input_options.weld_tolerance == 0);
-    }
-}
-
-TEST_F(ProblemButtons, MakeAVoidOrLeaveItOut) {
-    open(test::join(read_surface(asset_path("cube")), test::icosphere(1, 0.2, Vec3::Constant(0.5))));
-    EXPECT_TRUE(is_offered(*driver_, "Run with --keep-largest"));
-    run_by("Run with --voids parity");
-    EXPECT_EQ(driver_->document().input_facets, 4660 + 80);
-    EXPECT_LT(driver_->document().volume, 0.98);
-}
-
-// A shell script in the place of kerf-cad, which opens a file with --unite only.
-class RefusingCad {
- public:
-    explicit RefusingCad(const std::string& step) {
-        std::ofstream(folder_.file("two.step")) << step;
-        CadBody body;
-        const Soup tetrahedron = test::tetrahedron();
-        body.soup = tetrahedron;
-        body.soup.patch.assign(body.soup.facets.size(), 0);
-        body.soup.patch_names = {"one/face 1"};
-        body.file_hash = digest_of(step);
-        write("united", {0, "", body});
-        write("refused", {3, "two.step: they touch. Join what touches by --unite, or choose one by --solid N.", {}});
-        const std::string program = folder_.file("cad");
-        std::ofstream(program) << "#!/bin/sh\ncase \"$*\" in *--unite*) a=united;; *) a=refused;; esac\ncat '"
-                               << folder_.file("") << "'$a\n";
-        std::filesystem::permissions(program, std::filesystem::perms::owner_all);
-        setenv("KERF_CAD", program.c_str(), 1);
-    }
-    ~RefusingCad() { unsetenv("KERF_CAD"); }
-    std::string file() const { return folder_.file("two.step"); }
-
- private:
-    void write(const std::string& name, const CadAnswer& answer) const {
-        const Bytes bytes = to_cad_bytes(answer);
-        const std::string text(bytes.begin(), bytes.end());
-        std::ofstream(folder_.file(name), std::ios::binary) << text;
-    }
-    const TemporaryFolder folder_;
-};
-
-TEST(ProblemsOfAFile, AreMendedByOpeningItAgain) {
-    const RefusingCad cad("ISO-10303-21;\nHEADER;\nENDSEC;\nEND-ISO-10303-21;\n");
-    Driver::Options options;
-    options.auto_run = false;
-    Driver driver(options);
-    driver.open(cad.file());
-    EXPECT_NE(driver.document().error.find("they touch"), std::string::npos) << driver.document().error;
-    EXPECT_TRUE(driver.app().widgets().find("--solid")) << "its number is the user's";
-    EXPECT_FALSE(is_offered(driver, "Open with --solid"));
-    driver.click("Open with --unite");
-    driver.await("the surface", [&] { return driver.document().input_facets == 4; });
-    EXPECT_EQ(driver.document().error, "");
-    EXPECT_TRUE(driver.document().options.input_options.cad.unite) << "a run reads it so, too";
-    const auto before = driver.document().soup;
-    driver.key(key_of('R'), true);
-    driver.await("the surface, by the same options",
-                 [&] { return driver.document().soup && driver.document().soup != before; });
-}
-
-// --- the tree, interfaces, tries ---
 
 // A body with many refused tries, cut once for all.
 class CutWing : public testing::Test {
@@ -392,7 +229,7 @@ TEST(RefusedTry, PlacesAreFlownToAndPairsDrawn) {
     EXPECT_EQ(driver.drawn("collided").triangles, pairs);
     const std::vector<FailurePlace> places = failure_places(driver.document(), state.node, state.step);
     ASSERT_EQ(std::ssize(places), pairs);
-    EXPECT_FALSE(is_offered(driver, "previous place"));
+    EXPECT_FALSE(driver.offers("previous place"));
     const double height = driver.app().camera().height;
     driver.click("next place");
     EXPECT_EQ(driver.app().camera().target, places[0].where);
@@ -424,7 +261,7 @@ TEST_F(CutWing, NothingIsPulledApartWhereThereIsOnePiece) {
     for (const Stage stage : {Stage::input, Stage::plane, Stage::contour, Stage::interface}) {
         driver_->state().step = {stage, -1};
         driver_->settle();
-        EXPECT_FALSE(is_offered(*driver_, "Explode")) << name(stage);
+        EXPECT_FALSE(driver_->offers("Explode")) << name(stage);
     }
     const ItemRect slider = *driver_->app().widgets().find("Explode");
     driver_->move_to((slider.left + slider.right) / 2, (slider.top + slider.bottom) / 2);
@@ -433,7 +270,7 @@ TEST_F(CutWing, NothingIsPulledApartWhereThereIsOnePiece) {
     EXPECT_EQ(times_on_screen("only the halves (Split) and the parts (Tetrahedra) can be pulled apart"), 1);
     driver_->state().step = {Stage::split, -1};
     driver_->settle();
-    EXPECT_TRUE(is_offered(*driver_, "Explode"));
+    EXPECT_TRUE(driver_->offers("Explode"));
 }
 
 TEST_F(CutWing, AllOfTheTextOfAStepIsSeen) {
