@@ -233,8 +233,6 @@ TEST_F(KerfSolve, RefusesWhatCannotBe) {
 
 // Wherever the memory ends, also inside of PETSc.
 TEST_F(KerfSolve, OutOfMemoryIsSaid) {
-    if (test::in_slices())
-        GTEST_SKIP() << "no address space is large enough for the sanitizers and small enough for this";
     const std::string text = std::string(steel) + three_planes + "[solver]\norder = 2";
     const std::string command =
         fmt::format("'{}' solve '{}' --case '{}' -o '{}' -q", KERF_PROGRAM, mesh(), write_case(text), out());

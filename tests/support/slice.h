@@ -2,16 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdlib>
 #include <utility>
 #include <vector>
 
-#include <gtest/gtest.h>
-
 namespace kerf::test {
 
-/// Whether the environment asks for slices: KERF_TEST_SLICE is set, as ./run sanitize does, but not ./run sanitize all.
-inline bool in_slices() { return std::getenv("KERF_TEST_SLICE") != nullptr; }
+/// Whether this is the build of ./run sanitize, but not of ./run sanitize all.
+constexpr bool in_slices() { return KERF_TEST_SLICE; }
 
 /// All cases, or only some where slices are asked for.
 template <class Case>
@@ -27,7 +24,3 @@ inline std::vector<std::int32_t> slice(std::vector<std::int32_t> all, std::vecto
 inline unsigned slice(unsigned all) { return in_slices() ? (all + 2) / 3 : all; }
 
 }  // namespace kerf::test
-
-/// One case of a suite with many: skipped, and counted as that, where slices are asked for and this is not `wanted`.
-#define KERF_SKIP_UNLESS_IN_SLICE(wanted) \
-    if (::kerf::test::in_slices() && !(wanted)) GTEST_SKIP() << "not in the slice of the cases"

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/number_text.h"
+#include "support/lines.h"
 
 namespace kerf {
 namespace {
@@ -63,13 +64,6 @@ std::vector<PartReport> random_parts(unsigned seed) {
     return parts;
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-    std::vector<std::string> lines;
-    std::istringstream stream(text);
-    for (std::string line; std::getline(stream, line);) lines.push_back(line);
-    return lines;
-}
-
 bool holds_words(const std::string& line, const std::string& words) {
     return fmt::format(" {} ", line).find(fmt::format(" {}", words)) != std::string::npos;
 }
@@ -92,7 +86,7 @@ TEST(PlanText, SaysWhatTheForecastsOfItsPartsAddUpTo) {
             if (one.tets > largest.tets) largest = one;
         }
         const double seconds = std::max(largest.seconds, all.seconds / (ranks * options.workers));
-        const std::vector<std::string> plan = lines_of(plan_text(parts, options, ranks, false));
+        const std::vector<std::string> plan = test::lines_of(plan_text(parts, options, ranks, false));
         ASSERT_EQ(plan.size(), 1U);
         for (const std::string& words :
              {fmt::format("{} parts", parts.size()), fmt::format("{} worker", ranks * options.workers),
@@ -100,7 +94,7 @@ TEST(PlanText, SaysWhatTheForecastsOfItsPartsAddUpTo) {
               fmt::format("{:.0f} MB", largest.memory_bytes / (1 << 20))})
             EXPECT_TRUE(holds_words(plan[0], words)) << words << " in " << plan[0];
 
-        const std::vector<std::string> table = lines_of(plan_text(parts, options, ranks, true));
+        const std::vector<std::string> table = test::lines_of(plan_text(parts, options, ranks, true));
         ASSERT_EQ(table.size(), 2 + parts.size());
         EXPECT_EQ(table[0], plan[0]);
         for (std::size_t i = 0; i < parts.size(); ++i)

@@ -7,21 +7,15 @@
 #include <gtest/gtest.h>
 
 #include "core/words.h"
+#include "support/lines.h"
 
 namespace kerf {
 namespace {
 
-std::vector<std::string> lines_of(const std::string& text) {
-    std::istringstream stream(text);
-    std::vector<std::string> lines;
-    for (std::string line; std::getline(stream, line);) lines.push_back(line);
-    return lines;
-}
-
 // Lines that begin with a number: those of nodes or levels.
 std::vector<std::string> rows(const std::string& text) {
     std::vector<std::string> found;
-    for (const std::string& line : lines_of(text))
+    for (const std::string& line : test::lines_of(text))
         if (line.find_first_not_of(' ') == line.find_first_of("0123456789")) found.push_back(line);
     return found;
 }
@@ -62,7 +56,7 @@ TEST(TreeText, ALinePerNodeOrPerLevelAndNoneTooLong) {
         SCOPED_TRACE(testing::Message() << parts << " parts");
         const std::vector<TreeNode> nodes = random_tree(parts, random);
         const std::string brief = tree_text(nodes, false), full = tree_text(nodes, true);
-        for (const std::string& line : lines_of(brief + full)) EXPECT_LE(line.size(), 100u) << line;
+        for (const std::string& line : test::lines_of(brief + full)) EXPECT_LE(line.size(), 100u) << line;
         EXPECT_EQ(rows(full).size(), nodes.size());
         const int levels = std::bit_width(static_cast<unsigned>(2 * parts - 1));
         EXPECT_EQ(rows(brief).size(), parts <= 32 ? nodes.size() : static_cast<std::size_t>(levels));
