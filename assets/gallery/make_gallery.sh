@@ -102,12 +102,12 @@ draw_bracket() {
 before_and_after() {
     local file=$1 name=$2 end
     shift 2
-    "$kerf" decompose "$file" "$@" --surface split -n 1 --stl -q -o "$work/$name"
-    "$kerf" remesh "$file" "$@" -q -o "$work/$name.obj"
-    cp "$(find "$work/$name" -name '*.stl')" "$work/$name.stl"
+    "$kerf" decompose "$file" "$@" --surface split -n 1 --stl -q -o "$work/cad_$name"
+    "$kerf" remesh "$file" "$@" -q -o "$work/cad_$name.obj"
+    cp "$(find "$work/cad_$name" -name '*.stl')" "$work/cad_$name.stl"
     echo '{"axes": false}' >"$work/no_axes.json"
     for end in stl:before obj:after; do
-        draw "cad_${name}_${end#*:}.png" "$work/$name.${end%:*}" --stage input --state "$work/no_axes.json" \
+        draw "cad_${name}_${end#*:}.png" "$work/cad_$name.${end%:*}" --stage input --state "$work/no_axes.json" \
             --no-legend --antialias 2 --size 480x360
     done
 }

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <memory>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -23,18 +25,30 @@ namespace fs = std::filesystem;
 
 class Resume : public testing::Test {
  protected:
+    using Files = std::map<std::string, std::string>;
+
+    // The run that nobody disturbs is made once.
+    static void SetUpTestSuite() {
+        undisturbed_ = std::make_unique<test::TemporaryFolder>();
+        std::vector<std::string> arguments = {"mesh", test::asset_path("cube"), "-o", undisturbed_->file("out")};
+        arguments.insert(arguments.end(), options().begin(), options().end());
+        ASSERT_EQ(test::run_kerf(arguments).exit_code, 0);
+    }
+    static void TearDownTestSuite() { undisturbed_.reset(); }
+    static Files undisturbed() { return test::result_of_run(undisturbed_->file("out")); }
+
     // About a third of a second for each of six parts, by the mesher that takes longer.
+    static const std::vector<std::string>& options() {
+        static const std::vector<std::string> words = {
+            "-n", "6", "--max-volume", "6e-6", "--mesher", "tetgen", "--workers", "1", "--format", test::all_formats()};
+        return words;
+    }
     std::vector<std::string> command(const std::string& output) const {
-        return {"mesh", input_,     "-o",     folder_.file(output), "-n", "6",        "--max-volume",
-                "6e-6", "--mesher", "tetgen", "--workers",          "1",  "--format", test::all_formats()};
+        std::vector<std::string> words = {"mesh", input_, "-o", folder_.file(output)};
+        words.insert(words.end(), options().begin(), options().end());
+        return words;
     }
-    std::map<std::string, std::string> undisturbed() const {
-        EXPECT_EQ(test::run_kerf(command("undisturbed")).exit_code, 0);
-        return files_of("undisturbed");
-    }
-    std::map<std::string, std::string> files_of(const std::string& output) const {
-        return test::result_of_run(folder_.file(output));
-    }
+    Files files_of(const std::string& output) const { return test::result_of_run(folder_.file(output)); }
 
     // Starts a run and ends it by the signal when two parts are finished and a third is under way, whose worker does
     // nothing more by itself.
@@ -75,6 +89,7 @@ class Resume : public testing::Test {
         stream.put(byte);
     }
 
+    inline static std::unique_ptr<test::TemporaryFolder> undisturbed_;
     test::TemporaryFolder folder_;
     std::string input_ = test::asset_path("cube");
 };
@@ -94,7 +109,7 @@ TEST_F(Resume, GivesTheBytesOfAnUndisturbedRun) {
         EXPECT_EQ(result.exit_code, 0) << result.log;
         EXPECT_GE(resumed_parts(), 2u);
         EXPECT_TRUE(files_of("out") == expected);
-        EXPECT_EQ(folder_.names(), (std::vector<std::string>{"out", "undisturbed"}));
+        EXPECT_EQ(folder_.names(), std::vector<std::string>{"out"});
         EXPECT_FALSE(fs::exists(folder_.file("out/work")));
         EXPECT_EQ(test::run_kerf({"verify", folder_.file("out")}).exit_code, 0);
         fs::remove_all(folder_.file("out"));
@@ -125,7 +140,7 @@ TEST_F(Resume, APartWhoseStoreHasGoneIsTakenFromItsFile) {
         const int leaf = std::stoi(some_finished_leaf());
         const fs::path parts = folder_.file("out.kerf-partial/parts"), file = parts / part_file_name(leaf);
         fs::remove(parts / stored_part_file_name(leaf));
-        fs::copy_file(folder_.file("undisturbed/parts/" + part_file_name(leaf)), file);
+        fs::copy_file(undisturbed_->file("out/parts/" + part_file_name(leaf)), file);
         if (!is_whole) damage_middle(file);
         const ChildResult result = resume();
         EXPECT_EQ(result.exit_code, 0) << result.log;
@@ -172,7 +187,7 @@ TEST_F(Resume, AnInterruptedRunMayBeMoved) {
     EXPECT_EQ(resume().exit_code, 0);
     EXPECT_GE(resumed_parts(), 2u);
     EXPECT_TRUE(files_of("out") == expected);
-    EXPECT_EQ(folder_.names(), (std::vector<std::string>{"out", "undisturbed"}));
+    EXPECT_EQ(folder_.names(), std::vector<std::string>{"out"});
 }
 
 // As Ctrl-C in a terminal: the workers get the signal, too.
@@ -243,10 +258,13 @@ TEST_F(Resume, DamagedJournalsAndPartsAreMeshedAgain) {
         {"work/journal", [](const fs::path& file) { fs::resize_file(file, 0); }},
         {"parts", damage_middle},
         {"parts", [](const fs::path& file) { fs::remove(file); }}};
+    interrupt(SIGKILL);
+    const std::size_t finished = test::finished_parts(folder_.file("out"));
+    const fs::path partial = folder_.file("out.kerf-partial"), kept = folder_.file("kept");
+    fs::rename(partial, kept);
     for (const auto& [sub_folder, damage] : damages) {
         SCOPED_TRACE(sub_folder);
-        interrupt(SIGKILL);
-        const std::size_t finished = test::finished_parts(folder_.file("out"));
+        fs::copy(kept, partial, fs::copy_options::recursive);
         const std::string leaf = some_finished_leaf();
         damage(folder_.file("out.kerf-partial/" + sub_folder + "/" +
                             (sub_folder == "parts" ? stored_part_file_name(std::stoi(leaf)) : leaf)));
