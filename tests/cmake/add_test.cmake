@@ -4,10 +4,12 @@
 #
 # One program. Each of its suites is a test of ctest, <name>.<suite>, in a process of its own: what a suite sets up is
 # made once. EACH: suites whose tests take so long that each is a test of ctest, <name>.<suite>.<test>, so that they run
-# side by side; `*` for all. UNSANITIZED: cases, <suite>.<test> or <suite>.*, that sanitizers cannot run. ALONE: nothing runs beside them. PROCESSORS: how many each keeps busy. COST: of the longest,
-# because long ones start first. TIMEOUT: of each test of ctest.
+# side by side; `*` for all. UNSANITIZED: cases, <suite>.<test> or <suite>.*, that sanitizers cannot run. ALONE: nothing
+# runs beside them. PROCESSORS: how many each keeps busy. COST: of the longest, because long ones start first. TIMEOUT:
+# of each test of ctest.
 function(kerf_add_test name)
-  cmake_parse_arguments(ARG "ALONE" "LABEL;TIMEOUT;PROCESSORS;COST" "SOURCES;LIBRARIES;EACH;UNSANITIZED;ENVIRONMENT" ${ARGN})
+  cmake_parse_arguments(ARG "ALONE" "LABEL;TIMEOUT;PROCESSORS;COST"
+    "SOURCES;LIBRARIES;EACH;UNSANITIZED;ENVIRONMENT" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE kerf_test_support ${ARG_LIBRARIES})
   target_precompile_headers(${name} REUSE_FROM kerf_test_support)
@@ -51,7 +53,8 @@ endif()
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${include})
 endfunction()
 
-# kerf_test_properties(<variable> <label> <seconds>): what every test of ctest has. Sanitizers take several times as long.
+# kerf_test_properties(<variable> <label> <seconds>): what every test of ctest has. Sanitizers take several times as
+# long.
 function(kerf_test_properties variable label seconds)
   if(KERF_SANITIZE)
     math(EXPR seconds "10 * ${seconds}")

@@ -2,7 +2,8 @@
 # name, program, each, except (filters), properties (words in brackets), suites (the file that is written).
 cmake_minimum_required(VERSION 3.25)
 list(JOIN except ":" except)
-execute_process(COMMAND ${program} --gtest_list_tests "--gtest_filter=-${except}" OUTPUT_VARIABLE listed RESULT_VARIABLE result TIMEOUT 60)
+execute_process(COMMAND ${program} --gtest_list_tests "--gtest_filter=-${except}" OUTPUT_VARIABLE listed
+  RESULT_VARIABLE result TIMEOUT 60)
 if(NOT result STREQUAL 0)
   message(FATAL_ERROR "${program} --gtest_list_tests ends with ${result}")
 endif()
@@ -10,7 +11,8 @@ endif()
 set(text "")
 # add(<name> <filter>): of the tests of a suite, or one of them.
 function(add_filtered test filter)
-  string(APPEND text "add_test([=[${name}.${test}]=] [=[${program}]=] --gtest_brief=1 [=[--gtest_filter=${filter}-${except}]=])\n"
+  string(APPEND text
+    "add_test([=[${name}.${test}]=] [=[${program}]=] --gtest_brief=1 [=[--gtest_filter=${filter}-${except}]=])\n"
     "set_tests_properties([=[${name}.${test}]=] PROPERTIES ${properties})\n")
   set(text "${text}" PARENT_SCOPE)
 endfunction()
