@@ -1,15 +1,16 @@
 # kerf_add_test(<name> LABEL <label> TIMEOUT <seconds> SOURCES <file>... [LIBRARIES <target>...] [EACH <suite>...]
-#               [UNSANITIZED <filter>...] [ALONE] [PROCESSORS <n>] [COST <seconds>]
+#               [UNSANITIZED <filter>...] [DATA <filter>...] [ALONE] [PROCESSORS <n>] [COST <seconds>]
 #               [ENVIRONMENT <variable>=<value>...])
 #
 # One program. Each of its suites is a test of ctest, <name>.<suite>, in a process of its own: what a suite sets up is
 # made once. EACH: suites whose tests take so long that each is a test of ctest, <name>.<suite>.<test>, so that they run
-# side by side; `*` for all. UNSANITIZED: cases, <suite>.<test> or <suite>.*, that sanitizers cannot run. ALONE: nothing
-# runs beside them. PROCESSORS: how many each keeps busy. COST: of the longest, because long ones start first. TIMEOUT:
-# of each test of ctest.
+# side by side; `*` for all. UNSANITIZED: cases, as --gtest_filter names them, that sanitizers cannot run. DATA: those
+# that do with other data what others do, too, and that KERF_TEST_SLICE leaves out. ALONE: nothing runs beside them.
+# PROCESSORS: how many each keeps busy. COST: of the longest, because long ones start first. TIMEOUT: of each test of
+# ctest.
 function(kerf_add_test name)
   cmake_parse_arguments(ARG "ALONE" "LABEL;TIMEOUT;PROCESSORS;COST"
-    "SOURCES;LIBRARIES;EACH;UNSANITIZED;ENVIRONMENT" ${ARGN})
+    "SOURCES;LIBRARIES;EACH;UNSANITIZED;DATA;ENVIRONMENT" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE kerf_test_support ${ARG_LIBRARIES})
   target_precompile_headers(${name} REUSE_FROM kerf_test_support)
@@ -18,26 +19,30 @@ function(kerf_add_test name)
     add_dependencies(${name} kerf kerf-worker)
   endif()
   kerf_test_properties(properties ${ARG_LABEL} ${ARG_TIMEOUT})
+  list(JOIN properties " " properties)
   foreach(property PROCESSORS COST ENVIRONMENT)
     if(ARG_${property})
-      list(APPEND properties ${property} "${ARG_${property}}")
+      string(APPEND properties " ${property} [=[${ARG_${property}}]=]")
     endif()
   endforeach()
   if(ARG_ALONE)
-    list(APPEND properties RUN_SERIAL TRUE)
+    string(APPEND properties " RUN_SERIAL TRUE")
   endif()
-  if(NOT KERF_SANITIZE)
-    set(ARG_UNSANITIZED)
+  set(except)
+  if(KERF_SANITIZE)
+    list(APPEND except ${ARG_UNSANITIZED})
+  endif()
+  if(KERF_TEST_SLICE)
+    list(APPEND except ${ARG_DATA})
   endif()
   # The program says which suites it has once it is built, and ctest includes what was written of them then.
-  list(JOIN properties "]=] [=[" properties)
   set(list ${CMAKE_CURRENT_BINARY_DIR}/${name}_list.cmake)
   set(suites ${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake)
   file(GENERATE OUTPUT ${list} CONTENT "set(name ${name})
 set(program [=[$<TARGET_FILE:${name}>]=])
 set(each [=[${ARG_EACH}]=])
-set(except [=[${ARG_UNSANITIZED}]=])
-set(properties \"[=[${properties}]=]\")
+set(except [=[${except}]=])
+set(properties [==[${properties}]==])
 set(suites [=[${suites}]=])
 include([=[${PROJECT_SOURCE_DIR}/tests/cmake/list_suites.cmake]=])
 ")

@@ -1,5 +1,6 @@
 # Asks a test program for its suites and writes them as tests of ctest; see kerf_add_test(), which sets the variables:
-# name, program, each, except (filters), properties (words in brackets), suites (the file that is written).
+# name, program, each, except (filters), properties (as set_tests_properties() takes
+# them), suites (the file that is written).
 cmake_minimum_required(VERSION 3.25)
 list(JOIN except ":" except)
 execute_process(COMMAND ${program} --gtest_list_tests "--gtest_filter=-${except}" OUTPUT_VARIABLE listed
