@@ -67,7 +67,8 @@ void Driver::await(const std::string& what, const std::function<bool()>& conditi
     const auto end = std::chrono::steady_clock::now() + patience;
     while (!condition()) {
         if (std::chrono::steady_clock::now() > end) throw std::runtime_error("waited in vain for " + what);
-        app_->wait(0.01);
+        // A run under way needs the processor more than frames that nobody looks at.
+        app_->wait(document().progress.running ? 0.1 : 0.01);
         app_->wake();
         frame();
     }
