@@ -67,7 +67,7 @@ void Driver::await(const std::string& what, const std::function<bool()>& conditi
     const auto end = std::chrono::steady_clock::now() + patience;
     while (!condition()) {
         if (std::chrono::steady_clock::now() > end) throw std::runtime_error("waited in vain for " + what);
-        // A run under way needs the processor more than frames that nobody looks at.
+        // A run under way needs the processor more than frames do.
         app_->wait(document().progress.running ? 0.1 : 0.01);
         app_->wake();
         frame();
@@ -222,6 +222,7 @@ view::Image Driver::picture() {
 
 view::DrawnLayer Driver::drawn(const std::string& begin_of_name) {
     view::DrawnLayer sum;
+    app_->paint();
     for (const view::DrawnLayer& layer : app_->drawn())
         if (layer.name.starts_with(begin_of_name)) {
             sum.triangles += layer.triangles;

@@ -11,8 +11,9 @@
 
 namespace kerf::test {
 
-/// Drives the same App as the window does. Every change of input is followed by frames, as fast as they can be drawn;
-/// the time that the viewer sees goes on by 1/60 s a frame. What does not come within 60 s fails the test.
+/// Drives the same App as the window does. Every change of input is followed by frames as fast as they can be laid out,
+/// painted where they are looked at. The time that the viewer sees goes on by 1/60 s a frame. What does not come within
+/// 60 s fails the test.
 class Driver {
  public:
     struct Options {

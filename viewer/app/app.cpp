@@ -364,7 +364,7 @@ ViewOrigin App::origin_of_picture(float scale) const {
 void App::save_picture(float scale) {
     const std::string path = unused_picture(options_.screenshot_folder);
     try {
-        write_png(path, renderer_.read());
+        write_png(path, picture());
         ViewState state = state_;
         state.camera = camera_;
         write_text_file(path.substr(0, path.size() - 4) + ".json", to_json(state, origin_of_picture(scale)));
@@ -375,7 +375,7 @@ void App::save_picture(float scale) {
     }
 }
 
-void App::draw(bool panels) {
+void App::lay_out(bool panels) {
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(size_.width), static_cast<float>(size_.height)};
     io.DisplayFramebufferScale = {1, 1};
@@ -384,7 +384,6 @@ void App::draw(bool panels) {
         ui_.apply(state_.theme, size_.scale);
         io.MouseDragThreshold = io.MouseDoubleClickMaxDist = nearby_pixels * size_.scale;
         styled_for_ = style;
-        renderer_.draw_ui(nullptr, *io.Fonts);  // its texture has to be there before it is used
     }
     ImGui::NewFrame();
     widgets_.begin_frame();
@@ -416,9 +415,22 @@ void App::draw(bool panels) {
     projection_.y = size_.height - static_cast<int>(area_.y + area_.height);
     projection_.pixel_ratio = size_.scale;
     renderer_.resize(size_.width, size_.height);
+}
+
+void App::paint() {
     renderer_.clear(built_.scene.background_bottom);
     if (area_.width >= 1 && area_.height >= 1) renderer_.draw(built_.scene, projection_);
-    renderer_.draw_ui(ImGui::GetDrawData(), *io.Fonts);
+    if (const ImDrawData* ui = ImGui::GetDrawData()) renderer_.draw_ui(*ui, *ImGui::GetIO().Fonts);
+}
+
+Image App::picture() {
+    paint();
+    return renderer_.read();
+}
+
+void App::present() {
+    paint();
+    renderer_.present();
 }
 
 void App::frame(const FrameSize& size, bool panels) {
@@ -432,11 +444,11 @@ void App::frame(const FrameSize& size, bool panels) {
     if (is_read) facts_.notice.clear();
     if (capture_) {
         capture_ = false;
-        draw(false);
+        lay_out(false);
         save_picture(static_cast<float>(size.scale));
         wake();
     }
-    draw(panels);
+    lay_out(panels);
     // What was asked for is mostly there at once: better than a picture without it.
     if (built_.pending) wait(0.04);
 }

@@ -51,11 +51,13 @@ class App : private Actions {
     Session& session() { return session_; }
     const Settings& settings() const { return settings_; }
 
-    /// Takes ImGui's input and draws the picture: with the panels, or only the scene with its legend. Requires
+    /// Takes ImGui's input and lays out the next picture: with the panels, or only the scene with its legend. Requires
     /// io.DeltaTime to be set, and io.MousePos to be anew before every frame, in the window's units.
     void frame(const FrameSize& size, bool panels);
-    Image picture() { return renderer_.read(); }
-    void present() { renderer_.present(); }
+    /// Paints what the last frame has laid out: most of a frame's time where the CPU draws, so only if it is looked at.
+    void paint();
+    Image picture();  ///< painted
+    void present();   ///< paints it for the window
 
     /// Of the window, or a test; the next frame with panels takes them in the order in which they came.
     void press(const KeyEvent& event) { key_events_.push_back(event); }
@@ -71,7 +73,7 @@ class App : private Actions {
 
     const Widgets& widgets() const { return widgets_; }
     const BuiltScene& scene() const { return built_; }
-    const std::vector<DrawnLayer>& drawn() const { return renderer_.drawn(); }
+    const std::vector<DrawnLayer>& drawn() const { return renderer_.drawn(); }  ///< by the last paint()
     const SceneFacts& facts() const { return facts_; }
     const std::vector<Step>& steps() const { return steps_; }
     Rectangle scene_area() const { return area_; }
@@ -100,7 +102,7 @@ class App : private Actions {
     void swap_runs() override;
     void complain(const std::string& text) override;
 
-    void draw(bool panels);
+    void lay_out(bool panels);
     void follow_session();
     void await_document();
     void begin_auto_run();

@@ -243,9 +243,7 @@ Renderer::~Renderer() = default;
 void Renderer::resize(int width, int height) { impl_->resize(width, height); }
 void Renderer::clear(const Color& color) { impl_->clear(color); }
 void Renderer::draw(const Scene& scene, const Projection& projection) { impl_->draw(scene, projection); }
-void Renderer::draw_ui(const ImDrawData* ui, ImFontAtlas& fonts) {
-    if (ui != nullptr) impl_->draw_ui(*ui, fonts);
-}
+void Renderer::draw_ui(const ImDrawData& ui, ImFontAtlas& fonts) { impl_->draw_ui(ui, fonts); }
 std::optional<PickHit> Renderer::pick(const Scene& scene, const Projection& projection, int x, int y) {
     return impl_->pick(scene, projection, x, y);
 }

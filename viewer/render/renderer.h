@@ -55,7 +55,7 @@ class Renderer {
     void draw(const Scene& scene, const Projection& projection);
     /// On top of the picture. `fonts` must be built (ImGui wants that before its first frame); it is uploaded when it
     /// has been built anew, gets its texture's name and loses its copy of the pixels.
-    void draw_ui(const ImDrawData* ui, ImFontAtlas& fonts);
+    void draw_ui(const ImDrawData& ui, ImFontAtlas& fonts);
 
     /// The foremost pickable primitive at a pixel (from the top left), by an id buffer: exact, whatever is drawn over
     /// it. Layers that are not opaque are passed over. Draws only around the pixel.
