@@ -145,10 +145,10 @@ TEST_F(Check, JsonHasAMemberForEverything) {
     EXPECT_EQ(loop["facets"].size(), 3u);
     EXPECT_EQ(loop["vertices"].size(), 3u);
     EXPECT_EQ(loop["where"].size(), 3u);
-    EXPECT_GT(loop["length"], 0);
+    EXPECT_GT(loop["length"].get<double>(), 0);
     EXPECT_NE(loop["what_to_do"], "");
     EXPECT_EQ(needle["severity"], "warning");
-    EXPECT_LT(needle["angle_deg"], 60);
+    EXPECT_LT(needle["angle_deg"].get<double>(), 60);
 }
 
 TEST_F(Check, JsonOfAFileThatCannotBeReadHasTheMessage) {
@@ -213,7 +213,7 @@ TEST_F(Check, NeedleAngleIsTheUsersChoice) {
     const std::string cube = test::asset_path("cube");  // its smallest angle is 43.9 degrees
     EXPECT_EQ(check_json(cube, {"--needle-angle", "43.5"})["counts"], Json::object());
     const Json json = check_json(cube, {"--needle-angle", "44.5"});
-    EXPECT_GT(json["counts"]["needle"], 0);
+    EXPECT_GT(json["counts"]["needle"].get<double>(), 0);
     EXPECT_EQ(json["can_be_meshed"], true);
 }
 
@@ -262,7 +262,7 @@ TEST_F(Check, ParityMakesAVoidOfASecondBody) {
         expect_mended(join(read_surface(test::asset_path("cube")), inner), {"--voids", "parity"})["input"];
     EXPECT_EQ(input["components"], 2);
     EXPECT_EQ(input["repairs"]["shells_flipped"], 1);
-    EXPECT_LT(input["volume"], 0.98);
+    EXPECT_LT(input["volume"].get<double>(), 0.98);
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ TEST_F(Decompose, ReportHasTheSizesOfTheSurfaces) {
     double volume = 0;
     for (const auto& part : report["parts"]) {
         volume += part["surface_volume"].get<double>();
-        EXPECT_GT(part["surface_vertices"], 100);
+        EXPECT_GT(part["surface_vertices"].get<double>(), 100);
     }
     EXPECT_NEAR(volume / report["input"]["volume"].get<double>(), 1, 1e-12);
     EXPECT_EQ(report["totals"]["volume"], volume);

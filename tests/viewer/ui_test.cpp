@@ -311,7 +311,7 @@ TEST(Ui, PicksTheFacetThatIsSeen) {
                 Eigen::Matrix3d m;
                 m << surface->vertices[static_cast<std::size_t>(t[1])] - a,
                     surface->vertices[static_cast<std::size_t>(t[2])] - a, -ray;
-                const Vec3 q = m.fullPivLu().solve(eye - a);
+                const Vec3 q = m.inverse() * (eye - a);
                 if (q.x() >= 0 && q.y() >= 0 && q.x() + q.y() <= 1 && q.z() > 0 && q.z() < nearest) {
                     nearest = q.z();
                     expected = static_cast<std::int32_t>(f);

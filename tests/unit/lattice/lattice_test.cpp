@@ -461,7 +461,7 @@ TEST(LatticeCore, TakesMemoryForTheBodyAndNotForItsBox) {
     const auto blocks_of_rod = [](double length, const Vec3& axis) {
         const auto parts = static_cast<int>(length / 6);
         Soup rod = box(Vec3(-3, -3, 0), Vec3(3, 3, length), {1, 1, parts});
-        const auto rotation = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis);
+        const Eigen::AngleAxisd rotation(std::acos(axis.normalized().z()), Vec3::UnitZ().cross(axis).normalized());
         for (Vec3& p : rod.vertices) p = rotation * p;
         return LatticeCore(to_arrays(rod), 1).block_count();
     };

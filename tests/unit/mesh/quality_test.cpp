@@ -116,7 +116,7 @@ TEST(TetQuality, CircumsphereAndInsphereHoldTheirDefinitions) {
             rhs[i] = p[i + 1].squaredNorm() - p[0].squaredNorm();
         }
         for (const auto& face : tet_faces) area += (p[face[1]] - p[face[0]]).cross(p[face[2]] - p[face[0]]).norm() / 2;
-        const Vec3 centre = rows.fullPivLu().solve(rhs);
+        const Vec3 centre = rows.inverse() * rhs;
         const TetQuality q = quality_of(p);
         EXPECT_NEAR(q.radius_edge * q.min_edge, (p[0] - centre).norm(), 1e-7 * (p[0] - centre).norm());
         EXPECT_NEAR(q.max_edge / (2 * std::sqrt(6.0) * q.aspect), 3 * q.volume / area, 1e-12);

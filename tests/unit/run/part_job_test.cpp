@@ -88,7 +88,7 @@ TEST(ReportOfParts, SaysWhatImprovementHasGained) {
          {"removed_edges", "moved_vertices", "new_vertices", "bad_cells_before", "bad_cells_after",
           "min_dihedral_deg_before", "min_dihedral_deg_after", "p1_dihedral_deg_before", "p1_dihedral_deg_after"})
         EXPECT_EQ(part.at(key), all.at(key)) << key;
-    EXPECT_GT(part.at("p1_dihedral_deg_after"), part.at("p1_dihedral_deg_before"));
+    EXPECT_GT(part.at("p1_dihedral_deg_after").get<double>(), part.at("p1_dihedral_deg_before").get<double>());
     EXPECT_NEAR(part.at("p1_dihedral_deg_per_second").get<double>() * part.at("seconds").get<double>(),
                 part.at("p1_dihedral_deg_after").get<double>() - part.at("p1_dihedral_deg_before").get<double>(), 1e-9);
 }
