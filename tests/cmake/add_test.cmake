@@ -5,7 +5,7 @@
 # One program. Each of its suites is a test of ctest, <name>.<suite>, in a process of its own: what a suite sets up is
 # made once. EACH: suites whose tests take so long that each is a test of ctest, <name>.<suite>.<test>, so that they run
 # side by side; `*` for all. UNSANITIZED: cases, as --gtest_filter names them, that sanitizers cannot run. DATA: those
-# that do with other data what others do, too, and that KERF_TEST_SLICE leaves out. ALONE: nothing runs beside them.
+# that reach hardly a line which others do not, and that KERF_TEST_SLICE leaves out. ALONE: nothing runs beside them.
 # PROCESSORS: how many each keeps busy. COST: of the longest, because long ones start first. TIMEOUT: of each test of
 # ctest.
 function(kerf_add_test name)

@@ -10,6 +10,9 @@ namespace kerf::test {
 /// Whether this is the build of ./run sanitize, but not of ./run sanitize all.
 constexpr bool in_slices() { return KERF_TEST_SLICE; }
 
+/// Whether a sanitizer slows everything down.
+constexpr bool is_sanitized() { return KERF_TEST_SANITIZED; }
+
 /// All cases, or only some where slices are asked for.
 template <class Case>
 std::vector<Case> slice(std::vector<Case> all, std::vector<Case> some) {

@@ -17,6 +17,7 @@
 #include <gtest/gtest.h>
 
 #include "support/file_contents.h"
+#include "support/slice.h"
 #include "volume/child_process.h"
 
 namespace kerf::test {
@@ -98,7 +99,7 @@ class StartedRun {
     /// Waits for a worker and stops it in the middle of its part. From then on it ends only if somebody ends it, and
     /// the run cannot be complete, however slow the machine is. -1 if none comes.
     pid_t stop_worker() const {
-        constexpr double well_begun_seconds = 0.05;  // it has asked to end with its parent, if nothing else
+        constexpr double well_begun_seconds = is_sanitized() ? 0.4 : 0.05;  // it has asked to end with its parent
         pid_t stopped = -1;
         await([&] {
             for (const pid_t worker : workers()) {
