@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/error.h"
@@ -55,6 +56,12 @@ class CheckedFile {
         check(!std::ferror(file_.get()), "read");
         if (hasher_ && got > 0) hasher_->add_bytes(data, got);
         return got;
+    }
+    /// Bytes of the whole file.
+    std::uint64_t size() const {
+        struct stat told {};
+        check(::fstat(::fileno(file_.get()), &told) == 0, "read");
+        return static_cast<std::uint64_t>(told.st_size);
     }
     void seek(std::int64_t position) { check(::fseeko(file_.get(), position, SEEK_SET) == 0, "read"); }
 

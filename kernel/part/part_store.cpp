@@ -59,9 +59,14 @@ bool is_consistent(const Part& part, std::size_t ids, std::uint64_t vertices, st
     return holds;
 }
 
+// A damaged head must not ask for more memory than the file has bytes.
+bool has_size_of(const Head& head, std::uint64_t bytes) {
+    return std::max({head.boundary_bytes, head.vertices, head.tets}) <= most_elements &&
+           bytes == sizeof head + head.boundary_bytes + head.vertices * sizeof(Vec3) + head.tets * sizeof(Tetrahedron);
+}
+
 template <class T>
 void read_all(CheckedFile& file, const std::string& path, std::vector<T>& values, std::uint64_t count) {
-    if (count > most_elements) fail_damaged(path);
     values.resize(count);
     if (file.read_into(static_cast<void*>(values.data()), count * sizeof(T)) != count * sizeof(T)) fail_damaged(path);
 }
@@ -99,6 +104,7 @@ Part read_stored_part(const std::string& path, std::int64_t first_interior_id, P
     file.hash_into(hasher);
     Head head;
     if (file.read_into(&head, sizeof head) != sizeof head || head.kind != magic) fail_damaged(path);
+    if (!has_size_of(head, file.size())) fail_damaged(path);
     Part part;
     Bytes bytes;
     read_all(file, path, bytes, head.boundary_bytes);
@@ -113,10 +119,7 @@ Part read_stored_part(const std::string& path, std::int64_t first_interior_id, P
     if (content != PartContent::cells) read_all(file, path, part.mesh.vertices, vertices);
     if (content == PartContent::cells)
         file.seek(static_cast<std::int64_t>(sizeof head + head.boundary_bytes + head.vertices * sizeof(Vec3)));
-    if (content == PartContent::all || content == PartContent::cells) {
-        read_all(file, path, part.mesh.tets, head.tets);
-        if (!file.read(1).empty()) fail_damaged(path);
-    }
+    if (content == PartContent::all || content == PartContent::cells) read_all(file, path, part.mesh.tets, head.tets);
     if (!is_consistent(part, boundary.ids.size(), vertices, head.tets)) fail_damaged(path);
     if (hash) *hash = hasher.digest();
     number_vertices(part, std::move(boundary.ids), vertices, first_interior_id);

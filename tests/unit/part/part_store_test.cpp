@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "io/file_bytes.h"
+#include "run/peak_memory.h"
 #include "support/io_error.h"
 #include "support/random_part.h"
 #include "support/temporary_folder.h"
@@ -103,6 +104,22 @@ TEST_F(PartStore, WhatIsNotAsItWasIsRefused) {
     EXPECT_NE(test::io_error([&] { parts.load(0); }), "");
     std::filesystem::remove(file_);
     EXPECT_NE(test::io_error([&] { parts.load(0); }), "");
+}
+
+// One bit of a head may ask for 50 GB, which would be filled with zeros.
+TEST_F(PartStore, ADamagedHeadCostsNoMemory) {
+    write_stored_part(file_, test::random_part(5));
+    const std::string bytes = read_file(file_);
+    const std::int64_t before = own_peak_rss_bytes();
+    for (std::size_t at = 8; at < 32; ++at)
+        for (const int bit : {1, 16, 128}) {
+            SCOPED_TRACE(testing::Message() << "byte " << at << ", bit " << bit);
+            std::string damaged = bytes;
+            damaged[at] = static_cast<char>(damaged[at] ^ bit);
+            std::ofstream(file_, std::ios::binary) << damaged;
+            EXPECT_NE(test::io_error([&] { read_stored_part(file_, first_interior); }), "");
+        }
+    EXPECT_LT(own_peak_rss_bytes() - before, 50'000'000);
 }
 
 TEST_F(PartStore, AFullDiskIsAnErrorThatNamesTheFile) {
