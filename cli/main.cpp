@@ -34,32 +34,36 @@ std::unique_ptr<EventLog> open_event_log(const CommandLine& line, Communicator& 
     return log;
 }
 
-int run_command(const CommandLine& line) {
-    const Ranks ranks = join_ranks();
+// Returns the exit code. The log of events outlives an error.
+int run_on_ranks(const CommandLine& line, const Ranks& ranks, std::unique_ptr<EventLog>& events) {
     const bool root = ranks.communicator->rank() == 0;
     RunOptions options = line.options;
     options.worker_program = program_beside_this("kerf-worker");
+    events = open_event_log(line, *ranks.communicator);
+    Input input;
+    RunReport report;
+    {
+        ProgressLine progress(line.quiet || !root, events.get());
+        if (const std::string note = binding_note(ranks, options.workers); root && !line.quiet && !note.empty())
+            tell(fmt::format("kerf: {}\n", note));
+        report = run(options, ranks.cores_of_rank, *ranks.communicator, input, &progress);
+    }
+    if (events) events->on_end(report.exit_code, "");
+    if (options.dry_run) return 0;
+    if (root && !line.quiet && (line.verbose || !options.volume)) tell(tree_text(report.nodes, line.verbose) + "\n");
+    if (root && !line.quiet) tell(to_text(report));
+    if (root && line.verbose && report.reference) tell(report.reference->comparison);
+    if (root) tell_failed_parts(report);
+    return report.exit_code;
+}
+
+int run_command(const CommandLine& line) {
+    const Ranks ranks = join_ranks();
     std::unique_ptr<EventLog> events;
     try {
-        events = open_event_log(line, *ranks.communicator);
-        Input input;
-        RunReport report;
-        {
-            ProgressLine progress(line.quiet || !root, events.get());
-            if (const std::string note = binding_note(ranks, options.workers); root && !line.quiet && !note.empty())
-                tell(fmt::format("kerf: {}\n", note));
-            report = run(options, ranks.cores_of_rank, *ranks.communicator, input, &progress);
-        }
-        if (events) events->on_end(report.exit_code, "");
-        if (options.dry_run) return 0;
-        if (root && !line.quiet && (line.verbose || !options.volume))
-            tell(tree_text(report.nodes, line.verbose) + "\n");
-        if (root && !line.quiet) tell(to_text(report));
-        if (root && line.verbose && report.reference) tell(report.reference->comparison);
-        if (root) tell_failed_parts(report);
-        return report.exit_code;
+        return run_together(*ranks.communicator, [&] { return run_on_ranks(line, ranks, events); });
     } catch (const Error& e) {
-        if (root) tell(fmt::format("kerf: {}\n", e.what()));
+        if (ranks.communicator->rank() == 0) tell(fmt::format("kerf: {}\n", e.what()));
         if (events) events->on_end(static_cast<int>(e.code()), e.what());
         return static_cast<int>(e.code());
     }

@@ -1,8 +1,10 @@
 #include "cli/ranks.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <list>
+#include <new>
 
 #include <fmt/format.h>
 
@@ -32,21 +34,32 @@ void broadcast(MPI_Comm comm, Bytes& bytes, int root) {
         MPI_Bcast(bytes.data() + begin, static_cast<int>(std::min(piece, bytes.size() - begin)), MPI_BYTE, root, comm);
 }
 
-// One broadcast per rank.
-std::vector<Bytes> gather(MPI_Comm comm, const Bytes& contribution) {
-    int rank = 0, size = 1;
+// One broadcast per rank, once all of them have room for everything.
+std::vector<Bytes> gather(MPI_Comm comm, const Bytes& contribution, const std::vector<std::uint64_t>& sizes) {
+    int rank = 0;
     MPI_Comm_rank(comm, &rank);
-    MPI_Comm_size(comm, &size);
-    const std::uint64_t own = contribution.size();
-    std::vector<std::uint64_t> sizes(static_cast<std::size_t>(size));
-    MPI_Allgather(&own, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, comm);
     std::vector<Bytes> all;
-    for (int r = 0; r < size; ++r) {
-        all.push_back(r == rank ? contribution : Bytes(sizes[static_cast<std::size_t>(r)]));
-        broadcast(comm, all.back(), r);
+    int has_room = 1;
+    try {
+        for (const std::uint64_t size : sizes) all.emplace_back(size);
+        all[static_cast<std::size_t>(rank)] = contribution;
+    } catch (const std::bad_alloc&) {
+        has_room = 0;
+        all.clear();
     }
+    MPI_Allreduce(MPI_IN_PLACE, &has_room, 1, MPI_INT, MPI_MIN, comm);
+    if (!has_room) throw std::bad_alloc();
+    for (std::size_t r = 0; r < all.size(); ++r) broadcast(comm, all[r], static_cast<int>(r));
     return all;
 }
+
+constexpr std::uint64_t has_left = ~std::uint64_t{0};
+
+// What a rank that leaves says to the others: of a size that needs no memory where there may be none.
+struct LastWords {
+    std::int32_t code = 0;
+    std::array<char, 1020> message{};
+};
 
 class MpiRanks : public Communicator {
  public:
@@ -69,11 +82,15 @@ class MpiRanks : public Communicator {
     void post(int rank, const Bytes& message) override;
     std::optional<Bytes> poll() override;
     void drop_messages() override;
+    void leave(const StageStatus& why) override;
     /// Collective: what the ranks of this host contribute, and which of them this one is.
     std::vector<Bytes> gather_on_host(const Bytes& contribution, std::size_t& own) const;
 
  private:
     static Bytes receive(const MPI_Status& announced);
+    void begin_collective(std::uint64_t own_size);
+    void end_together(LastWords& words);
+    void take_messages();
 
     // A message on its way, which MPI reads until it has left.
     struct Posted {
@@ -83,6 +100,8 @@ class MpiRanks : public Communicator {
     std::list<Posted> posted_;
     std::vector<int> sent_to_;  // messages to each rank since drop_messages()
     int received_ = 0;
+    std::vector<std::uint64_t> sizes_;  // of what the ranks bring to a collective
+    bool is_over_ = false;              // a rank has left
 };
 
 // Only the first thread calls MPI, but cuts are made on others meanwhile.
@@ -96,9 +115,42 @@ MpiRanks::MpiRanks() {
                     "with threads, or run kerf without mpirun.");
     }
     sent_to_.assign(static_cast<std::size_t>(size()), 0);
+    sizes_.resize(sent_to_.size());
 }
 
-std::vector<Bytes> MpiRanks::all_gather(const Bytes& contribution) { return gather(MPI_COMM_WORLD, contribution); }
+// Every collective begins with a number of each rank: how much it brings, or that it has left.
+void MpiRanks::begin_collective(std::uint64_t own_size) {
+    MPI_Allgather(&own_size, 1, MPI_UINT64_T, sizes_.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD);
+    if (std::find(sizes_.begin(), sizes_.end(), has_left) == sizes_.end()) return;
+    LastWords words;
+    end_together(words);
+    throw Error(static_cast<ErrorCode>(words.code), words.message.data());
+}
+
+// The words of the first rank that has left, on all ranks; no message stays under way.
+void MpiRanks::end_together(LastWords& words) {
+    is_over_ = true;
+    const auto speaker = std::find(sizes_.begin(), sizes_.end(), has_left) - sizes_.begin();
+    MPI_Bcast(&words, sizeof words, MPI_BYTE, static_cast<int>(speaker), MPI_COMM_WORLD);
+    try {
+        take_messages();
+    } catch (const std::bad_alloc&) {
+        MPI_Abort(MPI_COMM_WORLD, words.code);
+    }
+}
+
+void MpiRanks::leave(const StageStatus& why) {
+    if (is_over_) return;
+    LastWords words{why.code, {}};
+    why.message.copy(words.message.data(), words.message.size() - 1);
+    MPI_Allgather(&has_left, 1, MPI_UINT64_T, sizes_.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD);
+    end_together(words);
+}
+
+std::vector<Bytes> MpiRanks::all_gather(const Bytes& contribution) {
+    begin_collective(contribution.size());
+    return gather(MPI_COMM_WORLD, contribution, sizes_);
+}
 
 void MpiRanks::post(int rank, const Bytes& message) {
     posted_.remove_if([](Posted& posted) {
@@ -130,6 +182,12 @@ std::optional<Bytes> MpiRanks::poll() {
 }
 
 void MpiRanks::drop_messages() {
+    if (is_over_) return;
+    begin_collective(0);
+    take_messages();
+}
+
+void MpiRanks::take_messages() {
     int expected = 0;
     MPI_Reduce_scatter_block(sent_to_.data(), &expected, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
     for (; received_ < expected; ++received_) {
@@ -149,7 +207,12 @@ std::vector<Bytes> MpiRanks::gather_on_host(const Bytes& contribution, std::size
     int rank = 0;
     MPI_Comm_rank(host, &rank);
     own = static_cast<std::size_t>(rank);
-    std::vector<Bytes> all = gather(host, contribution);
+    int size = 1;
+    MPI_Comm_size(host, &size);
+    const std::uint64_t bytes = contribution.size();
+    std::vector<std::uint64_t> sizes(static_cast<std::size_t>(size));
+    MPI_Allgather(&bytes, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, host);
+    std::vector<Bytes> all = gather(host, contribution, sizes);
     MPI_Comm_free(&host);
     return all;
 }

@@ -209,7 +209,7 @@ RunFolder RunFolder::create(const std::string& path,
     folder.lock();
     folder.owner_ = true;
     folder.clear_all_but_parts();
-    for (const char* name : {"parts", "work/journal", "work/jobs", "work/taken"}) create_folder(folder.file(name));
+    for (const char* name : {"parts", "work/journal", "work/jobs"}) create_folder(folder.file(name));
     for (const std::string& candidate : {failed, final_path}) {
         const std::string saved = RunFolder("", candidate, false).saved_run_file();
         if (folder.finished_parts() > 0 || !continues || !fs::exists(saved, ignored)) continue;
@@ -321,14 +321,6 @@ std::size_t RunFolder::finished_parts() const {
     return count;
 }
 
-bool RunFolder::take(int leaf) const {
-    const std::string name = file(fmt::format("work/taken/{}", leaf));
-    const int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (fd < 0 && errno != EEXIST) fail("write", name, last_error());
-    if (fd >= 0) ::close(fd);
-    return fd >= 0;
-}
-
 std::string RunFolder::commit(bool valid) {
     if (!owner_) throw Error(ErrorCode::internal, "A run folder is committed once, and by its creator.");
     const std::string place = !valid && require_replaceable(final_).is_valid ? failed_path_of(final_) : final_;
@@ -358,7 +350,7 @@ std::string RunFolder::commit(bool valid) {
     } catch (const Error&) {
     }
     std::error_code ignored;
-    for (const char* name : {"work/journal", "work/jobs", "work/taken", "work"})
+    for (const char* name : {"work/journal", "work/jobs", "work"})
         fs::remove(fs::path(place) / name, ignored);  // only if it is empty
     remove_run_folder(older);
     if (valid && !taken_over_.empty() && taken_over_ != place) remove_run_folder(taken_over_);

@@ -58,9 +58,6 @@ class RunFolder {
     std::string job_file(int leaf) const;      ///< what a worker needs to know of a part
     std::string journal_file(int leaf) const;  ///< exists when the part is finished
 
-    /// True for one caller only, among all ranks, in this run.
-    bool take(int leaf) const;
-
     /// Number of journal entries.
     std::size_t finished_parts() const;
 

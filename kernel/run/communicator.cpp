@@ -1,8 +1,21 @@
 #include "run/communicator.h"
 
 #include <algorithm>
+#include <new>
 
 namespace kerf {
+
+StageStatus status_of_exception() {
+    try {
+        throw;
+    } catch (const Error& e) {
+        return {static_cast<int>(e.code()), e.what()};
+    } catch (const std::bad_alloc&) {
+        return {static_cast<int>(ErrorCode::memory), "Out of memory. Use more parts, fewer workers or more hosts."};
+    } catch (const std::exception& e) {
+        return {static_cast<int>(ErrorCode::internal), e.what()};
+    }
+}
 
 void throw_first_error(Communicator& ranks, const StageStatus& own) {
     constexpr int cancelled = static_cast<int>(ErrorCode::cancelled);

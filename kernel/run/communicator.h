@@ -2,7 +2,6 @@
 #pragma once
 
 #include <exception>
-#include <new>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -13,7 +12,22 @@
 
 namespace kerf {
 
-/// Ranks that run the same stages in the same order.
+/// How a stage ended on one rank.
+struct StageStatus {
+    int code = 0;  ///< value of ErrorCode, 0: good
+    std::string message;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(code, message);
+    }
+};
+
+/// Of the exception that is being handled.
+StageStatus status_of_exception();
+
+/// Ranks that run the same stages in the same order. Every collective throws Error(memory) on all ranks if one has no
+/// memory for it, and the error of a rank that has left.
 class Communicator {
  public:
     virtual ~Communicator() = default;
@@ -28,6 +42,10 @@ class Communicator {
     virtual std::optional<Bytes> poll() = 0;
     /// Collective: takes all messages that were posted before and not polled out of the way.
     virtual void drop_messages() = 0;
+
+    /// This rank meets an error that the others may know nothing of: the next collective of theirs throws it. No rank
+    /// calls another collective after that. Without effect where that has already happened.
+    virtual void leave(const StageStatus& why) = 0;
 };
 
 /// One rank alone.
@@ -39,6 +57,7 @@ class SingleRank : public Communicator {
     void post(int, const Bytes&) override {}  // there is no other rank
     std::optional<Bytes> poll() override { return {}; }
     void drop_messages() override {}
+    void leave(const StageStatus&) override {}
 };
 
 /// Gathers one value of every rank, in the order of ranks.
@@ -48,17 +67,6 @@ std::vector<T> all_gather(Communicator& ranks, const T& value) {
     for (const Bytes& bytes : ranks.all_gather(to_bytes(value))) values.push_back(from_bytes<T>(bytes));
     return values;
 }
-
-/// How a stage ended on one rank.
-struct StageStatus {
-    int code = 0;  ///< value of ErrorCode, 0: good
-    std::string message;
-
-    template <class Archive>
-    void archive(Archive& a) {
-        a(code, message);
-    }
-};
 
 /// Throws the error of the first rank that has one, on every rank. That a rank was stopped counts only where there is
 /// no other error: it may be the consequence.
@@ -73,13 +81,8 @@ auto in_agreement(Communicator& ranks, Stage stage) -> std::invoke_result_t<Stag
     const auto guarded = [&](auto&& body) {
         try {
             body();
-        } catch (const Error& e) {
-            status = {static_cast<int>(e.code()), e.what()};
-        } catch (const std::bad_alloc&) {
-            status = {static_cast<int>(ErrorCode::memory),
-                      "Out of memory. Use more parts, fewer workers or more hosts."};
-        } catch (const std::exception& e) {
-            status = {static_cast<int>(ErrorCode::internal), e.what()};
+        } catch (const std::exception&) {
+            status = status_of_exception();
         }
     };
     if constexpr (std::is_void_v<Value>) {
@@ -91,6 +94,20 @@ auto in_agreement(Communicator& ranks, Stage stage) -> std::invoke_result_t<Stag
         throw_first_error(ranks, status);
         return std::move(value.front());
     }
+}
+
+/// Runs what all ranks run, with its collectives and agreements. An exception that leaves it on one rank ends all of
+/// them: each throws it as an Error. The outermost frame of a program of several ranks.
+template <class Body>
+auto run_together(Communicator& ranks, Body body) -> std::invoke_result_t<Body> {
+    StageStatus why;
+    try {
+        return body();
+    } catch (const std::exception&) {
+        why = status_of_exception();
+    }
+    ranks.leave(why);
+    throw Error(static_cast<ErrorCode>(why.code), why.message);
 }
 
 }  // namespace kerf

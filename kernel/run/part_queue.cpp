@@ -50,10 +50,9 @@ std::string message_of_all(const PartOutcome& outcome) {
 
 }  // namespace
 
-PartQueue::PartQueue(std::vector<QueuedPart> parts, QueueOptions options, std::function<bool(std::size_t part)> take)
+PartQueue::PartQueue(std::vector<QueuedPart> parts, QueueOptions options)
     : parts_(std::move(parts)),
       options_(std::move(options)),
-      take_(std::move(take)),
       calls_(mesher_calls(options_.mesher)),
       progress_(parts_.size()) {
     KERF_CHECK(options_.workers >= 1 && options_.attempts >= 1);
@@ -61,11 +60,10 @@ PartQueue::PartQueue(std::vector<QueuedPart> parts, QueueOptions options, std::f
 }
 
 std::optional<PartQueue::Finished> PartQueue::step(double wait_seconds) {
-    for (; next_ < parts_.size() && !idle_.empty(); ++next_) {
-        if (!take_(next_)) continue;
-        progress_[next_].outcome.worker = idle_.back();
+    for (; !waiting_.empty() && !idle_.empty(); waiting_.pop_front()) {
+        progress_[waiting_.front()].outcome.worker = idle_.back();
         idle_.pop_back();
-        start(next_);
+        start(waiting_.front());
     }
     KERF_CHECK(wait_seconds >= 0);
     if (pool_.running() == 0) {

@@ -1,7 +1,7 @@
 // Parts to worker processes, longest first, a few at a time.
 #pragma once
 
-#include <functional>
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,15 +46,20 @@ struct QueueOptions {
 
 /// Meshes parts in processes of their own, up to options.workers at a time.
 ///
-/// Parts are asked for in the given order whenever a worker is free, and those meshed for which `take` says true: so
-/// several queues, of the same or of other ranks, can share one list. An attempt that fails for the mesher's reasons
+/// Parts that were added wait until a worker is free; those that are never added are left to queues of other ranks,
+/// which may share the list. An attempt that fails for the mesher's reasons
 /// (it aborts, crashes, hangs, or returns a mesh that breaks a law) is repeated with the remedies of volume/retries.h.
 /// The first signal that ends a worker at a part counts as sent from outside, and the same call is made once more: so
 /// the part becomes what it would have been. A part whose worker is killed twice, or runs out of memory, has failed,
 /// and its file is removed.
 class PartQueue {
  public:
-    PartQueue(std::vector<QueuedPart> parts, QueueOptions options, std::function<bool(std::size_t part)> take);
+    PartQueue(std::vector<QueuedPart> parts, QueueOptions options);
+
+    /// This queue is the one that meshes a part of the list.
+    void add(std::size_t part) { waiting_.push_back(part); }
+    /// Workers that no part is under way or waits for.
+    std::size_t free_workers() const { return idle_.size() > waiting_.size() ? idle_.size() - waiting_.size() : 0; }
 
     struct Finished {
         std::size_t part;
@@ -64,8 +69,8 @@ class PartQueue {
     /// while it waits. Throws Error(io) if a worker cannot be started. The destructor ends all workers.
     std::optional<Finished> step(double wait_seconds);
 
-    /// Whether this queue has neither workers under way nor parts to ask for.
-    bool empty() const { return next_ == parts_.size() && pool_.running() == 0; }
+    /// Whether no part is under way or waits.
+    bool empty() const { return waiting_.empty() && pool_.running() == 0; }
 
  private:
     struct Progress {
@@ -77,11 +82,10 @@ class PartQueue {
 
     std::vector<QueuedPart> parts_;
     QueueOptions options_;
-    std::function<bool(std::size_t)> take_;
     std::vector<MesherCall> calls_;
     std::vector<Progress> progress_;
     std::vector<std::int32_t> idle_;  // workers, the next one last
-    std::size_t next_ = 0;            // part that is asked for next
+    std::deque<std::size_t> waiting_;
     ChildPool pool_;
 };
 

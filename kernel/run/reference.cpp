@@ -24,8 +24,8 @@ PartOutcome mesh_in_one_piece(const RunFolder& folder, const Surface& surface, d
     const std::string job_file = folder.job_file(no_leaf), part_file = folder.stored_part_file(no_leaf);
     write_job(job_file, job);
     PartQueue queue({{job_file, part_file, box_of(job)}},
-                    {options.worker_program, options.mesher, 1, options.timeout_seconds, 0, options.attempts},
-                    [](std::size_t) { return true; });
+                    {options.worker_program, options.mesher, 1, options.timeout_seconds, 0, options.attempts});
+    queue.add(0);
     std::optional<PartQueue::Finished> finished;
     while (!finished) {
         while_waiting();

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int root = 0;
 // How long a rank sleeps before it looks for messages and signals. Those with workers wake when one ends.
-constexpr double busy_seconds = 0.1, idle_seconds = 0.01;
+constexpr double busy_seconds = 0.02, idle_seconds = 0.005;
 
 void remove_file(const std::string& path) {
     std::error_code error;
@@ -37,14 +37,48 @@ PartReport without_quality(PartReport part) {
 
 // What ranks tell each other while they mesh.
 struct VolumeStage::Message {
-    enum class Kind : char { part_done, all_done, stop };
+    enum class Kind : char { wish, assignment, part_done, all_done, stop };
     Kind kind = Kind::stop;
+    std::int32_t number = 0;       // of the rank that wishes for a part; of the part that is assigned, in their order
     std::vector<PartReport> part;  // the one that is done
 
     template <class Archive>
     void archive(Archive& a) {
-        a(kind, part);
+        a(kind, number, part);
     }
+};
+
+// Each part goes to one rank: the root rank knows which is next, the others ask it.
+class VolumeStage::HandOut {
+ public:
+    HandOut(Communicator& ranks, std::size_t parts) : ranks_(ranks), parts_(static_cast<std::int32_t>(parts)) {}
+
+    // A part for each worker that is free, now or when the answer comes.
+    void fill(PartQueue& queue) {
+        if (ranks_.rank() == root) {
+            while (queue.free_workers() > 0 && next_ < parts_) queue.add(static_cast<std::size_t>(next_++));
+            return;
+        }
+        for (; next_ < parts_ && wishes_ < queue.free_workers(); ++wishes_)
+            ranks_.post(root, to_bytes(Message{Message::Kind::wish, ranks_.rank(), {}}));
+    }
+    // On the root rank. Beyond the last part the number says that there is none.
+    void answer(const Message& wish) {
+        ranks_.post(wish.number, to_bytes(Message{Message::Kind::assignment, next_, {}}));
+        if (next_ < parts_) ++next_;
+    }
+    // On the others.
+    void take(const Message& assignment, PartQueue& queue) {
+        --wishes_;
+        next_ = assignment.number;
+        if (next_ < parts_) queue.add(static_cast<std::size_t>(next_));
+    }
+    bool is_waiting() const { return wishes_ > 0; }
+
+ private:
+    Communicator& ranks_;
+    std::int32_t parts_ = 0, next_ = 0;
+    std::size_t wishes_ = 0;  // without an answer
 };
 
 // What the root rank knows about all parts.
@@ -127,33 +161,50 @@ void VolumeStage::post_to_others(const Message& message) {
         if (rank != ranks_.rank()) ranks_.post(rank, bytes);
 }
 
-// Returns the parts that this rank has meshed.
-std::vector<PartReport> VolumeStage::mesh_share(const std::vector<PartReport>& parts) {
-    std::optional<Tally> tally;  // on the root rank
-    if (ranks_.rank() == root) tally.emplace(parts, listener_);
-    const std::vector<std::size_t> order = waiting_parts(parts);
+PartQueue VolumeStage::queue_of(const std::vector<PartReport>& parts, const std::vector<std::size_t>& order) const {
     std::vector<QueuedPart> queued;
     for (const std::size_t i : order)
         queued.push_back({folder_.job_file(parts[i].id), folder_.stored_part_file(parts[i].id), parts[i].box()});
-    PartQueue queue(std::move(queued),
-                    {options_.worker_program, options_.mesher, options_.workers, options_.timeout_seconds,
-                     options_.memory_mb, options_.attempts},
-                    [&](std::size_t i) { return folder_.take(parts[order[i]].id); });
+    return {std::move(queued),
+            {options_.worker_program, options_.mesher, options_.workers, options_.timeout_seconds, options_.memory_mb,
+             options_.attempts}};
+}
+
+// Returns the parts that this rank has meshed.
+std::vector<PartReport> VolumeStage::mesh_share(const std::vector<PartReport>& parts, bool& was_told_to_stop) {
+    std::optional<Tally> tally;  // on the root rank
+    if (ranks_.rank() == root) tally.emplace(parts, listener_);
+    const std::vector<std::size_t> order = waiting_parts(parts);
+    PartQueue queue = queue_of(parts, order);
+    HandOut hand_out(ranks_, order.size());
     std::vector<PartReport> meshed;
     for (;;) {
         if (listener_ && listener_->cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
         while (const std::optional<Bytes> bytes = ranks_.poll()) {
             const auto message = from_bytes<Message>(*bytes);
-            if (message.kind == Message::Kind::stop)
-                throw Error(ErrorCode::cancelled, "The run was cancelled.");  // or an error of the sender says why
-            if (message.kind == Message::Kind::all_done) return meshed;
-            tally->add(message.part.front());
+            switch (message.kind) {
+                case Message::Kind::wish:
+                    hand_out.answer(message);
+                    break;
+                case Message::Kind::assignment:
+                    hand_out.take(message, queue);
+                    break;
+                case Message::Kind::part_done:
+                    tally->add(message.part.front());
+                    break;
+                case Message::Kind::all_done:
+                    return meshed;
+                case Message::Kind::stop:
+                    was_told_to_stop = true;
+                    throw Error(ErrorCode::cancelled, "The run was cancelled.");  // or an error of the sender says why
+            }
         }
         if (tally && tally->all_done()) {
-            post_to_others({Message::Kind::all_done, {}});
+            post_to_others({Message::Kind::all_done, 0, {}});
             return meshed;
         }
-        const auto finished = queue.step(queue.empty() ? idle_seconds : busy_seconds);
+        hand_out.fill(queue);
+        const auto finished = queue.step(queue.empty() || hand_out.is_waiting() ? idle_seconds : busy_seconds);
         // A signal to all processes of a terminal or a job ends workers, too: that is no failure of their parts.
         if (!finished || (listener_ && listener_->cancelled())) continue;
         PartReport part = parts[order[finished->part]];
@@ -163,7 +214,7 @@ std::vector<PartReport> VolumeStage::mesh_share(const std::vector<PartReport>& p
         if (tally)
             tally->add(part);
         else
-            ranks_.post(root, to_bytes(Message{Message::Kind::part_done, {without_quality(part)}}));
+            ranks_.post(root, to_bytes(Message{Message::Kind::part_done, 0, {without_quality(part)}}));
         if (part.result.tets > 0) add_quality(part.result);
         meshed.push_back(without_quality(std::move(part)));
     }
@@ -172,10 +223,11 @@ std::vector<PartReport> VolumeStage::mesh_share(const std::vector<PartReport>& p
 void VolumeStage::mesh(std::vector<PartReport>& parts, PartQuality& quality, Improvement& improvement) {
     std::vector<PartReport> meshed;
     const auto mesh_or_stop_all = [&] {
+        bool was_told_to_stop = false;
         try {
-            meshed = mesh_share(parts);
+            meshed = mesh_share(parts, was_told_to_stop);
         } catch (...) {
-            post_to_others({Message::Kind::stop, {}});
+            if (!was_told_to_stop) post_to_others({Message::Kind::stop, 0, {}});
             throw;
         }
     };

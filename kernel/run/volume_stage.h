@@ -4,13 +4,14 @@
 #include "io/run_folder.h"
 #include "run/communicator.h"
 #include "run/listener.h"
+#include "run/part_queue.h"
 
 namespace kerf {
 
 /// Every rank hands over the parts that it has cut; then the workers of all ranks take them, longest first, from one
 /// list. A part goes by files, from the rank that cut it to the worker that takes it, and from the worker to its place:
-/// no rank holds more than numbers. Who takes a part is settled by the run folder alone (RunFolder::take), so that no
-/// rank waits for another. Ranks post what they have finished to the root rank, which tells all when nothing is left.
+/// no rank holds more than numbers. The root rank hands the parts out, one to each worker that is free; ranks post what
+/// they have finished to it, and it tells all when nothing is left.
 class VolumeStage {
  public:
     /// `length_scale`: of the distributions of the quality.
@@ -38,8 +39,10 @@ class VolumeStage {
  private:
     struct Message;
     class Tally;
+    class HandOut;
     std::vector<std::size_t> waiting_parts(const std::vector<PartReport>& parts) const;
-    std::vector<PartReport> mesh_share(const std::vector<PartReport>& parts);
+    PartQueue queue_of(const std::vector<PartReport>& parts, const std::vector<std::size_t>& order) const;
+    std::vector<PartReport> mesh_share(const std::vector<PartReport>& parts, bool& was_told_to_stop);
     void add_quality(const PartResult& result);
     void keep_outcome(const PartReport& part) const;
     void post_to_others(const Message& message);

@@ -274,14 +274,12 @@ TEST_F(RunFolderTest, PartsAndJournalOfAnInterruptedRunWaitForTheNext) {
         put(folder.stored_part_file(9), "part 9");
         put(folder.part_surface_file(8), "surface");
         put(folder.job_file(10), "waits");
-        EXPECT_TRUE(folder.take(10));
         folder.keep();
     }
     EXPECT_FALSE(fs::exists(path("run")));
     { RunFolder::create(path("run")); }  // a run that ends before it begins loses nothing
     RunFolder folder = RunFolder::create(path("run"));
     EXPECT_EQ(folder.finished_parts(), 2u);
-    EXPECT_TRUE(folder.take(10)) << "who was to mesh it is gone";
     EXPECT_FALSE(fs::exists(folder.job_file(10)));
     EXPECT_FALSE(fs::exists(folder.file("report.json")));
     folder.keep_only({8, 10});
@@ -293,16 +291,6 @@ TEST_F(RunFolderTest, PartsAndJournalOfAnInterruptedRunWaitForTheNext) {
     folder.commit(true);
     expect_run(path("run"), "b");
     EXPECT_EQ(entries(), 1u);
-}
-
-TEST_F(RunFolderTest, APartIsTakenOnce) {
-    const RunFolder root = RunFolder::create(path("run"));
-    const RunFolder other = RunFolder::join(root.partial_path());
-    EXPECT_TRUE(root.take(8));
-    EXPECT_FALSE(root.take(8));
-    EXPECT_FALSE(other.take(8));
-    EXPECT_TRUE(other.take(9));
-    EXPECT_FALSE(root.take(9));
 }
 
 TEST_F(RunFolderTest, FollowsALinkToAnOlderRun) {

@@ -1,6 +1,7 @@
 // What the ranks agree on: errors, interfaces, numbers. Ranks are threads here.
 #include <algorithm>
 #include <condition_variable>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <set>
@@ -10,6 +11,7 @@
 
 #include "run/communicator.h"
 #include "run/gathered_nodes.h"
+#include "run/input_cover.h"
 #include "run/interface_match.h"
 #include "run/numbering.h"
 #include "support/assets.h"
@@ -53,6 +55,7 @@ class ThreadRank : public Communicator {
     void post(int, const Bytes&) override { FAIL() << "no stage under test posts messages"; }
     std::optional<Bytes> poll() override { return {}; }
     void drop_messages() override {}
+    void leave(const StageStatus&) override { FAIL() << "no stage under test ends on one rank alone"; }
 
  private:
     MeetingPoint& meeting_;
@@ -283,6 +286,37 @@ TEST(InterfaceTable, CountsWhatDoesNotMatch) {
               1);
     EXPECT_EQ(unmatched_after([](auto& leaves) { leaves[0].surface.facets.pop_back(); }), 1);
     EXPECT_GT(unmatched_after([](auto& leaves) { leaves.pop_back(); }), 10);
+}
+
+// Half of the leaves on each of two ranks, after a damage to one of them.
+std::int64_t missing_after(const std::function<void(SurfaceArrays&)>& damage) {
+    std::int64_t missing = -1;
+    run_ranks(2, [&](Communicator& ranks) {
+        Decomposition own = five_parts();
+        damage(own.leaves[1].surface);
+        const std::int64_t facets = own.nodes.front().facets;
+        own.leaves.erase(ranks.rank() ? own.leaves.begin() : own.leaves.begin() + 2,
+                         ranks.rank() ? own.leaves.begin() + 2 : own.leaves.end());
+        const std::int64_t count = count_missing_input_facets(ranks, facets, own);
+        if (ranks.rank() == 1) missing = count;
+    });
+    return missing;
+}
+
+TEST(InputCover, CountsFacetsThatAreMissingOrNotThereOnce) {
+    const auto is_first_of_input = [](const SurfaceArrays& surface) {
+        return std::find_if(surface.facet_key.begin(), surface.facet_key.end(), is_of_input);
+    };
+    EXPECT_EQ(missing_after([](SurfaceArrays&) {}), 0);
+    EXPECT_EQ(missing_after([&](SurfaceArrays& s) { s.facet_key.erase(is_first_of_input(s)); }), 1);
+    EXPECT_EQ(missing_after([&](SurfaceArrays& s) { s.facet_key.push_back(*is_first_of_input(s)); }), 1);
+    EXPECT_EQ(missing_after([&](SurfaceArrays& s) {
+                  const auto first = is_first_of_input(s),
+                             second = std::find_if(first + 1, s.facet_key.cend(), is_of_input);
+                  s.facet_key[second - s.facet_key.begin()] = *first;
+              }),
+              2)
+        << "as many as before";
 }
 
 TEST(VertexNumbering, IsDenseOverInputAndCuts) {
