@@ -209,7 +209,7 @@ RunFolder RunFolder::create(const std::string& path,
     folder.lock();
     folder.owner_ = true;
     folder.clear_all_but_parts();
-    for (const char* name : {"parts", "work/journal", "work/jobs"}) create_folder(folder.file(name));
+    for (const char* name : {"parts", "work/journal", "work/jobs", "work/taken"}) create_folder(folder.file(name));
     for (const std::string& candidate : {failed, final_path}) {
         const std::string saved = RunFolder("", candidate, false).saved_run_file();
         if (folder.finished_parts() > 0 || !continues || !fs::exists(saved, ignored)) continue;
@@ -314,6 +314,7 @@ std::string RunFolder::part_stl_file(int leaf) const { return file("parts/" + pa
 std::string RunFolder::saved_run_file() const { return file("work/run.json"); }
 std::string RunFolder::job_file(int leaf) const { return file(fmt::format("work/jobs/{}", leaf)); }
 std::string RunFolder::journal_file(int leaf) const { return file(fmt::format("work/journal/{}", leaf)); }
+std::string RunFolder::begun_file(int leaf) const { return file(fmt::format("work/taken/{}", leaf)); }
 
 std::size_t RunFolder::finished_parts() const {
     std::size_t count = 0;
@@ -350,7 +351,7 @@ std::string RunFolder::commit(bool valid) {
     } catch (const Error&) {
     }
     std::error_code ignored;
-    for (const char* name : {"work/journal", "work/jobs", "work"})
+    for (const char* name : {"work/journal", "work/jobs", "work/taken", "work"})
         fs::remove(fs::path(place) / name, ignored);  // only if it is empty
     remove_run_folder(older);
     if (valid && !taken_over_.empty() && taken_over_ != place) remove_run_folder(taken_over_);

@@ -57,6 +57,7 @@ class RunFolder {
     std::string saved_run_file() const;        ///< the options, for who continues the run
     std::string job_file(int leaf) const;      ///< what a worker needs to know of a part
     std::string journal_file(int leaf) const;  ///< exists when the part is finished
+    std::string begun_file(int leaf) const;    ///< exists since a worker has begun the part, for who watches the run
 
     /// Number of journal entries.
     std::size_t finished_parts() const;

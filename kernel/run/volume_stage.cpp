@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <numeric>
 
 #include <fmt/format.h>
 
+#include "io/checked_file.h"
 #include "run/failed_part.h"
 #include "run/journal.h"
 
@@ -51,15 +53,17 @@ struct VolumeStage::Message {
 // Each part goes to one rank: the root rank knows which is next, the others ask it.
 class VolumeStage::HandOut {
  public:
-    HandOut(Communicator& ranks, std::size_t parts) : ranks_(ranks), parts_(static_cast<std::int32_t>(parts)) {}
+    // `on_taken` gets the places of the parts that this rank takes.
+    HandOut(Communicator& ranks, std::size_t parts, PartQueue& queue, std::function<void(std::size_t)> on_taken)
+        : ranks_(ranks), parts_(static_cast<std::int32_t>(parts)), queue_(queue), on_taken_(std::move(on_taken)) {}
 
     // A part for each worker that is free, now or when the answer comes.
-    void fill(PartQueue& queue) {
+    void fill() {
         if (ranks_.rank() == root) {
-            while (queue.free_workers() > 0 && next_ < parts_) queue.add(static_cast<std::size_t>(next_++));
+            for (; queue_.free_workers() > 0 && next_ < parts_; ++next_) take(next_);
             return;
         }
-        for (; next_ < parts_ && wishes_ < queue.free_workers(); ++wishes_)
+        for (; next_ < parts_ && wishes_ < queue_.free_workers(); ++wishes_)
             ranks_.post(root, to_bytes(Message{Message::Kind::wish, ranks_.rank(), {}}));
     }
     // On the root rank. Beyond the last part the number says that there is none.
@@ -68,17 +72,24 @@ class VolumeStage::HandOut {
         if (next_ < parts_) ++next_;
     }
     // On the others.
-    void take(const Message& assignment, PartQueue& queue) {
+    void receive(const Message& assignment) {
         --wishes_;
         next_ = assignment.number;
-        if (next_ < parts_) queue.add(static_cast<std::size_t>(next_));
+        if (next_ < parts_) take(next_);
     }
     bool is_waiting() const { return wishes_ > 0; }
 
  private:
+    void take(std::int32_t part) {
+        on_taken_(static_cast<std::size_t>(part));
+        queue_.add(static_cast<std::size_t>(part));
+    }
+
     Communicator& ranks_;
     std::int32_t parts_ = 0, next_ = 0;
     std::size_t wishes_ = 0;  // without an answer
+    PartQueue& queue_;
+    std::function<void(std::size_t)> on_taken_;
 };
 
 // What the root rank knows about all parts.
@@ -176,7 +187,8 @@ std::vector<PartReport> VolumeStage::mesh_share(const std::vector<PartReport>& p
     if (ranks_.rank() == root) tally.emplace(parts, listener_);
     const std::vector<std::size_t> order = waiting_parts(parts);
     PartQueue queue = queue_of(parts, order);
-    HandOut hand_out(ranks_, order.size());
+    HandOut hand_out(ranks_, order.size(), queue,
+                     [&](std::size_t place) { CheckedFile(folder_.begun_file(parts[order[place]].id), "wb").close(); });
     std::vector<PartReport> meshed;
     for (;;) {
         if (listener_ && listener_->cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
@@ -187,7 +199,7 @@ std::vector<PartReport> VolumeStage::mesh_share(const std::vector<PartReport>& p
                     hand_out.answer(message);
                     break;
                 case Message::Kind::assignment:
-                    hand_out.take(message, queue);
+                    hand_out.receive(message);
                     break;
                 case Message::Kind::part_done:
                     tally->add(message.part.front());
@@ -203,7 +215,7 @@ std::vector<PartReport> VolumeStage::mesh_share(const std::vector<PartReport>& p
             post_to_others({Message::Kind::all_done, 0, {}});
             return meshed;
         }
-        hand_out.fill(queue);
+        hand_out.fill();
         const auto finished = queue.step(queue.empty() || hand_out.is_waiting() ? idle_seconds : busy_seconds);
         // A signal to all processes of a terminal or a job ends workers, too: that is no failure of their parts.
         if (!finished || (listener_ && listener_->cancelled())) continue;
