@@ -184,12 +184,28 @@ void read_vertex(Source& source, const Element& element, SoupBuilder& builder) {
     builder.add_vertex(p);
 }
 
+// Triangles in strips, each of which ends at a -1: a corner and the two before it, every other one turned. Where two
+// are equal the strip only goes on elsewhere.
+template <class Fail>
+void add_strips(const std::vector<std::int64_t>& corners, SoupBuilder& builder, const Fail& fail) {
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        if (corners[i] == -1) begin = i + 1;
+        if (i < begin + 2) continue;
+        std::array<std::int64_t, 3> facet = {corners[i - 2], corners[i - 1], corners[i]};
+        if ((i - begin) % 2 == 1) std::swap(facet[0], facet[1]);
+        if (facet[0] != facet[1] && facet[1] != facet[2] && facet[2] != facet[0]) builder.add_polygon(facet, fail);
+    }
+}
+
+// A polygon, or strips of triangles.
 template <class Source>
 void read_face(Source& source, const Element& element, SoupBuilder& builder, std::vector<std::int64_t>& corners) {
+    const auto fail = [&](const std::string& what) { source.fail(what); };
     for (const Property& property : element.properties) {
         if (property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index")) {
             read_list(source, property, corners);
-            builder.add_polygon(corners, [&](const std::string& what) { source.fail(what); });
+            element.name == "face" ? builder.add_polygon(corners, fail) : add_strips(corners, builder, fail);
         } else {
             skip_property(source, property);
         }
@@ -217,7 +233,7 @@ Soup read_body(Source source, const Header& header, const std::string& path) {
         for (std::int64_t i = 0; i < element.count; ++i) {
             if (element.name == "vertex")
                 read_vertex(source, element, builder);
-            else if (element.name == "face")
+            else if (element.name == "face" || element.name == "tristrips")
                 read_face(source, element, builder, corners);
             else
                 for (const Property& property : element.properties) skip_property(source, property);

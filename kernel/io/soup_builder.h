@@ -102,6 +102,7 @@ class SoupBuilder {
     }
     /// A point in a void.
     void add_hole(const Vec3& point) { soup_.holes.push_back(point); }
+    void note(std::string text) { soup_.notes.push_back(std::move(text)); }
     /// Says that something of the file was not used; nothing if `count` is 0.
     void note_ignored(std::int64_t count, const char* one, const char* many) {
         if (count == 0) return;

@@ -3,7 +3,8 @@
 // Binary: 80 bytes of header, a count, 50 bytes per facet, little-endian floats. The normals are ignored: they say
 // nothing that the order of the corners does not say, and are wrong in many files.
 // ASCII: solid NAME { facet normal x y z outer loop vertex x y z (three times) endloop endfacet } endsolid NAME,
-// keywords in any case. A name runs to the end of its line and may hold keywords.
+// keywords in any case. A name runs to the end of its line and may hold keywords. Some programs write "end solid", some
+// no "endfacet", some no blank behind "endsolid".
 #include <array>
 #include <cstring>
 #include <string>
@@ -66,11 +67,14 @@ bool is_keyword(std::string_view word, std::string_view keyword) {
     return true;
 }
 
-void expect(TextScanner& scanner, std::string_view keyword) {
+[[noreturn]] void refuse(const TextScanner& scanner, const std::string& expected, std::string_view word) {
+    scanner.fail("\"" + expected + "\" is expected, not \"" + std::string(word.substr(0, 40)) +
+                 "\". Correct the line or export the surface again.");
+}
+
+void expect(TextScanner& scanner, const std::string& keyword) {
     const std::string_view word = scanner.next_word();
-    if (!is_keyword(word, keyword))
-        scanner.fail("\"" + std::string(keyword) + "\" is expected, not \"" + std::string(word.substr(0, 40)) +
-                     "\". Correct the line or export the surface again.");
+    if (!is_keyword(word, keyword)) refuse(scanner, keyword, word);
 }
 
 Vec3 read_vertex(TextScanner& scanner) {
@@ -79,30 +83,43 @@ Vec3 read_vertex(TextScanner& scanner) {
     return {x, y, z};
 }
 
-void read_facet(TextScanner& scanner, SoupBuilder& builder) {
+bool ends_solid(TextScanner& scanner, std::string_view word) {
+    if (is_keyword(word, "end")) expect(scanner, "solid");
+    return is_keyword(word, "end") || is_keyword(word.substr(0, 8), "endsolid");
+}
+
+// Returns the word behind the facet; counts facets that do not say where they end.
+std::string_view read_facet(TextScanner& scanner, SoupBuilder& builder, std::int64_t& without_end) {
     // Exporters write what they like as the normal of a sliver ("nan", "-1.#IND"): it is passed over as words.
     while (!is_keyword(scanner.next_word(), "outer")) continue;
     expect(scanner, "loop");
     const Vec3 a = read_vertex(scanner), b = read_vertex(scanner), c = read_vertex(scanner);
     builder.add_separate_facet(a, b, c);
     expect(scanner, "endloop");
-    expect(scanner, "endfacet");
+    const std::string_view word = scanner.next_word();
+    if (is_keyword(word, "facet") || is_keyword(word.substr(0, 8), "endsolid")) {
+        ++without_end;
+        return word;
+    }
+    if (!is_keyword(word, "endfacet")) refuse(scanner, "endfacet", word);
+    return scanner.next_word();
 }
 
 void read_ascii(std::string_view text, const std::string& path, SoupBuilder& builder) {
     TextScanner scanner(text, path);
+    std::int64_t without_end = 0;
     for (int solid = 1; !scanner.at_end(); ++solid) {
         expect(scanner, "solid");
         const std::string_view name = scanner.rest_of_line();
         builder.set_patch(name.empty() ? "solid_" + std::to_string(solid) : std::string(name));
-        for (std::string_view word = scanner.next_word(); !is_keyword(word, "endsolid"); word = scanner.next_word()) {
-            if (!is_keyword(word, "facet"))
-                scanner.fail("\"facet\" or \"endsolid\" is expected, not \"" + std::string(word.substr(0, 40)) +
-                             "\". Correct the line or export the surface again.");
-            read_facet(scanner, builder);
+        for (std::string_view word = scanner.next_word(); !ends_solid(scanner, word);) {
+            if (!is_keyword(word, "facet")) refuse(scanner, "facet\" or \"endsolid", word);
+            word = read_facet(scanner, builder, without_end);
         }
         scanner.skip_line();
     }
+    if (without_end > 0)
+        builder.note(std::to_string(without_end) + " facets end without \"endfacet\", which every facet should have.");
 }
 
 }  // namespace

@@ -79,6 +79,21 @@ std::optional<std::size_t> find_nul_in_text(std::string_view bytes) {
     return is_text ? std::optional(nul) : std::nullopt;
 }
 
+bool is_zip(std::string_view bytes) { return bytes.starts_with("PK\3\4"); }
+
+[[noreturn]] void refuse_zip(std::string_view bytes, const std::string& path) {
+    const bool is_3mf = bytes.find("3D/3dmodel.model") != bytes.npos || name_in_archive(path).ends_with(".3mf");
+    throw Error(ErrorCode::input, path + (is_3mf ? ": this is a 3MF file, which is not supported. Export the surface "
+                                                   "as STL, OBJ or PLY."
+                                                 : ": this is a ZIP archive. Unpack it and give the surface."));
+}
+
+// What has no binary kind of its own ends before the bytes that some programs append.
+std::string_view body_of(std::string_view bytes, Reader read) {
+    const bool may_be_binary = read == read_stl || read == read_ply || read == read_gmsh;
+    return may_be_binary ? bytes : without_padding(bytes);
+}
+
 Reader recognise(std::string_view bytes, const std::string& path) {
     if (is_binary_stl(bytes)) return read_stl;
     if (is_utf16(bytes)) throw Error(ErrorCode::input, path + ": the text is UTF-16. Save it as ASCII or UTF-8.");
@@ -93,9 +108,11 @@ Reader recognise(std::string_view bytes, const std::string& path) {
     if (const auto nul = find_nul_in_text(bytes))
         throw Error(ErrorCode::input, path + ": the text is damaged: byte " + std::to_string(*nul) +
                                           " is zero. Export or copy it again.");
-    if (is_ascii_stl(bytes) || holds_nul(bytes)) return read_stl;
+    if (is_zip(bytes)) refuse_zip(bytes, path);
+    if (is_ascii_stl(bytes) || holds_nul(without_padding(bytes))) return read_stl;
     if (is_obj_keyword(word)) return read_obj;
     if (begins_like_tetgen(bytes, path)) return read_tetgen;
+    if (holds_nul(bytes)) return read_stl;
     throw Error(ErrorCode::input,
                 path +
                     ": the format is not recognised. Give STL, OBJ, PLY, OFF, Gmsh's .msh, MEDIT's .mesh as text, or "
@@ -116,7 +133,8 @@ Soup read_surface_bytes(std::string file, const std::string& path) {
                     fmt::format("{}: this is a CAD file ({}), but only triangles can be read here. Use "
                                 "kerf check or kerf mesh, or export it as STL, OBJ or PLY.",
                                 path, name(cad)));
-    return recognise(bytes, path)(bytes, path);
+    const Reader read = recognise(bytes, path);
+    return read(body_of(bytes, read), path);
 }
 
 }  // namespace kerf

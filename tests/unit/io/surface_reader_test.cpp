@@ -321,7 +321,8 @@ TEST(SurfaceReader, NamesThePlaceAndTheCause) {
     const std::string facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n";
     const std::vector<Case> cases = {
         {"", "empty"},
-        {"PK\x03\x04 something else", "not recognised"},
+        {"PK\x03\x04 something else", "this is a ZIP archive"},
+        {std::string("PK\x03\x04\0\0", 6) + std::string(100, '\0') + "3D/3dmodel.model", "this is a 3MF file"},
         {"1 2 3\n4 5 6\n", "not recognised"},
         {"0.5 3 0\n", "not recognised"},
         {std::string("\1\0\0\0\3\0\0\0\3\0\0\0", 12), "binary MEDIT (.meshb) is not supported"},
@@ -330,6 +331,7 @@ TEST(SurfaceReader, NamesThePlaceAndTheCause) {
         {"solid a\n" + facet, "truncated"},
         {"solid a\n" + facet + "facet normal 0 0 1\nouter loop\nvertex 0 0 blah\n", "line 5: a number is expected"},
         {"solid a\n" + facet + "facette\n", "line 3: \"facet\" or \"endsolid\" is expected"},
+        {"solid a\n" + facet + "end facet\n", "line 3: \"solid\" is expected, not \"facet\""},
         {"solid a\nfacet normal 0 0 1 outer loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nvertex 1 1 0\n",
          "line 6: \"endloop\" is expected"},
         {to_binary_stl(tetrahedron()) + std::string(50, 'x'), "longer than its header claims 4 facets"},
@@ -442,6 +444,23 @@ TEST(StlReader, PassesOverPadding) {
     }
 }
 
+// As Geomagic and RINGMesh write them.
+TEST(StlReader, AcceptsEndSolidInTwoWordsAndFacetsWithoutTheirEnd) {
+    const std::string text = to_ascii_stl(box());
+    const auto replaced = [&](const std::string& word, const std::string& by) {
+        std::string other = text;
+        for (std::size_t at = other.find(word); at != other.npos; at = other.find(word, at + by.size()))
+            other.replace(at, word.size(), by);
+        return read_bytes(other);
+    };
+    const Soup two_words = replaced("endsolid", "End Solid"), without_end = replaced("endfacet", "");
+    expect_same(two_words, read_bytes(text));
+    EXPECT_TRUE(two_words.notes.empty());
+    expect_same(without_end, read_bytes(text));
+    ASSERT_EQ(without_end.notes.size(), 1u);
+    EXPECT_NE(without_end.notes[0].find("12 facets end without \"endfacet\""), std::string::npos);
+}
+
 TEST(StlReader, MakesPatchesOfSolids) {
     const std::string facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n";
     const Soup soup = read_bytes("solid a\n" + facet + "endsolid\nsolid\nendsolid\nsolid\n" + facet +
@@ -456,6 +475,13 @@ TEST(ObjReader, ReadsSlashesNegativeIndicesAndPolygons) {
         "f 1/1/1 2//1 3/1 -1\nf -4 -3 -2");
     EXPECT_EQ(soup.vertices.size(), 4u);
     EXPECT_EQ(soup.facets, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}}));
+}
+
+// As ZBrush writes it.
+TEST(SurfaceReader, PassesOverPaddingOfTexts) {
+    const std::string padding("\n\0\x1a\0", 4);
+    const Soup soup = torus(3, 1, 7, 5);
+    for (const std::string& text : {to_obj(soup), to_off(soup)}) expect_same(read_bytes(text + padding), soup);
 }
 
 TEST(ObjReader, TakesGroupsBeforeObjectsBeforeMaterials) {
@@ -564,6 +590,19 @@ TEST(TetgenReader, NamesAMissingNodeFile) {
         EXPECT_EQ(error.code(), ErrorCode::io);
         EXPECT_NE(std::string(error.what()).find(".node"), std::string::npos) << error.what();
     }
+}
+
+TEST(PlyReader, ReadsStripsOfTriangles) {
+    const std::string head =
+        "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+        "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+        "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n1 2 0\n";
+    const Soup soup = read_bytes(head + "13 0 1 2 3 -1 2 3 4 5 -1 -1 0 1\n");
+    EXPECT_EQ(soup.facets, (std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}}));
+    const Soup joined = read_bytes(head + "10 0 1 2 3 3 2 2 3 4 5\n");
+    EXPECT_EQ(joined.facets, soup.facets) << "corners that are repeated lead from one strip to the next";
+    EXPECT_NE(message_of(head + "3 0 1 6\n").find("names vertex number 6"), std::string::npos);
+    EXPECT_NE(message_of(head + "3 0 1 -2\n").find("names vertex number -2"), std::string::npos);
 }
 
 TEST(PlyReader, PassesOverOtherElementsAndProperties) {
