@@ -304,16 +304,25 @@ std::int64_t missing_after(const std::function<void(SurfaceArrays&)>& damage) {
 }
 
 TEST(InputCover, CountsFacetsThatAreMissingOrNotThereOnce) {
-    const auto is_first_of_input = [](const SurfaceArrays& surface) {
-        return std::find_if(surface.facet_key.begin(), surface.facet_key.end(), is_of_input);
+    const auto place_of_first = [](const SurfaceArrays& s) {
+        return std::find_if(s.facet_key.begin(), s.facet_key.end(), is_of_input) - s.facet_key.begin();
     };
     EXPECT_EQ(missing_after([](SurfaceArrays&) {}), 0);
-    EXPECT_EQ(missing_after([&](SurfaceArrays& s) { s.facet_key.erase(is_first_of_input(s)); }), 1);
-    EXPECT_EQ(missing_after([&](SurfaceArrays& s) { s.facet_key.push_back(*is_first_of_input(s)); }), 1);
     EXPECT_EQ(missing_after([&](SurfaceArrays& s) {
-                  const auto first = is_first_of_input(s),
-                             second = std::find_if(first + 1, s.facet_key.cend(), is_of_input);
-                  s.facet_key[second - s.facet_key.begin()] = *first;
+                  const auto first = place_of_first(s);
+                  s.facets.erase(s.facets.begin() + first);
+                  s.facet_key.erase(s.facet_key.begin() + first);
+              }),
+              1);
+    EXPECT_EQ(missing_after([&](SurfaceArrays& s) {
+                  const auto first = place_of_first(s);
+                  s.facets.push_back(s.facets[first]);
+                  s.facet_key.push_back(s.facet_key[first]);
+              }),
+              1);
+    EXPECT_EQ(missing_after([&](SurfaceArrays& s) {
+                  const auto first = s.facet_key.begin() + place_of_first(s);
+                  *std::find_if(first + 1, s.facet_key.end(), is_of_input) = *first;
               }),
               2)
         << "as many as before";
