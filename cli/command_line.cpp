@@ -225,6 +225,12 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     put_help_last(*check, option_group::output);
     CLI::App* verify = app.add_subcommand("verify", "Check every law of a finished run again, from its files.");
     verify->add_option("folder", line.options.output, "Folder of the run.")->required()->type_name("DIR");
+    verify->add_option("--input", line.verify.input, "Where the surface is now. Default: where the run has read it.")
+        ->type_name("FILE");
+    verify
+        ->add_flag("--without-input", line.verify.without_input,
+                   "The laws of the mesh are enough: the surface is not there any more.")
+        ->excludes("--input");
     CLI::App* to_export = add_export_command(app, line);
     CLI::App* to_merge = app.add_subcommand("merge", "Write a finished run as one mesh.");
     to_merge->add_option("folder", line.merge.folder, "Folder of the run, or of a solution, with its values.")

@@ -9,6 +9,7 @@
 #include "cli/merge.h"
 #include "cli/quality.h"
 #include "run/options.h"
+#include "run/verify_folder.h"
 
 namespace kerf {
 
@@ -23,6 +24,7 @@ struct CommandLine {
     CheckRequest check;
     ExportRequest export_request;
     MergeRequest merge;
+    VerifyOptions verify;
     QualityRequest quality;
     std::string remeshed_file;  ///< of kerf remesh
     bool print_config = false;  ///< print the effective options and end

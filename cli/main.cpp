@@ -98,7 +98,7 @@ int run_program(int argc, char** argv) {
         case Command::remesh:
             return remesh_surface(line.options, line.remeshed_file, line.quiet);
         case Command::verify:
-            return verify_run(line.options.output);
+            return verify_run(line.options.output, line.verify);
         default:
             return run_command(line);
     }

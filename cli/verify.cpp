@@ -8,8 +8,8 @@
 
 namespace kerf {
 
-int verify_run(const std::string& folder) {
-    const FolderVerification found = verify_folder(folder);
+int verify_run(const std::string& folder, const VerifyOptions& options) {
+    const FolderVerification found = verify_folder(folder, options);
     const RunVerification& laws = found.laws;
     std::string text = fmt::format("{}: {} parts, {} tetrahedra, {} vertices, volume error {:.1e}\n", folder,
                                    found.parts, found.tets, found.vertices, laws.volume_rel_error);
@@ -27,12 +27,18 @@ int verify_run(const std::string& folder) {
     for (const std::string& difference : found.differences) text += fmt::format("  {}\n", difference);
     if (!laws.passed)
         text += "The mesh is NOT valid. Run kerf mesh again.\n";
+    else if (options.without_input)
+        text += "The laws of the mesh hold. It was not compared with the input.\n";
     else if (found.not_compared.empty())
         text += "Every law holds.\n";
     else
-        text += fmt::format("The laws of the mesh hold; the input was not compared: {}\n", found.not_compared);
+        text += fmt::format(
+            "The laws of the mesh hold, but it was not compared with the input: {}\n"
+            "Say where that is with --input FILE, or do without it by --without-input.\n",
+            found.not_compared);
     print_data(text);
-    return laws.passed ? 0 : static_cast<int>(ErrorCode::verification);
+    if (!laws.passed) return static_cast<int>(ErrorCode::verification);
+    return found.not_compared.empty() ? 0 : static_cast<int>(ErrorCode::io);
 }
 
 }  // namespace kerf

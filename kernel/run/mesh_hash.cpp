@@ -6,14 +6,16 @@
 
 namespace kerf {
 
-std::array<std::uint64_t, 2> hash_part(const TetMesh& mesh, const SurfaceArrays& surface) {
+std::array<std::uint64_t, 2> hash_part(const Part& part) {
+    const auto boundary = static_cast<std::size_t>(part.mesh.boundary_vertex_count);
     Hasher hasher;
-    hasher.add(std::span(mesh.vertices));
-    hasher.add(std::span(mesh.tets));
-    hasher.add(std::span(surface.facets));
-    hasher.add(std::span(surface.vertex_key));
-    hasher.add(std::span(surface.facet_key));
-    hasher.add(std::span(surface.patch));
+    hasher.add(std::span(part.mesh.vertices));
+    hasher.add(std::span(part.mesh.tets));
+    hasher.add(std::span(part.global_id).first(boundary));
+    hasher.add(std::span(part.facets));
+    hasher.add(std::span(part.patch));
+    hasher.add(std::span(part.facet));
+    hasher.add(std::span(part.neighbour));
     return hasher.digest();
 }
 

@@ -6,13 +6,13 @@
 #include <span>
 #include <string>
 
-#include "mesh/tet_mesh.h"
-#include "surface/surface.h"
+#include "part/part.h"
 
 namespace kerf {
 
-/// 128-bit hash (XXH3) of coordinates, keys, facets and tetrahedra of a part, little-endian.
-std::array<std::uint64_t, 2> hash_part(const TetMesh& mesh, const SurfaceArrays& surface);
+/// 128-bit hash (XXH3) of a part, little-endian: coordinates, tetrahedra, the boundary with its global numbers, its
+/// patches and facets of the input, and the neighbours on the other side of interfaces. All of it is in a part's file.
+std::array<std::uint64_t, 2> hash_part(const Part& part);
 
 /// The hash of a whole mesh from those of its parts in the order of the tree, as 32 hexadecimal digits.
 struct PartHash {

@@ -70,13 +70,14 @@ void fill_result(const PartJob& job, const MesherCall& call, const std::string& 
     result.interior_vertices = mesh.interior_vertex_count();
     result.tets = static_cast<std::int64_t>(mesh.tets.size());
     result.core_tets = filling.core_tets;
-    timed(result.verify_seconds, [&] { result.hash = hash_part(mesh, job.surface); });
     timed(result.store_seconds, [&] {
         result.sizes = measure_sizes(mesh, job.surface, call.options.size);
         result.quality = measure_quality(mesh, interface_vertices(job.surface, mesh.vertices.size()), job.length_scale);
         result.angles = ImprovedAngles(result.improvement, result.quality);
-        result.file_hash = write_stored_part(part_file, part_of_job(job, std::move(mesh)));
     });
+    const Part part = part_of_job(job, std::move(mesh));
+    timed(result.verify_seconds, [&] { result.hash = hash_part(part); });
+    timed(result.store_seconds, [&] { result.file_hash = write_stored_part(part_file, part); });
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ struct PartResult {
     MeshLaws laws;
     PartQuality quality;
     SizeRatios sizes;                            ///< against the sizes of the call, which a remedy may have made larger
-    std::array<std::uint64_t, 2> hash = {0, 0};  ///< of surface, keys and mesh
+    std::array<std::uint64_t, 2> hash = {0, 0};  ///< of hash_part()
     FileHash file_hash = {0, 0};                 ///< of the stored part
     Improvement improvement;                     ///< Filling::improvement
     ImprovedAngles angles;                       ///< by it

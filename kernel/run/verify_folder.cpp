@@ -21,6 +21,7 @@
 #include "part/run_parts.h"
 #include "part/vtu_reader.h"
 #include "part/vtu_writer.h"
+#include "run/mesh_hash.h"
 #include "run/oriented_triangle.h"
 #include "run/remeshing.h"
 #include "run/version.h"
@@ -75,8 +76,9 @@ bool has_repeated_vertex(const Tetrahedron& t) {
 
 class FolderVerifier {
  public:
-    explicit FolderVerifier(const std::string& folder)
+    FolderVerifier(const std::string& folder, const VerifyOptions& options)
         : folder_(folder),
+          options_(options),
           report_text_(read_report(folder)),
           report_(nlohmann::json::parse(report_text_)),
           is_of_this_version_(report_.at("kerf") == version) {}
@@ -88,7 +90,7 @@ class FolderVerifier {
         check_shared_vertices();
         check_interfaces();
         check_numbering();
-        check_input();
+        if (!options_.without_input) check_input();
         summarise();
         return std::move(result_);
     }
@@ -110,7 +112,9 @@ class FolderVerifier {
     bool is_facet(const Surface& input, std::int32_t facet, std::span<const InputPiece> pieces) const;
     void summarise();
 
-    std::string folder_, report_text_;
+    std::string folder_;
+    VerifyOptions options_;
+    std::string report_text_;
     nlohmann::json report_;
     bool is_of_this_version_;  // another one may write the same mesh with other headers
     FolderVerification result_;
@@ -120,6 +124,8 @@ class FolderVerifier {
     std::int64_t unnumbered_interior_ = 0;                // vertices of files that leave the numbers to who reads them
     std::vector<InputPiece> pieces_;
     std::vector<InterfaceFacet> interfaces_;
+    std::vector<std::string> patch_names_;  // of the first part
+    std::vector<PartHash> hashes_;          // in the order of the report
 };
 
 // The files are those of the list, each with its hash.
@@ -163,6 +169,9 @@ void FolderVerifier::check_part(const nlohmann::json& of_report) {
     if (of_report.at("tets") != part.mesh.tets.size() || of_report.at("vertices") != part.mesh.vertices.size())
         differs(fmt::format("report.json has other numbers of part {}", leaf));
     check_boundary_arrays(part, name);
+    if (hashes_.empty()) patch_names_ = part.patch_names;
+    if (part.patch_names != patch_names_) differs(name + " has other names of patches than the parts before it");
+    hashes_.push_back({leaf, hash_part(part)});
     if (is_of_this_version_) check_what_follows(part, name, "parts/" + part_surface_file_name(leaf));
     keep_boundary(part);
     keep_interior(part, is_vtu(name));
@@ -206,6 +215,8 @@ void FolderVerifier::check_totals() {
     if (totals.at("tets") != result_.tets || totals.at("vertices") != result_.vertices ||
         std::abs(totals.at("volume").get<double>() - volume_) > 1e-12 * std::abs(volume_))
         differs("report.json has other totals than the parts");
+    if (is_of_this_version_ && report_.at("mesh_hash") != hash_of_parts(hashes_))
+        differs("report.json has another mesh_hash than the parts");
     if (report_.at("exit_code") != 0 || report_.at("verification").at("passed") != true)
         differs("report.json is that of a run that has failed");
 }
@@ -313,7 +324,8 @@ void FolderVerifier::check_input() {
     Input input;
     try {
         const RunOptions options = options_of(report_.at("options"));
-        input = remesh_where_asked(read_input(path_of_text(of_report.at("path")), options.input_options), options);
+        const std::string path = options_.input.empty() ? path_of_text(of_report.at("path")) : options_.input;
+        input = remesh_where_asked(read_input(path, options.input_options), options);
     } catch (const Error& e) {
         result_.not_compared = e.what();
         return;
@@ -334,6 +346,7 @@ void FolderVerifier::check_input() {
     }
     if (wrong_patches > 0)
         differs(fmt::format("{} boundary triangles are in other patches than the input", wrong_patches));
+    if (patch_names_ != input.patch_names) differs("the parts have other names of patches than the input");
     result_.laws.extra_boundary_faces += pieces_.end() - next;
     for (const PlacedVertex& v : boundary_)
         if (v.id < input.vertices)
@@ -351,9 +364,9 @@ void FolderVerifier::summarise() {
 
 }  // namespace
 
-FolderVerification verify_folder(const std::string& folder) {
+FolderVerification verify_folder(const std::string& folder, const VerifyOptions& options) {
     try {
-        return FolderVerifier(folder).run();
+        return FolderVerifier(folder, options).run();
     } catch (const nlohmann::json::exception& e) {
         throw Error(ErrorCode::io, fmt::format("{}/report.json is damaged: {}.", folder, e.what()));
     }

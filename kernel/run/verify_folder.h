@@ -8,6 +8,11 @@
 
 namespace kerf {
 
+struct VerifyOptions {
+    std::string input;           ///< where the surface is now; empty: where the run has read it
+    bool without_input = false;  ///< the laws of the mesh are enough
+};
+
 /// What kerf verify found.
 struct FolderVerification {
     RunVerification laws;
@@ -17,14 +22,14 @@ struct FolderVerification {
     std::int64_t tets = 0, vertices = 0;
     std::int32_t parts = 0;
     std::vector<std::string> differences;  ///< what is not as the run has left it, or does not follow from the mesh
-    std::string not_compared;              ///< why the input was not compared; empty: it was
+    std::string not_compared;              ///< why the input was not compared; empty: it was, or was not to be
 };
 
 /// Reads report.json, the input and every file of a run folder, one part at a time, and checks every law again: each
-/// part by verify_mesh(), the interfaces by the global numbers, the facets and patches of the input one by one. Every
-/// file must have the hash that the report has for it, and the report its own; what follows from the mesh (quality,
-/// headers, surfaces, mesh.pvtu, totals) is computed again and compared. Memory follows the surface, not the mesh.
-/// Throws Error(io) for a folder that is no finished run, a missing or unreadable part.
-FolderVerification verify_folder(const std::string& folder);
+/// part by verify_mesh(), the interfaces by the global numbers, the facets, patches and their names of the input one by
+/// one. Every file must have the hash that the report has for it, and the report its own; what follows from the mesh
+/// (quality, headers, surfaces, mesh.pvtu, totals, the hash of the mesh) is computed again and compared. Memory follows
+/// the surface, not the mesh. Throws Error(io) for a folder that is no finished run, a missing or unreadable part.
+FolderVerification verify_folder(const std::string& folder, const VerifyOptions& options = {});
 
 }  // namespace kerf
