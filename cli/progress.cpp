@@ -30,7 +30,7 @@ void note_signal(int signal) {
 
 void end_now(int) {
     constexpr std::string_view text =
-        "kerf: The run was cancelled in the middle of a step. What kerf mesh has finished waits for --resume.\n";
+        "kerf: The run was cancelled in the middle of a step. If it is not complete, kerf mesh --resume goes on.\n";
     (void)!::write(STDERR_FILENO, text.data(), text.size());
     ::_exit(static_cast<int>(ErrorCode::cancelled));
 }

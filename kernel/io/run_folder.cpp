@@ -208,6 +208,7 @@ RunFolder RunFolder::create(const std::string& path,
     create_folder(folder.file("work"));
     folder.lock();
     folder.owner_ = true;
+    if (inspect_run_folder(final_path).is_run) remove_run_folder(older);  // which that one has replaced
     folder.clear_all_but_parts();
     for (const char* name : {"parts", "work/journal", "work/jobs", "work/taken"}) create_folder(folder.file(name));
     for (const std::string& candidate : {failed, final_path}) {

@@ -21,7 +21,8 @@ namespace kerf {
 class RunFolder {
  public:
     /// Checks `path`, makes its partial folder or takes over that of an interrupted run, and makes the folders above
-    /// where they are missing. If none was interrupted, but one has failed parts and `continues` says of its
+    /// where they are missing. An older run that a kill has left aside gets its name back, or is removed if another one
+    /// has it. If none was interrupted, but one has failed parts and `continues` says of its
     /// saved_run_file() that this run is the same, its finished parts are taken over. Links are followed, also those
     /// that lead to nothing yet. Throws Error(io) if it cannot be written or holds foreign files, naming the first, or
     /// if another run is writing it or ranks of an interrupted one still live, naming the folder and the reason. A file

@@ -11,6 +11,7 @@
 #include "io/file_bytes.h"
 #include "io/path_text.h"
 #include "io/run_folder.h"
+#include "io/run_manifest.h"
 
 namespace kerf {
 
@@ -53,6 +54,8 @@ RunOptions load_interrupted_run(const std::string& folder) {
     const std::string output = RunFolder::result_of(folder);
     const std::string file = RunFolder::saved_run_file(output);
     std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored) && inspect_run_folder(output).is_valid)
+        throw Error(ErrorCode::io, fmt::format("{} is complete: nothing waits to be done.", output));
     if (!std::filesystem::exists(file, ignored))
         throw Error(ErrorCode::io, fmt::format("No interrupted run waits for {}: {} does not exist. Start one with "
                                                "kerf mesh INPUT -o {}.",

@@ -232,6 +232,17 @@ TEST_F(RunFolderTest, AnOlderRunThatWasAsideIsPutBack) {
     expect_run(path("run"), "valid");
 }
 
+// As a kill after both leaves it.
+TEST_F(RunFolderTest, AnOlderRunThatWasReplacedIsRemoved) {
+    run(path("older"), "older");
+    fs::rename(path("older"), path("run.kerf-partial-older"));
+    run(path("newer"), "newer");
+    fs::rename(path("newer"), path("run"));
+    { RunFolder::create(path("run")); }
+    EXPECT_FALSE(fs::exists(path("run.kerf-partial-older")));
+    expect_run(path("run"), "newer");
+}
+
 // Whatever is put among the parts meanwhile is nobody's to remove, and makes no run of Kerf.
 TEST_F(RunFolderTest, WhatOthersPutIntoThePartialFolderStays) {
     {
