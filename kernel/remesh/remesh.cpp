@@ -33,6 +33,7 @@ constexpr std::int64_t steps_between_polls = 256;
 constexpr double smaller_tolerance = 0.25;                 // of the tolerance, where the result of a round is refused
 constexpr int samples_per_edge = 6;                        // to find the input beside a facet of the result
 constexpr double first_bound = 0.2, step_of_bound = 1.25;  // of the deviation; of the one before
+constexpr double area_per_squared_length = 0.342;          // of a facet, and of the length wanted there; measured
 constexpr int most_divisions_of_inspection = 100'000;      // of a facet, to see that it is near the other surface
 
 // What was refused is refused again as long as nothing around it has changed.
@@ -383,6 +384,24 @@ void check_remesh_options(const RemeshOptions& options) {
 }
 
 }  // namespace
+
+double forecast_facets(const SurfaceArrays& surface, const RemeshOptions& options) {
+    check_remesh_options(options);
+    double facets = 0;
+    for (const Triangle& t : surface.facets) {
+        const std::vector<Vec3>& p = surface.vertices;
+        double density = 0;  // sum over the samples
+        int samples = 0;
+        for_each_sample(p, t, [&](const Vec3& point) {
+            const double edge = options.wanted ? std::min(options.wanted(point), options.longest) : options.longest;
+            density += 1 / (edge * edge);
+            ++samples;
+        });
+        const double area = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / 2;
+        facets += area / area_per_squared_length * density / samples;
+    }
+    return facets;
+}
 
 Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& options) {
     check_remesh_options(options);

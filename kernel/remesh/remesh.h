@@ -55,4 +55,8 @@ struct Remeshed {
 /// Ruppert 1995.
 Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& options);
 
+/// How many facets the result has where `longest` and `wanted` ask for more than the shape does, within a fifth; more
+/// elsewhere. O(#F).
+double forecast_facets(const SurfaceArrays& surface, const RemeshOptions& options);
+
 }  // namespace kerf

@@ -94,21 +94,37 @@ double disk_bytes_per_tet(const RunOptions& options) {
     return bytes + stored;
 }
 
+// The edge with which there are not more tetrahedra; 0 if none is large enough. By bisection of its ratio to that of
+// the options, whose square divides the facets that follow it, and whose cube the volume's cells.
+double least_size(const MesherOptions& mesher, double facets, double volume, Facets of_surface, double most_tets) {
+    if (mesher.size.is_empty()) return 0;
+    const MesherForecast& known = known_of(mesher);
+    const double inside = known.tets_per_volume_bound * volume / mesher.size.reference_volume();
+    const auto tets = [&](double ratio) {
+        const double boundary = of_surface == Facets::follow_size ? facets / (ratio * ratio) : facets;
+        return known.tets_per_facet * boundary + inside / (ratio * ratio * ratio);
+    };
+    double low = 1, high = 1e150;
+    if (tets(high) > most_tets) return 0;
+    while (high > 1.01 * low) {
+        const double middle = std::sqrt(low) * std::sqrt(high);
+        (tets(middle) > most_tets ? low : high) = middle;
+    }
+    return high * regular_tet_edge(mesher.size.reference_volume());
+}
+
 }  // namespace
 
-void check_budget(const RunOptions& options, double facets, double volume) {
+void check_budget(const RunOptions& options, double facets, double volume, Facets of_surface) {
     KERF_CHECK(options.decompose.parts >= 1);
     const double parts = options.decompose.parts;
     const double tets = forecast(facets, volume, options.mesher).tets;
     const MesherForecast& known = known_of(options.mesher);
-    // The bound that would make so many tetrahedra, as a size.
     const auto way_out = [&](double affordable) {
-        const double left = affordable - known.tets_per_facet * facets;
-        return left <= 0 ? std::string("Use a coarser surface")
-               : !options.mesher.size.is_constant()
-                   ? std::string("Use larger sizes")
-                   : fmt::format("Use --size {:.2g} or larger",
-                                 regular_tet_edge(known.tets_per_volume_bound * volume / left));
+        const double size = least_size(options.mesher, facets, volume, of_surface, affordable);
+        return size == 0                           ? std::string("Use a coarser surface")
+               : options.mesher.size.is_constant() ? fmt::format("Use --size {:.2g} or larger", size)
+                                                   : std::string("Use larger sizes");
     };
     const double enough = std::ceil(tets / known.most_tets);
     if (tets > known.most_tets * parts)
@@ -117,7 +133,9 @@ void check_budget(const RunOptions& options, double facets, double volume) {
                                 "{}{}.",
                                 short_number(tets), short_number(tets / parts), parts, short_number(known.most_tets),
                                 way_out(known.most_tets * parts),
-                                enough <= facets / 4 ? fmt::format(", or -n {:.0f} or more", enough) : ""));
+                                of_surface == Facets::are_given && enough <= facets / 4
+                                    ? fmt::format(", or -n {:.0f} or more", enough)
+                                    : ""));
     if (!options.volume) return;
     std::error_code error;
     std::filesystem::path folder = std::filesystem::path(RunFolder::folders_of(options.output).front()).parent_path();

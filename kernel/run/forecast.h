@@ -24,10 +24,13 @@ Forecast forecast(double facets, double volume, const MesherOptions& mesher);
 /// options must be resolved. Throws Error(usage) if no number of parts would do.
 std::int32_t choose_parts(const RunOptions& options, double facets, double volume, int ranks, std::int32_t most);
 
+/// Whether facets are what the surface has, or as small as the tetrahedra are wanted: those of a remeshed one.
+enum class Facets { are_given, follow_size };
+
 /// Refuses what cannot end well before anything is cut: Error(memory), with the number of tetrahedra and the way out,
 /// if by forecast() one of options.decompose.parts parts would hold more tetrahedra than their numbers can count, or
 /// the files would not fit on the disk of options.output.
-void check_budget(const RunOptions& options, double facets, double volume);
+void check_budget(const RunOptions& options, double facets, double volume, Facets of_surface = Facets::are_given);
 
 /// One line on parts, tetrahedra, memory and time; with `every_part` a table below it.
 std::string plan_text(const std::vector<PartReport>& parts, const RunOptions& options, int ranks, bool every_part);

@@ -12,7 +12,7 @@
 #include "core/bytes.h"
 #include "core/error.h"
 #include "run/part_job.h"
-#include "run/peak_memory.h"
+#include "run/process_memory.h"
 
 namespace kerf {
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -21,8 +22,8 @@
 #include "part/vtu_writer.h"
 #include "run/forecast.h"
 #include "run/gathered_nodes.h"
-#include "run/peak_memory.h"
 #include "run/prepare_stage.h"
+#include "run/process_memory.h"
 #include "run/range_of_rank.h"
 #include "run/reference.h"
 #include "run/remeshing.h"
@@ -90,6 +91,28 @@ std::int32_t part_count(const Input& input, const RunOptions& options, double vo
                                                   "finer surface.",
                                                   input.path, input.facets, wanted, most));
     return wanted;
+}
+
+// Sizes that depend on the place are those of the surface as it is now.
+void use_sizes_on(const Input& input, RunOptions& options) {
+    if (options.sizes.depends_on_place())
+        options.use_sizes(read_size_field(options.sizes, input.surface.arrays(), input.patch_names));
+}
+
+double sized_volume_of(const Input& input, const RunOptions& options) {
+    const SurfaceArrays surface = options.mesher.size.is_constant() ? SurfaceArrays() : input.surface.arrays();
+    return sized_volume(options.mesher.size, surface.vertices, surface.facets, input.volume);
+}
+
+// Remeshing takes longer than to see that its result could not be filled.
+void check_budget_before_remeshing(const Input& input, RunOptions options, int ranks) {
+    if (options.dry_run || !is_remeshed(input, options)) return;
+    use_sizes_on(input, options);
+    const double volume = sized_volume_of(input, options), facets = forecast_remeshed_facets(input, options);
+    if (options.decompose.parts == 0)
+        options.decompose.parts =
+            choose_parts(options, facets, volume, ranks, std::numeric_limits<std::int32_t>::max());
+    check_budget(options, facets, volume, Facets::follow_size);
 }
 
 // One rank's share of the run.
@@ -271,8 +294,10 @@ Error Run::with_way_to_go_on(const Error& error) {
         folder_->discard();
         return error;
     }
-    return {error.code(), fmt::format("{} {} parts are finished; kerf mesh --resume {} does the others.", error.what(),
-                                      finished, report_.options.output)};
+    const bool are_all = finished >= static_cast<std::size_t>(report_.options.decompose.parts);
+    return {error.code(), fmt::format("{} {}{} parts are finished; kerf mesh --resume {} {}.", error.what(),
+                                      are_all ? "All " : "", finished, report_.options.output,
+                                      are_all ? "writes the files that are missing" : "does the others")};
 }
 
 // The parts that were meshed, as they lie in the folder, with the numbers of all vertices.
@@ -362,12 +387,13 @@ RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input&
         if (listener) listener->on_progress("read", 0, 1);
         input = read_input(options.input, options.input_options);
         refuse_changed_input(options, input.file_hash);
+        if (ranks.rank() == 0) check_budget_before_remeshing(input, options, ranks.size());
+    });
+    in_agreement(ranks, [&] {
         input = remesh_where_asked(std::move(input), options, listener);
-        const SurfaceArrays surface = options.sizes.depends_on_place() ? input.surface.arrays() : SurfaceArrays();
-        if (options.sizes.depends_on_place())
-            options.use_sizes(read_size_field(options.sizes, surface, input.patch_names));
+        use_sizes_on(input, options);
         if (ranks.rank() != 0) return;
-        const double volume = sized_volume(options.mesher.size, surface.vertices, surface.facets, input.volume);
+        const double volume = sized_volume_of(input, options);
         options.decompose.parts = part_count(input, options, volume, ranks.size());
         if (!options.dry_run) check_budget(options, static_cast<double>(input.facets), volume);
     });

@@ -7,8 +7,10 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/number_text.h"
 #include "core/regular_tet.h"
 #include "remesh/remesh.h"
+#include "run/process_memory.h"
 #include "run/size_reader.h"
 #include "surface/mass_properties.h"
 
@@ -20,6 +22,7 @@ constexpr double usual_share = 2e-5;     // of the diagonal, for the deviation w
 constexpr double largest_share = 0.05;   // of the diagonal, for the deviation
 constexpr double smallest_share = 1e-9;  // coordinates have few more digits
 constexpr double longest_share = 0.03;   // of the diagonal, for edges where nothing else is wanted
+constexpr double bytes_per_facet = 280;  // of the process while it remeshes
 constexpr double deg_per_rad = 180 / std::numbers::pi;
 
 std::vector<double> smallest_sines(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
@@ -49,10 +52,32 @@ void tell_step(RunListener& listener, std::size_t steps) {
     listener.on_progress("remesh", steps, 0);
 }
 
-// Where nothing else is wanted.
+// Edge where nothing else is wanted.
 double longest_edge(const RunOptions& options, double diagonal) {
     const double max_volume = options.sizes.constant_max_volume();
     return max_volume > 0 ? std::min(regular_tet_edge(max_volume), diagonal) : longest_share * diagonal;
+}
+
+RemeshOptions remesh_options(const Input& input, const SurfaceArrays& surface, const RunOptions& options) {
+    RemeshOptions result = {.deviation = parse_deviation(options.deviation, input.diagonal),
+                            .longest = longest_edge(options, input.diagonal),
+                            .creases = input.creases};
+    if (options.sizes.growth > 0) result.growth = options.sizes.growth;
+    const SizeField wanted = wanted_lengths(options, surface, input);
+    if (!wanted.is_empty()) result.wanted = [wanted](const Vec3& p) { return wanted.at(p); };
+    return result;
+}
+
+void check_memory(const SurfaceArrays& surface, const RemeshOptions& options, bool have_one_size) {
+    const double facets = forecast_facets(surface, options), most = most_memory_bytes() / bytes_per_facet;
+    if (facets <= most) return;
+    // A twentieth more than what there is memory for, so that it stays enough when it is rounded.
+    const std::string way_out =
+        have_one_size ? fmt::format("Use --size {:.2g} or larger", 1.05 * options.longest * std::sqrt(facets / most))
+                      : "Use larger sizes";
+    throw Error(ErrorCode::memory,
+                fmt::format("The remeshed surface would have about {} facets, but there is memory for {}. {}.",
+                            short_number(facets), short_number(most), way_out));
 }
 
 }  // namespace
@@ -111,6 +136,12 @@ double parse_deviation(const std::string& text, double diagonal) {
     return deviation;
 }
 
+double forecast_remeshed_facets(const Input& input, const RunOptions& options) {
+    if (!is_remeshed(input, options)) return static_cast<double>(input.facets);
+    const SurfaceArrays surface = input.surface.arrays();
+    return forecast_facets(surface, remesh_options(input, surface, options));
+}
+
 Input remesh_where_asked(Input input, const RunOptions& options, RunListener* listener) {
     const SurfaceArrays before = input.surface.arrays();
     if (!is_remeshed(input, options)) {
@@ -122,22 +153,18 @@ Input remesh_where_asked(Input input, const RunOptions& options, RunListener* li
         input.notes.push_back(
             "A CAD file has no triangles of its own: they are remeshed. --surface split keeps those "
             "of OpenCASCADE.");
-    const SizeField wanted = wanted_lengths(options, before, input);
-    RemeshOptions remesh_options = {.deviation = parse_deviation(options.deviation, input.diagonal),
-                                    .longest = longest_edge(options, input.diagonal),
-                                    .creases = std::move(input.creases)};
-    if (options.sizes.growth > 0) remesh_options.growth = options.sizes.growth;
-    if (!wanted.is_empty()) remesh_options.wanted = [&](const Vec3& p) { return wanted.at(p); };
+    RemeshOptions wanted = remesh_options(input, before, options);
+    check_memory(before, wanted, !options.sizes.depends_on_place());
     if (listener) {
-        remesh_options.poll = [listener, steps = std::size_t{0}]() mutable { tell_step(*listener, steps++); };
-        remesh_options.poll();
+        wanted.poll = [listener, steps = std::size_t{0}]() mutable { tell_step(*listener, steps++); };
+        wanted.poll();
     }
-    Remeshed remeshed = remesh(before, remesh_options);
+    Remeshed remeshed = remesh(before, wanted);
 
     input.remeshed = {.facets_before = input.facets,
                       .smallest_angle_before_deg = smallest_angle(before),
                       .smallest_angle_deg = smallest_angle(remeshed.surface),
-                      .deviation = remesh_options.deviation,
+                      .deviation = wanted.deviation,
                       .distance_to_input = remeshed.report.distance_to_input,
                       .distance_from_input = remeshed.report.distance_from_input,
                       .feature_edges = remeshed.report.feature_edges};

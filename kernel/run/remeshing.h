@@ -31,11 +31,15 @@ std::string sliver_note(const Slivers& slivers, const std::string& path);
 /// option.
 double parse_deviation(const std::string& text, double diagonal);
 
+/// Facets that the surface will have by remesh_where_asked(), about; more where its shape asks for them. O(#F).
+double forecast_remeshed_facets(const Input& input, const RunOptions& options);
+
 /// The input, remeshed where `options` says so, or with a note about slivers. That a CAD file is by default is noted.
 /// Remeshed, its surface, counts, area and volume are the new ones, and Input::remeshed tells what was done. The wanted
 /// lengths are those of options.sizes. `listener`, unless null, is told of the stage "remesh" again and again while it
 /// lasts, with the steps that are done, of nobody knows how many. Throws Error(usage) for a deviation out of range,
-/// Error(input) where the bound cannot be kept, Error(cancelled).
+/// Error(input) where the bound cannot be kept, Error(memory) with the way out for more facets than there is memory
+/// for, before the first of them, Error(cancelled).
 Input remesh_where_asked(Input input, const RunOptions& options, RunListener* listener = nullptr);
 
 }  // namespace kerf

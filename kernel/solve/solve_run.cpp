@@ -14,7 +14,7 @@
 #include "io/run_folder.h"
 #include "io/text_file.h"
 #include "part/run_parts.h"
-#include "run/peak_memory.h"
+#include "run/process_memory.h"
 #include "solve/elastic_problem.h"
 #include "solve/error_sizes.h"
 #include "solve/result_files.h"

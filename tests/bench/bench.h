@@ -42,7 +42,7 @@ inline double memory_bytes(const std::string& label) {
 }
 
 /// From here on, VmHWM is that of what follows.
-inline void forget_peak_memory() {
+inline void forget_process_memory() {
     ::malloc_trim(0);
     std::ofstream("/proc/self/clear_refs") << 5;
 }

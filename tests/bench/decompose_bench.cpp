@@ -27,7 +27,7 @@ struct Sample {
 };
 
 Sample decompose_once(const Surface& surface, std::int32_t parts) {
-    bench::forget_peak_memory();
+    bench::forget_process_memory();
     const double resident = bench::memory_bytes("VmRSS");
     const std::clock_t start = std::clock();
     DecomposeOptions options;

@@ -96,7 +96,7 @@ void fill(const std::string& mesher, const std::string& path, double bound, bool
     MesherOptions options;
     options.name = mesher;
     options.size = SizeField(bound);
-    bench::forget_peak_memory();
+    bench::forget_process_memory();
     const double start = user_seconds();
     const Filling filling = mesh_volume(surface, options);
     const double seconds = user_seconds() - start, bytes = bench::memory_bytes("VmHWM");

@@ -141,6 +141,17 @@ TEST_F(BadInput, SizesBeyondAllBudgets) {
     expect_refused(good_, 5, {"whose files take", "another disk"}, {"-n", "946", "--size", "0.0013"});
 }
 
+// Before the first facet: remeshing for what cannot be filled, or held, would fill the memory first.
+TEST_F(BadInput, SizesBeyondAllBudgetsAreNotRemeshedFor) {
+    for (const std::string size : {"1e-4", "1e-100"}) {
+        expect_refused(good_, 5, {"tetrahedra", "Use --size 0.0", "or larger"},
+                       {"-n", "2", "--size", size, "--surface", "remesh"});
+        expect_message(test::run_kerf({"remesh", good_, "-o", folder_.file("out.stl"), "--size", size}), 5,
+                       {"facets", "there is memory for", "Use --size 0.0", "or larger"});
+    }
+    EXPECT_TRUE(folder_.names().empty());
+}
+
 TEST_F(BadInput, TextThatIsNone) {
     const std::string text =
         "solid a\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\n   vertex 0 1 0\n  endloop\n"

@@ -6,8 +6,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -195,6 +197,25 @@ TEST(FullDisk, EndsTheRunAndSpaceLetsItGoOn) {
     const ChildResult resumed = test::run_kerf({"mesh", "--resume", folder.file("out")});
     EXPECT_EQ(resumed.exit_code, 0) << resumed.log;
     EXPECT_TRUE(test::contents(folder.file("out/parts")) == test::contents(folder.file("whole/parts")));
+}
+
+// Parts are stored in fewer bytes than they are written in: all of them are finished when the first file is too large.
+TEST(FullDisk, IsNoReasonToMeshAgainWhatIsFinished) {
+    const test::TemporaryFolder folder;
+    ASSERT_EQ(test::run_kerf(four_parts(folder.file("whole"))).exit_code, 0);
+    std::uintmax_t smallest = std::numeric_limits<std::uintmax_t>::max();
+    for (const int part : {4, 5, 6, 7})
+        smallest = std::min(smallest,
+                            std::filesystem::file_size(folder.file(fmt::format("whole/parts/part_{:04}.vtu", part))));
+    std::string script = fmt::format("ulimit -f {}; exec '{}'", smallest / 512 * 9 / 10, KERF_PROGRAM);
+    for (const std::string& argument : four_parts(folder.file("out"))) script += " '" + argument + "'";
+    const ChildResult full = test::run_program("/bin/sh", {"-c", script});
+    EXPECT_EQ(full.exit_code, 7) << full.log;
+    EXPECT_NE(full.log.find("All 4 parts are finished; kerf mesh --resume " + folder.file("out") + " writes"),
+              std::string::npos)
+        << full.log;
+    EXPECT_EQ(test::run_kerf({"mesh", "--resume", folder.file("out")}).exit_code, 0);
+    EXPECT_EQ(test::run_kerf({"mesh", "--resume", folder.file("out")}).exit_code, 7) << "nothing waits";
 }
 
 // A file system of its own, where a process may mount one: too small for a mesh of about 13 MB, or by far

@@ -36,15 +36,18 @@ double share_below(const std::vector<double>& ratios, double limit) {
            static_cast<double>(ratios.size());
 }
 
-SurfaceArrays remeshed(const SurfaceArrays& surface, const SizeField& field) {
+RemeshOptions options_for(const SurfaceArrays& surface, const SizeField& field) {
     Eigen::AlignedBox3d box;
     for (const Vec3& p : surface.vertices) box.extend(p);
     const double diagonal = box.diagonal().norm();
-    return remesh(surface, {.deviation = 2e-5 * diagonal,
-                            .longest = 0.2 * diagonal,
-                            .growth = field.growth() > 0 ? field.growth() : 0.4,
-                            .wanted = [&](const Vec3& p) { return field.at(p); }})
-        .surface;
+    return {.deviation = 2e-5 * diagonal,
+            .longest = 0.2 * diagonal,
+            .growth = field.growth() > 0 ? field.growth() : 0.4,
+            .wanted = [&](const Vec3& p) { return field.at(p); }};
+}
+
+SurfaceArrays remeshed(const SurfaceArrays& surface, const SizeField& field) {
+    return remesh(surface, options_for(surface, field)).surface;
 }
 
 struct Case {
@@ -94,9 +97,13 @@ TEST(RemeshedSizes, AreObeyed) {
         SCOPED_TRACE(c.name + " " + std::to_string(c.options.size));
         const SurfaceArrays surface = to_arrays(c.soup);
         const SizeField field = make_size_field(c.options, surface, c.soup.patch_names, c.background);
-        const std::vector<double> ratios = got_over_asked(remeshed(surface, field), field);
+        const SurfaceArrays result = remeshed(surface, field);
+        const std::vector<double> ratios = got_over_asked(result, field);
         EXPECT_GT(share_below(ratios, 1.4) - share_below(ratios, 0.7), 0.9);
         EXPECT_LT(ratios.back(), 1.5);
+        const double share = forecast_facets(surface, options_for(surface, field)) / result.facets.size();
+        EXPECT_GT(share, 0.8);
+        EXPECT_LT(share, 1.2);
     }
 }
 

@@ -1,7 +1,11 @@
-#include "run/peak_memory.h"
+#include "run/process_memory.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+
+#include <sys/resource.h>
+#include <unistd.h>
 
 namespace kerf {
 
@@ -15,6 +19,14 @@ std::int64_t own_peak_rss_bytes() {
         std::fclose(status);
     }
     return kilobytes * 1024;
+}
+
+double most_memory_bytes() {
+    const double pages = static_cast<double>(sysconf(_SC_PHYS_PAGES));
+    const double machine = pages * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+    rlimit limit{};
+    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return machine;
+    return std::min(machine, static_cast<double>(limit.rlim_cur));
 }
 
 }  // namespace kerf
