@@ -121,6 +121,13 @@ CLI::App* add_export_command(CLI::App& app, CommandLine& line) {
                      "Qualities of cells in vtu files, as kerf mesh --help says. Default min-dihedral.")
         ->type_name("LIST")
         ->check(suggest_cell_fields());
+    command->add_flag("--msh-ascii", request.msh_ascii, "Write msh as text instead of binary.");
+    command
+        ->add_option("--patch-type", request.patch_types,
+                     "OpenFOAM's type of a patch: patch (default), wall, symmetry, symmetryPlane. Repeatable.")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->type_name("NAME=TYPE");
     command->add_option("--into", request.into, "Join the parts along the tree into so many pieces.")
         ->type_name("N")
         ->check(CLI::PositiveNumber);
@@ -242,6 +249,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     to_merge->add_option("--msh-version", line.merge.options.msh_version, "Of Gmsh's files: 4.1 or 2.2.")
         ->type_name("V")
         ->check(CLI::IsMember({"4.1", "2.2"}));
+    to_merge->add_flag("--msh-ascii", line.merge.msh_ascii, "Write them as text instead of binary.");
     CLI::App* quality = add_quality_command(app, line.quality);
     CLI::App* to_remesh = add_remesh_command(app, line);
     // Only for the list of commands: main() has passed these on.

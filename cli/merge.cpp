@@ -82,12 +82,16 @@ void move_to(const fs::path& from, const fs::path& place) {
 int merge_run(const MergeRequest& request) {
     const fs::path output = request.output;
     const Format& format = format_of(output);
+    if (request.msh_ascii && &format != &find_format("msh"))
+        throw Error(ErrorCode::usage, fmt::format("--msh-ascii is for files that end with .msh, and --output is {}. "
+                                                  "Drop one.",
+                                                  request.output));
     const fs::path main_place = place_for(output, request.folder);
     if (const auto solution = find_solution_folder(request.folder)) place_for(output, mesh_of_solution(*solution));
     const std::unique_ptr<PartSource> source = open_parts(request.folder);
     const PartSource& parts = *source;
     const FolderBeside beside(main_place);
-    ExportFiles files(beside.path());
+    ExportFiles files(beside.path(), "", {}, {.msh_ascii = request.msh_ascii});
     format.write_merged(parts, request.options, files, output.stem().string());
 
     const std::vector<RunFile> written = files.list();

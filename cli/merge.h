@@ -11,6 +11,7 @@ struct MergeRequest {
     std::string folder;  ///< of the run
     std::string output;  ///< file, whose ending chooses the format
     MergeOptions options;
+    bool msh_ascii = false;  ///< Gmsh's files as text
 };
 
 /// Writes all files of the mesh beside their places and moves them there when they are complete. Refuses places inside

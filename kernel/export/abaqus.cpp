@@ -1,11 +1,12 @@
 // Abaqus input (.inp) as CalculiX reads it, too: nodes, linear tetrahedra, and sets; no materials, no steps. Nodes and
 // elements are numbered from 1.
 //
-// NALL and EALL hold all nodes and elements, PART_1, PART_2, ... the elements of the parts in the order of the tree.
-// For a patch INLET there are the node set INLET, the element-based surface INLET, and the element sets INLET_S1 to
-// INLET_S4 of which it consists: those with the patch at this face. Names are words (export/word_names.h) that differ
-// by more than case. A line is shorter than the 132 characters that old readers see, and a coordinate has no more than
-// the 20 that a reader may look at, so that few of them lose their last digits.
+// NALL and EALL hold all nodes and elements; BODY_1, BODY_2, ... the elements of the bodies (part/bodies.h), which are
+// what materials are for; SUBDOMAIN_1, SUBDOMAIN_2, ... those of the parts in the order of the tree. For a patch INLET
+// there are the node set INLET, the element-based surface INLET, and the element sets INLET_S1 to INLET_S4 of which it
+// consists: those with the patch at this face. Names are words (export/word_names.h) that differ by more than case. A
+// line is shorter than the 132 characters that old readers see, and a coordinate has no more than the 20 that a reader
+// may look at, so that few of them lose their last digits.
 #include <algorithm>
 #include <charconv>
 
@@ -16,6 +17,7 @@
 #include "export/text_rows.h"
 #include "export/whole_mesh.h"
 #include "export/word_names.h"
+#include "part/bodies.h"
 
 namespace kerf {
 
@@ -77,7 +79,7 @@ void write_nodes(const PartSource& parts, ExportFile& file) {
 void write_elements(const PartSource& parts, ExportFile& file) {
     std::int64_t element = 0;
     for_each_part(parts, [&](std::int32_t rank, const Part& part) {
-        file.text(fmt::format("** part {}\n*ELEMENT, TYPE=C3D4, ELSET=PART_{}\n", part.id, rank + 1));
+        file.text(fmt::format("** part {}\n*ELEMENT, TYPE=C3D4, ELSET=SUBDOMAIN_{}\n", part.id, rank + 1));
         for (const Tetrahedron& tet : part.mesh.tets) {
             const auto [a, b, c, d] = global_corners(part, tet);
             write_row(file, {++element, a + 1, b + 1, c + 1, d + 1}, ",");
@@ -86,6 +88,12 @@ void write_elements(const PartSource& parts, ExportFile& file) {
     file.text(fmt::format("*ELSET, ELSET=EALL, GENERATE\n1,{},1\n", element));
 }
 
+// An element of a body: for_each_by_patch() takes what has such a number.
+struct BodyElement {
+    std::int32_t patch;
+    std::int64_t element;
+};
+
 void write_list(ExportFile& file, std::span<const std::int64_t> labels) {
     constexpr std::size_t in_a_line = 12;
     for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -93,6 +101,27 @@ void write_list(ExportFile& file, std::span<const std::int64_t> labels) {
         file.number(labels[i]);
     }
     file.text("\n");
+}
+
+void write_body_sets(const PartSource& parts, ExportFile& file) {
+    const Bodies& bodies = parts.bodies();
+    if (bodies.count() == 1)
+        return file.text(fmt::format("*ELSET, ELSET=BODY_1, GENERATE\n1,{},1\n", parts.outline().tets()));
+    const auto visit = [&](const auto& add) {
+        for_each_part(parts, [&](std::int32_t rank, const Part& part) {
+            std::int64_t element = parts.outline().first_tet(rank);
+            for (const std::int32_t body : bodies.of_tets(rank, part)) add({body, ++element});
+        });
+    };
+    std::int32_t current = -1;
+    std::vector<std::int64_t> elements;
+    for_each_by_patch<BodyElement>(bodies.sizes(), visit, [&](std::int32_t body, std::span<const BodyElement> of_body) {
+        if (body != current) file.text(fmt::format("*ELSET, ELSET=BODY_{}\n", body + 1));
+        current = body;
+        elements.clear();
+        for (const BodyElement& each : of_body) elements.push_back(each.element);
+        write_list(file, elements);
+    });
 }
 
 // The nodes of each patch, each once, ascending in each piece of a large patch.
@@ -171,6 +200,7 @@ void write_merged(const PartSource& parts, const MergeOptions&, ExportFiles& fil
     ExportFile file = files.create(stem + ".inp");
     write_nodes(parts, file);
     write_elements(parts, file);
+    write_body_sets(parts, file);
     write_node_sets(parts, names, file);
     write_surfaces(parts, names, file);
     file.close();

@@ -11,11 +11,19 @@
 #include <vector>
 
 #include "core/types.h"
+#include "export/patch_types.h"
 #include "io/checked_file.h"
 #include "io/run_manifest.h"
 #include "part/vtu_writer.h"
 
 namespace kerf {
+
+/// What formats are asked for beside the mesh. Each looks for what concerns it.
+struct FormatOptions {
+    CellFieldSet fields = VtuLayout().fields;  ///< what vtu says of cells
+    bool msh_ascii = false;                    ///< msh as text
+    std::vector<PatchType> patch_types = {};   ///< of openfoam; other patches are of the type `patch`
+};
 
 class ExportFiles;
 
@@ -62,17 +70,17 @@ class ExportFile {
 class ExportFiles {
  public:
     /// `place`: the folder to which the files are moved when all are complete; `folder` itself if empty. `own`: names
-    /// of files there that an earlier export has written. `fields`: what the format vtu says of cells.
+    /// of files there that an earlier export has written.
     explicit ExportFiles(std::string folder, std::string place = "", std::set<std::string> own = {},
-                         CellFieldSet fields = VtuLayout().fields)
+                         FormatOptions options = {})
         : folder_(std::move(folder)),
           place_(place.empty() ? folder_ : std::move(place)),
           own_(std::move(own)),
-          fields_(fields) {}
+          options_(std::move(options)) {}
 
     const std::string& folder() const { return folder_; }
     const std::string& place() const { return place_; }
-    CellFieldSet fields() const { return fields_; }
+    const FormatOptions& options() const { return options_; }
     /// Whether a file of this name lies at the place, or a folder, in which nothing was written by an earlier export.
     bool is_of_others(const std::string& name) const;
     /// A file of this name below the folder, which may have '/' in it: folders are made. What was there is replaced.
@@ -90,7 +98,7 @@ class ExportFiles {
  private:
     std::string folder_, place_;
     std::set<std::string> own_;
-    CellFieldSet fields_;
+    FormatOptions options_;
     mutable std::mutex mutex_;
     std::vector<RunFile> files_;
 };

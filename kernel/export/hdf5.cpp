@@ -1,6 +1,8 @@
 // One HDF5 file with the mesh twice: as VTKHDF 1.0 has it, a piece a part with the numbers of the part, and as one mesh
 // by global numbers, at the places where PETSc's DMPlex looks for it and as an XDMF file describes it to DOLFINx and
-// ParaView. The file is made with all its arrays; then parts write their rows, in any order and from any process.
+// ParaView. viz/body and viz/patch, which solvers take for tags of cells and facets, count from 1, as in all formats of
+// solvers; VTKHDF's Patch is the array of that name in VTU files, a place among the names from 0. The file is made with
+// all its arrays; then parts write their rows, in any order and from any process.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,6 +14,7 @@
 #include "export/hdf5_file.h"
 #include "export/whole_mesh.h"
 #include "io/vtk_cell_types.h"
+#include "part/bodies.h"
 
 namespace kerf {
 
@@ -83,6 +86,7 @@ std::vector<Hdf5Array> arrays_of(const MeshOutline& outline) {
         {"geometry/vertices", Hdf5Type::real, outline.vertices, 3},
         {"viz/topology/cells", id_type(outline), tets, 4},
         {"viz/topology/facets", id_type(outline), facets, 3},
+        {"viz/body", Hdf5Type::int32, tets},
         {"viz/part", Hdf5Type::int32, tets},
         {"viz/patch", Hdf5Type::int32, facets},
     };
@@ -143,12 +147,13 @@ void for_each_patch_facet(const Part& part, Take take) {
 // The rows of one part in all arrays.
 class Hdf5Piece {
  public:
-    Hdf5Piece(const Hdf5Bytes& file, const MeshOutline& outline, std::int32_t rank, const Part& part)
+    Hdf5Piece(const Hdf5Bytes& file, const PartSource& parts, std::int32_t rank, const Part& part)
         : file_(file),
-          outline_(outline),
+          parts_(parts),
+          outline_(parts.outline()),
           rank_(rank),
           part_(part),
-          own_(rows_before(outline, static_cast<std::size_t>(rank))) {}
+          own_(rows_before(outline_, static_cast<std::size_t>(rank))) {}
 
     void write() const {
         write_piece_points();
@@ -278,15 +283,19 @@ class Hdf5Piece {
     }
 
     void write_tags() const {
+        Hdf5Rows<std::int32_t> body(file_, "viz/body", outline_.first_tet(rank_));
         Hdf5Rows<std::int32_t> part(file_, "viz/part", outline_.first_tet(rank_));
         Hdf5Rows<std::int32_t> patch(file_, "viz/patch", outline_.first_patch_facet(rank_));
+        for (const std::int32_t of_tet : parts_.bodies().of_tets(rank_, part_)) body.put(of_tet + 1);
         for (std::int64_t tet = 0; tet < part_.tet_count(); ++tet) part.put(part_.id);
-        for_each_patch_facet(part_, [&](std::size_t f) { patch.put(part_.patch[f]); });
+        for_each_patch_facet(part_, [&](std::size_t f) { patch.put(part_.patch[f] + 1); });
+        body.flush();
         part.flush();
         patch.flush();
     }
 
     const Hdf5Bytes& file_;
+    const PartSource& parts_;
     const MeshOutline& outline_;
     std::int32_t rank_;
     const Part& part_;
@@ -301,13 +310,15 @@ class XdmfText {
     std::string text() const {
         std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n";
         for (std::size_t patch = 0; patch < outline_.patch_names.size(); ++patch)
-            text += fmt::format("    <Information Name=\"patch {}\" Value=\"{}\"/>\n", patch,
+            text += fmt::format("    <Information Name=\"patch {}\" Value=\"{}\"/>\n", patch + 1,
                                 xml_text(outline_.patch_names[patch]));
         std::string values;
         for (const PartValues& each : outline_.values)
             values += attribute(array_name(each), each.components, each.of == PartValues::Of::points ? "Node" : "Cell",
                                 whole_array_of(each));
-        text += grid("mesh", "Tetrahedron", 4, "viz/topology/cells", attribute("part", 1, "Cell", "viz/part") + values);
+        // DOLFINx takes the first attribute for the tags.
+        const std::string tags = attribute("body", 1, "Cell", "viz/body") + attribute("part", 1, "Cell", "viz/part");
+        text += grid("mesh", "Tetrahedron", 4, "viz/topology/cells", tags + values);
         text += grid("facets", "Triangle", 3, "viz/topology/facets", attribute("patch", 1, "Cell", "viz/patch"));
         return text + "  </Domain>\n</Xdmf>\n";
     }
@@ -364,10 +375,10 @@ void make_xdmf(const MeshOutline& outline, ExportFiles& files, const std::string
     file.close();
 }
 
-void write_hdf5_rows(const MeshOutline& outline, std::int32_t rank, const Part& part, ExportFiles& files,
+void write_hdf5_rows(const PartSource& parts, std::int32_t rank, const Part& part, ExportFiles& files,
                      const std::string& stem) {
-    Hdf5Bytes file(files.path_of(stem + ".h5"), arrays_of(outline));
-    Hdf5Piece(file, outline, rank, part).write();
+    Hdf5Bytes file(files.path_of(stem + ".h5"), arrays_of(parts.outline()));
+    Hdf5Piece(file, parts, rank, part).write();
     file.close();
     files.add(stem + ".h5");
 }
@@ -378,14 +389,14 @@ void write_hdf5_whole(const PartSource& parts, ExportFiles& files) {
 }
 
 void write_hdf5_part(const PartSource& parts, std::int32_t rank, const Part& part, ExportFiles& files) {
-    write_hdf5_rows(parts.outline(), rank, part, files, "mesh");
+    write_hdf5_rows(parts, rank, part, files, "mesh");
 }
 
 void write_hdf5_merged(const PartSource& parts, const MergeOptions&, ExportFiles& files, const std::string& stem) {
     make_hdf5(parts.outline(), files, stem);
     make_xdmf(parts.outline(), files, stem);
-    for_each_whole_part(
-        parts, [&](std::int32_t rank, const Part& part) { write_hdf5_rows(parts.outline(), rank, part, files, stem); });
+    for_each_whole_part(parts,
+                        [&](std::int32_t rank, const Part& part) { write_hdf5_rows(parts, rank, part, files, stem); });
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
 // The text format of Medit (.mesh, version 2: numbers of 32 bits, coordinates as doubles), which MMG, ParMmg, FreeFEM
-// and gmsh read. References count from 1: that of a tetrahedron is the place of its part in the tree, that of a
-// triangle its patch; comments say what they mean.
+// and gmsh read. References count from 1: that of a tetrahedron is its body (part/bodies.h), which programs take for
+// its material, that of a triangle its patch, whose names are comments. Which part a tetrahedron is of is not said.
 #include <fmt/format.h>
 
 #include "export/format.h"
 #include "export/text_rows.h"
 #include "export/whole_mesh.h"
 #include "export/word_names.h"
+#include "part/bodies.h"
 
 namespace kerf {
 
@@ -14,8 +15,6 @@ namespace medit {
 
 void write_head(const MeshOutline& outline, ExportFile& file) {
     file.text("MeshVersionFormatted 2\nDimension 3\n");
-    for (std::size_t rank = 0; rank < outline.parts.size(); ++rank)
-        file.text(fmt::format("# reference {} of tetrahedra: part {}\n", rank + 1, outline.parts[rank].id));
     for (std::size_t patch = 0; patch < outline.patch_names.size(); ++patch)
         file.text(
             fmt::format("# reference {} of triangles: {}\n", patch + 1, comment_text(outline.patch_names[patch])));
@@ -34,9 +33,10 @@ void write_vertices(const PartSource& parts, ExportFile& file) {
 void write_tetrahedra(const PartSource& parts, ExportFile& file) {
     file.text(fmt::format("Tetrahedra\n{}\n", parts.outline().tets()));
     for_each_part(parts, [&](std::int32_t rank, const Part& part) {
-        for (const Tetrahedron& tet : part.mesh.tets) {
-            const auto [a, b, c, d] = global_corners(part, tet);
-            write_row(file, {a + 1, b + 1, c + 1, d + 1, rank + 1});
+        const std::vector<std::int32_t> bodies = parts.bodies().of_tets(rank, part);
+        for (std::size_t t = 0; t < bodies.size(); ++t) {
+            const auto [a, b, c, d] = global_corners(part, part.mesh.tets[t]);
+            write_row(file, {a + 1, b + 1, c + 1, d + 1, bodies[t] + 1});
         }
     });
 }

@@ -1,8 +1,9 @@
 // MFEM's parallel mesh, "MFEM mesh v1.2": a file a rank, as its class ParMesh prints and reads it. A rank lists the
 // groups of ranks that it shares vertices, edges or faces with, itself alone as the first. All ranks of a group list
 // its entities in the same order, and name the corners of an edge or face in the same order, too: MFEM orients the
-// unknowns of edges and faces by that. Here all are in the order of global numbers. Names of attributes are comments,
-// because only version 1.3 of the format has them, which older releases of MFEM refuse.
+// unknowns of edges and faces by that. Here all are in the order of global numbers. The attribute of a tetrahedron is
+// its body (part/bodies.h), that of a triangle its patch, both from 1. Names of attributes are comments, because only
+// version 1.3 of the format has them, which older releases of MFEM refuse.
 #include <algorithm>
 #include <map>
 
@@ -10,6 +11,7 @@
 
 #include "export/format.h"
 #include "export/whole_mesh.h"
+#include "part/bodies.h"
 
 namespace kerf {
 
@@ -26,8 +28,12 @@ struct MfemGroup {
 
 class MfemFile {
  public:
-    MfemFile(const MeshOutline& outline, std::int32_t rank, const Part& part, ExportFiles& files)
-        : outline_(outline), rank_(rank), part_(part), file_(files.create(fmt::format("mesh.{:06}", rank))) {}
+    MfemFile(const PartSource& parts, std::int32_t rank, const Part& part, ExportFiles& files)
+        : parts_(parts),
+          outline_(parts.outline()),
+          rank_(rank),
+          part_(part),
+          file_(files.create(fmt::format("mesh.{:06}", rank))) {}
 
     void write() {
         file_.text("MFEM mesh v1.2\n\ndimension\n3\n");
@@ -54,10 +60,12 @@ class MfemFile {
 
     void write_cells() {
         file_.text(fmt::format("\nelements\n{}\n", part_.mesh.tets.size()));
-        const std::string tetrahedron = fmt::format("1 {} ", mfem_tetrahedron);
-        for (const Tetrahedron& tet : part_.mesh.tets) {
+        const std::string tetrahedron = fmt::format(" {} ", mfem_tetrahedron);
+        const std::vector<std::int32_t> bodies = parts_.bodies().of_tets(rank_, part_);
+        for (std::size_t t = 0; t < bodies.size(); ++t) {
+            file_.number(std::int64_t{bodies[t]} + 1);
             file_.text(tetrahedron);
-            write_numbers(tet);
+            write_numbers(part_.mesh.tets[t]);
         }
         file_.text("\n");
         write_names();
@@ -144,6 +152,7 @@ class MfemFile {
         }
     }
 
+    const PartSource& parts_;
     const MeshOutline& outline_;
     std::int32_t rank_;
     const Part& part_;
@@ -152,7 +161,7 @@ class MfemFile {
 };
 
 void write_mfem_part(const PartSource& parts, std::int32_t rank, const Part& part, ExportFiles& files) {
-    MfemFile(parts.outline(), rank, part, files).write();
+    MfemFile(parts, rank, part, files).write();
 }
 
 }  // namespace

@@ -51,6 +51,7 @@ WordRules word_rules() {
 // Faces of one patch of a processor.
 struct Patch {
     std::string name, comment;
+    std::string type = "processor";
     std::int64_t start = 0, faces = 0;
     std::int32_t other = -1;  // processor on the other side, -1 for patches of the surface
 };
@@ -108,11 +109,12 @@ Triangle starting_at_smallest_id(Triangle triangle, const Part& part) {
     return triangle;
 }
 
-std::vector<Patch> patches_of_surface(const std::vector<std::string>& names) {
+std::vector<Patch> patches_of_surface(const std::vector<std::string>& names, std::span<const PatchType> types) {
     const std::vector<std::string> words = word_names(names, word_rules());
     std::vector<Patch> patches(names.size());
     for (std::size_t p = 0; p < names.size(); ++p) {
         patches[p].name = words[p];
+        patches[p].type = type_of_patch(types, names[p]);
         if (words[p] != names[p]) patches[p].comment = fmt::format("    // {}\n", comment_text(names[p]));
     }
     return patches;
@@ -125,9 +127,10 @@ Patch between(std::int32_t rank, std::int32_t other) {
     return patch;
 }
 
-Boundary boundary_faces_of(const Part& part, const MeshOutline& outline, std::int32_t rank) {
+Boundary boundary_faces_of(const Part& part, const MeshOutline& outline, std::int32_t rank,
+                           std::span<const PatchType> types) {
     Boundary boundary;
-    boundary.patches = patches_of_surface(part.patch_names);
+    boundary.patches = patches_of_surface(part.patch_names, types);
     const auto of_surface = static_cast<std::int32_t>(part.patch_names.size());
     for (const PlacedFacet& placed : place_facets(part, outline)) {
         const auto f = static_cast<std::size_t>(placed.facet);
@@ -243,8 +246,9 @@ void write_boundary(const std::vector<Patch>& patches, std::int32_t rank, Export
     file.text(fmt::format("{}\n(\n", patches.size()));
     for (const Patch& patch : patches) {
         const bool is_between = patch.other >= 0;
-        file.text(fmt::format("{}    {}\n    {{\n        type            {};\n", patch.comment, patch.name,
-                              is_between ? "processor" : "patch"));
+        file.text(
+            fmt::format("{}    {}\n    {{\n        type            {};\n", patch.comment, patch.name, patch.type));
+        if (patch.type == "wall") file.text("        inGroups        1(wall);\n");
         file.text(fmt::format("        nFaces          {};\n        startFace       {};\n", patch.faces, patch.start));
         if (is_between)
             file.text(fmt::format("        myProcNo        {};\n        neighbProcNo    {};\n", rank, patch.other));
@@ -259,7 +263,7 @@ void write_part(const PartSource& parts, std::int32_t rank, const Part& part, Ex
     KERF_CHECK(part.tet_at_facet.size() == part.facets.size());
     const MeshOutline& outline = parts.outline();
     const std::string folder = mesh_folder(outline.parts.size(), rank);
-    const Boundary boundary = boundary_faces_of(part, outline, rank);
+    const Boundary boundary = boundary_faces_of(part, outline, rank, files.options().patch_types);
     write_points(part, files, folder);
     write_faces(part, boundary, files, folder);
     write_boundary(boundary.patches, rank, files, folder);
@@ -300,18 +304,30 @@ void write_dictionary(ExportFiles& files, const std::string& object, std::string
     file.close();
 }
 
+// Second order, and enough for potentialFoam as it is.
+constexpr std::string_view schemes =
+    "ddtSchemes\n{\n    default         steadyState;\n}\n"
+    "gradSchemes\n{\n    default         Gauss linear;\n}\n"
+    "divSchemes\n{\n    default         none;\n    div(phi,U)      bounded Gauss linear;\n"
+    "    div(div(phi,U)) Gauss linear;\n}\n"
+    "laplacianSchemes\n{\n    default         Gauss linear corrected;\n}\n"
+    "interpolationSchemes\n{\n    default         linear;\n}\n"
+    "snGradSchemes\n{\n    default         corrected;\n}\n";
+constexpr std::string_view solution =
+    "solvers\n{\n    \"(Phi|p)\"\n    {\n        solver          PCG;\n        preconditioner  DIC;\n"
+    "        tolerance       1e-08;\n        relTol          0.01;\n    }\n}\n"
+    "potentialFlow\n{\n    nNonOrthogonalCorrectors 10;\n}\n";
+
 void write_whole(const PartSource& parts, ExportFiles& files) {
     const MeshOutline& outline = parts.outline();
+    require_patches(files.options().patch_types, outline.patch_names);
     require_labels(outline);
     require_no_more_processors(outline, files);
     write_dictionary(files, "controlDict",
-                     "startTime       0;\nendTime         0;\ndeltaT          1;\nwriteInterval   1;\n"
+                     "startTime       0;\nendTime         1;\ndeltaT          1;\nwriteInterval   1;\n"
                      "writeFormat     binary;\n");
-    write_dictionary(files, "fvSchemes",
-                     "gradSchemes\n{\n    default         Gauss linear;\n}\n"
-                     "divSchemes\n{\n    default         none;\n}\n"
-                     "laplacianSchemes\n{\n    default         Gauss linear corrected;\n}\n");
-    write_dictionary(files, "fvSolution", "");
+    write_dictionary(files, "fvSchemes", schemes);
+    write_dictionary(files, "fvSolution", solution);
     if (outline.parts.size() > 1)
         write_dictionary(files, "decomposeParDict",
                          fmt::format("numberOfSubdomains {};\nmethod          scotch;\n", outline.parts.size()));

@@ -1,11 +1,12 @@
-// The files of TetGen (.node, .ele, .face), numbered from 0. The attribute of a tetrahedron is the place of its part in
-// the tree, from 1; the boundary marker of a face its patch, from 1; faces between parts are not among them.
+// The files of TetGen (.node, .ele, .face), numbered from 0. The attribute of a tetrahedron is its body
+// (part/bodies.h), from 1; the boundary marker of a face its patch, from 1; faces between parts are not among them.
 #include <fmt/format.h>
 
 #include "export/format.h"
 #include "export/text_rows.h"
 #include "export/whole_mesh.h"
 #include "export/word_names.h"
+#include "part/bodies.h"
 
 namespace kerf {
 
@@ -25,15 +26,13 @@ void write_nodes(const PartSource& parts, ExportFile file) {
 }
 
 void write_elements(const PartSource& parts, ExportFile file) {
-    const MeshOutline& outline = parts.outline();
-    for (std::size_t rank = 0; rank < outline.parts.size(); ++rank)
-        file.text(fmt::format("# attribute {}: part {}\n", rank + 1, outline.parts[rank].id));
-    file.text(fmt::format("{} 4 1\n", outline.tets()));
+    file.text(fmt::format("{} 4 1\n", parts.outline().tets()));
     std::int64_t number = 0;
     for_each_part(parts, [&](std::int32_t rank, const Part& part) {
-        for (const Tetrahedron& tet : part.mesh.tets) {
-            const auto [a, b, c, d] = global_corners(part, tet);
-            write_row(file, {number++, a, b, c, d, rank + 1});
+        const std::vector<std::int32_t> bodies = parts.bodies().of_tets(rank, part);
+        for (std::size_t t = 0; t < bodies.size(); ++t) {
+            const auto [a, b, c, d] = global_corners(part, part.mesh.tets[t]);
+            write_row(file, {number++, a, b, c, d, bodies[t] + 1});
         }
     });
     file.close();

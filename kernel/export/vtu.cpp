@@ -24,13 +24,13 @@ void write_joining_file(const PartSource& parts, ExportFiles& files) {
     std::vector<std::string> pieces;
     for (const PartExtent& part : parts.outline().parts) pieces.push_back(file_of_part(part.id));
     ExportFile file = files.create("mesh.pvtu");
-    file.text(pvtu_text(pieces, layout_for(parts.outline(), files.fields()), parts.outline().values));
+    file.text(pvtu_text(pieces, layout_for(parts.outline(), files.options().fields), parts.outline().values));
     file.close();
 }
 
 void write_piece(const PartSource& parts, std::int32_t, const Part& part, ExportFiles& files) {
     const std::string name = file_of_part(part.id), path = files.path_of(name);
-    const FileHash hash = write_part(path, part, layout_for(parts.outline(), files.fields()), part.values);
+    const FileHash hash = write_part(path, part, layout_for(parts.outline(), files.options().fields), part.values);
     files.add({name, static_cast<std::int64_t>(std::filesystem::file_size(path)), hash_text(hash)});
 }
 

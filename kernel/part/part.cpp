@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "part/bodies.h"
 
 namespace kerf {
 
@@ -55,5 +56,14 @@ std::int64_t MeshOutline::first_patch_facet(std::int32_t rank) const {
 }
 
 std::int64_t MeshOutline::patch_facets() const { return first_patch_facet(static_cast<std::int32_t>(parts.size())); }
+
+PartSource::PartSource() = default;
+PartSource::~PartSource() = default;
+
+const Bodies& PartSource::bodies() const {
+    const std::lock_guard lock(finding_bodies_);
+    if (!bodies_) bodies_ = std::make_unique<const Bodies>(*this);
+    return *bodies_;
+}
 
 }  // namespace kerf

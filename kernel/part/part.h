@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <variant>
 #include <vector>
@@ -112,10 +114,15 @@ enum class PartContent {
     vertices,  ///< mesh.vertices and global numbers: 6 bytes a tetrahedron
 };
 
+class Bodies;
+
 /// Parts of one mesh that can be had one at a time.
 class PartSource {
  public:
-    virtual ~PartSource() = default;
+    PartSource();
+    virtual ~PartSource();
+    PartSource(const PartSource&) = delete;
+    PartSource& operator=(const PartSource&) = delete;
     virtual const MeshOutline& outline() const = 0;
     /// The part of this rank; the face neighbours of its mesh are for who asks to find them (mesh/adjacency.h). From
     /// any thread. Throws Error(io).
@@ -123,6 +130,13 @@ class PartSource {
     /// The part without what is not asked for, where that spares time or memory; Part::shared and the neighbours of
     /// tetrahedra are asked for by PartContent::all alone. As load().
     virtual Part load_only(std::int32_t rank, PartContent) const { return load(rank); }
+    /// Which bodies the parts belong to (part/bodies.h): found when they are first asked for. From any thread. Throws
+    /// Error(io).
+    const Bodies& bodies() const;
+
+ private:
+    mutable std::mutex finding_bodies_;
+    mutable std::unique_ptr<const Bodies> bodies_;
 };
 
 }  // namespace kerf

@@ -134,6 +134,18 @@ std::vector<FormatPlace> places_of(const ExportRequest& request, const std::vect
     return places;
 }
 
+// Throws Error(usage) for what none of the formats would obey.
+FormatOptions options_of(const ExportRequest& request, const std::vector<const Format*>& formats) {
+    const auto require = [&](bool is_asked, const char* option, const char* format) {
+        if (is_asked && std::find(formats.begin(), formats.end(), &find_format(format)) == formats.end())
+            throw Error(ErrorCode::usage,
+                        fmt::format("{} is for the format {}, which --format does not name.", option, format));
+    };
+    require(request.msh_ascii, "--msh-ascii", "msh");
+    require(!request.patch_types.empty(), "--patch-type", "openfoam");
+    return {parse_cell_fields(request.fields), request.msh_ascii, parse_patch_types(request.patch_types)};
+}
+
 void check_request(const ExportRequest& request) {
     if (request.output.empty() && request.into > 0)
         throw Error(ErrorCode::usage,
@@ -151,14 +163,16 @@ void check_request(const ExportRequest& request) {
 ExportSummary export_run(const ExportRequest& asked, Communicator& ranks, RunListener* listener) {
     ExportRequest request = asked;
     std::vector<FormatPlace> places;
+    FormatOptions options;
     std::unique_ptr<PartSource> parts;
     std::unique_ptr<JoinedParts> joined;
     std::unique_ptr<Target> target;  // on the root rank
     const std::string staging = in_agreement(ranks, [&] {
         request.folder = find_solution_folder(asked.folder).value_or(asked.folder);
-        places = places_of(request, parse_formats(request.formats));
+        const std::vector<const Format*> formats = parse_formats(request.formats);
+        places = places_of(request, formats);
         check_request(request);
-        parse_cell_fields(request.fields);
+        options = options_of(request, formats);
         parts = open_parts(request.folder);
         if (request.into != 0) joined = std::make_unique<JoinedParts>(*parts, request.into);
         if (ranks.rank() != 0) return std::string();
@@ -176,8 +190,7 @@ ExportSummary export_run(const ExportRequest& asked, Communicator& ranks, RunLis
                           source.outline().vertices,
                           source.outline().tets()};
     // What belongs to no part is written by the root rank, which alone asks for files of others.
-    const WriteTarget to{shared_staging, folder, target ? target->own() : std::set<std::string>(),
-                         parse_cell_fields(request.fields)};
+    const WriteTarget to{shared_staging, folder, target ? target->own() : std::set<std::string>(), options};
     summary.files = write_parts(ranks, source, places, to, request.threads, listener);
     in_agreement(ranks, [&] {
         if (target) target->take(summary.files, request.output.empty());

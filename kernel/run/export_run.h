@@ -10,12 +10,14 @@
 namespace kerf {
 
 struct ExportRequest {
-    std::string folder;     ///< of the run, or of a solution on one, whose values go into formats that hold any
-    std::string formats;    ///< names with commas between
-    std::string output;     ///< folder for them; empty: export/NAME in that of the run
-    std::int32_t into = 0;  ///< pieces into which the parts are joined; 0: as they are
-    std::string fields;     ///< of cells in vtu files (parse_cell_fields())
-    int threads = 1;        ///< of each rank
+    std::string folder;      ///< of the run, or of a solution on one, whose values go into formats that hold any
+    std::string formats;     ///< names with commas between
+    std::string output;      ///< folder for them; empty: export/NAME in that of the run
+    std::int32_t into = 0;   ///< pieces into which the parts are joined; 0: as they are
+    std::string fields;      ///< of cells in vtu files (parse_cell_fields())
+    bool msh_ascii = false;  ///< msh as text
+    std::vector<std::string> patch_types;  ///< of parse_patch_types(), for openfoam
+    int threads = 1;                       ///< of each rank
 };
 
 /// What an export has written.

@@ -124,6 +124,7 @@ void RunOptions::resolve(int cores_of_rank) {
     parse_formats(formats);
     if (fields.empty()) fields = "min-dihedral";
     parse_cell_fields(fields);
+    parse_patch_types(patch_types);
     check_files();
     sizes.max_volume = sizes.constant_max_volume();
     if (!sizes.field_file.empty()) sizes.field_file = std::filesystem::absolute(sizes.field_file).string();
@@ -304,6 +305,9 @@ std::vector<OptionField> option_fields(RunOptions& o) {
          "Qualities of each cell in vtu files, with commas between: min-dihedral, max-dihedral, radius-edge, aspect, "
          "shape; or all, or none. Default min-dihedral.",
          &o.fields, false},
+        {"patch-type", "", option_group::output, "NAME=TYPE",
+         "OpenFOAM's type of a patch: patch (default), wall, symmetry, symmetryPlane. Repeatable.", &o.patch_types,
+         false},
         {"reference", "", option_group::output, "",
          "Mesh the whole in one piece, too, and compare: comparison.svg, and a table with -v.", &o.reference, false},
         {"stl", "", option_group::output, "", "Write the closed surface of every part as binary STL, too.", &o.stl,

@@ -330,7 +330,9 @@ void Run::write_formats() {
     const bool is_whole = parts.outline().is_whole;
     const bool stores_go =
         is_whole && std::all_of(formats.begin(), formats.end(), [](const Format* f) { return f->asks_for_one_part; });
-    const WriteTarget target{.folder = folder_->partial_path(), .fields = parse_cell_fields(report_.options.fields)};
+    const FormatOptions options{.fields = parse_cell_fields(report_.options.fields),
+                                .patch_types = parse_patch_types(report_.options.patch_types)};
+    const WriteTarget target{.folder = folder_->partial_path(), .options = options};
     report_.files = write_parts(ranks_, parts, places_in_run_folder(formats), target, report_.options.workers,
                                 listener_, [&](std::int32_t rank) {
                                     if (stores_go) parts.remove(rank);
@@ -392,6 +394,7 @@ RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input&
     in_agreement(ranks, [&] {
         input = remesh_where_asked(std::move(input), options, listener);
         use_sizes_on(input, options);
+        require_patches(parse_patch_types(options.patch_types), input.patch_names);
         if (ranks.rank() != 0) return;
         const double volume = sized_volume_of(input, options);
         options.decompose.parts = part_count(input, options, volume, ranks.size());

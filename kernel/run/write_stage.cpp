@@ -41,7 +41,7 @@ std::vector<FormatFiles> open_formats(std::span<const FormatPlace> formats, cons
     for (const auto& [format, sub_folder] : formats) {
         const std::string place = target.place.empty() ? "" : below(target.place, sub_folder);
         opened.push_back({format, std::make_unique<ExportFiles>(below(target.folder, sub_folder), place,
-                                                                names_below(target.own, sub_folder), target.fields)});
+                                                                names_below(target.own, sub_folder), target.options)});
     }
     return opened;
 }

@@ -27,7 +27,7 @@ struct WriteTarget {
     std::string folder;
     std::string place = "";
     std::set<std::string> own = {};
-    CellFieldSet fields = VtuLayout().fields;
+    FormatOptions options = {};
 };
 
 /// Told of each part that is written in all formats, by its rank in the outline: nobody loads it again, if its formats

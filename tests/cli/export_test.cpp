@@ -104,6 +104,12 @@ TEST_F(Export, SaysWhatIsWrong) {
     expect(export_to("out", "su2", {"--into", "6"}), 2, "1 to 5");
     expect(export_to("", "su2", {"--into", "2"}), 2, "--output");
     expect(export_to("run/export", "su2"), 2, "lies in the run");
+    expect(export_to("out", "su2", {"--msh-ascii"}), 2, "--msh-ascii is for the format msh");
+    expect(export_to("out", "su2", {"--patch-type", "all=wall"}), 2, "--patch-type is for the format openfoam");
+    expect(export_to("out", "openfoam", {"--patch-type", "none=wall"}), 2, "no such patch. It has ");
+    expect(test::run_kerf({"merge", run_, "-o", folder_.file("a.su2"), "--msh-ascii"}), 2, "end with .msh");
+    expect(test::run_kerf({"mesh", test::asset_path("cube"), "-o", folder_.file("out"), "--patch-type", "none=wall"}),
+           2, "no such patch. It has ");
     expect(test::run_kerf({"export", folder_.file("none"), "--format", "su2"}), 7, "is not a finished run");
     expect(test::run_kerf({"mesh", test::asset_path("cube"), "-o", folder_.file("out"), "--format", "obj"}), 2,
            "'obj' is no format");

@@ -28,6 +28,7 @@ struct MergedMesh {
     std::vector<Vec3> points;
     std::vector<GlobalTet> tets;
     std::vector<std::int64_t> part;  ///< #T; as the file numbers them; empty: the format says nothing
+    std::vector<std::int64_t> body;  ///< #T; from 1; empty: the format says nothing
     std::vector<GlobalTriangle> triangles;
     std::vector<std::string> patch;                       ///< #F; its name or number in the file
     std::map<std::string, std::set<std::int64_t>> nodes;  ///< of each patch; empty: the format says nothing
@@ -80,7 +81,7 @@ inline MergedMesh read_medit(const std::string& path) {
         }
         for (std::int64_t i = 0; i < count && word == "Tetrahedra"; ++i) {
             mesh.tets.push_back(read_corners<4>(text, 1));
-            mesh.part.push_back(read_number<std::int64_t>(text));
+            mesh.body.push_back(read_number<std::int64_t>(text));
         }
         for (std::int64_t i = 0; i < count && word == "Triangles"; ++i) {
             mesh.triangles.push_back(read_corners<3>(text, 1));
@@ -108,7 +109,7 @@ inline MergedMesh read_tetgen(const std::string& path) {
     for (std::int64_t i = 0; i < element_count; ++i) {
         EXPECT_EQ(read_number<std::int64_t>(elements), i);
         mesh.tets.push_back(read_corners<4>(elements, 0));
-        mesh.part.push_back(read_number<std::int64_t>(elements));
+        mesh.body.push_back(read_number<std::int64_t>(elements));
     }
     const auto face_count = read_number<std::int64_t>(faces);
     EXPECT_EQ(read_number<int>(faces), 1) << "markers";
@@ -180,6 +181,7 @@ class AbaqusReader {
         for (const auto& [name, faces] : surfaces_) add_surface(name, faces);
         EXPECT_EQ(node_sets_.at("NALL").size(), mesh_.points.size());
         EXPECT_EQ(element_sets_.at("EALL").size(), mesh_.tets.size());
+        read_bodies();
         mesh_.nodes = node_sets_;
         mesh_.nodes.erase("NALL");
     }
@@ -248,11 +250,21 @@ class AbaqusReader {
     void read_element(const Fields& fields) {
         EXPECT_EQ(std::stoull(fields.at(0)), mesh_.tets.size() + 1);
         const std::string set = parameter("ELSET");
-        EXPECT_TRUE(set.starts_with("PART_")) << set;
-        mesh_.part.push_back(std::stoll(set.substr(5)));
+        EXPECT_TRUE(set.starts_with("SUBDOMAIN_")) << set;
+        mesh_.part.push_back(std::stoll(set.substr(10)));
         GlobalTet tet;
         for (std::size_t i = 0; i < 4; ++i) tet[i] = std::stoll(fields.at(i + 1)) - 1;
         mesh_.tets.push_back(tet);
+    }
+    // Every element is in one of BODY_1, BODY_2, ...
+    void read_bodies() {
+        mesh_.body.assign(mesh_.tets.size(), 0);
+        for (std::int64_t body = 1; element_sets_.contains("BODY_" + std::to_string(body)); ++body)
+            for (const std::int64_t element : element_sets_.at("BODY_" + std::to_string(body))) {
+                std::int64_t& of_element = mesh_.body.at(static_cast<std::size_t>(element));
+                EXPECT_EQ(of_element, 0) << "in one body";
+                of_element = body;
+            }
     }
     void add_surface(const std::string& name, const std::vector<std::array<std::string, 2>>& faces) {
         // S1 to S4 of a tetrahedron, seen from outside.

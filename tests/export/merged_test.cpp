@@ -12,6 +12,7 @@
 #include "export/merged_readers.h"
 #include "export/whole_mesh.h"
 #include "export/word_names.h"
+#include "part/bodies.h"
 #include "part/run_parts.h"
 #include "support/temporary_folder.h"
 
@@ -28,7 +29,7 @@ using Read = MergedMesh (*)(const std::string&);
 struct MergedFormat {
     const char* name;
     Read read;
-    bool has_parts;
+    bool has_parts, has_bodies;
     std::int64_t (*part)(const MeshOutline& outline, std::size_t rank);
     std::vector<std::string> (*patches)(const MeshOutline& outline);
 };
@@ -53,11 +54,11 @@ std::vector<std::string> upper_case_words(const MeshOutline& outline) {
 }
 
 const std::vector<MergedFormat> merged_formats = {
-    {"medit", test::read_medit, true, rank_from_one, numbers<1>},
-    {"tetgen", test::read_tetgen, true, rank_from_one, numbers<1>},
-    {"abaqus", test::read_abaqus, true, rank_from_one, upper_case_words},
-    {"su2", test::read_su2, false, rank_from_one, words},
-    {"vtu", test::read_vtu, true, leaf, numbers<0>},
+    {"medit", test::read_medit, false, true, rank_from_one, numbers<1>},
+    {"tetgen", test::read_tetgen, false, true, rank_from_one, numbers<1>},
+    {"abaqus", test::read_abaqus, true, true, rank_from_one, upper_case_words},
+    {"su2", test::read_su2, false, false, rank_from_one, words},
+    {"vtu", test::read_vtu, true, false, leaf, numbers<0>},
 };
 
 double area(const std::vector<Vec3>& points, const GlobalTriangle& corners) {
@@ -137,6 +138,12 @@ void check_tets(const PartSource& parts, const MergedFormat& format, const Merge
     if (format.has_parts) {
         EXPECT_EQ(found, expected);
     }
+    std::vector<std::int64_t> bodies;  // in the order of the parts, as the tetrahedra are
+    for (std::size_t r = 0; r < outline.parts.size() && format.has_bodies; ++r) {
+        const auto rank = static_cast<std::int32_t>(r);
+        for (const std::int32_t body : parts.bodies().of_tets(rank, parts.load(rank))) bodies.push_back(body + 1);
+    }
+    EXPECT_EQ(mesh.body, bodies);
 }
 
 void check_patches(const PartSource& parts, const MergedFormat& format, const MergedMesh& mesh) {

@@ -9,6 +9,7 @@
 
 #include "export/format.h"
 #include "export/input_sums.h"
+#include "part/bodies.h"
 #include "part/joined_parts.h"
 #include "part/run_parts.h"
 #include "support/temporary_folder.h"
@@ -148,6 +149,7 @@ class MfemReader {
 struct MfemMesh {
     std::vector<MfemRank> ranks;
     std::vector<Part> parts;
+    std::vector<std::vector<std::int32_t>> bodies;  // of the tetrahedra of each part
 };
 
 MfemMesh export_and_read(const PartSource& run) {
@@ -160,6 +162,7 @@ MfemMesh export_and_read(const PartSource& run) {
         SCOPED_TRACE("rank " + std::to_string(r));
         mesh.ranks.push_back(MfemReader(folder.file(fmt::format("mfem/mesh.{:06}", r))).read());
         mesh.parts.push_back(run.load(static_cast<std::int32_t>(r)));
+        mesh.bodies.push_back(run.bodies().of_tets(static_cast<std::int32_t>(r), mesh.parts.back()));
     }
     return mesh;
 }
@@ -225,8 +228,9 @@ TEST(Mfem, EveryRankIsItsPart) {
             EXPECT_EQ(rank.vertices, part.mesh.vertices);
             ASSERT_EQ(rank.elements.size(), part.mesh.tets.size());
             std::set<int> used;
-            for (const MfemCell& cell : rank.elements) {
-                EXPECT_EQ(cell.attribute, 1);
+            for (std::size_t t = 0; t < rank.elements.size(); ++t) {
+                const MfemCell& cell = rank.elements[t];
+                EXPECT_EQ(cell.attribute, mesh.bodies[r][t] + 1);
                 EXPECT_EQ(cell.geometry, 4);
                 used.insert(cell.corners.begin(), cell.corners.end());
             }

@@ -1,8 +1,10 @@
-// A reader of Gmsh's MSH, 4.1 and 2.2 binary, that takes nothing but what Kerf writes and nothing that Gmsh forbids.
+// A reader of Gmsh's MSH, 4.1 and 2.2, binary and text, that takes nothing but what Kerf writes and nothing that Gmsh
+// forbids.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstring>
 #include <map>
 #include <set>
@@ -37,6 +39,8 @@ struct MshEntityFacts {
     std::vector<std::int32_t> physicals;
     MshEntity whole = {-1, 0};
     std::vector<std::int32_t> partitions;
+
+    bool operator==(const MshEntityFacts&) const = default;
 };
 
 struct MshGhost {
@@ -58,6 +62,7 @@ struct MshContent {
     MshElements elements;
     std::map<std::int64_t, MshGhost> ghosts;
 
+    bool operator==(const MshContent&) const = default;
     bool is_ghost(const MshEntity& entity) const { return entity[0] == 3 && ghost_entities.contains(entity[1]); }
 };
 
@@ -67,12 +72,16 @@ class MshReader {
     explicit MshReader(const std::string& path) : bytes_(bytes_of_file(path)) {
         expect("$MeshFormat");
         const std::string version = line();
-        require(version == "4.1 1 8" || version == "2.2 1 8", "version " + version);
-        require(value<std::int32_t>() == 1, "byte order");
-        require(line().empty(), "line after the byte order");
+        is_ascii_ = version.ends_with(" 0 8");
+        require(version == "4.1 1 8" || version == "2.2 1 8" || version == "4.1 0 8" || version == "2.2 0 8",
+                "version " + version);
+        if (!is_ascii_) {
+            require(value<std::int32_t>() == 1, "byte order");
+            require(line().empty(), "line after the byte order");
+        }
         expect("$EndMeshFormat");
         read_names();
-        if (version == "4.1 1 8")
+        if (version.starts_with("4.1"))
             read_4_1();
         else
             read_2_2();
@@ -80,6 +89,7 @@ class MshReader {
     }
 
     const MshContent& content() const { return content_; }
+    bool is_ascii() const { return is_ascii_; }
 
  private:
     static void require(bool holds, const std::string& what) {
@@ -96,8 +106,10 @@ class MshReader {
         const std::string found = line();
         require(found == wanted, wanted + ", found " + found);
     }
+    // A row of text has an end, and nothing is after it.
     void end(const std::string& section) {
         require(line().empty(), "line after " + section);
+        if (is_ascii_) require(bytes_[at_ - 2] != '\n', "an empty line in " + section);
         expect("$End" + section);
     }
     bool begins(const std::string& section) {
@@ -107,10 +119,21 @@ class MshReader {
     }
     template <class T>
     T value() {
+        if (is_ascii_) return number<T>();
         require(bytes_.size() - at_ >= sizeof(T), "bytes are missing");
         T value;
         std::memcpy(&value, bytes_.data() + at_, sizeof value);
         at_ += sizeof value;
+        return value;
+    }
+    // The next one on this line or the next, one blank or line's end before it.
+    template <class T>
+    T number() {
+        if (at_ > 0 && (bytes_[at_] == ' ' || bytes_[at_] == '\n')) ++at_;
+        T value{};
+        const auto [end, error] = std::from_chars(bytes_.data() + at_, bytes_.data() + bytes_.size(), value);
+        require(error == std::errc(), "a number at byte " + std::to_string(at_));
+        at_ = static_cast<std::size_t>(end - bytes_.data());
         return value;
     }
     std::int64_t size() { return static_cast<std::int64_t>(value<std::uint64_t>()); }
@@ -235,6 +258,11 @@ class MshReader {
         end("Nodes");
         expect("$Elements");
         for (std::int64_t left = std::stoll(line()); left > 0;) {
+            if (is_ascii_) {
+                --left;
+                read_element_of_text_2_2();
+                continue;
+            }
             const std::int32_t type = integer(), count = integer(), tags = integer();
             require((type == 2 || type == 4) && tags == 2 && count > 0 && count <= left, "block of elements");
             left -= count;
@@ -242,8 +270,14 @@ class MshReader {
         }
         end("Elements");
     }
-    void read_element_2_2(std::int32_t dimension) {
+    void read_element_of_text_2_2() {
         const std::int64_t tag = integer();
+        const std::int32_t type = integer(), tags = integer();
+        require((type == 2 || type == 4) && tags == 2, "element");
+        read_element_2_2(type == 2 ? 2 : 3, tag);
+    }
+    void read_element_2_2(std::int32_t dimension) { read_element_2_2(dimension, integer()); }
+    void read_element_2_2(std::int32_t dimension, std::int64_t tag) {
         const std::int32_t physical = integer();
         MshElement element{{dimension, integer()}, {}};
         for (int k = 0; k <= dimension; ++k) element.corners.push_back(integer());
@@ -253,6 +287,7 @@ class MshReader {
 
     std::string bytes_;
     std::size_t at_ = 0;
+    bool is_ascii_ = false;
     MshContent content_;
     std::int64_t count_ = 0;
     std::set<std::int64_t> tags_;

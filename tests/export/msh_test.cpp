@@ -9,6 +9,7 @@
 #include "export/cases.h"
 #include "export/format.h"
 #include "export/msh_reader.h"
+#include "part/bodies.h"
 #include "part/run_parts.h"
 #include "support/temporary_folder.h"
 
@@ -19,6 +20,7 @@ using test::MshContent;
 using test::MshElements;
 using test::MshEntity;
 using test::MshGhost;
+using test::MshReader;
 using test::read_msh;
 
 // ---- what is measured ----
@@ -69,7 +71,7 @@ void measure(const MshContent& file, MshMeasure& sum) {
         }
         const double volume = normal.dot(corner(3) - corner(0)) / 6;
         EXPECT_GT(volume, 0);
-        EXPECT_EQ(name, "volume");
+        EXPECT_TRUE(name == "volume" || name.starts_with("body_")) << name;
         sum.volume += volume;
     }
 }
@@ -330,7 +332,10 @@ TEST(Msh, EveryFileNamesAllPatches) {
         std::set<std::string> known;  // solids of one name are one patch
         for (const std::string& name : each.surface.patch_names)
             if (known.insert(name).second) wanted[{2, ++tag}] = name_in_gmsh(name);
-        wanted[{3, ++tag}] = "volume";
+        const std::int32_t bodies = parts.run.bodies().count();
+        EXPECT_EQ(bodies, each.name == "two_solids" ? 2 : 1);
+        for (std::int32_t body = 1; body <= bodies; ++body)
+            wanted[{3, ++tag}] = bodies == 1 ? "volume" : "body_" + std::to_string(body);
         for (const MshContent& file : parts.files) EXPECT_EQ(file.names, wanted);
         EXPECT_EQ(parts.merged("4.1").names, wanted);
         EXPECT_EQ(parts.merged("2.2").names, wanted);
@@ -347,16 +352,60 @@ TEST(Msh, MergedFilesHaveTheElementsOfTheParts) {
             const MshElements elements = own_elements(parts.files);
             ASSERT_EQ(merged.elements.size(), elements.size());
             for (const auto& [tag, element] : elements) EXPECT_EQ(merged.elements.at(tag).corners, element.corners);
-            // Parts are volumes.
+            // Parts are volumes, those of several bodies one for each.
+            const std::int32_t bodies = parts.run.bodies().count();
             for (std::size_t rank = 0; rank < parts.files.size(); ++rank)
                 for (const auto& [tag, element] : parts.files[rank].elements) {
                     if (element.entity[0] == 2 || parts.files[rank].is_ghost(element.entity)) continue;
-                    ASSERT_EQ(merged.elements.at(tag).entity[1], static_cast<std::int32_t>(rank) + 1);
+                    ASSERT_EQ((merged.elements.at(tag).entity[1] - 1) / bodies, static_cast<std::int32_t>(rank));
                 }
             MshMeasure sum;
             measure(merged, sum);
             expect_measure_of(each.surface, sum);
         }
+}
+
+// The physical group of a tetrahedron is its body, in the parts and in merged files.
+TEST(Msh, BodiesAreGroups) {
+    for (const test::ExportCase& each : test::export_cases()) {
+        SCOPED_TRACE(each.name);
+        const MshParts& parts = parts_of(each);
+        const auto patches = static_cast<std::int32_t>(parts.run.outline().patch_names.size());
+        const MshContent merged = parts.merged("4.1"), old = parts.merged("2.2");
+        for (std::size_t r = 0; r < parts.files.size(); ++r) {
+            const auto rank = static_cast<std::int32_t>(r);
+            std::int64_t tag = parts.run.outline().first_tet(rank);
+            for (const std::int32_t body : parts.run.bodies().of_tets(rank, parts.run.load(rank))) {
+                ++tag;
+                for (const MshContent* file : {&parts.files[r], &merged, &old})
+                    ASSERT_EQ(file->entities.at(file->elements.at(tag).entity).physicals,
+                              std::vector<std::int32_t>{patches + body + 1});
+            }
+        }
+    }
+}
+
+// What binary files say, and so all that is tested of them.
+TEST(Msh, TextSaysWhatBinaryFilesSay) {
+    for (const test::ExportCase& each : test::export_cases()) {
+        SCOPED_TRACE(each.name);
+        const MshParts& parts = parts_of(each);
+        ExportFiles written(parts.folder.file("text"), "", {}, {.msh_ascii = true});
+        write_format(find_format("msh"), parts.run, written);
+        ASSERT_EQ(written.list().size(), parts.files.size());
+        for (std::size_t i = 0; i < parts.files.size(); ++i) {
+            const std::string name = parts.files.size() == 1 ? "mesh.msh" : "mesh_" + std::to_string(i + 1) + ".msh";
+            const MshReader text(parts.folder.file("text/" + name));
+            EXPECT_TRUE(text.is_ascii());
+            EXPECT_TRUE(text.content() == parts.files[i]) << name;
+        }
+        for (const char* version : {"4.1", "2.2"}) {
+            find_format("msh").write_merged(parts.run, {version}, written, "whole");
+            const MshReader text(parts.folder.file("text/whole.msh"));
+            EXPECT_TRUE(text.is_ascii());
+            EXPECT_TRUE(text.content() == parts.merged(version)) << version;
+        }
+    }
 }
 
 // ---- what cannot be written ----

@@ -457,6 +457,23 @@ TEST(OpenFoam, DictionariesOfTheUserStay) {
     for (const RunFile& file : files.list()) EXPECT_NE(file.path, "system/controlDict") << "it is not ours";
 }
 
+TEST(OpenFoam, PatchesHaveTheTypesThatWereAskedFor) {
+    const test::TemporaryFolder folder;
+    const MadeUpPart parts({"a = b", "side", "top"});
+    const std::vector<std::string> texts = {"a = b=wall", "top=symmetry", "top=symmetryPlane"};
+    ExportFiles files(folder.file("case"), "", {}, {.patch_types = parse_patch_types(texts)});
+    write_format(find_format("openfoam"), parts, files);
+    std::vector<std::string> types;
+    for (const Patch& patch : read_patches(folder.file("case/constant/polyMesh/boundary"))) types.push_back(patch.type);
+    EXPECT_EQ(types, (std::vector<std::string>{"wall", "patch", "symmetryPlane"}));
+    const std::vector<std::string> other = {"bottom=wall"};
+    ExportFiles refused(folder.file("other"), "", {}, {.patch_types = parse_patch_types(other)});
+    EXPECT_THROW(write_format(find_format("openfoam"), parts, refused), Error) << "there is no such patch";
+    EXPECT_FALSE(std::filesystem::exists(folder.file("other")));
+    for (const std::vector<std::string>& wrong : {std::vector<std::string>{"side"}, {"=wall"}, {"side=cyclic"}})
+        EXPECT_THROW(parse_patch_types(wrong), Error) << wrong[0];
+}
+
 TEST(OpenFoam, FoldersOfMoreProcessorsAreRefused) {
     const test::TemporaryFolder folder;
     const test::ExportCase& four = test::export_cases()[2];

@@ -74,7 +74,7 @@ TEST_F(SolutionExport, FilesHaveTheValues) {
         expect_values(part, read_values(entry.path()));
     }
     for (const std::vector<std::string>& file :
-         {std::vector<std::string>{"a.vtu"}, {"a.msh"}, {"b.msh", "--msh-version", "2.2"}}) {
+         {std::vector<std::string>{"a.vtu"}, {"a.msh"}, {"b.msh", "--msh-version", "2.2"}, {"c.msh", "--msh-ascii"}}) {
         std::vector<std::string> command = {"merge", folder_->file("out/solution"), "-o", folder_->file(file[0])};
         command.insert(command.end(), file.begin() + 1, file.end());
         ASSERT_EQ(run_kerf(command).exit_code, 0);

@@ -15,3 +15,9 @@ for surface in "$folder"/*.stl; do
     "$kerf" merge "$stem" -o "$stem.2.2.msh" --msh-version 2.2
     "$python" "$(dirname "$0")/read_msh.py" "$surface" "$stem" "$stem.parts" "$stem.4.1.msh" "$stem.2.2.msh"
 done
+# The same as text.
+stem=$folder/two_solids
+"$kerf" export "$stem" --format msh -o "$stem.text" --msh-ascii
+"$kerf" merge "$stem" -o "$stem.4.1.text.msh" --msh-ascii
+"$kerf" merge "$stem" -o "$stem.2.2.text.msh" --msh-version 2.2 --msh-ascii
+"$python" "$(dirname "$0")/read_msh.py" "$stem.stl" "$stem" "$stem.text" "$stem.4.1.text.msh" "$stem.2.2.text.msh"

@@ -22,7 +22,7 @@ TRIANGLE, TETRA = 5, 10
 def check_whole(file, expected):
     """The arrays by global numbers."""
     points, cells, facets = file["geometry/vertices"][:], file["viz/topology/cells"][:], file["viz/topology/facets"][:]
-    parts, patches = file["viz/part"][:], file["viz/patch"][:]
+    parts, patches, bodies = file["viz/part"][:], file["viz/patch"][:], file["viz/body"][:]
     names = [name.decode() for name in file["viz/patch_names"][:]]
     require(points.shape == (expected.vertices, 3), "there are the vertices of the report")
     require(cells.shape == (expected.tets, 4), "there are the tetrahedra of the report")
@@ -32,7 +32,10 @@ def check_whole(file, expected):
     require((volumes > 0).all() and same(volumes.sum(), expected.volume), "the volume is that of the surface")
     wanted = np.concatenate([np.full(tets, part, dtype=int) for part, tets, _ in expected.parts])
     require(np.array_equal(parts, wanted), "cells lie in the order of the parts")
-    expected.check_areas(areas_by_patch(points, facets, patches, names), "h5py")
+    expected.check_areas(areas_by_patch(points, facets, patches - 1, names), "h5py")
+    require(np.array_equal(np.unique(bodies), np.arange(1, bodies.max() + 1)), "bodies count from 1")
+    vertices = [np.unique(cells[bodies == body]) for body in range(1, bodies.max() + 1)]
+    require(sum(map(len, vertices)) == len(points), "bodies have no vertex in common")
     require(file["viz/topology/cells"].attrs["cell_dim"] == 3, "DMPlex finds the dimension of the cells")
     require(file["viz/topology/cells"].id.get_offset() is not None, "arrays are contiguous")
     return points, cells, facets, names
@@ -94,7 +97,7 @@ def check_vtk(path, expected, whole):
 def check_names(path, names):
     found = xml.etree.ElementTree.parse(path).findall("Domain/Information")
     require([entry.get("Value") for entry in found] == names, "the XDMF file has the names")
-    require([entry.get("Name") for entry in found] == [f"patch {i}" for i in range(len(names))], "and their numbers")
+    require([entry.get("Name") for entry in found] == [f"patch {i + 1}" for i in range(len(names))], "and their numbers")
 
 
 def check_run(name):

@@ -90,10 +90,19 @@ def found_in(mesh, part, patch):
     }
 
 
+def require_bodies(mesh, body, path):
+    """Numbers of bodies, over tetrahedra."""
+    tets = mesh.cells_dict["tetra"]
+    require(np.array_equal(np.unique(body), np.arange(1, body.max() + 1)), f"bodies of {path} count from 1")
+    vertices = [np.unique(tets[body == each]) for each in range(1, body.max() + 1)]
+    require(sum(map(len, vertices)) == len(mesh.points), f"bodies of {path} have no vertex in common")
+
+
 def read_medit(path):
     mesh = read(path)
     references = mesh.cell_data_dict["medit:ref"]
-    return found_in(mesh, references["tetra"], references["triangle"] - 1)
+    require_bodies(mesh, references["tetra"], path)
+    return found_in(mesh, None, references["triangle"] - 1)
 
 
 def read_su2(path, patches):
@@ -140,15 +149,19 @@ def read_vtu_by_vtk(path, names):
 
 
 def read_abaqus(path, patches):
-    """Parts are element sets. Patches are node sets, ascending, and element sets by the face that lies on them."""
+    """Parts and bodies are element sets. Patches are node sets, ascending, and element sets by the face that lies on them."""
     mesh = read(path)
     tets = np.concatenate([block.data for block in mesh.cells])
     first = np.cumsum([0] + [len(block.data) for block in mesh.cells])
     sets = {
         name: np.concatenate([np.asarray(of_block, dtype=int) + first[i] for i, of_block in enumerate(blocks)])
         for name, blocks in mesh.cell_sets.items()
-        if not name.startswith("PART_")
+        if not name.startswith("SUBDOMAIN_")
     }
+    body = np.zeros(len(tets), dtype=int)
+    for name in [name for name in sets if name.startswith("BODY_")]:
+        body[sets.pop(name)] += int(name.removeprefix("BODY_"))
+    require_bodies(mesh, body, path)
     require(len(sets.pop("EALL")) == len(tets), f"EALL of {path} has all elements")
     by_patch = {}
     require(len(mesh.point_sets) == len(patches), f"{path} has a node set for each patch with triangles")

@@ -1,0 +1,24 @@
+// The types of patches where a format has such: OpenFOAM's boundaries.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace kerf {
+
+struct PatchType {
+    std::string patch, type;
+};
+
+/// Of texts NAME=TYPE, of which the last = counts. Throws Error(usage) for another form, and for a type that is none of
+/// those of OpenFOAM that need no entries of their own.
+std::vector<PatchType> parse_patch_types(std::span<const std::string> texts);
+
+/// Throws Error(usage), with the names that there are, for a patch that the mesh does not have.
+void require_patches(std::span<const PatchType> types, std::span<const std::string> patch_names);
+
+/// That of the patch: the last one given, else `patch`.
+std::string type_of_patch(std::span<const PatchType> types, const std::string& patch);
+
+}  // namespace kerf
