@@ -77,7 +77,8 @@ NOT_RUN = {
 }
 
 # Blocks that are files: language, how they begin, name.
-OF_PAGES = [("toml", "[material", "case.toml"), ("python", "from dolfinx", "solve.py"), ("", "*INCLUDE", "job.inp")]
+OF_PAGES = [("toml", "[material", "case.toml"), ("python", "from dolfinx", "solve.py"), ("", "*INCLUDE", "job.inp"),
+            ("freefem", "load", "heat.edp"), ("getdp", "Group", "heat.pro"), ("cpp", "FoamFile", "U")]
 
 BOX_CASE = """[material.iron]
 young = 110e3
@@ -196,6 +197,9 @@ def main():
                 passed_over.add(bare(command))
                 if not known_to_run(source, bare(command)):
                     wrong.append(f"{page}: {command}\n./run does not know it")
+                continue
+            if exported := re.fullmatch(r"export (\w+)=(\S+)", bare(command)):  # for the commands that follow
+                environ[exported[1]] = exported[2]
                 continue
             code = re.search(r"# exit (\d+)", command)
             problem = run(shortened(command, rules, used), int(code[1]) if code else 0, folder, environ)

@@ -23,5 +23,4 @@ def environment(source, build, folder, **more):
         "OMPI_MCA_plm_rsh_agent": f"{stand_ins}/ssh",
         "KERF_NODES": "2",
         "KERF_CPUS_PER_TASK": "1",
-        "WM_PROJECT_DIR": "/usr/share/openfoam",  # where Debian keeps etc/
     } | more
