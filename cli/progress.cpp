@@ -35,9 +35,9 @@ void end_now(int) {
     ::_exit(static_cast<int>(ErrorCode::cancelled));
 }
 
-std::string time_left(double elapsed, double done) {
-    if (done <= 0) return "--:--";
-    const long seconds = std::lround(elapsed * (1 - done) / done);
+std::string time_left(double left) {
+    if (left < 0) return "--:--";
+    const long seconds = std::lround(left);
     return seconds < 3600 ? fmt::format("{:02}:{:02}", seconds / 60, seconds % 60)
                           : fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
 }
@@ -90,14 +90,8 @@ void ProgressLine::on_parts(const std::vector<PartReport>& parts, const std::str
         clear();
         tell(plan);
     }
-    double all = 0;
-    for (const PartReport& part : parts) {
-        all += part.load;
-        if (!part.resumed) continue;
-        load_at_start_ += part.load;
-        tets_at_start_ += part.result.tets;
-    }
-    if (all > 0) load_at_start_ /= all;
+    for (const PartReport& part : parts)
+        if (part.resumed) tets_at_start_ += part.result.tets;
 }
 
 void ProgressLine::on_part(const PartEvent& event) {
@@ -106,11 +100,11 @@ void ProgressLine::on_part(const PartEvent& event) {
     if (quiet_ || event.part->resumed || (!terminal_ && tenth == last_tenth_)) return;
     last_tenth_ = tenth;
     const double elapsed = seconds_of_stage();
-    const double own = load_at_start_ < 1 ? (event.load_done - load_at_start_) / (1 - load_at_start_) : 1;
     const auto tets = static_cast<double>(event.tets);
     const double rate = elapsed > 0 ? (tets - static_cast<double>(tets_at_start_)) / elapsed : 0;
-    print(fmt::format("volume  {}/{} parts  {:.0f} %  {} tets  {}/s  ETA {}", event.done, event.total,
-                      100 * event.load_done, short_number(tets), short_number(rate), time_left(elapsed, own)));
+    print(fmt::format("volume  {}/{} parts  {:.0f} %  {} of about {} tets  {}/s  ETA {}", event.done, event.total,
+                      100 * event.load_done, short_number(tets), short_number(event.tets_expected), short_number(rate),
+                      time_left(event.seconds_left)));
 }
 
 void ProgressLine::print(const std::string& text) {

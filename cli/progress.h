@@ -30,8 +30,7 @@ class ProgressLine : public RunListener {
     std::string stage_;
     double last_seconds_ = 0;  // of the stage, that were printed
     int last_tenth_ = 0;
-    double load_at_start_ = 0;  // done by an interrupted run
-    std::int64_t tets_at_start_ = 0;
+    std::int64_t tets_at_start_ = 0;  // made by an interrupted run
     std::chrono::steady_clock::time_point stage_start_;
 };
 

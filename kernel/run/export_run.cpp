@@ -174,6 +174,7 @@ ExportSummary export_run(const ExportRequest& asked, Communicator& ranks, RunLis
         check_request(request);
         options = options_of(request, formats);
         parts = open_parts(request.folder);
+        require_patches(options.patch_types, parts->outline().patch_names);  // before there is a folder
         if (request.into != 0) joined = std::make_unique<JoinedParts>(*parts, request.into);
         if (ranks.rank() != 0) return std::string();
         const bool is_of_run = request.output.empty();

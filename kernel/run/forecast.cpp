@@ -43,20 +43,41 @@ Forecast forecast_of(const PartReport& part, const RunOptions& options) {
     return forecast(expected_facets(part), part.sized_volume, options.mesher);
 }
 
+double tets_inside(double volume, const MesherOptions& mesher) {
+    return mesher.size.is_empty() ? 0
+                                  : known_of(mesher).tets_per_volume_bound * volume / mesher.size.reference_volume();
+}
+
+// For which there must be room.
+double most_tets(double facets, double volume, const MesherOptions& mesher) {
+    return known_of(mesher).most_tets_per_facet * facets + tets_inside(volume, mesher);
+}
+
+// Nothing takes no time.
+std::string seconds_text(double seconds) {
+    return seconds < 0.05 ? "less than 0.1 s" : fmt::format("{:.{}f} s", seconds, seconds < 10 ? 1 : 0);
+}
+
 }  // namespace
 
 Forecast forecast(double facets, double volume, const MesherOptions& mesher) {
     KERF_CHECK(facets >= 0 && volume >= 0);
     const MesherForecast& known = known_of(mesher);
-    const SizeField& size = mesher.size;
-    const double tets = known.tets_per_facet * facets +
-                        (size.is_empty() ? 0 : known.tets_per_volume_bound * volume / size.reference_volume());
-    return {tets, known.seconds_per_tet * tets, bytes_of_worker + known.bytes_per_tet * tets};
+    const double tets = known.tets_per_facet * facets + tets_inside(volume, mesher);
+    return {tets, known.seconds_per_facet * facets + known.seconds_per_tet * tets,
+            bytes_of_worker + known.bytes_per_tet * most_tets(facets, volume, mesher)};
+}
+
+double pace_of_reading(double seconds, double facets) {
+    constexpr double seconds_to_begin = 0.003, seconds_per_facet = 2e-6;
+    constexpr double fastest = 0.5, slowest = 20;
+    KERF_CHECK(seconds >= 0 && facets >= 0);
+    return std::clamp(seconds / (seconds_to_begin + seconds_per_facet * facets), fastest, slowest);
 }
 
 std::int32_t choose_parts(const RunOptions& options, double facets, double volume, int ranks, std::int32_t most) {
     KERF_CHECK(ranks >= 1 && options.workers >= 1 && most >= 1);
-    const double tets = forecast(facets, volume, options.mesher).tets;
+    const double tets = most_tets(facets, volume, options.mesher);
     double parts = std::min<double>(parts_per_worker * ranks * options.workers, tets / least_tets_per_part);
     if (options.memory_mb > 0) {
         const double available = static_cast<double>(options.memory_mb) * (1 << 20) - reserved_bytes;
@@ -96,16 +117,16 @@ double disk_bytes_per_tet(const RunOptions& options) {
 
 // The edge with which there are not more tetrahedra; 0 if none is large enough. By bisection of its ratio to that of
 // the options, whose square divides the facets that follow it, and whose cube the volume's cells.
-double least_size(const MesherOptions& mesher, double facets, double volume, Facets of_surface, double most_tets) {
+double least_size(const MesherOptions& mesher, double facets, double volume, Facets of_surface, double affordable) {
     if (mesher.size.is_empty()) return 0;
     const MesherForecast& known = known_of(mesher);
-    const double inside = known.tets_per_volume_bound * volume / mesher.size.reference_volume();
+    const double inside = tets_inside(volume, mesher);
     const auto tets = [&](double ratio) {
         const double boundary = of_surface == Facets::follow_size ? facets / (ratio * ratio) : facets;
-        return known.tets_per_facet * boundary + inside / (ratio * ratio * ratio);
+        return known.most_tets_per_facet * boundary + inside / (ratio * ratio * ratio);
     };
     double low = 1, high = 1e150;
-    if (tets(high) > most_tets) return 0;
+    if (tets(high) > affordable) return 0;
     while (high > 1.01 * low) {
         const double middle = std::sqrt(low) * std::sqrt(high);
         (tets(middle) > most_tets ? low : high) = middle;
@@ -118,7 +139,7 @@ double least_size(const MesherOptions& mesher, double facets, double volume, Fac
 void check_budget(const RunOptions& options, double facets, double volume, Facets of_surface) {
     KERF_CHECK(options.decompose.parts >= 1);
     const double parts = options.decompose.parts;
-    const double tets = forecast(facets, volume, options.mesher).tets;
+    const double tets = most_tets(facets, volume, options.mesher);
     const MesherForecast& known = known_of(options.mesher);
     const auto way_out = [&](double affordable) {
         const double size = least_size(options.mesher, facets, volume, of_surface, affordable);
@@ -153,13 +174,15 @@ void check_budget(const RunOptions& options, double facets, double volume, Facet
                     way_out(available / bytes)));
 }
 
-std::string plan_text(const std::vector<PartReport>& parts, const RunOptions& options, int ranks, bool every_part) {
-    KERF_CHECK(ranks >= 1 && options.workers >= 1);
+std::string plan_text(const std::vector<PartReport>& parts, const RunOptions& options, int ranks, bool every_part,
+                      double pace) {
+    KERF_CHECK(ranks >= 1 && options.workers >= 1 && pace > 0);
     Forecast all, largest;
     std::string table;
     if (every_part) table = fmt::format("{:>10} {:>10} {:>12} {:>10} {:>9}\n", "part", "facets", "tets", "MB", "s");
     for (const PartReport& part : parts) {
-        const Forecast f = forecast_of(part, options);
+        Forecast f = forecast_of(part, options);
+        f.seconds *= pace;
         all.tets += f.tets;
         all.seconds += f.seconds;
         if (f.tets > largest.tets) largest = f;
@@ -168,12 +191,44 @@ std::string plan_text(const std::vector<PartReport>& parts, const RunOptions& op
                                  std::llround(expected_facets(part)), f.tets, f.memory_bytes / (1 << 20), f.seconds);
     }
     const int workers = ranks * options.workers;
-    return fmt::format(
-               "{:<11} {} parts for {} worker{}, about {} tetrahedra in {:.0f} s; the largest part {}, {:.0f} MB\n",
-               "plan", parts.size(), workers, workers == 1 ? "" : "s", short_number(all.tets),
-               std::max(largest.seconds, all.seconds / workers), short_number(largest.tets),
-               largest.memory_bytes / (1 << 20)) +
+    return fmt::format("{:<11} {} parts for {} worker{}, about {} tetrahedra in {}; the largest part {}, {:.0f} MB\n",
+                       "plan", parts.size(), workers, workers == 1 ? "" : "s", short_number(all.tets),
+                       seconds_text(std::max(largest.seconds, all.seconds / workers)), short_number(largest.tets),
+                       largest.memory_bytes / (1 << 20)) +
            table;
+}
+
+RunningForecast::RunningForecast(const std::vector<PartReport>& parts, const RunOptions& options, int ranks)
+    : options_(options), workers_(ranks * options.workers) {
+    for (const PartReport& part : parts) {
+        const Forecast f = forecast_of(part, options_);
+        tets_ahead_ += f.tets;
+        if (!part.resumed) seconds_ahead_ += f.seconds;
+    }
+}
+
+void RunningForecast::add(const PartReport& part) {
+    const Forecast f = forecast_of(part, options_);
+    tets_ahead_ -= f.tets;
+    if (part.result.tets > 0) {
+        tets_forecast_ += f.tets;
+        tets_found_ += static_cast<double>(part.result.tets);
+    }
+    if (part.resumed) return;
+    seconds_ahead_ -= f.seconds;
+    seconds_forecast_ += f.seconds;
+    seconds_found_ += part.seconds;
+}
+
+double RunningForecast::tets() const {
+    const double correction = tets_forecast_ > 0 ? tets_found_ / tets_forecast_ : 1;
+    return tets_found_ + std::max(0.0, tets_ahead_) * correction;
+}
+
+double RunningForecast::seconds_left(double elapsed) const {
+    if (seconds_forecast_ <= 0) return -1;
+    const double correction = seconds_found_ / seconds_forecast_;
+    return std::max(0.0, (seconds_found_ + std::max(0.0, seconds_ahead_) * correction) / workers_ - elapsed);
 }
 
 }  // namespace kerf

@@ -16,8 +16,13 @@ struct Forecast {
 };
 
 /// By what is known of the mesher that the options name (MesherForecast). V is the sized volume
-/// (size/volume_samples.h), here and below, and a the reference volume of the field.
+/// (size/volume_samples.h), here and below, and a the reference volume of the field. The memory is that of a body with
+/// more tetrahedra for its facets than most.
 Forecast forecast(double facets, double volume, const MesherOptions& mesher);
+
+/// The seconds of this machine, as busy as it is, for one of the core that forecasts speak of, by those that it took to
+/// read and check a surface of so many facets. Within a factor of two of what its workers then do, mostly.
+double pace_of_reading(double seconds, double facets);
 
 /// K where the user gives none: four parts for each worker of all ranks, fewer if they would be tiny, more where
 /// a worker with options.memory_mb would otherwise have too little for its part; never more than `most` >= 1. The
@@ -32,7 +37,31 @@ enum class Facets { are_given, follow_size };
 /// the files would not fit on the disk of options.output.
 void check_budget(const RunOptions& options, double facets, double volume, Facets of_surface = Facets::are_given);
 
-/// One line on parts, tetrahedra, memory and time; with `every_part` a table below it.
-std::string plan_text(const std::vector<PartReport>& parts, const RunOptions& options, int ranks, bool every_part);
+/// One line on parts, tetrahedra, memory and time; with `every_part` a table below it. Seconds are multiplied by
+/// `pace`.
+std::string plan_text(const std::vector<PartReport>& parts, const RunOptions& options, int ranks, bool every_part,
+                      double pace = 1);
+
+/// What is expected of a run while its parts end, one after the other: forecasts, corrected by how far those of the
+/// parts that have ended were off.
+class RunningForecast {
+ public:
+    /// Parts that an interrupted run has finished count as parts that have ended, but not their seconds.
+    RunningForecast(const std::vector<PartReport>& parts, const RunOptions& options, int ranks);
+    /// The part has ended, well or not; each once, resumed ones too.
+    void add(const PartReport& part);
+
+    /// Of the whole run.
+    double tets() const;
+    /// Until the last part ends, if the first began so many seconds ago; negative if no part has told yet.
+    double seconds_left(double elapsed) const;
+
+ private:
+    const RunOptions& options_;
+    int workers_;
+    double tets_ahead_ = 0, seconds_ahead_ = 0;        // forecast of parts that have not ended
+    double tets_forecast_ = 0, tets_found_ = 0;        // of parts that have ended well
+    double seconds_forecast_ = 0, seconds_found_ = 0;  // of parts that have ended in this run
+};
 
 }  // namespace kerf

@@ -11,6 +11,8 @@ struct PartEvent {
     std::size_t done = 0, total = 0;   ///< parts, this one included
     double load_done = 0;              ///< share of the predicted work, in [0, 1]
     std::int64_t tets = 0;             ///< of the parts that are done
+    double tets_expected = 0;          ///< of all parts (RunningForecast), and
+    double seconds_left = -1;          ///< until the last one ends; negative: nobody knows yet
 };
 
 /// Is told of the progress, on the root rank of that of all ranks. Without one nothing is copied, and the result is the

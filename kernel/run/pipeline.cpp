@@ -118,8 +118,13 @@ void check_budget_before_remeshing(const Input& input, RunOptions options, int r
 // One rank's share of the run.
 class Run {
  public:
-    Run(RunOptions options, std::string worker_hash, Communicator& ranks, Input& input, RunListener* listener)
-        : ranks_(ranks), worker_hash_(std::move(worker_hash)), input_(input), listener_(listener) {
+    Run(RunOptions options, std::string worker_hash, Communicator& ranks, Input& input, double read_seconds,
+        RunListener* listener)
+        : ranks_(ranks),
+          worker_hash_(std::move(worker_hash)),
+          input_(input),
+          read_seconds_(read_seconds),
+          listener_(listener) {
         report_.options = std::move(options);
         report_.quality = PartQuality(input.diagonal);
         report_.ranks = ranks.size();
@@ -135,7 +140,7 @@ class Run {
     void mesh_parts();
     void mesh_reference();
     void write_formats();
-    RunReport finish(const Stopwatch& whole, double read_seconds);
+    RunReport finish(const Stopwatch& whole);
     const RunReport& report() const { return report_; }
     Error with_way_to_go_on(const Error& error);
 
@@ -154,6 +159,7 @@ class Run {
     Communicator& ranks_;
     std::string worker_hash_;
     Input& input_;
+    double read_seconds_;
     RunListener* listener_;
     std::optional<RunFolder> folder_;  // none for a dry run
     RunReport report_;
@@ -224,9 +230,12 @@ void Run::join_interfaces(Decomposition own) {
 // What is ahead.
 void Run::announce_parts() {
     const RunOptions& options = report_.options;
+    // Where reading was reading alone, it has shown how fast the machine is.
+    const bool shows_pace = !input_.is_cad && !input_.remeshed;
+    const double pace = shows_pace ? pace_of_reading(read_seconds_, static_cast<double>(input_.facets)) : 1;
     in_agreement(ranks_, [&] {
         if (listener_ && is_root() && options.volume)
-            listener_->on_parts(report_.parts, plan_text(report_.parts, options, ranks_.size(), options.dry_run));
+            listener_->on_parts(report_.parts, plan_text(report_.parts, options, ranks_.size(), options.dry_run, pace));
     });
 }
 
@@ -348,14 +357,14 @@ void Run::remove_stored_parts() {
     remove_run_files(folder_->partial_path(), [](const std::string& file) { return is_stored_part(file); });
 }
 
-RunReport Run::finish(const Stopwatch& whole, double read_seconds) {
+RunReport Run::finish(const Stopwatch& whole) {
     const Stopwatch stopwatch;
     add_up_parts(report_);
     std::int64_t largest_worker = 0;
     for (const PartReport& part : report_.parts) largest_worker = std::max(largest_worker, part.result.peak_rss_bytes);
     for (const std::int64_t bytes : all_gather(ranks_, own_peak_rss_bytes()))
         report_.peak_rss_bytes += bytes + report_.options.workers * largest_worker;
-    report_.seconds.read = read_seconds;
+    report_.seconds.read = read_seconds_;
     in_agreement(ranks_, [&] {
         if (is_root() && report_.options.volume) remove_stored_parts();
     });
@@ -403,7 +412,7 @@ RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input&
     options.decompose.parts = all_gather(ranks, options.decompose.parts).front();
     const double read_seconds = longest(ranks, whole.seconds());
     const bool volume = options.volume, dry_run = options.dry_run;
-    Run run(std::move(options), std::move(worker_hash), ranks, input, listener);
+    Run run(std::move(options), std::move(worker_hash), ranks, input, read_seconds, listener);
     try {
         if (!dry_run) run.open_folder();
         run.join_interfaces(run.decompose_surface());
@@ -418,7 +427,7 @@ RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input&
             run.mesh_reference();
             run.write_formats();
         }
-        return run.finish(whole, read_seconds);
+        return run.finish(whole);
     } catch (const Error& error) {
         throw run.with_way_to_go_on(error);
     }

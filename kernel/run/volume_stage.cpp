@@ -1,6 +1,7 @@
 #include "run/volume_stage.h"
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -10,6 +11,7 @@
 
 #include "io/checked_file.h"
 #include "run/failed_part.h"
+#include "run/forecast.h"
 #include "run/journal.h"
 
 namespace kerf {
@@ -95,7 +97,8 @@ class VolumeStage::HandOut {
 // What the root rank knows about all parts.
 class VolumeStage::Tally {
  public:
-    Tally(const std::vector<PartReport>& parts, RunListener* listener) : listener_(listener), total_(parts.size()) {
+    Tally(const std::vector<PartReport>& parts, const RunOptions& options, int ranks, RunListener* listener)
+        : listener_(listener), forecast_(parts, options, ranks), total_(parts.size()) {
         for (const PartReport& part : parts) load_ += part.load;
         if (listener_) listener_->on_progress("volume", 0, total_);
         for (const PartReport& part : parts)
@@ -105,14 +108,19 @@ class VolumeStage::Tally {
         ++done_;
         load_done_ += part.load;
         tets_ += part.result.tets;
+        forecast_.add(part);
         if (!listener_) return;
-        listener_->on_part({&part, done_, total_, load_ > 0 ? std::min(1.0, load_done_ / load_) : 1, tets_});
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+        listener_->on_part({&part, done_, total_, load_ > 0 ? std::min(1.0, load_done_ / load_) : 1, tets_,
+                            forecast_.tets(), forecast_.seconds_left(elapsed.count())});
         listener_->on_progress("volume", done_, total_);
     }
     bool all_done() const { return done_ == total_; }
 
  private:
     RunListener* listener_;
+    RunningForecast forecast_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     std::size_t done_ = 0, total_ = 0;
     double load_ = 0, load_done_ = 0;
     std::int64_t tets_ = 0;
@@ -184,7 +192,7 @@ PartQueue VolumeStage::queue_of(const std::vector<PartReport>& parts, const std:
 // Returns the parts that this rank has meshed.
 std::vector<PartReport> VolumeStage::mesh_share(const std::vector<PartReport>& parts, bool& was_told_to_stop) {
     std::optional<Tally> tally;  // on the root rank
-    if (ranks_.rank() == root) tally.emplace(parts, listener_);
+    if (ranks_.rank() == root) tally.emplace(parts, options_, ranks_.size(), listener_);
     const std::vector<std::size_t> order = waiting_parts(parts);
     PartQueue queue = queue_of(parts, order);
     HandOut hand_out(ranks_, order.size(), queue,

@@ -16,7 +16,9 @@ namespace kerf {
 struct MesherForecast {
     double tets_per_facet;         ///< tetrahedra = tets_per_facet F
     double tets_per_volume_bound;  ///<              + tets_per_volume_bound V/a
-    double seconds_per_tet;        ///< of one worker, at the pace of a core of 2.5 GHz
+    double most_tets_per_facet;    ///< the first of them where there must be room: four fifths of all bodies have less
+    double seconds_per_facet;      ///< of one worker, at the pace of a core of 2.5 GHz
+    double seconds_per_tet;        ///< beside them
     double bytes_per_tet;          ///< resident, of its worker
     double volume_weight;          ///< work = F + volume_weight V/a, in the units of LoadModel
     double most_tets;              ///< that one call can count

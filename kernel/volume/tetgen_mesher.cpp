@@ -91,6 +91,8 @@ Reproducer tetgen_reproducer(const SurfaceArrays& surface, const MesherOptions& 
 extern const Mesher tetgen_mesher = {.name = "tetgen",
                                      .forecast = {.tets_per_facet = 1.9,
                                                   .tets_per_volume_bound = 1.4,
+                                                  .most_tets_per_facet = 1.9,
+                                                  .seconds_per_facet = 0,
                                                   .seconds_per_tet = 5e-6,
                                                   .bytes_per_tet = 220,
                                                   .volume_weight = 0.606,

@@ -85,21 +85,64 @@ TEST(PlanText, SaysWhatTheForecastsOfItsPartsAddUpTo) {
             all.seconds += one.seconds;
             if (one.tets > largest.tets) largest = one;
         }
-        const double seconds = std::max(largest.seconds, all.seconds / (ranks * options.workers));
-        const std::vector<std::string> plan = test::lines_of(plan_text(parts, options, ranks, false));
+        const double pace = seed % 2 ? 1 : 0.01;
+        const double seconds = pace * std::max(largest.seconds, all.seconds / (ranks * options.workers));
+        const std::vector<std::string> plan = test::lines_of(plan_text(parts, options, ranks, false, pace));
         ASSERT_EQ(plan.size(), 1U);
         for (const std::string& words :
              {fmt::format("{} parts", parts.size()), fmt::format("{} worker", ranks * options.workers),
-              short_number(all.tets), fmt::format("{:.0f} s", seconds), short_number(largest.tets),
-              fmt::format("{:.0f} MB", largest.memory_bytes / (1 << 20))})
+              short_number(all.tets),
+              seconds < 0.05 ? "less than 0.1 s" : fmt::format("{:.{}f} s", seconds, seconds < 10 ? 1 : 0),
+              short_number(largest.tets), fmt::format("{:.0f} MB", largest.memory_bytes / (1 << 20))})
             EXPECT_TRUE(holds_words(plan[0], words)) << words << " in " << plan[0];
 
-        const std::vector<std::string> table = test::lines_of(plan_text(parts, options, ranks, true));
+        const std::vector<std::string> table = test::lines_of(plan_text(parts, options, ranks, true, pace));
         ASSERT_EQ(table.size(), 2 + parts.size());
         EXPECT_EQ(table[0], plan[0]);
         for (std::size_t i = 0; i < parts.size(); ++i)
             for (const std::string& words : {std::to_string(parts[i].id), fmt::format("{:.0f}", each[i].tets)})
                 EXPECT_TRUE(holds_words(table[2 + i], words)) << words << " in " << table[2 + i];
+    }
+}
+
+TEST(PaceOfReading, IsThatOfTheMachineWithinBounds) {
+    EXPECT_NEAR(pace_of_reading(0.203, 1e5), 1, 1e-9);
+    EXPECT_NEAR(pace_of_reading(1.015, 1e5), 5, 1e-9) << "busy with others";
+    EXPECT_EQ(pace_of_reading(0, 1e5), 0.5);
+    EXPECT_EQ(pace_of_reading(1e6, 1e5), 20) << "a disk that sleeps says nothing of workers";
+}
+
+// Bodies have fewer tetrahedra than the forecast says and take longer: the first part that has ended corrects both.
+TEST(RunningForecast, LearnsFromThePartsThatHaveEnded) {
+    for (unsigned seed = 1; seed <= 10; ++seed) {
+        SCOPED_TRACE(seed);
+        std::vector<PartReport> parts = random_parts(seed);
+        const RunOptions options = with(2, 0, 1e-6);
+        parts.front().resumed = true;
+        double forecast_tets = 0, tets = 0, seconds = 0;
+        std::vector<PartReport> ended = parts;
+        for (PartReport& part : ended) {
+            const Forecast f = forecast(static_cast<double>(part.surface_facets), part.surface_volume, options.mesher);
+            forecast_tets += f.tets;
+            part.result.tets = std::llround(0.64 * f.tets);
+            tets += static_cast<double>(part.result.tets);
+            part.seconds = part.resumed ? 1e9 : 7 * f.seconds;  // of another machine, and of this one
+            if (!part.resumed) seconds += part.seconds;
+        }
+        RunningForecast running(parts, options, 3);
+        EXPECT_NEAR(running.tets(), forecast_tets, 1e-6 * forecast_tets);
+        EXPECT_LT(running.seconds_left(1), 0) << "nobody knows";
+        for (std::size_t i = 0; i < ended.size(); ++i) {
+            running.add(ended[i]);
+            EXPECT_NEAR(running.tets(), tets, 1e-3 * tets);
+            if (i == 0) {
+                EXPECT_LT(running.seconds_left(1), 0);
+                continue;
+            }
+            EXPECT_NEAR(running.seconds_left(0.01 * seconds), seconds / 6 - 0.01 * seconds, 1e-6 * seconds);
+            EXPECT_EQ(running.seconds_left(seconds), 0);
+        }
+        EXPECT_NEAR(running.tets(), tets, 1e-9 * tets);
     }
 }
 
