@@ -5,9 +5,12 @@
 // Nodes carry tags, any different numbers; elements name nodes by tag. An element belongs to a geometric entity, and
 // that to physical groups: MSH 2 writes one group and the entity with every element, and an element of several groups
 // once for each; MSH 4 lists the groups of each entity in $Entities and the elements entity by entity. The patch of a
-// triangle is its first group, else its entity.
+// triangle is its first group, else its entity; so is the volume of a tetrahedron. Partitions are no volumes: where MSH
+// 4 has them, there is only one.
 #include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -80,11 +83,25 @@ class Source {
     std::optional<BinaryScanner> binary_;  // while numbers are read
 };
 
-// What the triangles need from the sections before them.
+// Surfaces or volumes.
+struct EntityKind {
+    const char* name;
+    std::vector<std::pair<std::int64_t, std::string>> groups = {};            // tag, name; sorted once complete
+    std::vector<std::pair<std::int64_t, std::int64_t>> group_of_entity = {};  // entity, physical tag
+
+    std::string name_of(std::int64_t group, std::int64_t entity) const;
+};
+
+// What the elements need from the sections before them.
 struct Model {
-    std::vector<std::pair<std::int64_t, std::string>> surface_groups;     // tag, name; sorted once complete
-    std::vector<std::pair<std::int64_t, std::int64_t>> group_of_surface;  // entity, physical tag
-    std::vector<std::pair<std::int64_t, std::int64_t>> vertex_of_node;    // tag, index
+    EntityKind surfaces{"surface"}, volumes{"volume"};
+    std::vector<std::pair<std::int64_t, std::vector<std::int64_t>>> surfaces_of_volume;  // entities
+    bool is_partitioned = false;
+    std::vector<std::pair<std::int64_t, std::int64_t>> vertex_of_node;  // tag, index
+
+    EntityKind* of_dimension(std::int64_t dimension) {
+        return dimension == 2 ? &surfaces : dimension == 3 ? &volumes : nullptr;
+    }
 };
 
 // The value behind a key in sorted pairs.
@@ -95,9 +112,15 @@ const Value* find(const std::vector<std::pair<std::int64_t, Value>>& pairs, std:
     return found != pairs.end() && found->first == key ? &found->second : nullptr;
 }
 
+std::string EntityKind::name_of(std::int64_t group, std::int64_t entity) const {
+    if (const std::string* found = find(groups, group)) return *found;
+    return group != 0 ? "physical_" + std::to_string(group) : std::string(name) + "_" + std::to_string(entity);
+}
+
 [[noreturn]] void refuse_version(const TextScanner& text, const std::string& version) {
     text.fail("MSH version " + version.substr(0, 40) +
-              " cannot be read. Save the mesh as MSH 2.2 or 4.1, for example with gmsh FILE -save -format msh41.");
+              " cannot be read. Save the mesh as MSH 2.2 or 4.1, for example with gmsh FILE -save -format msh41 -o "
+              "NEW.msh.");
 }
 
 std::endian read_byte_order(Source& source) {
@@ -126,10 +149,11 @@ void read_physical_names(Source& source, Model& model) {
         const std::int64_t dimension = text.next_integer(), tag = text.next_integer();
         std::string_view name = text.rest_of_line();
         if (name.size() > 1 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
-        if (dimension == 2) model.surface_groups.emplace_back(tag, name);
+        if (EntityKind* kind = model.of_dimension(dimension)) kind->groups.emplace_back(tag, name);
     }
-    std::stable_sort(model.surface_groups.begin(), model.surface_groups.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (EntityKind* kind : {&model.surfaces, &model.volumes})
+        std::stable_sort(kind->groups.begin(), kind->groups.end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
 }
 
 // The first of a list of physical tags, 0 if it is empty. A negative tag turns the entity around, which no surface
@@ -142,6 +166,14 @@ std::int64_t read_group(Source& source) {
     return first < 0 ? -first : first;
 }
 
+// The entities around one, whose sign says how they are turned.
+std::vector<std::int64_t> read_boundary(Source& source) {
+    std::vector<std::int64_t> tags;
+    const std::int64_t count = source.next_count();
+    for (std::int64_t i = 0; i < count; ++i) tags.push_back(std::abs(std::int64_t{source.next_int()}));
+    return tags;
+}
+
 void read_entities(Source& source, Model& model) {
     std::array<std::int64_t, 4> counts;  // by dimension
     for (std::int64_t& count : counts) count = source.next_count();
@@ -150,10 +182,15 @@ void read_entities(Source& source, Model& model) {
             const std::int64_t tag = source.next_int();
             source.skip_reals(dimension == 0 ? 3 : 6);  // a point or a bounding box
             const std::int64_t group = read_group(source);
-            if (dimension > 0) source.skip_ints(source.next_count());  // its boundary
-            if (dimension == 2 && group != 0) model.group_of_surface.emplace_back(tag, group);
+            if (dimension == 3)
+                model.surfaces_of_volume.emplace_back(tag, read_boundary(source));
+            else if (dimension > 0)
+                source.skip_ints(source.next_count());  // its boundary
+            EntityKind* kind = model.of_dimension(dimension);
+            if (kind && group != 0) kind->group_of_entity.emplace_back(tag, group);
         }
-    std::stable_sort(model.group_of_surface.begin(), model.group_of_surface.end());
+    for (EntityKind* kind : {&model.surfaces, &model.volumes})
+        std::stable_sort(kind->group_of_entity.begin(), kind->group_of_entity.end());
 }
 
 void add_node(Source& source, std::int64_t tag, SoupBuilder& builder, Model& model) {
@@ -228,7 +265,8 @@ ElementType element_type(std::int64_t number) {
     return number > 0 && number < static_cast<std::int64_t>(types.size()) ? types[number] : ElementType{};
 }
 
-// Takes the elements one by one: faces and, if they are wanted, tetrahedra. What is neither is only counted.
+// Takes the elements one by one: faces and tetrahedra. What is neither is only counted, and so are tetrahedra of higher
+// order where a surface is wanted.
 class Elements {
  public:
     Elements(Source& source, SoupBuilder& builder, const Model& model)
@@ -237,10 +275,8 @@ class Elements {
     /// Elements to come are of this type.
     void set_type(std::int64_t number) {
         type_ = element_type(number);
-        if (type_.shape == Shape::unknown || (is_taken() && type_.nodes > 4))
-            source_.fail("elements of type " + std::to_string(number) + " (" + describe() + ") cannot be read. " +
-                         (builder_.wants_tets() ? "Save the mesh with elements of first order: gmsh -order 1."
-                                                : "Save the surface with triangles of three nodes."));
+        if (type_.shape == Shape::unknown || (is_taken() && type_.nodes > 4)) refuse_type(number);
+        if (type_.shape == Shape::tetrahedron && type_.nodes > 4) of_higher_order_ = number;
     }
     /// So many of them follow.
     void announce(std::int64_t count) const {
@@ -249,10 +285,8 @@ class Elements {
     void set_patch(std::int64_t group, std::int64_t entity) {
         if (std::pair(group, entity) == patch_) return;
         patch_ = {group, entity};
-        const std::string* name = find(model_.surface_groups, group);
-        builder_.set_patch(name         ? *name
-                           : group != 0 ? "physical_" + std::to_string(group)
-                                        : "surface_" + std::to_string(entity));
+        builder_.set_patch(model_.surfaces.name_of(group, entity));
+        volume_ = -1;
     }
     /// The nodes of one element.
     template <class NextNode>
@@ -266,18 +300,37 @@ class Elements {
         }
         if (is_taken() && !repeats_last()) add_element();
     }
+    /// When all have been read.
+    void finish() const {
+        if (!builder_.has_facets() && !builder_.has_tets() && of_higher_order_) refuse_type(of_higher_order_);
+        if (!builder_.wants_tets()) {
+            builder_.name_volumes(volume_names());
+            if (!builder_.has_tets()) refuse_shared_surfaces();
+        }
+        note_ignored();
+    }
+
+ private:
     void note_ignored() const {
         for (const Shape shape :
              {Shape::tetrahedron, Shape::hexahedron, Shape::prism, Shape::pyramid, Shape::line, Shape::point}) {
             const auto i = static_cast<std::size_t>(shape);
-            if (shape == Shape::tetrahedron && builder_.wants_tets()) continue;
+            if (shape == Shape::tetrahedron && (builder_.wants_tets() || !builder_.has_facets())) continue;
             builder_.note_ignored(counts_[i], shape_names[i][0], shape_names[i][1]);
         }
     }
-
- private:
+    [[noreturn]] void refuse_type(std::int64_t number) const {
+        const ElementType type = element_type(number);
+        const bool is_face =
+            type.shape == Shape::unknown || type.shape == Shape::triangle || type.shape == Shape::quadrangle;
+        source_.fail("elements of type " + std::to_string(number) + " (" + describe(type) + ") cannot be read. " +
+                     (builder_.wants_tets() || !is_face ? "Save the mesh with elements of first order: gmsh -order 1."
+                                                        : "Save the surface with triangles of three nodes."));
+    }
     bool is_face() const { return type_.shape == Shape::triangle || type_.shape == Shape::quadrangle; }
-    bool is_taken() const { return is_face() || (type_.shape == Shape::tetrahedron && builder_.wants_tets()); }
+    bool is_taken() const {
+        return is_face() || (type_.shape == Shape::tetrahedron && (builder_.wants_tets() || type_.nodes == 4));
+    }
     // MSH 2 writes an element of several groups once for each, one directly behind the other.
     bool repeats_last() const {
         return corners_ == last_corners_ && patch_.second == last_patch_.second && patch_.first != last_patch_.first;
@@ -285,12 +338,57 @@ class Elements {
     void add_element() {
         last_patch_ = patch_;
         const auto fail = [&](const std::string& what) { source_.fail(what); };
-        is_face() ? builder_.add_polygon(corners_, fail) : builder_.add_tet(corners_, fail);
+        if (!is_face()) return builder_.add_tet(corners_, fail, volume());
+        builder_.add_polygon(corners_, fail);
+        if (model_.surfaces_of_volume.empty()) return;
+        if (surfaces_.empty() || surfaces_.back().first != patch_.second)
+            surfaces_.emplace_back(patch_.second, corners_.front());
     }
-    std::string describe() const {
-        if (type_.shape == Shape::unknown) return "unknown";
-        return std::string(shape_names[static_cast<std::size_t>(type_.shape)][1]) + " with " +
-               std::to_string(type_.nodes) + " nodes";
+    // The number of that of the current patch.
+    std::int32_t volume() {
+        if (volume_ >= 0) return volume_;
+        const auto key = model_.is_partitioned ? std::pair<std::int64_t, std::int64_t>() : patch_;
+        const auto [found, is_new] = number_of_volume_.try_emplace(key, static_cast<std::int32_t>(volumes_.size()));
+        if (is_new) volumes_.push_back(key);
+        return volume_ = found->second;
+    }
+    // Those in the same group are told by their entities.
+    std::vector<std::string> volume_names() const {
+        std::map<std::int64_t, int> count_in_group;
+        for (const auto& [group, entity] : volumes_) ++count_in_group[group];
+        std::vector<std::string> names;
+        for (const auto& [group, entity] : volumes_)
+            names.push_back(model_.volumes.name_of(count_in_group[group] == 1 ? group : 0, entity));
+        return names;
+    }
+    // Of a file without tetrahedra, the geometry tells which surfaces are between two volumes; only volumes count all
+    // of whose surfaces are in the file.
+    void refuse_shared_surfaces() const {
+        if (model_.is_partitioned || builder_.keeps_walls()) return;
+        auto in_file = surfaces_;
+        std::sort(in_file.begin(), in_file.end());
+        std::vector<std::pair<std::int64_t, std::int64_t>> volume_of_surface;
+        for (const auto& [volume, surfaces] : model_.surfaces_of_volume) {
+            const auto is_in_file = [&](std::int64_t surface) { return find(in_file, surface) != nullptr; };
+            if (!std::all_of(surfaces.begin(), surfaces.end(), is_in_file)) continue;
+            for (const std::int64_t surface : surfaces) volume_of_surface.emplace_back(surface, volume);
+        }
+        std::sort(volume_of_surface.begin(), volume_of_surface.end());
+        const auto shared =
+            std::adjacent_find(volume_of_surface.begin(), volume_of_surface.end(),
+                               [](const auto& a, const auto& b) { return a.first == b.first && a.second != b.second; });
+        if (shared == volume_of_surface.end()) return;
+        const auto name_of = [&](std::int64_t volume) {
+            const std::int64_t* group = find(model_.volumes.group_of_entity, volume);
+            return model_.volumes.name_of(group ? *group : 0, volume);
+        };
+        const std::int64_t vertex = *find(in_file, shared->first);
+        builder_.refuse_wall(name_of(shared->second), name_of(std::next(shared)->second), builder_.vertex(vertex));
+    }
+    static std::string describe(const ElementType& type) {
+        if (type.shape == Shape::unknown) return "unknown";
+        return std::string(shape_names[static_cast<std::size_t>(type.shape)][1]) + " with " +
+               std::to_string(type.nodes) + " nodes";
     }
     // Tags mostly count from 1 without gaps, and need no search then.
     const std::int64_t* find_vertex(std::int64_t node) const {
@@ -312,7 +410,12 @@ class Elements {
     const Model& model_;
     ElementType type_;
     std::pair<std::int64_t, std::int64_t> patch_ = {-1, -1}, last_patch_ = {-1, -1};  // group, entity
-    std::vector<std::int64_t> corners_, last_corners_;                                // of this face, of the last one
+    std::vector<std::pair<std::int64_t, std::int64_t>> volumes_;                      // of tetrahedra: group, entity
+    std::map<std::pair<std::int64_t, std::int64_t>, std::int32_t> number_of_volume_;
+    std::int32_t volume_ = -1;                                     // number of that of patch_; -1: not known yet
+    std::vector<std::pair<std::int64_t, std::int64_t>> surfaces_;  // of faces: entity, a vertex
+    std::int64_t of_higher_order_ = 0;                             // type of such tetrahedra; 0: there are none
+    std::vector<std::int64_t> corners_, last_corners_;             // of this face, of the last one
     std::array<std::int64_t, shape_names.size()> counts_{};
 };
 
@@ -344,10 +447,10 @@ void read_elements_4(Source& source, const Model& model, Elements& elements) {
     const std::int64_t blocks = source.next_count();
     for (int i = 0; i < 3; ++i) source.next_long();  // numbers of all blocks together
     for (std::int64_t block = 0; block < blocks; ++block) {
-        source.next_int();  // dimension, which the type tells
-        const std::int64_t entity = source.next_int();
+        const std::int64_t dimension = source.next_int(), entity = source.next_int();
         elements.set_type(source.next_int());
-        const std::int64_t* group = find(model.group_of_surface, entity);
+        const EntityKind& kind = dimension == 3 ? model.volumes : model.surfaces;
+        const std::int64_t* group = find(kind.group_of_entity, entity);
         elements.set_patch(group ? *group : 0, entity);
         const std::int64_t count = source.next_count();
         elements.announce(count);
@@ -398,7 +501,7 @@ std::string_view read_section_name(TextScanner& text) {
     const std::string_view word = text.next_word();
     if (!word.starts_with('$')) text.fail("a section that begins with $ is expected. Save the mesh again.");
     const std::string_view name = word.substr(1);
-    if (name == "NOD" || name == "NOE" || name == "ELM") refuse_version(text, "1");
+    if (name == "NOD" || name == "NOE" || name == "ELM") refuse_version(text, "1 ($NOD, $ELM)");
     return name;
 }
 
@@ -420,6 +523,8 @@ void scan_gmsh(std::string_view bytes, const std::string& path, SoupBuilder& bui
             read_physical_names(source, model);
         else if (name == "Entities")
             read_entities(source, model);
+        else if (name == "PartitionedEntities")
+            model.is_partitioned = true;
         else if (name == "Nodes")
             is_msh2 ? read_nodes_2(source, builder, model) : read_nodes_4(source, builder, model);
         else if (name == "Elements")
@@ -428,11 +533,18 @@ void scan_gmsh(std::string_view bytes, const std::string& path, SoupBuilder& bui
             read_node_data(source, builder, model);
         finish_section(source.text(), name);
     }
-    elements.note_ignored();
+    elements.finish();
 }
 
 Soup read_gmsh(std::string_view bytes, const std::string& path) {
     SoupBuilder builder(path);
+    scan_gmsh(bytes, path, builder);
+    return builder.finish();
+}
+
+Soup read_gmsh_with_walls(std::string_view bytes, const std::string& path) {
+    SoupBuilder builder(path);
+    builder.keep_walls();
     scan_gmsh(bytes, path, builder);
     return builder.finish();
 }

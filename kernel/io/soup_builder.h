@@ -13,6 +13,8 @@
 
 #include "core/error.h"
 #include "io/polygon_fan.h"
+#include "io/tet_skin.h"
+#include "surface/facet_triangulation.h"
 #include "surface/soup.h"
 
 namespace kerf {
@@ -33,6 +35,7 @@ class SoupBuilder {
     bool wants_scalars() const { return wanted_ == Wanted::tets_and_scalars; }
 
     std::int64_t vertex_count() const { return static_cast<std::int64_t>(soup_.vertices.size()); }
+    const Vec3& vertex(std::int64_t v) const { return soup_.vertices[static_cast<std::size_t>(v)]; }
 
     void add_vertex(const Vec3& p) {
         if (soup_.vertices.size() == std::numeric_limits<std::int32_t>::max())
@@ -56,18 +59,36 @@ class SoupBuilder {
     /// has less than three corners, or one that is no vertex so far. One that no fan covers (see find_fan()) is noted.
     template <class Fail>
     void add_polygon(std::span<const std::int64_t> corners, const Fail& fail) {
-        if (corners.size() < 3) fail("a facet has less than three vertices. Remove it or export the surface again.");
-        for (std::int64_t v : corners)
-            if (v < 0 || v >= vertex_count())
-                fail("a facet names vertex number " + std::to_string(v) + " (counted from 0), but there are " +
-                     std::to_string(vertex_count()) + " vertices. Correct it or export the surface again.");
-        const PolygonFan fan = corners.size() > 3 ? find_fan(soup_.vertices, corners) : PolygonFan{};
-        if (fan.obstacle) soup_.unfit_polygons.push_back(polygon_count_);
-        if (corners.size() > 3) number_polygons();
-        const auto corner = [&](std::size_t i) {
-            return static_cast<std::int32_t>(corners[(fan.apex + i) % corners.size()]);
-        };
-        for (std::size_t i = 2; i < corners.size(); ++i) add_facet({corner(0), corner(i - 1), corner(i)});
+        check_corners(corners, fail);
+        add_fan(corners, corners.size() > 3 ? find_fan(soup_.vertices, corners) : PolygonFan{});
+    }
+    /// A facet of several polygons with holes, in the current patch, triangulated without new vertices; so is a single
+    /// polygon that no fan covers. A facet of edges and vertices alone is left out. Calls `fail(message)`, which must
+    /// throw, for a corner that is no vertex so far, and for what triangulate_facet() refuses, but for a single
+    /// polygon, which is noted as add_polygon() does.
+    template <class Fail>
+    void add_facet_of_polygons(const PolygonalFacet& facet, const Fail& fail) {
+        for (const auto& polygon : facet.polygons) check_indices(polygon, fail);
+        const auto has_area = [](const auto& polygon) { return polygon.size() > 2; };
+        if (std::none_of(facet.polygons.begin(), facet.polygons.end(), has_area)) {
+            number_polygons();
+            ++polygon_count_;
+            ++facets_without_area_;
+            return;
+        }
+        const bool is_single = facet.polygons.size() == 1 && facet.holes.empty();
+        const auto& first = facet.polygons.front();
+        if (is_single && first.size() == 3) return add_fan(first, {});
+        const PolygonFan fan = is_single ? find_fan(soup_.vertices, first) : PolygonFan{};
+        if (is_single && !fan.obstacle) return add_fan(first, fan);
+        const FacetTriangulation found = triangulate_facet(soup_.vertices, facet);
+        if (!found.obstacle.empty() && is_single) return add_fan(first, fan);
+        if (!found.obstacle.empty())
+            fail("facet " + std::to_string(polygon_count_) + " (counted from 0) " + found.obstacle +
+                 ". Correct it or export the surface as triangles.");
+        edges_outside_ += found.outside;
+        number_polygons();
+        for (const Triangle& triangle : found.triangles) add_facet(triangle);
         ++polygon_count_;
     }
     /// A triangle of three new vertices.
@@ -77,9 +98,14 @@ class SoupBuilder {
         add_facet({end - 3, end - 2, end - 1});
         ++polygon_count_;
     }
-    /// Of any orientation. Calls `fail(message)`, which must throw, for a corner that is no vertex so far.
+    bool has_facets() const { return !soup_.facets.empty(); }
+    bool has_tets() const { return !tets_.empty(); }
+    std::int64_t tet_count() const { return static_cast<std::int64_t>(tets_.size()); }
+    /// Of any orientation, in a volume: any number from 0 on. Calls `fail(message)`, which must throw, for a corner
+    /// that is no vertex so far. Where a surface is wanted, tetrahedra say what it separates, and are one if there is
+    /// none.
     template <class Fail>
-    void add_tet(std::span<const std::int64_t> corners, const Fail& fail) {
+    void add_tet(std::span<const std::int64_t> corners, const Fail& fail, std::int32_t volume = 0) {
         Tetrahedron tet{};
         for (std::size_t i = 0; i < tet.size(); ++i) {
             if (corners[i] < 0 || corners[i] >= vertex_count())
@@ -91,7 +117,13 @@ class SoupBuilder {
         if (tets_.size() == std::numeric_limits<std::int32_t>::max())
             throw Error(ErrorCode::input, path_ + ": the file has more than 2^31 - 1 tetrahedra. Split the mesh.");
         tets_.push_back(tet);
+        if (!wants_tets()) volume_of_tet_.push_back(volume);
     }
+    /// Facets may lie between two volumes.
+    void keep_walls() { keeps_walls_ = true; }
+    bool keeps_walls() const { return keeps_walls_; }
+    /// Names of the volumes of tetrahedra, by their numbers.
+    void name_volumes(std::vector<std::string> names) { volume_names_ = std::move(names); }
     /// The values of this name, one for each vertex so far.
     std::vector<double>& node_scalar(std::string_view name) {
         const auto of_name = [&](const NodeScalar& scalar) { return scalar.name == name; };
@@ -109,8 +141,16 @@ class SoupBuilder {
         soup_.notes.push_back(std::to_string(count) + " " +
                               (count == 1 ? std::string(one) + " was" : std::string(many) + " were") + " ignored.");
     }
-    /// The soup; throws Error(input) if there is no facet in it.
+    /// The soup, whose facets are the skin of the tetrahedra if there were no others. Throws Error(input) if there is
+    /// no facet in it, or one between two volumes.
     Soup finish() {
+        note_polygons();
+        if (soup_.facets.empty() && has_tets()) {
+            add_skin();
+        } else if (volume_names_.size() > 1) {
+            if (!keeps_walls_) refuse_walls();
+            note(tell_volumes(volume_names_));
+        }
         if (soup_.facets.empty())
             throw Error(ErrorCode::input, path_ + ": the file holds no facets. Export the surface again.");
         return std::move(soup_);
@@ -125,10 +165,62 @@ class SoupBuilder {
         for (NodeScalar& scalar : scalars_) node_scalar(scalar.name);
         return std::move(scalars_);
     }
+    /// Throws Error(input): a surface has one side inside, and these volumes are on both sides of it.
+    [[noreturn]] void refuse_wall(const std::string& volume, const std::string& other, const Vec3& where) const {
+        throw Error(ErrorCode::input, path_ + ": " + tell_wall(volume, other, where));
+    }
     /// What came beside the tetrahedra, which may be no facets.
     Soup finish_beside_tets() { return std::move(soup_); }
 
  private:
+    template <class Fail>
+    void check_corners(std::span<const std::int64_t> corners, const Fail& fail) const {
+        if (corners.size() < 3) fail("a facet has less than three vertices. Remove it or export the surface again.");
+        check_indices(corners, fail);
+    }
+    template <class Fail>
+    void check_indices(std::span<const std::int64_t> corners, const Fail& fail) const {
+        for (std::int64_t v : corners)
+            if (v < 0 || v >= vertex_count())
+                fail("a facet names vertex number " + std::to_string(v) + " (counted from 0), but there are " +
+                     std::to_string(vertex_count()) + " vertices. Correct it or export the surface again.");
+    }
+    void add_fan(std::span<const std::int64_t> corners, const PolygonFan& fan) {
+        if (fan.obstacle) soup_.unfit_polygons.push_back(polygon_count_);
+        if (corners.size() > 3) number_polygons();
+        const auto corner = [&](std::size_t i) {
+            return static_cast<std::int32_t>(corners[(fan.apex + i) % corners.size()]);
+        };
+        for (std::size_t i = 2; i < corners.size(); ++i) add_facet({corner(0), corner(i - 1), corner(i)});
+        ++polygon_count_;
+    }
+    void note_polygons() {
+        note_ignored(facets_without_area_, "facet of edges or points alone", "facets of edges or points alone");
+        note_ignored(edges_outside_, "edge or point outside of its facet", "edges or points outside of their facets");
+    }
+    void add_skin() {
+        TetMesh mesh;
+        mesh.vertices = std::move(soup_.vertices);
+        mesh.tets = std::move(tets_);
+        const std::vector<Triangle> skin = skin_of(mesh);
+        soup_.vertices = std::move(mesh.vertices);
+        set_patch("surface");  // whatever curves or volumes came last
+        for (const Triangle& facet : skin) add_facet(facet);
+        note(tell_skin(mesh.tets.size(), volume_names_));
+    }
+    void refuse_walls() {
+        TetMesh mesh;
+        mesh.vertices = std::move(soup_.vertices);
+        mesh.tets = std::move(tets_);
+        const auto wall = find_wall(mesh, volume_of_tet_, soup_.facets);
+        soup_.vertices = std::move(mesh.vertices);
+        if (wall) {
+            const Triangle& t = soup_.facets[static_cast<std::size_t>(wall->facet)];
+            const auto& p = soup_.vertices;
+            refuse_wall(volume_names_[wall->volumes[0]], volume_names_[wall->volumes[1]],
+                        (p[t[0]] + p[t[1]] + p[t[2]]) / 3);
+        }
+    }
     void add_facet(const Triangle& facet) {
         if (soup_.facets.size() == static_cast<std::size_t>(most_facets))
             throw Error(ErrorCode::input, path_ + ": the file has more than " + std::to_string(most_facets) +
@@ -158,9 +250,13 @@ class SoupBuilder {
     Wanted wanted_;
     Soup soup_;
     std::vector<Tetrahedron> tets_;
+    bool keeps_walls_ = false;
+    std::vector<std::int32_t> volume_of_tet_;  // where a surface is wanted
+    std::vector<std::string> volume_names_;
     std::vector<NodeScalar> scalars_;
     std::string patch_name_ = "surface";
     std::int32_t polygon_count_ = 0;
+    std::int64_t facets_without_area_ = 0, edges_outside_ = 0;
     bool has_fans_ = false;
     std::int32_t patch_ = -1;  // of the current name, -1 as long as no facet has used it
     std::map<std::string, std::int32_t> patch_of_name_;

@@ -79,6 +79,12 @@ std::optional<std::size_t> find_nul_in_text(std::string_view bytes) {
     return is_text ? std::optional(nul) : std::nullopt;
 }
 
+// XML is many things.
+bool is_vtk_xml(std::string_view bytes, std::string_view word) {
+    constexpr std::size_t longest_prologue = 4096;
+    return word.starts_with('<') && bytes.substr(0, longest_prologue).find("<VTKFile") != bytes.npos;
+}
+
 bool is_zip(std::string_view bytes) { return bytes.starts_with("PK\3\4"); }
 
 [[noreturn]] void refuse_zip(std::string_view bytes, const std::string& path) {
@@ -90,7 +96,7 @@ bool is_zip(std::string_view bytes) { return bytes.starts_with("PK\3\4"); }
 
 // What has no binary kind of its own ends before the bytes that some programs append.
 std::string_view body_of(std::string_view bytes, Reader read) {
-    const bool may_be_binary = read == read_stl || read == read_ply || read == read_gmsh;
+    const bool may_be_binary = read == read_stl || read == read_ply || read == read_gmsh || read == read_vtu;
     return may_be_binary ? bytes : without_padding(bytes);
 }
 
@@ -102,6 +108,7 @@ Reader recognise(std::string_view bytes, const std::string& path) {
     if (word.ends_with("OFF")) return read_off;
     if (word.starts_with('$')) return read_gmsh;
     if (word == "MeshVersionFormatted") return read_medit;
+    if (is_vtk_xml(bytes, word)) return read_vtu;
     if (is_binary_medit(bytes))
         throw Error(ErrorCode::input,
                     path + ": binary MEDIT (.meshb) is not supported. Save the mesh as text (.mesh).");
@@ -115,15 +122,15 @@ Reader recognise(std::string_view bytes, const std::string& path) {
     if (holds_nul(bytes)) return read_stl;
     throw Error(ErrorCode::input,
                 path +
-                    ": the format is not recognised. Give STL, OBJ, PLY, OFF, Gmsh's .msh, MEDIT's .mesh as text, or "
-                    "TetGen's .smesh or .poly, plain or compressed with gzip or zstd.");
+                    ": the format is not recognised. Give STL, OBJ, PLY, OFF, Gmsh's .msh, MEDIT's .mesh as text, "
+                    "VTK's .vtu, or TetGen's .smesh or .poly, plain or compressed with gzip or zstd.");
 }
 
 }  // namespace
 
-Soup read_surface(const std::string& path) { return read_surface_bytes(read_file(path), path); }
+Soup read_surface(const std::string& path, Walls walls) { return read_surface_bytes(read_file(path), path, walls); }
 
-Soup read_surface_bytes(std::string file, const std::string& path) {
+Soup read_surface_bytes(std::string file, const std::string& path, Walls walls) {
     const std::string content = decompress(std::move(file), path);
     std::string_view bytes = content;
     if (bytes.empty()) throw Error(ErrorCode::input, path + ": the file is empty. Export the surface again.");
@@ -134,7 +141,8 @@ Soup read_surface_bytes(std::string file, const std::string& path) {
                                 "kerf check or kerf mesh, or export it as STL, OBJ or PLY.",
                                 path, name(cad)));
     const Reader read = recognise(bytes, path);
-    return read(body_of(bytes, read), path);
+    const std::string_view body = body_of(bytes, read);
+    return read == read_gmsh && walls == Walls::kept ? read_gmsh_with_walls(body, path) : read(body, path);
 }
 
 }  // namespace kerf

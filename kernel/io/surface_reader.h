@@ -8,26 +8,33 @@
 
 namespace kerf {
 
+/// Triangles between two volumes of a .msh: a surface has one side inside, so that they are refused, or kept for what
+/// leaves pieces of the surface out.
+enum class Walls { refused, kept };
+
 /// Reads STL (binary or ASCII), OBJ, PLY (ASCII, both binary endians), OFF, Gmsh MSH 2 or 4.1 (ASCII, both binary
-/// endians), MEDIT .mesh (ASCII), TetGen .smesh or .poly, each also compressed with gzip or zstd, in double precision
-/// where the format has it. The content tells the format. The ending is only asked where the content leaves a doubt:
-/// .smesh or .poly for a list of numbers whose first line is not that of TetGen's nodes, .smesh for a first facet that
-/// is broken over lines. STL triangles are welded exactly; other formats keep their vertices as they are.
+/// endians), MEDIT .mesh (ASCII), VTK's VTU (see scan_vtu()), TetGen .smesh or .poly, each also compressed with gzip or
+/// zstd, in double precision where the format has it. The content tells the format. The ending is only asked where the
+/// content leaves a doubt: .smesh or .poly for a list of numbers whose first line is not that of TetGen's nodes, .smesh
+/// for a first facet that is broken over lines. STL triangles are welded exactly; other formats keep their vertices as
+/// they are.
 ///
 /// STL solids, OBJ groups (else objects, else materials), Gmsh's physical groups (else surfaces), MEDIT references and
 /// TetGen markers become patches. Polygons are cut into fans, see find_fan(); those that are not planar or that no fan
-/// covers are in Soup::unfit_polygons. Volume elements, curves, points and regions are passed over; Soup::notes says
-/// so. TetGen's hole points are in Soup::holes. Numbers beyond the doubles are read as the nearest, that is infinite or
-/// zero, and "nan" is NaN.
+/// covers are in Soup::unfit_polygons. Facets of TetGen that have several polygons or holes, or that no fan covers, are
+/// triangulated, see triangulate_facet(). Volume elements, curves, points and regions are passed over; Soup::notes says
+/// so. Where a .msh or .vtu has tetrahedra and no triangles, the skin of the tetrahedra is the surface, see skin_of().
+/// Of a .msh, volumes between which there are triangles are refused unless `walls` are kept. TetGen's hole points
+/// are in Soup::holes. Numbers beyond the doubles are read as the nearest, that is infinite or zero, and "nan" is NaN.
 ///
 /// Throws Error(io) for a file that cannot be opened or read, Error(input) for content that is empty, truncated, or
 /// malformed, each naming the file, the place (line, byte or facet) and the way out. A binary STL may have up to 49
 /// bytes of padding; with more its count of facets is in doubt, and it is refused. Memory is bounded by a multiple of
 /// the size of the content, whatever its header claims. `-` is refused.
-Soup read_surface(const std::string& path);
+Soup read_surface(const std::string& path, Walls walls = Walls::refused);
 
 /// The same for the bytes of a file that is already in memory.
-Soup read_surface_bytes(std::string file, const std::string& path);
+Soup read_surface_bytes(std::string file, const std::string& path, Walls walls = Walls::refused);
 
 /// The formats by themselves, on the bytes of a file without compression; `path` serves messages, and tells TetGen's
 /// .poly from .smesh in doubt and where the .node file of one without nodes is.
@@ -36,7 +43,9 @@ Soup read_obj(std::string_view bytes, const std::string& path);
 Soup read_ply(std::string_view bytes, const std::string& path);
 Soup read_off(std::string_view bytes, const std::string& path);
 Soup read_gmsh(std::string_view bytes, const std::string& path);
+Soup read_gmsh_with_walls(std::string_view bytes, const std::string& path);
 Soup read_medit(std::string_view bytes, const std::string& path);
 Soup read_tetgen(std::string_view bytes, const std::string& path);
+Soup read_vtu(std::string_view bytes, const std::string& path);
 
 }  // namespace kerf

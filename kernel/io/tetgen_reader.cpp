@@ -3,7 +3,8 @@
 // .smesh and .poly are four lists of lines, each behind a line with its length. Nodes are a number (from 0 or
 // 1), x y z and what may follow; if there are none, they are in the .node file beside. A facet of .smesh is its number
 // of corners, the corners and a boundary marker; one of .poly says on a line of its own how many polygons and holes it
-// has and its marker. Hole points are kept, regions passed over.
+// has and its marker, then lists its polygons as .smesh does and its holes as points. Hole points of the whole are
+// kept, regions passed over.
 #include <array>
 #include <filesystem>
 #include <string>
@@ -59,20 +60,56 @@ void finish_facet_line(TextScanner& scanner, bool has_marker, SoupBuilder& build
     scanner.skip_line();
 }
 
-// The line of .poly before the corners, with the marker.
-void read_facet_line(TextScanner& scanner, bool has_marker, SoupBuilder& builder) {
-    const std::int64_t polygons = scanner.next_count();
-    const std::int64_t holes = scanner.at_line_end() ? 0 : scanner.next_count();
-    if (polygons != 1 || holes != 0)
-        scanner.fail("a facet has " + std::to_string(polygons) + " polygons and " + std::to_string(holes) +
-                     " holes; one polygon without holes can be read. Export the surface as triangles.");
+// The line of .poly before the polygons, with the marker.
+struct FacetLine {
+    std::int64_t polygons = 1, holes = 0;
+};
+
+FacetLine read_facet_line(TextScanner& scanner, bool has_marker, SoupBuilder& builder) {
+    FacetLine line;
+    line.polygons = scanner.next_count();
+    line.holes = scanner.at_line_end() ? 0 : scanner.next_count();
+    if (line.polygons == 0) scanner.fail("a facet has no polygon. Remove it or export the surface again.");
     finish_facet_line(scanner, has_marker, builder);
+    return line;
 }
 
 void read_corners(TextScanner& scanner, std::int64_t first_node, std::vector<std::int64_t>& corners) {
     const std::int64_t size = scanner.next_count();
     corners.clear();
     for (std::int64_t i = 0; i < size; ++i) corners.push_back(scanner.next_index(first_node));
+}
+
+Vec3 read_point(TextScanner& scanner) {
+    scanner.next_integer();  // its number
+    const double x = scanner.next_real(), y = scanner.next_real(), z = scanner.next_real();
+    scanner.skip_line();  // attribute and volume bound of a region
+    return {x, y, z};
+}
+
+void read_poly_facet(TextScanner& scanner, bool has_marker, std::int64_t first_node, SoupBuilder& builder,
+                     PolygonalFacet& facet) {
+    const FacetLine line = read_facet_line(scanner, has_marker, builder);
+    for (std::int64_t i = 0; i < line.polygons; ++i) {
+        const auto place = static_cast<std::size_t>(i);
+        if (place == facet.polygons.size()) facet.polygons.emplace_back();
+        read_corners(scanner, first_node, facet.polygons[place]);
+        if (facet.polygons[place].empty())
+            scanner.fail("a polygon has no vertices. Remove it or export the surface again.");
+        scanner.skip_line();
+    }
+    facet.polygons.resize(static_cast<std::size_t>(line.polygons));
+    facet.holes.clear();
+    for (std::int64_t i = 0; i < line.holes; ++i) facet.holes.push_back(read_point(scanner));
+}
+
+void read_smesh_facet(TextScanner& scanner, bool has_marker, std::int64_t first_node, SoupBuilder& builder,
+                      PolygonalFacet& facet) {
+    facet.polygons.resize(1);
+    read_corners(scanner, first_node, facet.polygons[0]);
+    if (facet.polygons[0].size() < 3)
+        scanner.fail("a facet has less than three vertices. Remove it or export the surface again.");
+    finish_facet_line(scanner, has_marker, builder);
 }
 
 // True if the first facet is one of .poly: a line of more than three numbers is a facet of .smesh, and a line that
@@ -92,12 +129,11 @@ void read_facets(TextScanner& scanner, const std::string& path, std::int64_t fir
     const bool has_markers = !scanner.at_line_end() && scanner.next_integer() != 0;
     scanner.skip_line();
     const bool poly = is_poly(scanner, path);
-    std::vector<std::int64_t> corners;
+    const auto read_facet = poly ? read_poly_facet : read_smesh_facet;
+    PolygonalFacet facet;  // one for all, because most are small
     for (std::int64_t f = 0; f < count; ++f) {
-        if (poly) read_facet_line(scanner, has_markers, builder);
-        read_corners(scanner, first_node, corners);
-        finish_facet_line(scanner, has_markers && !poly, builder);
-        builder.add_polygon(corners, [&](const std::string& what) { scanner.fail(what); });
+        read_facet(scanner, has_markers, first_node, builder, facet);
+        builder.add_facet_of_polygons(facet, [&](const std::string& what) { scanner.fail(what); });
     }
 }
 
@@ -105,12 +141,7 @@ void read_facets(TextScanner& scanner, const std::string& path, std::int64_t fir
 template <class Take>
 std::int64_t read_points(TextScanner& scanner, const Take& take) {
     const std::int64_t count = scanner.at_end() ? 0 : scanner.next_count();
-    for (std::int64_t i = 0; i < count; ++i) {
-        scanner.next_integer();
-        const double x = scanner.next_real(), y = scanner.next_real(), z = scanner.next_real();
-        take(Vec3(x, y, z));
-        scanner.skip_line();  // attribute and volume bound of a region
-    }
+    for (std::int64_t i = 0; i < count; ++i) take(read_point(scanner));
     return count;
 }
 

@@ -15,6 +15,7 @@
 #include "io/compressed.h"
 #include "io/mesh_scanners.h"
 #include "io/soup_builder.h"
+#include "io/surface_reader.h"
 #include "io/text_scanner.h"
 #include "io/vtk_cell_types.h"
 
@@ -360,6 +361,13 @@ void scan_vtu(std::string_view bytes, const std::string& path, SoupBuilder& buil
     const vtu::File file = vtu::read_structure(bytes, path);
     const vtu::Decoder decoder(file, path);
     for (const vtu::Piece& piece : file.pieces) vtu::scan_piece(decoder, piece, path, builder);
+}
+
+Soup read_vtu(std::string_view bytes, const std::string& path) {
+    SoupBuilder builder(path);
+    scan_vtu(bytes, path, builder);
+    if (builder.has_facets()) builder.note_ignored(builder.tet_count(), "tetrahedron", "tetrahedra");
+    return builder.finish();
 }
 
 }  // namespace kerf

@@ -182,10 +182,11 @@ void write_msh2(const Soup& soup, const std::vector<Tetrahedron>& tets, MshText&
     out.text("\n$EndNodes\n$Elements\n" + std::to_string(soup.facets.size() + 2 + tets.size()) + "\n");
     write_element_2(out, 1, 15, 0, {0});
     write_element_2(out, 2, 1, 0, {0, 1});
-    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+    for (std::size_t f = 0; f < std::max(soup.facets.size(), std::size_t{3}); ++f) {
         if (f == 1) write_tet_2(out, tets.front());
         if (f == 2)
             for (std::size_t t = 1; t < tets.size(); ++t) write_tet_2(out, tets[t]);
+        if (f >= soup.facets.size()) continue;
         const Triangle& t = soup.facets[f];
         write_element_2(out, static_cast<int>(f + 5), 2, soup.patch[f], {t[0], t[1], t[2]});
     }

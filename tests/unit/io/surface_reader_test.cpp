@@ -8,6 +8,7 @@
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <map>
 #include <random>
 #include <sstream>
 
@@ -360,7 +361,11 @@ TEST(SurfaceReader, NamesThePlaceAndTheCause) {
         {medit + "0 0 1 0\n", "line 7: a keyword is expected, not \"0\""},
         {medit + "TrianglesP2 1\n1 2 3 1 2 3 0\n", "line 7: curved elements (TrianglesP2)"},
         {medit + "Triangles -1\n", "line 7: a number of elements is negative"},
-        {"$NOD\n1\n", "MSH version 1 cannot be read"},
+        {"$NOD\n1\n",
+         "line 1: MSH version 1 ($NOD, $ELM) cannot be read. Save the mesh as MSH 2.2 or 4.1, for "
+         "example with gmsh FILE -save -format msh41 -o NEW.msh."},
+        {"$Comments\nx\n$EndComments\n$ELM\n1\n", "MSH version 1 ($NOD, $ELM) cannot be read"},
+        {msh + "$Elements\n1\n1 11 0 1 2 3 1 2 3 1 2 3 1\n", "(tetrahedra with 10 nodes)"},
         {"$MeshFormat\n4 0 8\n", "line 2: MSH version 4 cannot be read"},
         {"$MeshFormat\n4.1 1 8\n\x02\x01\x01\x02$EndMeshFormat\n", "order of the bytes is not 1"},
         {"$MeshFormat\n4.1 0 4\n", "line 2: the size of a real number is not 8"},
@@ -378,8 +383,10 @@ TEST(SurfaceReader, NamesThePlaceAndTheCause) {
         {nodes + "1 0\n3 1 2 4\n", "line 6: a facet names vertex number 3", ".smesh"},
         {nodes + "1 0\n3 1 2 0\n", "line 6: an index is 0, but the file counts from 1", ".smesh"},
         {nodes + "1 0\n2 1 2\n", "line 6: a facet has less than three", ".smesh"},
-        {nodes + "1 0\n2 0\n3 1 2 3\n2 1 2\n", "line 6: a facet has 2 polygons and 0 holes", ".poly"},
-        {nodes + "1 0\n1 1\n3 1 2 3\n1 0 0 0\n", "line 6: a facet has 1 polygons and 1 holes", ".poly"},
+        {nodes + "1 0\n0\n", "line 6: a facet has no polygon", ".poly"},
+        {nodes + "1 0\n2\n3 1 2 3\n0\n", "line 8: a polygon has no vertices", ".poly"},
+        {nodes + "1 0\n2\n3 1 2 3\n2 1 4\n", "line 8: a facet names vertex number 3", ".poly"},
+        {nodes + "1 0\n1 1\n3 1 2 3\n1 0.5 0 0\n", "line 8: facet 0 (counted from 0) has its hole point", ".poly"},
         {nodes + "1 0\n3 1 2 3\n0\n0\n3 1 2 3\n", "line 9: the file goes on after its lists", ".smesh"},
     };
     for (const Case& c : cases) {
@@ -519,6 +526,87 @@ TEST(GmshReader, NamesPatchesOfGroupsElseOfSurfaces) {
     EXPECT_TRUE(soup.notes.empty());
 }
 
+// The unit cube in six tetrahedra around a diagonal, every other one turned.
+std::vector<Tetrahedron> tets_of_cube() {
+    return {{0, 1, 3, 7}, {0, 5, 1, 7}, {0, 3, 2, 7}, {0, 6, 2, 7}, {0, 4, 5, 7}, {0, 4, 6, 7}};
+}
+Soup corners_of_cube() {
+    Soup soup;
+    for (int i = 0; i < 8; ++i) soup.vertices.emplace_back(i & 1, i >> 1 & 1, i >> 2);
+    return soup;
+}
+
+double enclosed_volume(const Soup& soup) {
+    double six_volumes = 0;
+    for (const auto& [a, b, c] : soup.facets)
+        six_volumes += soup.vertices[a].cross(soup.vertices[b]).dot(soup.vertices[c]);
+    return six_volumes / 6;
+}
+
+TEST(SurfaceReader, TakesTheSkinOfTetrahedraWithoutTriangles) {
+    std::vector<Triangle> first;
+    for (const SurfaceFile& file : to_all_mesh_formats(corners_of_cube(), tets_of_cube())) {
+        if (file.name.ends_with(".mesh")) continue;
+        SCOPED_TRACE(file.name);
+        const Soup soup = read_bytes(file.bytes);
+        EXPECT_EQ(soup.facets.size(), 12u);
+        EXPECT_EQ(enclosed_volume(soup), 1) << "outward";
+        if (first.empty()) first = soup.facets;
+        EXPECT_EQ(soup.facets, first);
+        EXPECT_EQ(soup.patch_names, std::vector<std::string>{"surface"});
+        const std::string note = "There are no triangles: the surface is the skin of the 6 tetrahedra.";
+        EXPECT_EQ(std::count(soup.notes.begin(), soup.notes.end(), note), 1);
+    }
+    const Soup cube = box();
+    for (const SurfaceFile& file : to_all_mesh_formats(cube, {{0, 1, 2, 4}})) {
+        SCOPED_TRACE(file.name);
+        const Soup soup = read_bytes(file.bytes);
+        EXPECT_EQ(soup.facets, cube.facets) << "triangles go before";
+        EXPECT_EQ(std::count(soup.notes.begin(), soup.notes.end(), "1 tetrahedron was ignored."), 1);
+    }
+}
+
+// Two tetrahedra, in the physical volumes 7 and 8, over the triangle 1 2 3.
+std::string two_volumes(const std::string& triangles, int count, int second_group = 8) {
+    return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 7 \"core\"\n3 8 \"shell\"\n"
+           "$EndPhysicalNames\n$Nodes\n5\n1 0 0 0\n2 3 0 0\n3 0 3 0\n4 0 0 1\n5 0 0 -1\n$EndNodes\n$Elements\n" +
+           std::to_string(count + 2) + "\n1 4 2 7 1 1 2 3 4\n2 4 2 " + std::to_string(second_group) + " 2 1 3 2 5\n" +
+           triangles + "$EndElements\n";
+}
+
+TEST(GmshReader, NamesVolumesThatTouch) {
+    const std::string outer = "3 2 0 1 2 4\n4 2 0 2 3 4\n5 2 0 3 1 4\n6 2 0 2 1 5\n7 2 0 3 2 5\n8 2 0 1 3 5\n",
+                      wall = "9 2 0 2 1 3\n";
+    const std::string message = message_of(two_volumes(outer + wall, 7));
+    EXPECT_NE(message.find(": volumes 'core' and 'shell' touch near (1, 1, 0)"), std::string::npos) << message;
+    EXPECT_NE(message.find("Save each in a file of its own"), std::string::npos) << message;
+    EXPECT_NE(message_of(two_volumes(outer + wall, 7, 7)).find("volumes 'volume_1' and 'volume_2'"), std::string::npos)
+        << "two entities of a group";
+    EXPECT_EQ(read_surface(TemporaryFile(two_volumes(outer + wall, 7)).path(), Walls::kept).facets.size(), 7u);
+    const Soup around = read_bytes(two_volumes(outer, 6));
+    EXPECT_EQ(around.facets.size(), 6u) << "without the wall they are one body";
+    EXPECT_EQ(around.notes, (std::vector<std::string>{"2 tetrahedra were ignored.",
+                                                      "2 volumes are read together: 'core', 'shell'."}));
+    const Soup skin = read_bytes(two_volumes("", 0));
+    EXPECT_EQ(skin.facets.size(), 6u);
+    EXPECT_EQ(skin.notes, std::vector<std::string>{"There are no triangles: the surface is the skin of the 2 "
+                                                   "tetrahedra of 2 volumes, 'core', 'shell', which are one body "
+                                                   "where they touch."});
+}
+
+TEST(GmshReader, TellsSharedSurfacesByTheGeometryWhereThereAreNoTetrahedra) {
+    const std::string head =
+        "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 7 \"core\"\n$EndPhysicalNames\n"
+        "$Entities\n0 0 3 2\n1 0 0 0 1 1 1 0 0\n2 0 0 0 1 1 1 0 0\n3 0 0 0 1 1 1 0 0\n"
+        "1 0 0 0 1 1 1 1 7 2 1 -2\n2 0 0 0 1 1 1 0 2 2 3\n$EndEntities\n"
+        "$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n";
+    const std::string two = "2 1 2 1\n1 1 2 3\n2 2 2 1\n2 1 2 4\n", third = "2 3 2 1\n3 2 3 4\n";
+    const std::string message = message_of(head + "$Elements\n3 3 1 3\n" + two + third + "$EndElements\n");
+    EXPECT_NE(message.find("volumes 'core' and 'volume_2' touch near"), std::string::npos) << message;
+    EXPECT_EQ(read_bytes(head + "$Elements\n2 2 1 2\n" + two + "$EndElements\n").facets.size(), 2u)
+        << "only one of the volumes is there";
+}
+
 TEST(MeditReader, TakesTrianglesWithReferencesAndPassesOverTheRest) {
     const Soup soup = read_bytes(
         "# a comment\nMeshVersionFormatted\n2\n\nDimension\n3\nNormals 1\nnan -1e-3 0\nVertices\n4\n0 0 0 1\n1 0 0 1\n"
@@ -569,6 +657,61 @@ TEST(TetgenReader, KeepsHolesAndNotesRegions) {
         EXPECT_EQ(soup.holes, (std::vector<Vec3>{Vec3(0.5, 0.5, 0.5)}));
         EXPECT_EQ(soup.notes, std::vector<std::string>{"1 region was ignored."});
     }
+}
+
+// A block with a square tunnel, whose ends are facets of two polygons and a hole.
+std::string tunnel(const std::string& first_end) {
+    return "16 3\n1 0 0 0\n2 3 0 0\n3 3 3 0\n4 0 3 0\n5 0 0 2\n6 3 0 2\n7 3 3 2\n8 0 3 2\n"
+           "9 1 1 0\n10 2 1 0\n11 2 2 0\n12 1 2 0\n13 1 1 2\n14 2 1 2\n15 2 2 2\n16 1 2 2\n10 1\n" +
+           first_end +
+           "2 1 7\n4 5 6 7 8\n4 13 14 15 16\n1 1.5 1.5 2\n1\n4 1 2 6 5\n1\n4 2 3 7 6\n1\n4 3 4 8 7\n1\n4 4 1 5 8\n"
+           "1\n4 9 10 14 13\n1\n4 10 11 15 14\n1\n4 11 12 16 15\n1\n4 12 9 13 16\n0\n";
+}
+
+TEST(TetgenReader, TriangulatesFacetsOfSeveralPolygonsWithHoles) {
+    const Soup soup = read_bytes(tunnel("2 1 7 # with a comment\n4 1 2 3 4\n4 9 10 11 12\n1 1.5 1.5 0\n"), ".poly");
+    EXPECT_EQ(soup.vertices.size(), 16u) << "no new ones";
+    EXPECT_EQ(soup.facets.size(), 32u);
+    EXPECT_TRUE(soup.unfit_polygons.empty());
+    EXPECT_EQ(soup.polygon.front(), 0);
+    EXPECT_EQ(soup.polygon.back(), 9);
+    EXPECT_EQ(std::count(soup.polygon.begin(), soup.polygon.end(), 1), 8);
+    EXPECT_EQ(soup.patch_names[0], "marker_7");
+    std::map<UndirectedEdge, int> facets_at;
+    for (const Triangle& t : soup.facets)
+        for (std::size_t i = 0; i < 3; ++i) ++facets_at[undirected(t[i], t[(i + 1) % 3])];
+    for (const auto& [edge, count] : facets_at) EXPECT_EQ(count, 2) << edge[0] << " " << edge[1];
+}
+
+TEST(TetgenReader, SaysWhichFacetIsNotPlanarOrCrossesItself) {
+    const std::string bent = message_of(tunnel("2\n4 1 2 3 4\n4 9 10 11 16\n"), ".poly");
+    EXPECT_NE(bent.find(".poly, line 21: facet 0 (counted from 0) is not planar: its corners (0, 0, 0) and (1, 2, 2)"),
+              std::string::npos)
+        << bent;
+    const std::string crossing = message_of(tunnel("2\n4 1 2 3 4\n4 9 11 10 12\n"), ".poly");
+    EXPECT_NE(crossing.find("facet 0 (counted from 0) has edges that cross near (1.5, 1.5, 0)"), std::string::npos)
+        << crossing;
+}
+
+TEST(TetgenReader, TakesEdgesAndPointsOfFacetsAndNotesTheOthers) {
+    const std::string nodes = "7 3\n1 0 0 0\n2 4 0 0\n3 4 4 0\n4 0 4 0\n5 1 1 0\n6 2 1 0\n7 9 9 0\n";
+    const Soup soup = read_bytes(nodes + "3\n4\n4 1 2 3 4\n2 5 6\n1 6\n1 7\n1\n2 1 3\n1\n3 1 2 3\n", ".poly");
+    EXPECT_EQ(soup.facets.size(), 7u);
+    EXPECT_EQ(soup.polygon.back(), 2) << "a facet without area has its number";
+    EXPECT_EQ(soup.notes, (std::vector<std::string>{"1 facet of edges or points alone was ignored.",
+                                                    "1 edge or point outside of its facet was ignored."}));
+}
+
+TEST(TetgenReader, TriangulatesPolygonsThatNoFanCovers) {
+    const std::string nodes = "8 3\n1 0 0 0\n2 3 0 0\n3 3 2 0\n4 2 2 0\n5 2 1 0\n6 1 1 0\n7 1 2 0\n8 0 2 0\n";
+    for (const bool is_poly : {false, true}) {
+        const Soup soup =
+            read_bytes(nodes + (is_poly ? "1\n1\n" : "1\n") + "8 1 2 3 4 5 6 7 8\n", is_poly ? ".poly" : ".smesh");
+        EXPECT_TRUE(soup.unfit_polygons.empty());
+        EXPECT_EQ(soup.facets.size(), 6u);
+    }
+    const std::string crossed = nodes + "1\n1\n4 1 3 2 8\n";
+    EXPECT_EQ(read_bytes(crossed, ".poly").unfit_polygons.size(), 1u) << "kerf check tells them all";
 }
 
 TEST(TetgenReader, TakesTheNodesBesideAFileThatHasNone) {

@@ -1,0 +1,225 @@
+// The facet is projected by leaving out the coordinate along which its normal is longest: what is left are numbers of
+// the file, so that corners on a straight line stay on one. All corners become vertices, then all edges constraints.
+// What can be reached from infinity, or from a hole point, without crossing a constraint is outside.
+#include "surface/facet_triangulation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <fmt/format.h>
+
+#include "core/check.h"
+#include "surface/scaled_polygon.h"
+
+namespace kerf {
+
+namespace {
+
+namespace planar {
+
+using Exact = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point2 = Exact::Point_2;
+using Edge = std::array<std::int64_t, 2>;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::int64_t, Exact>;
+using FaceBase =
+    CGAL::Triangulation_face_base_with_info_2<bool, Exact, CGAL::Constrained_triangulation_face_base_2<Exact>>;
+using Cdt =
+    CGAL::Constrained_Delaunay_triangulation_2<Exact, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+                                               CGAL::No_constraint_intersection_requiring_constructions_tag>;
+
+std::string text_of(const Vec3& p) { return fmt::format("({:.9g}, {:.9g}, {:.9g})", p.x(), p.y(), p.z()); }
+
+// The two coordinates that stay, in the order in which the normal points to the viewer.
+struct Projection {
+    int x = 0, y = 1;
+
+    explicit Projection(const Vec3& normal) {
+        int axis = 0;
+        normal.cwiseAbs().maxCoeff(&axis);
+        x = (axis + 1) % 3;
+        y = (axis + 2) % 3;
+        if (normal[axis] < 0) std::swap(x, y);
+    }
+    Point2 operator()(const Vec3& p) const { return {p[x], p[y]}; }
+};
+
+// Along the normal of the polygon of the largest area; zero if none has one.
+Vec3 largest_area(const std::vector<Vec3>& vertices, const PolygonalFacet& facet, double scale) {
+    Vec3 largest = Vec3::Zero();
+    for (const auto& corners : facet.polygons) {
+        const ScaledPolygon polygon(vertices, corners);
+        if (corners.size() < 3 || !polygon.has_size()) continue;
+        const double relative = polygon.scale() / scale;
+        const Vec3 sum = newell_sum(polygon) * (relative * relative);
+        if (sum.squaredNorm() > largest.squaredNorm()) largest = sum;
+    }
+    return largest;
+}
+
+std::vector<Edge> edges_of(const PolygonalFacet& facet) {
+    std::vector<Edge> edges;
+    for (const auto& corners : facet.polygons)
+        for (std::size_t i = 0; i < corners.size() && (i == 0 || corners.size() > 2); ++i)
+            edges.push_back({corners[i], corners[(i + 1) % corners.size()]});
+    return edges;
+}
+
+class Triangulator {
+ public:
+    Triangulator(const std::vector<Vec3>& vertices, const Vec3& normal) : vertices_(vertices), project_(normal) {}
+
+    void insert_corners(const PolygonalFacet& facet) {
+        Cdt::Face_handle hint;
+        for (const auto& corners : facet.polygons)
+            for (const std::int64_t v : corners) {
+                const auto [known, is_new] = handle_of_.try_emplace(v);
+                if (!is_new) continue;
+                const std::size_t before = cdt_.number_of_vertices();
+                known->second = cdt_.insert(project_(vertices_[v]), hint);
+                if (cdt_.number_of_vertices() > before) known->second->info() = v;  // else it lies on another one
+                hint = known->second->face();
+            }
+    }
+    // Where two edges cross, if they do.
+    std::optional<Vec3> insert_edges(const std::vector<Edge>& edges) {
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            const Cdt::Vertex_handle a = handle_of_.at(edges[i][0]), b = handle_of_.at(edges[i][1]);
+            if (a == b) continue;
+            try {
+                cdt_.insert_constraint(a, b);
+            } catch (const Cdt::Intersection_of_constraints_exception&) {
+                return crossing_with(edges[i], {edges.begin(), edges.begin() + static_cast<std::ptrdiff_t>(i)});
+            }
+        }
+        return {};
+    }
+    bool has_faces() const { return cdt_.dimension() == 2; }
+    void mark_outside() {
+        for (const Cdt::Face_handle face : cdt_.all_face_handles()) face->info() = false;
+        mark_from(cdt_.infinite_face());
+    }
+    // False if the point lies on an edge, so that it does not say which side is the hole.
+    bool mark_hole(const Vec3& hole) {
+        Cdt::Locate_type type = Cdt::FACE;
+        int i = 0;
+        const Cdt::Face_handle face = cdt_.locate(project_(hole), type, i);
+        if (type == Cdt::VERTEX || (type == Cdt::EDGE && face->is_constrained(i))) return false;
+        if (type == Cdt::FACE || type == Cdt::EDGE) mark_from(face);
+        return true;
+    }
+    std::vector<Triangle> triangles() const {
+        std::vector<Triangle> found;
+        for (const Cdt::Face_handle face : cdt_.finite_face_handles()) {
+            if (face->info()) continue;
+            Triangle t{};
+            for (int i = 0; i < 3; ++i) t[i] = static_cast<std::int32_t>(face->vertex(i)->info());
+            std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+            found.push_back(t);
+        }
+        std::sort(found.begin(), found.end());
+        return found;
+    }
+    // Polygons of one or two corners, of which one is no corner of the triangles.
+    std::int64_t count_outside(const PolygonalFacet& facet, const std::vector<Triangle>& triangles) const {
+        std::vector<std::int32_t> used;
+        for (const Triangle& t : triangles) used.insert(used.end(), t.begin(), t.end());
+        std::sort(used.begin(), used.end());
+        const auto is_outside = [&](std::int64_t v) {
+            return !std::binary_search(used.begin(), used.end(), static_cast<std::int32_t>(handle_of_.at(v)->info()));
+        };
+        return std::count_if(facet.polygons.begin(), facet.polygons.end(), [&](const auto& corners) {
+            return corners.size() < 3 && std::any_of(corners.begin(), corners.end(), is_outside);
+        });
+    }
+
+ private:
+    void mark_from(Cdt::Face_handle start) {
+        std::vector<Cdt::Face_handle> stack = {start};
+        while (!stack.empty()) {
+            const Cdt::Face_handle face = stack.back();
+            stack.pop_back();
+            if (face->info()) continue;
+            face->info() = true;
+            for (int i = 0; i < 3; ++i)
+                if (!face->is_constrained(i)) stack.push_back(face->neighbor(i));
+        }
+    }
+    // The first of the other edges that crosses one, and where; its middle if rounding hides which.
+    Vec3 crossing_with(const Edge& edge, const std::vector<Edge>& others) const {
+        const Vec3 &a = vertices_[edge[0]], &b = vertices_[edge[1]];
+        for (const Edge& other : others) {
+            const Vec3 &c = vertices_[other[0]], &d = vertices_[other[1]];
+            const auto side = [&](const Vec3& p, const Vec3& q, const Vec3& of) {
+                return CGAL::orientation(project_(p), project_(q), project_(of));
+            };
+            const bool is_crossed = side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+            if (!is_crossed) continue;
+            const auto area = [&](const Vec3& of) {
+                const Vec3 u = d - c, v = of - c;
+                return std::abs(u[project_.x] * v[project_.y] - u[project_.y] * v[project_.x]);
+            };
+            const double of_a = area(a), of_b = area(b);
+            return of_a + of_b > 0 ? Vec3(a + of_a / (of_a + of_b) * (b - a)) : Vec3((a + b) / 2);
+        }
+        return (a + b) / 2;
+    }
+
+    const std::vector<Vec3>& vertices_;
+    Projection project_;
+    Cdt cdt_;
+    std::map<std::int64_t, Cdt::Vertex_handle> handle_of_;
+};
+
+FacetTriangulation refusal(std::string obstacle) { return {{}, std::move(obstacle), 0}; }
+
+FacetTriangulation triangulate_in_plane(const std::vector<Vec3>& vertices, const PolygonalFacet& facet,
+                                        const Vec3& normal) {
+    Triangulator triangulator(vertices, normal);
+    triangulator.insert_corners(facet);
+    if (const auto crossing = triangulator.insert_edges(edges_of(facet)))
+        return refusal("has edges that cross near " + text_of(*crossing));
+    const Vec3& first = vertices[facet.polygons.front().front()];
+    if (!triangulator.has_faces()) return refusal("has no area near " + text_of(first));
+    triangulator.mark_outside();
+    for (const Vec3& hole : facet.holes)
+        if (!triangulator.mark_hole(hole)) return refusal("has its hole point " + text_of(hole) + " on an edge");
+    FacetTriangulation result{triangulator.triangles(), {}, 0};
+    if (result.triangles.empty())
+        return refusal(facet.holes.empty()
+                           ? "has no area near " + text_of(first)
+                           : "has the hole point " + text_of(facet.holes.front()) + ", which leaves nothing of it");
+    result.outside = triangulator.count_outside(facet, result.triangles);
+    return result;
+}
+
+}  // namespace planar
+
+}  // namespace
+
+FacetTriangulation triangulate_facet(const std::vector<Vec3>& vertices, const PolygonalFacet& facet) {
+    std::vector<std::int64_t> corners;
+    for (const auto& polygon : facet.polygons) corners.insert(corners.end(), polygon.begin(), polygon.end());
+    KERF_CHECK(!corners.empty());
+    const ScaledPolygon all(vertices, corners);
+    for (const std::int64_t v : corners)
+        if (!vertices[v].allFinite()) return planar::refusal("has the corner " + planar::text_of(vertices[v]));
+    const Vec3 area = all.has_size() ? planar::largest_area(vertices, facet, all.scale()) : Vec3(Vec3::Zero());
+    const Vec3 normal = area.stableNormalized(), &first = vertices[corners.front()];
+    if (normal.isZero()) return planar::refusal("has no area near " + planar::text_of(first));
+    if (const PlaneHeights heights(all, normal); !heights.is_flat(all))
+        return planar::refusal(fmt::format("is not planar: its corners {} and {} are {:.3g} apart along its normal",
+                                           planar::text_of(vertices[corners[heights.lowest]]),
+                                           planar::text_of(vertices[corners[heights.highest]]),
+                                           (heights.high - heights.low) * all.scale()));
+    return planar::triangulate_in_plane(vertices, facet, normal);
+}
+
+}  // namespace kerf
