@@ -55,10 +55,10 @@ bool shapes_surface(const std::string& name) {
 CLI::App* add_run_command(CLI::App& app, const char* name, const char* text, CommandLine& line) {
     CLI::App* command = app.add_subcommand(name, text);
     command
-        ->add_option(
-            "input", line.options.input,
-            "Closed surface: STL, OBJ, PLY, OFF, .msh, .mesh, .smesh or .poly, or CAD file: STEP, IGES, BREP; also as "
-            ".gz or .zst.")
+        ->add_option("input", line.options.input,
+                     "Closed surface: STL, OBJ, PLY, OFF, .msh, .vtu, .mesh, .smesh or .poly, or CAD file: STEP, IGES, "
+                     "BREP; also as "
+                     ".gz or .zst.")
         ->type_name("INPUT");
     add_run_options(*command, line.options);
     for (const OptionField& field : program_fields(line)) add_option_field(*command, field);
@@ -149,6 +149,7 @@ CLI::App* add_remesh_command(CLI::App& app, CommandLine& line) {
         ->type_name("FILE");
     for (const OptionField& field : option_fields(line.options))
         if (shapes_surface(field.name)) add_option_field(*command, field);
+    heed_unit(*command, line.options.input_options);
     command->add_flag("-q,--quiet", line.quiet, "Print nothing but errors.");
     put_help_last(*command, option_group::output);
     return command;
@@ -222,7 +223,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     for (CLI::App* command : {mesh, decompose}) put_help_last(*command, option_group::running);
     CLI::App* check = app.add_subcommand("check", "Diagnose a surface without meshing it.");
     check->add_option("input", line.check.path, "Surface file.")->required()->type_name("INPUT");
-    for (const OptionField& field : input_option_fields(line.check.options)) add_option_field(*check, field);
+    add_input_options(*check, line.check.options);
     check->option_defaults()->group(option_group::output);
     check->add_flag("--json", line.check.json, "Print every defect as JSON.");
     check->add_option("--offenders", line.check.offenders_file, "Write the offending facets, edges and places as VTU.")

@@ -36,11 +36,21 @@ CLI::Option* add_option_field(CLI::App& app, const OptionField& field) {
     return option->type_name(field.value_name)->group(field.group);
 }
 
+void add_input_options(CLI::App& app, InputOptions& options) {
+    for (const OptionField& field : input_option_fields(options)) add_option_field(app, field);
+    heed_unit(app, options);
+}
+
+void heed_unit(CLI::App& app, InputOptions& options) {
+    app.get_option("--unit")->each([&options](const std::string&) { options.cad.unit_is_asked = true; });
+}
+
 void add_run_options(CLI::App& app, RunOptions& options) {
     const std::vector<OptionField> fields = option_fields(options);
     for (const std::string_view group : option_group::all)
         for (const OptionField& field : fields)
             if (field.group == group) add_option_field(app, field);
+    heed_unit(app, options.input_options);
     app.get_option("--format")->check(suggest_formats());
     app.get_option("--fields")->check(suggest_cell_fields());
     // At once, so that all that asks whether --surface was given finds it given.

@@ -11,6 +11,12 @@ namespace kerf {
 /// do.
 CLI::Option* add_option_field(CLI::App& app, const OptionField& field);
 
+/// Adds input_option_fields() of a command that has no others. `options` learns whether --unit was given, too.
+void add_input_options(CLI::App& app, InputOptions& options);
+
+/// Has `options` learn whether --unit, which the command has by now, is given.
+void heed_unit(CLI::App& app, InputOptions& options);
+
 /// Adds all that shapes a mesh and how it is made (option_fields()), and --remesh, short for --surface remesh.
 void add_run_options(CLI::App& app, RunOptions& options);
 

@@ -31,6 +31,7 @@ int remesh_surface(RunOptions options, const std::string& output, bool quiet) {
     refuse_to_overwrite(options.input, "--output", output);
     require_writable("--output", output);
     options.remeshing = Remeshing::always;
+    options.input_options.check();
     options.sizes.check();
     const Input input = read_and_remesh(options, quiet);
     const SurfaceArrays surface = input.surface.arrays();

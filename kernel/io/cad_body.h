@@ -28,6 +28,7 @@ struct CadOptions {
     double deflection = 0;             ///< largest distance of a chord from its curve as a share of the diagonal of
                                        ///< the solid; 0: such that the volume is right to `volume_tolerance`,
                                        ///< for which vertices leave the curved faces a little
+    bool unit_is_asked = false;        ///< by name: a file that has none is refused then, whatever the unit is
 
     static constexpr double volume_tolerance = 1e-4;  ///< of |volume of facets - volume of solid| / volume of solid
 

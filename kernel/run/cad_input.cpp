@@ -41,6 +41,32 @@ CadAnswer answer_of(const ChildResult& result, const std::string& path, const st
                                               path, result.describe()));
 }
 
+// Units are converted only where the file says what they were.
+void refuse_unit(const std::string& path, const CadOptions& options) {
+    if (!options.unit_is_asked && options.unit == LengthUnit::mm) return;
+    throw Error(ErrorCode::usage,
+                fmt::format("{} names no unit, so that --unit has no meaning. Leave it out, or multiply the "
+                            "coordinates: --scale 0.001 makes m of mm.",
+                            path));
+}
+
+Soup read_unscaled(std::string bytes, const std::string& path, const CadOptions& options, Walls walls) {
+    const FileHash file_hash = digest_of(bytes);
+    std::string content = decompress(std::move(bytes), path);
+    if (cad_format(content) != CadFormat::none) {
+        CadBody body = read_cad(path, file_hash, options);
+        if (body.file_unit.empty()) refuse_unit(path, options);
+        return std::move(body.soup);
+    }
+    for (const auto& [name, is_given] : {std::pair("solid", options.solid > 0), std::pair("unite", options.unite),
+                                         std::pair("cad-deflection", options.deflection > 0)})
+        if (is_given)
+            throw Error(ErrorCode::usage,
+                        fmt::format("{} is no CAD file, so that --{} has no meaning. Leave it out.", path, name));
+    refuse_unit(path, options);
+    return read_surface_bytes(std::move(content), path, walls);
+}
+
 }  // namespace
 
 std::string find_cad_program() {
@@ -67,21 +93,17 @@ CadBody read_cad(const std::string& path, const FileHash& file_hash, const CadOp
     return std::move(answer.body);
 }
 
-Soup read_surface_or_cad(const std::string& path, const CadOptions& options) {
+Soup read_surface_or_cad(const std::string& path, const InputOptions& options) {
     return read_surface_or_cad(read_file(path), path, options);
 }
 
-Soup read_surface_or_cad(std::string bytes, const std::string& path, const CadOptions& options) {
-    const FileHash file_hash = digest_of(bytes);
-    std::string content = decompress(std::move(bytes), path);
-    if (cad_format(content) != CadFormat::none) return std::move(read_cad(path, file_hash, options).soup);
-    for (const auto& [name, is_given] :
-         {std::pair("solid", options.solid > 0), std::pair("unite", options.unite),
-          std::pair("unit", options.unit != LengthUnit::mm), std::pair("cad-deflection", options.deflection > 0)})
-        if (is_given)
-            throw Error(ErrorCode::usage,
-                        fmt::format("{} is no CAD file, so that --{} has no meaning. Leave it out.", path, name));
-    return read_surface_bytes(std::move(content), path);
+Soup read_surface_or_cad(std::string bytes, const std::string& path, const InputOptions& options) {
+    const Walls walls = options.keep_largest ? Walls::kept : Walls::refused;
+    Soup soup = read_unscaled(std::move(bytes), path, options.cad, walls);
+    if (options.scale != 1)
+        for (std::vector<Vec3>* points : {&soup.vertices, &soup.holes})
+            for (Vec3& p : *points) p *= options.scale;
+    return soup;
 }
 
 }  // namespace kerf

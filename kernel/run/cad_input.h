@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "io/cad_body.h"
+#include "run/input.h"
 
 namespace kerf {
 
@@ -20,10 +20,12 @@ std::string find_cad_program();
 CadBody read_cad(const std::string& path, const FileHash& file_hash, const CadOptions& options,
                  const std::string& program = find_cad_program(), double timeout_seconds = 600);
 
-/// read_surface() that knows CAD files, too.
-Soup read_surface_or_cad(const std::string& path, const CadOptions& options = {});
+/// read_surface() that knows CAD files, too, obeys InputOptions::cad and multiplies all coordinates by
+/// InputOptions::scale. With InputOptions::keep_largest volumes may touch: see Walls.
+Soup read_surface_or_cad(const std::string& path, const InputOptions& options = {});
 
-/// The same for the bytes of the file at `path`. Throws Error(usage) for options of CAD files on another one.
-Soup read_surface_or_cad(std::string bytes, const std::string& path, const CadOptions& options);
+/// The same for the bytes of the file at `path`. Throws Error(usage) for options of CAD files on another one, and for a
+/// unit that is asked of a file which has none.
+Soup read_surface_or_cad(std::string bytes, const std::string& path, const InputOptions& options);
 
 }  // namespace kerf

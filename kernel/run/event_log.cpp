@@ -40,6 +40,7 @@ void EventLog::write(Object json) {
 void EventLog::on_start(const RunOptions& options) {
     write(Json{{"event", "run"},
                {"input", absolute(options.input)},
+               {"scale", options.input_options.scale},
                {"output", options.dry_run ? "" : absolute(options.output)},
                {"trace", absolute(options.trace_file)},
                {"parts", options.decompose.parts}});

@@ -13,7 +13,7 @@ class CheckedFile;
 
 /// Writes each event when it happens. All objects have "event" and "seconds" since the start:
 ///
-///     {"event": "run", "input", "output", "trace", "parts"}
+///     {"event": "run", "input", "scale", "output", "trace", "parts"}
 ///     {"event": "stage", "stage": "read" | "remesh" | "decompose" | "prepare" | "volume" | "reference" | "write" |
 ///                                 "hash"}
 ///     {"event": "parts", "parts": [{"id", "load", "facets", "volume", "resumed"}]}

@@ -53,7 +53,7 @@ void optimise(Soup& soup, std::int32_t sweeps, Input& input) {
 }  // namespace
 
 CheckedSoup check_input(const std::string& path, const InputOptions& options, double needle_angle_deg) {
-    return check_soup(read_surface_or_cad(path, options.cad), options, needle_angle_deg);
+    return check_soup(read_surface_or_cad(path, options), options, needle_angle_deg);
 }
 
 CheckedSoup check_soup(Soup read, const InputOptions& options, double needle_angle_deg) {
@@ -89,7 +89,7 @@ Input read_input(const std::string& path, const InputOptions& options) {
     input.path = path;
     std::string bytes = read_file(path);
     input.file_hash = hash_text(digest_of(bytes));
-    CheckedSoup checked = check_soup(read_surface_or_cad(std::move(bytes), path, options.cad), options);
+    CheckedSoup checked = check_soup(read_surface_or_cad(std::move(bytes), path, options), options);
     Soup& soup = checked.soup;
     if (!checked.diagnosis.clean())
         throw Error(ErrorCode::input,

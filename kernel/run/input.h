@@ -16,6 +16,7 @@ namespace kerf {
 
 /// What may be done to a surface before it is diagnosed and cut. Only `voids` leaves the geometry as it is.
 struct InputOptions {
+    double scale = 1;                  ///< of all coordinates, as they are read; other lengths are in units after it
     double weld_tolerance = 0;         ///< vertices this close are merged; units of the file, 0: only equal ones
     std::int32_t fill_hole_edges = 0;  ///< open loops of at most so many edges are spanned
     bool keep_largest = false;         ///< only the connected component of the largest area stays

@@ -164,6 +164,7 @@ void RunOptions::check_files() const {
 }
 
 void InputOptions::check() const {
+    require(scale > 0 && std::isfinite(scale), "scale", "positive and finite", scale);
     require(weld_tolerance >= 0 && std::isfinite(weld_tolerance), "weld", "0 (only equal vertices) or positive",
             weld_tolerance);
     require(fill_hole_edges >= 0, "fill-holes", "0 (none) or more edges", fill_hole_edges);
@@ -177,6 +178,8 @@ void InputOptions::check() const {
 
 std::vector<OptionField> input_option_fields(InputOptions& o) {
     return {
+        {"scale", "", option_group::input, "F",
+         "Multiply all coordinates by this as they are read, as 0.001 from mm to m. Default 1.", &o.scale},
         {"weld", "", option_group::input, "TOL",
          "Merge vertices closer than this, in units of the input. Default 0: only equal ones.", &o.weld_tolerance},
         {"fill-holes", "", option_group::input, "N", "Fill open loops of at most so many edges. Default 0: none.",

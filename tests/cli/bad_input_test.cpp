@@ -114,12 +114,28 @@ TEST_F(BadInput, StraightContourThatKeepsTheSurface) {
 TEST_F(BadInput, PartsNoNumber) { expect_refused(good_, 2, {"--parts", "'many'"}, {"-n", "many"}); }
 TEST_F(BadInput, UnknownOption) { expect_refused(good_, 2, {"--frobnicate"}, {"--frobnicate"}); }
 TEST_F(BadInput, UnknownChoice) { expect_refused(good_, 2, {"--balance", "luck", "volume"}, {"--balance", "luck"}); }
+TEST_F(BadInput, UnitOfAFileThatHasNone) {
+    for (const char* command : {"mesh", "decompose", "check", "remesh"}) {
+        std::vector<std::string> arguments = {command, good_, "--unit", "mm"};
+        if (arguments[0] != "check") arguments.insert(arguments.end(), {"-o", folder_.file("out.obj")});
+        expect_message(test::run_kerf(arguments), 2, {"hollow_box", "names no unit", "--scale 0.001"});
+    }
+    expect_refused(good_, 2, {"names no unit"}, {"--unit", "inch"});
+}
+TEST_F(BadInput, ScaleOutOfRange) {
+    for (const char* scale : {"0", "-1"}) expect_refused(good_, 2, {"--scale is ", "positive"}, {"--scale", scale});
+    for (const char* command : {"check", "remesh"}) {
+        std::vector<std::string> arguments = {command, good_, "--scale", "-0.5"};
+        if (arguments[0] != "check") arguments.insert(arguments.end(), {"-o", folder_.file("out.obj")});
+        expect_message(test::run_kerf(arguments), 2, {"--scale is -0.5"});
+    }
+}
 TEST_F(BadInput, ValueOutOfRange) { expect_refused(good_, 2, {"--radius-edge is 0.5"}, {"--radius-edge", "0.5"}); }
 
 // Neither silently none nor silently all.
 TEST_F(BadInput, NumbersBeyondTheirType) {
     for (const std::string option :
-         {"--size", "--max-volume", "--radius-edge", "--timeout", "--weld", "--feature-angle"})
+         {"--size", "--max-volume", "--radius-edge", "--timeout", "--weld", "--feature-angle", "--scale"})
         for (const std::string value : {"nan", "inf", "-inf", "1e-400", "1e400", "", "1x"})
             expect_refused(good_, 2, {option}, {option, value});
     for (const std::string option : {"-n", "--workers", "--attempts", "--memory", "--optimise-surface"})

@@ -228,6 +228,24 @@ TEST_F(Check, OptionsOutOfRangeAreRefused) {
         EXPECT_EQ(check(test::asset_path("cube"), {"--needle-angle", angle}).exit_code, 2) << angle;
 }
 
+TEST_F(Check, ScaleMultipliesTheCoordinatesWhereverTheyAreRead) {
+    Soup open = test::box();
+    test::remove_facet(open, 0);
+    const double length = check_json(write(open))["defects"][0]["length"];
+    EXPECT_NEAR(check_json(write(open), {"--scale", "0.001"})["defects"][0]["length"], length / 1000, 1e-12);
+    const std::string cube = test::asset_path("cube"), out = folder_.file("out"), better = folder_.file("better.obj");
+    const ChildResult meshed = test::run_kerf({"mesh", cube, "-o", out, "-n", "2", "-q", "--scale", "0.001"});
+    EXPECT_EQ(meshed.exit_code, 0) << meshed.log;
+    const Json report = Json::parse(test::bytes_of_file(out + "/report.json"));
+    EXPECT_EQ(report["options"]["scale"], 0.001);
+    EXPECT_NEAR(report["input"]["volume"], 1e-9, 1e-15);
+    const ChildResult verified = test::run_kerf({"verify", out});
+    EXPECT_EQ(verified.exit_code, 0);
+    EXPECT_EQ(test::output_of(verified).find("not compared"), std::string::npos) << test::output_of(verified);
+    EXPECT_EQ(test::run_kerf({"remesh", cube, "-o", better, "-q", "--scale", "0.5"}).exit_code, 0);
+    for (const Vec3& p : read_surface(better).vertices) EXPECT_LE(p.maxCoeff(), 0.5 + 1e-6);
+}
+
 TEST_F(Check, WeldMendsCracks) {
     const Soup whole = hollow_box();
     const Json input = expect_mended(test::cracked(whole, 5e-10, 1), {"--weld", "1e-6"})["input"];

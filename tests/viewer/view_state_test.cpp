@@ -331,6 +331,9 @@ TEST(ViewCommandLine, RefusesNonsenseWithCodeTwo) {
     EXPECT_EQ(parse({"screenshot", "a.stl", "-o", "b.png", "--color", "green"}).exit_code, 2);
     EXPECT_EQ(parse({"screenshot", "a.stl", "-o", "b.png", "--camera", "/nowhere.json"}).exit_code, 7);
     EXPECT_EQ(parse({"view", "--wat"}).exit_code, 2);
+    for (const char* scale : {"0", "-1", "nan", "mm"})
+        EXPECT_EQ(parse({"screenshot", "a.stl", "-o", "b.png", "--scale", scale}).exit_code, 2) << scale;
+    EXPECT_EQ(parse({"view", "a.stl", "--scale", "0.001"}).run.input_options.scale, 0.001);
     const ViewCommand help = parse({"screenshot", "--help"});
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_NE(help.print.find("--explode"), std::string::npos);

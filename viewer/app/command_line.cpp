@@ -65,7 +65,7 @@ void parse_size(const std::string& text, ViewCommand& command) {
 
 // The texts of options that change the state, in the order in which they are applied.
 struct StateTexts {
-    std::string state_file, camera_file, stage, color, clip_style, size, theme, surface, config, deform;
+    std::string state_file, camera_file, stage, color, clip_style, size, theme, surface, input_scale, config, deform;
     std::vector<NodeId> hidden;
     NodeId node = 0, isolated = 0;
     double explode = -1, shrink = -1;
@@ -149,6 +149,8 @@ void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
     app.add_option("--surface", texts.surface, "Of that run, as of kerf mesh.")
         ->type_name("")
         ->check(suggest("keep,split,remesh,auto,by-file"));
+    app.add_option("--scale", texts.input_scale, "Multiply all coordinates of a surface by this. Default 1.")
+        ->type_name("F");
     app.add_option("--config", texts.config, "Other options of that run: a file of kerf mesh --print-config.")
         ->type_name("FILE");
 }
@@ -347,6 +349,8 @@ ViewCommand parse_view_command(int argc, const char* const* argv) {
             throw Error(ErrorCode::usage, "Say what to draw: an INPUT, or a --state that knows what it was made of.");
         read_run_config(texts.config, command.run);
         if (!texts.surface.empty()) set_options(command.run, {{"surface", texts.surface}}, "The command line");
+        if (!texts.input_scale.empty()) set_options(command.run, {{"scale", texts.input_scale}}, "The command line");
+        command.run.input_options.check();
     } catch (const CLI::ParseError& e) {
         return answer(answer_to(app, e, argc, argv));
     } catch (const Error& error) {

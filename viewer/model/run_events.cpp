@@ -55,6 +55,7 @@ RunEvent event_from_json(const Json& json) {
     switch (event.kind) {
         case RunEvent::Kind::run:
             event.input = path_of_text(json.value("input", ""));
+            event.scale = json.value("scale", 1.0);
             event.output = path_of_text(json.value("output", ""));
             event.trace = path_of_text(json.value("trace", ""));
             event.parts_total = json.value("parts", std::int64_t{0});

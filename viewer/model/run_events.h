@@ -24,6 +24,7 @@ struct RunEvent {
     Kind kind = Kind::other;
     double seconds = 0;                ///< since the start of the run
     std::string input, output, trace;  ///< of `run`; absolute or empty
+    double scale = 1;                  ///< of `run`: what coordinates of the input are multiplied by
     std::string stage;                 ///< of `stage`
     std::vector<Part> parts;           ///< of `parts`: all; of `part`: the one that has ended
     std::int64_t parts_done = 0, parts_total = 0;

@@ -100,7 +100,8 @@ class Session::Impl {
         Eigen::AlignedBox3d box;
         std::shared_ptr<const Soup> soup;
     };
-    Loader::Completion read_what_is_there(const std::string& path, const CadOptions& cad);  // on the loader's thread
+    Loader::Completion read_what_is_there(const std::string& path,
+                                          const InputOptions& input);  // on the loader's thread
     static OpenedRun read_run(const std::string& folder);
     static OpenedPartialRun read_partial_run(const OpenedPath& path);
     void show_error(ErrorCode code, const std::string& message);

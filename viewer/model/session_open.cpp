@@ -86,11 +86,11 @@ std::string take_files(RunOptions& options, const std::string& folder) {
     return trace;
 }
 
-std::shared_ptr<const Soup> read_soup_if_there(const std::string& path) {
+std::shared_ptr<const Soup> read_soup_if_there(const std::string& path, const InputOptions& options) {
     std::error_code ignored;
     if (!fs::exists(path, ignored)) return nullptr;
     try {
-        return std::make_shared<const Soup>(read_surface_or_cad(path));
+        return std::make_shared<const Soup>(read_surface_or_cad(path, options));
     } catch (const Error&) {
         return nullptr;
     }
@@ -121,9 +121,9 @@ void Session::Impl::open(const std::string& path, const RunOptions& options) {
     document_.options = options;
     document_.title = title_of(path);
     opening_ = true;
-    const auto read = [this, path, cad = options.input_options.cad]() -> Loader::Completion {
+    const auto read = [this, path, input = options.input_options]() -> Loader::Completion {
         try {
-            return read_what_is_there(path, cad);
+            return read_what_is_there(path, input);
         } catch (const Error& error) {
             return [this, code = error.code(), message = std::string(error.what())] { show_error(code, message); };
         }
@@ -135,11 +135,11 @@ void Session::Impl::reload() {
     if (!document_.path.empty()) open(std::string(document_.path), RunOptions(document_.options));
 }
 
-Loader::Completion Session::Impl::read_what_is_there(const std::string& path, const CadOptions& cad) {
+Loader::Completion Session::Impl::read_what_is_there(const std::string& path, const InputOptions& input) {
     const OpenedPath what = tell_kind(path);
     switch (what.kind) {
         case OpenedPath::Kind::surface: {
-            auto soup = std::make_shared<const Soup>(read_surface_or_cad(path, cad));
+            auto soup = std::make_shared<const Soup>(read_surface_or_cad(path, input));
             auto surface = std::make_shared<const NodeSurface>(node_surface_of(*soup));
             return [this, soup, surface] { show_soup(soup, surface); };
         }
@@ -309,7 +309,7 @@ Session::Impl::OpenedPartialRun Session::Impl::read_partial_run(const OpenedPath
     const std::vector<NodeId> parts(run.state.parts.begin(), run.state.parts.end());
     run.box = box_of_parts(path.partial, parts);
     if (!parts.empty()) read_part_surface(path.partial, parts.front(), &run.patch_names);
-    run.soup = read_soup_if_there(run.options.input);
+    run.soup = read_soup_if_there(run.options.input, run.options.input_options);
     if (run.soup && run.box.isEmpty()) run.box = box_of(run.soup->vertices);
     return run;
 }

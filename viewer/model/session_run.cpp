@@ -77,6 +77,7 @@ void Session::Impl::start_run(RunOptions options, bool volume) {
     const ScratchFolder& scratch = *followed_->scratch;
     options.input = input.empty() ? document_.options.input : input;
     options.volume = volume;
+    if (input.empty()) options.input_options.scale = 1;  // the surface of a trace is what was read
     followed_->options = options;
     followed_->has_scratch_output = options.output.empty();
     followed_->before = std::move(before);
@@ -184,6 +185,7 @@ void Session::Impl::apply(const RunEvent& event) {
             followed_->output = event.output;
             followed_->trace = event.trace;
             document_.options.input = event.input;
+            followed_->options.input_options.scale = document_.options.input_options.scale = event.scale;
             show_input_of_run();
             return;
         case RunEvent::Kind::stage:
@@ -210,8 +212,9 @@ void Session::Impl::apply(const RunEvent& event) {
 // The first thing that is there to be seen.
 void Session::Impl::show_input_of_run() {
     if (!exists(followed_->input)) return;
-    const auto read = [this, path = followed_->input]() -> Loader::Completion {
-        const auto soup = std::make_shared<const Soup>(read_surface_or_cad(path));
+    const auto read = [this, path = followed_->input,
+                       input = followed_->options.input_options]() -> Loader::Completion {
+        const auto soup = std::make_shared<const Soup>(read_surface_or_cad(path, input));
         Eigen::AlignedBox3d box;
         for (const Vec3& p : soup->vertices)
             if (p.allFinite()) box.extend(p);

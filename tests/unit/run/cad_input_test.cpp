@@ -133,11 +133,24 @@ TEST(CadOptionsText, ComesBackAsItWas) {
 }
 
 TEST(CadOptionsText, HasNoMeaningForTriangles) {
-    CadOptions options;
-    options.solid = 1;
+    InputOptions options, in_mm;
+    options.cad.solid = 1;
     EXPECT_THROW(read_surface_or_cad(test::asset_path("cube"), options), Error);
+    in_mm.cad.unit_is_asked = true;
+    EXPECT_THROW(read_surface_or_cad(test::asset_path("cube"), in_mm), Error);
     EXPECT_EQ(read_surface_or_cad(test::asset_path("cube")).facets.size(),
               read_surface(test::asset_path("cube")).facets.size());
+}
+
+TEST(Scale, MultipliesVerticesAndHoles) {
+    const std::string path = test::asset_path("cube");
+    InputOptions scaled;
+    scaled.scale = 0.5;
+    const Soup whole = read_surface(path), half = read_surface_or_cad(path, scaled);
+    ASSERT_EQ(half.vertices.size(), whole.vertices.size());
+    for (std::size_t v = 0; v < whole.vertices.size(); ++v) EXPECT_EQ(2 * half.vertices[v], whole.vertices[v]);
+    const std::string poly = "3 3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n1\n1\n3 1 2 3\n1\n1 4 6 8\n";
+    EXPECT_EQ(read_surface_or_cad(poly, "a.poly", scaled).holes, std::vector<Vec3>{Vec3(2, 3, 4)});
 }
 
 TEST(ModelEdges, FollowTheirVertices) {

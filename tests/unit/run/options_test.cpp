@@ -72,6 +72,7 @@ TEST(RunOptions, ValuesOutOfRangeAreNamed) {
     expect_refused("memory", [](RunOptions& o) { o.memory_mb = -1; });
     expect_refused("attempts", [](RunOptions& o) { o.attempts = 0; });
     for (const double bad : {-1.0, nan, std::numeric_limits<double>::infinity()}) {
+        expect_refused("scale", [&](RunOptions& o) { o.input_options.scale = bad; });
         expect_refused("weld", [&](RunOptions& o) { o.input_options.weld_tolerance = bad; });
         expect_refused("feature-angle", [&](RunOptions& o) { o.input_options.feature_angle_deg = bad; });
     }
