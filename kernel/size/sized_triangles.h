@@ -29,6 +29,7 @@ struct SizedTriangle {
     Vec3 corner(int i) const { return {coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]}; }
     double smallest() const { return std::min({size[0], size[1], size[2]}); }
     double largest() const { return std::max({size[0], size[1], size[2]}); }
+    bool is_uniform() const { return size[0] == size[1] && size[0] == size[2]; }
     double distance(const Vec3& p) const;
     /// Barycentric coordinates of its point closest to p.
     Vec3 closest(const Vec3& p) const;
@@ -40,7 +41,7 @@ struct SizedTriangle {
 };
 static_assert(std::is_trivially_copyable_v<SizedTriangle>);
 
-/// Many of them, in a tree of boxes. Built in O(n log n).
+/// Many of them, in a tree of boxes, those of one reach below one node or a few. Built in O(n log n).
 class SizedTriangles {
  public:
     SizedTriangles() = default;
@@ -50,11 +51,14 @@ class SizedTriangles {
     std::span<const SizedTriangle> all() const { return triangles_; }  ///< in the order of the tree
     double smallest() const { return nodes_.empty() ? infinity : nodes_.front().size; }
 
-    /// The least SizedTriangle::size_at(), or `bound` if none is less. O(log n) where few are close.
-    double size_at(const Vec3& p, double growth, double bound) const;
+    /// The least SizedTriangle::size_at(), or `bound` if none is less. O(log n) where few are close, and where many
+    /// reach as far as p: the first that has the least size that any of them can have ends the search. `asked`, if
+    /// given, is raised by the number of triangles that were looked at.
+    double size_at(const Vec3& p, double growth, double bound, std::int64_t* asked = nullptr) const;
     /// Those that may have a say in the box, where anything else asks for at most `bound(cell)` in each box `cell` that
     /// it is given: size_at() of both is the same there if it is not more than that. At least one. Looks at the box in
-    /// cells of an eighth of its longest side. Deterministic. O(n) at most, and O(log n) for each cell.
+    /// cells of an eighth of its longest side, and keeps one triangle for a cell that lies in its reach, where nothing
+    /// is smaller. Deterministic. O(n) at most, and O(log n) for each cell.
     SizedTriangles within(const Eigen::AlignedBox3d& box, double growth,
                           const std::function<double(const Eigen::AlignedBox3d&)>& bound) const;
     /// The nearest triangle that the ray hits and for which is_wanted(triangle) holds: its distance, else infinity.
@@ -75,13 +79,19 @@ class SizedTriangles {
     struct Node {
         Eigen::AlignedBox3d box;
         double size = infinity, reach = 0;  // the least and the largest below
+        double floor = infinity;            // no size_at() of a triangle below is less, as it is computed
         std::int32_t first = 0, last = 0;   // of triangles_
         std::int32_t right = 0;             // 0: a leaf; the left child follows its parent
     };
-    static std::int32_t middle(std::int32_t first, std::int32_t last) { return first + (last - first) / 2; }
+    // No point of a cell has more from all triangles together.
+    struct Ceiling {
+        double size = infinity;
+        std::int32_t triangle = none;  // has exactly this size in all of the cell; none: no single one has
+    };
+    std::int32_t middle(std::int32_t first, std::int32_t last) const;
     static double entry(const Eigen::AlignedBox3d& box, const Vec3& origin, const Vec3& direction);
-    double largest_in(const Eigen::AlignedBox3d& cell, double growth, double bound) const;
-    bool mark(std::int32_t node, const Eigen::AlignedBox3d& cell, double growth, double bound,
+    Ceiling largest_in(const Eigen::AlignedBox3d& cell, double growth, double bound) const;
+    bool mark(std::int32_t node, const Eigen::AlignedBox3d& cell, double growth, const Ceiling& ceiling,
               std::vector<char>& node_is_kept, std::vector<char>& is_kept) const;
     void order(std::int32_t first, std::int32_t last);
     void build_nodes();
@@ -94,7 +104,7 @@ class SizedTriangles {
             std::int32_t node;
             double low;
         };
-        std::array<Open, 64> open;  // one sibling a level, and the levels are those of a balanced tree
+        std::array<Open, 128> open;  // one sibling a level, and two levels halve what is below
         std::size_t count = 0;
         const auto push = [&](std::int32_t node) { open[count++] = {node, of_node(nodes_[node])}; };
         if (!nodes_.empty()) push(0);
@@ -114,6 +124,7 @@ class SizedTriangles {
     }
 
     static constexpr double infinity = std::numeric_limits<double>::infinity();
+    static constexpr std::int32_t none = -1;
 
     std::vector<SizedTriangle> triangles_;
     std::vector<Node> nodes_;

@@ -146,6 +146,56 @@ TEST(SizeField, LeavesMostOfItsSourcesOutInASmallBox) {
     EXPECT_LT(to_bytes(field.within(box)).size(), 0.1 * static_cast<double>(to_bytes(field).size()));
 }
 
+// A sphere of radius 1 with the size 0.1 up to a distance beyond all of it, in between triangles with the size 0.2.
+SizeSources sources_that_reach_all(unsigned seed) {
+    std::mt19937 random(seed);
+    SizeSources sources;
+    sources.growth = 0.3;
+    const Soup soup = icosphere(4);
+    std::vector<SizedTriangle> triangles;
+    for (const Triangle& t : soup.facets) {
+        const Vec3 &a = soup.vertices[t[0]], &b = soup.vertices[t[1]], &c = soup.vertices[t[2]];
+        if (uniform(random, 0, 1) < 0.5)
+            triangles.emplace_back(a, b, c, std::array{0.1, 0.1, 0.1}, seed % 2 ? 10.0 : 0.7);
+        else
+            triangles.emplace_back(a, b, c, std::array{0.2, 0.2, 0.2}, 0.0);
+    }
+    sources.triangles = SizedTriangles(std::move(triangles));
+    return sources;
+}
+
+TEST(SizeField, IsTheSameInABoxWhereAllSourcesReach) {
+    for (unsigned seed = 1; seed <= seeds; ++seed) {
+        SCOPED_TRACE(seed);
+        const SizeField field(0, sources_that_reach_all(seed));
+        std::mt19937 random(seed);
+        const Vec3 a = random_point(random, 1), b = random_point(random, 1);
+        const Eigen::AlignedBox3d box(a.cwiseMin(b), a.cwiseMax(b));
+        const SizeField there = field.within(box);
+        for (int i = 0; i < 200; ++i) {
+            const Vec3 t = (random_point(random, 1) + Vec3::Ones()) / 2;
+            const Vec3 p = a + t.cwiseProduct(b - a);
+            ASSERT_EQ(there.at(p), field.at(p));
+        }
+    }
+    const SizeField all(0, sources_that_reach_all(1));
+    const Eigen::AlignedBox3d box(Vec3(0.5, 0.5, 0.5), Vec3(0.7, 0.7, 0.7));
+    EXPECT_LT(to_bytes(all.within(box)).size(), 0.1 * static_cast<double>(to_bytes(all).size()));
+}
+
+TEST(SizedTriangles, AskFewWhereAllReach) {
+    const SizeSources sources = sources_that_reach_all(1);
+    std::mt19937 random(1);
+    for (int i = 0; i < 100; ++i) {
+        const Vec3 p = random_point(random, 1);
+        std::int64_t asked = 0;
+        double least = INFINITY;
+        for (const SizedTriangle& t : sources.triangles.all()) least = std::min(least, t.size_at(p, sources.growth));
+        EXPECT_EQ(sources.triangles.size_at(p, sources.growth, INFINITY, &asked), least);
+        EXPECT_LE(asked, 8);
+    }
+}
+
 TEST(SizeField, EverySourceShowsInItsBytes) {
     const std::vector<SizeSources> sources = random_sources(1);
     const Bytes all = to_bytes(SizeField(0.1, joined(sources)));
