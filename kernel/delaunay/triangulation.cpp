@@ -22,8 +22,9 @@ constexpr std::array<std::array<std::array<int, 2>, 4>, 4> other_two = {{{{{0, 0
 
 }  // namespace
 
-Triangulation::Triangulation(const std::array<Vec3, 4>& corners)
-    : points_(corners.begin(), corners.end()), cell_at_vertex_(4, 0) {
+Triangulation::Triangulation(const std::array<Vec3, 4>& corners, std::int32_t most)
+    : points_(corners.begin(), corners.end()), cell_at_vertex_(4, 0), most_(most) {
+    KERF_CHECK(most <= most_cells);
     star_edges_.set_vertex_count(points_.size());
     KERF_CHECK(orientation(corners[0], corners[1], corners[2], corners[3]) > 0);
     cells_.push_back({{0, 1, 2, 3}, {}});
@@ -342,11 +343,16 @@ std::int32_t Triangulation::insert_if(const Vec3& p, std::int32_t hint,
     return accepts(star_) ? insert_in_cavity(p) : none;
 }
 
-std::int32_t Triangulation::insert_in_cavity(const Vec3& p) {
-    if (cell_count() + static_cast<std::int64_t>(cavity_faces_.size()) > most_cells)
+// Before anything is changed.
+void Triangulation::require_room(std::size_t more_cells) const {
+    if (cells_.size() + more_cells > static_cast<std::size_t>(most_))
         throw Error(ErrorCode::memory, fmt::format("A triangulation of {} points has {} cells; more than {} cannot be "
                                                    "numbered. Divide the surface into more parts.",
-                                                   points_.size(), cell_count(), most_cells));
+                                                   points_.size(), cell_count(), most_));
+}
+
+std::int32_t Triangulation::insert_in_cavity(const Vec3& p) {
+    require_room(cavity_faces_.size());
     const std::int32_t vertex = add_vertex(p);
     fill_cavity(vertex);
     return vertex;
@@ -378,6 +384,7 @@ void Triangulation::replace(std::span<const std::int32_t> cells, std::span<const
         std::sort(key.begin(), key.end());
         return key;
     };
+    if (by.size() > cells.size()) require_room(by.size() - cells.size());
     std::vector<std::int32_t> old(cells.begin(), cells.end());
     std::vector<OpenFace> open;
     for (const std::int32_t cell : old) cells_[cell].flip_mark();

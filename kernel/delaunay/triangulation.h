@@ -43,8 +43,9 @@ class Triangulation {
 
     /// Without cells: where all points lie in one plane.
     Triangulation() = default;
-    /// One tetrahedron, of vertices 0 to 3. Requires orientation() 1.
-    explicit Triangulation(const std::array<Vec3, 4>& corners);
+    /// One tetrahedron, of vertices 0 to 3. Requires orientation() 1. Never has more than `most` cells, at most
+    /// most_cells.
+    explicit Triangulation(const std::array<Vec3, 4>& corners, std::int32_t most = most_cells);
 
     /// Room for so many vertices, so that nothing is moved while they come.
     void reserve(std::size_t vertices);
@@ -89,7 +90,8 @@ class Triangulation {
     // --- cells in place of others ---
 
     /// Replaces cells by others that fill the same space and have the same faces around them, constrained or not; the
-    /// cells' own faces must not be constrained. Ghost cells may be among both. Only with regions of one number.
+    /// cells' own faces must not be constrained. Ghost cells may be among both. Only with regions of one number. Error
+    /// (memory), and nothing has changed, if there would be too many.
     void replace(std::span<const std::int32_t> cells, std::span<const Tetrahedron> by);
 
     /// A vertex without cells, for replace(): its number.
@@ -111,8 +113,8 @@ class Triangulation {
     /// watson1981). What lies behind a constrained face is left as it is; cells whose faces the point cannot see are
     /// left, too. none, and nothing has changed, if there are constrained faces, and the point lies on one or is not
     /// strictly inside of the hull. hint: a cell near the point; none for one of the last insertion's. About 3 us near
-    /// the hint. Requires cells. Error (memory), and nothing has changed, if there might be more than most_cells: some
-    /// 39 million vertices in space.
+    /// the hint. Requires cells. Error (memory), and nothing has changed, if there might be too many: more than
+    /// some 39 million vertices in space.
     std::int32_t insert(const Vec3& p, std::int32_t hint = none);
     /// The same if `accepts` says so; none, and nothing has changed, if it does not.
     std::int32_t insert_if(const Vec3& p, std::int32_t hint, const std::function<bool(const Star&)>& accepts);
@@ -167,6 +169,7 @@ class Triangulation {
     void join_cells();
     void join_cells_of_large_star();
     std::int32_t insert_in_cavity(const Vec3& p);
+    void require_room(std::size_t more_cells) const;
     void remove_cells(std::vector<std::int32_t> cells);
     void move_cell(std::int32_t from, std::int32_t to);
 
@@ -174,7 +177,7 @@ class Triangulation {
     std::vector<Cell> cells_;
     std::vector<std::int32_t> cell_at_vertex_;
     std::vector<std::uint8_t> regions_;  // of each cell; empty: all 0
-    std::int32_t last_cell_ = 0;
+    std::int32_t most_ = most_cells, last_cell_ = 0;
     bool has_constraints_ = false;
 
     // Of the insertion under way.

@@ -1,5 +1,7 @@
 #include "improve/edited_mesh.h"
 
+#include <fmt/format.h>
+
 #include "core/check.h"
 #include "core/error.h"
 #include "delaunay/predicates.h"
@@ -27,18 +29,27 @@ int index_of(const Tetrahedron& corners, std::int32_t vertex) {
 }  // namespace
 
 EditedMesh::EditedMesh(TetMesh& mesh, std::int64_t frozen_cells, SizeField max_size,
-                       const std::function<void(const CellShape&)>& visit)
+                       const std::function<void(const CellShape&)>& visit, std::size_t most)
     : mesh_(&mesh),
       max_size_(std::move(max_size)),
       frozen_cells_(frozen_cells),
+      most_(most),
       had_neighbours_(!mesh.neighbours.empty()) {
-    if (mesh.tets.size() > most_cells)
-        throw Error(ErrorCode::memory, "The mesh of a part has more tetrahedra than can be improved. Use more parts.");
+    KERF_CHECK(most <= most_cells);
+    require_room(mesh.tets.size());
     constexpr double infinity = std::numeric_limits<double>::infinity();
     least_bound_six_ = max_size_.is_empty() ? infinity : 6 * max_size_.reference_volume();
     links_.resize(mesh.tets.size(), {none, none, none, none});
     had_neighbours_ ? copy_links() : find_links();
     find_limits(visit);
+}
+
+void EditedMesh::require_room(std::size_t cells) const {
+    if (cells > most_)
+        throw Error(
+            ErrorCode::memory,
+            fmt::format("The mesh of a part has {} tetrahedra; no more than {} can be improved. Use more parts.", cells,
+                        most_));
 }
 
 void EditedMesh::find_links() {
@@ -197,6 +208,8 @@ void EditedMesh::close_face(std::int32_t side) {
 
 void EditedMesh::replace(std::span<const std::int32_t> cells, std::span<const Tetrahedron> by,
                          std::vector<std::int32_t>& made) {
+    if (const std::size_t reused = free_.size() + cells.size(); by.size() > reused)
+        require_room(mesh_->tets.size() + by.size() - reused);
     open_faces(cells);
     for (const std::int32_t cell : cells) mesh_->tets[cell][0] = removed;
     free_.insert(free_.end(), cells.rbegin(), cells.rend());

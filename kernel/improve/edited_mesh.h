@@ -29,9 +29,9 @@ class EditedMesh {
     static constexpr std::size_t most_cells = std::size_t{1} << 29;
 
     /// Finds neighbours where the mesh has none, and looks at the shapes of all cells, which `visit` is told. The first
-    /// `frozen_cells` cells never change. Error (memory) if there are more than most_cells.
+    /// `frozen_cells` cells never change. Error (memory) if there are more than `most`, which is at most most_cells.
     EditedMesh(TetMesh& mesh, std::int64_t frozen_cells, SizeField max_size,
-               const std::function<void(const CellShape&)>& visit);
+               const std::function<void(const CellShape&)>& visit, std::size_t most = most_cells);
 
     // --- what there is ---
 
@@ -71,7 +71,7 @@ class EditedMesh {
     // --- changes ---
 
     /// Replaces cells by others, positive ones, that fill the same space and have the same faces around them. Appends
-    /// the numbers of the new ones to `made`.
+    /// the numbers of the new ones to `made`. Error (memory), and nothing has changed, if there would be too many.
     void replace(std::span<const std::int32_t> cells, std::span<const Tetrahedron> by, std::vector<std::int32_t>& made);
     /// Moves a corner that all of `star` have. False, and nothing has changed, if a cell would not be positive then.
     bool move(std::int32_t vertex, const Vec3& to, std::span<const std::int32_t> star);
@@ -101,10 +101,12 @@ class EditedMesh {
     void close_face(std::int32_t side);
     Triangle face_key(std::int32_t cell, int i) const;
     void restore_neighbours();
+    void require_room(std::size_t cells) const;
 
     TetMesh* mesh_;
     SizeField max_size_;
     std::int64_t frozen_cells_;
+    std::size_t most_;
     bool had_neighbours_;
     double least_bound_six_ = 0;  // six times the least bound of volume; infinity: none
     double most_sharp_ = 0, most_flat_ = 0;

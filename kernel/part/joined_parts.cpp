@@ -127,7 +127,7 @@ std::vector<PieceOfTree> divide_leaves(const std::vector<NodeId>& leaves, std::i
     return divided;
 }
 
-JoinedParts::JoinedParts(const PartSource& parts, std::int32_t pieces) : parts_(parts) {
+JoinedParts::JoinedParts(const PartSource& parts, std::int32_t pieces, std::int64_t most) : parts_(parts) {
     const MeshOutline& whole = parts.outline();
     const auto count = static_cast<std::int32_t>(whole.parts.size());
     if (pieces < 1 || pieces > count)
@@ -140,6 +140,20 @@ JoinedParts::JoinedParts(const PartSource& parts, std::int32_t pieces) : parts_(
         for (std::int32_t r = piece.first; r < piece.last; ++r)
             piece_of_leaf_.emplace_back(leaves[static_cast<std::size_t>(r)], piece.id);
     std::sort(piece_of_leaf_.begin(), piece_of_leaf_.end());
+    const auto require_numbers = [&](const PieceOfTree& piece, std::int64_t number, const char* what) {
+        if (number > most)
+            throw Error(
+                ErrorCode::usage,
+                fmt::format("--into {} makes a piece of {} {} of parts {} to {}, but a piece has {} at most. Ask "
+                            "for more pieces.",
+                            pieces, number, what, leaves[static_cast<std::size_t>(piece.first)],
+                            leaves[static_cast<std::size_t>(piece.last) - 1], most));
+    };
+    for (const PieceOfTree& piece : pieces_) {
+        std::int64_t tets = 0;
+        for (std::int32_t r = piece.first; r < piece.last; ++r) tets += whole.parts[static_cast<std::size_t>(r)].tets;
+        require_numbers(piece, tets, "tetrahedra");
+    }
     outline_.vertices = whole.vertices;
     outline_.patch_names = whole.patch_names;
     outline_.values = whole.values;
@@ -162,6 +176,8 @@ JoinedParts::JoinedParts(const PartSource& parts, std::int32_t pieces) : parts_(
                     extent.vertices -= static_cast<std::int64_t>(group.vertices.size());
             }
         }
+        require_numbers(piece, extent.vertices, "vertices");
+        require_numbers(piece, extent.patch_facets + extent.interface_facets, "triangles");
     }
 }
 

@@ -1,6 +1,8 @@
 // Parts joined into fewer pieces, for who has fewer processes.
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -22,8 +24,12 @@ std::vector<PieceOfTree> divide_leaves(const std::vector<NodeId>& leaves, std::i
 /// is joined anew whenever it is loaded; memory: its parts. `parts` must outlive this.
 class JoinedParts : public PartSource {
  public:
-    /// Loads every part once. Throws Error(usage) for less than one piece or more than there are parts.
-    JoinedParts(const PartSource& parts, std::int32_t pieces);
+    /// Tetrahedra, vertices and triangles of a piece have numbers of 32 bits.
+    static constexpr std::int64_t most_of_piece = std::numeric_limits<std::int32_t>::max();
+
+    /// Loads every part once. Throws Error(usage) for less than one piece or more than there are parts, and for a piece
+    /// that would have more than `most` tetrahedra, vertices or triangles: for tetrahedra before a part is loaded.
+    JoinedParts(const PartSource& parts, std::int32_t pieces, std::int64_t most = most_of_piece);
 
     const MeshOutline& outline() const override { return outline_; }
     Part load(std::int32_t rank) const override;

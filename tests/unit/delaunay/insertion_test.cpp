@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/error.h"
 #include "delaunay/delaunay.h"
 #include "delaunay/predicates.h"
 #include "support/point_sets.h"
@@ -254,6 +255,34 @@ TEST(Triangulation, RefusesPointsOnConstrainedFacesAndOnTheHull) {
     EXPECT_EQ(triangulation.insert({2, 2, 2}), triangulation.insert({2, 2, 2}, 0));
     EXPECT_TRUE(constrained_faces(triangulation) == square);
     test::expect_valid(triangulation);
+}
+
+// The limit is that of the numbers of faces; here it is lower.
+TEST(Triangulation, RefusesMoreCellsThanNumbersWithoutAChange) {
+    const std::array<Vec3, 4> corners = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
+    const Vec3 inside(0.2, 0.2, 0.2);
+    const auto code_of = [](const auto& grow) {
+        try {
+            grow();
+        } catch (const Error& error) {
+            return static_cast<int>(error.code());
+        }
+        return 0;
+    };
+    for (const std::int32_t most : {7, 9}) {
+        const bool is_refused = most == 7;  // of 5 cells one is replaced by four; an insertion asks for all four
+        Triangulation inserted(corners, most), replaced(corners, most);
+        EXPECT_EQ(code_of([&] { inserted.insert(inside); }), is_refused ? 5 : 0);
+        const std::int32_t v = replaced.add_vertex(inside);
+        const std::array<Tetrahedron, 4> by = {{{v, 1, 2, 3}, {0, v, 2, 3}, {0, 1, v, 3}, {0, 1, 2, v}}};
+        EXPECT_EQ(code_of([&] { replaced.replace(std::array{0}, by); }), is_refused ? 5 : 0);
+        for (const Triangulation* grown : {&inserted, &replaced}) EXPECT_EQ(grown->cell_count(), is_refused ? 5 : 8);
+        if (is_refused) {
+            EXPECT_EQ(inserted.points().size(), 4U);
+            EXPECT_EQ(replaced.vertices(0), (Tetrahedron{0, 1, 2, 3}));
+            EXPECT_EQ(replaced.cell_at(v), Triangulation::none);
+        }
+    }
 }
 
 // As long as nothing was constrained they may be outside.

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "improve/edge_removal.h"
+#include "improve/edited_mesh.h"
 #include "improve/smoothing.h"
 #include "mesh/adjacency.h"
 #include "mesh/verification.h"
@@ -114,6 +115,31 @@ void expect_better(const Improvement& improvement, const TetMesh& mesh, const Te
         EXPECT_LE(after.largest.percentile(1 - fraction), before.largest.percentile(1 - fraction) + 0.1);
     }
     EXPECT_LE(improvement.bad_cells_after, improvement.bad_cells_before);
+}
+
+// The limit is that of the numbers of faces; here it is lower.
+TEST(EditedMesh, RefusesMoreCellsThanNumbersWithoutAChange) {
+    TetMesh two;  // above and below a triangle; three lie around the edge between their apices
+    two.vertices = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0.3, 0.3, 1), Vec3(0.3, 0.3, -1)};
+    two.tets = {{0, 1, 2, 3}, {0, 2, 1, 4}};
+    two.boundary_vertex_count = 5;
+    const std::array<Tetrahedron, 3> three = {{{4, 3, 0, 1}, {4, 3, 1, 2}, {4, 3, 2, 0}}};
+    const auto replaced = [&](std::size_t most) {
+        TetMesh mesh = two;
+        std::vector<std::int32_t> made;
+        EditedMesh edited(
+            mesh, 0, {}, [](const CellShape&) {}, most);
+        try {
+            edited.replace(std::array{0, 1}, three, made);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::memory);
+        }
+        edited.finish();
+        return mesh.tets;
+    };
+    EXPECT_EQ(replaced(2), two.tets);
+    EXPECT_EQ(replaced(3), (std::vector<Tetrahedron>{three[0], three[1], three[2]}));
+    EXPECT_THROW(replaced(1), Error);
 }
 
 TEST(Improve, ObeysTheLawsOfMeshes) {
