@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "io/cad_body.h"
 #include "io/offenders_writer.h"
 #include "io/output_file.h"
 #include "io/standard_streams.h"
@@ -113,19 +114,19 @@ void print_text(const CheckRequest& request, CheckedSoup& checked) {
     print_data(text);
 }
 
-// The reader stops at the first thing that it does not understand.
-int report_unreadable(const CheckRequest& request, const Error& error) {
+// The reader stops at the first thing that it does not understand, or of which it cannot make a surface.
+int report_refused(const CheckRequest& request, const Error& error, const std::string& kind) {
     if (request.json)
         print_json(Json{{"path", request.path},
                         {"can_be_meshed", false},
-                        {"counts", {{"unreadable", 1}}},
-                        {"defects", Json::array({Json{{"kind", "unreadable"},
+                        {"counts", {{kind, 1}}},
+                        {"defects", Json::array({Json{{"kind", kind},
                                                       {"severity", "error"},
                                                       {"facets", Json::array()},
                                                       {"vertices", Json::array()},
                                                       {"message", error.what()}}})}});
     else
-        print_data(fmt::format("  error     unreadable: {}\n", error.what()));
+        print_data(fmt::format("  error     {}: {}\n", kind, error.what()));
     return static_cast<int>(error.code());
 }
 
@@ -141,9 +142,11 @@ int check_surface(const CheckRequest& request) {
     CheckedSoup checked;
     try {
         checked = check_input(request.path, request.options, request.needle_angle_deg);
+    } catch (const SolidDefect& defect) {
+        return report_refused(request, defect, defect.kind());
     } catch (const Error& error) {
         if (error.code() != ErrorCode::input) throw;
-        return report_unreadable(request, error);
+        return report_refused(request, error, "unreadable");
     }
     if (!request.offenders_file.empty()) write_offenders(request.offenders_file, checked.soup, checked.diagnosis);
     if (request.json)

@@ -16,7 +16,8 @@ struct CheckRequest {
 };
 
 /// Prints counts, the ten worst of each kind and what to do, or with `json` every defect, to standard output. Returns 0
-/// for a surface that can be meshed, else 3, also for one that cannot be parsed; its defect is "unreadable" then.
+/// for a surface that can be meshed, else 3, also for one that cannot be parsed, whose defect is "unreadable" then, and
+/// for solids of a CAD file of which no surface can be made: their defect is the kind of a SolidDefect.
 /// Throws Error for a file that cannot be opened or written.
 int check_surface(const CheckRequest& request);
 

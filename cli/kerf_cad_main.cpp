@@ -32,6 +32,10 @@ CadAnswer answer_for(const std::string& path, std::span<const std::string> argum
         answer.body = import_cad(decompress(std::move(bytes), path), path, options);
         answer.body.file_hash = hash;
         return answer;
+    } catch (const SolidDefect& defect) {
+        CadAnswer answer = failed(defect.code(), defect.what());
+        answer.defect = defect.kind();
+        return answer;
     } catch (const Error& error) {
         return failed(error.code(), error.what());
     } catch (const std::bad_alloc&) {

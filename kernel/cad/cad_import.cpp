@@ -5,7 +5,7 @@
 // Chords are as fine as the volume between them and the faces asks for, and vertices are moved off the faces until the
 // facets hold what the solid holds (volume_balance.h): for the same volume, chords would have to be ten times as fine.
 // Where that fails, or bodies meet that way which are apart, the deflection gets smaller by what is missing, since the
-// error is proportional to it.
+// error is proportional to it. Bodies that do touch are mostly found before all of this, by coarse facets.
 #include "cad/cad_import.h"
 
 #include <algorithm>
@@ -21,6 +21,7 @@
 #include <Message_Messenger.hxx>
 #include <Standard_Failure.hxx>
 
+#include "cad/contact.h"
 #include "cad/healing.h"
 #include "cad/model.h"
 #include "cad/tessellation.h"
@@ -55,8 +56,17 @@ std::string counted(std::size_t n, const char* one, const char* many) {
 
 std::string place_text(const Vec3& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z()); }
 
-[[noreturn]] void refuse(const std::string& path, const std::string& what) {
-    throw Error(ErrorCode::input, path + ": " + what);
+[[noreturn]] void refuse(const std::string& path, const std::string& what, const char* kind = SolidDefect::broken) {
+    throw SolidDefect(kind, path + ": " + what);
+}
+
+[[noreturn]] void refuse_contact(const std::string& path, const std::string& one, const std::string& other,
+                                 const Vec3& where) {
+    refuse(path,
+           fmt::format("solids '{}' and '{}' touch or overlap near {}. Join what touches by --unite, or choose one by "
+                       "--solid N.",
+                       one, other, place_text(where)),
+           SolidDefect::touching);
 }
 
 // A body while it is tessellated.
@@ -258,7 +268,8 @@ void close_body(Body& body, Model& model, const std::string& path) {
                fmt::format("'{}' is open: {} of one face only, of {}, the first at {}. Close it in the CAD program "
                            "and export a solid.",
                            body.name, counted(static_cast<std::size_t>(free.count), "edge", "edges"),
-                           names_of(free.patches, model.patches), place_text(free.where)));
+                           names_of(free.patches, model.patches), place_text(free.where)),
+               SolidDefect::open);
     model.notes.push_back(
         fmt::format("The faces of '{}' were sewn within {:.3g} mm.", body.name, *share * cad::diagonal_of(body.shape)));
 }
@@ -311,19 +322,23 @@ Bodies tessellate_bodies(Model& model, const CadOptions& options, const std::str
     return all;
 }
 
-// Solids that touch or overlap are known by their facets; empty if none do.
-std::string touching_of(const Model& model, const Bodies& all) {
-    if (model.bodies.size() < 2) return "";
+// Solids whose facets meet, the first of them; nothing if none do.
+std::optional<cad::Contact> contact_of(const Bodies& all) {
+    if (all.first_facet.size() < 2) return {};
     const auto pairs = find_self_intersections(all.soup.vertices, all.soup.facets, 1);
-    if (pairs.empty()) return "";
-    const auto name_of = [&](std::int32_t facet) {
+    if (pairs.empty()) return {};
+    const auto body_of = [&](std::int32_t facet) {
         const auto next = std::upper_bound(all.first_facet.begin(), all.first_facet.end(), facet);
-        return model.bodies[static_cast<std::size_t>(next - all.first_facet.begin() - 1)].name;
+        return static_cast<std::size_t>(next - all.first_facet.begin() - 1);
     };
     const auto [f, g] = pairs.front();
-    return fmt::format(
-        "solids '{}' and '{}' touch or overlap near {}. Join what touches by --unite, or choose one by --solid N.",
-        name_of(f), name_of(g), place_text(all.soup.vertices[all.soup.facets[f][0]]));
+    return cad::Contact{{body_of(f), body_of(g)}, all.soup.vertices[all.soup.facets[f][0]]};
+}
+
+void refuse_if(const std::optional<cad::Contact>& contact, const Model& model, const std::string& path) {
+    if (contact)
+        refuse_contact(path, model.bodies[contact->bodies[0]].name, model.bodies[contact->bodies[1]].name,
+                       contact->where);
 }
 
 // Patches without facets are left out.
@@ -366,13 +381,14 @@ CadBody import_model(Model model, const CadOptions& options, const std::string& 
     CadBody result;
     result.format = name(model.format);
     result.file_unit = model.unit;
+    refuse_if(cad::find_contact(model.bodies), model, path);
     Bodies all = tessellate_bodies(model, options, path, true);
-    std::string touching = touching_of(model, all);
-    if (options.deflection == 0 && !touching.empty()) {
+    std::optional<cad::Contact> contact = contact_of(all);
+    if (options.deflection == 0 && contact) {
         all = tessellate_bodies(model, options, path, false);
-        touching = touching_of(model, all);
+        contact = contact_of(all);
     }
-    if (!touching.empty()) refuse(path, touching);
+    refuse_if(contact, model, path);
     result.soup = std::move(all.soup);
     result.volume = all.volume;
     result.exact_volume = all.exact_volume;
@@ -397,8 +413,9 @@ CadBody import_cad(std::string_view content, const std::string& path, const CadO
     try {
         return import_model(cad::read_model(content, path), options, path);
     } catch (const Standard_Failure& failure) {
-        refuse(path, fmt::format("OpenCASCADE fails on a shape ({}). Repair it in the CAD program.",
-                                 failure.DynamicType()->Name()));
+        throw Error(ErrorCode::input,
+                    fmt::format("{}: OpenCASCADE fails on a shape ({}). Repair it in the CAD program.", path,
+                                failure.DynamicType()->Name()));
     }
 }
 

@@ -6,9 +6,11 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/bytes.h"
+#include "core/error.h"
 #include "core/hash.h"
 #include "surface/soup.h"
 
@@ -56,15 +58,31 @@ struct CadBody {
     }
 };
 
+/// Of a CAD file that was read well, but whose solids cannot be meshed as they are.
+class SolidDefect : public Error {
+ public:
+    static constexpr const char* touching = "touching solids";  ///< or overlapping ones
+    static constexpr const char* open = "open solid";
+    static constexpr const char* broken = "broken solid";  ///< intersects itself, or its faces do not bound it
+
+    SolidDefect(std::string kind, const std::string& message)
+        : Error(ErrorCode::input, message), kind_(std::move(kind)) {}
+    const std::string& kind() const { return kind_; }
+
+ private:
+    std::string kind_;
+};
+
 /// What kerf-cad writes: a body, or why there is none.
 struct CadAnswer {
     std::int32_t error_code = 0;  ///< an ErrorCode; 0: none
     std::string message;
     CadBody body;
+    std::string defect = {};  ///< kind of a SolidDefect; empty: another error, or none
 
     template <class Archive>
     void archive(Archive& a) {
-        a(error_code, message, body);
+        a(error_code, message, body, defect);
     }
 };
 

@@ -87,6 +87,7 @@ CadBody read_cad(const std::string& path, const FileHash& file_hash, const CadOp
                         "libocct-data-exchange-dev, build kerf-cad and put it beside kerf (to run, it needs "
                         "libocct-data-exchange-7.6), or export the file as STL, OBJ or PLY.");
     CadAnswer answer = answer_of(run_cad_program(program, path, options, timeout_seconds), path, program);
+    if (!answer.defect.empty()) throw SolidDefect(answer.defect, answer.message);
     if (answer.error_code != 0) throw Error(static_cast<ErrorCode>(answer.error_code), answer.message);
     if (answer.body.file_hash != file_hash)
         throw Error(ErrorCode::io, path + ": the file has changed while it was read. Run again.");

@@ -14,7 +14,8 @@ std::string find_cad_program();
 /// What the program `program` makes of the CAD file `path`, in a child process that is stopped after
 /// `timeout_seconds`. `file_hash`: of the bytes that the file must have.
 ///
-/// Throws Error with the code and sentence of kerf-cad for a file that it refuses; Error(io) for a program that cannot
+/// Throws Error with the code and sentence of kerf-cad for a file that it refuses, as SolidDefect where the file was
+/// read well; Error(io) for a program that cannot
 /// be started or a file that has changed; Error(input) if the program crashes or takes too long, since other programs
 /// can export the file as triangles; Error(usage), naming the package, if `program` is empty.
 CadBody read_cad(const std::string& path, const FileHash& file_hash, const CadOptions& options,

@@ -70,9 +70,11 @@ CadShape rounded_box(double size, double radius) {
 
 CadShape hollow_cube(double size, double inner) {
     const double corner = (size - inner) / 2;
-    return cad_shape(BRepAlgoAPI_Cut(box({0, 0, 0}, {size, size, size}).data().shape,
-                                     box({corner, corner, corner}, {inner, inner, inner}).data().shape)
-                         .Shape());
+    return cut(box({0, 0, 0}, {size, size, size}), box({corner, corner, corner}, {inner, inner, inner}));
+}
+
+CadShape cut(const CadShape& shape, const CadShape& tool) {
+    return cad_shape(BRepAlgoAPI_Cut(shape.data().shape, tool.data().shape).Shape());
 }
 
 CadShape moved(const CadShape& shape, std::array<double, 3> by) {

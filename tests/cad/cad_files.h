@@ -29,6 +29,8 @@ CadShape torus(double major, double minor);
 CadShape rounded_box(double size, double radius);
 /// A cube with a void: a box inside.
 CadShape hollow_cube(double size, double inner);
+/// The shape without what the tool fills.
+CadShape cut(const CadShape& shape, const CadShape& tool);
 CadShape moved(const CadShape& shape, std::array<double, 3> by);
 CadShape together(const std::vector<CadShape>& shapes);
 /// The faces of a shape by themselves, without the first `without` of them; no two share an edge.

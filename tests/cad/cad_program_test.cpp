@@ -30,6 +30,13 @@ TEST_F(CadProgram, CheckSaysWhatWasRead) {
     const ChildResult refused = test::run_kerf({"check", part()});
     EXPECT_EQ(refused.exit_code, 3) << "they overlap";
     EXPECT_NE(test::output_of(refused).find("--unite"), std::string::npos) << test::output_of(refused);
+    EXPECT_NE(test::output_of(refused).find("touching solids: "), std::string::npos) << test::output_of(refused);
+    const ChildResult as_json = test::run_kerf({"check", part(), "--json"});
+    EXPECT_EQ(as_json.exit_code, 3);
+    EXPECT_NE(test::output_of(as_json).find("\"kind\": \"touching solids\""), std::string::npos);
+    const std::string open = folder_.file("open.step");
+    test::write_cad(open, test::open_shell(test::box({0, 0, 0}, {2, 1, 1})));
+    EXPECT_NE(test::output_of(test::run_kerf({"check", open})).find("open solid: "), std::string::npos);
     const ChildResult united = test::run_kerf({"check", part(), "--unite"});
     EXPECT_EQ(united.exit_code, 0) << test::output_of(united);
     EXPECT_NE(test::output_of(united).find("STEP: unit inch -> mm, 1 solid"), std::string::npos)
