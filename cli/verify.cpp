@@ -16,6 +16,8 @@ int verify_run(const std::string& folder, const VerifyOptions& options) {
     const auto line = [&](std::int64_t count, const char* what) {
         if (count) text += fmt::format("  {} {}\n", count, what);
     };
+    if (!(laws.volume_rel_error <= laws.volume_rel_bound))
+        text += fmt::format("  volume error above {:.1e}, which rounding explains\n", laws.volume_rel_bound);
     line(laws.input_faces_missing, "facets of the input missing");
     line(laws.extra_boundary_faces, "boundary faces that are neither input nor interface");
     line(laws.unmatched_interface_faces, "interface triangles without a partner of opposite orientation");

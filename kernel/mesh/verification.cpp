@@ -179,7 +179,7 @@ class CompensatedSum {
 // What is known of all cells.
 struct Cells {
     std::int64_t inverted = 0;
-    double volume = 0;
+    double volume = 0, volume_error = 0;
     BoundaryChain boundary;
 };
 
@@ -189,6 +189,7 @@ Cells sum_cells(const TetMesh& mesh) {
     constexpr double doubt = 6 * 8 * 0x1p-53, underflow = 1e-290;
     Cells cells;
     CompensatedSum volume;
+    double sum_of_largest = 0;
     for (const Tetrahedron& tet : mesh.tets) {
         const Vec3 &a = mesh.vertices[tet[0]], &b = mesh.vertices[tet[1]];
         const Vec3 &c = mesh.vertices[tet[2]], &d = mesh.vertices[tet[3]];
@@ -197,9 +198,14 @@ Cells sum_cells(const TetMesh& mesh) {
         const double largest = u.cwiseAbs().maxCoeff() * v.cwiseAbs().maxCoeff() * w.cwiseAbs().maxCoeff();
         if (!(det > doubt * largest + underflow)) cells.inverted += !is_positive_exactly(a, b, c, d);
         volume.add(det);
+        sum_of_largest += largest;
         cells.boundary.add(tet);
     }
     cells.volume = volume.value() / 6;
+    const auto count = static_cast<double>(mesh.tets.size());
+    const double of_sum = 6 * count * count * 0x1p-106;  // of terms of six products each
+    cells.volume_error = 1.01 * ((doubt + of_sum) * sum_of_largest / 6 + 4 * 0x1p-53 * std::abs(cells.volume)) +
+                         8 * (count + 1) * std::numeric_limits<double>::denorm_min();
     return cells;
 }
 
@@ -225,7 +231,7 @@ void count_broken_faces(const TetMesh& mesh, const SurfaceArrays& surface, MeshL
 
 bool MeshLaws::hold() const {
     return inverted_tets == 0 && missing_facets == 0 && extra_boundary_faces == 0 && mismatched_neighbours == 0 &&
-           moved_vertices == 0 && std::abs(volume - surface_volume) <= 1e-10 * std::abs(surface_volume);
+           moved_vertices == 0 && std::abs(volume - surface_volume) <= volume_error;
 }
 
 MeshLaws verify_mesh(const TetMesh& mesh, const SurfaceArrays& surface, FaceProof proof) {
@@ -237,7 +243,9 @@ MeshLaws verify_mesh(const TetMesh& mesh, const SurfaceArrays& surface, FaceProo
     laws.inverted_tets = cells.inverted;
     laws.moved_vertices = count_moved_vertices(mesh, surface);
     laws.volume = cells.volume;
-    laws.surface_volume = enclosed_volume(surface.vertices, surface.facets);
+    const BoundedVolume enclosed = bounded_volume(surface.vertices, surface.facets);
+    laws.surface_volume = enclosed.value;
+    laws.volume_error = cells.volume_error + enclosed.error;
     const bool is_proven =
         proof == FaceProof::sum && mesh.neighbours.empty() && laws.hold() && cells.boundary == chain_of(surface.facets);
     if (!is_proven) count_broken_faces(mesh, surface, laws);

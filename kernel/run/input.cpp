@@ -116,6 +116,10 @@ Input read_input(const std::string& path, const InputOptions& options) {
 void measure_input(Input& input) {
     const MassProperties mass = mass_properties(input.surface);
     input.volume = mass.volume;
+    input.volume_error = mass.volume_error;
+    input.largest_coordinate = 0;
+    for (std::int32_t v = 0; v < input.surface.vertex_count(); ++v)
+        input.largest_coordinate = std::max(input.largest_coordinate, input.surface.point(v).cwiseAbs().maxCoeff());
     input.area = mass.area;
     input.vertices = input.surface.vertex_count();
     input.facets = input.surface.facet_count();

@@ -66,8 +66,10 @@ struct Input {
     std::int64_t components = 0;
     std::int64_t genus = 0;  ///< sum over the components
     double volume = 0;
+    double volume_error = 0;  ///< as BoundedVolume has it
     double area = 0;
-    double diagonal = 0;  ///< of the bounding box
+    double largest_coordinate = 0;  ///< as an absolute value
+    double diagonal = 0;            ///< of the bounding box
     InputRepairs repairs;
     OrientationReport orientation;
     std::int64_t moved_vertices = 0;  ///< by the optimisation of the surface

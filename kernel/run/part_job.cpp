@@ -50,8 +50,8 @@ std::string broken_laws(const MeshLaws& laws) {
     add(laws.extra_boundary_faces, "boundary faces that are no facets");
     add(laws.mismatched_neighbours, "faces with mismatched neighbours");
     add(laws.moved_vertices, "moved surface vertices");
-    return text +
-           fmt::format(" volume {:.6g}, {:+.2g} from the surface's.", laws.volume, laws.volume - laws.surface_volume);
+    return text + fmt::format(" volume {:.6g}, {:+.2g} from the surface's, of which rounding explains {:.2g}.",
+                              laws.volume, laws.volume - laws.surface_volume, laws.volume_error);
 }
 
 void fill_result(const PartJob& job, const MesherCall& call, const std::string& part_file, PartResult& result) {

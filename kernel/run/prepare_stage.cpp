@@ -7,6 +7,7 @@
 #include "run/input_cover.h"
 #include "run/interface_match.h"
 #include "run/numbering.h"
+#include "surface/mass_properties.h"
 
 namespace kerf {
 
@@ -18,6 +19,7 @@ PartReport describe_part(const PartJob& job, double volume, int rank, const CutO
     part.id = job.part;
     part.rank = rank;
     part.surface_volume = volume;
+    part.surface_volume_error = bounded_volume(job.surface.vertices, job.surface.facets).error;
     const Eigen::AlignedBox3d box = box_of(job);
     part.box_low = box.min();
     part.box_high = box.max();

@@ -245,7 +245,7 @@ std::string rungs_text(const std::vector<TreeNode>& nodes) {
 }  // namespace
 
 bool RunVerification::all_hold() const {
-    return volume_rel_error <= 1e-10 && input_faces_missing == 0 && extra_boundary_faces == 0 &&
+    return volume_rel_error <= volume_rel_bound && input_faces_missing == 0 && extra_boundary_faces == 0 &&
            unmatched_interface_faces == 0 && inverted_tets == 0 && tets_zero_parts == 0;
 }
 
@@ -264,6 +264,7 @@ std::string to_json(const RunReport& report) {
                  {"verification",
                   {{"passed", v.passed},
                    {"volume_rel_error", v.volume_rel_error},
+                   {"volume_rel_bound", v.volume_rel_bound},
                    {"input_faces_missing", v.input_faces_missing},
                    {"extra_boundary_faces", v.extra_boundary_faces},
                    {"unmatched_interface_faces", v.unmatched_interface_faces},

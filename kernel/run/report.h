@@ -22,6 +22,7 @@ struct PartReport : PartOutcome {
     FileHash job_hash = {0, 0};
     FileHash surface_hash = {0, 0};  ///< of the file of its surface
     double surface_volume = 0;
+    double surface_volume_error = 0;                       ///< as BoundedVolume has it
     double sized_volume = 0;                               ///< as sized_volume() has it
     Vec3 box_low = Vec3::Zero(), box_high = Vec3::Zero();  ///< corners of the box around its surface
     std::int64_t surface_vertices = 0, surface_facets = 0;
@@ -36,8 +37,9 @@ struct PartReport : PartOutcome {
     template <class Archive>
     void archive(Archive& a) {
         PartOutcome::archive(a);
-        a(id, rank, resumed, load, job_hash, surface_hash, surface_volume, sized_volume, box_low, box_high,
-          surface_vertices, surface_facets, interface_facets, interface_area, interface_in_squared_edges, neighbours);
+        a(id, rank, resumed, load, job_hash, surface_hash, surface_volume, surface_volume_error, sized_volume, box_low,
+          box_high, surface_vertices, surface_facets, interface_facets, interface_area, interface_in_squared_edges,
+          neighbours);
     }
 };
 
@@ -45,13 +47,14 @@ struct PartReport : PartOutcome {
 struct RunVerification {
     bool passed = false;
     double volume_rel_error = 0;                 ///< sum of the parts against the enclosed volume
+    double volume_rel_bound = 0;                 ///< what rounding may make of that, found beside both sums
     std::int64_t input_faces_missing = 0;        ///< facets of the input that are no boundary face of exactly one part
     std::int64_t extra_boundary_faces = 0;       ///< boundary faces of parts that are neither input nor interface
     std::int64_t unmatched_interface_faces = 0;  ///< not once on each side, with the same keys in opposite order
     std::int64_t inverted_tets = 0;
     std::int64_t tets_zero_parts = 0;  ///< parts without a tetrahedron
 
-    /// True if the volumes agree to 1e-10 relative and every count is zero.
+    /// True if the volumes agree within the bound and every count is zero.
     bool all_hold() const;
 };
 

@@ -1,6 +1,7 @@
 #include "run/totals.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -11,13 +12,25 @@ namespace kerf {
 
 namespace {
 
+// What straight cuts add to the sum of the parts' volumes. A new vertex lies beside its edge by less than 16 e times
+// the largest coordinate (cut/facet_split.cpp), e = 2^-53, and so does each piece beside its facet, once a level of the
+// tree.
+double error_of_splits(const RunReport& report) {
+    if (report.split_facets == 0) return 0;
+    NodeId last = 1;
+    for (const PartReport& part : report.parts) last = std::max(last, part.id);
+    const auto levels = static_cast<double>(std::bit_width(static_cast<std::uint64_t>(last)));
+    return levels * 16 * 0x1p-53 * report.input->largest_coordinate * report.input->area;
+}
+
 RunVerification verify_parts(const RunReport& report) {
     RunVerification v = report.verification;
-    double volume = 0;
+    double volume = 0, error = report.input->volume_error + error_of_splits(report);
     bool parts_hold = true;
     for (const PartReport& part : report.parts) {
         const MeshLaws& laws = part.result.laws;
         volume += report.options.volume ? laws.volume : part.surface_volume;
+        error += report.options.volume ? laws.volume_error : part.surface_volume_error;
         v.inverted_tets += laws.inverted_tets;
         v.input_faces_missing += laws.missing_facets;
         v.extra_boundary_faces += laws.extra_boundary_faces;
@@ -25,7 +38,9 @@ RunVerification verify_parts(const RunReport& report) {
         v.tets_zero_parts += part.result.tets == 0;
         parts_hold &= part.result.code == 0 && laws.hold();
     }
+    error += static_cast<double>(report.parts.size()) * 0x1p-53 * volume;  // volumes are positive, and added in order
     v.volume_rel_error = std::abs(volume - report.input->volume) / report.input->volume;
+    v.volume_rel_bound = error / report.input->volume;
     v.passed = parts_hold && v.all_hold();
     return v;
 }

@@ -2,7 +2,9 @@
 // work. Notation: p vertices, c centroid, I inertia = sum |p - c|^2 E - (p - c)(p - c)^T.
 #include "surface/mass_properties.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -66,6 +68,32 @@ class VolumeSum {
     long double sum_ = 0;
 };
 
+// What rounding may have made of that sum; corners relative to the origin of the sum, as they are rounded.
+class VolumeErrorSum {
+ public:
+    void add(const Vec3& a, const Vec3& b, const Vec3& c) {
+        const Vec3 ab = b - a, ac = c - a, low = a.cwiseAbs(), middle = b.cwiseAbs(), high = c.cwiseAbs();
+        const double far = std::sqrt(std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm()}));
+        const double area = ab.cross(ac).norm() / 2, move = half_ulp * far;
+        swept_ += move * (area + move * (2 * (ab.norm() + ac.norm()) + 4 * move));
+        products_ += low.x() * (middle.y() * high.z() + middle.z() * high.y()) +
+                     low.y() * (middle.z() * high.x() + middle.x() * high.z()) +
+                     low.z() * (middle.x() * high.y() + middle.y() * high.x());
+        ++terms_;
+    }
+    double error(double volume) const {
+        constexpr double own_rounding = 1.01;  // of this bound
+        constexpr double half_long_ulp = static_cast<double>(std::numeric_limits<long double>::epsilon() / 2);
+        const double of_products = static_cast<double>(terms_ + 8) * half_long_ulp * products_ / 6;
+        return own_rounding * (swept_ + of_products + half_ulp * std::abs(volume));
+    }
+
+ private:
+    static constexpr double half_ulp = 0x1p-53;
+    double swept_ = 0, products_ = 0;
+    std::int64_t terms_ = 0;
+};
+
 }  // namespace
 
 double enclosed_volume(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
@@ -75,6 +103,16 @@ double enclosed_volume(const std::vector<Vec3>& vertices, const std::vector<Tria
     VolumeSum sum;
     for (const Triangle& t : facets) sum.add(vertices[t[0]] - base, vertices[t[1]] - base, vertices[t[2]] - base);
     return sum.volume();
+}
+
+BoundedVolume bounded_volume(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
+    BoundedVolume volume{enclosed_volume(vertices, facets), 0};
+    if (facets.empty()) return volume;
+    const Vec3& base = vertices[facets[0][0]];
+    VolumeErrorSum error;
+    for (const Triangle& t : facets) error.add(vertices[t[0]] - base, vertices[t[1]] - base, vertices[t[2]] - base);
+    volume.error = error.error(volume.value);
+    return volume;
 }
 
 double enclosed_volume(const Surface& surface) {
@@ -108,14 +146,17 @@ MassProperties mass_properties(const Surface& surface) {
     }
     m.inertia = moment.trace() * Eigen::Matrix3d::Identity() - moment;
 
-    VolumeSum volume;  // in the pass of the area: reaching the points costs more than both sums
+    VolumeSum volume;  // in the pass of the area: reaching the points costs more than all sums
+    VolumeErrorSum error;
     for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
         const Triangle t = surface.vertices(f);
         const Vec3 &a = surface.point(t[0]), &b = surface.point(t[1]), &c = surface.point(t[2]);
         m.area += (b - a).cross(c - a).norm() / 2;
         volume.add(a - base, b - base, c - base);
+        error.add(a - base, b - base, c - base);
     }
     m.volume = volume.volume();
+    m.volume_error = error.error(m.volume);
 
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(m.inertia);
     m.eigenvalues = solver.eigenvalues();

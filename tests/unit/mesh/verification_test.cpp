@@ -8,6 +8,7 @@
 #include <random>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "core/elements.h"
 #include "mesh/adjacency.h"
@@ -321,12 +322,39 @@ TEST(Verification, VolumesMustAgree) {
     MeshLaws laws;
     laws.volume = laws.surface_volume = 2;
     EXPECT_TRUE(laws.hold());
-    laws.volume = 2 * (1 + 0.5e-10);
+    laws.volume_error = 1e-10;
+    laws.volume = 2 + 0.5e-10;
     EXPECT_TRUE(laws.hold());
-    laws.volume = 2 * (1 + 2e-10);
+    laws.volume = 2 + 2e-10;
     EXPECT_FALSE(laws.hold());
     laws.volume = std::numeric_limits<double>::quiet_NaN();
     EXPECT_FALSE(laws.hold());
+}
+
+// A sheet, up to 900 million times as long as it is thick, somewhere in space: cones from one corner cancel to 1e-10 of
+// its volume and worse, and that is no error. A cell too few is one, also by the volume alone.
+TEST(Verification, AThinSheetHoldsUnlessACellIsMissing) {
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    double worst = 0;
+    for (const double thickness : {1e-2, 1e-4, 1e-6}) {
+        SCOPED_TRACE(thickness);
+        MeshedSurface sheet = meshed_cube();
+        for (Vec3& p : sheet.mesh.vertices)
+            p = turn * p.cwiseProduct(Vec3(300, 300, thickness / 3)) + Vec3(1e4, -2e4, 3e4);
+        sheet.surface.vertices = sheet.mesh.vertices;
+        const MeshLaws laws = laws_of(sheet);
+        EXPECT_EQ(counts(sheet), Counts{});
+        EXPECT_TRUE(laws.hold()) << laws.volume - laws.surface_volume << " of " << laws.volume_error;
+        EXPECT_LT(laws.volume_error, 1e-3 * laws.volume);
+        worst = std::max(worst, std::abs(laws.volume - laws.surface_volume) / laws.volume);
+        MeshedSurface without = sheet;
+        without.mesh.tets.pop_back();
+        without.mesh.neighbours.clear();
+        const MeshLaws broken = laws_of(without);
+        EXPECT_FALSE(broken.hold());
+        EXPECT_GT(std::abs(broken.volume - broken.surface_volume), broken.volume_error);
+    }
+    EXPECT_GT(worst, 1e-10);  // or this shows nothing
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "surface/mass_properties.h"
 
+#include <algorithm>
 #include <numbers>
 #include <random>
 
@@ -55,6 +56,29 @@ TEST(MassProperties, OfShellsAndVoids) {
 TEST(MassProperties, VolumeDoesNotSufferFarFromTheOrigin) {
     const Soup soup = test::icosphere(3);
     EXPECT_NEAR(properties(test::translated(soup, Vec3(1e6, -1e6, 1e6))).volume / properties(soup).volume, 1, 1e-9);
+}
+
+// Boxes of whole numbers, far away and scaled by powers of two, have a volume without rounding; turned ones have that
+// of the cells that their corners make, to more digits than the bound.
+TEST(BoundedVolume, HoldsTheExactVolume) {
+    for (const double far : {0.0, 1e3, 1e9}) {
+        const Soup soup = test::translated(test::box(Vec3(0, 0, 0), Vec3(7, 5, 3), {7, 5, 3}), Vec3(far, -far, far));
+        const BoundedVolume volume = bounded_volume(soup.vertices, soup.facets);
+        EXPECT_LE(std::abs(volume.value - 105), volume.error);
+        EXPECT_LT(volume.error, 1e-12 * 105);
+        EXPECT_EQ(volume.value, enclosed_volume(soup.vertices, soup.facets));
+        const MassProperties mass = properties(soup);
+        EXPECT_LE(std::abs(mass.volume - 105), mass.volume_error);
+    }
+    const Eigen::Matrix3d rotation = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    for (const double thickness : {1.0, 1e-4, 1e-8}) {  // the same facets in another order have another origin
+        Soup soup = rotated(test::box(Vec3::Zero(), Vec3(1e3, 1e3, thickness), {12, 12, 1}), rotation);
+        const BoundedVolume one = bounded_volume(soup.vertices, soup.facets);
+        std::reverse(soup.facets.begin(), soup.facets.end());
+        const BoundedVolume other = bounded_volume(soup.vertices, soup.facets);
+        EXPECT_LE(std::abs(one.value - other.value), one.error + other.error);
+        EXPECT_LT(one.error, 1e-6);  // of a surface of 2e6
+    }
 }
 
 // In a sum from a vertex of another shell, cancellation leaves nothing of a volume like this.
