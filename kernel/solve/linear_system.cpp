@@ -152,6 +152,7 @@ struct LinearSystem::Impl {
     Vec right = nullptr, solution = nullptr, residual = nullptr;
     std::vector<double> of_prescribed;  // #dof: what held displacements put on the right, shares of ranks
     double diagonal = 1;                // of held degrees of freedom
+    double norm = 0;                    // of the matrix, the largest sum of a row: no less than its largest eigenvalue
     bool is_symmetric_half = false;
     AssemblySeconds seconds;
     std::int64_t unprepared = 0;
@@ -233,6 +234,7 @@ void LinearSystem::Impl::assemble() {
     diagonal = mean_diagonal(rows);
     create_matrix(rows);
     insert(rows);
+    check(MatNorm(matrix, NORM_INFINITY, &norm));
     check(MatCreateVecs(matrix, &solution, &right));
     check(VecDuplicate(right, &residual));
     seconds.insert = seconds_now() - start - seconds.elements;
@@ -314,13 +316,16 @@ SolveOutcome LinearSystem::solve(const std::vector<double>& forces, std::vector<
     PetscInt iterations = 0;
     check(KSPGetIterationNumber(impl_->ksp, &iterations));
     outcome.iterations = static_cast<int>(iterations);
-    double norm = 0, of_right = 0;
+    double norm = 0, of_right = 0, of_solution = 0;
     check(MatMult(impl_->matrix, impl_->solution, impl_->residual));
     check(VecAXPY(impl_->residual, -1, impl_->right));
     check(VecNorm(impl_->residual, NORM_2, &norm));
     check(VecNorm(impl_->right, NORM_2, &of_right));
-    outcome.residual = of_right > 0 ? norm / of_right : 0;
-    outcome.converged = reason > 0 && std::isfinite(outcome.residual);
+    check(VecNorm(impl_->solution, NORM_2, &of_solution));
+    outcome.residual = of_right > 0 ? norm / of_right : norm;
+    outcome.rounding = of_right > 0 ? 2 * 0x1p-53 * (impl_->norm * of_solution / of_right + 1) : 0;
+    const double allowed = slack * impl_->options.rtol + outcome.rounding;
+    outcome.converged = reason > 0 && std::isfinite(outcome.residual) && outcome.residual <= allowed;
 
     displacement.assign(3 * space.node_count(), 0);
     const double* found = nullptr;

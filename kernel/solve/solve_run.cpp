@@ -35,6 +35,17 @@ class SolveStopwatch {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+std::string way_out(const SolverOptions& solver) {
+    return fmt::format(
+        "{}Try preconditioner = \"{}\", a larger max_iterations or rtol, or a mesh with better cells "
+        "(kerf quality).",
+        solver.petsc.empty() ? ""
+                             : fmt::format("The case tells PETSc '{}', which may end it sooner: leave "
+                                           "that out. ",
+                                           solver.petsc),
+        solver.preconditioner == "gamg" ? "icc" : "gamg");
+}
+
 class SolveStages {
  public:
     SolveStages(const SolveRequest& request, Communicator& ranks, RunListener* listener)
@@ -196,19 +207,14 @@ void SolveStages::solve_case(LinearSystem& system, std::size_t number) {
     report_.seconds.setup += of_case.outcome.setup_seconds;
     report_.seconds.solve += of_case.outcome.solve_seconds;
     stage_.lap();
-    if (!of_case.outcome.converged) {
-        const SolverOptions& solver = report_.wanted.solver;
-        throw Error(ErrorCode::convergence,
-                    fmt::format("The solver has not reached the tolerance {:g}{}: {} after {} iterations, residual "
-                                "{:.3g}. {}",
-                                solver.rtol, of_case.name.empty() ? "" : fmt::format(" in case '{}'", of_case.name),
-                                of_case.outcome.reason, of_case.outcome.iterations, of_case.outcome.residual,
-                                solver.preconditioner == "gamg"
-                                    ? "Try preconditioner = \"icc\", a larger max_iterations or rtol, or a mesh with "
-                                      "better cells (kerf quality)."
-                                    : "Try preconditioner = \"gamg\", a larger max_iterations or rtol, or a mesh with "
-                                      "better cells (kerf quality)."));
-    }
+    if (!of_case.outcome.converged)
+        throw Error(
+            ErrorCode::convergence,
+            fmt::format("The solver has not reached the tolerance {:g}{}: {} after {} iterations, residual "
+                        "{:.3g}. {}",
+                        report_.wanted.solver.rtol,
+                        of_case.name.empty() ? "" : fmt::format(" in case '{}'", of_case.name), of_case.outcome.reason,
+                        of_case.outcome.iterations, of_case.outcome.residual, way_out(report_.wanted.solver)));
     progress("recover", number, problem_.cases.size());
     solution.stress = recover_stress(problem_, solution.displacement);
     report_case(problem_.forces[number], of_case);

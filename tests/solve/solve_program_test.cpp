@@ -231,6 +231,18 @@ TEST_F(KerfSolve, RefusesWhatCannotBe) {
     expect_refused(2, material + held + "[solver]\npetsc = \"nonsense\"", {"'nonsense'"});
 }
 
+// PETSc may be told to call anything a solution: the residual decides.
+TEST_F(KerfSolve, WhatPetscCallsConvergedIsMeasured) {
+    const std::string text =
+        std::string(steel) +
+        "[[support]]\npatch = \"face_0\"\nfixed = true\n[[load]]\npatch = \"face_1\"\npressure = 1\n";
+    expect_refused(9, text + "[solver]\npetsc = \"-ksp_type preonly -pc_type none\"",
+                   {"not reached the tolerance 1e-08", "'-ksp_type preonly -pc_type none'", "leave that out"});
+    expect_refused(9, text + "[solver]\npetsc = \"-ksp_rtol 0.5\"", {"CONVERGED_RTOL", "residual"});
+    ASSERT_EQ(solve(text + "[solver]\npetsc = \"-ksp_rtol 1e-10\"").exit_code, 0);
+    EXPECT_LE(report()["solve"]["cases"][0]["residual"], 1.1e-10);
+}
+
 // Wherever the memory ends, also inside of PETSc.
 TEST_F(KerfSolve, OutOfMemoryIsSaid) {
     const std::string text = std::string(steel) + three_planes + "[solver]\norder = 2";
