@@ -18,7 +18,8 @@ namespace {
 constexpr double least_gain_of_a_move = 0.1;         // of a move, in squared sines: a degree and a half at 25
 constexpr double angle_for_a_vertex_deg = 20;        // cells with a smaller one are worth a new vertex, ...
 constexpr double angle_where_sizes_differ_deg = 12;  // ... and here with this one, because vertices crowd
-constexpr double looks_for_vertices = 0.25;          // of all
+constexpr double looks_for_vertices = 0.25;          // of all; more only for ...
+constexpr double angle_of_no_volume_deg = 0.01;      // ... cells with a smaller one, which no solver can use
 constexpr double least_share_of_a_round = 0.1;       // of the bad cells, or there is no other round
 constexpr std::int64_t looks_at_any_mesh = 1000;     // beside those for each of its cells
 constexpr int cells_between_questions = 1024;        // whether it is cancelled
@@ -32,6 +33,7 @@ class Improver {
           result_(&improvement),
           bad_(square_from_degrees(options.threshold_deg)),
           bad_enough_for_a_vertex_(std::max(bad_, square_from_degrees(worth_a_vertex_deg(options)))),
+          without_volume_(square_from_degrees(angle_of_no_volume_deg)),
           most_looks_(most_looks_of(mesh, options)),
           is_settled_(mesh.vertices.size(), 0) {}
 
@@ -145,12 +147,12 @@ class Improver {
 
     bool insert_a_vertex(std::int32_t cell) {
         const double badness = mesh_.badness(cell);
-        if (!options_->adds_vertices || badness < bad_enough_for_a_vertex_ ||
-            looks_at_vertices_ > looks_for_vertices * most_looks_)
-            return false;
+        if (!options_->adds_vertices || badness < bad_enough_for_a_vertex_) return false;
+        if (badness < without_volume_ && looks_at_vertices_ > looks_for_vertices * most_looks_) return false;
+        // Anything is better than a cell whose volume is lost in rounding.
+        const double limit = std::isinf(badness) ? badness : badness - least_gain_of_a_move * (1 + badness);
         looks_at_vertices_ -= mesh_.looks();
-        const std::span<const std::int32_t> cavity =
-            insertion_.insert(mesh_, cell, badness - least_gain_of_a_move * (1 + badness));
+        const std::span<const std::int32_t> cavity = insertion_.insert(mesh_, cell, limit);
         looks_at_vertices_ += mesh_.looks();
         if (cavity.empty()) return false;
         is_settled_.push_back(0);
@@ -164,7 +166,7 @@ class Improver {
     EditedMesh mesh_;
     const ImproveOptions* options_;
     Improvement* result_;
-    double bad_, bad_enough_for_a_vertex_;
+    double bad_, bad_enough_for_a_vertex_, without_volume_;
     std::int64_t most_looks_, looks_at_vertices_ = 0;
     bool is_cancelled_ = false;
     std::priority_queue<Entry> queue_;

@@ -56,8 +56,8 @@ class Examination {
     void select_facets();
     void find_non_manifold(const ConsistentFacets& consistent);
     void find_turned(const ConsistentFacets& consistent);
-    void find_misplaced_shells(const ConsistentFacets& consistent);
-    void find_intersections();
+    void find_intersections(const ConsistentFacets& consistent);
+    void find_misplaced_shells();
     void find_needles();
     void find_short_edges();
 
@@ -87,6 +87,7 @@ class Examination {
     // What is left of the facets, and their numbers in the soup.
     std::vector<Triangle> facets_;
     std::vector<std::int32_t> number_;
+    std::vector<ShellPlace> shells_;  // known where the surface is otherwise a closed manifold
 };
 
 void Examination::find_non_finite() {
@@ -221,15 +222,14 @@ void Examination::find_turned(const ConsistentFacets& consistent) {
          soup_.vertices[facets_[consistent.turned.front()][0]]});
 }
 
-void Examination::find_misplaced_shells(const ConsistentFacets& consistent) {
-    const std::vector<ShellPlace> shells = locate_shells(soup_.vertices, consistent, soup_.holes);
-    for (const ShellPlace& shell : shells) {
+void Examination::find_misplaced_shells() {
+    for (const ShellPlace& shell : shells_) {
         const std::vector<std::int32_t> facet = {number_[shell.first_facet]};
         if (shell.touches >= 0)
             add_at_facet(DefectKind::touching_shells, Severity::error, facet);
         else if (shell.parent < 0 && !shell.outward)
             add_at_facet(DefectKind::inverted_shell, Severity::repaired, facet);
-        else if (shell.ambiguous(shells))
+        else if (shell.ambiguous(shells_))
             add_at_facet(DefectKind::ambiguous_shell,
                          options_.voids == Voids::parity ? Severity::repaired : Severity::error, facet);
     }
@@ -249,7 +249,22 @@ Vec3 common_place(const Soup& soup, const Triangle& s, const Triangle& t) {
     return (low + high) / 2;
 }
 
-void Examination::find_intersections() {
+// Those around each shell are asked first: where they tell that all is apart, most pairs need not be looked at.
+bool are_apart(const std::vector<Vec3>& vertices, const ConsistentFacets& consistent,
+               const std::vector<ShellPlace>& shells) {
+    std::vector<std::int32_t> parent;
+    for (const ShellPlace& shell : shells) {
+        if (shell.touches >= 0) return false;
+        parent.push_back(shell.parent);
+    }
+    return nested_shells_are_apart(vertices, consistent.facets, consistent.shell, parent);
+}
+
+void Examination::find_intersections(const ConsistentFacets& consistent) {
+    if (result_.clean()) {
+        shells_ = locate_shells(soup_.vertices, consistent, soup_.holes);
+        if (are_apart(soup_.vertices, consistent, shells_)) return;
+    }
     std::vector<Triangle> solid;
     std::vector<std::int32_t> number;
     for (std::size_t i = 0; i < facets_.size(); ++i) {
@@ -328,8 +343,8 @@ Diagnosis Examination::run() {
     const ConsistentFacets consistent = make_consistent(facets_);
     find_non_manifold(consistent);
     find_turned(consistent);
-    find_intersections();
-    if (result_.clean()) find_misplaced_shells(consistent);
+    find_intersections(consistent);
+    if (result_.clean()) find_misplaced_shells();
     find_needles();
     find_short_edges();
     const auto first_facet = [](const Defect& d) { return d.facets.empty() ? -1 : d.facets.front(); };

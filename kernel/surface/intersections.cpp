@@ -103,9 +103,24 @@ bool plainly_apart(const Vec3& origin, const Vec3& w, const std::array<Vec3, N>&
            std::all_of(q.begin(), q.end(), [&](const Vec3& x) { return above(x, -1); });
 }
 
+// True if all of q lies on one side of the plane of p for sure, as where large facets lie close above each other.
+bool plainly_on_one_side(const Corners& p, const Corners& q) {
+    const Vec3 u = p[1] - p[0], v = p[2] - p[0], normal = u.cross(v);
+    const double margin = rounding * u.cwiseAbs().maxCoeff() * v.cwiseAbs().maxCoeff();
+    int above = 0, below = 0;
+    for (const Vec3& x : q) {
+        const Vec3 d = x - p[0];
+        const double height = normal.dot(d), error = margin * d.cwiseAbs().maxCoeff();
+        above += height > error;
+        below += height < -error;
+    }
+    return above == 3 || below == 3;
+}
+
 bool meet_without_sharing(const Corners& p, const Corners& q) {
     const Vec3 centre_p = (p[0] + p[1] + p[2]) / 3, centre_q = (q[0] + q[1] + q[2]) / 3;
     if (plainly_apart<3>((centre_p + centre_q) / 2, centre_p - centre_q, p, q)) return false;
+    if (plainly_on_one_side(p, q) || plainly_on_one_side(q, p)) return false;
     const std::array<int, 3> side_q = sides(q, p);
     if (on_one_side(side_q)) return false;
     const std::array<int, 3> side_p = sides(p, q);
@@ -245,6 +260,26 @@ std::vector<std::pair<std::int32_t, std::int32_t>> find_self_intersections(const
     return PairSearch(vertices, facets, limit).run([&](const auto& test_pair) {
         CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), test_pair);
     });
+}
+
+bool nested_shells_are_apart(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+                             const std::vector<std::int32_t>& shell, const std::vector<std::int32_t>& parent) {
+    KERF_CHECK(shell.size() == facets.size());
+    std::vector<std::vector<FacetBox>> inside(parent.size()), of(parent.size());  // of the shells in each, of itself
+    std::vector<FacetBox> outermost;
+    for (const FacetBox& box : facet_boxes(vertices, facets)) {
+        const std::int32_t own = shell[box.handle() - facets.data()], around = parent[own];
+        (around < 0 ? outermost : inside[around]).push_back(box);
+        of[own].push_back(box);
+    }
+    const auto pairs = PairSearch(vertices, facets, 1).run([&](const auto& test_pair) {
+        CGAL::box_self_intersection_d(outermost.begin(), outermost.end(), test_pair);
+        for (std::size_t s = 0; s < parent.size(); ++s) {
+            CGAL::box_self_intersection_d(inside[s].begin(), inside[s].end(), test_pair);
+            CGAL::box_intersection_d(of[s].begin(), of[s].end(), inside[s].begin(), inside[s].end(), test_pair);
+        }
+    });
+    return pairs.empty();
 }
 
 std::vector<std::pair<std::int32_t, std::int32_t>> find_intersections_of(const std::vector<char>& chosen,

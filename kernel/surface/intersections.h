@@ -31,8 +31,15 @@ std::vector<std::pair<std::int32_t, std::int32_t>> find_self_intersections(const
                                                                            const std::vector<Triangle>& facets,
                                                                            std::size_t limit = 1000);
 
-/// The same, but only of pairs of which at least one facet is `chosen` (#F): what is to be asked where few facets of a
-/// surface without intersections have changed.
+/// Whether no two facets of closed shells meet. `shell`: #F, the shell of each facet; `parent`: of each shell the
+/// innermost one that one of its vertices lies in, -1 for none. Only shells that lie in the same one are compared, and
+/// these with that: where they do not meet, nothing else can. So shells within shells take no longer than shells side
+/// by side, while the boxes of their facets may all overlap. Requirements and cost as above; no vertex on two shells.
+bool nested_shells_are_apart(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+                             const std::vector<std::int32_t>& shell, const std::vector<std::int32_t>& parent);
+
+/// As find_self_intersections(), but only pairs of which at least one facet is `chosen` (#F): what is to be asked where
+/// few facets of a surface without intersections have changed.
 std::vector<std::pair<std::int32_t, std::int32_t>> find_intersections_of(const std::vector<char>& chosen,
                                                                          const std::vector<Vec3>& vertices,
                                                                          const std::vector<Triangle>& facets,

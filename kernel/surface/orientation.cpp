@@ -1,10 +1,13 @@
 // A search over the edges of two facets turns facets until neighbours agree.
 //
 // Nesting by parity: shells do not meet, so one vertex of a shell tells whether the whole shell lies within another
-// one.
+// one. Of those around a shell each lies within the next, so that they have the order of their boxes: the innermost is
+// the first to be found from the smallest box on, and has the others around itself.
 #include "surface/orientation.h"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -94,20 +97,38 @@ std::optional<bool> is_inner(const std::vector<Vec3>& vertices, const Shell& inn
     return std::nullopt;
 }
 
-// Sets depth, parent or contact of shell i.
+// The shells by their boxes, the largest first: one that contains another one comes before it. That of their sizes
+// holds in spite of rounding, which is monotone; for equal sizes the sides decide.
+std::vector<std::int32_t> by_falling_boxes(const std::vector<Shell>& shells) {
+    const auto measure = [&](std::int32_t i) {
+        const Vec3 &low = shells[i].box.min(), &high = shells[i].box.max();
+        return std::array{(high - low).sum(), -low.x(), -low.y(), -low.z(), high.x(), high.y(), high.z()};
+    };
+    std::vector<std::int32_t> order(shells.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::int32_t i, std::int32_t j) { return measure(i) > measure(j); });
+    return order;
+}
+
+// Sets depth and parent, or contact, of shell i, once those of the shells with larger boxes are known. `rank`: of the
+// shells, the smallest boxes last.
 void place_among(const std::vector<Vec3>& vertices, const std::vector<Shell>& shells, const BoxTree& boxes,
-                 std::int32_t i, std::vector<std::int32_t>& around, ShellPlace& place) {
-    around.clear();
-    for (const std::int32_t j : boxes.around(shells[i].box)) {
-        if (i == j) continue;
+                 const std::vector<std::int32_t>& rank, std::int32_t i, std::vector<ShellPlace>& places) {
+    std::vector<std::int32_t> candidates = boxes.around(shells[i].box);
+    std::erase(candidates, i);
+    std::sort(candidates.begin(), candidates.end(), [&](std::int32_t j, std::int32_t k) { return rank[j] > rank[k]; });
+    for (const std::int32_t j : candidates) {
         const std::optional<bool> inner = is_inner(vertices, shells[i], shells[j]);
-        if (!inner) {
-            place.touches = j;
-            return;
+        if (inner == false) continue;
+        if (inner) {
+            places[i].parent = j;
+            places[i].depth = places[j].depth + 1;
+        } else {
+            places[i].touches = j;
         }
-        if (*inner) around.push_back(j);
+        return;
     }
-    place.depth = static_cast<std::int32_t>(around.size());
 }
 
 void mark_shell_around(const std::vector<Vec3>& vertices, const std::vector<Shell>& shells, const Vec3& hole,
@@ -146,14 +167,13 @@ std::vector<ShellPlace> locate_shells(const std::vector<Vec3>& vertices, const C
     for (std::size_t f = consistent.shell.size(); f-- > 0;)
         places[consistent.shell[f]].first_facet = static_cast<std::int32_t>(f);
     const BoxTree boxes = boxes_of(shells);
-    std::vector<std::vector<std::int32_t>> around(shells.size());
-    for (std::size_t i = 0; i < shells.size(); ++i) {
-        place_among(vertices, shells, boxes, static_cast<std::int32_t>(i), around[i], places[i]);
+    const std::vector<std::int32_t> order = by_falling_boxes(shells);
+    std::vector<std::int32_t> rank(shells.size());
+    for (std::size_t k = 0; k < order.size(); ++k) rank[order[k]] = static_cast<std::int32_t>(k);
+    for (const std::int32_t i : order) {
+        place_among(vertices, shells, boxes, rank, i, places);
         places[i].outward = is_outward(vertices, shells[i].facets);
     }
-    for (std::size_t i = 0; i < shells.size(); ++i)
-        for (const std::int32_t j : around[i])
-            if (places[j].depth == places[i].depth - 1) places[i].parent = j;
     for (const Vec3& hole : holes) mark_shell_around(vertices, shells, hole, places);
     return places;
 }

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "support/shapes.h"
+#include "surface/orientation.h"
 
 namespace kerf {
 namespace {
@@ -237,6 +238,29 @@ TEST(FindSelfIntersections, KeepsToItsLimitInASoupThatIsNoSurface) {
             EXPECT_TRUE(std::equal(some.begin(), some.end(), all.begin()));
         }
     }
+}
+
+// Shells at random, most of them one in the other, some of which cross.
+TEST(NestedShellsAreApart, AgreesWithAllPairs) {
+    int apart = 0, crossing = 0;
+    for (unsigned seed = 1; seed <= 60; ++seed) {
+        SCOPED_TRACE(seed);
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<double> shift(-0.05, 0.05);
+        Soup soup;
+        for (int i = 0; i < 6; ++i) {
+            const Vec3 centre(shift(random) + (i == 3 && seed % 2 == 0 ? 0.4 : 0), shift(random), shift(random));
+            soup = test::join(std::move(soup), test::icosphere(1, 0.2 + 0.15 * (i * 5 % 6), centre));
+        }
+        const ConsistentFacets consistent = make_consistent(soup.facets);
+        std::vector<std::int32_t> parent;
+        for (const ShellPlace& place : locate_shells(soup.vertices, consistent)) parent.push_back(place.parent);
+        const bool is_apart = find_self_intersections(soup.vertices, soup.facets).empty();
+        EXPECT_EQ(nested_shells_are_apart(soup.vertices, soup.facets, consistent.shell, parent), is_apart);
+        ++(is_apart ? apart : crossing);
+    }
+    EXPECT_GT(apart, 5);
+    EXPECT_GT(crossing, 5);
 }
 
 TEST(FindIntersectionsOf, AreThoseOfAllPairsWithAChosenFacet) {

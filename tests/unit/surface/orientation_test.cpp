@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "support/shapes.h"
+#include "surface/intersections.h"
 #include "surface/mass_properties.h"
 #include "surface/surface.h"
 
@@ -160,6 +161,33 @@ TEST(Orient, RefusesAOneSidedSurface) {
 TEST(Orient, RefusesShellsThatCoincide) {
     Soup soup = join(test::icosphere(1), test::icosphere(1));
     EXPECT_THROW(orient(soup), Error);
+}
+
+// One question a shell, not one for each that is around it.
+TEST(LocateShells, FindsAThousandShellsInEachOther) {
+    constexpr std::int32_t count = 1000;
+    Soup soup;
+    for (std::int32_t i = 0; i < count; ++i) {
+        const std::int32_t size = i * 7 % count + 1;  // in no order
+        const Soup sphere = test::icosphere(2, size);
+        const auto first = static_cast<std::int32_t>(soup.vertices.size());
+        soup.vertices.insert(soup.vertices.end(), sphere.vertices.begin(), sphere.vertices.end());
+        for (const auto& [a, b, c] : sphere.facets) soup.facets.push_back({a + first, b + first, c + first});
+    }
+    const ConsistentFacets consistent = make_consistent(soup.facets);
+    const std::vector<ShellPlace> places = locate_shells(soup.vertices, consistent);
+    ASSERT_EQ(places.size(), static_cast<std::size_t>(count));
+    std::vector<std::int32_t> parent;
+    for (std::int32_t i = 0; i < count; ++i) {
+        const std::int32_t size = i * 7 % count + 1;
+        EXPECT_EQ(places[i].depth, count - size);
+        ASSERT_EQ(places[i].parent < 0, size == count);
+        if (size < count) {
+            EXPECT_EQ(places[i].parent * 7 % count + 1, size + 1);
+        }
+        parent.push_back(places[i].parent);
+    }
+    EXPECT_TRUE(nested_shells_are_apart(soup.vertices, soup.facets, consistent.shell, parent));
 }
 
 TEST(MakeConsistent, ReportsShellsInTheOrderOfTheirFirstFacet) {
