@@ -55,10 +55,10 @@ bool shapes_surface(const std::string& name) {
 CLI::App* add_run_command(CLI::App& app, const char* name, const char* text, CommandLine& line) {
     CLI::App* command = app.add_subcommand(name, text);
     command
-        ->add_option("input", line.options.input,
-                     "Closed surface: STL, OBJ, PLY, OFF, .msh, .vtu, .mesh, .smesh or .poly, or CAD file: STEP, IGES, "
-                     "BREP; also as "
-                     ".gz or .zst.")
+        ->add_option(
+            "input", line.options.input,
+            "Closed surface: STL, OBJ, PLY, OFF, .msh, .vtu, .mesh, .smesh or .poly, CAD file: STEP, IGES, BREP, "
+            "or 3MF; also as .gz or .zst.")
         ->type_name("INPUT");
     add_run_options(*command, line.options);
     for (const OptionField& field : program_fields(line)) add_option_field(*command, field);

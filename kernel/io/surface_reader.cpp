@@ -17,6 +17,7 @@
 #include "io/file_bytes.h"
 #include "io/stl_format.h"
 #include "io/text_scanner.h"
+#include "io/threemf_file.h"
 
 namespace kerf {
 
@@ -85,13 +86,14 @@ bool is_vtk_xml(std::string_view bytes, std::string_view word) {
     return word.starts_with('<') && bytes.substr(0, longest_prologue).find("<VTKFile") != bytes.npos;
 }
 
-bool is_zip(std::string_view bytes) { return bytes.starts_with("PK\3\4"); }
-
 [[noreturn]] void refuse_zip(std::string_view bytes, const std::string& path) {
-    const bool is_3mf = bytes.find("3D/3dmodel.model") != bytes.npos || name_in_archive(path).ends_with(".3mf");
-    throw Error(ErrorCode::input, path + (is_3mf ? ": this is a 3MF file, which is not supported. Export the surface "
-                                                   "as STL, OBJ or PLY."
-                                                 : ": this is a ZIP archive. Unpack it and give the surface."));
+    if (is_threemf(bytes))
+        throw Error(ErrorCode::input, path +
+                                          ": this is a 3MF file, but only single surfaces can be read here. Use "
+                                          "kerf check or kerf mesh, or export it as STL, OBJ or PLY.");
+    throw Error(ErrorCode::input, path + (name_in_archive(path).ends_with(".3mf")
+                                              ? ": this ZIP archive has no 3MF model in it. Export the file again."
+                                              : ": this is a ZIP archive. Unpack it and give the surface."));
 }
 
 // What has no binary kind of its own ends before the bytes that some programs append.

@@ -10,6 +10,7 @@
 #include "io/compressed.h"
 #include "io/file_bytes.h"
 #include "io/surface_reader.h"
+#include "io/threemf_file.h"
 #include "volume/child_process.h"
 
 namespace kerf {
@@ -18,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-ChildResult run_cad_program(const std::string& program, const std::string& path, const CadOptions& options,
-                            double timeout_seconds) {
+ChildResult run_import_program(const std::string& program, const std::string& path, const CadOptions& options,
+                               double timeout_seconds) {
     std::vector<std::string> arguments = options.arguments();
     arguments.insert(arguments.begin(), path);
     ChildPool pool;
@@ -28,17 +29,18 @@ ChildResult run_cad_program(const std::string& program, const std::string& path,
 }
 
 // The answer, or a sentence for a child that gave none.
-CadAnswer answer_of(const ChildResult& result, const std::string& path, const std::string& program) {
+CadAnswer answer_of(const ChildResult& result, const std::string& path, const std::string& program,
+                    const ImportProgram& kind) {
     if (result.end == ChildResult::End::exited) try {
             return from_cad_bytes(result.output);
         } catch (const Error&) {
             throw Error(ErrorCode::io, fmt::format("{}: {} {} without an answer. Build it and kerf together, with the "
-                                                   "package libocct-data-exchange-7.6 there. {}",
-                                                   path, program, result.describe(), result.log));
+                                                   "package {} there. {}",
+                                                   path, program, result.describe(), kind.run_package, result.log));
         }
-    throw Error(ErrorCode::input, fmt::format("{}: OpenCASCADE fails on this file: kerf-cad {}. Repair the file in the "
-                                              "CAD program, or export it as STL, OBJ or PLY.",
-                                              path, result.describe()));
+    throw Error(ErrorCode::input, fmt::format("{}: {} fails on this file: {} {}. Repair the file in {}, or export it "
+                                              "as STL, OBJ or PLY.",
+                                              path, kind.library, kind.name, result.describe(), kind.origin));
 }
 
 // Units are converted only where the file says what they were.
@@ -58,6 +60,11 @@ Soup read_unscaled(std::string bytes, const std::string& path, const CadOptions&
         if (body.file_unit.empty()) refuse_unit(path, options);
         return std::move(body.soup);
     }
+    if (is_threemf(content)) {
+        constexpr double timeout_seconds = 600;
+        const std::string program = find_program(threemf_program);
+        return std::move(read_cad(path, file_hash, options, program, timeout_seconds, threemf_program).soup);
+    }
     for (const auto& [name, is_given] : {std::pair("solid", options.solid > 0), std::pair("unite", options.unite),
                                          std::pair("cad-deflection", options.deflection > 0)})
         if (is_given)
@@ -69,24 +76,24 @@ Soup read_unscaled(std::string bytes, const std::string& path, const CadOptions&
 
 }  // namespace
 
-std::string find_cad_program() {
-    if (const char* named = std::getenv("KERF_CAD")) return named;
+std::string find_program(const ImportProgram& kind) {
+    if (const char* named = std::getenv(kind.variable)) return named;
     const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
     std::error_code ignored;
-    for (const fs::path& place : {folder / "kerf-cad", folder / "../libexec/kerf/kerf-cad"})
+    for (const fs::path& place : {folder / kind.name, folder / "../libexec/kerf" / kind.name})
         if (fs::exists(place, ignored)) return place.string();
     return "";
 }
 
 CadBody read_cad(const std::string& path, const FileHash& file_hash, const CadOptions& options,
-                 const std::string& program, double timeout_seconds) {
+                 const std::string& program, double timeout_seconds, const ImportProgram& kind) {
     if (program.empty())
         throw Error(ErrorCode::usage,
-                    path +
-                        ": CAD files are read by the program kerf-cad, which is not here. Install "
-                        "libocct-data-exchange-dev, build kerf-cad and put it beside kerf (to run, it needs "
-                        "libocct-data-exchange-7.6), or export the file as STL, OBJ or PLY.");
-    CadAnswer answer = answer_of(run_cad_program(program, path, options, timeout_seconds), path, program);
+                    fmt::format("{}: {} are read by the program {}, which is not here. Install {}, build {} and put it "
+                                "beside kerf (to run, it needs {}), or export the file as STL, OBJ or PLY.",
+                                path, kind.files, kind.name, kind.build_package, kind.name, kind.run_package));
+    const ChildResult result = run_import_program(program, path, options, timeout_seconds);
+    CadAnswer answer = answer_of(result, path, program, kind);
     if (!answer.defect.empty()) throw SolidDefect(answer.defect, answer.message);
     if (answer.error_code != 0) throw Error(static_cast<ErrorCode>(answer.error_code), answer.message);
     if (answer.body.file_hash != file_hash)

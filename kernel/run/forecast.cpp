@@ -129,7 +129,7 @@ double least_size(const MesherOptions& mesher, double facets, double volume, Fac
     if (tets(high) > affordable) return 0;
     while (high > 1.01 * low) {
         const double middle = std::sqrt(low) * std::sqrt(high);
-        (tets(middle) > most_tets ? low : high) = middle;
+        (tets(middle) > affordable ? low : high) = middle;
     }
     return high * regular_tet_edge(mesher.size.reference_volume());
 }

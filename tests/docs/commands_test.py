@@ -20,6 +20,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import zipfile
 
 from surroundings import environment
 
@@ -138,10 +139,33 @@ def prepare(folder, source, build, page, text):
     (folder / "bin").mkdir()
     (folder / "tmp").mkdir()
     (folder / "bin/python3").symlink_to("/usr/bin/python3")
+    if "part.3mf" in text:
+        write_threemf(folder / "part.3mf")
     if "part.step" in text:  # a box of 10 x 6 x 4
         (folder / "box.geo").write_text(
             'SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 10, 6, 4}; Save "part.step";\n')
         subprocess.run(["gmsh", "-0", "box.geo"], cwd=folder, check=True, capture_output=True, timeout=PATIENCE)
+
+
+def write_threemf(path):
+    corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    facets = [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1),
+              (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3)]
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("[Content_Types].xml", (
+            '<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"><Default Extension="rels" '
+            'ContentType="application/vnd.openxmlformats-package.relationships+xml"/><Default Extension="model" '
+            'ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>'))
+        archive.writestr("_rels/.rels", (
+            '<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship '
+            'Target="/3D/3dmodel.model" Id="r" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>'
+            "</Relationships>"))
+        archive.writestr("3D/3dmodel.model", (
+            '<model unit="millimeter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources>'
+            '<object id="1" type="model"><mesh><vertices>'
+            + "".join(f'<vertex x="{x}" y="{y}" z="{z}"/>' for x, y, z in corners) + "</vertices><triangles>"
+            + "".join(f'<triangle v1="{a}" v2="{b}" v3="{c}"/>' for a, b, c in facets)
+            + '</triangles></mesh></object></resources><build><item objectid="1"/></build></model>'))
 
 
 def shortened(command, rules, used):

@@ -142,6 +142,8 @@ TEST(IncludeMap, LibrariesStayInTheirPlaces) {
               (std::set<std::string>{"kernel/run/config_file.cpp", "kernel/solve/elastic_case.cpp"}));
     EXPECT_EQ(files_including([](const std::string& name) { return name == "zlib.h" || name == "zstd.h"; }),
               (std::set<std::string>{"kernel/io/compressed.cpp", "viewer/render/image.cpp"}));
+    EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "Model"; }),
+              std::set<std::string>{"kernel/threemf/threemf_import.cpp"});
     for (const std::string& file : files_including([](const std::string& name) { return name.ends_with(".hxx"); }))
         EXPECT_TRUE(file.starts_with("kernel/cad/")) << file << " includes OpenCASCADE";
     EXPECT_EQ(files_including([](const std::string& name) { return name == "hdf5.h"; }),

@@ -323,7 +323,9 @@ TEST(SurfaceReader, NamesThePlaceAndTheCause) {
     const std::vector<Case> cases = {
         {"", "empty"},
         {"PK\x03\x04 something else", "this is a ZIP archive"},
-        {std::string("PK\x03\x04\0\0", 6) + std::string(100, '\0') + "3D/3dmodel.model", "this is a 3MF file"},
+        {std::string("PK\x03\x04\0\0", 6) + std::string(100, '\0') + "_rels/.rels 3D/3dmodel.model",
+         "this is a 3MF file"},
+        {"PK\x03\x04 something else", "has no 3MF model in it", ".3mf"},
         {"1 2 3\n4 5 6\n", "not recognised"},
         {"0.5 3 0\n", "not recognised"},
         {std::string("\1\0\0\0\3\0\0\0\3\0\0\0", 12), "binary MEDIT (.meshb) is not supported"},

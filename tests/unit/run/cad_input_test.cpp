@@ -120,6 +120,25 @@ TEST(CadFormats, AreKnownByTheirFirstBytes) {
         EXPECT_EQ(cad_format(text), CadFormat::none) << text;
 }
 
+TEST_F(CadInput, ThreemfHasAProgramOfItsOwn) {
+    const std::string threemf = std::string("PK\3\4") + " _rels/.rels 3D/3dmodel.model";
+    write("part.3mf", threemf);
+    setenv("KERF_3MF", "", 1);
+    try {
+        read_surface_or_cad(folder_.file("part.3mf"));
+        ADD_FAILURE() << "read without a program";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::usage);
+        for (const char* word : {"part.3mf", "kerf-3mf", "lib3mf1", "lib3mf-dev", "STL"})
+            EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+    CadBody body = triangle();
+    body.file_hash = digest_of(threemf);
+    setenv("KERF_3MF", answering({0, "", body}).c_str(), 1);
+    EXPECT_EQ(read_surface_or_cad(folder_.file("part.3mf")).facets, body.soup.facets);
+    unsetenv("KERF_3MF");
+}
+
 TEST(CadFormats, AreRefusedWhereOnlyTrianglesAreRead) { EXPECT_THROW(read_surface_bytes(step, "part.step"), Error); }
 
 TEST(CadOptionsText, ComesBackAsItWas) {

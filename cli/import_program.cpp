@@ -1,0 +1,82 @@
+#include "cli/import_program.h"
+
+#include <algorithm>
+#include <exception>
+#include <new>
+
+#include <unistd.h>
+
+#include "core/error.h"
+#include "io/compressed.h"
+#include "io/file_bytes.h"
+#include "io/output_file.h"
+
+namespace kerf {
+
+namespace {
+
+CadAnswer failed(ErrorCode code, const std::string& message) { return {static_cast<std::int32_t>(code), message, {}}; }
+
+CadAnswer answer_for(const std::string& path, std::span<const std::string> arguments, ImportFunction importer) {
+    try {
+        const CadOptions options = CadOptions::from_arguments(arguments);
+        std::string bytes = read_file(path);
+        const FileHash hash = digest_of(bytes);
+        CadAnswer answer;
+        answer.body = importer(decompress(std::move(bytes), path), path, options);
+        answer.body.file_hash = hash;
+        return answer;
+    } catch (const SolidDefect& defect) {
+        CadAnswer answer = failed(defect.code(), defect.what());
+        answer.defect = defect.kind();
+        return answer;
+    } catch (const Error& error) {
+        return failed(error.code(), error.what());
+    } catch (const std::bad_alloc&) {
+        return failed(ErrorCode::memory, path + ": Out of memory.");
+    } catch (const std::exception& error) {
+        return failed(ErrorCode::internal, path + ": " + error.what());
+    }
+}
+
+// Takes `--output OUT` out of the arguments; empty if there is none.
+std::string take_output(std::vector<std::string>& arguments) {
+    const auto option = std::find(arguments.begin(), arguments.end(), "--output");
+    if (option == arguments.end() || option + 1 == arguments.end()) return "";
+    std::string path = *(option + 1);
+    arguments.erase(option, option + 2);
+    return path;
+}
+
+void write_all(int descriptor, std::span<const char> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t n = write(descriptor, bytes.data(), bytes.size());
+        if (n <= 0) return;  // nobody reads
+        bytes = bytes.subspan(static_cast<std::size_t>(n));
+    }
+}
+
+}  // namespace
+
+void run_import_program(int argc, char** argv, const char* name, ImportFunction importer) {
+    const int output = dup(STDOUT_FILENO);
+    dup2(STDERR_FILENO, STDOUT_FILENO);
+    std::vector<std::string> arguments(argv + 1, argv + argc);
+    const std::string output_path = take_output(arguments);
+    const bool asks = arguments.empty() || arguments.front().starts_with('-');
+    CadAnswer answer = asks ? failed(ErrorCode::usage, "Usage: " + std::string(name) + " FILE [OPTIONS]")
+                            : answer_for(arguments.front(), std::span(arguments).subspan(1), importer);
+    const Bytes bytes = to_cad_bytes(answer);
+    if (!output_path.empty()) try {
+            write_output_file(output_path, bytes);
+        } catch (const Error& error) {
+            answer.error_code = static_cast<int>(error.code());
+            answer.message = error.what();
+        }
+    else if (isatty(output) == 0)
+        write_all(output, bytes);
+    if (answer.error_code != 0) write_all(STDERR_FILENO, name + (": " + answer.message) + "\n");
+    _exit(answer.error_code);
+}
+
+}  // namespace kerf

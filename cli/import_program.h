@@ -1,0 +1,21 @@
+// Programs that read a file for kerf in a process of their own, because of the library that they need. They are started
+// by kerf, which reads the answer from standard output (io/cad_body.h).
+//
+//     PROGRAM FILE [--solid N] [--unite] [--unit mm|cm|m|inch|ft] [--deflection D] [--output OUT]
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "io/cad_body.h"
+
+namespace kerf {
+
+/// The content of a file, without compression; the path is for messages.
+using ImportFunction = CadBody (*)(std::string_view content, const std::string& path, const CadOptions& options);
+
+/// All of main(). Standard output holds nothing but the answer, whatever the library prints. Ends the process with the
+/// code of the error, without the library's own end, which would take longer.
+[[noreturn]] void run_import_program(int argc, char** argv, const char* name, ImportFunction importer);
+
+}  // namespace kerf
