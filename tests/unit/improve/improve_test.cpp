@@ -175,6 +175,27 @@ TEST(Improve, MakesTheWorstBetter) {
     EXPECT_LT(left, bad / 2);
 }
 
+// Corners of spheres one in the other lie on rays, so that four of them span a cell without volume. There are more than
+// other bad cells would get vertices.
+TEST(Improve, LeavesNoCellWithoutVolumeBetweenShells) {
+    constexpr int shells = 10;
+    Soup soup;
+    for (int i = 0; i < shells; ++i) {
+        const Soup sphere = test::icosphere(1, 1 - static_cast<double>(i) / (shells + 1));
+        soup = test::join(std::move(soup), i % 2 ? test::inside_out(sphere) : sphere);
+    }
+    const SurfaceArrays surface = test::to_arrays(soup);
+    MesherOptions options;
+    options.name = "lattice";
+    options.improve = false;
+    TetMesh mesh = mesh_volume(surface, options).mesh;
+    ASSERT_LT(angles_of(mesh).smallest.min(), 1e-6);
+    const Improvement improvement = improve(mesh);
+    EXPECT_GT(improvement.new_vertices, 0);
+    EXPECT_GT(angles_of(mesh).smallest.min(), 4);
+    EXPECT_TRUE(verify_mesh(mesh, surface).hold());
+}
+
 // Where the surface makes most cells bad, the time it takes is bounded; the worst cells come first.
 TEST(Improve, EndsWhereItHasLookedAtEnoughCells) {
     const NamedMesh named = meshed("sphere", test::icosphere(3), SizeField(4e-5));
