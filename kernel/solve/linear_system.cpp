@@ -52,6 +52,15 @@ void check(PetscErrorCode code) {
                        fmt::format("PETSc failed with code {}: {}.", static_cast<int>(code), failure.text));
 }
 
+// The same where PETSc looks at the options of the case: it fails because of them.
+void check_options(PetscErrorCode code, const std::string& options) {
+    if (code == 0 || options.empty() || first_failure().is_of_memory) return check(code);
+    const std::string& text = first_failure().text;
+    throw PetscFailure(ErrorCode::usage, fmt::format("PETSc does not take the options '{}' of the case, petsc under "
+                                                     "[solver]: {}. Correct them or leave them out.",
+                                                     options, text.substr(0, text.find('\n'))));
+}
+
 // Local to global numbers of PETSc's rows, which have 32 bits (NodeSpace sees to that).
 PetscInt row_of(const NodeSpace& space, std::int32_t node) { return static_cast<PetscInt>(space.row_of(node)); }
 
@@ -274,7 +283,7 @@ void LinearSystem::Impl::prepare_solver() {
         check(PetscOptionsHasName(nullptr, nullptr, "-sub_pc_type", &is_chosen));
         if (!is_chosen) check(PetscOptionsSetValue(nullptr, "-sub_pc_type", "icc"));
     }
-    check(KSPSetFromOptions(ksp));
+    check_options(KSPSetFromOptions(ksp), options.petsc);
 }
 
 LinearSystem::LinearSystem(const ElasticProblem& problem, const SolverOptions& options)
@@ -303,7 +312,9 @@ SolveOutcome LinearSystem::solve(const std::vector<double>& forces, std::vector<
     check(VecRestoreArray(impl_->right, &values));
 
     const double start = seconds_now();
-    check(KSPSetUp(impl_->ksp));
+    const PetscErrorCode prepared = KSPSetUp(impl_->ksp);  // preconditioners of blocks read their options here
+    if (prepared == PETSC_ERR_ARG_UNKNOWN_TYPE) check_options(prepared, impl_->options.petsc);
+    check(prepared);
     refuse_unknown_options();
     outcome.setup_seconds = seconds_now() - start;
     check(VecZeroEntries(impl_->solution));

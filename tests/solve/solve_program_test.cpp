@@ -229,6 +229,15 @@ TEST_F(KerfSolve, RefusesWhatCannotBe) {
     expect_refused(9, material + held + "[[load]]\npatch = \"face_1\"\npressure = 1\n[solver]\nmax_iterations = 2",
                    {"not reached", "2 iterations", "Try"});
     expect_refused(2, material + held + "[solver]\npetsc = \"nonsense\"", {"'nonsense'"});
+    for (const std::string options : {"-pc_type nonsense", "-ksp_type nonsense", "-ksp_rtol nonsense"})
+        expect_refused(
+            2, material + held + "[[load]]\npatch = \"face_1\"\npressure = 1\n[solver]\npetsc = \"" + options + "\"",
+            {"'" + options + "'", "Correct them"});
+    expect_refused(2,
+                   material + held +
+                       "[[load]]\npatch = \"face_1\"\npressure = 1\n[solver]\npreconditioner = \"icc\"\npetsc = "
+                       "\"-sub_pc_type nonsense\"",
+                   {"'-sub_pc_type nonsense'", "Correct them"});
 }
 
 // PETSc may be told to call anything a solution: the residual decides.
