@@ -12,7 +12,9 @@
 #include "io/offenders_writer.h"
 #include "io/output_file.h"
 #include "io/standard_streams.h"
+#include "run/patch_summary.h"
 #include "run/remeshing.h"
+#include "surface/regions.h"
 
 namespace kerf {
 
@@ -114,6 +116,22 @@ void print_text(const CheckRequest& request, CheckedSoup& checked) {
     print_data(text);
 }
 
+// As a run would have them: those of the file, or those that --feature-angle makes.
+int list_patches(const CheckRequest& request, CheckedSoup& checked) {
+    if (checked.diagnosis.clean())
+        apply_repairs(checked);
+    else if (request.options.feature_angle_deg > 0)
+        throw Error(ErrorCode::input, fmt::format("{}: {} Only a surface that can be meshed is divided at "
+                                                  "--feature-angle: leave that out, or repair the surface.",
+                                                  request.path, checked.diagnosis.summary(checked.soup)));
+    Soup& soup = checked.soup;
+    if (request.options.feature_angle_deg > 0 && soup.patch_names.size() == 1)
+        make_feature_patches(soup, request.options.feature_angle_deg);
+    const std::string spellings = spellings_text(soup.patch_names);
+    print_data(to_text(summarize_patches(soup)) + (spellings.empty() ? "" : "\n" + spellings));
+    return 0;
+}
+
 // The reader stops at the first thing that it does not understand, or of which it cannot make a surface.
 int report_refused(const CheckRequest& request, const Error& error, const std::string& kind) {
     if (request.json)
@@ -148,6 +166,7 @@ int check_surface(const CheckRequest& request) {
         if (error.code() != ErrorCode::input) throw;
         return report_refused(request, error, "unreadable");
     }
+    if (request.list_patches) return list_patches(request, checked);
     if (!request.offenders_file.empty()) write_offenders(request.offenders_file, checked.soup, checked.diagnosis);
     if (request.json)
         print_json(request.path, checked);

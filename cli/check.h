@@ -12,6 +12,7 @@ struct CheckRequest {
     InputOptions options;
     double needle_angle_deg = 1;
     bool json = false;
+    bool list_patches = false;   ///< in place of the diagnosis
     std::string offenders_file;  ///< VTU of the offending facets and vertices; empty: none
 };
 

@@ -226,8 +226,13 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     add_input_options(*check, line.check.options);
     check->option_defaults()->group(option_group::output);
     check->add_flag("--json", line.check.json, "Print every defect as JSON.");
+    check->add_flag(
+        "--list-patches", line.check.list_patches,
+        "Print name, area, centroid and normal of each patch, and how formats spell its name; no diagnosis.");
     check->add_option("--offenders", line.check.offenders_file, "Write the offending facets, edges and places as VTU.")
         ->type_name("FILE");
+    for (const char* name : {"--json", "--offenders"})
+        check->get_option("--list-patches")->excludes(check->get_option(name));
     add_option_field(*check, {"needle-angle", "", option_group::output, "DEG",
                               "Degrees below which a facet is a needle. Default 1.", &line.check.needle_angle_deg});
     put_help_last(*check, option_group::output);

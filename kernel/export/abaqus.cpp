@@ -193,10 +193,14 @@ void write_surfaces(const PartSource& parts, const Names& names, ExportFile& fil
     }
 }
 
+std::vector<std::string> patch_words(const std::vector<std::string>& names) {
+    return word_names(names,
+                      {.most_characters = longest_name - longest_ending, .ignores_case = true, .taken = {"NALL"}});
+}
+
 void write_merged(const PartSource& parts, const MergeOptions&, ExportFiles& files, const std::string& stem) {
     require_numbers_fit(parts.outline(), "abaqus", most_labels);
-    const WordRules rules{.most_characters = longest_name - longest_ending, .ignores_case = true, .taken = {"NALL"}};
-    const Names names{word_names(parts.outline().patch_names, rules), patch_sizes(parts)};
+    const Names names{patch_words(parts.outline().patch_names), patch_sizes(parts)};
     ExportFile file = files.create(stem + ".inp");
     write_nodes(parts, file);
     write_elements(parts, file);
@@ -211,6 +215,7 @@ void write_merged(const PartSource& parts, const MergeOptions&, ExportFiles& fil
 extern const Format abaqus_format = {.name = "abaqus",
                                      .help = "Abaqus input with sets: CalculiX, Abaqus",
                                      .ending = ".inp",
+                                     .patch_words = abaqus::patch_words,
                                      .write_merged = abaqus::write_merged};
 
 }  // namespace kerf

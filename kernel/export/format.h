@@ -24,6 +24,8 @@ struct Format {
     const char* ending;                  ///< of merged files, with its dot; null: there are none
     bool needs_face_neighbours = false;  ///< write_part() gets a part with them
     bool asks_for_one_part = false;      ///< write_part() loads no other one, nor does write_whole() any
+    /// What patches with these names are called in the files; null: by their names, or by numbers.
+    std::vector<std::string> (*patch_words)(const std::vector<std::string>& names) = nullptr;
 
     /// The files that belong to no part, or are written by several: called once, before any part.
     void (*write_whole)(const PartSource& parts, ExportFiles& files) = nullptr;

@@ -670,6 +670,7 @@ void write_merged(const PartSource& parts, const MergeOptions& options, ExportFi
 extern const Format msh_format = {.name = "msh",
                                   .help = "Gmsh MSH: gmsh; merged also deal.II, DOLFINx, meshio",
                                   .ending = ".msh",
+                                  .patch_words = msh::names_of_patches,
                                   .write_part = msh::write_part,
                                   .write_merged = msh::write_merged};
 

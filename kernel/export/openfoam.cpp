@@ -109,8 +109,10 @@ Triangle starting_at_smallest_id(Triangle triangle, const Part& part) {
     return triangle;
 }
 
+std::vector<std::string> patch_words(const std::vector<std::string>& names) { return word_names(names, word_rules()); }
+
 std::vector<Patch> patches_of_surface(const std::vector<std::string>& names, std::span<const PatchType> types) {
-    const std::vector<std::string> words = word_names(names, word_rules());
+    const std::vector<std::string> words = patch_words(names);
     std::vector<Patch> patches(names.size());
     for (std::size_t p = 0; p < names.size(); ++p) {
         patches[p].name = words[p];
@@ -340,6 +342,7 @@ extern const Format openfoam_format = {.name = "openfoam",
                                        .help = "OpenFOAM: a case with a folder processorN for each part",
                                        .ending = nullptr,
                                        .needs_face_neighbours = true,
+                                       .patch_words = openfoam::patch_words,
                                        .write_whole = openfoam::write_whole,
                                        .write_part = openfoam::write_part};
 

@@ -45,9 +45,11 @@ std::string marker_comment(const std::string& name) {
     return text;
 }
 
+std::vector<std::string> patch_words(const std::vector<std::string>& names) { return word_names(names); }
+
 void write_markers(const PartSource& parts, ExportFile& file) {
     const std::vector<std::string>& names = parts.outline().patch_names;
-    const std::vector<std::string> words = word_names(names);
+    const std::vector<std::string> words = patch_words(names);
     const std::vector<std::int64_t> sizes = patch_sizes(parts);
     file.text(
         fmt::format("NMARK= {}\n", std::count_if(sizes.begin(), sizes.end(), [](std::int64_t n) { return n > 0; })));
@@ -72,7 +74,10 @@ void write_merged(const PartSource& parts, const MergeOptions&, ExportFiles& fil
 
 }  // namespace su2
 
-extern const Format su2_format = {
-    .name = "su2", .help = "SU2's native mesh", .ending = ".su2", .write_merged = su2::write_merged};
+extern const Format su2_format = {.name = "su2",
+                                  .help = "SU2's native mesh",
+                                  .ending = ".su2",
+                                  .patch_words = su2::patch_words,
+                                  .write_merged = su2::write_merged};
 
 }  // namespace kerf

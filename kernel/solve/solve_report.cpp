@@ -131,14 +131,4 @@ std::string to_text(const SolveReport& report) {
                                                    static_cast<double>(report.peak_rss_bytes) * 1e-6));
 }
 
-std::string to_text(const std::vector<PatchSummary>& patches) {
-    std::string text =
-        fmt::format("{:>9} {:>12}  {:<36}  {:<24}  {}\n", "triangles", "area", "centroid", "normal", "name");
-    for (const PatchSummary& patch : patches)
-        text += fmt::format(
-            "{:>9} {:>12.6g}  {:<36}  {:<24}  {}\n", patch.triangles, patch.area, vector_text(patch.centroid),
-            fmt::format("({:.3f}, {:.3f}, {:.3f})", patch.normal.x(), patch.normal.y(), patch.normal.z()), patch.name);
-    return text;
-}
-
 }  // namespace kerf

@@ -79,6 +79,5 @@ std::vector<PatchSummary> list_patches(const std::string& folder, Communicator& 
 std::string to_json(const SolveReport& report);
 /// Some lines for people.
 std::string to_text(const SolveReport& report);
-std::string to_text(const std::vector<PatchSummary>& patches);
 
 }  // namespace kerf

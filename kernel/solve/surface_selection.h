@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "run/patch_summary.h"
 #include "solve/elastic_case.h"
 #include "solve/node_space.h"
 
@@ -16,15 +17,6 @@ struct SurfaceFacet {
     std::size_t facet = 0;  ///< of the part
     double area = 0;
     Vec3 normal = Vec3::Zero();  ///< unit vector, outwards
-};
-
-/// What a patch is, all ranks together.
-struct PatchSummary {
-    std::string name;
-    std::int64_t triangles = 0;
-    double area = 0;
-    Vec3 centroid = Vec3::Zero();
-    Vec3 normal = Vec3::Zero();  ///< mean, weighted by area: shorter than 1 where the patch is curved, 0 where closed
 };
 
 /// Finds what selections name. All functions are collective, and throw alike on all ranks.

@@ -1,4 +1,5 @@
 // Patches from the file to the boundary triangles of the parts: names and numbers, for each format that has them.
+#include <algorithm>
 #include <fstream>
 #include <set>
 
@@ -46,6 +47,22 @@ void expect_patches(const std::vector<Part>& parts, const std::vector<std::int32
         }
     }
     EXPECT_EQ(seen.size(), names.size()) << "every patch has a triangle";
+}
+
+TEST_F(Patches, AreListedWithWhatFormatsCallThem) {
+    Soup box = test::box(Vec3::Zero(), Vec3(1, 2, 3), 2);
+    box.patch_names[0] = "in%let";
+    const ChildResult result = test::run_kerf({"check", write("box.obj", test::to_obj(box)), "--list-patches"});
+    EXPECT_EQ(result.exit_code, 0) << result.log;
+    const std::string text = test::output_of(result);
+    // Of the wall x = 0: 8 triangles, 2 x 3, in the middle, to the left.
+    EXPECT_NE(text.find("8            6  (0, 1, 1.5)"), std::string::npos) << text;
+    EXPECT_NE(text.find("(-1.000, 0.000, 0.000)"), std::string::npos) << text;
+    EXPECT_NE(text.find("  in%let: in_let in "), std::string::npos) << text;
+    EXPECT_EQ(text.find("  " + box.patch_names[1] + ":"), std::string::npos) << "a word stays: " << text;
+    const ChildResult features = test::run_kerf(
+        {"check", write("box.stl", test::to_binary_stl(box)), "--list-patches", "--feature-angle", "40"});
+    EXPECT_EQ(std::count(features.output.begin(), features.output.end(), '\n'), 7) << test::output_of(features);
 }
 
 TEST_F(Patches, NamesOfSolidsGroupsAndPhysicalGroupsArriveInThePartFiles) {
