@@ -77,6 +77,7 @@ CLI::App* add_quality_command(CLI::App& app, QualityRequest& request) {
         ->required()
         ->type_name("DIR|FILE");
     command->add_flag("--json", request.json, "Print everything as JSON.");
+    command->add_flag("-v,--verbose", request.verbose, "Print all tables, and a histogram of each measure.");
     command
         ->add_option("--picture", request.picture,
                      "Write the distributions and accumulated distributions of all measures as SVG.")

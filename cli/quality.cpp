@@ -48,6 +48,15 @@ std::string json_text(const Compared& compared, const std::vector<std::string>& 
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string text_of(const Compared& compared, const QualityRequest& request) {
+    const QualityDetail detail = request.verbose ? QualityDetail::all : QualityDetail::brief;
+    const std::string text =
+        compared.other ? comparison_text(compared.mesh, *compared.other, detail) : quality_text(compared.mesh, detail);
+    if (request.verbose) return text;
+    return text + (request.picture.empty() ? "Histograms: -v prints, --picture FILE.svg draws them.\n"
+                                           : "Histograms: " + request.picture + "\n");
+}
+
 }  // namespace
 
 int show_quality(const QualityRequest& request) {
@@ -64,7 +73,7 @@ int show_quality(const QualityRequest& request) {
     if (request.json)
         print_data(json_text(compared, missed));
     else
-        print_data(compared.other ? comparison_text(compared.mesh, *compared.other) : quality_text(compared.mesh));
+        print_data(text_of(compared, request));
     for (const std::string& sentence : missed) tell(fmt::format("kerf: {}\n", sentence));
     return missed.empty() ? 0 : static_cast<int>(ErrorCode::quality);
 }

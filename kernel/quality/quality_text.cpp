@@ -131,9 +131,10 @@ std::string compared_histograms(std::span<const Measure> measures, const std::ve
 
 std::string four_digits(double value) { return fmt::format("{:.4g}", value); }
 
-std::string quality_text(const MeshQuality& quality) {
+std::string quality_text(const MeshQuality& quality, QualityDetail detail) {
     std::string text = head_text(quality);
     text += cells_table("All cells", quality.cells.all, quality.tets());
+    if (detail == QualityDetail::brief) return text;
     text += cells_table("Cells with a vertex on an interface", quality.cells.interface, quality.tets());
     if (quality.cells.interface.measures.front().count() > 0)
         text += cells_table("Other cells", quality.cells.interior, quality.tets());
@@ -145,7 +146,7 @@ std::string quality_text(const MeshQuality& quality) {
     return text;
 }
 
-std::string comparison_text(const MeshQuality& first, const MeshQuality& second) {
+std::string comparison_text(const MeshQuality& first, const MeshQuality& second, QualityDetail detail) {
     for (std::size_t i = 0; i < quality_measures.size(); ++i)
         if (!first.cells.all.measures[i].has_range_of(second.cells.all.measures[i]))
             throw Error(ErrorCode::internal, "Meshes that were measured with different length scales are compared.");
@@ -155,6 +156,7 @@ std::string comparison_text(const MeshQuality& first, const MeshQuality& second)
     text += compared_percentiles(quality_measures, first.cells.all.measures, second.cells.all.measures);
     if (have_boundaries)
         text += compared_percentiles(triangle_measures, first.boundary.measures, second.boundary.measures);
+    if (detail == QualityDetail::brief) return text;
     text += "\nPercentages of cells, or of boundary triangles: in the interval, then accumulated up to its end.\n";
     text += compared_histograms(quality_measures, first.cells.all.measures, second.cells.all.measures);
     if (have_boundaries)

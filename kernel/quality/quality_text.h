@@ -7,13 +7,19 @@
 
 namespace kerf {
 
+enum class QualityDetail {
+    brief,  ///< counts, and percentiles over all cells
+    all
+};
+
 /// Counts; percentiles of every measure over all cells, cells with a vertex on an interface, the others, and of the
 /// angles of boundary triangles; then a histogram of each measure in two columns. Ends with a line end.
-std::string quality_text(const MeshQuality& quality);
+std::string quality_text(const MeshQuality& quality, QualityDetail detail = QualityDetail::all);
 
 /// Percentiles of two meshes line by line, then for each measure their distributions and accumulated distributions side
 /// by side. Both must have been measured with one length scale, else throws Error(internal).
-std::string comparison_text(const MeshQuality& first, const MeshQuality& second);
+std::string comparison_text(const MeshQuality& first, const MeshQuality& second,
+                            QualityDetail detail = QualityDetail::all);
 
 /// A number with four digits.
 std::string four_digits(double value);
