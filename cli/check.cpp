@@ -154,9 +154,7 @@ int check_surface(const CheckRequest& request) {
     request.options.check();
     refuse_to_overwrite(request.path, "--offenders", request.offenders_file);
     require_writable("--offenders", request.offenders_file);
-    if (!(request.needle_angle_deg >= 0 && request.needle_angle_deg <= 60))
-        throw Error(ErrorCode::usage, fmt::format("--needle-angle is {}, but it must be 0 (no needles) to 60 degrees.",
-                                                  request.needle_angle_deg));
+    require_in(needle_angle_range, "needle-angle", request.needle_angle_deg);
     CheckedSoup checked;
     try {
         checked = check_input(request.path, request.options, request.needle_angle_deg);

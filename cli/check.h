@@ -7,6 +7,8 @@
 
 namespace kerf {
 
+inline constexpr NumberRange needle_angle_range = {"0 (no needles) to 60 degrees", 0, 60};
+
 struct CheckRequest {
     std::string path;
     InputOptions options;

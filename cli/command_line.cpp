@@ -1,5 +1,7 @@
 #include "cli/command_line.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -8,7 +10,9 @@
 #include "core/error.h"
 #include "export/format.h"
 #include "help/nearest.h"
+#include "help/number_option.h"
 #include "help/program_help.h"
+#include "help/usage_error.h"
 #include "quality/quality_gate.h"
 #include "run/config_file.h"
 #include "run/saved_run.h"
@@ -129,12 +133,12 @@ CLI::App* add_export_command(CLI::App& app, CommandLine& line) {
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->type_name("NAME=TYPE");
-    command->add_option("--into", request.into, "Join the parts along the tree into so many pieces.")
-        ->type_name("N")
-        ->check(CLI::PositiveNumber);
-    command->add_option("--workers", request.threads, "Parts that each rank writes at once. Default: its processors.")
-        ->type_name("W")
-        ->check(CLI::Range(1, 4096));
+    add_number(*command, "--into", request.into, {"a whole number, 1 or more", 1},
+               "Join the parts along the tree into so many pieces.")
+        ->type_name("N");
+    add_number(*command, "--workers", request.threads, {"a whole number, 1 to 4096", 1, 4096},
+               "Parts that each rank writes at once. Default: its processors.")
+        ->type_name("W");
     command->add_flag("-q,--quiet", line.quiet, "Print nothing but errors.");
     return command;
 }
@@ -159,17 +163,14 @@ CLI::App* add_remesh_command(CLI::App& app, CommandLine& line) {
 // Sets what the command line has not given. Throws Error.
 void apply_config(const CLI::App& command, CommandLine& line) {
     const std::vector<OptionField> fields = config_fields(line);
-    for (const OptionText& given : read_config(line.config_file)) {
-        const auto field =
-            std::find_if(fields.begin(), fields.end(), [&](const OptionField& f) { return f.name == given.name; });
-        if (field == fields.end()) {
-            std::vector<std::string> names;
-            for (const OptionField& known : fields) names.push_back(known.name);
+    std::vector<std::string> names;
+    for (const OptionField& field : fields) names.push_back(field.name);
+    for (const ConfigEntry& given : read_config(line.config_file)) {
+        if (std::find(names.begin(), names.end(), given.name) == names.end())
             throw Error(ErrorCode::usage,
-                        fmt::format("'{}' in {} is not an option.{} kerf mesh --print-config lists them.", given.name,
-                                    line.config_file, did_you_mean(given.name, names)));
-        }
-        if (command.get_option("--" + given.name)->count() == 0) field->set_text(given.text);
+                        fmt::format("{}: '{}' is not an option.{} kerf mesh --print-config lists them.", given.place,
+                                    given.name, did_you_mean(given.name, names)));
+        if (command.get_option("--" + given.name)->count() == 0) set_option(fields, given);
     }
 }
 
@@ -234,8 +235,9 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         ->type_name("FILE");
     for (const char* name : {"--json", "--offenders"})
         check->get_option("--list-patches")->excludes(check->get_option(name));
-    add_option_field(*check, {"needle-angle", "", option_group::output, "DEG",
-                              "Degrees below which a facet is a needle. Default 1.", &line.check.needle_angle_deg});
+    add_option_field(
+        *check, {"needle-angle", "", option_group::output, "DEG", "Degrees below which a facet is a needle. Default 1.",
+                 &line.check.needle_angle_deg, true, needle_angle_range});
     put_help_last(*check, option_group::output);
     CLI::App* verify = app.add_subcommand("verify", "Check every law of a finished run again, from its files.");
     verify->add_option("folder", line.options.output, "Folder of the run.")->required()->type_name("DIR");
@@ -255,7 +257,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         ->type_name("FILE");
     to_merge->add_option("--msh-version", line.merge.options.msh_version, "Of Gmsh's files: 4.1 or 2.2.")
         ->type_name("V")
-        ->check(CLI::IsMember({"4.1", "2.2"}));
+        ->check(one_of("4.1,2.2"));
     to_merge->add_flag("--msh-ascii", line.merge.msh_ascii, "Write them as text instead of binary.");
     CLI::App* quality = add_quality_command(app, line.quality);
     CLI::App* to_remesh = add_remesh_command(app, line);

@@ -14,7 +14,9 @@
 #include "cli/progress.h"
 #include "cli/ranks.h"
 #include "core/error.h"
+#include "help/number_option.h"
 #include "help/program_help.h"
+#include "io/output_file.h"
 #include "io/standard_streams.h"
 #include "run/version.h"
 #include "solve/mesh_and_solve.h"
@@ -40,8 +42,10 @@ void check_mesh_options(const CLI::App& solve, SolveLine& line) {
         if (line.list_patches)
             throw CLI::ValidationError(
                 fmt::format("--list-patches is for the folder of a finished run. kerf check "
-                            "--json {} lists those of a surface.",
+                            "--list-patches {} lists those of a surface.",
                             line.input));
+        for (const NamedPath& output : mesh.output_files())
+            refuse_to_overwrite(line.request.solve.case_file, output.option, output.path);
         if (line.request.steps > 0 && solve.get_option("--surface")->count() == 0) mesh.remeshing = Remeshing::always;
         return;
     }
@@ -82,17 +86,13 @@ SolveLine parse_solve_line(int argc, const char* const* argv) {
                                            "Folder for the solution. Of a surface, for its mesh, too: OUT/mesh, "
                                            "OUT/solution.")
                               ->type_name("OUT");
-    solve
-        ->add_option("--adapt", line.request.steps,
-                     "Mesh and solve again, finer where the estimated error is large, up to N times: OUT/step_1, ...")
-        ->type_name("N")
-        ->check(CLI::Range(0, 50));
-    solve
-        ->add_option("--target-error", request.target_error,
-                     "Estimated error in the energy norm beside that of the solution, as 0.05, that is good enough. "
-                     "Above it the solution has size_field.vtu for the next mesh.")
-        ->type_name("E")
-        ->check(CLI::Range(1e-6, 1.0));
+    add_number(*solve, "--adapt", line.request.steps, {"a whole number of steps, 0 to 50", 0, 50},
+               "Mesh and solve again, finer where the estimated error is large, up to N times: OUT/step_1, ...")
+        ->type_name("N");
+    add_number(*solve, "--target-error", request.target_error, {"a share from 1e-6 to 1, such as 0.05", 1e-6, 1},
+               "Estimated error in the energy norm beside that of the solution, as 0.05, that is good enough. Above it "
+               "the solution has size_field.vtu for the next mesh.")
+        ->type_name("E");
     solve
         ->add_flag("--list-patches", line.list_patches, "Print name, area, centroid and normal of each patch, and end.")
         ->excludes(case_file)

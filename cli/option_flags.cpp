@@ -32,7 +32,7 @@ CLI::Option* add_option_field(CLI::App& app, const OptionField& field) {
     CLI::Option* option = app.add_option_function<std::string>(
         names, [field](const std::string& text) { field.set_text(text); }, field.help);
     if (const auto* choice = std::get_if<OptionField::Choice>(&field.value))
-        option->check(CLI::IsMember(choice->names));
+        option->check(suggest(fmt::format("{}", fmt::join(choice->names, ","))));
     return option->type_name(field.value_name)->group(field.group);
 }
 

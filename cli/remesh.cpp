@@ -17,9 +17,11 @@ namespace kerf {
 
 namespace {
 
-Input read_and_remesh(const RunOptions& options, bool quiet) {
+Input read_and_remesh(RunOptions options, bool quiet) {
     ProgressLine progress(quiet, nullptr);
-    return remesh_where_asked(read_input(options.input, options.input_options), options, &progress);
+    Input input = read_input(options.input, options.input_options);
+    options.resolve_lengths(input.diagonal);
+    return remesh_where_asked(std::move(input), options, &progress);
 }
 
 }  // namespace

@@ -41,6 +41,25 @@ std::string folder_of(const std::string& path) {
     return folder.empty() ? "." : folder;
 }
 
+// Without links, as far as it exists, nor a slash at its end.
+fs::path behind_all_links(const std::string& path) {
+    std::error_code ignored;  // a path that cannot be used is refused where it is used
+    const auto clean = fs::weakly_canonical(fs::absolute(path, ignored), ignored);
+    return clean.has_filename() ? clean : clean.parent_path();
+}
+
+// Whether what is written there takes the place of what was.
+bool is_file_or_nothing(const std::string& path) {
+    std::error_code error;
+    return descriptor_of(path) < 0 && (!fs::exists(path, error) || fs::is_regular_file(path, error));
+}
+
+bool are_one_file(const std::string& a, const std::string& b) {
+    std::error_code error;
+    if (fs::equivalent(a, b, error) && !error) return true;
+    return behind_all_links(behind_links(a)) == behind_all_links(behind_links(b));
+}
+
 void write_in_place(const std::string& path, std::span<const char> bytes) {
     CheckedFile file(open_output(path), path);
     file.write(bytes.data(), bytes.size());
@@ -80,13 +99,19 @@ void refuse_to_overwrite(const std::string& input, const std::string& option, co
                                            option, output, input));
 }
 
+void refuse_same_outputs(const std::vector<NamedPath>& outputs) {
+    const auto is_lost = [](const std::string& path) { return !path.empty() && is_file_or_nothing(path); };
+    for (auto one = outputs.begin(); one != outputs.end(); ++one)
+        for (auto other = outputs.begin(); other != one; ++other)
+            if (is_lost(one->path) && is_lost(other->path) && are_one_file(one->path, other->path))
+                throw Error(ErrorCode::usage,
+                            fmt::format("{} and {} are both {}, so that one of them would be lost. Give each a file of "
+                                        "its own.",
+                                        other->option, one->option, one->path));
+}
+
 bool lies_inside(const std::string& file, const std::string& folder) {
-    const auto normal = [](const std::string& path) {
-        std::error_code ignored;  // a path that cannot be used is refused where it is used
-        const auto clean = fs::weakly_canonical(fs::absolute(path, ignored), ignored);
-        return clean.has_filename() ? clean : clean.parent_path();
-    };
-    const fs::path inner = normal(file), outer = folder.empty() ? fs::path() : normal(folder);
+    const fs::path inner = behind_all_links(file), outer = folder.empty() ? fs::path() : behind_all_links(folder);
     return !outer.empty() && std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
 }
 
@@ -114,7 +139,7 @@ std::FILE* open_output(const std::string& path) {
 void write_output_file(const std::string& path, std::span<const char> bytes) {
     std::error_code error;
     const std::string target = behind_links(path);
-    const bool is_replaced = descriptor_of(path) < 0 && (!fs::exists(path, error) || fs::is_regular_file(path, error));
+    const bool is_replaced = is_file_or_nothing(path);
     std::string beside;
     const int fd = is_replaced ? open_beside(target, beside) : -1;
     const int reason = errno;

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace kerf {
 
@@ -13,6 +14,15 @@ std::string behind_links(const std::string& path);
 /// Throws Error(io), naming both, if `output` is the file `input`, by whatever path or link: the input would be lost.
 /// `option` names the output, as "--report". Either may be empty.
 void refuse_to_overwrite(const std::string& input, const std::string& option, const std::string& output);
+
+/// A file that a user has named, and the option that named it, as "--report"; an empty path: none.
+struct NamedPath {
+    std::string option, path;
+};
+
+/// Throws Error(usage), naming both, if two of the outputs are one file, by whatever paths or links: one of them would
+/// be lost. Devices, pipes and descriptors take more than one.
+void refuse_same_outputs(const std::vector<NamedPath>& outputs);
 
 /// Whether the file is the folder or lies below it, by whatever links; false for an empty folder.
 bool lies_inside(const std::string& file, const std::string& folder);

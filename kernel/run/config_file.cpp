@@ -1,5 +1,6 @@
 #include "run/config_file.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -41,10 +42,9 @@ std::string value_text(const OptionField& field) {
         return "[" + items + "]";
     }
     const std::string text = field.text();
-    if (std::holds_alternative<double*>(field.value)) return float_text(text);
-    const bool is_plain = std::holds_alternative<bool*>(field.value) ||
-                          std::holds_alternative<std::int32_t*>(field.value) ||
-                          std::holds_alternative<std::int64_t*>(field.value);
+    const auto* length = std::get_if<Length*>(&field.value);
+    if (std::holds_alternative<double*>(field.value) || (length && !(*length)->is_percent())) return float_text(text);
+    const bool is_plain = std::holds_alternative<bool*>(field.value) || (field.is_number() && !length);
     return is_plain ? text : quoted(path_text(text));
 }
 
@@ -85,19 +85,34 @@ std::string to_config(const std::vector<OptionField>& fields) {
     return text;
 }
 
-std::vector<OptionText> read_config(const std::string& path) {
+std::vector<ConfigEntry> read_config(const std::string& path) {
     const std::string bytes = read_file(path);
-    std::vector<std::pair<toml::source_position, OptionText>> found;
+    std::vector<std::pair<toml::source_position, ConfigEntry>> found;
     try {
         for (const auto& [key, node] : toml::parse(bytes))
-            found.push_back({key.source().begin, {std::string(key.str()), text_of(node, path, key.str())}});
+            found.push_back({key.source().begin,
+                             {{std::string(key.str()), text_of(node, path, key.str())},
+                              fmt::format("{}, line {}", path, key.source().begin.line)}});
     } catch (const toml::parse_error& error) {
         refuse(path, error.source(), std::string(error.description()));
     }
     std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::vector<OptionText> texts;
-    for (auto& [place, text] : found) texts.push_back(std::move(text));
-    return texts;
+    std::vector<ConfigEntry> entries;
+    for (auto& [place, entry] : found) entries.push_back(std::move(entry));
+    return entries;
+}
+
+void set_option(const std::vector<OptionField>& fields, const ConfigEntry& entry) {
+    const auto field =
+        std::find_if(fields.begin(), fields.end(), [&](const OptionField& f) { return f.name == entry.name; });
+    if (field == fields.end())
+        throw Error(ErrorCode::usage, fmt::format("{}: '{}' is not an option. kerf mesh --print-config lists them.",
+                                                  entry.place, entry.name));
+    try {
+        field->set_text(entry.text);
+    } catch (const Error& error) {
+        throw Error(error.code(), fmt::format("{}: {}", entry.place, error.what()));
+    }
 }
 
 }  // namespace kerf

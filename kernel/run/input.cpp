@@ -32,6 +32,25 @@ SurfaceArrays with_input_keys(Soup soup) {
     return arrays;
 }
 
+double diagonal_of(const Soup& soup) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : soup.vertices)
+        if (p.allFinite()) box.extend(p);
+    return box.isEmpty() ? 0 : box.diagonal().norm();
+}
+
+// The tolerance in units of the file. Throws Error(usage) for one that would leave nothing.
+double weld(Soup& soup, const Length& wanted, InputRepairs& repairs) {
+    constexpr double rounding = 1e-16;  // of the diagonal: nearer vertices are equal, and merged already
+    const double diagonal = diagonal_of(soup), tolerance = wanted.of(diagonal);
+    if (tolerance > diagonal && diagonal > 0)
+        throw Error(ErrorCode::usage, fmt::format("--weld is {:.6g}, but the surface, from corner to corner of its "
+                                                  "bounding box, is {:.6g}. Give less.",
+                                                  tolerance, diagonal));
+    if (tolerance > rounding * diagonal) repairs.merged_vertices = weld_within(soup, tolerance);
+    return tolerance;
+}
+
 // Moves vertices of a surface that is known to be clean.
 void optimise(Soup& soup, std::int32_t sweeps, Input& input) {
     OptimisationOptions options;
@@ -57,11 +76,11 @@ CheckedSoup check_input(const std::string& path, const InputOptions& options, do
 }
 
 CheckedSoup check_soup(Soup read, const InputOptions& options, double needle_angle_deg) {
-    CheckedSoup checked{std::move(read), {}, {}};
+    CheckedSoup checked{std::move(read), {}, {}, 0};
     Soup& soup = checked.soup;
     InputRepairs& repairs = checked.repairs;
     repairs.welded_vertices = weld_exactly(soup);
-    if (options.weld_tolerance > 0) repairs.merged_vertices = weld_within(soup, options.weld_tolerance);
+    if (options.weld_tolerance.number() > 0) checked.weld_tolerance = weld(soup, options.weld_tolerance, repairs);
     if (options.keep_largest) repairs.removed_facets = keep_largest_component(soup);
     if (options.fill_hole_edges > 0) {
         const HoleFilling filling = fill_holes(soup, options.fill_hole_edges);
@@ -96,6 +115,7 @@ Input read_input(const std::string& path, const InputOptions& options) {
                     fmt::format("{}: {} Run kerf check on it for all defects.", path, checked.diagnosis.summary(soup)));
     input.orientation = apply_repairs(checked);
     input.repairs = checked.repairs;
+    input.weld_tolerance = checked.weld_tolerance;
     input.notes = soup.notes;
     if (options.feature_angle_deg > 0 && soup.patch_names.size() == 1)
         make_feature_patches(soup, options.feature_angle_deg);
@@ -105,9 +125,7 @@ Input read_input(const std::string& path, const InputOptions& options) {
     for (const ModelEdge& edge : soup.model_edges)
         if (edge.sharp != 0) input.creases.push_back(edge.vertices);
     if (soup.patch_colours.size() == soup.patch_names.size()) input.patch_colours = soup.patch_colours;
-    Eigen::AlignedBox3d box;
-    for (const Vec3& p : soup.vertices) box.extend(p);
-    input.diagonal = box.diagonal().norm();
+    input.diagonal = diagonal_of(soup);
     input.surface = Surface(with_input_keys(std::move(soup)));
     measure_input(input);
     return input;

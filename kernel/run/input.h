@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/user_number.h"
 #include "io/cad_body.h"
 #include "surface/diagnosis.h"
 #include "surface/orientation.h"
@@ -17,7 +18,7 @@ namespace kerf {
 /// What may be done to a surface before it is diagnosed and cut. Only `voids` leaves the geometry as it is.
 struct InputOptions {
     double scale = 1;                  ///< of all coordinates, as they are read; other lengths are in units after it
-    double weld_tolerance = 0;         ///< vertices this close are merged; units of the file, 0: only equal ones
+    Length weld_tolerance;             ///< vertices this close are merged; of the file's diagonal; 0: only equal ones
     std::int32_t fill_hole_edges = 0;  ///< open loops of at most so many edges are spanned
     bool keep_largest = false;         ///< only the connected component of the largest area stays
     Voids voids = Voids::as_given;
@@ -45,6 +46,7 @@ struct CheckedSoup {
     Soup soup;
     Diagnosis diagnosis;  ///< of `soup`, in which dropped facets still are
     InputRepairs repairs;
+    double weld_tolerance = 0;  ///< that was used, units of the file
 };
 
 /// What remeshing did to a surface (run/remeshing.h).
@@ -71,6 +73,7 @@ struct Input {
     double largest_coordinate = 0;  ///< as an absolute value
     double diagonal = 0;            ///< of the bounding box
     InputRepairs repairs;
+    double weld_tolerance = 0;  ///< that was used, units of the input
     OrientationReport orientation;
     std::int64_t moved_vertices = 0;  ///< by the optimisation of the surface
     double largest_move = 0;          ///< of a vertex by that

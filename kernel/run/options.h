@@ -6,7 +6,9 @@
 #include <variant>
 #include <vector>
 
+#include "core/user_number.h"
 #include "decompose/decomposition.h"
+#include "io/output_file.h"
 #include "run/input.h"
 #include "size/size_options.h"
 #include "volume/mesher.h"
@@ -28,30 +30,42 @@ struct RunOptions {
     SizeOptions sizes;           ///< of tetrahedra, see use_sizes()
     InputOptions input_options;  ///< of the surface before all else
     Remeshing remeshing = Remeshing::of_cad_files;
-    std::string deviation;     ///< of a remeshed surface: units of the input, or with % of its diagonal; empty: 0.002%
-    std::int32_t workers = 0;  ///< processes of each rank; 0: its share of the processors
-    double timeout_seconds = 600;  ///< of one attempt at one part; 0: none
-    std::int64_t memory_mb = 0;    ///< address space of one worker; 0: unlimited
-    std::int32_t attempts = 10;    ///< at one part, at most (volume/retries.h)
-    std::string report_file;       ///< a copy of the report; empty: only DIR/report.json
-    std::string trace_file;        ///< all cuts with their stages (run/trace.h); empty: none. Not inside of `output`
-    std::string events_file;       ///< of an EventLog that the caller gives to the run; empty: none
-    std::string formats;           ///< names of export/format.h with commas between; empty: vtu
-    std::string fields;            ///< of cells in vtu files (parse_cell_fields()); empty: min-dihedral
+    Length deviation = Length::percent(0.002);  ///< of a remeshed surface from the input
+    std::int32_t workers = 0;                   ///< processes of each rank; 0: its share of the processors
+    double timeout_seconds = 600;               ///< of one attempt at one part; 0: none
+    std::int64_t memory_mb = 0;                 ///< address space of one worker; 0: unlimited
+    std::int32_t attempts = 10;                 ///< at one part, at most (volume/retries.h)
+    std::string report_file;                    ///< a copy of the report; empty: only DIR/report.json
+    std::string trace_file;   ///< all cuts with their stages (run/trace.h); empty: none. Not inside of `output`
+    std::string events_file;  ///< of an EventLog that the caller gives to the run; empty: none
+    std::string formats;      ///< names of export/format.h with commas between; empty: vtu
+    std::string fields;       ///< of cells in vtu files (parse_cell_fields()); empty: min-dihedral
     std::vector<std::string> patch_types;  ///< of parse_patch_types(); for formats that have such
-    bool reference = false;                ///< the whole is meshed in one piece, too, and compared
-    bool stl = false;                      ///< the surfaces of the parts as STL, too
-    bool volume = true;                    ///< false: stop at the closed surfaces of the parts
-    bool dry_run = false;                  ///< stop at the plan, and write nothing
+    bool reference = false;   ///< the whole is meshed in one piece, too, and compared
+    bool stl = false;         ///< the surfaces of the parts as STL, too
+    bool volume = true;       ///< false: stop at the closed surfaces of the parts
+    bool dry_run = false;     ///< stop at the plan, and write nothing
 
     /// Fills what follows from other choices, K excepted, and checks ranges and files. Throws Error(usage) naming
     /// option, value and range, Error(io) for a file that could not be written or would be lost.
     void resolve(int cores_of_rank);
+    /// Replaces percentages by the lengths that they are of this diagonal, and fills what follows from these. To be
+    /// called after resolve(), when the input is read. Throws Error(usage) as resolve() does.
+    void resolve_lengths(double diagonal);
     /// Cuts, forecasts and the mesher obey this field. resolve() has them obey what `sizes` says of all places alike.
     void use_sizes(const SizeField& field);
     /// The part of resolve() that asks for input and outputs, for who writes one of them before the run.
     void check_files() const;
+    /// The files beside its folder that the run writes, with their options; paths may be empty.
+    std::vector<NamedPath> output_files() const;
+
+ private:
+    void use_constant_size();
 };
+
+/// Of RunOptions::deviation, of which remesh_where_asked() knows more: shares of the diagonal that are too much.
+inline constexpr NumberRange deviation_range = {"a positive length in units of the input, or with % of its diagonal", 0,
+                                                std::numeric_limits<double>::infinity(), false, true};
 
 /// Headings under which help and manual list the options, in this order.
 namespace option_group {
@@ -80,14 +94,18 @@ struct OptionField {
     std::string help;        ///< one sentence with unit and default
     /// Of an option that may be given several times; as one text, with semicolons between (join_items()).
     using List = std::vector<std::string>*;
-    std::variant<std::int32_t*, std::int64_t*, double*, bool*, std::string*, List, Choice> value;
+    std::variant<std::int32_t*, std::int64_t*, double*, Length*, bool*, std::string*, List, Choice> value;
     bool shapes_parts = true;  ///< false: a finished run has the same part files whatever it is, but for parts that
                                ///< took longer than a limit of time, which the run marks (PartOutcome::timed_out)
+    NumberRange range = {};    ///< of a number or a length
 
     /// The value as text, numbers with all their digits; set_text() takes it back and throws Error(usage), naming the
-    /// option, for what is no such value.
+    /// option and what it may be, for what is no such value.
     std::string text() const;
     void set_text(const std::string& text) const;
+    /// Throws Error(usage) for a number that is out of range.
+    void check() const;
+    bool is_number() const;  ///< or a length
 };
 
 /// Items with semicolons between; those within an item, and backslashes, get a backslash before them. Empty items

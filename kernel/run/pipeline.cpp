@@ -398,6 +398,8 @@ RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input&
         if (listener) listener->on_progress("read", 0, 1);
         input = read_input(options.input, options.input_options);
         refuse_changed_input(options, input.file_hash);
+        options.input_options.weld_tolerance = input.weld_tolerance;
+        options.resolve_lengths(input.diagonal);
         if (ranks.rank() == 0) check_budget_before_remeshing(input, options, ranks.size());
     });
     in_agreement(ranks, [&] {

@@ -18,7 +18,6 @@ namespace kerf {
 
 namespace {
 
-constexpr double usual_share = 2e-5;     // of the diagonal, for the deviation where none is given
 constexpr double largest_share = 0.05;   // of the diagonal, for the deviation
 constexpr double smallest_share = 1e-9;  // coordinates have few more digits
 constexpr double longest_share = 0.03;   // of the diagonal, for edges where nothing else is wanted
@@ -59,7 +58,7 @@ double longest_edge(const RunOptions& options, double diagonal) {
 }
 
 RemeshOptions remesh_options(const Input& input, const SurfaceArrays& surface, const RunOptions& options) {
-    RemeshOptions result = {.deviation = parse_deviation(options.deviation, input.diagonal),
+    RemeshOptions result = {.deviation = deviation_for(options.deviation, input.diagonal),
                             .longest = longest_edge(options, input.diagonal),
                             .creases = input.creases};
     if (options.sizes.growth > 0) result.growth = options.sizes.growth;
@@ -115,24 +114,14 @@ std::string sliver_note(const Slivers& slivers, const std::string& path) {
         100 * slivers.share_below_5_deg, path);
 }
 
-double parse_deviation(const std::string& text, double diagonal) {
-    if (text.empty()) return usual_share * diagonal;
-    std::size_t end = 0;
-    double value = 0;
-    try {
-        value = std::stod(text, &end);
-    } catch (const std::exception&) {
-        end = 0;
-    }
-    const bool is_share = end + 1 == text.size() && text[end] == '%';
-    const double deviation = is_share ? value / 100 * diagonal : value;
-    if (end == 0 || (end != text.size() && !is_share) ||
-        !(deviation >= smallest_share * diagonal && deviation <= largest_share * diagonal))
+double deviation_for(const Length& wanted, double diagonal) {
+    const double deviation = wanted.of(diagonal);
+    if (!(deviation >= smallest_share * diagonal && deviation <= largest_share * diagonal))
         throw Error(
             ErrorCode::usage,
             fmt::format("--deviation is {}, but it must be a length or, with %, a share of the diagonal ({:g}), "
                         "from 1e-7 % to 5 %.",
-                        text, diagonal));
+                        wanted.text(), diagonal));
     return deviation;
 }
 

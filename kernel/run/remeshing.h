@@ -27,9 +27,9 @@ bool is_remeshed(const Input& input, const RunOptions& options);
 /// One sentence with the command that cures it; empty if they spoil nothing.
 std::string sliver_note(const Slivers& slivers, const std::string& path);
 
-/// Length that a text says: a number, or one with % of the diagonal; empty: 0.002%. Throws Error(usage) naming the
-/// option.
-double parse_deviation(const std::string& text, double diagonal);
+/// The deviation that is wanted of a body with this diagonal. Throws Error(usage), naming the option, for one that is
+/// too small or too large for it.
+double deviation_for(const Length& wanted, double diagonal);
 
 /// Facets that the surface will have by remesh_where_asked(), about; more where its shape asks for them. O(#F).
 double forecast_remeshed_facets(const Input& input, const RunOptions& options);

@@ -74,6 +74,8 @@ Json options_json(RunOptions options) {
                     return value.names[value.get()];
                 else if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string*>)
                     return path_text(*value);
+                else if constexpr (std::is_same_v<std::decay_t<decltype(value)>, Length*>)
+                    return value->is_percent() ? Json(value->text()) : Json(value->number());
                 else if constexpr (std::is_same_v<std::decay_t<decltype(value)>, OptionField::List>) {
                     Json items = Json::array();
                     for (const std::string& item : *value) items.push_back(path_text(item));
@@ -355,59 +357,109 @@ std::string remeshing_text(const InputRemeshing& done) {
         done.distance_from_input, done.deviation);
 }
 
-std::string to_text(const RunReport& report) {
+namespace {
+
+// Of all cuts together.
+struct InterfaceTotals {
+    double section_area = 0, area = 0, angle_deg = 180;
+};
+
+InterfaceTotals interface_totals(const std::vector<TreeNode>& nodes) {
+    InterfaceTotals totals;
+    for (const TreeNode& node : nodes) {
+        totals.section_area += node.section_area;
+        totals.area += node.interface_area;
+        if (node.cut_made) totals.angle_deg = std::min(totals.angle_deg, node.quality.angle_deg);
+    }
+    return totals;
+}
+
+class ReportLines {
+ public:
+    void add(const char* label, const std::string& value) {
+        if (!value.empty()) text_ += fmt::format("{:<11} {}\n", label, value);
+    }
+    const std::string& text() const { return text_; }
+
+ private:
+    std::string text_;
+};
+
+void add_input(ReportLines& lines, const RunReport& report, bool all) {
     const Input& input = *report.input;
-    double section = 0, interface = 0, angle = 180;
-    for (const TreeNode& node : report.nodes) {
-        section += node.section_area;
-        interface += node.interface_area;
-        if (node.cut_made) angle = std::min(angle, node.quality.angle_deg);
-    }
-    std::string text;
-    const auto line = [&](const char* label, const std::string& value) {
-        text += fmt::format("{:<11} {}\n", label, value);
-    };
-    line("input", fmt::format("{}: {} facets, {} shell{}, genus {}, volume {:.6g}", input.path, grouped(input.facets),
+    if (all)
+        lines.add("input",
+                  fmt::format("{}: {} facets, {} shell{}, genus {}, volume {:.6g}", input.path, grouped(input.facets),
                               input.components, input.components == 1 ? "" : "s", input.genus, input.volume));
-    if (const std::string repairs = repairs_text(input); !repairs.empty()) line("repaired", repairs);
-    for (const std::string& note : input.notes) line("note", note);
+    lines.add("repaired", repairs_text(input));
+    for (const std::string& note : input.notes) lines.add("note", note);
     if (input.moved_vertices > 0)
-        line("optimised",
-             fmt::format("{} vertices moved by {:.3g} at most", grouped(input.moved_vertices), input.largest_move));
-    if (input.remeshed) line("remeshed", remeshing_text(*input.remeshed));
-    line("parts", fmt::format("{} of {} wanted; {}", report.parts.size(), report.options.decompose.parts,
-                              rungs_text(report.nodes)));
+        lines.add("optimised", fmt::format("{} vertices moved by {:.3g} at most", grouped(input.moved_vertices),
+                                           input.largest_move));
+    if (input.remeshed) lines.add("remeshed", remeshing_text(*input.remeshed));
+}
+
+void add_cuts(ReportLines& lines, const RunReport& report) {
+    lines.add("parts", fmt::format("{} of {} wanted; {}", report.parts.size(), report.options.decompose.parts,
+                                   rungs_text(report.nodes)));
     if (report.split_facets > 0)
-        line("split", fmt::format("{} facets, where no contour of edges exists (--surface keep forbids it)",
-                                  grouped(report.split_facets)));
-    if (section > 0)
-        line("interfaces", fmt::format("area {:.6g}, {:.3f} of the plane sections; smallest angle {:.1f} deg",
-                                       interface, interface / section, angle));
-    if (const std::string remedies = remedies_text(report); !remedies.empty()) line("retried", remedies);
-    if (const std::string disturbances = disturbances_text(report); !disturbances.empty())
-        line("disturbed", disturbances);
+        lines.add("split", fmt::format("{} facets, where no contour of edges exists (--surface keep forbids it)",
+                                       grouped(report.split_facets)));
+    const InterfaceTotals totals = interface_totals(report.nodes);
+    if (totals.section_area > 0)
+        lines.add("interfaces", fmt::format("area {:.6g}, {:.3f} of the plane sections; smallest angle {:.1f} deg",
+                                            totals.area, totals.area / totals.section_area, totals.angle_deg));
+}
+
+void add_way(ReportLines& lines, const RunReport& report) {
+    lines.add("retried", remedies_text(report));
+    lines.add("disturbed", disturbances_text(report));
     const auto resumed = std::count_if(report.parts.begin(), report.parts.end(), std::mem_fn(&PartReport::resumed));
-    if (resumed > 0) line("continued", fmt::format("{} parts were finished by an interrupted run", resumed));
-    if (report.options.volume) {
-        line("mesh", fmt::format("{} tetrahedra, {} vertices", grouped(report.tets), grouped(report.vertices)));
-        if (!report.improvement.is_empty()) line("improved", improvement_text(report));
-        const Distribution& dihedral = report.quality.all.measures[0];
-        const Distribution& ratio = report.quality.all.measures[2];
-        if (!report.sizes.empty())
-            line("sizes", size_text(report.sizes, input.patch_names, !report.options.mesher.size.is_constant()));
-        line("quality", fmt::format("dihedral min {:.1f}, 1 % {:.1f}, median {:.1f} deg; radius-edge max {:.2f}",
-                                    dihedral.min(), dihedral.percentile(0.01), dihedral.percentile(0.5), ratio.max()));
-    }
-    if (report.reference) line("reference", reference_text(report));
-    line("time", time_text(report));
-    line("processes",
-         fmt::format("{} rank{} x {} worker{}, imbalance {:.2f}, peak memory {} MB", report.ranks,
-                     report.ranks == 1 ? "" : "s", report.options.workers, report.options.workers == 1 ? "" : "s",
-                     report.imbalance, report.peak_rss_bytes >> 20));
-    line("verified", fmt::format("{}; volume error {:.1e}", report.verification.passed ? "yes, every law holds" : "NO",
-                                 report.verification.volume_rel_error));
-    if (!report.mesh_hash.empty()) line("mesh hash", report.mesh_hash);
-    return text;
+    if (resumed > 0) lines.add("continued", fmt::format("{} parts were finished by an interrupted run", resumed));
+}
+
+void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
+    const std::string parts =
+        all ? "" : fmt::format(", {} part{}", report.parts.size(), report.parts.size() == 1 ? "" : "s");
+    lines.add("mesh",
+              fmt::format("{} tetrahedra, {} vertices{}", grouped(report.tets), grouped(report.vertices), parts));
+    if (all && !report.improvement.is_empty()) lines.add("improved", improvement_text(report));
+    if (all && !report.sizes.empty())
+        lines.add("sizes",
+                  size_text(report.sizes, report.input->patch_names, !report.options.mesher.size.is_constant()));
+    const Distribution& dihedral = report.quality.all.measures[0];
+    const Distribution& ratio = report.quality.all.measures[2];
+    lines.add("quality", fmt::format("dihedral min {:.1f}, 1 % {:.1f}, median {:.1f} deg; radius-edge max {:.2f}",
+                                     dihedral.min(), dihedral.percentile(0.01), dihedral.percentile(0.5), ratio.max()));
+}
+
+std::string ranks_text(const RunReport& report) {
+    return fmt::format("{} rank{} x {} worker{}", report.ranks, report.ranks == 1 ? "" : "s", report.options.workers,
+                       report.options.workers == 1 ? "" : "s");
+}
+
+std::string processes_text(const RunReport& report) {
+    return fmt::format("{}, imbalance {:.2f}, peak memory {} MB", ranks_text(report), report.imbalance,
+                       report.peak_rss_bytes >> 20);
+}
+
+}  // namespace
+
+std::string to_text(const RunReport& report, ReportDetail detail) {
+    const bool all = detail == ReportDetail::all, meshed = report.options.volume;
+    ReportLines lines;
+    add_input(lines, report, all);
+    if (all || !meshed) add_cuts(lines, report);
+    add_way(lines, report);
+    if (meshed) add_mesh(lines, report, all);
+    if (report.reference) lines.add("reference", reference_text(report));
+    lines.add("time", all ? time_text(report) : fmt::format("{:.2f} s on {}", report.seconds.wall, ranks_text(report)));
+    if (all) lines.add("processes", processes_text(report));
+    lines.add("verified",
+              fmt::format("{}; volume error {:.1e}", report.verification.passed ? "yes, every law holds" : "NO",
+                          report.verification.volume_rel_error));
+    if (all) lines.add("mesh hash", report.mesh_hash);
+    return lines.text();
 }
 
 }  // namespace kerf

@@ -114,7 +114,12 @@ std::string to_json(const RunReport& report);
 /// What remeshing did, in one line.
 std::string remeshing_text(const InputRemeshing& done);
 
-/// About ten lines for people.
-std::string to_text(const RunReport& report);
+enum class ReportDetail {
+    brief,  ///< the mesh, its quality, the verdict and the time, and what has happened to this input alone
+    all
+};
+
+/// Some lines for people: a label, at the twelfth column what there is to say.
+std::string to_text(const RunReport& report, ReportDetail detail = ReportDetail::all);
 
 }  // namespace kerf

@@ -23,8 +23,8 @@ constexpr const char* form_on_patch = "NAME=H, such as inlet=0.1";
 constexpr const char* form_near_patch = "NAME=H:D, such as inlet=0.1:2";
 
 [[noreturn]] void refuse_text(const char* option, const std::string& text, const char* form) {
-    throw Error(ErrorCode::usage, fmt::format("'{}' is no value of --{}. It has the form {}; lengths are positive and "
-                                              "in units of the input.",
+    throw Error(ErrorCode::usage, fmt::format("'{}' is no value of --{}. It has the form {}; lengths are positive, in "
+                                              "units of the input, or with % of its diagonal.",
                                               text, option, form));
 }
 
@@ -43,11 +43,12 @@ std::vector<double> numbers_in(std::string_view text) {
     }
 }
 
+bool has_normal_volume(double edge) { return std::isnormal(regular_tet_volume(edge)); }
+
 // A wanted edge length: positive, with a volume that a double can hold. 0 if the text is none.
-double size_in(std::string_view text) {
-    const std::vector<double> numbers = numbers_in(text);
-    const bool good = numbers.size() == 1 && numbers[0] > 0 && std::isnormal(regular_tet_volume(numbers[0]));
-    return good ? numbers[0] : 0;
+Length size_in(std::string_view text) {
+    const std::optional<Length> length = length_in(text);
+    return length && length->number() > 0 && has_normal_volume(length->number()) ? *length : Length();
 }
 
 // What stands before and behind the last `mark`.
@@ -65,9 +66,10 @@ Vec3 point_of(std::span<const double> numbers) { return {numbers[0], numbers[1],
 // False if the text has not the form of a solid.
 bool add_solid(const std::string& text, SizeSources& sources) {
     const Halves halves(text, '=');
-    const double size = size_in(halves.behind);
+    const Length wanted = size_in(halves.behind);
     const std::size_t colon = halves.before.find(':');
-    if (size == 0 || colon == std::string::npos) return false;
+    if (wanted.number() == 0 || colon == std::string::npos) return false;
+    const double size = wanted.number();
     const std::string kind = halves.before.substr(0, colon);
     const std::vector<double> n = numbers_in(std::string_view(halves.before).substr(colon + 1));
     const bool has_radius = !n.empty() && n.back() > 0;
@@ -88,27 +90,22 @@ bool add_solid(const std::string& text, SizeSources& sources) {
 
 struct PatchSize {
     std::string name;
-    double size = 0, reach = 0;
+    Length size, reach;
 };
 
 PatchSize parse_on(const std::string& text) {
     const Halves halves(text, '=');
     const PatchSize wanted{halves.before, size_in(halves.behind), 0};
-    if (wanted.name.empty() || wanted.size == 0) refuse_text("size-on", text, form_on_patch);
+    if (wanted.name.empty() || wanted.size.number() == 0) refuse_text("size-on", text, form_on_patch);
     return wanted;
 }
 
 PatchSize parse_near(const std::string& text) {
     const Halves halves(text, '='), numbers(halves.behind, ':');
-    const std::vector<double> reach = numbers_in(numbers.behind);
-    const PatchSize wanted{halves.before, size_in(numbers.before), reach.size() == 1 ? reach[0] : -1};
-    if (wanted.name.empty() || wanted.size == 0 || !(wanted.reach >= 0))
+    const PatchSize wanted{halves.before, size_in(numbers.before), length_in(numbers.behind).value_or(-1)};
+    if (wanted.name.empty() || wanted.size.number() == 0 || !(wanted.reach.number() >= 0))
         refuse_text("size-near", text, form_near_patch);
     return wanted;
-}
-
-void require_size(bool good, const char* option, const char* range, double value) {
-    if (!good) throw Error(ErrorCode::usage, fmt::format("--{} is {}, but it must be {}.", option, value, range));
 }
 
 std::int32_t find_patch(const char* option, const std::string& name, const std::vector<std::string>& names) {
@@ -157,23 +154,45 @@ std::vector<SizedTriangle> sizes_of_surface(const SizeOptions& options, const Su
 }  // namespace
 
 void SizeOptions::check() const {
-    // Written so that NaN fails.
-    require_size(size >= 0 && std::isfinite(size), "size", "positive", size);
-    require_size(size == 0 || std::isnormal(regular_tet_volume(size)), "size",
-                 "such that its cube is a number of double precision", size);
-    require_size(max_volume == 0 || (max_volume > 0 && std::isnormal(max_volume)), "max-volume",
-                 "positive, or 0 for no bound", max_volume);
-    require_size(growth == 0 || (growth >= 0.01 && growth <= 10), "growth", "0.01 to 10, or 0 for the usual one",
-                 growth);
-    require_size(chord_error >= 0 && std::isfinite(chord_error), "chord-error", "positive, or 0 for none", chord_error);
-    require_size(segments_per_turn == 0 || (segments_per_turn >= 3 && segments_per_turn <= 1e4), "segments-per-turn",
-                 "3 to 10000, or 0 for none", segments_per_turn);
-    require_size(cells_across >= 0 && cells_across <= 1e4, "cells-across", "0 (none) to 10000", cells_across);
+    require_in(size_range::length, "size", size.number());
+    if (size.number() != 0 && !has_normal_volume(size.number()))
+        refuse_number("size", size.text(), "such that its cube is a number of double precision");
+    require_in(size_range::max_volume, "max-volume", max_volume);
+    if (max_volume != 0 && !std::isnormal(max_volume))
+        refuse_number("max-volume", fmt::format("{}", max_volume), "a number that double precision does not round off");
+    require_in(size_range::growth, "growth", growth);
+    require_in(size_range::length, "chord-error", chord_error.number());
+    require_in(size_range::segments_per_turn, "segments-per-turn", segments_per_turn);
+    require_in(size_range::cells_across, "cells-across", cells_across);
     SizeSources ignored;
     for (const std::string& text : inside)
         if (!add_solid(text, ignored)) refuse_text("size-in", text, form_of_solids);
     for (const std::string& text : on) parse_on(text);
     for (const std::string& text : near) parse_near(text);
+}
+
+void SizeOptions::resolve_lengths(double diagonal) {
+    size = size.of(diagonal);
+    if (chord_error.of(diagonal) > diagonal)  // and sizes that follow from it might be no numbers
+        throw Error(ErrorCode::usage,
+                    fmt::format("--chord-error is {}, but the whole surface is only {:.6g} from corner "
+                                "to corner of its bounding box. Give less.",
+                                chord_error.text(), diagonal));
+    chord_error = chord_error.of(diagonal);
+    // Only what has a percentage is written anew.
+    const auto resolved = [&](const std::string& text) {
+        const std::optional<Length> length = length_in(text);
+        return length && length->is_percent() ? fmt::format("{}", length->of(diagonal)) : text;
+    };
+    for (std::vector<std::string>* texts : {&inside, &on})
+        for (std::string& text : *texts)
+            if (const Halves halves(text, '='); !halves.behind.empty())
+                text = halves.before + "=" + resolved(halves.behind);
+    for (std::string& text : near) {
+        const Halves halves(text, '='), numbers(halves.behind, ':');
+        if (numbers.behind.empty()) continue;
+        text = halves.before + "=" + resolved(numbers.before) + ":" + resolved(numbers.behind);
+    }
 }
 
 double SizeOptions::constant_max_volume() const {

@@ -5,21 +5,32 @@
 #include <string>
 #include <vector>
 
+#include "core/user_number.h"
 #include "size/size_field.h"
 #include "surface/surface.h"
 
 namespace kerf {
 
-/// Lengths are in units of the input; 0, or nothing, stands for "not given".
+/// What the options may be.
+namespace size_range {
+inline constexpr NumberRange length = {"a positive length in units of the input, or with % of its diagonal", 0};
+inline constexpr NumberRange max_volume = {"a positive volume, or 0 for no bound", 0};
+inline constexpr NumberRange growth = {"0.01 to 10, or 0 for the usual one", 0.01, 10, true};
+inline constexpr NumberRange segments_per_turn = {"3 to 10000, or 0 for none", 3, 1e4, true};
+inline constexpr NumberRange cells_across = {"0.1 to 10000, or 0 for none", 0.1, 1e4, true};
+}  // namespace size_range
+
+/// Lengths are in units of the input or, until resolve_lengths(), in percent of its diagonal; 0, or nothing, stands for
+/// "not given". In texts, H and D are such lengths.
 struct SizeOptions {
-    double size = 0;                  ///< wanted edge length everywhere
+    Length size;                      ///< wanted edge length everywhere
     double max_volume = 0;            ///< of a tetrahedron everywhere, instead of `size`
     std::vector<std::string> inside;  ///< box:x0,y0,z0,x1,y1,z1=H, sphere:x,y,z,r=H, cylinder:x0,y0,z0,x1,y1,z1,r=H
     std::vector<std::string> on;      ///< NAME=H: on a patch
     std::vector<std::string> near;    ///< NAME=H:D: up to the distance D from a patch
     double growth = 0;  ///< of sizes by distance; if given, the lengths of the surface's edges are wanted there, too
     std::string field_file;  ///< a mesh of tetrahedra with a size at every node
-    double chord_error = 0;  ///< see CurvatureSizes
+    Length chord_error;      ///< see CurvatureSizes
     double segments_per_turn = 0;
     double cells_across = 0;  ///< see sizes_of_thickness()
 
@@ -28,20 +39,22 @@ struct SizeOptions {
 
     /// Throws Error(usage) naming option, value and range or form.
     void check() const;
-    /// `max_volume`, or what follows from `size`; 0: none.
+    /// Replaces percentages by the lengths that they are. Throws Error(usage) for a chord error that no chord has.
+    void resolve_lengths(double diagonal);
+    /// `max_volume`, or what follows from `size`, a resolved length; 0: none.
     double constant_max_volume() const;
     /// Whether anything but a constant is asked for, so that the field follows from the surface and files.
     bool depends_on_place() const {
         return !inside.empty() || !on.empty() || !near.empty() || growth > 0 || !field_file.empty() ||
-               chord_error > 0 || segments_per_turn > 0 || cells_across > 0;
+               chord_error.number() > 0 || segments_per_turn > 0 || cells_across > 0;
     }
     double growth_or_usual() const { return growth > 0 ? growth : usual_growth; }
 };
 
-/// The field that the options, which must pass check(), ask for over a surface: the minimum of them all, each growing
-/// with the distance. Sizes told from curvature and thickness are 1e-4 of the diagonal at least. `background`: what was
-/// read from `field_file`. Throws Error(usage) for a patch that the surface does not have, naming those that it has.
-/// Deterministic. O(#F log #F).
+/// The field that the options, which must pass check() and have resolved lengths, ask for over a surface: the minimum
+/// of them all, each growing with the distance. Sizes told from curvature and thickness are 1e-4 of the diagonal at
+/// least. `background`: what was read from `field_file`. Throws Error(usage) for a patch that the surface does not
+/// have, naming those that it has. Deterministic. O(#F log #F).
 SizeField make_size_field(const SizeOptions& options, const SurfaceArrays& surface,
                           const std::vector<std::string>& patch_names, std::optional<SizedMesh> background = {});
 

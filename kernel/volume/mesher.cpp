@@ -2,9 +2,6 @@
 #include "volume/mesher.h"
 
 #include <chrono>
-#include <cmath>
-
-#include <fmt/format.h>
 
 #include "core/check.h"
 #include "core/error.h"
@@ -13,10 +10,7 @@
 namespace kerf {
 
 void check_mesher_options(const MesherOptions& options) {
-    // Written so that NaN fails.
-    if (!(options.radius_edge == 0 || (options.radius_edge > 1 && std::isfinite(options.radius_edge))))
-        throw Error(ErrorCode::usage,
-                    fmt::format("--radius-edge is {}, but it must be 0 (none) or above 1.", options.radius_edge));
+    require_in(radius_edge_range, "radius-edge", options.radius_edge);
     find_mesher(options.name).check(options);
 }
 

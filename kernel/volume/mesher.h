@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/user_number.h"
 #include "improve/improve.h"
 #include "mesh/tet_mesh.h"
 #include "size/size_field.h"
@@ -10,6 +11,9 @@
 #include "volume/tetgen_options.h"
 
 namespace kerf {
+
+inline constexpr NumberRange radius_edge_range = {"0 (no refinement) or above 1", 1,
+                                                  std::numeric_limits<double>::infinity(), true, true};
 
 struct MesherOptions {
     std::string name = "auto";  ///< of the mesher, see meshers()

@@ -215,10 +215,12 @@ TEST_F(BadInput, OutputIsNoRun) {
 }
 
 TEST_F(BadInput, NothingToDo) {
-    expect_message(test::run_kerf({}), 2, {"subcommand"});
-    expect_message(test::run_kerf({"mesh"}), 2, {"input"});
-    expect_message(test::run_kerf({"mesh", good_}), 2, {"--output"});
+    expect_message(test::run_kerf({}), 2, {"Which command?", "mesh, decompose"});
+    expect_message(test::run_kerf({"mesh"}), 2, {"kerf mesh needs INPUT", "Example: kerf mesh part.stl"});
     expect_message(test::run_kerf({"saw", good_}), 2, {"'saw' is not a command"});
+    expect_message(test::run_kerf({good_}), 2, {"kerf check " + good_, "kerf mesh " + good_ + " -o hollow_box-mesh"});
+    expect_message(test::run_kerf({"no.stl"}), 2, {"kerf check no.stl"});
+    expect_message(test::run_kerf({KERF_ASSETS}), 2, {"is a folder", "kerf verify"});
 }
 
 // The printed options, read again, print themselves; the command line wins over the file.
@@ -255,11 +257,15 @@ TEST_F(BadInput, ConfigFileGivesOptions) {
     std::ofstream(config) << "improve = true\n";
     EXPECT_EQ(printed({"--config", config, "--no-improve"}), printed({"--no-improve"}));
 
-    const std::vector<std::pair<std::string, std::string>> mistakes = {{"parts = 2\nsice = 1\n", "'sice'"},
-                                                                       {"parts = \"many\"\n", "'many'"},
-                                                                       {"size = nan\n", "--size"},
-                                                                       {"parts = [2]\n", "line 1"},
-                                                                       {"size = 1\nparts 2\n", "line 2"}};
+    const std::vector<std::pair<std::string, std::string>> mistakes = {
+        {"parts = 2\nsice = 1\n", "line 2: 'sice'"},
+        {"parts = \"many\"\n", "line 1: --parts is 'many'"},
+        {"\nsize = nan\n", "line 2: --size"},
+        {"parts = 2\ngrowth = 99\n", "line 2: --growth"},
+        {"stl = 1\n", "line 1: --stl is '1'"},
+        {"cut = \"saw\"\n", "line 1: --cut is 'saw'"},
+        {"parts = [2]\n", "line 1"},
+        {"size = 1\nparts 2\n", "line 2"}};
     for (const auto& [mistake, words] : mistakes) {
         std::ofstream(config) << mistake;
         expect_message(test::run_kerf({"mesh", good_, "-o", folder_.file("out"), "--config", config}), 2, {words});

@@ -239,7 +239,26 @@ TEST(Suggestion, IsTheNearestWord) {
     expect_suggestion({"mesh", cube, "--optimise", "3"}, "--optimise-surface");
     expect_suggestion({"merge", "out", "--outptu", "a.msh"}, "--output");
     expect_suggestion({"mesh", cube, "--qwertz"}, "");
-    expect_suggestion({"mesh", cube, "--tetgen", "--sizes"}, "");  // its value
+    expect_suggestion({"mesh", "--tetgen", "--sizes"}, "");  // its value
+}
+
+// In Kerf's words, with the command that would be right.
+TEST(UsageErrors, SayWhatIsMissingOrTooMuch) {
+    const std::string cube = test::asset_path("cube");
+    const auto expect = [](const std::vector<std::string>& arguments, const std::string& sentence) {
+        const ChildResult result = test::run_kerf(arguments);
+        EXPECT_EQ(result.exit_code, 2);
+        EXPECT_NE(result.log.find(sentence), std::string::npos) << result.log;
+        EXPECT_NE(result.log.find("\nExample: kerf " + arguments.front() + " "), std::string::npos) << result.log;
+    };
+    expect({"mesh", cube, "--size"}, "--size needs a value: --size H. Wanted edge length");
+    expect({"mesh", cube, "-o", "a", "-o", "b"}, "--output is given more than once. Choose one.");
+    expect({"mesh", cube, cube}, "kerf mesh takes no further arguments, but there is " + cube);
+    expect({"mesh", cube, "--resume", "out"}, "do not go together");
+    expect({"merge", "out"}, "kerf merge needs --output FILE: File, whose ending");
+    expect({"merge", "out", "-o", "a.msh", "--msh-version", "5"},
+           "--msh-version is '5', but it must be one of 4.1, 2.2.");
+    expect({"quality"}, "kerf quality needs DIR|FILE: Folder of a run");
 }
 
 TEST(Suggestion, OfAChoiceAreAllOfThem) {

@@ -100,6 +100,11 @@ TEST_F(MeshAndSolve, RefusesWhatCannotBe) {
     refused(bracket({}), 7, "notes.txt is in the way");
     std::filesystem::remove_all(out());
     refused({"solve", test::asset_path("l_bracket"), "--list-patches"}, 2, "kerf check");
+    const std::string own_case = folder_.file("own.toml");
+    std::ofstream(own_case) << "mine";
+    refused({"solve", test::asset_path("l_bracket"), "--case", own_case, "-o", out(), "--report", own_case}, 7,
+            "is the input");
+    EXPECT_EQ(test::bytes_of_file(own_case), "mine");
     refused({"solve", test::asset_path("l_bracket"), "--case", folder_.file("none.toml"), "-o", out()}, 7, "none.toml");
     EXPECT_FALSE(std::filesystem::exists(out())) << "the case is read before anything is meshed";
     ASSERT_EQ(test::run_kerf(bracket({"--size", "20"})).exit_code, 0);

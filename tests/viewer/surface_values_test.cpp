@@ -142,7 +142,7 @@ class RemeshedRun : public testing::Test {
         options.decompose.parts = 2;
         options.workers = 2;
         options.remeshing = Remeshing::always;
-        options.deviation = "0.1%";
+        options.deviation = Length::percent(0.1);
         options.output = folder_.file("run");
         options.trace_file = folder_.file("run.trace");
         session_.start_run(options, volume);

@@ -1,8 +1,7 @@
 #include "viewer/app/command_line.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -10,7 +9,9 @@
 
 #include "core/error.h"
 #include "help/command_help.h"
+#include "help/number_option.h"
 #include "help/program_help.h"
+#include "help/usage_error.h"
 #include "io/file_bytes.h"
 #include "run/config_file.h"
 #include "run/version.h"
@@ -25,10 +26,13 @@ constexpr const char* footer =
     "INPUT is a closed surface (it is cut and meshed then), a run folder, one that is under way, a folder of kerf "
     "solve, a file of --trace or of --events.";
 
+constexpr NumberRange node_range = {"the number of a node, 1 or more", 1};
+
 template <class Number>
-bool parse_number(std::string_view text, Number& number) {
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return error == std::errc() && stop == text.data() + text.size() && std::isfinite(static_cast<double>(number));
+bool read_number(std::string_view text, Number& number) {
+    const std::optional<Number> found = number_in<Number>(text);
+    number = found.value_or(number);
+    return found.has_value();
 }
 
 [[noreturn]] void refuse_clip(const std::string& text) {
@@ -48,7 +52,7 @@ bool parse_normal(std::string_view text, Vec3& normal, bool& flipped) {
     }
     for (int i = 0; i < 3; ++i) {
         const std::size_t comma = i < 2 ? text.find(',') : text.size();
-        if (comma == text.npos || !parse_number(text.substr(0, comma), normal[i])) return false;
+        if (comma == text.npos || !read_number(text.substr(0, comma), normal[i])) return false;
         text.remove_prefix(std::min(text.size(), comma + 1));
     }
     return normal.norm() > 0;
@@ -56,8 +60,8 @@ bool parse_normal(std::string_view text, Vec3& normal, bool& flipped) {
 
 void parse_size(const std::string& text, ViewCommand& command) {
     const std::size_t x = text.find('x');
-    if (x == text.npos || !parse_number(std::string_view(text).substr(0, x), command.width) ||
-        !parse_number(std::string_view(text).substr(x + 1), command.height) || command.width < 16 ||
+    if (x == text.npos || !read_number(std::string_view(text).substr(0, x), command.width) ||
+        !read_number(std::string_view(text).substr(x + 1), command.height) || command.width < 16 ||
         command.height < 16 || command.width > 16384 || command.height > 16384)
         throw Error(ErrorCode::usage,
                     fmt::format("--size is '{}', but it must be WIDTHxHEIGHT in pixels, 16 to 16384.", text));
@@ -85,21 +89,20 @@ void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
     app.option_defaults()->group("Scene");
     app.add_option("--state", texts.state_file, "Read the whole view from a JSON file; other options win.")
         ->type_name("FILE");
-    app.add_option("--node", texts.node, "Node of the tree: the root is 1, the children of i are 2i and 2i+1.")
-        ->type_name("N")
-        ->check(CLI::PositiveNumber);
+    add_number(app, "--node", texts.node, node_range,
+               "Node of the tree: the root is 1, the children of i are 2i and 2i+1.")
+        ->type_name("N");
     app.add_option("--stage", texts.stage,
                    fmt::format("{}, or try:0 for the first refused try. Default: input, or tetrahedra where they are "
                                "coloured or moved.",
                                names_of_stages()))
         ->type_name("STAGE")
         ->check(suggest(names_of_stages()));
-    app.add_option("--hide", texts.hidden, "Nodes that are not shown, with commas between.")
+    add_numbers(app, "--hide", texts.hidden, 1, node_range, "Nodes that are not shown, with commas between.")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->delimiter(',')
         ->type_name("LIST");
-    app.add_option("--isolate", texts.isolated, "Only what lies below this node.")
-        ->type_name("N")
-        ->check(CLI::PositiveNumber);
+    add_number(app, "--isolate", texts.isolated, node_range, "Only what lies below this node.")->type_name("N");
     app.add_option("--camera", texts.camera_file, "JSON file with the camera, as the viewer copies it.")
         ->type_name("FILE");
     app.add_flag("--features", texts.features, "With sharp edges and the borders of patches as lines.");
@@ -109,7 +112,7 @@ void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
     app.add_flag("--no-legend", texts.no_legend, "Without the legend.");
     app.add_option("--theme", texts.theme, "Colours of the background and of all around.")
         ->type_name("")
-        ->check(CLI::IsMember({"light", "dark"}));
+        ->check(one_of("light,dark"));
     app.option_defaults()->group("Colours");
     app.add_option(
            "--color", texts.color,
@@ -118,16 +121,14 @@ void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
            "stress-xx, stress-yy, stress-zz, stress-xy, stress-yz or stress-xz.")
         ->type_name("NAME")
         ->check(suggest(names_of_colors()));
-    app.add_option("--range", texts.range, "Values of the ends of the colours. Default: those shown.")
-        ->expected(2)
+    add_numbers(app, "--range", texts.range, 2, {}, "Values of the ends of the colours. Default: those shown.")
         ->type_name("LOW HIGH");
     app.add_flag("--isolines", texts.isolines, "With lines where displacements or stresses are alike.");
     app.add_option("--deform", texts.deform, "Draw the displacements of a solution so many times as long, or auto.")
         ->type_name("FACTOR|auto");
     app.add_option("--case", command.load_case, "Name of the case of a solution. Default: the first one.")
         ->type_name("NAME");
-    app.add_option("--filter", texts.filter, "Only cells whose value of --color lies in this range.")
-        ->expected(2)
+    add_numbers(app, "--filter", texts.filter, 2, {}, "Only cells whose value of --color lies in this range.")
         ->type_name("LOW HIGH");
     app.option_defaults()->group("Clipping and moving");
     app.add_option("--clip", command.clip,
@@ -136,16 +137,15 @@ void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
     app.add_option("--clip-style", texts.clip_style, "cells (whole ones, default), smooth, or layer (at the plane).")
         ->type_name("")
         ->check(suggest("cells,smooth,layer"));
-    app.add_option("--explode", texts.explode, "Pull the parts apart along the tree; 0 to 1.")
-        ->type_name("X")
-        ->check(CLI::Range(0.0, 1e6));
-    app.add_option("--shrink", texts.shrink, "Shrink cells about their centres; 0 to 1.")
-        ->type_name("X")
-        ->check(CLI::Range(0.0, 1.0));
+    add_number(app, "--explode", texts.explode, {"0 to 1e6; 1 is much", 0, 1e6},
+               "Pull the parts apart along the tree; 0 to 1.")
+        ->type_name("X");
+    add_number(app, "--shrink", texts.shrink, {"0 to 1", 0, 1}, "Shrink cells about their centres; 0 to 1.")
+        ->type_name("X");
     app.option_defaults()->group("Run");
-    app.add_option("-n,--parts", command.run.decompose.parts, "Number of parts, if INPUT is a surface.")
-        ->type_name("K")
-        ->check(CLI::PositiveNumber);
+    add_number(app, "-n,--parts", command.run.decompose.parts, {"a whole number, 1 or more, at most 2147483647", 1},
+               "Number of parts, if INPUT is a surface.")
+        ->type_name("K");
     app.add_option("--surface", texts.surface, "Of that run, as of kerf mesh.")
         ->type_name("")
         ->check(suggest("keep,split,remesh,auto,by-file"));
@@ -153,15 +153,6 @@ void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
         ->type_name("F");
     app.add_option("--config", texts.config, "Other options of that run: a file of kerf mesh --print-config.")
         ->type_name("FILE");
-}
-
-// Ranges let NaN pass.
-void require_numbers(const StateTexts& texts, const ViewCommand& command) {
-    std::vector<double> numbers = texts.filter;
-    numbers.insert(numbers.end(), texts.range.begin(), texts.range.end());
-    numbers.insert(numbers.end(), {texts.explode, texts.shrink, command.timeout_seconds});
-    if (!std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }))
-        throw Error(ErrorCode::usage, "--explode, --shrink, --filter, --range and --timeout need finite numbers.");
 }
 
 bool is_seen_on_surfaces(const std::string& color) {
@@ -185,7 +176,6 @@ void take_origin(ViewCommand& command) {
 }
 
 void apply(const StateTexts& texts, ViewCommand& command) {
-    require_numbers(texts, command);
     ViewState& state = command.state;
     if (!texts.state_file.empty()) {
         state = state_from_json(read_file(texts.state_file), texts.state_file, &command.origin);
@@ -215,7 +205,7 @@ void apply(const StateTexts& texts, ViewCommand& command) {
     }
     if (texts.isolines) state.isolines = true;
     command.good_deformation = texts.deform == "auto";
-    if (!texts.deform.empty() && !command.good_deformation && !parse_number(texts.deform, state.deform))
+    if (!texts.deform.empty() && !command.good_deformation && !read_number(texts.deform, state.deform))
         throw Error(ErrorCode::usage, fmt::format("--deform is '{}', but it must be a number or auto.", texts.deform));
     if (texts.explode >= 0) state.explode = texts.explode;
     if (texts.shrink >= 0) state.shrink = texts.shrink;
@@ -239,12 +229,13 @@ void apply(const StateTexts& texts, ViewCommand& command) {
 
 void read_run_config(const std::string& path, RunOptions& run) {
     if (path.empty()) return;
-    std::vector<OptionText> given = read_config(path);
+    std::vector<ConfigEntry> given = read_config(path);
     // What the run would write beside its folder is not for a picture.
     static const std::set<std::string> not_taken = {"output", "quiet", "verbose", "report", "trace", "events", "stl"};
     std::erase_if(given, [](const OptionText& o) { return not_taken.contains(o.name); });
     const std::int32_t parts = run.decompose.parts;
-    set_options(run, given, path);
+    const std::vector<OptionField> fields = option_fields(run);
+    for (const ConfigEntry& entry : given) set_option(fields, entry);
     if (parts > 0) run.decompose.parts = parts;
 }
 
@@ -289,7 +280,7 @@ Clip clip_from_text(const std::string& text, const Clip& before, const Document&
     const std::string_view value = std::string_view(text).substr(equals + 1);
     if (place == "node") {
         NodeId node = 0;
-        if (!parse_number(value, node) || node < 1) refuse_clip(text);
+        if (!read_number(value, node) || node < 1) refuse_clip(text);
         const TreeRow* row = document.tree.find(node);
         if (!row || !row->plane())
             throw Error(ErrorCode::usage,
@@ -297,7 +288,7 @@ Clip clip_from_text(const std::string& text, const Clip& before, const Document&
         snap_to(clip, *row->plane(), document.box);
         return clip;
     }
-    if (!parse_normal(place, clip.normal, clip.flipped) || !parse_number(value, clip.position)) refuse_clip(text);
+    if (!parse_normal(place, clip.normal, clip.flipped) || !read_number(value, clip.position)) refuse_clip(text);
     clip.normal.normalize();
     return clip;
 }
@@ -317,9 +308,9 @@ ViewCommand parse_view_command(int argc, const char* const* argv) {
     screenshot->option_defaults()->group("Picture");
     screenshot->add_option("-o,--output", command.output, "PNG file.")->type_name("FILE")->required();
     screenshot->add_option("--size", texts.size, "Pixels of the picture. Default 1280x800.")->type_name("WxH");
-    screenshot->add_option("--antialias", command.antialias, "Draw 2 to 4 times as large and average. Default 1.")
-        ->type_name("N")
-        ->check(CLI::Range(1, 4));
+    add_number(*screenshot, "--antialias", command.antialias, {"a whole number, 1 to 4", 1, 4},
+               "Draw 2 to 4 times as large and average. Default 1.")
+        ->type_name("N");
     screenshot
         ->add_option_function<std::string>(
             "--context", [&](const std::string& library) { command.context = offscreen_library_from_name(library); },
@@ -327,9 +318,9 @@ ViewCommand parse_view_command(int argc, const char* const* argv) {
                         name(offscreen_libraries().front())))
         ->type_name("NAME");
     screenshot->add_flag("--ui", command.panels, "With all panels, as in the window.");
-    screenshot->add_option("--timeout", command.timeout_seconds, "Seconds after which to give up. Default 600.")
-        ->type_name("S")
-        ->check(CLI::PositiveNumber);
+    add_number(*screenshot, "--timeout", command.timeout_seconds, {"0.001 to 1e9 seconds", 1e-3, 1e9},
+               "Seconds after which to give up. Default 600.")
+        ->type_name("S");
     for (CLI::App* each : {view, screenshot}) add_scene_options(*each, command, texts);
     bool no_run = false;
     view->add_flag("--no-run", no_run, "Only show a surface: it is cut and meshed else.")->group("Run");

@@ -127,7 +127,10 @@ std::shared_ptr<const NodeSurface> Session::Impl::part_surface(NodeId part) {
 
 namespace {
 
-SizeField field_of(const SizeOptions& sizes, const NodeSurface& whole, const std::vector<std::string>& patch_names) {
+SizeField field_of(SizeOptions sizes, const NodeSurface& whole, const std::vector<std::string>& patch_names) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : whole.vertices) box.extend(p);
+    sizes.resolve_lengths(box.diagonal().norm());
     if (!sizes.depends_on_place()) return SizeField(sizes.constant_max_volume());
     SurfaceArrays arrays;
     arrays.vertices = whole.vertices;

@@ -71,7 +71,7 @@ const char* why_without_values(const Document& document, ColorBy color) {
     const SizeOptions& sizes = document.options.sizes;
     if (color == ColorBy::deviation && !document.remeshed)
         return "The surface was not remeshed, so that it deviates nowhere. --surface remesh does that.";
-    if (color == ColorBy::size && !sizes.depends_on_place() && !(sizes.constant_max_volume() > 0))
+    if (color == ColorBy::size && !sizes.depends_on_place() && sizes.max_volume == 0 && sizes.size.number() == 0)
         return "No size is asked for: --size and its like do that.";
     if (is_of_solution(color) && !document.solution)
         return "There is no solution: open the folder that kerf solve has written.";

@@ -27,6 +27,15 @@ struct Editor {
     }
     void operator()(std::int64_t* value) const { widgets.input_number(label, value); }
     void operator()(double* value) const { widgets.input_number(label, value); }
+    void operator()(Length* value) const {
+        if (value->is_percent()) {
+            std::string text = value->text();
+            if (widgets.input_text(label, &text)) *value = length_in(text).value_or(*value);
+            return;
+        }
+        double number = value->number();
+        if (widgets.input_number(label, &number)) *value = number;
+    }
     void operator()(std::string* value) const { widgets.input_text(label, value); }
     void operator()(OptionField::List items) const {
         std::string text = join_items(*items);

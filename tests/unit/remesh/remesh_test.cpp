@@ -329,11 +329,11 @@ TEST(RemeshedInput, TellsOfItsStepsAndCanBeCancelledAtEach) {
 }
 
 TEST(Deviation, IsALengthOrAShare) {
-    EXPECT_DOUBLE_EQ(parse_deviation("0.5", 100), 0.5);
-    EXPECT_DOUBLE_EQ(parse_deviation("0.01%", 100), 0.01);
-    EXPECT_DOUBLE_EQ(parse_deviation("", 100), 0.002);
-    for (const char* wrong : {" ", "%", "-1", "0", "nan", "1e9", "6%", "1mm", "1 %x"})
-        EXPECT_THROW(parse_deviation(wrong, 100), Error) << wrong;
+    EXPECT_DOUBLE_EQ(deviation_for(0.5, 100), 0.5);
+    EXPECT_DOUBLE_EQ(deviation_for(Length::percent(0.01), 100), 0.01);
+    EXPECT_DOUBLE_EQ(deviation_for(RunOptions().deviation, 100), 0.002);
+    for (const Length& wrong : {Length(0), Length(1e9), Length(1e-300), Length::percent(6)})
+        EXPECT_THROW(deviation_for(wrong, 100), Error) << wrong.text();
 }
 
 // All facets, for every point.

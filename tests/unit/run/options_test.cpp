@@ -151,7 +151,34 @@ TEST(OptionFields, TextThatIsNoValueIsRefused) {
         const bool is_text =
             std::holds_alternative<std::string*>(field.value) || std::holds_alternative<OptionField::List>(field.value);
         for (const char* text : {"luck", "", "1x"}) EXPECT_EQ(is_refused(field, text), !is_text) << text;
+        if (!field.is_number()) continue;
+        for (const char* text : {"nan", "inf", "-inf", "1,5", "-1", "1e400", " 1", "2 %", "nan%"})
+            EXPECT_TRUE(is_refused(field, text)) << text;
+        const bool is_length = std::holds_alternative<Length*>(field.value);
+        EXPECT_EQ(is_refused(field, "3%"), !is_length);
+        EXPECT_STRNE(field.range.words, NumberRange().words) << "what it may be is said";
     }
+}
+
+TEST(RunOptions, PercentagesAreOfTheDiagonal) {
+    RunOptions options;
+    options.sizes.size = Length::percent(2);
+    options.sizes.chord_error = Length::percent(0.5);
+    options.sizes.inside = {"sphere:1,2,3,4=1%", "box:0,0,0,1,1,1=7"};
+    options.sizes.on = {"in=let 5%=3%"};
+    options.sizes.near = {"a=2%:10%", "b=1:10%", "c=1e-3:2"};
+    options.resolve(1);
+    EXPECT_TRUE(options.mesher.size.is_empty()) << "nobody knows yet";
+    options.resolve_lengths(50);
+    EXPECT_EQ(options.sizes.size, 1.0);
+    EXPECT_EQ(options.sizes.chord_error, 0.25);
+    EXPECT_EQ(options.deviation, 0.001);
+    EXPECT_EQ(options.sizes.inside, (std::vector<std::string>{"sphere:1,2,3,4=0.5", "box:0,0,0,1,1,1=7"}));
+    EXPECT_EQ(options.sizes.on, (std::vector<std::string>{"in=let 5%=1.5"}));
+    EXPECT_EQ(options.sizes.near, (std::vector<std::string>{"a=1:5", "b=1:5", "c=1e-3:2"}));
+    RunOptions absolute;
+    absolute.sizes.size = 1;
+    EXPECT_EQ(options.mesher.size.reference_volume(), resolved(absolute).mesher.size.reference_volume());
 }
 
 TEST(RunOptions, TraceMustLieOutsideOfTheOutputFolder) {
@@ -183,10 +210,14 @@ std::string some_text(const OptionField& field, std::mt19937& random) {
     if (const auto* choice = std::get_if<OptionField::Choice>(&field.value))
         return choice->names[static_cast<std::size_t>(number(static_cast<std::uint32_t>(choice->names.size())))];
     if (std::holds_alternative<bool*>(field.value)) return number(2) ? "true" : "false";
-    if (std::holds_alternative<double*>(field.value))
-        return fmt::format("{}", std::ldexp(static_cast<double>(random()), number(1800) - 900));
-    if (!std::holds_alternative<std::string*>(field.value) && !std::holds_alternative<OptionField::List>(field.value))
-        return fmt::format("{}", number(1'000'000));
+    const bool is_length = std::holds_alternative<Length*>(field.value);
+    if (is_length || std::holds_alternative<double*>(field.value)) {
+        const double any = std::ldexp(static_cast<double>(random()), number(1800) - 900);
+        const double within = std::isfinite(field.range.most) ? field.range.most * (1 + number(8)) / 9 : any + 2;
+        return fmt::format("{}{}", field.range.contains(any) ? any : within, is_length && number(2) ? "%" : "");
+    }
+    if (field.is_number())
+        return fmt::format("{}", 1 + number(1'000'000) % static_cast<std::int32_t>(std::min(4096.0, field.range.most)));
     std::string text;
     for (int i = number(12); i > 0; --i) text += static_cast<char>(1 + number(255));
     return text;
@@ -201,7 +232,7 @@ TEST(ConfigFile, GivesEveryOptionBack) {
         for (const OptionField& field : fields) field.set_text(some_text(field, random));
         const std::string text = to_config(fields);
         std::ofstream(folder.file("config"), std::ios::binary) << text;
-        set_options(copy, read_config(folder.file("config")), "config");
+        for (const ConfigEntry& entry : read_config(folder.file("config"))) set_option(copied, entry);
         for (std::size_t i = 0; i < fields.size(); ++i)
             EXPECT_EQ(copied[i].text(), fields[i].text()) << fields[i].name << " in\n" << text;
         EXPECT_EQ(to_config(copied), text);
@@ -226,7 +257,8 @@ TEST(ConfigFile, TakesListsAsArraysAndAsText) {
     std::ofstream(folder.file("config"))
         << "size-in = ['sphere:0,0,0,1=0.5', 'box:0,0,0,1,1,1=1']\nsize-on = 'a=1;b=2'\n";
     RunOptions options;
-    set_options(options, read_config(folder.file("config")), "config");
+    const std::vector<OptionField> fields = option_fields(options);
+    for (const ConfigEntry& entry : read_config(folder.file("config"))) set_option(fields, entry);
     EXPECT_EQ(options.sizes.inside, (std::vector<std::string>{"sphere:0,0,0,1=0.5", "box:0,0,0,1,1,1=1"}));
     EXPECT_EQ(options.sizes.on, (std::vector<std::string>{"a=1", "b=2"}));
 }

@@ -1,0 +1,162 @@
+// CLI11 says which option is wrong and why in the text of its errors alone: "--size: 1 required H missing". The class
+// of the error and the option that its text begins with are what is used here.
+#include "help/usage_error.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "help/command_help.h"
+#include "help/nearest.h"
+
+namespace kerf {
+
+namespace {
+
+// Lines that can be typed as they stand, once there is a part.stl.
+constexpr std::array<std::pair<const char*, const char*>, 11> examples = {{
+    {"mesh", "kerf mesh part.stl -o out -n 8"},
+    {"decompose", "kerf decompose part.stl -o cut -n 8"},
+    {"check", "kerf check part.stl"},
+    {"verify", "kerf verify out"},
+    {"export", "kerf export out --format openfoam -o case"},
+    {"merge", "kerf merge out -o part.msh"},
+    {"quality", "kerf quality out"},
+    {"remesh", "kerf remesh part.stl -o better.obj"},
+    {"solve", "kerf solve part.stl --case case.toml -o solved"},
+    {"view", "kerf view out"},
+    {"screenshot", "kerf screenshot out -o out.png"},
+}};
+
+std::vector<std::string> command_names(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+    return names;
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    return names;
+}
+
+// The first argument that looks like an option, but is neither one of `app` nor the value of one; or empty.
+std::string unknown_option(const CLI::App& app, int first, int argc, const char* const* argv) {
+    for (int i = first; i < argc; ++i) {
+        const std::string argument = argv[i], name = argument.substr(0, argument.find('='));
+        if (name == "--") break;
+        if (!name.starts_with('-')) continue;
+        if (const CLI::Option* option = app.get_option_no_throw(name))
+            i += name == argument ? option->get_items_expected_min() : 0;
+        else if (name.starts_with("--"))
+            return name;
+    }
+    return "";
+}
+
+// A file or a folder in place of a command.
+std::string meant_with(const std::string& word, const CLI::App& app) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(word, ignored))
+        return fmt::format(
+            "'{}' is a folder, not a command. kerf verify {} checks the run in it, kerf quality {} "
+            "measures its cells.",
+            word, word, word);
+    const std::string stem = std::filesystem::path(word).stem().string();
+    if (std::filesystem::exists(word, ignored) || word.find_first_of("./") != word.npos)
+        return fmt::format(
+            "'{}' is not a command, but looks like a file. kerf check {} says whether it can be meshed, kerf mesh {} "
+            "-o {}-mesh meshes it.",
+            word, word, word, stem);
+    return fmt::format("'{}' is not a command.{} Run kerf --help for the commands.", word,
+                       did_you_mean(word, command_names(app)));
+}
+
+// What stands before the first of these words.
+std::string before(const std::string& text, std::initializer_list<const char*> words) {
+    std::size_t end = text.npos;
+    for (const char* word : words) end = std::min(end, text.find(word));
+    return text.substr(0, end);
+}
+
+// "--size H", or "INPUT".
+std::string word_for(const CLI::Option& option, const CLI::App& command) {
+    if (option.get_positional()) return option.get_type_name();
+    for (const OptionGroup& group : describe(command).groups)
+        for (const OptionHelp& one : group.options)
+            if (one.names.back() == option.get_name())
+                return one.names.back() + (one.value.empty() ? "" : " " + one.value);
+    return option.get_name();
+}
+
+std::string lacking(const std::string& name, const CLI::App& command, const std::string& full_name) {
+    const CLI::Option* option = command.get_option_no_throw(name);
+    if (!option) return fmt::format("{} needs {}.", full_name, name);
+    return fmt::format("{} needs {}: {}", full_name, word_for(*option, command), option->get_description());
+}
+
+std::string sentence(const CLI::ParseError& error, const CLI::App& command, const std::string& full_name) {
+    const std::string kind = error.get_name(), text = error.what();
+    const std::string name = before(text, {":", " is required", " excludes ", " was given"});
+    const CLI::Option* option = command.get_option_no_throw(name);
+    if (kind == "RequiredError" && !command.get_subcommands(nullptr).empty())
+        return fmt::format("Which command? There are {}.", fmt::join(command_names(command), ", "));
+    if (kind == "RequiredError") return lacking(name, command, full_name);
+    if (kind == "ExcludesError")
+        return fmt::format("{} and {} do not go together. Leave one of them out.", name,
+                           text.substr(text.rfind(' ') + 1));
+    if (text.starts_with("The following argument"))  // its kind is the name of the command
+        return fmt::format("{} takes no further arguments, but there is {}.", full_name,
+                           text.substr(text.find(": ") + 2));
+    if (kind == "ArgumentMismatch" && option && option->get_items_expected_max() == 0)
+        return fmt::format("{} is a flag: give it without a value.", name);
+    if (kind == "ArgumentMismatch" && option && text.find(" At Most ") == text.npos)
+        return fmt::format("{} needs a value: {}. {}", name, word_for(*option, command), option->get_description());
+    if (kind == "ArgumentMismatch" && option) return fmt::format("{} is given more than once. Choose one.", name);
+    if (kind == "ConversionError") return fmt::format("{}. A flag is given without a value.", text);
+    if (kind == "ValidationError" && option) return name + text.substr(name.size() + 1);  // one_of()
+    return text;
+}
+
+std::string way_on(const CLI::App& command, const std::string& full_name) {
+    for (const auto& [name, example] : examples)
+        if (command.get_name() == name)
+            return fmt::format("Example: {}. Run {} --help for all options.", example, full_name);
+    return fmt::format("Run {} --help for more.", full_name);
+}
+
+}  // namespace
+
+const CLI::App* find_command(const CLI::App& app, const std::string& name) {
+    for (const CLI::App* command : app.get_subcommands(nullptr))
+        if (command->get_name() == name) return command;
+    return nullptr;
+}
+
+std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv) {
+    const std::string word = argc > 1 ? argv[1] : "";
+    const CLI::App* command = find_command(app, word);
+    if (!command && !word.empty() && !word.starts_with('-')) return meant_with(word, app);
+    const std::string name = command ? "kerf " + word : "kerf";
+    const CLI::App& asked = command ? *command : app;
+    const std::string option = unknown_option(asked, command ? 2 : 1, argc, argv);
+    if (option.empty()) return sentence(error, asked, name) + "\n" + way_on(asked, name);
+    return fmt::format("'{}' is not an option of {}.{} Run {} --help for its options.", option, name,
+                       did_you_mean(option, option_names(asked)), name);
+}
+
+CLI::Validator one_of(const std::string& choices) {
+    const std::vector<std::string> names = CLI::detail::split(choices, ',');
+    CLI::Validator validator = suggest(choices);
+    validator.operation([names](std::string& text) {
+        if (std::find(names.begin(), names.end(), text) != names.end()) return std::string();
+        return fmt::format("is '{}', but it must be one of {}.", text, fmt::join(names, ", "));
+    });
+    return validator;
+}
+
+}  // namespace kerf
