@@ -1,6 +1,7 @@
 #include "cli/command_line.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -34,10 +35,14 @@ constexpr const char* exit_codes =
 
 // What the program itself asks for.
 std::vector<OptionField> program_fields(CommandLine& line) {
-    return {{"output", "o", option_group::output, "DIR", "Folder of the result; an older run there is replaced.",
-             &line.options.output},
-            {"quiet", "q", option_group::output, "", "Print nothing but errors.", &line.quiet},
-            {"verbose", "v", option_group::output, "", "Print the tree of cuts with every node of it.", &line.verbose}};
+    return {
+        {"output", "o", option_group::output, "DIR|FILE",
+         "Folder of the result; an older run there is replaced. Of kerf mesh a file, too, whose ending is that of a "
+         "format of kerf merge: one mesh. Default: named like the input, in this folder.",
+         &line.options.output},
+        {"quiet", "q", option_group::output, "", "Print nothing but errors.", &line.quiet},
+        {"verbose", "v", option_group::output, "",
+         "Print all that is known of the result, and the tree of cuts with every node of it.", &line.verbose}};
 }
 // What a config file may say: the table, and that.
 std::vector<OptionField> config_fields(CommandLine& line) {
@@ -174,14 +179,50 @@ void apply_config(const CLI::App& command, CommandLine& line) {
     }
 }
 
-void require_input_and_output(const CommandLine& line) {
-    if (!line.resume.empty() || line.print_config) return;
-    if (line.options.input.empty()) throw CLI::RequiredError("input");
-    if (line.options.output.empty() && !line.options.dry_run) throw CLI::RequiredError("--output");
+void require_input(const CommandLine& line) {
+    if (line.resume.empty() && !line.print_config && line.options.input.empty()) throw CLI::RequiredError("input");
+}
+
+// part-mesh for parts/part.stl.gz. Cuts have another name, so that they do not replace a mesh.
+std::string usual_output(const std::string& input, bool meshes) {
+    std::filesystem::path name = std::filesystem::path(input).filename();
+    if (name.extension() == ".gz" || name.extension() == ".zst") name = name.stem();
+    return name.stem().string() + (meshes ? "-mesh" : "-cut");
+}
+
+// What a run folder has beside the mesh would be lost with it.
+void refuse_what_no_file_holds(const RunOptions& options, const Format& format, bool meshes) {
+    const auto refuse = [&](const std::string& why) {
+        throw Error(ErrorCode::usage,
+                    fmt::format("--output is {}, a file of one mesh, but {}. Name a folder instead: -o {}.",
+                                options.output, why, std::filesystem::path(options.output).stem().string()));
+    };
+    if (!meshes) refuse("kerf decompose writes the surface of every part");
+    if (options.stl) refuse("--stl writes the surface of every part");
+    if (options.reference) refuse("--reference writes a comparison, too");
+    if (!options.formats.empty() && options.formats != format.name)
+        refuse(fmt::format("--format {} asks for other files", options.formats));
+}
+
+// A mesh in one file is that of a run in a folder beside it.
+void settle_output(CommandLine& line, bool meshes) {
+    RunOptions& options = line.options;
+    if (options.dry_run) return;
+    line.has_usual_output = options.output.empty();
+    if (line.has_usual_output) options.output = usual_output(options.input, meshes);
+    const Format* format = find_merged_format(options.output);
+    if (!format) return;
+    refuse_what_no_file_holds(options, *format, meshes);
+    options.formats.clear();
+    line.merged_file = options.output;
+    options.output = run_folder_beside(line.merged_file);
 }
 
 // The interrupted run's options, and those of this command line that change nothing of the result. Throws Error.
 RunOptions resumed_options(const CLI::App& command, CommandLine& line) {
+    std::error_code ignored;
+    if (find_merged_format(line.resume) && !std::filesystem::is_directory(line.resume, ignored))
+        line.resume = run_folder_beside(line.resume);
     RunOptions options = load_interrupted_run(line.resume);
     const std::vector<OptionField> saved = option_fields(options), given = option_fields(line.options);
     for (std::size_t i = 0; i < given.size(); ++i) {
@@ -194,6 +235,7 @@ RunOptions resumed_options(const CLI::App& command, CommandLine& line) {
         saved[i].set_text(given[i].text());
     }
     options.dry_run = line.options.dry_run;
+    line.merged_file = merged_file_of(options.output);
     return options;
 }
 
@@ -276,7 +318,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         for (CLI::App* command : {mesh, decompose})
             if (command->parsed()) {
                 if (!line.config_file.empty()) apply_config(*command, line);
-                require_input_and_output(line);
+                require_input(line);
             }
     } catch (const CLI::ParseError& e) {
         finish(line, answer_to(app, e, argc, argv));
@@ -291,7 +333,10 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
             finish(line, {static_cast<int>(ErrorCode::usage),
                           fmt::format("kerf: --parts is {}, but a mesh has 1 or more parts.\n",
                                       line.options.decompose.parts)});
-        if (line.print_config) line.config = to_config(config_fields(line));
+        if (line.print_config)
+            line.config = to_config(config_fields(line));
+        else if (line.resume.empty())
+            settle_output(line, mesh->parsed());
     } else if (check->parsed()) {
         line.command = Command::check;
     } else if (verify->parsed()) {

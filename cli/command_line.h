@@ -19,8 +19,10 @@ struct CommandLine {
     Command command = Command::none;
     RunOptions options;
     bool quiet = false;
-    bool verbose = false;  ///< print every node of the tree of cuts
-    std::string resume;    ///< output folder of an interrupted run that is to be continued; empty: a new run
+    bool verbose = false;           ///< print every node of the tree of cuts, and all that is known of the result
+    std::string resume;             ///< output folder of an interrupted run that is to be continued; empty: a new run
+    bool has_usual_output = false;  ///< options.output was not given
+    std::string merged_file;        ///< into which the run in options.output is merged when it is done; empty: it stays
     CheckRequest check;
     ExportRequest export_request;
     MergeRequest merge;

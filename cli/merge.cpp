@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
 #include "io/output_file.h"
+#include "io/run_folder.h"
 #include "io/standard_streams.h"
 #include "part/solution_parts.h"
 
@@ -19,13 +21,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view run_ending = ".kerf-run";
+
 const Format& format_of(const fs::path& file) {
+    if (const Format* format = find_merged_format(file.string())) return *format;
     std::string endings;
-    for (const Format* format : formats()) {
-        if (!format->ending) continue;
-        if (file.extension() == format->ending) return *format;
-        endings += fmt::format("{}{}", endings.empty() ? "" : ", ", format->ending);
-    }
+    for (const Format* format : formats())
+        if (format->ending) endings += fmt::format("{}{}", endings.empty() ? "" : ", ", format->ending);
     throw Error(ErrorCode::usage, fmt::format("--output is {}, whose ending is that of no format. There are {}.",
                                               file.string(), endings));
 }
@@ -79,6 +81,27 @@ void move_to(const fs::path& from, const fs::path& place) {
 
 }  // namespace
 
+const Format* find_merged_format(const std::string& file) {
+    for (const Format* format : formats())
+        if (format->ending && fs::path(file).extension() == format->ending) return format;
+    return nullptr;
+}
+
+void check_merged_file(const MergeRequest& request) {
+    format_of(request.output);
+    place_for(request.output, request.folder);
+}
+
+std::string run_folder_beside(const std::string& merged_file) { return merged_file + std::string(run_ending); }
+
+std::string merged_file_of(const std::string& run_folder) {
+    std::string file = RunFolder::result_of(run_folder);
+    while (file.ends_with('/')) file.pop_back();
+    if (!file.ends_with(run_ending)) return "";
+    file.resize(file.size() - run_ending.size());
+    return find_merged_format(file) ? file : "";
+}
+
 int merge_run(const MergeRequest& request) {
     const fs::path output = request.output;
     const Format& format = format_of(output);
@@ -106,6 +129,7 @@ int merge_run(const MergeRequest& request) {
         bytes += fs::file_size(places[i]);
     }
 
+    if (request.quiet) return 0;
     const MeshOutline& outline = parts.outline();
     tell(fmt::format("kerf: {}: {} vertices, {} tetrahedra, {:.1f} MB\n", request.output, outline.vertices,
                      outline.tets(), static_cast<double>(bytes) * 1e-6));

@@ -2,12 +2,14 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "cli/terminal.h"
 #include "core/number_text.h"
 #include "io/standard_streams.h"
 
@@ -42,10 +44,19 @@ std::string time_left(double left) {
                           : fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
 }
 
+// "[=====     ]  ", as long as the line has room beside a text of so many characters; nothing where that is little.
+std::string bar(double done, std::size_t beside) {
+    constexpr int longest = 30, shortest = 5, around = 8 + 4 + 1;  // "volume  ", brackets and blanks, the cursor
+    const int length = std::min(longest, terminal_columns() - static_cast<int>(beside) - around);
+    if (length < shortest) return "";
+    const int full = std::clamp(static_cast<int>(done * length), 0, length);
+    return fmt::format("[{:=<{}}{: <{}}]  ", "", full, "", length - full);
+}
+
 }  // namespace
 
-ProgressLine::ProgressLine(bool quiet, EventLog* events)
-    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), events_(events) {
+ProgressLine::ProgressLine(bool quiet, EventLog* events, bool shows_plan)
+    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), shows_plan_(shows_plan), events_(events) {
     stop_signal = 0;
     std::signal(SIGINT, note_signal);
     std::signal(SIGTERM, note_signal);
@@ -86,7 +97,7 @@ double ProgressLine::seconds_of_stage() const {
 
 void ProgressLine::on_parts(const std::vector<PartReport>& parts, const std::string& plan) {
     if (events_) events_->on_parts(parts, plan);
-    if (!quiet_) {
+    if (!quiet_ && shows_plan_) {
         clear();
         tell(plan);
     }
@@ -102,9 +113,10 @@ void ProgressLine::on_part(const PartEvent& event) {
     const double elapsed = seconds_of_stage();
     const auto tets = static_cast<double>(event.tets);
     const double rate = elapsed > 0 ? (tets - static_cast<double>(tets_at_start_)) / elapsed : 0;
-    print(fmt::format("volume  {}/{} parts  {:.0f} %  {} of about {} tets  {}/s  ETA {}", event.done, event.total,
-                      100 * event.load_done, short_number(tets), short_number(event.tets_expected), short_number(rate),
-                      time_left(event.seconds_left)));
+    const std::string text = fmt::format(
+        "{}/{} parts  {:.0f} %  {} of about {} tets  {}/s  ETA {}", event.done, event.total, 100 * event.load_done,
+        short_number(tets), short_number(event.tets_expected), short_number(rate), time_left(event.seconds_left));
+    print("volume  " + (terminal_ ? bar(event.load_done, text.size()) : "") + text);
 }
 
 void ProgressLine::print(const std::string& text) {

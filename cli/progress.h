@@ -8,12 +8,12 @@
 
 namespace kerf {
 
-/// One line that is rewritten on a terminal; a line per 10 % otherwise. Writes to standard error. While it lives,
-/// SIGINT and SIGTERM cancel the run.
+/// One line with a bar that is rewritten on a terminal; a line per 10 % otherwise. Writes to standard error. While it
+/// lives, SIGINT and SIGTERM cancel the run.
 class ProgressLine : public RunListener {
  public:
-    /// `events`, unless null, is told of everything, too.
-    ProgressLine(bool quiet, EventLog* events);
+    /// `events`, unless null, is told of everything, too. `shows_plan`: what is ahead is said before it begins.
+    ProgressLine(bool quiet, EventLog* events, bool shows_plan = true);
     ~ProgressLine() override;
     void on_progress(const char* stage, std::size_t done, std::size_t total) override;
     void on_parts(const std::vector<PartReport>& parts, const std::string& plan) override;
@@ -25,7 +25,7 @@ class ProgressLine : public RunListener {
     void print(const std::string& text);
     void clear();
 
-    bool quiet_, terminal_, line_open_ = false;
+    bool quiet_, terminal_, shows_plan_, line_open_ = false;
     EventLog* events_;
     std::string stage_;
     double last_seconds_ = 0;  // of the stage, that were printed

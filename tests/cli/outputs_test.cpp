@@ -75,6 +75,28 @@ TEST_F(Outputs, TheInputIsNeverOverwritten) {
     expect_refused({"mesh", input_, "-o", input_, "-n", "2"}, {"input.stl"});
 }
 
+TEST_F(Outputs, TwoAtOnePlaceAreRefused) {
+    fs::create_symlink("a", file("link"));
+    std::ofstream(file("kerf.toml")) << "parts = 2\n";
+    const std::vector<std::string> options = {"--report", "--trace", "--events"};
+    const auto before = test::contents_below(file(""));
+    for (const std::string& one : options)
+        for (const std::string& other : options)
+            for (const char* name : {"a", "./a", "link"}) {
+                if (one == other) continue;
+                const ChildResult result = mesh({one, file("a"), other, file(name)});
+                EXPECT_EQ(result.exit_code, 2) << result.log;
+                EXPECT_NE(result.log.find("one of them would be lost"), std::string::npos) << result.log;
+            }
+    for (const std::string& option : options) {
+        const ChildResult result = mesh({"--config", file("kerf.toml"), option, file("kerf.toml")});
+        EXPECT_EQ(result.exit_code, 7) << result.log;
+        EXPECT_NE(result.log.find(option), std::string::npos) << result.log;
+    }
+    EXPECT_TRUE(test::contents_below(file("")) == before);
+    EXPECT_EQ(mesh({"--report", "/dev/null", "--trace", "/dev/null"}).exit_code, 0) << "a device takes both";
+}
+
 TEST_F(Outputs, WhatCannotBeWrittenIsSaidBeforeTheWork) {
     for (const std::string option : {"--report", "--trace", "--events"}) {
         expect_refused({"mesh", input_, "-o", file("out"), option, file("no/file")}, {option, "no/file"});

@@ -61,7 +61,7 @@ bool Surroundings::is_output(const std::string& path) const {
     return std::any_of(outputs_.begin(), outputs_.end(), [&](const std::string& output) {
         if (!path.starts_with(output)) return false;
         const std::string rest = path.substr(output.size());
-        return rest.empty() || rest.front() == '/' || rest.starts_with(".failed") || rest.starts_with(".kerf-partial");
+        return rest.empty() || rest.front() == '/' || rest.starts_with(".failed") || rest.starts_with(".kerf-");
     });
 }
 

@@ -1,0 +1,24 @@
+// What people see on a terminal that logs and pipes do not get.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace kerf {
+
+/// Whether standard error is a terminal that shows colours: NO_COLOR is empty or not set, and TERM is not "dumb".
+bool shows_colours();
+
+/// Columns of the terminal that standard error is; 80 where it says nothing.
+int terminal_columns();
+
+/// Tells an error, "kerf: " and the message.
+void tell_error(std::string_view message);
+
+/// Tells lines of a report, "label       value", with labels set off and the verdict in its colour if shows_colours().
+void tell_report(std::string_view text);
+
+/// The text as a shell takes it for one word.
+std::string shell_word(const std::string& text);
+
+}  // namespace kerf
