@@ -18,6 +18,7 @@
 #include "io/run_folder.h"
 #include "io/stl_writer.h"
 #include "io/text_file.h"
+#include "part/joined_surfaces.h"
 #include "part/part_store.h"
 #include "part/vtu_writer.h"
 #include "run/forecast.h"
@@ -137,6 +138,7 @@ class Run {
     void join_interfaces(Decomposition own);
     void announce_parts();
     void hand_over_parts();
+    void join_surfaces();
     void mesh_parts();
     void mesh_reference();
     void write_formats();
@@ -271,6 +273,20 @@ void Run::hand_over_parts() {
         input_.notes.push_back(fmt::format("{} parts of an interrupted run were no longer of use and are removed",
                                            finished_before - resumed));
     report_.seconds.prepare += longest(ranks_, stopwatch.seconds());
+}
+
+// What a run without meshes has to show as a whole.
+void Run::join_surfaces() {
+    in_agreement(ranks_, [&] {
+        if (!is_root()) return;
+        std::vector<std::string> names, paths;
+        for (const PartReport& part : report_.parts) {
+            names.push_back("parts/" + part_surface_file_name(part.id));
+            paths.push_back(folder_->part_surface_file(part.id));
+        }
+        write_text_file(folder_->file("surfaces.pvtu"), surfaces_pvtu_text(names));
+        write_joined_surfaces(folder_->file("surfaces.vtu"), paths);
+    });
 }
 
 void Run::mesh_parts() {
@@ -428,6 +444,8 @@ RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input&
             run.mesh_parts();
             run.mesh_reference();
             run.write_formats();
+        } else {
+            run.join_surfaces();
         }
         return run.finish(whole);
     } catch (const Error& error) {

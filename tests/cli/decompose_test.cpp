@@ -1,11 +1,15 @@
 // kerf decompose and --trace as a user sees them.
+#include <cstring>
 #include <filesystem>
+#include <map>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 #include "io/run_folder.h"
 #include "io/surface_reader.h"
+#include "part/vtu_writer.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/program.h"
@@ -52,6 +56,42 @@ TEST_F(Decompose, WritesSurfacesAsStlOnRequest) {
         const std::string name = "out/parts/" + part_stl_file_name(part["id"].get<int>());
         EXPECT_EQ(read_surface(folder_.file(name)).facets.size(), part["surface_faces"].get<std::size_t>()) << name;
     }
+}
+
+// Values of an array of a file, without the size before them.
+template <class T>
+std::vector<T> array_of(const std::string& bytes, const VtuHeader& header, const std::string& name) {
+    const VtuHeader::Array* array = header.find(name);
+    EXPECT_TRUE(array) << name;
+    std::vector<T> values(array ? static_cast<std::size_t>(array->components * array->tuples) : 0);
+    if (array) std::memcpy(values.data(), bytes.data() + array->position + 8, values.size() * sizeof(T));
+    return values;
+}
+
+TEST_F(Decompose, OneFileHoldsAllSurfaces) {
+    run("decompose", {"-n", "3", "-q"});
+    const auto files = test::contents(folder_.file("out"));
+    const std::string& bytes = files.at("surfaces.vtu");
+    const VtuHeader header = parse_vtu_header(bytes, "surfaces.vtu");
+    const auto points = array_of<double>(bytes, header, "Points");
+    const auto corners = array_of<std::int64_t>(bytes, header, "connectivity");
+    const auto part = array_of<std::int32_t>(bytes, header, "Part");
+    std::map<std::int32_t, double> volumes;  // by the divergence theorem
+    for (std::size_t cell = 0; cell < part.size(); ++cell) {
+        const auto corner = [&](std::size_t k) {
+            return Vec3(Eigen::Map<const Vec3>(&points.at(3 * static_cast<std::size_t>(corners.at(3 * cell + k)))));
+        };
+        volumes[part[cell]] += corner(0).dot(corner(1).cross(corner(2))) / 6;
+    }
+    const auto report = nlohmann::json::parse(files.at("report.json"));
+    EXPECT_EQ(volumes.size(), 3u);
+    for (const auto& of_report : report["parts"]) {
+        const int id = of_report["id"].get<int>();
+        EXPECT_NEAR(volumes[id] / of_report["surface_volume"].get<double>(), 1, 1e-9);
+        EXPECT_NE(files.at("surfaces.pvtu").find("parts/" + part_surface_file_name(id)), std::string::npos);
+    }
+    run("decompose", {"-n", "3", "-q", "--workers", "3"});
+    EXPECT_TRUE(test::contents(folder_.file("out")).at("surfaces.vtu") == bytes);
 }
 
 TEST_F(Decompose, ReportHasTheSizesOfTheSurfaces) {
