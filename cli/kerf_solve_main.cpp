@@ -1,5 +1,6 @@
 // kerf-solve: linear elasticity on a surface, which is meshed first, or on the parts of a run, in a program of its own.
 // Started by `kerf solve`, also under mpirun.
+#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <new>
@@ -11,6 +12,7 @@
 #include "cli/failed_parts.h"
 #include "cli/option_flags.h"
 #include "cli/other_programs.h"
+#include "cli/own_ranks.h"
 #include "cli/progress.h"
 #include "cli/ranks.h"
 #include "core/error.h"
@@ -18,8 +20,10 @@
 #include "help/program_help.h"
 #include "io/output_file.h"
 #include "io/standard_streams.h"
+#include "run/processors.h"
 #include "run/version.h"
 #include "solve/mesh_and_solve.h"
+#include "solve/useful_ranks.h"
 
 namespace kerf {
 
@@ -30,6 +34,7 @@ struct SolveLine {
     bool meshes = false;
     MeshAndSolveRequest request;
     bool list_patches = false, quiet = false;
+    int ranks = 0;  // processes; 0: as many as are of use
     bool finished = false;
     int exit_code = 0;
     std::string output;
@@ -97,6 +102,13 @@ SolveLine parse_solve_line(int argc, const char* const* argv) {
         ->add_flag("--list-patches", line.list_patches, "Print name, area, centroid and normal of each patch, and end.")
         ->excludes(case_file)
         ->excludes(output);
+    solve
+        ->add_option(
+            "--ranks", line.ranks,
+            "Processes that solve, each on parts of its own, where mpirun has started none. Default: a processor "
+            "each, as far as parts and cells are enough for them; 1: this one alone.")
+        ->type_name("P")
+        ->check(CLI::Range(1, 4096));
     solve->add_flag("-q,--quiet", line.quiet, "Print errors alone.");
     RunOptions& mesh = line.request.mesh;
     add_run_options(*solve, mesh);
@@ -116,6 +128,14 @@ SolveLine parse_solve_line(int argc, const char* const* argv) {
         finish(line, answer_to(app, e, argc, argv));
     }
     return line;
+}
+
+// As many as there are processors, if they are of use. What lists patches does no work.
+int wanted_ranks(const SolveLine& line) {
+    if (line.ranks > 0 || line.list_patches) return std::max(1, line.ranks);
+    const int useful = line.meshes ? useful_ranks_of_surface(line.input, line.request.mesh.decompose.parts)
+                                   : useful_ranks_of_run(line.input);
+    return std::min(useful, static_cast<int>(allowed_processors().size()));
 }
 
 int solve_on_ranks(const SolveLine& line, Communicator& ranks) {
@@ -142,14 +162,16 @@ int mesh_and_solve_on_ranks(const SolveLine& line, const Ranks& ranks) {
     MeshAndSolveReport report;
     {
         ProgressLine progress(line.quiet || !root, nullptr);
-        report = mesh_and_solve(request, ranks.cores_of_rank, *ranks.communicator, &progress);
+        report = mesh_and_solve(request, ranks.cores_of_rank, *ranks.communicator, &progress,
+                                [&](std::size_t number, const MeshAndSolveStep& step) {
+                                    if (root && !line.quiet && request.steps > 0) progress.say(to_text(number, step));
+                                });
     }
     if (!root) return report.exit_code;
     if (!report.solution) tell_failed_parts(report.mesh);
     if (!line.quiet) {
         tell(to_text(report.mesh));
         if (report.solution) tell("\n" + to_text(*report.solution));
-        if (request.steps > 0) tell("\n" + to_text(report.steps));
     }
     return report.exit_code;
 }
@@ -162,6 +184,7 @@ int run_solver(int argc, char** argv) {
         if (is_first_rank()) (line.exit_code == 0 ? print_data : tell)(line.output);
         return line.exit_code;
     }
+    if (const int wanted = is_launched() ? 1 : wanted_ranks(line); wanted > 1) become_ranks(wanted, argv);
     const Ranks ranks = join_ranks(MpiUse::always);
     const auto end_all = [&](ErrorCode code, const std::string& message) {
         tell(fmt::format("kerf: {}\n", message));

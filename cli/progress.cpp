@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/own_ranks.h"
 #include "cli/terminal.h"
 #include "core/number_text.h"
 #include "io/standard_streams.h"
@@ -56,7 +57,7 @@ std::string bar(double done, std::size_t beside) {
 }  // namespace
 
 ProgressLine::ProgressLine(bool quiet, EventLog* events, bool shows_plan)
-    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), shows_plan_(shows_plan), events_(events) {
+    : quiet_(quiet), terminal_(is_error_on_terminal()), shows_plan_(shows_plan), events_(events) {
     stop_signal = 0;
     std::signal(SIGINT, note_signal);
     std::signal(SIGTERM, note_signal);
@@ -85,10 +86,25 @@ void ProgressLine::on_progress(const char* stage, std::size_t done, std::size_t 
         stage_start_ = std::chrono::steady_clock::now();
         last_seconds_ = 0;
         if (shows_stage) print(stage_);
-    } else if (shows_stage && total == 0 && seconds_of_stage() > last_seconds_ + seconds_between_lines) {
+    } else if (shows_stage && total != 1 && seconds_of_stage() > last_seconds_ + seconds_between_lines) {
         last_seconds_ = seconds_of_stage();
-        print(fmt::format("{}  {:.1f} s", stage_, last_seconds_));
+        print(total == 0 ? fmt::format("{}  {:.1f} s", stage_, last_seconds_)
+                         : fmt::format("{}  {}/{}", stage_, done, total));
     }
+}
+
+// A residual falls by about the same factor in each iteration.
+void ProgressLine::on_iteration(int iteration, double residual, double wanted) {
+    if (quiet_ || !(residual > 0) || !(wanted < 1)) return;
+    const double done = std::clamp(std::log(residual) / std::log(wanted), 0.0, 1.0);
+    const int tenth = static_cast<int>(10 * done + 1e-9);
+    if (iteration == 0) last_tenth_ = 0;
+    const bool is_new = terminal_ ? seconds_of_stage() > last_seconds_ + seconds_between_lines : tenth > last_tenth_;
+    if (iteration == 0 || !is_new) return;
+    last_tenth_ = tenth;
+    last_seconds_ = seconds_of_stage();
+    print(fmt::format("solve  {} iterations  {:.0f} %  residual {:.1e} of {:.1e}  ETA {}", iteration, 100 * done,
+                      residual, wanted, time_left(last_seconds_, done)));
 }
 
 double ProgressLine::seconds_of_stage() const {
@@ -97,10 +113,7 @@ double ProgressLine::seconds_of_stage() const {
 
 void ProgressLine::on_parts(const std::vector<PartReport>& parts, const std::string& plan) {
     if (events_) events_->on_parts(parts, plan);
-    if (!quiet_ && shows_plan_) {
-        clear();
-        tell(plan);
-    }
+    if (!quiet_ && shows_plan_) say(plan);
     for (const PartReport& part : parts)
         if (part.resumed) tets_at_start_ += part.result.tets;
 }
@@ -117,6 +130,11 @@ void ProgressLine::on_part(const PartEvent& event) {
         "{}/{} parts  {:.0f} %  {} of about {} tets  {}/s  ETA {}", event.done, event.total, 100 * event.load_done,
         short_number(tets), short_number(event.tets_expected), short_number(rate), time_left(event.seconds_left));
     print("volume  " + (terminal_ ? bar(event.load_done, text.size()) : "") + text);
+}
+
+void ProgressLine::say(const std::string& text) {
+    clear();
+    tell(text);
 }
 
 void ProgressLine::print(const std::string& text) {

@@ -18,7 +18,10 @@ class ProgressLine : public RunListener {
     void on_progress(const char* stage, std::size_t done, std::size_t total) override;
     void on_parts(const std::vector<PartReport>& parts, const std::string& plan) override;
     void on_part(const PartEvent& event) override;
+    void on_iteration(int iteration, double residual, double wanted) override;
     bool cancelled() const override;
+    /// Says what stays, in the place of the line.
+    void say(const std::string& text);
 
  private:
     double seconds_of_stage() const;

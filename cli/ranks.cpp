@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/own_ranks.h"
 #include "run/processors.h"
 
 #ifdef KERF_WITH_MPI
@@ -236,12 +237,6 @@ Ranks join_mpi_ranks() {
     return joined;
 }
 
-bool started_by_launcher() {
-    for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"})
-        if (std::getenv(name)) return true;
-    return false;
-}
-
 #endif
 
 }  // namespace
@@ -254,7 +249,7 @@ bool is_first_rank() {
 
 Ranks join_ranks([[maybe_unused]] MpiUse use) {
 #ifdef KERF_WITH_MPI
-    if (use == MpiUse::always || started_by_launcher()) return join_mpi_ranks();
+    if (use == MpiUse::always || is_launched()) return join_mpi_ranks();
 #endif
     const int cores = count_of(allowed_processors());
     return {std::make_unique<SingleRank>(), cores, cores, cores};

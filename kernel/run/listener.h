@@ -28,6 +28,9 @@ class RunListener : public CutListener {
     virtual void on_parts(const std::vector<PartReport>&, const std::string& /*plan*/) {}
     /// After every part: only on the root rank.
     virtual void on_part(const PartEvent&) {}
+    /// After every iteration of a solver: its number, the residual beside that of the start, and the one that ends it;
+    /// only on the root rank. Must not throw.
+    virtual void on_iteration(int /*iteration*/, double /*residual*/, double /*wanted*/) {}
     bool wants_cuts() const override { return false; }
     void on_cut(const Surface&, const Cut&) override {}
 };

@@ -41,10 +41,11 @@ struct RunOptions {
     std::string formats;      ///< names of export/format.h with commas between; empty: vtu
     std::string fields;       ///< of cells in vtu files (parse_cell_fields()); empty: min-dihedral
     std::vector<std::string> patch_types;  ///< of parse_patch_types(); for formats that have such
-    bool reference = false;   ///< the whole is meshed in one piece, too, and compared
-    bool stl = false;         ///< the surfaces of the parts as STL, too
-    bool volume = true;       ///< false: stop at the closed surfaces of the parts
-    bool dry_run = false;     ///< stop at the plan, and write nothing
+    bool reference = false;                ///< the whole is meshed in one piece, too, and compared
+    bool stl = false;                      ///< the surfaces of the parts as STL, too
+    bool volume = true;                    ///< false: stop at the closed surfaces of the parts
+    std::int32_t least_parts = 1;          ///< where K follows: one for each rank that takes whole parts later
+    bool dry_run = false;                  ///< stop at the plan, and write nothing
 
     /// Fills what follows from other choices, K excepted, and checks ranges and files. Throws Error(usage) naming
     /// option, value and range, Error(io) for a file that could not be written or would be lost.

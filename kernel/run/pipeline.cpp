@@ -85,7 +85,8 @@ std::int32_t part_count(const Input& input, const RunOptions& options, double vo
     if (wanted == 0) {
         const std::int32_t interrupted = options.dry_run ? 0 : interrupted_part_count(options.output, input.file_hash);
         if (interrupted > 0 && interrupted <= most) return interrupted;
-        return choose_parts(options, static_cast<double>(input.facets), volume, ranks, most);
+        return std::max(choose_parts(options, static_cast<double>(input.facets), volume, ranks, most),
+                        std::min(options.least_parts, most));
     }
     if (wanted > most)
         throw Error(ErrorCode::usage, fmt::format("{} has {} facets, too few for {} parts. Use -n {} or fewer, or a "

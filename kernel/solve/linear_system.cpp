@@ -152,6 +152,7 @@ struct LinearSystem::Impl {
     void insert(const BlockRows& rows);
     double mean_diagonal(const BlockRows& rows) const;
     void prepare_solver();
+    static PetscErrorCode tell_iteration(KSP ksp, PetscInt iteration, PetscReal residual, void* self);
     void give_rigid_motions();
 
     const ElasticProblem& problem;
@@ -164,6 +165,8 @@ struct LinearSystem::Impl {
     double norm = 0;                    // of the matrix, the largest sum of a row: no less than its largest eigenvalue
     bool is_symmetric_half = false;
     AssemblySeconds seconds;
+    AfterIteration after_iteration;
+    double residual_at_start = 0;
     std::int64_t unprepared = 0;
 };
 
@@ -266,6 +269,15 @@ void LinearSystem::Impl::give_rigid_motions() {
     check(VecDestroy(&places));
 }
 
+// Called by PETSc, with the norm that ends the iterations.
+PetscErrorCode LinearSystem::Impl::tell_iteration(KSP, PetscInt iteration, PetscReal residual, void* self) {
+    Impl& impl = *static_cast<Impl*>(self);
+    if (iteration == 0) impl.residual_at_start = residual;
+    if (impl.after_iteration && impl.residual_at_start > 0)
+        impl.after_iteration(static_cast<int>(iteration), residual / impl.residual_at_start);
+    return 0;
+}
+
 void LinearSystem::Impl::prepare_solver() {
     PC preconditioner = nullptr;
     check(KSPCreate(problem.space->comm(), &ksp));
@@ -283,6 +295,7 @@ void LinearSystem::Impl::prepare_solver() {
         check(PetscOptionsHasName(nullptr, nullptr, "-sub_pc_type", &is_chosen));
         if (!is_chosen) check(PetscOptionsSetValue(nullptr, "-sub_pc_type", "icc"));
     }
+    check(KSPMonitorSet(ksp, tell_iteration, this, nullptr));
     check_options(KSPSetFromOptions(ksp), options.petsc);
 }
 
@@ -297,7 +310,9 @@ LinearSystem::~LinearSystem() = default;
 const AssemblySeconds& LinearSystem::seconds() const { return impl_->seconds; }
 std::int64_t LinearSystem::unprepared_entries() const { return impl_->unprepared; }
 
-SolveOutcome LinearSystem::solve(const std::vector<double>& forces, std::vector<double>& displacement) {
+SolveOutcome LinearSystem::solve(const std::vector<double>& forces, std::vector<double>& displacement,
+                                 const AfterIteration& after_iteration) {
+    impl_->after_iteration = after_iteration;
     const ElasticProblem& problem = impl_->problem;
     const NodeSpace& space = *problem.space;
     SolveOutcome outcome;

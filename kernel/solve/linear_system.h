@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,6 +27,9 @@ struct SolveOutcome {
     double rounding = 0;  ///< of u and of the residual may leave so much: 2 e (|A| |u| / |b| + 1), e = 2^-53
     double setup_seconds = 0, solve_seconds = 0;
 };
+
+/// Must not throw.
+using AfterIteration = std::function<void(int iteration, double residual)>;
 
 struct AssemblySeconds {
     double elements = 0;  ///< stiffness of elements, summed by rows
@@ -61,7 +65,10 @@ class LinearSystem {
     LinearSystem& operator=(const LinearSystem&) = delete;
 
     /// Displacements for the nodal forces, of which ranks have shares: 3 for each local node, held ones as prescribed.
-    SolveOutcome solve(const std::vector<double>& forces, std::vector<double>& displacement);
+    /// After each iteration, on every rank, `after_iteration` is told its number and the residual beside that of the
+    /// start.
+    SolveOutcome solve(const std::vector<double>& forces, std::vector<double>& displacement,
+                       const AfterIteration& after_iteration = {});
     const AssemblySeconds& seconds() const;
     /// Entries that had no room prepared for them: 0, or assembly is slow.
     std::int64_t unprepared_entries() const;

@@ -117,7 +117,7 @@ MeshAndSolveStep summary_of(const RunReport& mesh, const SolveReport& solution) 
 }  // namespace
 
 MeshAndSolveReport mesh_and_solve(const MeshAndSolveRequest& request, int cores_of_rank, Communicator& ranks,
-                                  RunListener* listener) {
+                                  RunListener* listener, const StepDone& step_done) {
     const StepFolders folders(request);
     in_agreement(ranks, [&] {
         read_case(request.solve.case_file);  // before the mesh, which takes longer
@@ -125,6 +125,7 @@ MeshAndSolveReport mesh_and_solve(const MeshAndSolveRequest& request, int cores_
     });
     MeshAndSolveReport report;
     RunOptions options = request.mesh;
+    options.least_parts = ranks.size();
     for (std::int32_t step = 0; step <= request.steps; ++step) {
         options.output = folders.mesh(step);
         report.input = std::make_unique<Input>();
@@ -138,6 +139,7 @@ MeshAndSolveReport mesh_and_solve(const MeshAndSolveRequest& request, int cores_
         if (request.steps > 0 && !solve.target_error) solve.target_error = 0;
         report.solution = solve_run(solve, ranks, listener);
         report.steps.push_back(summary_of(report.mesh, *report.solution));
+        if (step_done) step_done(report.steps.size(), report.steps.back());
         report.reached = solve.target_error && report.solution->relative_error() <= *solve.target_error;
         in_agreement(ranks, [&] {
             if (request.steps > 0 && ranks.rank() == 0) write_text_file(folders.report(), to_json(request, report));
@@ -151,16 +153,14 @@ MeshAndSolveReport mesh_and_solve(const MeshAndSolveRequest& request, int cores_
     return report;
 }
 
-std::string to_text(const std::vector<MeshAndSolveStep>& steps) {
-    std::string text = fmt::format("{:>4} {:>12} {:>11} {:>8} {:>13} {:>8} {:>8}  {}\n", "step", "tetrahedra", "nodes",
-                                   "error %", "max von Mises", "mesh s", "solve s", "solution");
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-        const MeshAndSolveStep& step = steps[i];
-        text += fmt::format("{:>4} {:>12} {:>11} {:>8.2f} {:>13.6g} {:>8.2f} {:>8.2f}  {}\n", i + 1, grouped(step.tets),
-                            grouped(step.nodes), 100 * step.relative_error, step.von_mises, step.mesh_seconds,
-                            step.solve_seconds, step.solution);
-    }
-    return text;
+std::string to_text(std::size_t number, const MeshAndSolveStep& step) {
+    std::string text;
+    if (number == 1)
+        text = fmt::format("{:>4} {:>12} {:>11} {:>8} {:>13} {:>8} {:>8}  {}\n", "step", "tetrahedra", "nodes",
+                           "error %", "max von Mises", "mesh s", "solve s", "solution");
+    return text + fmt::format("{:>4} {:>12} {:>11} {:>8.2f} {:>13.6g} {:>8.2f} {:>8.2f}  {}\n", number,
+                              grouped(step.tets), grouped(step.nodes), 100 * step.relative_error, step.von_mises,
+                              step.mesh_seconds, step.solve_seconds, step.solution);
 }
 
 }  // namespace kerf

@@ -1,6 +1,7 @@
 // From a surface to stresses: mesh, solve, and mesh again where the error is large.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +28,8 @@ struct MeshAndSolveStep {
     double mesh_seconds = 0, solve_seconds = 0;
 };
 
+using StepDone = std::function<void(std::size_t number, const MeshAndSolveStep& step)>;
+
 struct MeshAndSolveReport {
     std::vector<MeshAndSolveStep> steps;
     std::unique_ptr<Input> input;         ///< of the last step
@@ -41,10 +44,12 @@ struct MeshAndSolveReport {
 /// those that the solution before asks for (sizes_for_error()) and no larger ones than the options say. Collective;
 /// throws as run() and solve_run() do, and Error(io) for a folder with anything else in it. What an earlier run of this
 /// kind has left there goes when this one has ended well.
+/// `step_done`, unless empty, is told each step as soon as its solution is written, on every rank.
 MeshAndSolveReport mesh_and_solve(const MeshAndSolveRequest& request, int cores_of_rank, Communicator& ranks,
-                                  RunListener* listener);
+                                  RunListener* listener, const StepDone& step_done = {});
 
-/// A table of the steps, for people.
-std::string to_text(const std::vector<MeshAndSolveStep>& steps);
+/// A row of the table of the steps, for people; the first one has the head of the table above it. `number` counts from
+/// 1.
+std::string to_text(std::size_t number, const MeshAndSolveStep& step);
 
 }  // namespace kerf

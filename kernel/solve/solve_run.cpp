@@ -65,6 +65,12 @@ class SolveStages {
             if (is_cancelled) throw Error(ErrorCode::cancelled, "Interrupted; nothing was written.");
         });
     }
+    // Of the parts of this rank, where ranks do not wait for each other.
+    void tell_part(const char* stage, std::size_t done, std::size_t total) {
+        if (!listener_) return;
+        if (listener_->cancelled()) throw Error(ErrorCode::cancelled, "Interrupted; nothing was written.");
+        if (is_root()) listener_->on_progress(stage, done, total);
+    }
     void read_request();
     void open_folder();
     NodeSpace make_space();
@@ -143,7 +149,10 @@ NodeSpace SolveStages::make_space() {
     const auto r = static_cast<std::size_t>(ranks_.rank());
     std::vector<Part> own = in_agreement(ranks_, [&] {
         std::vector<Part> parts;
-        for (std::int32_t p = first[r]; p < first[r + 1]; ++p) parts.push_back(parts_->load(p));
+        for (std::int32_t p = first[r]; p < first[r + 1]; ++p) {
+            tell_part("read", parts.size(), static_cast<std::size_t>(first[r + 1] - first[r]));
+            parts.push_back(parts_->load(p));
+        }
         return parts;
     });
     report_.seconds.read = stage_.lap();
@@ -203,7 +212,10 @@ void SolveStages::solve_case(LinearSystem& system, std::size_t number) {
     CaseReport& of_case = report_.cases.emplace_back();
     CaseSolution& solution = solutions_.emplace_back();
     of_case.name = solution.name = problem_.cases[number];
-    of_case.outcome = system.solve(problem_.forces[number], solution.displacement);
+    of_case.outcome =
+        system.solve(problem_.forces[number], solution.displacement, [this](int iteration, double residual) {
+            if (listener_ && is_root()) listener_->on_iteration(iteration, residual, report_.wanted.solver.rtol);
+        });
     report_.seconds.setup += of_case.outcome.setup_seconds;
     report_.seconds.solve += of_case.outcome.solve_seconds;
     stage_.lap();
@@ -226,6 +238,7 @@ void SolveStages::write() {
     const std::vector<RunFile> own = in_agreement(ranks_, [&] {
         std::vector<RunFile> files;
         for (std::size_t p = 0; p < space_->parts().size(); ++p) {
+            tell_part("write", p, space_->parts().size());
             const Part& part = space_->parts()[p];
             const std::string file = folder_->part_file(part.id);
             const FileHash hash = write_part(file, part, layout, values_of_part(problem_, solutions_, p));

@@ -114,6 +114,19 @@ TEST_F(MeshAndSolve, RefusesWhatCannotBe) {
                 std::string(option) + " is for meshing");
 }
 
+// Each step is told before the next mesh is begun.
+TEST_F(MeshAndSolve, StepsAreToldAsTheyCome) {
+    std::vector<std::string> command = bracket({"--adapt", "1"});
+    std::erase(command, "-q");
+    const ChildResult result = test::run_kerf(command);
+    ASSERT_EQ(result.exit_code, 0) << result.log;
+    const std::size_t head = result.log.find("step   tetrahedra"), first = result.log.find("step_1/solution", head),
+                      iterations = result.log.find(" iterations  ", first),
+                      second = result.log.find("step_2/solution", iterations);
+    ASSERT_NE(second, std::string::npos) << result.log;
+    EXPECT_LT(result.log.find(" iterations  "), head) << "of the first step";
+}
+
 TEST_F(MeshAndSolve, AKilledRankLeavesNothingHalfWritten) {
     ASSERT_EQ(test::run_kerf(bracket({"--size", "3"})).exit_code, 0);
     std::vector<std::string> command = test::mpirun_arguments(2);

@@ -10,6 +10,7 @@
 #include "io/run_folder.h"
 #include "io/run_manifest.h"
 #include "part/vtu_reader.h"
+#include "solve/useful_ranks.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/mpirun.h"
@@ -269,6 +270,34 @@ TEST_F(KerfSolve, OutOfMemoryIsSaid) {
         ++refused;
     }
     EXPECT_GT(refused, 0);
+}
+
+// Without mpirun, and told on the way as a mesh is.
+TEST_F(KerfSolve, StartsItsRanksAndTellsItsProgress) {
+    const std::string text =
+        std::string(steel) + three_planes + "[[load]]\nplane = [1, 0, 0, 1]\ntraction = [10, 0, 0]\n";
+    const auto solve_with = [&](const std::string& ranks) {
+        return test::run_kerf({"solve", mesh(), "--case", write_case(text), "-o", out(), "--ranks", ranks});
+    };
+    const ChildResult result = solve_with("2");
+    EXPECT_EQ(result.exit_code, 0) << result.log;
+    EXPECT_EQ(report()["ranks"], 2);
+    EXPECT_GE(test::count(result.log, " iterations  "), 2) << result.log;
+    EXPECT_LE(test::count(result.log, " iterations  "), 10) << "a line for each tenth";
+    fs::remove_all(out());
+    const ChildResult refused = solve_with("6");
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_EQ(refused.log.substr(0, 6), "kerf: ") << "nothing but the reason";
+    EXPECT_EQ(test::count(refused.log, "\n"), 1) << refused.log;
+    EXPECT_EQ(useful_ranks_of_run(mesh()), 1) << "too small to share";
+    EXPECT_EQ(useful_ranks_of_run(own_.file("none")), 1);
+    fs::create_directories(own_.file("large"));
+    std::ofstream(own_.file("large/report.json")) << R"({"parts": [{}, {}, {}], "totals": {"tets": 1000000}})";
+    EXPECT_EQ(useful_ranks_of_run(own_.file("large")), 3);
+    std::ofstream(own_.file("large.stl")) << std::string(5'000'000, 'x');
+    EXPECT_EQ(useful_ranks_of_surface(own_.file("large.stl"), 0), 4);
+    EXPECT_EQ(useful_ranks_of_surface(own_.file("large.stl"), 2), 2);
+    EXPECT_EQ(useful_ranks_of_surface(test::asset_path("cube"), 8), 1);
 }
 
 TEST_F(KerfSolve, RefusesMoreRanksThanParts) {

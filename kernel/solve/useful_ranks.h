@@ -1,0 +1,15 @@
+// How many processes are of use for a solution.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace kerf {
+
+/// Of a finished run: no more than it has parts, and so that each has some work; at least 1, also for what cannot be
+/// read. Reads the report alone.
+int useful_ranks_of_run(const std::string& folder);
+/// Of a surface that is to be meshed in `parts` (0: as it follows), told from the size of its file; at least 1.
+int useful_ranks_of_surface(const std::string& file, std::int32_t parts);
+
+}  // namespace kerf
