@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -275,6 +276,63 @@ TEST(Layers, ShowEveryStageOfAContourThatMeetsItself) {
     EXPECT_GT(stages.hanging_edges_removed.size(), stages.closed_loops.size());
     EXPECT_NE(stages.closed_loops, stages.multiple_paths_removed);
     expect_numbers_of_the_cuts(driver);
+}
+
+// Lines along the edges of triangles of a few pixels fade, so that a fine mesh is as bright as without them.
+TEST(Edges, OfTinyTrianglesFade) {
+    const TemporaryFolder folder;
+    Driver::Options options;
+    options.width = 320;
+    options.height = 240;
+    options.auto_run = false;
+    Driver driver(options);
+    driver.show_panels(false);
+    const auto darkening = [&](int n) {
+        const Soup body = box(Vec3::Zero(), Vec3::Ones(), {n, n, n});
+        write_off(folder.file("box.off"), body.vertices, body.facets);
+        driver.open(folder.file("box.off"));
+        const auto brightness = [&](bool edges) {
+            driver.state().edges = edges;
+            driver.settle();
+            const Image picture = driver.picture();
+            return std::accumulate(picture.rgb.begin(), picture.rgb.end(), 0.0) /
+                   static_cast<double>(picture.rgb.size());
+        };
+        return 1 - brightness(true) / brightness(false);
+    };
+    EXPECT_GT(darkening(8), 0.005) << "edges of 15 pixels are seen";
+    EXPECT_LT(darkening(48), 1e-4) << "those of 3 are not";
+}
+
+// The camera looks along the normal, and what is left fits: half of a long body is seen larger than the whole.
+TEST(Clip, IsLookedAt) {
+    const TemporaryFolder folder;
+    const Soup body = box({0, 0, 0}, {8, 2, 1}, {8, 2, 1});
+    write_off(folder.file("box.off"), body.vertices, body.facets);
+    Driver::Options options;
+    options.auto_run = false;
+    Driver driver(options);
+    driver.show_panels(false);
+    driver.open(folder.file("box.off"));
+    ViewState state;
+    state.context = false;
+    const auto camera = [&](const Vec3& normal, double position, bool flipped, bool faces_clip) {
+        state.clip = {true, ClipStyle::smooth, normal, position, flipped};
+        driver.app().show(state, {.faces_clip = faces_clip});
+        driver.settle();
+        return driver.app().camera();
+    };
+    EXPECT_NEAR((camera(Vec3::UnitX(), 0.5, false, true).back() - Vec3::UnitX()).norm(), 0, 1e-12);
+    EXPECT_NEAR((camera(Vec3::UnitX(), 0.5, true, true).back() + Vec3::UnitX()).norm(), 0, 1e-12);
+    EXPECT_NEAR((driver.app().scene().left.min() - Vec3(4, 0, 0)).norm(), 0, 1e-12);
+    EXPECT_NEAR((driver.app().scene().left.max() - Vec3(8, 2, 1)).norm(), 0, 1e-12);
+    // From the side, across the long axis, a quarter of the body alone is to fit.
+    const double whole = camera(Vec3::UnitZ(), 0.5, false, true).height;
+    const Vec3 oblique = Vec3(1, 0, 0.2).normalized();
+    const Camera cut = camera(oblique, 0.25, false, true);
+    EXPECT_LT(cut.height, 0.6 * whole);
+    EXPECT_NEAR(cut.target.x(), driver.app().scene().left.center().x(), 1e-12);
+    EXPECT_EQ(camera(oblique, 0.25, false, false).back(), camera(oblique, 0.25, true, false).back()) << "the corner";
 }
 
 TEST(Layers, GoingBackMakesNothingAgain) {

@@ -53,6 +53,48 @@ TEST(Screenshot, OfASurfaceARunAndATraceShowTheSameCut) {
               0);
 }
 
+// A folder of kerf decompose has no cells: its parts are shown, coloured and pulled apart unless somebody wants
+// something else.
+TEST(Screenshot, OfDecomposedPartsPullsThemApart) {
+    const std::string run = folder().file("decomposed");
+    ASSERT_EQ(run_kerf({"decompose", asset_path("cylinder"), "-o", run, "-n", "4", "-q"}).exit_code, 0);
+    const auto picture = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), run);
+        const ChildResult result = screenshot(more);
+        EXPECT_EQ(result.exit_code, 0) << result.log;
+        return read_png(folder().file("a.png"));
+    };
+    const view::Image usual = picture({});
+    EXPECT_EQ(usual.rgb, picture({"--stage", "parts", "--explode", "0.4"}).rgb);
+    EXPECT_EQ(usual.rgb, picture({"--color", "part", "--explode", "0.4"}).rgb);
+    const view::Image together = picture({"--explode", "0"});
+    EXPECT_EQ(together.rgb, picture({"--stage", "parts"}).rgb);
+    EXPECT_GT(compare(usual, together).differing, 20 * most_differing);
+    EXPECT_GT(compare(together, picture({"--stage", "input"})).differing, 20 * most_differing) << "parts have colours";
+    const ChildResult cells = screenshot({run, "--color", "min-dihedral"});
+    EXPECT_EQ(cells.exit_code, 2);
+    EXPECT_NE(cells.log.find("kerf mesh makes them"), std::string::npos) << cells.log;
+}
+
+// Without a camera of its own a cut is looked at, as large as the picture allows.
+TEST(Screenshot, LooksAtTheClipPlane) {
+    const auto picture = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {asset_path("cylinder"), "--no-legend"});
+        const ChildResult result = screenshot(more);
+        EXPECT_EQ(result.exit_code, 0) << result.log;
+        return read_png(folder().file("a.png"));
+    };
+    std::ofstream(folder().file("from_left.json")) << R"({"back": [-1, 0, 0], "up": [0, 0, 1], "height": 100})";
+    std::ofstream(folder().file("state.json")) << R"({"clip": {"on": true, "position": 0.5, "flipped": true}})";
+    const view::Image faced = picture({"--clip", "-x=0.5"});
+    EXPECT_GT(compare(faced, picture({"--state", folder().file("state.json"), "--no-legend"})).differing,
+              20 * most_differing)
+        << "seen from the corner";
+    const view::Image by_hand =
+        picture({"--clip", "-x=0.5", "--camera", folder().file("from_left.json"), "--no-legend"});
+    EXPECT_GT(compare(faced, by_hand).differing, 20 * most_differing) << "a camera that is given wins";
+}
+
 // Pictures before and after remeshing, each by one command.
 TEST(Screenshot, ShowsTheSurfaceBeforeAndAfterRemeshing) {
     const std::string prism = folder().file("prism.stl");

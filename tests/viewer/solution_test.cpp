@@ -1,4 +1,6 @@
 // Solutions in the viewer: what is opened, what is drawn, what is said of a place.
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -13,6 +15,7 @@
 #include "viewer/model/solution.h"
 #include "viewer/scene/selection.h"
 #include "viewer/scene/shapes.h"
+#include "viewer/words_on_screen.h"
 
 namespace kerf::test {
 namespace {
@@ -153,6 +156,45 @@ TEST_F(SolvedCube, IsolinesAreWhereTheirValuesAre) {
     state.isolines = false;
     driver_->settle();
     EXPECT_EQ(driver_->drawn("isolines").segments, 0);
+}
+
+// Colours end where nearly all values do; the legend says how far they go.
+TEST_F(SolvedCube, ColoursSpanMostOfTheStresses) {
+    const auto legend = [&](ColorBy color) {
+        driver_->state().color = color;
+        driver_->settle();
+        return driver_->app().scene().legend;
+    };
+    const auto is_said = [&](const std::string& text) {
+        const std::vector<std::string> words = words_on_screen();
+        return std::find(words.begin(), words.end(), text) != words.end();
+    };
+    std::vector<double> values;
+    const Legend von_mises = legend(ColorBy::von_mises);
+    for_corners([&](const Vec3&, float value) { values.push_back(value); });
+    const auto share_up_to = [&](double limit) {
+        return static_cast<double>(std::count_if(values.begin(), values.end(), [&](double v) { return v <= limit; })) /
+               static_cast<double>(values.size());
+    };
+    EXPECT_GE(share_up_to(von_mises.values->high), 0.99);
+    EXPECT_LT(share_up_to(von_mises.values->high - 1e-9), 0.99);
+    EXPECT_EQ(von_mises.percentile, 99);
+    EXPECT_EQ(von_mises.values->low, 0);
+    EXPECT_EQ(von_mises.extremes->high, 1);
+    EXPECT_TRUE(is_said("Colours span 99 % of the values drawn"));
+    EXPECT_TRUE(is_said("largest 1"));
+    EXPECT_TRUE(is_said("least 0"));
+    driver_->state().percentile = 75;
+    EXPECT_LT(legend(ColorBy::stress_xx).values->high, 0.9) << "at both ends";
+    EXPECT_GT(legend(ColorBy::stress_xx).values->low, 0.1);
+    driver_->state().percentile = 100;
+    EXPECT_EQ(legend(ColorBy::von_mises).values->high, 1);
+    EXPECT_EQ(legend(ColorBy::von_mises).percentile, 100);
+    driver_->state().percentile = 99;
+    EXPECT_EQ(legend(ColorBy::displacement).values->high, 1) << "it is smooth";
+    driver_->state().color_range = ValueRange{0, 0.5};
+    EXPECT_EQ(legend(ColorBy::von_mises).extremes->high, 1) << "beyond a range that is given";
+    EXPECT_FALSE(is_said("Colours span 99 % of the values drawn"));
 }
 
 TEST_F(SolvedCube, TellsWhatIsAtAPlace) {

@@ -29,6 +29,8 @@ ViewState unusual_state() {
     s.camera = Camera{{1, 2, 3}, Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), 7, false};
     s.shading = Shading::smooth;
     s.edges = s.context = s.plane = s.axes = s.contour = s.surface = s.interfaces = s.legend = s.times = false;
+    s.numbers = false;
+    s.percentile = 95;
     s.features = s.neighbours = true;
     s.explode = 0.25;
     s.shrink = 0.125;
@@ -51,11 +53,11 @@ ViewState unusual_state() {
 // All fields: who adds one has to name it here, and to give it a value above.
 auto fields(const ViewState& s) {
     const auto& [node, step, camera, shading, edges, context, plane, axes, contour, features, surface, interfaces,
-                 explode, shrink, clip, color, color_range, filter, neighbours, isolines, load_case, deform, legend,
-                 times, hidden, isolated, pick, selection, theme, panels] = s;
+                 explode, shrink, clip, color, color_range, filter, neighbours, percentile, isolines, load_case, deform,
+                 legend, numbers, times, hidden, isolated, pick, selection, theme, panels] = s;
     return std::tie(node, step, camera, shading, edges, context, plane, axes, contour, features, surface, interfaces,
-                    explode, shrink, clip, color, color_range, filter, neighbours, isolines, load_case, deform, legend,
-                    times, hidden, isolated, pick, selection, theme, panels);
+                    explode, shrink, clip, color, color_range, filter, neighbours, percentile, isolines, load_case,
+                    deform, legend, numbers, times, hidden, isolated, pick, selection, theme, panels);
 }
 auto fields(const Camera& c) {
     const auto& [target, turn, height, perspective] = c;

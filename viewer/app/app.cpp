@@ -17,6 +17,8 @@ namespace kerf::view {
 
 namespace {
 
+constexpr double usual_explosion = 0.4;  // of parts that are nothing but surfaces
+
 constexpr double seconds_per_step = 0.8, seconds_of_notice = 6;
 constexpr float nearby_pixels = 6;  // how far the hand may tremble at a double click
 
@@ -99,13 +101,16 @@ void App::open(const std::string& path) {
     state_.theme = before.theme;
     state_.panels = before.panels;
     state_.shading = before.shading;
-    is_view_chosen_ = false;
+    chosen_ = {};
+    is_view_complete_ = false;
     await_document();
 }
 
-void App::show(const ViewState& state, bool is_chosen) {
+void App::show(const ViewState& state, const ChosenView& chosen) {
     state_ = state;
-    is_view_chosen_ = is_chosen;
+    chosen_ = chosen;
+    is_view_complete_ = false;
+    choose_view();
 }
 
 void App::await_document() {
@@ -242,14 +247,18 @@ void App::begin_auto_run() {
     session_.start_run(document.options, options_.volume);
 }
 
-// A solution is seen by its stress, unless somebody has chosen something else.
+// A solution is seen by its stress, and parts without cells pulled apart, unless somebody has chosen something else.
 void App::choose_view() {
     const Document& document = session_.document();
-    if (is_view_chosen_ || document.kind == Document::Kind::none) return;
-    is_view_chosen_ = true;
-    if (!document.solution) return;
-    state_.color = ColorBy::von_mises;
-    state_.step.stage = Stage::tetrahedra;
+    if (is_view_complete_ || document.kind == Document::Kind::none) return;
+    is_view_complete_ = true;
+    if (document.solution && !chosen_.color && !chosen_.stage) {
+        state_.color = ColorBy::von_mises;
+        state_.step.stage = Stage::tetrahedra;
+    }
+    if (!document.has_surfaces_alone() || chosen_.stage || is_of_cells(state_.color)) return;
+    state_.step = {Stage::parts, -1};
+    if (!chosen_.explode) state_.explode = usual_explosion;
 }
 
 void App::follow_session() {
@@ -282,8 +291,47 @@ void App::update_camera() {
         return;
     }
     camera_ = {};
+    const Clip& clip = state_.clip;
+    if (chosen_.faces_clip && clip.on && !built_.left.isEmpty()) {
+        look_from(camera_, clip.flipped ? Vec3(-clip.normal) : clip.normal);
+        fit_body(camera_, built_.left);
+        return;
+    }
     look_from(camera_, Direction::corner);
     fit_body(camera_, built_.box);
+}
+
+void App::project_scene() {
+    projection_ =
+        project(camera_, built_.frame, built_.box, static_cast<int>(area_.width), static_cast<int>(area_.height));
+    move_center(projection_, (2 * body_.x + body_.width - 2 * area_.x - area_.width) / std::max(area_.width, 1.f),
+                -(2 * body_.y + body_.height - 2 * area_.y - area_.height) / std::max(area_.height, 1.f));
+    projection_.x = static_cast<int>(area_.x);
+    projection_.y = size_.height - static_cast<int>(area_.y + area_.height);
+    projection_.pixel_ratio = size_.scale;
+    renderer_.resize(size_.width, size_.height);
+}
+
+// Of patches, where there is room for them on what is seen of their faces.
+void App::place_numbers() {
+    const auto has_numbers = [](const Layer& layer) { return layer.patch != nullptr; };
+    const std::vector<Layer>& layers = built_.scene.layers;
+    if (area_.width < 1 || area_.height < 1 || std::none_of(layers.begin(), layers.end(), has_numbers)) {
+        facts_.numbers.clear();
+        numbered_.reset();
+        return;
+    }
+    const NumberedView view{projection_.projection * projection_.view,
+                            {projection_.x, projection_.y, projection_.width, projection_.height},
+                            scenes_built_};
+    if (numbered_ == view) return;
+    numbered_ = view;
+    facts_.numbers.clear();
+    const float least_room = 0.7f * ImGui::GetFontSize();
+    for (const NumberPlace& place : renderer_.places_of_patches(built_.scene, projection_))
+        if (static_cast<float>(place.room) >= least_room)
+            facts_.numbers.push_back(
+                {place.number, static_cast<float>(place.x) + 0.5f, static_cast<float>(place.y) + 0.5f});
 }
 
 // Into what the legend leaves of the scene.
@@ -326,8 +374,11 @@ void App::build_scene() {
     session_changed_ = false;
     built_for_ = key;
     built_ = builder_.build(shown, session_);
+    ++scenes_built_;
     facts_.legend_title = built_.legend.title;
     facts_.values = built_.legend.values;
+    facts_.extremes = built_.legend.extremes;
+    facts_.percentile = built_.legend.percentile;
     facts_.categories = built_.legend.categories;
     facts_.scale = built_.legend.scale;
     facts_.selection = describe_selection(session_, state_.selection, state_.load_case);
@@ -396,6 +447,8 @@ void App::lay_out(bool panels) {
     play();
     build_scene();
     update_camera();
+    project_scene();
+    place_numbers();
     UiContext context{state_, session_, settings_, facts_, steps_, *this, widgets_, camera_};
     if (panels)
         ui_.draw(context, io.DisplaySize.x, io.DisplaySize.y);
@@ -406,15 +459,7 @@ void App::lay_out(bool panels) {
     steps_ = steps_of(session_.document(), shown_state().node);
     build_scene();
     update_camera();
-
-    projection_ =
-        project(camera_, built_.frame, built_.box, static_cast<int>(area_.width), static_cast<int>(area_.height));
-    move_center(projection_, (2 * body_.x + body_.width - 2 * area_.x - area_.width) / std::max(area_.width, 1.f),
-                -(2 * body_.y + body_.height - 2 * area_.y - area_.height) / std::max(area_.height, 1.f));
-    projection_.x = static_cast<int>(area_.x);
-    projection_.y = size_.height - static_cast<int>(area_.y + area_.height);
-    projection_.pixel_ratio = size_.scale;
-    renderer_.resize(size_.width, size_.height);
+    project_scene();
 }
 
 void App::paint() {

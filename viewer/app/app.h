@@ -2,6 +2,7 @@
 // the tests run the same one.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -38,6 +39,12 @@ struct AppOptions {
     RunOptions run;
 };
 
+/// What somebody has asked for of the view; the rest suits what is opened.
+struct ChosenView {
+    bool color = false, stage = false, explode = false;
+    bool faces_clip = false;  ///< without a camera the clip plane is looked at, and what it leaves fits
+};
+
 class App : private Actions {
  public:
     /// The context of `gl` is current, and an ImGuiOwner lives.
@@ -46,8 +53,7 @@ class App : private Actions {
 
     void open(const std::string& path) override;
     ViewState& state() { return state_; }
-    /// `is_chosen`: somebody wants to see it so; else what is opened may choose colours and stage that suit it.
-    void show(const ViewState& state, bool is_chosen);
+    void show(const ViewState& state, const ChosenView& chosen);
     Session& session() { return session_; }
     const Settings& settings() const { return settings_; }
 
@@ -102,12 +108,23 @@ class App : private Actions {
     void swap_runs() override;
     void complain(const std::string& text) override;
 
+    // Of a picture with numbers of patches: the matrix, the viewport, and which scene it is of.
+    struct NumberedView {
+        Eigen::Matrix4f matrix;
+        std::array<int, 4> viewport;
+        std::int64_t scene;
+
+        bool operator==(const NumberedView&) const = default;
+    };
+
     void lay_out(bool panels);
     void follow_session();
     void await_document();
     void begin_auto_run();
     void choose_view();
     void update_camera();
+    void project_scene();
+    void place_numbers();
     void fit_body(Camera& camera, const Eigen::AlignedBox3d& box) const;
     void take_keys();
     void take_key(const KeyEvent& event);
@@ -146,6 +163,8 @@ class App : private Actions {
     std::vector<Step> steps_;
     Camera camera_;
     Projection projection_;
+    std::optional<NumberedView> numbered_;  // what facts_.numbers are of
+    std::int64_t scenes_built_ = 0;
     Rectangle area_;  // of the scene
     Rectangle body_;  // what the legend leaves of it
 
@@ -154,7 +173,8 @@ class App : private Actions {
 
     std::string styled_for_;  // theme and scale
     std::string opened_;      // what auto_run has been decided for
-    bool is_view_chosen_ = false;
+    ChosenView chosen_;
+    bool is_view_complete_ = false;  // what nobody has chosen is
     bool quit_ = false, capture_ = false, dragging_ = false, pressed_in_scene_ = false;
     double notice_until_ = 0, played_until_ = 0;
     std::chrono::steady_clock::time_point last_frame_;

@@ -72,8 +72,9 @@ struct StateTexts {
     std::string state_file, camera_file, stage, color, clip_style, size, theme, surface, input_scale, config, deform;
     std::vector<NodeId> hidden;
     NodeId node = 0, isolated = 0;
-    double explode = -1, shrink = -1;
+    double explode = -1, shrink = -1, percentile = -1;
     bool features = false, smooth = false, no_edges = false, no_context = false, no_legend = false;
+    bool no_numbers = false;
     bool isolines = false;
     std::vector<double> filter, range;
 };
@@ -94,7 +95,7 @@ void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
         ->type_name("N");
     app.add_option("--stage", texts.stage,
                    fmt::format("{}, or try:0 for the first refused try. Default: input, or tetrahedra where they are "
-                               "coloured or moved.",
+                               "coloured or moved; of a folder of kerf decompose parts, pulled apart.",
                                names_of_stages()))
         ->type_name("STAGE")
         ->check(suggest(names_of_stages()));
@@ -110,6 +111,7 @@ void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
     app.add_flag("--no-edges", texts.no_edges, "Without the edges of triangles.");
     app.add_flag("--no-context", texts.no_context, "Without the rest of the body.");
     app.add_flag("--no-legend", texts.no_legend, "Without the legend.");
+    app.add_flag("--no-numbers", texts.no_numbers, "Without the numbers of patches on the faces coloured by them.");
     app.add_option("--theme", texts.theme, "Colours of the background and of all around.")
         ->type_name("")
         ->check(one_of("light,dark"));
@@ -121,8 +123,12 @@ void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
            "stress-xx, stress-yy, stress-zz, stress-xy, stress-yz or stress-xz.")
         ->type_name("NAME")
         ->check(suggest(names_of_colors()));
-    add_numbers(app, "--range", texts.range, 2, {}, "Values of the ends of the colours. Default: those shown.")
+    add_numbers(app, "--range", texts.range, 2, {},
+                "Values of the ends of the colours. Default: those shown; of stresses see --percentile.")
         ->type_name("LOW HIGH");
+    add_number(app, "--percentile", texts.percentile, {"60 to 100", least_percentile, 100},
+               "Colours of stresses span so many per cent of the values shown. Default 99; 100: all.")
+        ->type_name("P");
     app.add_flag("--isolines", texts.isolines, "With lines where displacements or stresses are alike.");
     app.add_option("--deform", texts.deform, "Draw the displacements of a solution so many times as long, or auto.")
         ->type_name("FACTOR|auto");
@@ -132,7 +138,8 @@ void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
         ->type_name("LOW HIGH");
     app.option_defaults()->group("Clipping and moving");
     app.add_option("--clip", command.clip,
-                   "Clip plane: x=0.3, -y=0.5 (other side), 1,1,0=0.4 (normal), node=5 (at its cut).")
+                   "Clip plane: x=0.3, -y=0.5 (other side), 1,1,0=0.4 (normal), node=5 (at its cut). Without a camera "
+                   "it is looked at.")
         ->type_name("PLANE");
     app.add_option("--clip-style", texts.clip_style, "cells (whole ones, default), smooth, or layer (at the plane).")
         ->type_name("")
@@ -191,7 +198,11 @@ void apply(const StateTexts& texts, ViewCommand& command) {
     else if (is_of_cells && texts.state_file.empty() && !is_seen_on_surfaces(texts.color))
         state.step.stage = Stage::tetrahedra;
     if (!texts.color.empty()) state.color = color_by_from_name(texts.color);
-    command.is_view_chosen = !texts.state_file.empty() || !texts.stage.empty() || !texts.color.empty();
+    const bool is_whole = !texts.state_file.empty();
+    command.chosen = {.color = is_whole || !texts.color.empty(),
+                      .stage = is_whole || !texts.stage.empty(),
+                      .explode = is_whole || texts.explode >= 0,
+                      .faces_clip = !command.clip.empty()};
     if (!texts.clip_style.empty()) state.clip.style = clip_style_from_name(texts.clip_style);
     if (!texts.filter.empty()) {
         state.filter = ValueRange{texts.filter[0], texts.filter[1]};
@@ -203,6 +214,7 @@ void apply(const StateTexts& texts, ViewCommand& command) {
         state.color_range = ValueRange{texts.range[0], texts.range[1]};
         if (!(texts.range[0] < texts.range[1])) throw Error(ErrorCode::usage, "--range needs LOW < HIGH.");
     }
+    if (texts.percentile >= 0) state.percentile = texts.percentile;
     if (texts.isolines) state.isolines = true;
     command.good_deformation = texts.deform == "auto";
     if (!texts.deform.empty() && !command.good_deformation && !read_number(texts.deform, state.deform))
@@ -216,6 +228,7 @@ void apply(const StateTexts& texts, ViewCommand& command) {
     if (texts.no_edges) state.edges = false;
     if (texts.no_context) state.context = false;
     if (texts.no_legend) state.legend = false;
+    if (texts.no_numbers) state.numbers = false;
     if (!texts.state_file.empty()) command.theme = state.theme;
     if (!texts.theme.empty()) command.theme = texts.theme == "dark" ? Theme::dark : Theme::light;
     state.theme = command.theme.value_or(state.theme);

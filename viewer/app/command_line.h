@@ -19,7 +19,7 @@ struct ViewCommand {
     bool panels = false;                      ///< the whole user interface in the screenshot
     bool auto_run = true;                     ///< a surface is cut and meshed once it is open
     ViewState state;
-    bool is_view_chosen = false;    ///< colours and stage of the state were asked for
+    ChosenView chosen;              ///< what of the state was asked for
     ViewOrigin origin;              ///< of the state, if it was read from a file
     std::optional<Theme> theme;     ///< if one was asked for
     std::string clip;               ///< as given: "x=0.3", "-z=0.5", "node=5", "1,1,0=0.4"

@@ -86,6 +86,11 @@ void check_wishes(const Document& document, const ViewState& state, bool with_pa
         if (!document.tree.find(node))
             refuse(document, fmt::format("The tree of {} has no node {}.", document.path, node));
     if (const char* why = why_without_values(document, state.color)) refuse(document, why);
+    if (document.has_surfaces_alone() && is_of_cells(state.color))
+        refuse(document,
+               fmt::format("{} is a folder of kerf decompose, whose parts have no cells to colour by {}. kerf "
+                           "mesh makes them.",
+                           document.path, name(state.color)));
     const std::vector<Step> steps = steps_of(document, state.node);
     if (steps[nearest_step(steps, state.step)] == state.step) return;
     std::vector<std::string> names;
@@ -113,7 +118,7 @@ void take_screenshot(const ViewCommand& command, const AppOptions& options) {
     app.open(command.input);
     wait_for_document(app, command, deadline);
     const Document& document = app.session().document();
-    app.show(command.state, command.is_view_chosen);
+    app.show(command.state, command.chosen);
     apply_document(command, document, static_cast<double>(command.width) / command.height, app.state());
     check_wishes(document, app.state(), command.panels);
     const FrameSize size = {.width = command.width * command.antialias,

@@ -41,7 +41,7 @@ void view_in_window(const ViewCommand& command, const AppOptions& options) {
     App app(window.gl(), options);
     if (!command.input.empty()) app.open(command.input);
     const Theme theme = app.state().theme;
-    app.show(command.state, command.is_view_chosen);
+    app.show(command.state, command.chosen);
     app.state().theme = command.theme.value_or(theme);
     bool is_applied = !depends_on_document(command);
     std::string title;

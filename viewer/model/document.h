@@ -116,7 +116,8 @@ struct Document {
     std::vector<std::string> notes;
     Progress progress;
 
-    bool has_problems() const;  ///< the surface cannot be meshed as it is, or could not be read
+    bool has_surfaces_alone() const;  ///< the folder is one of kerf decompose: its parts have no cells
+    bool has_problems() const;        ///< the surface cannot be meshed as it is, or could not be read
 };
 
 }  // namespace kerf::view

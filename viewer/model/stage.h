@@ -21,6 +21,7 @@ enum class Stage {
     triangulation,     ///< the section inside of it, in the plane
     interface,         ///< mapped back to the surface
     split,             ///< both halves
+    parts,             ///< the surfaces of the parts below the node, of a run that has not filled them
     tetrahedra,        ///< the parts below the node
 };
 inline constexpr int stage_count = static_cast<int>(Stage::tetrahedra) + 1;

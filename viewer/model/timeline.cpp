@@ -137,6 +137,14 @@ std::string describe_halves(const Document& document, NodeId node) {
                        grouped(above->facets));
 }
 
+std::string describe_parts(const Document& document, NodeId node) {
+    const std::vector<NodeId> parts = document.tree.parts_below(node);
+    std::int64_t facets = 0;
+    for (const NodeId part : parts) facets += document.tree.find(part)->facets;
+    return fmt::format("{} facets of {}, each with a closed surface.", grouped(facets),
+                       counted(std::ssize(parts), "part"));
+}
+
 std::string describe_tetrahedra(const Document& document, NodeId node) {
     std::int64_t tets = 0;
     std::size_t meshed = 0;
@@ -166,6 +174,7 @@ std::vector<Step> steps_of(const Document& document, NodeId node) {
         if (!document.folder.empty()) steps.push_back({Stage::split, -1});
     }
     if (is_meshed(document, node)) steps.push_back({Stage::tetrahedra, -1});
+    if (document.has_surfaces_alone() && row) steps.push_back({Stage::parts, -1});
     return steps;
 }
 
@@ -199,6 +208,8 @@ std::string describe_step(const Document& document, NodeId node, const Step& ste
             return cut ? describe_interface(*cut, document.tree.find(node)) : "";
         case Stage::split:
             return describe_halves(document, node);
+        case Stage::parts:
+            return describe_parts(document, node);
         case Stage::tetrahedra:
             return describe_tetrahedra(document, node);
         default:

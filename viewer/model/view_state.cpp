@@ -186,7 +186,8 @@ std::vector<std::pair<const char*, bool*>> switches(ViewState& s) {
             {"contour", &s.contour},       {"surface", &s.surface},
             {"interfaces", &s.interfaces}, {"legend", &s.legend},
             {"features", &s.features},     {"times", &s.times},
-            {"isolines", &s.isolines},     {"neighbours", &s.neighbours}};
+            {"isolines", &s.isolines},     {"neighbours", &s.neighbours},
+            {"numbers", &s.numbers}};
 }
 std::vector<std::pair<const char*, bool*>> switches(Panels& p) {
     return {{"tree", &p.tree},        {"display", &p.display},       {"timeline", &p.timeline},
@@ -315,6 +316,7 @@ std::string to_json(const ViewState& state, const ViewOrigin& origin) {
     json["color"] = name(state.color);
     if (state.color_range) json["color_range"] = write(*state.color_range);
     if (state.filter) json["filter"] = write(*state.filter);
+    json["percentile"] = state.percentile;
     json["load_case"] = state.load_case;
     json["deform"] = state.deform;
     json["hidden"] = state.hidden;
@@ -350,6 +352,13 @@ ViewState state_from_json(const std::string& text, const std::string& source, Vi
         {"color", [&](const OrderedJson& j) { s.color = color_by_from_name(j.get<std::string>()); }},
         {"color_range", [&](const OrderedJson& j) { s.color_range = range_from(j); }},
         {"filter", [&](const OrderedJson& j) { s.filter = range_from(j); }},
+        {"percentile",
+         [&](const OrderedJson& j) {
+             s.percentile = j.get<double>();
+             if (!(s.percentile >= least_percentile && s.percentile <= 100))
+                 throw Error(ErrorCode::usage, fmt::format("{}: 'percentile' is {}, but it must be in [{}, 100].",
+                                                           source, s.percentile, least_percentile));
+         }},
         {"load_case", [&](const OrderedJson& j) { s.load_case = std::max(0, j.get<int>()); }},
         {"deform", [&](const OrderedJson& j) { s.deform = j.get<double>(); }},
         {"hidden",

@@ -74,10 +74,15 @@ inline constexpr int color_by_count = static_cast<int>(ColorBy::stress_xz) + 1;
 constexpr bool is_measure(ColorBy color) { return color >= ColorBy::min_dihedral && color <= ColorBy::edge_length; }
 constexpr bool is_of_solution(ColorBy color) { return color >= ColorBy::error; }
 constexpr bool is_at_vertices(ColorBy color) { return color >= ColorBy::displacement; }
+constexpr bool is_stress(ColorBy color) { return color >= ColorBy::von_mises; }
 /// Cells are of few kinds, which the legend names.
 constexpr bool is_kind(ColorBy color) { return color == ColorBy::kind || color == ColorBy::origin; }
+/// Only cells have it.
+constexpr bool is_of_cells(ColorBy color) { return is_measure(color) || is_kind(color) || is_of_solution(color); }
 /// Has values on surfaces, those of parts included, and none in cells.
 constexpr bool is_of_surface(ColorBy color) { return color == ColorBy::deviation || color == ColorBy::size; }
+
+inline constexpr double least_percentile = 60;  ///< of ViewState::percentile
 
 enum class Theme { light, dark };
 
@@ -121,10 +126,14 @@ struct ViewState {
     std::optional<ValueRange> color_range;  ///< none: that of what is shown
     std::optional<ValueRange> filter;       ///< only cells with a value of `color` in it
     bool neighbours = false;                ///< of a selected cell: only it and the cells that share a vertex with it
-    bool isolines = false;                  ///< where values at vertices are alike
-    int load_case = 0;                      ///< of a solution, from 0
-    double deform = 0;                      ///< displacements of a solution are drawn so many times as long
+    /// Where nobody has given a range, colours of stresses span so many per cent of the values that are drawn: single
+    /// vertices at corners have far larger ones than all others.
+    double percentile = 99;
+    bool isolines = false;  ///< where values at vertices are alike
+    int load_case = 0;      ///< of a solution, from 0
+    double deform = 0;      ///< displacements of a solution are drawn so many times as long
     bool legend = true;
+    bool numbers = true;         ///< of patches, on the faces that are coloured by them
     bool times = true;           ///< seconds in the tree
     std::vector<NodeId> hidden;  ///< ascending; what lies below them is not shown
     std::optional<NodeId> isolated;

@@ -194,10 +194,14 @@ void draw_color(UiContext& context, Memory& memory) {
                                  (is_of_solution(state.color) && context.session.document().solution);
         if (needs_cells && context.session.document().folder.empty())
             show_wrapped("Needs tetrahedra, which only the folder of a run has.", palette(state.theme).warning);
+        else if (needs_cells && context.session.document().has_surfaces_alone())
+            show_wrapped("Needs tetrahedra: kerf mesh makes them.", palette(state.theme).warning);
         else if (needs_cells && state.step.stage != Stage::tetrahedra) {
             show_wrapped("Only tetrahedra have it.", palette(state.theme).dim);
             if (context.widgets.button("Show the tetrahedra")) context.state.step = {Stage::tetrahedra, -1};
         }
+        if (state.color == ColorBy::patch)
+            context.widgets.checkbox("Numbers on faces", &context.state.numbers, "The numbers of the patches");
         if (const char* missing = why_without_values(context.session.document(), state.color))
             show_wrapped(missing, palette(state.theme).dim);
         if (is_measure(state.color) || context.facts.values) draw_range(context, memory);

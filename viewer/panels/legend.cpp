@@ -74,6 +74,12 @@ class LegendBox {
         const float most_ticks = bar_height_ / (1.3f * ImGui::GetTextLineHeight());
         ticks_ = round_ticks(range_.low, range_.high, std::clamp(static_cast<int>(most_ticks), 2, 5));
         scale_height_ = bar_height_ + ImGui::GetTextLineHeight();  // room for the text of a tick at the very end
+        if (facts_.extremes) {
+            least_ = "least " + rounded(facts_.extremes->low);
+            largest_ = "largest " + rounded(facts_.extremes->high);
+            scale_height_ += 2 * ImGui::GetTextLineHeight();
+            width_ = std::max({width_, width_of(least_), width_of(largest_)});
+        }
         for (const double tick : ticks_) width_ = std::max(width_, 2 * em() + width_of(text_of(tick)));
     }
 
@@ -87,7 +93,8 @@ class LegendBox {
     }
 
     void draw_scale(const ImVec2& from) {
-        const float e = em(), bar = 1.1f * e, bottom = from.y + ImGui::GetTextLineHeight() / 2 + bar_height_;
+        const float e = em(), bar = 1.1f * e, above = facts_.extremes ? ImGui::GetTextLineHeight() : 0;
+        const float bottom = from.y + above + ImGui::GetTextLineHeight() / 2 + bar_height_;
         draw_bar({from.x, bottom - bar_height_}, bar);
         for (const double tick : ticks_) {
             const float y = bottom - height_of(tick);
@@ -95,6 +102,20 @@ class LegendBox {
             list_.AddLine({from.x + bar, y}, {from.x + bar + 0.35f * e, y}, packed(color));
             list_.AddText({from.x + bar + 0.6f * e, y - ImGui::GetTextLineHeight() / 2}, packed(color),
                           text_of(tick).c_str());
+        }
+        draw_extremes(from, bottom);
+    }
+
+    // Above and below the bar, each with a mark where its colour is.
+    void draw_extremes(const ImVec2& from, float bottom) {
+        if (!facts_.extremes) return;
+        const float half = 0.28f * em();
+        list_.AddText(from, packed(colors_.text), largest_.c_str());
+        list_.AddText({from.x, bottom + ImGui::GetTextLineHeight() / 2}, packed(colors_.text), least_.c_str());
+        for (const double value : {facts_.extremes->low, facts_.extremes->high}) {
+            const float y = bottom - height_of(value);
+            list_.AddTriangleFilled({from.x - 1.5f * half, y - half}, {from.x, y}, {from.x - 1.5f * half, y + half},
+                                    packed(colors_.text));
         }
     }
 
@@ -194,6 +215,7 @@ class LegendBox {
     std::optional<ValueRange> filter_;
     std::vector<double> ticks_;
     float bar_height_ = 0, scale_height_ = 0;
+    std::string least_, largest_;  // of the values that are drawn
     // Of the entries:
     std::size_t shown_ = 0, rows_ = 0;
     float column_width_ = 0;

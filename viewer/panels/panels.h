@@ -42,16 +42,25 @@ class Actions {
     virtual void complain(const std::string& text) = 0;
 };
 
+/// A number on a face: its middle, in ImGui's units of the window.
+struct FaceNumber {
+    std::int32_t number = 0;
+    float x = 0, y = 0;
+};
+
 /// What the scene knows that panels show.
 struct SceneFacts {
     std::string legend_title;               ///< empty: the legend explains what is there, not a colouring
     std::optional<ValueRange> values;       ///< of what is shown, by ViewState::color
+    std::optional<ValueRange> extremes;     ///< Legend::extremes
+    double percentile = 100;                ///< Legend::percentile
     std::vector<LegendEntry> categories;    ///< what else a legend explains: "part 8"
     std::vector<Color> scale;               ///< colours from low to high, of a legend with numbers
     std::string selection;                  ///< what is selected, as lines of text; empty: nothing
     std::int64_t triangles = 0, lines = 0;  ///< drawn
     std::string notice;                     ///< e.g. "saved as kerf-001.png"; shown for some seconds
     bool notice_is_error = false;           ///< then until the next click
+    std::vector<FaceNumber> numbers;        ///< of patches, to be drawn on them
     bool playing = false;
     bool pending = false;  ///< something that is to be shown is still being read
 };

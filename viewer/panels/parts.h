@@ -97,6 +97,8 @@ void draw_browser(UiContext& context, Memory& memory);
 void draw_keys(UiContext& context);
 void draw_welcome(UiContext& context, const Rectangle& scene);
 void draw_legend(UiContext& context, const Rectangle& scene);
+/// What the picture shows, at its upper left, in words for who does not know Kerf.
+void draw_caption(UiContext& context, const Rectangle& scene);
 void draw_gizmo(UiContext& context, const Rectangle& scene);
 /// Between panels and scene: to be dragged, or clicked twice to have the window's suggestion again.
 void draw_splitters(UiContext& context, const Layout& layout);

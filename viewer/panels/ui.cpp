@@ -69,34 +69,18 @@ void draw_right(UiContext& context, Memory& memory, const Layout& layout) {
     ImGui::End();
 }
 
-void draw_caption(UiContext& context, const Rectangle& scene) {
-    const Document& document = context.session.document();
-    const ViewState& state = context.state;
-    const Palette& colors = palette(state.theme);
-    std::vector<std::pair<std::string, ImVec4>> lines;
-    if (has_tree(document)) {
-        const std::size_t shown = context.steps.empty() ? 0 : nearest_step(context.steps, state.step);
-        const Step step = context.steps.empty() ? state.step : context.steps[shown];
-        lines.emplace_back(fmt::format("Node {} - {}", state.node, title(step)), colors.text);
-        if (step.refused_try >= 0) lines.emplace_back(describe_step(document, state.node, step), colors.bad);
-    } else {
-        lines.emplace_back(document.title, colors.text);
-    }
-    if (state.isolated) lines.emplace_back("only node " + std::to_string(*state.isolated), colors.dim);
-    if (!state.hidden.empty())
-        lines.emplace_back(number_of(static_cast<std::int64_t>(state.hidden.size()), "node") + " hidden", colors.dim);
-
+// In discs on the faces.
+void draw_numbers(const UiContext& context) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    const float e = em(), room = std::max(scene.width - 9 * e, 8 * e);
-    ImVec2 from = {scene.x + 1.2f * e, scene.y + e}, size = {0, 0};
-    for (const auto& [text, color] : lines) {
-        const ImVec2 extent = ImGui::CalcTextSize(text.c_str(), nullptr, false, room);
-        size = {std::max(size.x, extent.x), size.y + extent.y};
-    }
-    draw_backdrop(list, state.theme, from, {from.x + size.x, from.y + size.y});
-    for (const auto& [text, color] : lines) {
-        list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), from, packed(color), text.c_str(), nullptr, room);
-        from.y += ImGui::CalcTextSize(text.c_str(), nullptr, false, room).y;
+    const Palette& colors = palette(context.state.theme);
+    for (const FaceNumber& face : context.facts.numbers) {
+        const std::string text = std::to_string(face.number);
+        const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+        const ImVec2 from = {face.x - size.x / 2, face.y - size.y / 2};
+        const float radius = 0.55f * size.y;
+        list.AddRectFilled({from.x - radius / 2, from.y}, {from.x + size.x + radius / 2, from.y + size.y},
+                           packed(faded(colors.panel, 0.85f)), radius);
+        list.AddText(from, packed(colors.text), text.c_str());
     }
 }
 
@@ -143,6 +127,7 @@ void Ui::draw(UiContext& context, float width, float height) {
 
 void Ui::draw_overlays(UiContext& context, const Rectangle& scene) {
     if (!has_body(context.session.document())) return draw_welcome(context, scene);
+    draw_numbers(context);
     draw_caption(context, scene);
     draw_legend(context, scene);
     draw_gizmo(context, scene);

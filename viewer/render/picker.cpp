@@ -69,11 +69,13 @@ Projection narrow_to_pixel(const Projection& projection, int x, int y) {
     return pixel;
 }
 
-std::optional<PickHit> Picker::pick(const Scene& scene, const Projection& projection, int x, int y,
-                                    GpuGeometryCache& cache, TrianglePainter& triangles, StrokePainter& strokes) {
-    const Projection pixel = narrow_to_pixel(projection, x, y);
+// What the shaders write for each pixel: layer + 1, primitive, range, 0.
+std::vector<GLuint> Picker::draw(const Scene& scene, const Projection& projection, GpuGeometryCache& cache,
+                                 TrianglePainter& triangles, StrokePainter& strokes) {
+    if (target_.width() != projection.width || target_.height() != projection.height)
+        target_ = Framebuffer(gl_, GL_RGBA32UI, projection.width, projection.height);
     target_.bind();
-    gl_.Viewport(0, 0, 1, 1);
+    gl_.Viewport(0, 0, projection.width, projection.height);
     constexpr GLuint nothing[4] = {};
     constexpr GLfloat far = 1;
     gl_.ClearBufferuiv(GL_COLOR, 0, nothing);
@@ -83,17 +85,39 @@ std::optional<PickHit> Picker::pick(const Scene& scene, const Projection& projec
         const Layer& layer = scene.layers[i];
         if (!layer.geometry || layer.opacity < 1 || layer.backs_only) continue;
         const std::uint32_t id = is_pickable(layer) ? static_cast<std::uint32_t>(i) + 1 : 0;
-        const PaintJob job = {layer, cache.get(layer.geometry), scene, pixel};
+        const PaintJob job = {layer, cache.get(layer.geometry), scene, projection};
         if (!layer.geometry->corners.empty())
             triangles.draw_ids(job, id);
         else if (id != 0 && !layer.geometry->points.empty())
             strokes.draw_ids(job, id);
     }
     gl_.Disable(GL_DEPTH_TEST);
-    GLuint id[4] = {};  // as the shaders write it: layer, primitive, range
-    gl_.ReadPixels(0, 0, 1, 1, GL_RGBA_INTEGER, GL_UNSIGNED_INT, id);
+    std::vector<GLuint> ids(4 * static_cast<std::size_t>(projection.width) *
+                            static_cast<std::size_t>(projection.height));
+    gl_.ReadPixels(0, 0, projection.width, projection.height, GL_RGBA_INTEGER, GL_UNSIGNED_INT, ids.data());
+    return ids;
+}
+
+std::optional<PickHit> Picker::pick(const Scene& scene, const Projection& projection, int x, int y,
+                                    GpuGeometryCache& cache, TrianglePainter& triangles, StrokePainter& strokes) {
+    const Projection pixel = narrow_to_pixel(projection, x, y);
+    const std::vector<GLuint> id = draw(scene, pixel, cache, triangles, strokes);
     if (id[0] == 0) return std::nullopt;
     return describe(scene.layers[id[0] - 1], id[1], id[2], pixel);
+}
+
+std::vector<std::int32_t> Picker::patches(const Scene& scene, const Projection& projection, GpuGeometryCache& cache,
+                                          TrianglePainter& triangles, StrokePainter& strokes) {
+    Projection whole = projection;
+    whole.x = whole.y = 0;
+    const std::vector<GLuint> ids = draw(scene, whole, cache, triangles, strokes);
+    std::vector<std::int32_t> patches;
+    patches.reserve(ids.size() / 4);
+    for (std::size_t i = 0; i < ids.size(); i += 4) {
+        const Layer* layer = ids[i] > 0 ? &scene.layers[ids[i] - 1] : nullptr;
+        patches.push_back(layer && layer->patch ? (*layer->patch)[ids[i + 1]] : -1);
+    }
+    return patches;
 }
 
 }  // namespace kerf::view

@@ -1,8 +1,10 @@
-// Finds what lies under a pixel by drawing numbers instead of colours, only around that pixel.
+// Finds what lies under a pixel, or under each of them, by drawing numbers instead of colours.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "viewer/model/camera.h"
 #include "viewer/render/framebuffer.h"
@@ -26,7 +28,15 @@ class Picker {
     std::optional<PickHit> pick(const Scene& scene, const Projection& projection, int x, int y, GpuGeometryCache& cache,
                                 TrianglePainter& triangles, StrokePainter& strokes);
 
+    /// The number in Layer::patch of what is seen at each pixel of the viewport, or -1; rows from the bottom to the
+    /// top. Leaves another framebuffer bound.
+    std::vector<std::int32_t> patches(const Scene& scene, const Projection& projection, GpuGeometryCache& cache,
+                                      TrianglePainter& triangles, StrokePainter& strokes);
+
  private:
+    std::vector<GLuint> draw(const Scene& scene, const Projection& projection, GpuGeometryCache& cache,
+                             TrianglePainter& triangles, StrokePainter& strokes);
+
     const Gl& gl_;
     Framebuffer target_;
 };

@@ -96,6 +96,7 @@ class Renderer::Impl {
     }
 
     std::optional<PickHit> pick(const Scene& scene, const Projection& projection, int x, int y);
+    std::vector<NumberPlace> places_of_patches(const Scene& scene, const Projection& projection);
     const std::vector<DrawnLayer>& drawn() const { return drawn_; }
     Image read();
     void present();
@@ -207,6 +208,18 @@ std::optional<PickHit> Renderer::Impl::pick(const Scene& scene, const Projection
     return hit;
 }
 
+std::vector<NumberPlace> Renderer::Impl::places_of_patches(const Scene& scene, const Projection& projection) {
+    if (projection.width < 1 || projection.height < 1) return {};
+    const std::vector<std::int32_t> patches = picker_.patches(scene, projection, cache_, triangles_, strokes_);
+    std::vector<NumberPlace> places = widest_places(patches, projection.width, projection.height);
+    for (NumberPlace& place : places) {
+        place.x += projection.x;
+        place.y = target_.height() - 1 - projection.y - place.y;
+    }
+    check_in_debug(gl_, "numbers of patches");
+    return places;
+}
+
 Image Renderer::Impl::read() {
     Image image{target_.width(), target_.height(), {}};
     const std::size_t row = 3 * static_cast<std::size_t>(image.width);
@@ -246,6 +259,9 @@ void Renderer::draw(const Scene& scene, const Projection& projection) { impl_->d
 void Renderer::draw_ui(const ImDrawData& ui, ImFontAtlas& fonts) { impl_->draw_ui(ui, fonts); }
 std::optional<PickHit> Renderer::pick(const Scene& scene, const Projection& projection, int x, int y) {
     return impl_->pick(scene, projection, x, y);
+}
+std::vector<NumberPlace> Renderer::places_of_patches(const Scene& scene, const Projection& projection) {
+    return impl_->places_of_patches(scene, projection);
 }
 const std::vector<DrawnLayer>& Renderer::drawn() const { return impl_->drawn(); }
 Image Renderer::read() { return impl_->read(); }

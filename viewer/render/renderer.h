@@ -9,6 +9,7 @@
 
 #include "viewer/model/camera.h"
 #include "viewer/render/image.h"
+#include "viewer/render/widest_places.h"
 #include "viewer/scene/layer.h"
 
 struct ImDrawData;
@@ -60,6 +61,10 @@ class Renderer {
     /// The foremost pickable primitive at a pixel (from the top left), by an id buffer: exact, whatever is drawn over
     /// it. Layers that are not opaque are passed over. Draws only around the pixel.
     std::optional<PickHit> pick(const Scene& scene, const Projection& projection, int x, int y);
+
+    /// Where each patch that is seen (Layer::patch) has most room for its number, in pixels from the top left. Draws
+    /// the scene once more.
+    std::vector<NumberPlace> places_of_patches(const Scene& scene, const Projection& projection);
 
     /// What the last draw() drew, in the order of its layers.
     const std::vector<DrawnLayer>& drawn() const;

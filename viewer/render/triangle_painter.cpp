@@ -11,7 +11,7 @@ namespace kerf::view {
 namespace {
 
 // Heights of triangles in pixels: edges are not drawn below the first, and fully the second above it.
-constexpr float least_height = 2.5f, height_span = 11.5f;
+constexpr float least_height = 3, height_span = 11;
 constexpr int scale_steps = 1024;  // finer than 8 bits of colour show
 
 int key_of(Fill fill, bool edges, bool smooth) { return 4 * static_cast<int>(fill) + 2 * edges + smooth; }

@@ -86,6 +86,8 @@ struct Layer {
     /// Every range is the whole boundary of a body, facing outwards: who is outside sees no backs. The renderer then
     /// draws none unless the plane or the eye cuts the body open, which is up to twice as fast.
     bool closed = false;
+    /// Per triangle of the geometry, the number of its patch; -1: none. Null: they are not to be read on the faces.
+    std::shared_ptr<const std::vector<std::int32_t>> patch = nullptr;
     /// Of an opaque layer only what is seen from its back is drawn: a ground behind other things that covers none of
     /// them. Not picked.
     bool backs_only = false;

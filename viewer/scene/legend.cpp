@@ -1,6 +1,7 @@
 // What colours mean in a scene.
 #include "viewer/scene/scene_build.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -78,18 +79,44 @@ void SceneBuild::set_range(const ValueRange& range) {
     built_.legend.scale = built_.scene.scale.colors;
 }
 
-// Of a run under way nobody knows the distribution of the values yet, of surfaces nobody ever does.
-void SceneBuild::set_range_of_values() {
-    if (!shows_values() || built_.legend.values) return;
-    ValueRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+template <class Visit>
+void SceneBuild::for_drawn_values(Visit visit) const {
     for (const Layer& layer : built_.scene.layers) {
         if (layer.fill != Fill::scale) continue;
-        for (const Corner& corner : layer.geometry->corners) {
-            if (!std::isfinite(corner.value)) continue;
-            range.low = std::min(range.low, double{corner.value});
-            range.high = std::max(range.high, double{corner.value});
-        }
+        for (const Corner& corner : layer.geometry->corners)
+            if (std::isfinite(corner.value)) visit(double{corner.value});
     }
+}
+
+// Of a stress that has a sign, at both ends. All values where most of them are the same.
+ValueRange SceneBuild::range_of_most_values(const ValueRange& all) {
+    if (state_.percentile >= 100) return all;
+    std::vector<double> values;
+    for_drawn_values([&](double value) { values.push_back(value); });
+    const auto quantile = [&](double share) {
+        const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+        std::nth_element(values.begin(), values.begin() + at, values.end());
+        return values[static_cast<std::size_t>(at)];
+    };
+    const double share = state_.percentile / 100;
+    const ValueRange most{state_.color == ColorBy::von_mises ? all.low : quantile(1 - share), quantile(share)};
+    if (!(most.low < most.high)) return all;
+    built_.legend.percentile = state_.percentile;
+    return most;
+}
+
+// Of a run under way nobody knows the distribution of the values yet, of surfaces nobody ever does.
+void SceneBuild::set_range_of_values() {
+    const bool is_solution = is_of_solution(state_.color);
+    if (!shows_values() || (built_.legend.values && !is_solution)) return;
+    ValueRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for_drawn_values([&](double value) {
+        range.low = std::min(range.low, value);
+        range.high = std::max(range.high, value);
+    });
+    if (is_solution && range.low <= range.high) built_.legend.extremes = range;
+    if (built_.legend.values) return;
+    if (is_stress(state_.color) && range.low < range.high) range = range_of_most_values(range);
     if (state_.color == ColorBy::deviation && range.high >= 0)
         range = {0, std::max(range.high, rounding_share * document_.box.diagonal().norm())};
     if (range.low == range.high) range = {0, range.high > 0 ? 2 * range.high : 1};  // the same everywhere
@@ -173,7 +200,9 @@ void SceneBuild::explain_patches() {
     const std::set<int> drawn = drawn_categories();
     for (std::size_t i = 0; i < document_.patch_names.size(); ++i) {
         const float value = i < palette_of_patch_.size() ? palette_of_patch_[i] : static_cast<float>(i);
-        if (drawn.contains(static_cast<int>(value))) explain(document_.patch_names[i], patch_color(i));
+        const std::string& name = document_.patch_names[i];
+        if (drawn.contains(static_cast<int>(value)))
+            explain(numbers_patches() ? fmt::format("{}: {}", i, name) : name, patch_color(i));
     }
     if (drawn.contains(-1))
         explain(step_.stage == Stage::tetrahedra ? "interface or inside" : "interface", colors_.none);
@@ -195,7 +224,8 @@ void SceneBuild::explain_parts() {
 // What the colours of cells and facets stand for, where they stand for few things.
 void SceneBuild::explain_coloring() {
     if (state_.color == ColorBy::patch) return explain_patches();
-    if (step_.stage != Stage::tetrahedra || shows_values()) return;
+    if (!shows_parts() || shows_values()) return;
+    if (is_kind(state_.color) && step_.stage == Stage::parts) return;  // cells have it
     if (state_.color == ColorBy::kind) {
         const std::set<int> drawn = drawn_categories();
         if (drawn.contains(0)) explain("inner cells", category_color(0));
@@ -226,8 +256,7 @@ void SceneBuild::explain_interfaces() {
 }
 
 void SceneBuild::set_legend() {
-    if (step_.stage == Stage::tetrahedra || state_.color == ColorBy::patch || built_.legend.values)
-        built_.legend.title = legend_title();
+    if (shows_parts() || state_.color == ColorBy::patch || built_.legend.values) built_.legend.title = legend_title();
     explain_coloring();
     for (const NodeId half : {2 * state_.node, 2 * state_.node + 1})
         explain_layer(fmt::format("half {}", half), fmt::format("node {}", half), half_color(half));

@@ -67,7 +67,7 @@ void SceneBuild::add_part(NodeId part) {
         if (middle - half > 0 || (state_.clip.style == ClipStyle::layer && middle + half < 0)) return;
         by_cells |= middle + half > 0;
     }
-    extend(box, offset);
+    extend_by_facets(moved.empty() ? surface->vertices : moved, surface->facets, offset);
     if (by_cells && add_cells(part, *surface, offset)) return;
     if (by_cells) built_.pending = true;
 
@@ -100,6 +100,43 @@ void SceneBuild::add_part(NodeId part) {
     if (values) layer.fill = fill_of_values();
     if (on_surface || shows_error || !at_vertices.empty()) layer.fill = Fill::scale;
     if (!patches.empty()) layer.fill = Fill::categories;
+    number_facets(layer, *surface);
+}
+
+// Of a run without cells.
+void SceneBuild::add_part_surfaces() {
+    for (const NodeId part : document_.tree.parts_below(state_.node)) {
+        if (!is_shown(part)) continue;
+        const auto surface = session_.part_surface(part);
+        built_.pending |= !surface;
+        const Color color = color_of(part);
+        const Vec3 offset = offset_of(part, state_.node);
+        if (surface && add_surface(fmt::format("part {}", part), surface, part, color, color, offset))
+            add_features(fmt::format("features {}", part), surface, part, offset);
+    }
+}
+
+// The values of a layer of cells are numbers of patches, unless these share few colours.
+void SceneBuild::number_cells(Layer& layer, const PartCells& cells, const NodeSurface& surface,
+                              const CellColors& colors) const {
+    if (!numbers_patches()) return;
+    std::shared_ptr<const Geometry> numbered = layer.geometry;
+    if (!palette_of_patch_.empty()) {
+        std::vector<float> numbers;
+        for (const std::int32_t patch : surface.patch)
+            numbers.push_back(patch < 0 ? std::nanf("") : static_cast<float>(patch));
+        const std::vector<std::array<float, 4>> of_faces = face_values(cells, surface, numbers);
+        CellChoice choice = colors.choice;
+        choice.face_value = of_faces;
+        numbered = cell_faces(cells, built_.frame, choice);
+    }
+    auto patches = std::make_shared<std::vector<std::int32_t>>();
+    patches->reserve(numbered->triangle_count());
+    for (std::size_t i = 0; i < numbered->corners.size(); i += 3) {
+        const float value = numbered->corners[i].value;
+        patches->push_back(std::isnan(value) ? -1 : static_cast<std::int32_t>(std::lround(value)));
+    }
+    layer.patch = std::move(patches);
 }
 
 // Interfaces of a part, which come last, are seen only where parts are apart.
@@ -175,6 +212,7 @@ Layer* SceneBuild::add_faces(const std::string& name, const std::string& chosen,
     layer.smooth = false;
     layer.fill = colors.fill;
     layer.clipped = side_ && state_.clip.style == ClipStyle::smooth;
+    number_cells(layer, cells, surface, colors);
     return &layer;
 }
 

@@ -81,6 +81,7 @@ class SceneBuild {
     void add_isolines();
     void add_tetrahedra(const std::shared_ptr<const NodeSurface>& surface);
     void add_parts();
+    void add_part_surfaces();
     void add_part(NodeId part);
     bool add_cells(NodeId part, const NodeSurface& surface, const Vec3& offset);
     bool find_cell_colors(const std::shared_ptr<const PartCells>& cells, const NodeSurface& surface,
@@ -95,6 +96,9 @@ class SceneBuild {
     void set_colors();
     void set_range(const ValueRange& range);
     void set_range_of_values();
+    template <class Visit>
+    void for_drawn_values(Visit visit) const;
+    ValueRange range_of_most_values(const ValueRange& all);
     void set_legend();
     std::string legend_title() const;
     std::vector<NodeId> drawn_parts() const;
@@ -111,6 +115,7 @@ class SceneBuild {
     bool is_shown(NodeId part) const {
         return !state_.is_hidden(part) && (!state_.isolated || lies_below(part, *state_.isolated));
     }
+    bool shows_parts() const { return step_.stage == Stage::parts || step_.stage == Stage::tetrahedra; }
     // Colours follow from numbers, for which there is a scale.
     bool shows_values() const {
         const bool is_of_cells = is_measure(state_.color) || (is_of_solution(state_.color) && document_.solution);
@@ -133,14 +138,25 @@ class SceneBuild {
         return (is_plain ? "plain" : name(state_.color)) + solution_key();
     }
     const char* shading_key() const { return state_.shading == Shading::smooth ? "smooth" : "flat"; }
+    // By a body of which nothing is cut away.
     void extend(Eigen::AlignedBox3d box, const Vec3& offset = Vec3::Zero()) {
         if (!box.isEmpty()) built_.box.extend(box.translate(offset));
+    }
+    // By the facets of one that the clip plane may cut.
+    void extend_by_facets(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, const Vec3& offset) {
+        extend(box_of(vertices), offset);
+        if (!side_) return;
+        Eigen::AlignedBox3d left = box_of_shown(vertices, facets, *side_, state_.clip.style);
+        if (!left.isEmpty()) built_.left.extend(left.translate(offset));
     }
     std::array<float, 3> move_of(const Vec3& offset) const {
         const Eigen::Vector3f move = (offset * built_.frame.scale).cast<float>();
         return {move.x(), move.y(), move.z()};
     }
     std::vector<float> patch_values(const NodeSurface& surface) const;
+    bool numbers_patches() const { return state_.numbers && state_.color == ColorBy::patch; }
+    void number_facets(Layer& layer, const NodeSurface& surface) const;
+    void number_cells(Layer& layer, const PartCells& cells, const NodeSurface& surface, const CellColors& colors) const;
     Color patch_color(std::size_t patch) const;
     void set_patch_palette();
     bool has_patch_colors() const {

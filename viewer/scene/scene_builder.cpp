@@ -122,12 +122,13 @@ Layer* SceneBuild::add_surface(const std::string& name, const std::shared_ptr<co
                                         values || !patches.empty() ? view::name(state_.color) : "plain");
     const std::shared_ptr<const void> source = values ? std::shared_ptr<const void>(values) : surface;
     auto geometry = cache_.get(key, source, [&] { return facet_triangles(*surface, built_.frame, choice); });
-    extend(box_of(surface->vertices), offset);
+    extend_by_facets(surface->vertices, surface->facets, offset);
     if (geometry->corners.empty()) return nullptr;
     Layer& layer = add(name, geometry, color, owner, offset);
     layer.clipped = !by_facets;
     if (!patches.empty()) layer.fill = Fill::categories;
     if (values) layer.fill = Fill::scale;
+    number_facets(layer, *surface);
     const auto& element = geometry->element;
     const auto first_interface =
         std::find_if(element.begin(), element.end(), [&](std::int32_t f) { return surface->is_interface(f); });
@@ -143,6 +144,16 @@ Layer* SceneBuild::add_surface(const std::string& name, const std::shared_ptr<co
     for (const Range& range : layer.ranges) shown += range.count;
     layer.closed = shown == surface->facets.size() && state_.shrink == 0 && is_outward(document_);
     return &layer;
+}
+
+// Patches by their numbers, where these are to be read on the faces.
+void SceneBuild::number_facets(Layer& layer, const NodeSurface& surface) const {
+    if (!numbers_patches() || surface.patch.empty()) return;
+    auto patches = std::make_shared<std::vector<std::int32_t>>();
+    patches->reserve(layer.geometry->element.size());
+    for (const std::int32_t facet : layer.geometry->element)
+        patches->push_back(surface.patch[static_cast<std::size_t>(facet)]);
+    layer.patch = std::move(patches);
 }
 
 // The surface of the node itself, and what its cut did to it.
@@ -249,6 +260,8 @@ BuiltScene SceneBuild::run() {
         add_file_surface();
     else if (step_.stage == Stage::tetrahedra)
         add_tetrahedra(surface);
+    else if (step_.stage == Stage::parts)
+        add_part_surfaces();
     else if (step_.stage == Stage::split)
         add_halves(surface.get());
     else if (surface)

@@ -17,6 +17,8 @@ namespace kerf::view {
 struct Legend {
     std::string title;                    ///< of a colouring; empty: what there is to see is explained
     std::optional<ValueRange> values;     ///< of a measure
+    std::optional<ValueRange> extremes;   ///< of a solution: the least and the largest value that is drawn
+    double percentile = 100;              ///< per cent of the drawn values that the colours span, where they span fewer
     std::vector<Color> scale;             ///< from its low to its high end
     std::vector<LegendEntry> categories;  ///< what else there is to explain, also beside a scale
 };
@@ -25,8 +27,9 @@ struct BuiltScene {
     Scene scene;
     Legend legend;
     Frame frame;
-    Eigen::AlignedBox3d box;  ///< of what is drawn, moved parts included; coordinates of the file
-    bool pending = false;     ///< something is still being fetched: build again when it has arrived
+    Eigen::AlignedBox3d box;   ///< of what is drawn, moved parts included; coordinates of the file
+    Eigen::AlignedBox3d left;  ///< of what the clip plane leaves of the body; empty without one
+    bool pending = false;      ///< something is still being fetched: build again when it has arrived
 };
 
 /// Layers by name, in the order of drawing:
@@ -42,8 +45,9 @@ struct BuiltScene {
 ///     refused, places, colliding, collided   a refused try's contour, where it failed, pairs of triangles that meet
 ///     triangulation, interface               the section in the plane, and on the surface
 ///     half N            of a split, by node
-///     part N, cells N, section N             of the tetrahedra: a part's boundary; its cells at the clip plane, by
-///                                            filter, shrunk or around another; their smooth sections
+///     part N, cells N, section N             of the tetrahedra: a part's boundary, which is all there is of parts
+///                                            without cells; its cells at the clip plane, by filter, shrunk or around
+///                                            another; their smooth sections
 ///     isolines of NAME                       of the layer NAME
 ///     wall N                                 behind shrunk cells
 ///     selected cell                          where it is seen only through others, which are translucent then

@@ -392,4 +392,18 @@ Eigen::AlignedBox3d box_of(const std::vector<Vec3>& vertices) {
     return box;
 }
 
+Eigen::AlignedBox3d box_of_shown(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+                                 const ShownSide& side, ClipStyle style) {
+    Eigen::AlignedBox3d box;
+    for (const Triangle& t : facets)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 &a = vertices[static_cast<std::size_t>(t[k])],
+                       &b = vertices[static_cast<std::size_t>(t[(k + 1) % 3])];
+            const double da = side.distance(a), db = side.distance(b);
+            if (da <= 0 && style != ClipStyle::layer) box.extend(a);
+            if ((da < 0) != (db < 0) && da != db) box.extend(a + da / (da - db) * (b - a));
+        }
+    return box;
+}
+
 }  // namespace kerf::view

@@ -83,5 +83,8 @@ std::shared_ptr<Geometry> plane_rectangle(const Plane& plane, const Eigen::Align
 std::shared_ptr<Geometry> plane_outline(const Plane& plane, const Eigen::AlignedBox3d& box, const Frame& frame);
 
 Eigen::AlignedBox3d box_of(const std::vector<Vec3>& vertices);
+/// Of what a clip plane leaves of a closed surface and of what is in it: of a layer, of the section alone. O(#F).
+Eigen::AlignedBox3d box_of_shown(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+                                 const ShownSide& side, ClipStyle style);
 
 }  // namespace kerf::view

@@ -1,0 +1,173 @@
+// What the picture shows, in words for who does not know Kerf: what there is, how much of it, and what is left out.
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "core/number_text.h"
+#include "core/words.h"
+#include "viewer/panels/parts.h"
+
+namespace kerf::view {
+
+namespace {
+
+struct CaptionLine {
+    std::string text;
+    ImVec4 color;
+};
+
+std::string counted(std::int64_t n, const char* noun) {
+    return fmt::format("{} {}{}", grouped(n), noun, n == 1 ? "" : "s");
+}
+
+std::string beginning_small(std::string text) {
+    const bool is_word = text.size() > 1 && std::islower(static_cast<unsigned char>(text[1])) != 0;
+    if (is_word) text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+    return text;
+}
+
+std::string body_of(const Document& document, NodeId node) {
+    if (node == 1) return "Whole body";
+    const TreeRow* row = document.tree.find(node);
+    return fmt::format("{} {}", row && row->leaf() ? "Part" : "Piece", node);
+}
+
+// Of the parts of a node: how many there are and are shown, filled ones, and what these hold.
+struct Content {
+    std::int64_t parts = 0, shown = 0, filled = 0, tets = 0, facets = 0;
+};
+
+Content content_of(const Document& document, const ViewState& state) {
+    Content content;
+    for (const NodeId part : document.tree.parts_below(state.node)) {
+        const TreeRow& row = *document.tree.find(part);
+        ++content.parts;
+        if (state.is_hidden(part) || (state.isolated && !lies_below(part, *state.isolated))) continue;
+        ++content.shown;
+        content.filled += row.tets > 0 ? 1 : 0;
+        content.tets += std::max<std::int64_t>(row.tets, 0);
+        content.facets += std::max<std::int64_t>(row.facets, 0);
+    }
+    return content;
+}
+
+// `told`: parts that are meant.
+std::string in_parts(const std::string& body, const Content& content, std::int64_t told) {
+    if (told < content.parts) return fmt::format("{}, {} of {}", body, told, counted(content.parts, "part"));
+    return content.parts == 1 ? body : fmt::format("{} in {}", body, counted(content.parts, "part"));
+}
+
+std::string heading(const Document& document, const ViewState& state, const Step& step) {
+    const std::string body = body_of(document, state.node);
+    const Content content = content_of(document, state);
+    const TreeRow* row = document.tree.find(state.node);
+    if (step.refused_try < 0) switch (step.stage) {
+            case Stage::before_remeshing:
+                return body + ": surface of the file, before remeshing";
+            case Stage::input:
+                return body + (row && row->facets > 0 ? ": surface of " + counted(row->facets, "facet") : ": surface");
+            case Stage::split:
+                return body + ", cut in two";
+            case Stage::parts:
+                return in_parts(body, content, content.shown) + ": surfaces of " + counted(content.facets, "facet");
+            case Stage::tetrahedra:
+                return in_parts(body, content, content.filled) + ": " +
+                       (content.tets == 1 ? "1 tetrahedron" : grouped(content.tets) + " tetrahedra");
+            default:
+                break;
+        }
+    return fmt::format("Cut of {}{}: {}", state.node == 1 ? "the " : "", beginning_small(body),
+                       step.refused_try < 0 ? in_words(name(step.stage)) : beginning_small(title(step)));
+}
+
+// Where an axis of the file is the normal, with the place in its units.
+std::string clip_text(const Clip& clip, const Eigen::AlignedBox3d& box) {
+    const ValueRange range = extent_along(box, clip.normal);
+    const double place = range.low + clip.position * (range.high - range.low);
+    std::string plane = "a plane";
+    for (int axis = 0; axis < 3; ++axis)
+        if (std::abs(std::abs(clip.normal[axis]) - 1) < 1e-9)
+            plane = fmt::format("{} = {}", "xyz"[axis], rounded(clip.normal[axis] * place + 0.0));
+    return fmt::format("{} {}", clip.style == ClipStyle::layer ? "Only the layer at" : "Cut open at", plane);
+}
+
+std::string size_text(const Eigen::AlignedBox3d& box) {
+    const Vec3 size = box.sizes();
+    return fmt::format("Body: {} x {} x {} in units of the file", rounded(size.x()), rounded(size.y()),
+                       rounded(size.z()));
+}
+
+// In lines that are no wider, broken between words alone: ImGui breaks numbers at their commas.
+std::string broken(const std::string& text, float width) {
+    std::string all, line, word;
+    std::istringstream words(text);
+    while (words >> word) {
+        const std::string longer = line.empty() ? word : line + " " + word;
+        if (line.empty() || width_of(longer) <= width) {
+            line = longer;
+            continue;
+        }
+        all += line + "\n";
+        line = word;
+    }
+    return all + line;
+}
+
+// As far as there is room of this width.
+std::vector<CaptionLine> caption_of(const UiContext& context, float room) {
+    const Document& document = context.session.document();
+    const ViewState& state = context.state;
+    const Palette& colors = palette(state.theme);
+    std::vector<CaptionLine> lines;
+    const auto add = [&](const std::string& text, const ImVec4& color) {
+        lines.push_back({broken(text, room), color});
+    };
+    if (has_tree(document)) {
+        const Step step = context.steps.empty() ? state.step : context.steps[nearest_step(context.steps, state.step)];
+        add(heading(document, state, step), colors.text);
+        if (step.refused_try >= 0) add(describe_step(document, state.node, step), colors.bad);
+    } else {
+        add(document.title, colors.text);
+    }
+    if (!document.box.isEmpty()) {
+        if (width_of(size_text(document.box)) <= room) add(size_text(document.box), colors.dim);
+        if (state.clip.on) add(clip_text(state.clip, document.box), colors.dim);
+    }
+    if (state.filter && is_measure(state.color))
+        add(fmt::format("Only cells with {} of {} to {}", beginning_small(title(state.color)),
+                        rounded(state.filter->low), rounded(state.filter->high)),
+            colors.dim);
+    if (is_of_solution(state.color) && document.solution)
+        add(fmt::format("{} in units of the case", title(state.color)), colors.dim);
+    if (context.facts.percentile < 100)
+        add(fmt::format("Colours span {:g} % of the values drawn", context.facts.percentile), colors.dim);
+    if (state.isolated) add("Only " + beginning_small(body_of(document, *state.isolated)), colors.dim);
+    std::vector<std::string> hidden;
+    for (const NodeId node : state.hidden) hidden.push_back(beginning_small(body_of(document, node)));
+    if (!hidden.empty()) add(fmt::format("Without {}", fmt::join(hidden, ", ")), colors.dim);
+    return lines;
+}
+
+}  // namespace
+
+void draw_caption(UiContext& context, const Rectangle& scene) {
+    const float e = em(), room = std::max(scene.width - 9 * e, 8 * e);
+    const std::vector<CaptionLine> lines = caption_of(context, room);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    ImVec2 from = {scene.x + 1.2f * e, scene.y + e}, size = {0, 0};
+    for (const CaptionLine& line : lines) {
+        const ImVec2 extent = ImGui::CalcTextSize(line.text.c_str());
+        size = {std::max(size.x, extent.x), size.y + extent.y};
+    }
+    draw_backdrop(list, context.state.theme, from, {from.x + size.x, from.y + size.y});
+    for (const CaptionLine& line : lines) {
+        list.AddText(from, packed(line.color), line.text.c_str());
+        from.y += ImGui::CalcTextSize(line.text.c_str()).y;
+    }
+}
+
+}  // namespace kerf::view
