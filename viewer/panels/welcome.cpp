@@ -12,7 +12,7 @@ constexpr std::size_t most_recent = 8;
 
 constexpr const char* what_can_be_opened[] = {
     "Surfaces: STL, OBJ, PLY, OFF, .msh, .mesh, .smesh, .poly, also .gz or .zst",
-    "CAD files: STEP, IGES, BREP; 3MF",
+    "CAD files: STEP, IGES, BREP",
     "Traces: what kerf mesh --trace FILE has written",
     "Runs: the folder of kerf mesh -o DIR, finished or under way",
     "Solutions: the folder of kerf solve -o DIR",
