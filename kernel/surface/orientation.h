@@ -35,8 +35,8 @@ struct ShellPlace {
 
 /// Places of the shells of `consistent`, in their order. Requires closed shells. `holes`: points in voids. The nesting
 /// depth is found by ray parity. O(#F log #F) plus, for every box in others, a question to that of the innermost shell
-/// around it and to those of smaller ones. Where shells meet, the places are those of no arrangement, but no error.
-/// Deterministic.
+/// around it and to those of smaller ones. Shells that meet get some place or other, but no
+/// error. Deterministic.
 std::vector<ShellPlace> locate_shells(const std::vector<Vec3>& vertices, const ConsistentFacets& consistent,
                                       const std::vector<Vec3>& holes = {});
 
