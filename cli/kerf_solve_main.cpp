@@ -4,6 +4,7 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <optional>
 
 #include <fmt/format.h>
 #include <mpi.h>
@@ -184,7 +185,8 @@ int run_solver(int argc, char** argv) {
         if (is_first_rank()) (line.exit_code == 0 ? print_data : tell)(line.output);
         return line.exit_code;
     }
-    if (const int wanted = is_launched() ? 1 : wanted_ranks(line); wanted > 1) become_ranks(wanted, argv);
+    if (const int wanted = is_launched() ? 1 : wanted_ranks(line); wanted > 1)
+        if (const std::optional<int> code = run_as_ranks(wanted, argv)) return *code;
     const Ranks ranks = join_ranks(MpiUse::always);
     const auto end_all = [&](ErrorCode code, const std::string& message) {
         tell(fmt::format("kerf: {}\n", message));

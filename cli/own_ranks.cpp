@@ -1,19 +1,43 @@
 #include "cli/own_ranks.h"
 
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "cli/ranks.h"
+#include "core/error.h"
 
 namespace kerf {
 
 namespace {
 
 constexpr const char* terminal_variable = "KERF_ON_TERMINAL";
+
+volatile std::sig_atomic_t launcher = 0;   // its process
+volatile std::sig_atomic_t cancelled = 0;  // how often the user has wished for the end
+
+// Whoever is in a hurry and asks again has mpirun end the ranks.
+void pass_on(int) {
+    cancelled = cancelled + 1;
+    if (launcher > 0) ::kill(launcher, cancelled > 1 ? SIGTERM : SIGUSR1);
+}
+
+std::string find_program(const std::string& name) {
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path ? path : "");
+    for (std::string folder; std::getline(folders, folder, ':');)
+        if (const std::string file = folder + "/" + name; ::access(file.c_str(), X_OK) == 0) return file;
+    return "";
+}
 
 // What Open MPI would refuse or add. Its mpirun runs nothing here but this program, which the user has started: as
 // root in most containers. On a machine whose processors are threads of fewer cores, ranks may share these. An exit
@@ -23,6 +47,23 @@ void permit_ranks() {
                              "OMPI_MCA_rmaps_base_oversubscribe", "OMPI_MCA_orte_execute_quiet"})
         ::setenv(name, "1", 0);
     ::setenv("OMPI_MCA_hwloc_base_binding_policy", "none", 0);
+    if (::isatty(STDERR_FILENO) == 1) ::setenv(terminal_variable, "1", 1);
+}
+
+// In a group of its own, so that the terminal's signals reach this process alone; it ends with this one.
+[[noreturn]] void become_launcher(std::vector<char*>& arguments) {
+    ::setpgid(0, 0);
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (const int nothing = ::open("/dev/null", O_RDONLY); nothing >= 0) ::dup2(nothing, STDIN_FILENO);
+    ::execv(arguments.front(), arguments.data());
+    ::_exit(static_cast<int>(ErrorCode::internal));
+}
+
+int exit_code_of(pid_t process) {
+    int status = 0;
+    while (::waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
+    if (cancelled) return static_cast<int>(ErrorCode::cancelled);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : static_cast<int>(ErrorCode::internal);
 }
 
 }  // namespace
@@ -33,16 +74,23 @@ bool is_launched() {
     return false;
 }
 
-void become_ranks(int ranks, char** argv) {
+std::optional<int> run_as_ranks(int ranks, char** argv) {
+    const std::string mpirun = find_program("mpirun");
+    if (mpirun.empty()) return std::nullopt;
     const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
-    std::vector<std::string> arguments = {"mpirun", "-n", std::to_string(ranks), program};
+    std::vector<std::string> arguments = {mpirun, "-n", std::to_string(ranks), program};
     for (char** argument = argv + 1; *argument; ++argument) arguments.emplace_back(*argument);
     std::vector<char*> pointers;
     for (std::string& argument : arguments) pointers.push_back(argument.data());
     pointers.push_back(nullptr);
     permit_ranks();
-    if (::isatty(STDERR_FILENO) == 1) ::setenv(terminal_variable, "1", 1);
-    ::execvp(pointers.front(), pointers.data());
+    const pid_t process = ::fork();
+    if (process < 0) return std::nullopt;
+    if (process == 0) become_launcher(pointers);
+    launcher = process;
+    std::signal(SIGINT, pass_on);
+    std::signal(SIGTERM, pass_on);
+    return exit_code_of(process);
 }
 
 bool is_error_on_terminal() {

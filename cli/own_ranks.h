@@ -1,16 +1,19 @@
-// A program that becomes ranks of itself without being started by mpirun.
+// A program that starts ranks of itself without being started by mpirun.
 #pragma once
+
+#include <optional>
 
 namespace kerf {
 
 /// Whether a launcher such as mpirun has started this process.
 bool is_launched();
 
-/// Replaces this process by `mpirun -n RANKS` of the same program with the same arguments. Returns where that is not
-/// possible: there is no mpirun on the PATH. Ranks of it are launched (is_launched()).
-void become_ranks(int ranks, char** argv);
+/// Runs `mpirun -n RANKS` of the same program with the same arguments and returns its exit code; that of a cancelled
+/// run if SIGINT or SIGTERM comes meanwhile, which the ranks are told as SIGUSR1, since mpirun itself would kill them.
+/// Nothing where there is no mpirun on the PATH. Ranks of it are launched (is_launched()).
+std::optional<int> run_as_ranks(int ranks, char** argv);
 
-/// Whether standard error ends on a terminal, through mpirun, too, if become_ranks() has started it.
+/// Whether standard error ends on a terminal, through mpirun, too, if run_as_ranks() has started it.
 bool is_error_on_terminal();
 
 }  // namespace kerf

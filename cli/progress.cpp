@@ -61,12 +61,14 @@ ProgressLine::ProgressLine(bool quiet, EventLog* events, bool shows_plan)
     stop_signal = 0;
     std::signal(SIGINT, note_signal);
     std::signal(SIGTERM, note_signal);
+    std::signal(SIGUSR1, note_signal);  // of own ranks
     std::signal(SIGALRM, end_now);
 }
 
 ProgressLine::~ProgressLine() {
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
+    std::signal(SIGUSR1, SIG_DFL);
     ::alarm(0);
     clear();
 }

@@ -9,7 +9,7 @@
 namespace kerf {
 
 /// One line with a bar that is rewritten on a terminal; a line per 10 % otherwise. Writes to standard error. While it
-/// lives, SIGINT and SIGTERM cancel the run.
+/// lives, SIGINT, SIGTERM and SIGUSR1 cancel the run.
 class ProgressLine : public RunListener {
  public:
     /// `events`, unless null, is told of everything, too. `shows_plan`: what is ahead is said before it begins.

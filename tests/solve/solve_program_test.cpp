@@ -1,6 +1,7 @@
 // kerf solve as a user starts it.
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -17,6 +18,7 @@
 #include "support/program.h"
 #include "support/shapes.h"
 #include "support/slice.h"
+#include "support/started_run.h"
 #include "support/temporary_folder.h"
 #include "support/write_off.h"
 
@@ -298,6 +300,21 @@ TEST_F(KerfSolve, StartsItsRanksAndTellsItsProgress) {
     EXPECT_EQ(useful_ranks_of_surface(own_.file("large.stl"), 0), 4);
     EXPECT_EQ(useful_ranks_of_surface(own_.file("large.stl"), 2), 2);
     EXPECT_EQ(useful_ranks_of_surface(test::asset_path("cube"), 8), 1);
+}
+
+TEST_F(KerfSolve, CancelledRanksOfItsOwnAreGone) {
+    const std::string text = std::string(steel) + three_planes + "[solver]\norder = 2";
+    test::StartedRun run(KERF_PROGRAM, {"solve", mesh(), "--case", write_case(text), "-o", out(), "--ranks", "2"});
+    std::vector<pid_t> ranks;
+    ASSERT_TRUE(test::await([&] {
+        ranks = test::descendants_of(run.process(), "kerf-solve");
+        return ranks.size() == 2;
+    }));
+    ASSERT_EQ(::kill(run.process(), SIGINT), 0);
+    const ChildResult result = run.wait();
+    EXPECT_EQ(result.exit_code, 130) << result.log;
+    for (const pid_t rank : ranks) EXPECT_TRUE(test::await([&] { return test::has_ended(rank); }));
+    EXPECT_FALSE(fs::exists(out()));
 }
 
 TEST_F(KerfSolve, RefusesMoreRanksThanParts) {
