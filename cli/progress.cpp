@@ -106,7 +106,7 @@ void ProgressLine::on_iteration(int iteration, double residual, double wanted) {
     last_tenth_ = tenth;
     last_seconds_ = seconds_of_stage();
     print(fmt::format("solve  {} iterations  {:.0f} %  residual {:.1e} of {:.1e}  ETA {}", iteration, 100 * done,
-                      residual, wanted, time_left(last_seconds_, done)));
+                      residual, wanted, time_left(done > 0 ? last_seconds_ * (1 - done) / done : -1)));
 }
 
 double ProgressLine::seconds_of_stage() const {

@@ -45,7 +45,7 @@ class ProblemMaker {
     const MeshOutline& outline_;
     const ElasticCase& wanted_;
     SurfaceSelector selector_;
-    Bodies bodies_;
+    NodeBodies bodies_;
     ElasticProblem problem_;
 };
 
@@ -244,7 +244,7 @@ ElasticProblem make_problem(const NodeSpace& space, const MeshOutline& outline, 
     return ProblemMaker(space, outline, wanted).make();
 }
 
-void require_supported(const ElasticProblem& problem, const Bodies& bodies) {
+void require_supported(const ElasticProblem& problem, const NodeBodies& bodies) {
     const NodeSpace& space = *problem.space;
     const auto count = static_cast<std::size_t>(bodies.count);
     const auto reduce = [&](std::vector<double>& sums, MPI_Op operation) {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "solve/bodies.h"
 #include "solve/elastic_case.h"
+#include "solve/node_bodies.h"
 #include "solve/node_space.h"
 #include "solve/surface_selection.h"
 
@@ -38,6 +38,6 @@ ElasticProblem make_problem(const NodeSpace& space, const MeshOutline& outline, 
 ElasticProblem make_free_problem(const NodeSpace& space, const Material& material);
 
 /// Throws Error(usage) naming the rigid motions of bodies that the supports do not prevent. Collective.
-void require_supported(const ElasticProblem& problem, const Bodies& bodies);
+void require_supported(const ElasticProblem& problem, const NodeBodies& bodies);
 
 }  // namespace kerf

@@ -249,7 +249,7 @@ TEST(Bodies, ACubeIsOne) {
 
 TEST(Supports, ThatLeaveMotionsAreRefusedWithTheirNames) {
     const auto space = space_on(MPI_COMM_WORLD, 1);
-    const Bodies bodies = find_bodies(*space);
+    const NodeBodies bodies = find_bodies(*space);
     const auto refusal = [&](auto holds) -> std::string {
         ElasticProblem problem = make_free_problem(*space, {"steel", 1, 0.3, 0});
         for (std::size_t n = 0; n < space->node_count(); ++n)

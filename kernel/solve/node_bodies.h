@@ -9,12 +9,12 @@
 namespace kerf {
 
 /// Bodies of all ranks, ascending by their smallest row.
-struct Bodies {
+struct NodeBodies {
     std::int32_t count = 0;
     std::vector<std::int32_t> of_node;  ///< of each local node, ghosts too
 };
 
 /// Cells that share a vertex are of one body. Collective; O(n), times the number of ranks that one body winds through.
-Bodies find_bodies(const NodeSpace& space);
+NodeBodies find_bodies(const NodeSpace& space);
 
 }  // namespace kerf

@@ -1,4 +1,4 @@
-#include "solve/bodies.h"
+#include "solve/node_bodies.h"
 
 #include <algorithm>
 #include <numeric>
@@ -31,7 +31,7 @@ class NodeSets {
 
 }  // namespace
 
-Bodies find_bodies(const NodeSpace& space) {
+NodeBodies find_bodies(const NodeSpace& space) {
     NodeSets sets(space.node_count());
     for_all_tets(space, [&](std::size_t p, std::size_t t) {
         const auto nodes = space.nodes_of(p, t);
@@ -66,7 +66,7 @@ Bodies find_bodies(const NodeSpace& space) {
     MPI_Allgatherv(labels.data(), own, MPI_INT64_T, all.data(), counts.data(), offsets.data(), MPI_INT64_T,
                    space.comm());
     std::sort(all.begin(), all.end());
-    Bodies bodies{static_cast<std::int32_t>(all.size()), std::vector<std::int32_t>(space.node_count())};
+    NodeBodies bodies{static_cast<std::int32_t>(all.size()), std::vector<std::int32_t>(space.node_count())};
     for (std::size_t n = 0; n < least.size(); ++n)
         bodies.of_node[n] = static_cast<std::int32_t>(std::lower_bound(all.begin(), all.end(), least[n]) - all.begin());
     return bodies;
