@@ -103,13 +103,10 @@ SolveLine parse_solve_line(int argc, const char* const* argv) {
         ->add_flag("--list-patches", line.list_patches, "Print name, area, centroid and normal of each patch, and end.")
         ->excludes(case_file)
         ->excludes(output);
-    solve
-        ->add_option(
-            "--ranks", line.ranks,
-            "Processes that solve, each on parts of its own, where mpirun has started none. Default: a processor "
-            "each, as far as parts and cells are enough for them; 1: this one alone.")
-        ->type_name("P")
-        ->check(CLI::Range(1, 4096));
+    add_number(*solve, "--ranks", line.ranks, {"a whole number, 1 to 4096", 1, 4096},
+               "Processes that solve, each on parts of its own, where mpirun has started none. Default: a processor "
+               "each, as far as parts and cells are enough for them; 1: this one alone.")
+        ->type_name("P");
     solve->add_flag("-q,--quiet", line.quiet, "Print errors alone.");
     RunOptions& mesh = line.request.mesh;
     add_run_options(*solve, mesh);

@@ -58,7 +58,7 @@ void check_outputs(const CommandLine& line, Communicator& ranks) {
 void merge_result(const CommandLine& line, const RunReport& report, Communicator& ranks) {
     in_agreement(ranks, [&] {
         if (ranks.rank() != 0) return;
-        merge_run({report.folder, line.merged_file, {}, true});
+        merge_run({.folder = report.folder, .output = line.merged_file, .options = {}, .quiet = true});
         std::error_code ignored;  // what stays is a whole run
         std::filesystem::remove_all(report.folder, ignored);
     });

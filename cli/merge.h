@@ -12,7 +12,7 @@ struct MergeRequest {
     std::string output;  ///< file, whose ending chooses the format
     MergeOptions options;
     bool msh_ascii = false;  ///< Gmsh's files as text
-    bool quiet = false;  ///< tell nothing
+    bool quiet = false;      ///< tell nothing
 };
 
 /// The format that merges a run into a file with the ending of this one; null if there is none, also for a folder's

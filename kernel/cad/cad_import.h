@@ -18,9 +18,9 @@ namespace kerf {
 /// two of them cross. Soup::notes says what was read, converted, sewn, divided or left out.
 ///
 /// Throws Error(input), in one sentence that names the file, the solids or faces and the way out, for a file that is
-/// damaged or cut off or holds no faces, as SolidDefect for solids that are open, intersect themselves, touch or overlap;
-/// Error(usage) for a solid that the file does not have. Deterministic. Seconds for 1000 faces. Not for several
-/// threads at once: OpenCASCADE has global settings.
+/// damaged or cut off or holds no faces, as SolidDefect for solids that are open, intersect themselves, touch or
+/// overlap; Error(usage) for a solid that the file does not have. Deterministic. Seconds for 1000 faces. Not for
+/// several threads at once: OpenCASCADE has global settings.
 CadBody import_cad(std::string_view content, const std::string& path, const CadOptions& options = {});
 
 /// Leaves out OpenCASCADE's own messages, which go to standard output else.

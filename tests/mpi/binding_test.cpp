@@ -35,7 +35,7 @@ class MpiBinding : public testing::Test {
 void expect_workers(const ChildResult& result, int ranks, int workers) {
     EXPECT_EQ(result.exit_code, 0) << result.log;
     const std::string words = std::to_string(ranks) + " rank" + (ranks == 1 ? "" : "s") + " x " +
-                              std::to_string(workers) + " worker" + (workers == 1 ? "," : "s,");
+                              std::to_string(workers) + " worker" + (workers == 1 ? "\n" : "s\n");
     EXPECT_NE(result.log.find(words), std::string::npos) << words << '\n' << result.log;
 }
 

@@ -95,6 +95,21 @@ TEST(Screenshot, LooksAtTheClipPlane) {
     EXPECT_GT(compare(faced, by_hand).differing, 20 * most_differing) << "a camera that is given wins";
 }
 
+// What a mesh has behind the plane is its cells, not the inner side of its surface.
+TEST(Screenshot, ShowsCellsWhereAMeshIsCutOpen) {
+    const std::string run = folder().file("cut_open");
+    ASSERT_EQ(run_kerf({"mesh", asset_path("cylinder"), "-o", run, "-n", "2", "-q"}).exit_code, 0);
+    const auto picture = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {run, "--clip", "x=0.5"});
+        const ChildResult result = screenshot(more);
+        EXPECT_EQ(result.exit_code, 0) << result.log;
+        return read_png(folder().file("a.png"));
+    };
+    const view::Image usual = picture({});
+    EXPECT_EQ(usual.rgb, picture({"--stage", "tetrahedra"}).rgb);
+    EXPECT_GT(compare(usual, picture({"--stage", "input"})).differing, 20 * most_differing);
+}
+
 // Pictures before and after remeshing, each by one command.
 TEST(Screenshot, ShowsTheSurfaceBeforeAndAfterRemeshing) {
     const std::string prism = folder().file("prism.stl");

@@ -11,6 +11,7 @@
 #include "viewer/app/keys.h"
 #include "viewer/app/settings.h"
 #include "viewer/model/file_kind.h"
+#include "viewer/model/timeline.h"
 #include "viewer/scene/selection.h"
 
 namespace kerf::view {
@@ -247,7 +248,8 @@ void App::begin_auto_run() {
     session_.start_run(document.options, options_.volume);
 }
 
-// A solution is seen by its stress, and parts without cells pulled apart, unless somebody has chosen something else.
+// A solution is seen by its stress, a mesh that is cut open by its cells, and parts without cells pulled apart, unless
+// somebody has chosen something else.
 void App::choose_view() {
     const Document& document = session_.document();
     if (is_view_complete_ || document.kind == Document::Kind::none) return;
@@ -256,6 +258,7 @@ void App::choose_view() {
         state_.color = ColorBy::von_mises;
         state_.step.stage = Stage::tetrahedra;
     }
+    if (chosen_.faces_clip && !chosen_.stage && has_cells(document, state_.node)) state_.step = {Stage::tetrahedra, -1};
     if (!document.has_surfaces_alone() || chosen_.stage || is_of_cells(state_.color)) return;
     state_.step = {Stage::parts, -1};
     if (!chosen_.explode) state_.explode = usual_explosion;

@@ -95,7 +95,7 @@ void add_scene_options(CLI::App& app, ViewCommand& command, StateTexts& texts) {
         ->type_name("N");
     app.add_option("--stage", texts.stage,
                    fmt::format("{}, or try:0 for the first refused try. Default: input, or tetrahedra where they are "
-                               "coloured or moved; of a folder of kerf decompose parts, pulled apart.",
+                               "coloured, moved or cut open; of a folder of kerf decompose parts, pulled apart.",
                                names_of_stages()))
         ->type_name("STAGE")
         ->check(suggest(names_of_stages()));

@@ -42,15 +42,6 @@ void add_cut(const Cut& cut, std::vector<Step>& steps) {
         if (has_edges(cut, static_cast<Stage>(i))) steps.push_back({static_cast<Stage>(i), -1});
 }
 
-bool is_meshed(const Document& document, NodeId node) {
-    if (document.folder.empty()) return false;
-    for (const NodeId part : document.tree.parts_below(node)) {
-        const TreeRow* row = document.tree.find(part);
-        if (row && row->state == NodeState::done && row->tets > 0) return true;
-    }
-    return false;
-}
-
 std::string counted(std::int64_t n, const char* noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
 
 // Planes are moved along their normal, which points into the half above.
@@ -161,6 +152,15 @@ std::string describe_tetrahedra(const Document& document, NodeId node) {
 
 }  // namespace
 
+bool has_cells(const Document& document, NodeId node) {
+    if (document.folder.empty()) return false;
+    for (const NodeId part : document.tree.parts_below(node)) {
+        const TreeRow* row = document.tree.find(part);
+        if (row && row->state == NodeState::done && row->tets > 0) return true;
+    }
+    return false;
+}
+
 std::vector<Step> steps_of(const Document& document, NodeId node) {
     std::vector<Step> steps;
     if (node == 1 && document.remeshed) steps.push_back({Stage::before_remeshing, -1});
@@ -173,7 +173,7 @@ std::vector<Step> steps_of(const Document& document, NodeId node) {
         steps.push_back({Stage::plane, -1});
         if (!document.folder.empty()) steps.push_back({Stage::split, -1});
     }
-    if (is_meshed(document, node)) steps.push_back({Stage::tetrahedra, -1});
+    if (has_cells(document, node)) steps.push_back({Stage::tetrahedra, -1});
     if (document.has_surfaces_alone() && row) steps.push_back({Stage::parts, -1});
     return steps;
 }

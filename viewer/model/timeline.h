@@ -9,6 +9,9 @@
 
 namespace kerf::view {
 
+/// Whether a part below the node has been meshed, and its cells can be shown.
+bool has_cells(const Document& document, NodeId node);
+
 /// The steps of a node that the document has data for, in order; refused tries come between input and plane. Never
 /// empty for a node that exists.
 std::vector<Step> steps_of(const Document& document, NodeId node);
