@@ -35,7 +35,7 @@ std::string find_program(const std::string& name) {
     const char* path = std::getenv("PATH");
     std::istringstream folders(path ? path : "");
     for (std::string folder; std::getline(folders, folder, ':');)
-        if (const std::string file = folder + "/" + name; ::access(file.c_str(), X_OK) == 0) return file;
+        if (const std::string file = folder.append("/").append(name); ::access(file.c_str(), X_OK) == 0) return file;
     return "";
 }
 

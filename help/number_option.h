@@ -16,11 +16,11 @@ inline std::string long_name(const std::string& names) { return names.substr(nam
 
 template <class Value>
 struct NumberOf {
-    using type = Value;
+    using Type = Value;
 };
 template <class Number>
 struct NumberOf<std::optional<Number>> {
-    using type = Number;
+    using Type = Number;
 };
 
 /// Adds an option whose value must be a number in the range; parsing throws Error(usage) for any other. `value`, a
@@ -31,7 +31,7 @@ CLI::Option* add_number(CLI::App& app, const std::string& names, Value& value, c
     return app.add_option_function<std::string>(
         names,
         [&value, range, name = long_name(names)](const std::string& text) {
-            value = parse_number<typename NumberOf<Value>::type>(name, text, range);
+            value = parse_number<typename NumberOf<Value>::Type>(name, text, range);
         },
         help);
 }

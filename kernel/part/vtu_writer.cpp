@@ -552,8 +552,8 @@ VtuLayout layout_of(const VtuHeader& header) {
     VtuLayout layout{{}, 4};
     for (std::size_t field = 0; field < cell_fields.size(); ++field)
         layout.fields[field] = header.find(cell_fields[field].array) != nullptr;
-    if (const VtuHeader::Array* part = header.find("Part"))
-        layout.tag_bytes = part->type == vtk_type<std::int8_t> ? 1 : part->type == vtk_type<std::int16_t> ? 2 : 4;
+    if (const VtuHeader::Array* tag = header.find("Part"))
+        layout.tag_bytes = tag->type == vtk_type<std::int8_t> ? 1 : tag->type == vtk_type<std::int16_t> ? 2 : 4;
     return layout;
 }
 

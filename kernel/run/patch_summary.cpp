@@ -52,11 +52,11 @@ std::string spellings_text(const std::vector<std::string>& patch_names) {
     for (std::size_t p = 0; p < patch_names.size(); ++p) {
         std::vector<std::pair<std::string, std::string>> words;  // and the formats that have them
         for (const auto& [format, names] : spelled) {
-            if (names[p] == patch_names[p]) continue;
-            const auto same =
-                std::find_if(words.begin(), words.end(), [&](const auto& w) { return w.first == names[p]; });
+            const std::string& name = names[p];
+            if (name == patch_names[p]) continue;
+            const auto same = std::find_if(words.begin(), words.end(), [&](const auto& w) { return w.first == name; });
             if (same == words.end())
-                words.emplace_back(names[p], format->name);
+                words.emplace_back(name, format->name);
             else
                 same->second += fmt::format(", {}", format->name);
         }

@@ -106,7 +106,7 @@ std::string broken(const std::string& text, float width) {
     std::string all, line, word;
     std::istringstream words(text);
     while (words >> word) {
-        const std::string longer = line.empty() ? word : line + " " + word;
+        const std::string longer = line.empty() ? word : fmt::format("{} {}", line, word);
         if (line.empty() || width_of(longer) <= width) {
             line = longer;
             continue;
