@@ -128,7 +128,7 @@ void take_screenshot(const ViewCommand& command, const AppOptions& options) {
         deadline.check();
         app.frame(size, command.panels);
     } while (!app.settled());
-    if (!app.session().failures().empty()) throw Error(ErrorCode::io, app.session().failures().back());
+    if (!app.session().failures().empty()) throw Error(ErrorCode::io, app.session().failures().front());
     write_png(command.output, averaged(app.picture(), command.antialias));
 }
 
