@@ -34,7 +34,7 @@ constexpr std::array<CopiedArray, 6> copied_arrays = {{{"PointData", "Int64", "G
                                                        {"CellData", "Int32", "Neighbour", 1, 4},
                                                        {"Points", "Float64", "Points", 3, 8}}};
 
-constexpr const char* begin_of_file =
+constexpr const char* file_head =
     "<?xml version=\"1.0\"?>\n"
     "<VTKFile type=\"{}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
 
@@ -128,7 +128,7 @@ class JoinedSurfaces {
     }
 
     std::string head(std::span<const JoinedArray> all) const {
-        std::string xml = fmt::format(begin_of_file, "UnstructuredGrid") + "<UnstructuredGrid>\n";
+        std::string xml = fmt::format(file_head, "UnstructuredGrid") + "<UnstructuredGrid>\n";
         std::int64_t offset = 0;
         for (std::size_t i = 0; i < all.size(); ++i) {
             const JoinedArray& array = all[i];
@@ -186,7 +186,7 @@ class JoinedSurfaces {
 }  // namespace
 
 std::string surfaces_pvtu_text(const std::vector<std::string>& pieces) {
-    std::string xml = fmt::format(begin_of_file, "PUnstructuredGrid") + "<PUnstructuredGrid GhostLevel=\"0\">\n";
+    std::string xml = fmt::format(file_head, "PUnstructuredGrid") + "<PUnstructuredGrid GhostLevel=\"0\">\n";
     for (std::size_t i = 0; i < copied_arrays.size(); ++i) {
         const CopiedArray& array = copied_arrays[i];
         const std::string_view section = array.section;
