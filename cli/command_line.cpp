@@ -200,6 +200,8 @@ void refuse_what_no_file_holds(const RunOptions& options, const Format& format, 
     if (!meshes) refuse("kerf decompose writes the surface of every part");
     if (options.stl) refuse("--stl writes the surface of every part");
     if (options.reference) refuse("--reference writes a comparison, too");
+    if (!options.fields.empty()) refuse("--fields are those of the files of parts");
+    if (!options.patch_types.empty()) refuse("--patch-type is for a case of OpenFOAM");
     if (!options.formats.empty() && options.formats != format.name)
         refuse(fmt::format("--format {} asks for other files", options.formats));
 }
@@ -236,6 +238,11 @@ RunOptions resumed_options(const CLI::App& command, CommandLine& line) {
     }
     options.dry_run = line.options.dry_run;
     line.merged_file = merged_file_of(options.output);
+    if (const Format* format = find_merged_format(line.merged_file)) {
+        RunOptions asked = line.options;
+        asked.output = line.merged_file;
+        refuse_what_no_file_holds(asked, *format, true);
+    }
     return options;
 }
 
@@ -326,6 +333,10 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     }
     if (mesh->parsed() || decompose->parsed()) {
         line.command = mesh->parsed() ? Command::mesh : Command::decompose;
+        if (!line.resume.empty() && is_complete_run(line.resume)) {
+            finish(line, {0, fmt::format("kerf: {} is complete: nothing waits to be done.\n", line.resume)});
+            return line;
+        }
         if (!line.resume.empty()) line.options = resumed_options(*mesh, line);
         line.options.volume = mesh->parsed();
         const CLI::Option* parts = (mesh->parsed() ? mesh : decompose)->get_option("--parts");

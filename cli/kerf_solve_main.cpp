@@ -133,7 +133,8 @@ int wanted_ranks(const SolveLine& line) {
     if (line.ranks > 0 || line.list_patches) return std::max(1, line.ranks);
     const int useful = line.meshes ? useful_ranks_of_surface(line.input, line.request.mesh.decompose.parts)
                                    : useful_ranks_of_run(line.input);
-    return std::min(useful, static_cast<int>(allowed_processors().size()));
+    const auto processors = static_cast<int>(allowed_processors().size());
+    return std::clamp(processors / std::max(1, line.request.mesh.workers), 1, std::max(1, useful));
 }
 
 int solve_on_ranks(const SolveLine& line, Communicator& ranks) {
@@ -191,6 +192,7 @@ int run_solver(int argc, char** argv) {
         return static_cast<int>(code);
     };
     try {
+        require_own_ranks(ranks.communicator->size());
         return line.meshes ? mesh_and_solve_on_ranks(line, ranks) : solve_on_ranks(line, *ranks.communicator);
     } catch (const PetscFailure& e) {
         return end_all(e.code(), e.what());

@@ -39,13 +39,22 @@ std::unique_ptr<EventLog> open_event_log(const CommandLine& line, Communicator& 
     return log;
 }
 
+// Where TetGen's .poly and .smesh may have their nodes; empty for other files.
+std::string node_file_of(const std::string& input) {
+    std::filesystem::path file = input;
+    const std::string ending = file.extension().string();
+    return ending == ".poly" || ending == ".smesh" ? file.replace_extension(".node").string() : "";
+}
+
 // Before the run: outputs that would be lost, or would take the place of what was read. Collective.
 void check_outputs(const CommandLine& line, Communicator& ranks) {
     in_agreement(ranks, [&] {
         if (ranks.rank() != 0) return;
         std::vector<NamedPath> outputs = line.options.output_files();
         if (!line.merged_file.empty()) {
-            refuse_to_overwrite(line.options.input, "--output", line.merged_file);
+            for (const std::string& read :
+                 {line.options.input, node_file_of(line.options.input), line.options.sizes.field_file})
+                refuse_to_overwrite(read, "--output", line.merged_file);
             check_merged_file({line.options.output, line.merged_file, {}, line.quiet});
             outputs.push_back({"--output", line.merged_file});
         }
@@ -58,7 +67,12 @@ void check_outputs(const CommandLine& line, Communicator& ranks) {
 void merge_result(const CommandLine& line, const RunReport& report, Communicator& ranks) {
     in_agreement(ranks, [&] {
         if (ranks.rank() != 0) return;
-        merge_run({.folder = report.folder, .output = line.merged_file, .options = {}, .quiet = true});
+        try {
+            merge_run({.folder = report.folder, .output = line.merged_file, .options = {}, .quiet = true});
+        } catch (const Error& e) {
+            throw Error(e.code(), fmt::format("{} The mesh is whole in {}; kerf merge {} -o {} writes it.", e.what(),
+                                              report.folder, shell_word(report.folder), shell_word(line.merged_file)));
+        }
         std::error_code ignored;  // what stays is a whole run
         std::filesystem::remove_all(report.folder, ignored);
     });
@@ -118,8 +132,8 @@ int run_on_ranks(const CommandLine& line, const Ranks& ranks, std::unique_ptr<Ev
     if (root && !line.quiet) tell_result(line, report);
     if (root) tell_failed_parts(report);
     if (root && !line.merged_file.empty() && !is_merged)
-        tell(fmt::format("kerf: {} is not written. When all parts are there, kerf merge {} -o {} does it.\n",
-                         line.merged_file, shell_word(report.folder), shell_word(line.merged_file)));
+        tell(fmt::format("kerf: {} is not written. kerf mesh --resume {} does that when all parts are there.\n",
+                         line.merged_file, shell_word(line.merged_file)));
     return report.exit_code;
 }
 
@@ -152,6 +166,9 @@ int run_program(int argc, char** argv) {
         if (is_first_rank()) print_data(line.config);
         return 0;
     }
+    const bool is_of_ranks =
+        line.command == Command::mesh || line.command == Command::decompose || line.command == Command::export_formats;
+    if (!is_of_ranks && !is_first_rank()) return 0;  // one is enough
     switch (line.command) {
         case Command::check:
             return check_surface(line.check);

@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "cli/ranks.h"
 #include "core/error.h"
 
@@ -21,6 +23,7 @@ namespace kerf {
 namespace {
 
 constexpr const char* terminal_variable = "KERF_ON_TERMINAL";
+constexpr const char* ranks_variable = "KERF_OWN_RANKS";  // how many this program has asked for
 
 volatile std::sig_atomic_t launcher = 0;   // its process
 volatile std::sig_atomic_t cancelled = 0;  // how often the user has wished for the end
@@ -51,9 +54,10 @@ void permit_ranks() {
 }
 
 // In a group of its own, so that the terminal's signals reach this process alone; it ends with this one.
-[[noreturn]] void become_launcher(std::vector<char*>& arguments) {
+[[noreturn]] void become_launcher(std::vector<char*>& arguments, pid_t parent) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (::getppid() != parent) ::_exit(static_cast<int>(ErrorCode::cancelled));
     if (const int nothing = ::open("/dev/null", O_RDONLY); nothing >= 0) ::dup2(nothing, STDIN_FILENO);
     ::execv(arguments.front(), arguments.data());
     ::_exit(static_cast<int>(ErrorCode::internal));
@@ -61,7 +65,9 @@ void permit_ranks() {
 
 int exit_code_of(pid_t process) {
     int status = 0;
-    while (::waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
+    pid_t ended = 0;
+    while ((ended = ::waitpid(process, &status, 0)) < 0 && errno == EINTR) continue;
+    if (ended != process) return static_cast<int>(ErrorCode::internal);
     if (cancelled) return static_cast<int>(ErrorCode::cancelled);
     return WIFEXITED(status) ? WEXITSTATUS(status) : static_cast<int>(ErrorCode::internal);
 }
@@ -69,9 +75,18 @@ int exit_code_of(pid_t process) {
 }  // namespace
 
 bool is_launched() {
-    for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"})
+    for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", ranks_variable})
         if (std::getenv(name)) return true;
     return false;
+}
+
+void require_own_ranks(int size) {
+    const char* wanted = std::getenv(ranks_variable);
+    if (!wanted || wanted == std::to_string(size)) return;
+    throw Error(ErrorCode::io,
+                fmt::format("{} was to start {} ranks, but they are {}: it may belong to another MPI than "
+                            "this program. Use --ranks 1, or start the program by its own mpirun.",
+                            find_program("mpirun"), wanted, size));
 }
 
 std::optional<int> run_as_ranks(int ranks, char** argv) {
@@ -84,9 +99,13 @@ std::optional<int> run_as_ranks(int ranks, char** argv) {
     for (std::string& argument : arguments) pointers.push_back(argument.data());
     pointers.push_back(nullptr);
     permit_ranks();
+    std::signal(SIGCHLD, SIG_DFL);  // else nobody would learn how mpirun has ended
+    const pid_t parent = ::getpid();
+    ::setenv(ranks_variable, std::to_string(ranks).c_str(), 1);
     const pid_t process = ::fork();
+    if (process == 0) become_launcher(pointers, parent);
+    ::unsetenv(ranks_variable);
     if (process < 0) return std::nullopt;
-    if (process == 0) become_launcher(pointers);
     launcher = process;
     std::signal(SIGINT, pass_on);
     std::signal(SIGTERM, pass_on);

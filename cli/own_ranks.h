@@ -13,6 +13,10 @@ bool is_launched();
 /// Nothing where there is no mpirun on the PATH. Ranks of it are launched (is_launched()).
 std::optional<int> run_as_ranks(int ranks, char** argv);
 
+/// Throws Error(io), naming mpirun and the way out, if run_as_ranks() has asked for another number of ranks than there
+/// are: an mpirun of another MPI starts as many processes, none of which knows of the others.
+void require_own_ranks(int size);
+
 /// Whether standard error ends on a terminal, through mpirun, too, if run_as_ranks() has started it.
 bool is_error_on_terminal();
 

@@ -36,7 +36,7 @@ int verify_run(const std::string& folder, const VerifyOptions& options) {
     else
         text += fmt::format(
             "The laws of the mesh hold, but it was not compared with the input: {}\n"
-            "Say where that is with --input FILE, or do without it by --without-input.\n",
+            "If it lies elsewhere now, name it: --input FILE. --without-input does without.\n",
             found.not_compared);
     print_data(text);
     if (!laws.passed) return static_cast<int>(ErrorCode::verification);

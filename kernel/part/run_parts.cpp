@@ -42,7 +42,8 @@ MeshOutline read_outline(const std::string& folder) {
     for (const PartExtent& part : outline.parts)
         if (part.tets == 0)
             throw Error(ErrorCode::io,
-                        fmt::format("Part {} of {} has no tetrahedra. Finish the run with kerf mesh --resume {}.",
+                        fmt::format("Part {} of {} has no tetrahedra: kerf decompose makes none, and a run of kerf "
+                                    "mesh that has not ended goes on by kerf mesh --resume {}.",
                                     part.id, folder, folder));
     return outline;
 }

@@ -109,6 +109,7 @@ double sized_volume_of(const Input& input, const RunOptions& options) {
 // Remeshing takes longer than to see that its result could not be filled.
 void check_budget_before_remeshing(const Input& input, RunOptions options, int ranks) {
     if (options.dry_run || !is_remeshed(input, options)) return;
+    options.sizes.growth = 0;  // from edges that are to change
     use_sizes_on(input, options);
     const double volume = sized_volume_of(input, options), facets = forecast_remeshed_facets(input, options);
     if (options.decompose.parts == 0)
@@ -407,6 +408,8 @@ RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input&
     const Stopwatch whole;
     // Hosts may differ, but the defaults of K and workers must not.
     for (const int cores : all_gather(ranks, cores_of_rank)) cores_of_rank = std::min(cores_of_rank, cores);
+    const std::vector<std::string> hosts = all_gather(ranks, host_name());
+    const auto ranks_here = static_cast<int>(std::count(hosts.begin(), hosts.end(), host_name()));
     std::string worker_hash;
     in_agreement(ranks, [&] {
         options.resolve(cores_of_rank);
@@ -420,7 +423,7 @@ RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input&
         if (ranks.rank() == 0) check_budget_before_remeshing(input, options, ranks.size());
     });
     in_agreement(ranks, [&] {
-        input = remesh_where_asked(std::move(input), options, listener);
+        input = remesh_where_asked(std::move(input), options, listener, ranks_here);
         use_sizes_on(input, options);
         require_patches(parse_patch_types(options.patch_types), input.patch_names);
         if (ranks.rank() != 0) return;

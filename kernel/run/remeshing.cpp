@@ -67,8 +67,9 @@ RemeshOptions remesh_options(const Input& input, const SurfaceArrays& surface, c
     return result;
 }
 
-void check_memory(const SurfaceArrays& surface, const RemeshOptions& options, bool have_one_size) {
-    const double facets = forecast_facets(surface, options), most = most_memory_bytes() / bytes_per_facet;
+void check_memory(const SurfaceArrays& surface, const RemeshOptions& options, bool have_one_size, int processes) {
+    const double facets = forecast_facets(surface, options);
+    const double most = most_memory_bytes(processes) / bytes_per_facet;
     if (facets <= most) return;
     // A twentieth more than what there is memory for, so that it stays enough when it is rounded.
     const std::string way_out =
@@ -131,7 +132,7 @@ double forecast_remeshed_facets(const Input& input, const RunOptions& options) {
     return forecast_facets(surface, remesh_options(input, surface, options));
 }
 
-Input remesh_where_asked(Input input, const RunOptions& options, RunListener* listener) {
+Input remesh_where_asked(Input input, const RunOptions& options, RunListener* listener, int processes) {
     const SurfaceArrays before = input.surface.arrays();
     if (!is_remeshed(input, options)) {
         const std::string note = sliver_note(find_slivers(before.vertices, before.facets), input.path);
@@ -143,7 +144,7 @@ Input remesh_where_asked(Input input, const RunOptions& options, RunListener* li
             "A CAD file has no triangles of its own: they are remeshed. --surface split keeps those "
             "of OpenCASCADE.");
     RemeshOptions wanted = remesh_options(input, before, options);
-    check_memory(before, wanted, !options.sizes.depends_on_place());
+    check_memory(before, wanted, !options.sizes.depends_on_place(), processes);
     if (listener) {
         wanted.poll = [listener, steps = std::size_t{0}]() mutable { tell_step(*listener, steps++); };
         wanted.poll();

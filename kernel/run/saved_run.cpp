@@ -50,12 +50,16 @@ void save_run(const std::string& path, const RunOptions& options, const std::str
     write_durable_file(path, json.dump(2) + "\n");
 }
 
+bool is_complete_run(const std::string& folder) {
+    const std::string output = RunFolder::result_of(folder);
+    std::error_code ignored;
+    return !std::filesystem::exists(RunFolder::saved_run_file(output), ignored) && inspect_run_folder(output).is_valid;
+}
+
 RunOptions load_interrupted_run(const std::string& folder) {
     const std::string output = RunFolder::result_of(folder);
     const std::string file = RunFolder::saved_run_file(output);
     std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored) && inspect_run_folder(output).is_valid)
-        throw Error(ErrorCode::io, fmt::format("{} is complete: nothing waits to be done.", output));
     if (!std::filesystem::exists(file, ignored))
         throw Error(ErrorCode::io, fmt::format("No interrupted run waits for {}: {} does not exist. Start one with "
                                                "kerf mesh INPUT -o {}.",

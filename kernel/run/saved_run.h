@@ -10,6 +10,9 @@ namespace kerf {
 /// Writes input, options and K of a run; `input_hash`: of the bytes of the input. Durable. Throws Error(io).
 void save_run(const std::string& path, const RunOptions& options, const std::string& input_hash);
 
+/// Whether the run into `folder` has ended well, so that nothing of it waits.
+bool is_complete_run(const std::string& folder);
+
 /// The options of the run that was interrupted while it wrote to `folder`, or whose partial folder that is. All paths
 /// are absolute, that of the output follows from the given one, in case it was moved. Throws Error(io) if there is none
 /// or what it left is damaged, naming the way out.

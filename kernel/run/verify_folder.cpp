@@ -325,13 +325,14 @@ void FolderVerifier::check_input() {
     try {
         const RunOptions options = options_of(report_.at("options"));
         const std::string path = options_.input.empty() ? path_of_text(of_report.at("path")) : options_.input;
-        input = remesh_where_asked(read_input(path, options.input_options), options);
+        input = read_input(path, options.input_options);
+        if (of_report.at("hash") != input.file_hash) {
+            result_.not_compared = input.path + " is not the file that the run has read: its bytes are others.";
+            return;
+        }
+        input = remesh_where_asked(std::move(input), options);
     } catch (const Error& e) {
         result_.not_compared = e.what();
-        return;
-    }
-    if (of_report.at("hash") != input.file_hash) {
-        result_.not_compared = input.path + " is not the file that the run has read: its bytes are others.";
         return;
     }
     std::sort(pieces_.begin(), pieces_.end());

@@ -177,6 +177,8 @@ TEST(Screenshot, SaysWhatIsWrong) {
     const ChildResult onto_input = run_kerf({"screenshot", folder().file("a.stl"), "-o", folder().file("a.stl")});
     EXPECT_EQ(onto_input.exit_code, 7) << onto_input.log;
     EXPECT_TRUE(bytes_of_file(folder().file("a.stl")) == before);
+    const ChildResult no_png = run_kerf({"screenshot", asset_path("cube"), "-o", folder().file("a.svg")});
+    EXPECT_EQ(no_png.exit_code, 2) << no_png.log;
     const ChildResult unwritable = run_kerf({"screenshot", asset_path("cube"), "-o", "/proc/a.png"});
     EXPECT_EQ(unwritable.exit_code, 7) << unwritable.log;
 }

@@ -108,6 +108,10 @@ void take_screenshot(const ViewCommand& command, const AppOptions& options) {
         std::filesystem::is_directory(command.input, ignored) && lies_inside(command.output, command.input))
         throw Error(ErrorCode::io, fmt::format("--output is {}, which lies in the run {}. Choose another place.",
                                                command.output, command.input));
+    if (!command.output.ends_with(".png"))
+        throw Error(ErrorCode::usage,
+                    fmt::format("--output is {}, but pictures are PNG files: name it {}.", command.output,
+                                std::filesystem::path(command.output).replace_extension(".png").string()));
     require_writable("--output", command.output);
     const auto context = make_offscreen_context(command.context);
     const ImGuiOwner imgui;
