@@ -17,7 +17,6 @@
 #include <gtest/gtest.h>
 
 #include "support/file_contents.h"
-#include "support/slice.h"
 #include "volume/child_process.h"
 
 namespace kerf::test {
@@ -85,6 +84,15 @@ inline double seconds_computed(pid_t process) {
     return ticks / static_cast<double>(::sysconf(_SC_CLK_TCK));
 }
 
+/// Whether a worker has asked to end with its parent, after which its standard output is its standard error
+/// (serve_part_job()).
+inline bool ends_with_parent(pid_t worker) {
+    const std::string descriptors = "/proc/" + std::to_string(worker) + "/fd/";
+    std::error_code error;
+    const auto output = std::filesystem::read_symlink(descriptors + "1", error);
+    return !error && output == std::filesystem::read_symlink(descriptors + "2", error);
+}
+
 class StartedRun {
  public:
     StartedRun(const std::string& program, const std::vector<std::string>& arguments) {
@@ -99,11 +107,13 @@ class StartedRun {
     /// Waits for a worker and stops it in the middle of its part. From then on it ends only if somebody ends it, and
     /// the run cannot be complete, however slow the machine is. -1 if none comes.
     pid_t stop_worker() const {
-        constexpr double well_begun_seconds = is_sanitized() ? 0.4 : 0.05;  // it has asked to end with its parent
+        constexpr double well_begun_seconds = 0.05;
         pid_t stopped = -1;
         await([&] {
             for (const pid_t worker : workers()) {
-                if (seconds_computed(worker) < well_begun_seconds || ::kill(worker, SIGSTOP) != 0) continue;
+                if (!ends_with_parent(worker) || seconds_computed(worker) < well_begun_seconds ||
+                    ::kill(worker, SIGSTOP) != 0)
+                    continue;
                 await([&] { return has_ended(worker) || status_of(worker).starts_with('T'); });
                 if (!has_ended(worker)) stopped = worker;
             }

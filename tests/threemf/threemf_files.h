@@ -12,7 +12,7 @@ namespace kerf::test {
 
 /// `bytes` with a number of so many bytes behind them, little endian.
 inline void append_number(std::string& bytes, std::size_t number, int size) {
-    for (int i = 0; i < size; ++i) bytes += static_cast<char>(number >> (8 * i));
+    for (int i = 0; i < size; ++i, number >>= 8) bytes += static_cast<char>(number);
 }
 
 /// A ZIP archive of files that are not compressed. `claim`: what its table of contents says more of each than there is.
