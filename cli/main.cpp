@@ -19,6 +19,7 @@
 #include "cli/terminal.h"
 #include "cli/verify.h"
 #include "io/output_file.h"
+#include "io/run_manifest.h"
 #include "io/standard_streams.h"
 #include "run/pipeline.h"
 #include "run/tree_text.h"
@@ -73,8 +74,7 @@ void merge_result(const CommandLine& line, const RunReport& report, Communicator
             throw Error(e.code(), fmt::format("{} The mesh is whole in {}; kerf merge {} -o {} writes it.", e.what(),
                                               report.folder, shell_word(report.folder), shell_word(line.merged_file)));
         }
-        std::error_code ignored;  // what stays is a whole run
-        std::filesystem::remove_all(report.folder, ignored);
+        remove_run_folder(report.folder);
     });
 }
 

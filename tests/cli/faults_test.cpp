@@ -171,6 +171,20 @@ TEST(SecondRun, IntoTheSameFolderIsRefused) {
     EXPECT_EQ(folder.names(), std::vector<std::string>{"out"});
 }
 
+// The run beside a merged file goes when that is there; what is nobody's but the user's does not.
+TEST(MergedFile, LeavesWhatOthersPutIntoItsRun) {
+    const test::TemporaryFolder folder;
+    test::StartedRun run(KERF_PROGRAM, four_parts(folder.file("out.msh")));
+    const pid_t worker = run.stop_worker();
+    ASSERT_GT(worker, 0);
+    std::ofstream(folder.file("out.msh.kerf-run.kerf-partial/notes.txt")) << "an hour of work";
+    ASSERT_EQ(::kill(worker, SIGCONT), 0);
+    EXPECT_EQ(run.wait().exit_code, 0);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"out.msh", "out.msh.kerf-run"}));
+    EXPECT_EQ(test::bytes_of_file(folder.file("out.msh.kerf-run/notes.txt")), "an hour of work");
+    EXPECT_FALSE(std::filesystem::exists(folder.file("out.msh.kerf-run/parts")));
+}
+
 // As on a disk that becomes full: no file may grow beyond 1 MB, which surfaces and jobs of the parts do not need.
 TEST(FullDisk, EndsTheRunAndSpaceLetsItGoOn) {
     const test::TemporaryFolder folder;
