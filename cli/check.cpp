@@ -12,8 +12,8 @@
 #include "io/offenders_writer.h"
 #include "io/output_file.h"
 #include "io/standard_streams.h"
-#include "run/patch_summary.h"
-#include "run/remeshing.h"
+#include "prepare/remeshing.h"
+#include "report/patch_summary.h"
 #include "surface/regions.h"
 
 namespace kerf {

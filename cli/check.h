@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "run/input.h"
+#include "prepare/input.h"
 
 namespace kerf {
 

@@ -9,15 +9,15 @@
 #include "cli/option_flags.h"
 #include "cli/other_programs.h"
 #include "core/error.h"
+#include "core/version.h"
 #include "export/format.h"
 #include "help/nearest.h"
 #include "help/number_option.h"
 #include "help/program_help.h"
 #include "help/usage_error.h"
 #include "quality/quality_gate.h"
-#include "run/config_file.h"
-#include "run/saved_run.h"
-#include "run/version.h"
+#include "request/config_file.h"
+#include "request/saved_run.h"
 
 namespace kerf {
 

@@ -8,7 +8,7 @@
 #include "cli/export.h"
 #include "cli/merge.h"
 #include "cli/quality.h"
-#include "run/options.h"
+#include "request/options.h"
 #include "run/verify_folder.h"
 
 namespace kerf {

@@ -1,7 +1,7 @@
 // What a user has to know of parts that could not be meshed.
 #pragma once
 
-#include "run/report.h"
+#include "report/report.h"
 
 namespace kerf {
 

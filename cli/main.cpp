@@ -21,8 +21,8 @@
 #include "io/output_file.h"
 #include "io/run_manifest.h"
 #include "io/standard_streams.h"
+#include "report/tree_text.h"
 #include "run/pipeline.h"
-#include "run/tree_text.h"
 
 namespace kerf {
 

@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "run/options.h"
+#include "request/options.h"
 
 namespace kerf {
 

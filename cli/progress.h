@@ -4,7 +4,7 @@
 #include <chrono>
 #include <string>
 
-#include "run/event_log.h"
+#include "report/event_log.h"
 
 namespace kerf {
 

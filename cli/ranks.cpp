@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "cli/own_ranks.h"
-#include "run/processors.h"
+#include "parallel/processors.h"
 
 #ifdef KERF_WITH_MPI
 #include <unistd.h>

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "run/communicator.h"
+#include "parallel/communicator.h"
 
 namespace kerf {
 

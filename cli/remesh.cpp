@@ -10,8 +10,8 @@
 #include "io/output_file.h"
 #include "io/standard_streams.h"
 #include "io/stl_writer.h"
-#include "run/remeshing.h"
-#include "run/report.h"
+#include "prepare/remeshing.h"
+#include "report/report.h"
 
 namespace kerf {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "run/options.h"
+#include "request/options.h"
 
 namespace kerf {
 

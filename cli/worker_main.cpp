@@ -1,8 +1,8 @@
-// kerf-worker: one mesher call in its own process. Started by kerf; see run/part_job.h for the protocol.
+// kerf-worker: one mesher call in its own process. Started by kerf; see work/part_job.h for the protocol.
 #include <cstdlib>
 #include <cstring>
 
-#include "run/part_job.h"
+#include "work/part_job.h"
 
 int main(int argc, char** argv) {
     const auto number_behind = [&](const char* option) -> std::int64_t {

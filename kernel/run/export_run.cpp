@@ -14,12 +14,12 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/version.h"
 #include "io/durable_file.h"
 #include "io/file_bytes.h"
 #include "io/output_file.h"
 #include "part/joined_parts.h"
 #include "part/solution_parts.h"
-#include "run/version.h"
 #include "run/write_stage.h"
 
 namespace kerf {

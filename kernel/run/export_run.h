@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "run/communicator.h"
-#include "run/listener.h"
+#include "parallel/communicator.h"
+#include "report/listener.h"
 
 namespace kerf {
 

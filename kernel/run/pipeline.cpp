@@ -18,20 +18,20 @@
 #include "io/run_folder.h"
 #include "io/stl_writer.h"
 #include "io/text_file.h"
+#include "parallel/process_memory.h"
 #include "part/joined_surfaces.h"
 #include "part/part_store.h"
 #include "part/vtu_writer.h"
+#include "prepare/gathered_nodes.h"
+#include "prepare/remeshing.h"
+#include "prepare/size_reader.h"
+#include "report/totals.h"
+#include "request/saved_run.h"
 #include "run/forecast.h"
-#include "run/gathered_nodes.h"
 #include "run/prepare_stage.h"
-#include "run/process_memory.h"
 #include "run/range_of_rank.h"
 #include "run/reference.h"
-#include "run/remeshing.h"
 #include "run/run_files.h"
-#include "run/saved_run.h"
-#include "run/size_reader.h"
-#include "run/totals.h"
 #include "run/trace.h"
 #include "run/volume_stage.h"
 #include "run/write_stage.h"
@@ -151,9 +151,7 @@ class Run {
  private:
     bool is_root() const { return ranks_.rank() == 0; }
     void progress(const char* stage, std::size_t done, std::size_t total) {
-        if (!listener_) return;
-        if (listener_->cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
-        listener_->on_progress(stage, done, total);
+        tell_progress(listener_, stage, done, total);
     }
     void save() const { save_run(folder_->saved_run_file(), report_.options, input_.file_hash); }
     Decomposition divide_unfinished(Decomposition own, CutListener* cuts);

@@ -1,9 +1,9 @@
 // The order of the stages, written once: the command line, the MPI ranks, the viewer and the tests call it.
 #pragma once
 
-#include "run/communicator.h"
-#include "run/listener.h"
-#include "run/report.h"
+#include "parallel/communicator.h"
+#include "report/listener.h"
+#include "report/report.h"
 
 namespace kerf {
 

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "part/shared_edges.h"
-#include "run/input_cover.h"
-#include "run/interface_match.h"
-#include "run/numbering.h"
+#include "prepare/input_cover.h"
+#include "prepare/interface_match.h"
+#include "prepare/numbering.h"
 #include "surface/mass_properties.h"
 
 namespace kerf {

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "decompose/decomposition.h"
-#include "run/communicator.h"
-#include "run/input.h"
-#include "run/part_job.h"
-#include "run/report.h"
+#include "parallel/communicator.h"
+#include "prepare/input.h"
+#include "report/report.h"
+#include "work/part_job.h"
 
 namespace kerf {
 

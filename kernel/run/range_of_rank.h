@@ -2,7 +2,7 @@
 #pragma once
 
 #include "decompose/decomposition.h"
-#include "run/communicator.h"
+#include "parallel/communicator.h"
 
 namespace kerf {
 

@@ -8,7 +8,7 @@
 #include "io/text_file.h"
 #include "quality/quality_sheet.h"
 #include "quality/quality_text.h"
-#include "run/part_queue.h"
+#include "work/part_queue.h"
 
 namespace kerf {
 

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "io/run_folder.h"
-#include "run/report.h"
+#include "report/report.h"
 
 namespace kerf {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "io/run_folder.h"
-#include "run/communicator.h"
-#include "run/report.h"
+#include "parallel/communicator.h"
+#include "report/report.h"
 
 namespace kerf {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "run/communicator.h"
-#include "run/input.h"
-#include "run/options.h"
+#include "parallel/communicator.h"
+#include "prepare/input.h"
+#include "request/options.h"
 
 namespace kerf {
 

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/version.h"
 #include "io/file_bytes.h"
 #include "io/folder_files.h"
 #include "io/path_text.h"
@@ -21,11 +22,10 @@
 #include "part/run_parts.h"
 #include "part/vtu_reader.h"
 #include "part/vtu_writer.h"
-#include "run/mesh_hash.h"
-#include "run/oriented_triangle.h"
-#include "run/remeshing.h"
-#include "run/version.h"
+#include "prepare/oriented_triangle.h"
+#include "prepare/remeshing.h"
 #include "surface/facet_cover.h"
+#include "work/mesh_hash.h"
 
 namespace kerf {
 

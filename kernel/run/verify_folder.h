@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "run/report.h"
+#include "report/report.h"
 
 namespace kerf {
 

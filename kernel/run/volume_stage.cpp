@@ -10,9 +10,9 @@
 #include <fmt/format.h>
 
 #include "io/checked_file.h"
-#include "run/failed_part.h"
 #include "run/forecast.h"
-#include "run/journal.h"
+#include "work/failed_part.h"
+#include "work/journal.h"
 
 namespace kerf {
 
@@ -199,7 +199,7 @@ std::vector<PartReport> VolumeStage::mesh_share(const std::vector<PartReport>& p
                      [&](std::size_t place) { CheckedFile(folder_.begun_file(parts[order[place]].id), "wb").close(); });
     std::vector<PartReport> meshed;
     for (;;) {
-        if (listener_ && listener_->cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
+        end_if_cancelled(listener_);
         while (const std::optional<Bytes> bytes = ranks_.poll()) {
             const auto message = from_bytes<Message>(*bytes);
             switch (message.kind) {

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "io/run_folder.h"
-#include "run/communicator.h"
-#include "run/listener.h"
-#include "run/part_queue.h"
+#include "parallel/communicator.h"
+#include "report/listener.h"
+#include "work/part_queue.h"
 
 namespace kerf {
 

@@ -142,9 +142,7 @@ std::vector<RunFile> write_parts(Communicator& ranks, const PartSource& parts, s
                                  const PartWritten& part_written) {
     const std::vector<FormatFiles> opened = open_formats(formats, target);
     const auto check = [&](std::int32_t done, std::int32_t total) {
-        if (!listener) return;
-        if (listener->cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
-        listener->on_progress("write", static_cast<std::size_t>(done), static_cast<std::size_t>(total));
+        tell_progress(listener, "write", static_cast<std::size_t>(done), static_cast<std::size_t>(total));
     };
     in_agreement(ranks, [&] {
         if (ranks.rank() != 0) return;

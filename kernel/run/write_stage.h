@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "export/format.h"
-#include "run/communicator.h"
-#include "run/listener.h"
+#include "parallel/communicator.h"
+#include "report/listener.h"
 
 namespace kerf {
 

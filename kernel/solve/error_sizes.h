@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "run/communicator.h"
+#include "parallel/communicator.h"
 #include "size/background_sizes.h"
 #include "solve/node_space.h"
 #include "solve/stress.h"

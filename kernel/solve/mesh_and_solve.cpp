@@ -8,12 +8,12 @@
 
 #include "core/error.h"
 #include "core/number_text.h"
+#include "core/version.h"
 #include "io/file_bytes.h"
 #include "io/path_text.h"
 #include "io/run_manifest.h"
 #include "io/text_file.h"
 #include "run/pipeline.h"
-#include "run/version.h"
 
 namespace kerf {
 

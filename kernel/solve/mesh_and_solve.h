@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "run/options.h"
-#include "run/report.h"
+#include "report/report.h"
+#include "request/options.h"
 #include "solve/solve_run.h"
 
 namespace kerf {

@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/number_text.h"
+#include "core/version.h"
 #include "io/path_text.h"
-#include "run/version.h"
 #include "solve/solve_run.h"
 
 namespace kerf {

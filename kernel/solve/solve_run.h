@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "run/communicator.h"
-#include "run/listener.h"
+#include "parallel/communicator.h"
+#include "report/listener.h"
 #include "solve/elastic_case.h"
 #include "solve/linear_system.h"
 #include "solve/stress.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "run/patch_summary.h"
+#include "report/patch_summary.h"
 #include "solve/elastic_case.h"
 #include "solve/node_space.h"
 

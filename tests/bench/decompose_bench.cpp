@@ -14,7 +14,7 @@
 
 #include "bench/bench.h"
 #include "decompose/decomposition.h"
-#include "run/input.h"
+#include "prepare/input.h"
 #include "support/shapes.h"
 
 namespace kerf {

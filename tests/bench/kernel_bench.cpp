@@ -10,7 +10,7 @@
 #include "decompose/decomposition.h"
 #include "io/surface_reader.h"
 #include "mesh/quality.h"
-#include "run/input.h"
+#include "prepare/input.h"
 #include "surface/diagnosis.h"
 
 namespace kerf {

@@ -21,7 +21,7 @@
 #include "io/tet_mesh_reader.h"
 #include "mesh/quality.h"
 #include "mesh/verification.h"
-#include "run/input.h"
+#include "prepare/input.h"
 #include "surface/mass_properties.h"
 #include "surface/orientation.h"
 #include "volume/meshers.h"

@@ -19,8 +19,8 @@
 #include <Eigen/Geometry>
 
 #include "io/stl_writer.h"
+#include "prepare/input.h"
 #include "remesh/remesh.h"
-#include "run/input.h"
 #include "support/write_off.h"
 #include "surface/triangle_tree.h"
 

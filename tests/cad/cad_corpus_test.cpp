@@ -10,7 +10,7 @@
 #include "cad/cad_import.h"
 #include "core/error.h"
 #include "io/file_bytes.h"
-#include "run/input.h"
+#include "prepare/input.h"
 
 namespace kerf {
 namespace {

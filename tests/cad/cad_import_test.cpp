@@ -13,8 +13,8 @@
 #include "cad/cad_import.h"
 #include "core/error.h"
 #include "io/file_bytes.h"
-#include "run/cad_input.h"
-#include "run/input.h"
+#include "prepare/cad_input.h"
+#include "prepare/input.h"
 #include "support/temporary_folder.h"
 
 namespace kerf {

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "run/options.h"
+#include "request/options.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/lines.h"

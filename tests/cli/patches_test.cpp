@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "run/input.h"
+#include "prepare/input.h"
 #include "support/assets.h"
 #include "support/program.h"
 #include "support/run_laws.h"

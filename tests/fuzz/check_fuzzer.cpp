@@ -3,7 +3,7 @@
 
 #include "fuzzed.h"
 #include "io/surface_reader.h"
-#include "run/input.h"
+#include "prepare/input.h"
 
 namespace kerf {
 

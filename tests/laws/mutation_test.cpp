@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "io/surface_reader.h"
-#include "run/input.h"
+#include "prepare/input.h"
 #include "support/archives.h"
 #include "support/assets.h"
 #include "support/file_contents.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "run/input.h"
+#include "prepare/input.h"
 
 namespace kerf::test {
 

@@ -1,7 +1,7 @@
 // The options of a traced run.
 #pragma once
 
-#include "run/size_reader.h"
+#include "prepare/size_reader.h"
 #include "run/trace.h"
 
 namespace kerf::test {

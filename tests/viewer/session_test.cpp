@@ -8,8 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "mesh/quality.h"
-#include "run/event_log.h"
-#include "run/journal.h"
+#include "report/event_log.h"
 #include "support/assets.h"
 #include "support/program.h"
 #include "support/shapes.h"
@@ -26,6 +25,7 @@
 #include "viewer/model/run_events.h"
 #include "viewer/model/run_process.h"
 #include "viewer/model/store.h"
+#include "work/journal.h"
 
 namespace kerf::view {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "run/remeshing.h"
+#include "prepare/remeshing.h"
 #include "support/shapes.h"
 #include "support/surface_files.h"
 #include "support/temporary_folder.h"

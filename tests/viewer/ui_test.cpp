@@ -12,7 +12,7 @@
 
 #include "core/words.h"
 #include "io/surface_reader.h"
-#include "run/options.h"
+#include "request/options.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/shapes.h"

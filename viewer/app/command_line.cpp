@@ -8,13 +8,13 @@
 #include <CLI/CLI.hpp>
 
 #include "core/error.h"
+#include "core/version.h"
 #include "help/command_help.h"
 #include "help/number_option.h"
 #include "help/program_help.h"
 #include "help/usage_error.h"
 #include "io/file_bytes.h"
-#include "run/config_file.h"
-#include "run/version.h"
+#include "request/config_file.h"
 
 namespace kerf::view {
 

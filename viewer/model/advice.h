@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "run/input.h"
-#include "run/options.h"
+#include "prepare/input.h"
+#include "request/options.h"
 
 namespace kerf::view {
 

@@ -9,8 +9,8 @@
 #include <Eigen/Geometry>
 
 #include "core/error.h"
-#include "run/input.h"
-#include "run/options.h"
+#include "prepare/input.h"
+#include "request/options.h"
 #include "run/trace.h"
 #include "viewer/model/solution.h"
 #include "viewer/model/tree.h"

@@ -10,7 +10,7 @@
 #include "core/host_name.h"
 #include "io/run_folder.h"
 #include "part/vtu_reader.h"
-#include "run/journal.h"
+#include "work/journal.h"
 
 namespace kerf::view {
 

@@ -10,7 +10,7 @@
 #include "cut/place.h"
 #include "decompose/cap_quality.h"
 #include "decompose/cap_triangulation.h"
-#include "run/size_reader.h"
+#include "prepare/size_reader.h"
 #include "viewer/model/tree_source.h"
 
 namespace kerf::view {

@@ -1,4 +1,4 @@
-// The lines of an events file (run/event_log.h) as they come.
+// The lines of an events file (report/event_log.h) as they come.
 #pragma once
 
 #include <cstdint>

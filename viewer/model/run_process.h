@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "run/options.h"
+#include "request/options.h"
 #include "run/trace.h"
 #include "volume/child_process.h"
 

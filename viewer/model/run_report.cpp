@@ -10,7 +10,7 @@
 #include "io/file_bytes.h"
 #include "io/path_text.h"
 #include "mesh/quality.h"
-#include "run/cut_json.h"
+#include "report/cut_json.h"
 
 namespace kerf::view {
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "run/size_reader.h"
+#include "prepare/size_reader.h"
 #include "surface/mass_properties.h"
 #include "viewer/model/node_surface.h"
 #include "viewer/model/surface_values.h"

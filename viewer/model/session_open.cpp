@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "run/cad_input.h"
-#include "run/remeshing.h"
-#include "run/saved_run.h"
+#include "prepare/cad_input.h"
+#include "prepare/remeshing.h"
+#include "request/saved_run.h"
 #include "surface/mass_properties.h"
 #include "viewer/model/advice.h"
 #include "viewer/model/node_surface.h"

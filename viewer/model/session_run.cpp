@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "run/cad_input.h"
+#include "prepare/cad_input.h"
 #include "viewer/model/file_kind.h"
 #include "viewer/model/tree_source.h"
 

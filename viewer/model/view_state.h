@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cut/cut.h"
-#include "run/options.h"
+#include "request/options.h"
 #include "viewer/model/camera.h"
 #include "viewer/model/stage.h"
 

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "decompose/decomposition.h"
-#include "run/input.h"
+#include "prepare/input.h"
 
 int main(int, char** argv) {
     const kerf::Input input = kerf::read_input(argv[1]);

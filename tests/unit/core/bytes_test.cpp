@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "run/part_job.h"
 #include "support/shapes.h"
+#include "work/part_job.h"
 
 namespace kerf {
 namespace {

@@ -17,7 +17,7 @@
 #include "io/stl_writer.h"
 #include "mesh/adjacency.h"
 #include "mesh/quality.h"
-#include "run/numbering.h"
+#include "prepare/numbering.h"
 #include "support/shapes.h"
 #include "surface/orientation.h"
 

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "io/file_bytes.h"
-#include "run/process_memory.h"
+#include "parallel/process_memory.h"
 #include "support/io_error.h"
 #include "support/random_part.h"
 #include "support/temporary_folder.h"

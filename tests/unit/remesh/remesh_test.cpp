@@ -11,7 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "core/error.h"
-#include "run/remeshing.h"
+#include "prepare/remeshing.h"
 #include "support/shapes.h"
 #include "support/slice.h"
 #include "surface/closest_point.h"

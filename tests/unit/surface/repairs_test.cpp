@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "run/input.h"
+#include "prepare/input.h"
 #include "support/damage.h"
 #include "support/shapes.h"
 #include "surface/hole_filling.h"

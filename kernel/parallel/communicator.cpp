@@ -1,0 +1,30 @@
+#include "parallel/communicator.h"
+
+#include <algorithm>
+#include <new>
+
+namespace kerf {
+
+StageStatus status_of_exception() {
+    try {
+        throw;
+    } catch (const Error& e) {
+        return {static_cast<int>(e.code()), e.what()};
+    } catch (const std::bad_alloc&) {
+        return {static_cast<int>(ErrorCode::memory), "Out of memory. Use more parts, fewer workers or more hosts."};
+    } catch (const std::exception& e) {
+        return {static_cast<int>(ErrorCode::internal), e.what()};
+    }
+}
+
+void throw_first_error(Communicator& ranks, const StageStatus& own) {
+    constexpr int cancelled = static_cast<int>(ErrorCode::cancelled);
+    const std::vector<StageStatus> all = all_gather(ranks, own);
+    const auto failed = [](const StageStatus& status) { return status.code != 0 && status.code != cancelled; };
+    auto first = std::find_if(all.begin(), all.end(), failed);
+    if (first == all.end())
+        first = std::find_if(all.begin(), all.end(), [](const StageStatus& status) { return status.code != 0; });
+    if (first != all.end()) throw Error(static_cast<ErrorCode>(first->code), first->message);
+}
+
+}  // namespace kerf

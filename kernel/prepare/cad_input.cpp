@@ -1,0 +1,117 @@
+#include "prepare/cad_input.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "io/compressed.h"
+#include "io/file_bytes.h"
+#include "io/surface_reader.h"
+#include "io/threemf_file.h"
+#include "volume/child_process.h"
+
+namespace kerf {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+ChildResult run_import_program(const std::string& program, const std::string& path, const CadOptions& options,
+                               double timeout_seconds) {
+    std::vector<std::string> arguments = options.arguments();
+    arguments.insert(arguments.begin(), path);
+    ChildPool pool;
+    pool.start(0, program, arguments, {}, timeout_seconds);
+    return pool.wait_any()->result;
+}
+
+// The answer, or a sentence for a child that gave none.
+CadAnswer answer_of(const ChildResult& result, const std::string& path, const std::string& program,
+                    const ImportProgram& kind) {
+    if (result.end == ChildResult::End::exited) try {
+            return from_cad_bytes(result.output);
+        } catch (const Error&) {
+            throw Error(ErrorCode::io, fmt::format("{}: {} {} without an answer. Build it and kerf together, with the "
+                                                   "package {} there. {}",
+                                                   path, program, result.describe(), kind.run_package, result.log));
+        }
+    throw Error(ErrorCode::input, fmt::format("{}: {} fails on this file: {} {}. Repair the file in {}, or export it "
+                                              "as STL, OBJ or PLY.",
+                                              path, kind.library, kind.name, result.describe(), kind.origin));
+}
+
+// Units are converted only where the file says what they were.
+void refuse_unit(const std::string& path, const CadOptions& options) {
+    if (!options.unit_is_asked && options.unit == LengthUnit::mm) return;
+    throw Error(ErrorCode::usage,
+                fmt::format("{} names no unit, so that --unit has no meaning. Leave it out, or multiply the "
+                            "coordinates: --scale 0.001 makes m of mm.",
+                            path));
+}
+
+Soup read_unscaled(std::string bytes, const std::string& path, const CadOptions& options, Walls walls) {
+    const FileHash file_hash = digest_of(bytes);
+    std::string content = decompress(std::move(bytes), path);
+    if (cad_format(content) != CadFormat::none) {
+        CadBody body = read_cad(path, file_hash, options);
+        if (body.file_unit.empty()) refuse_unit(path, options);
+        return std::move(body.soup);
+    }
+    if (is_threemf(content)) {
+        constexpr double timeout_seconds = 600;
+        const std::string program = find_program(threemf_program);
+        return std::move(read_cad(path, file_hash, options, program, timeout_seconds, threemf_program).soup);
+    }
+    for (const auto& [name, is_given] : {std::pair("solid", options.solid > 0), std::pair("unite", options.unite),
+                                         std::pair("cad-deflection", options.deflection > 0)})
+        if (is_given)
+            throw Error(ErrorCode::usage,
+                        fmt::format("{} is no CAD file, so that --{} has no meaning. Leave it out.", path, name));
+    refuse_unit(path, options);
+    return read_surface_bytes(std::move(content), path, walls);
+}
+
+}  // namespace
+
+std::string find_program(const ImportProgram& kind) {
+    if (const char* named = std::getenv(kind.variable)) return named;
+    const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
+    std::error_code ignored;
+    for (const fs::path& place : {folder / kind.name, folder / "../libexec/kerf" / kind.name})
+        if (fs::exists(place, ignored)) return place.string();
+    return "";
+}
+
+CadBody read_cad(const std::string& path, const FileHash& file_hash, const CadOptions& options,
+                 const std::string& program, double timeout_seconds, const ImportProgram& kind) {
+    if (program.empty())
+        throw Error(ErrorCode::usage,
+                    fmt::format("{}: {} are read by the program {}, which is not here. Install {}, build {} and put it "
+                                "beside kerf (to run, it needs {}), or export the file as STL, OBJ or PLY.",
+                                path, kind.files, kind.name, kind.build_package, kind.name, kind.run_package));
+    const ChildResult result = run_import_program(program, path, options, timeout_seconds);
+    CadAnswer answer = answer_of(result, path, program, kind);
+    if (!answer.defect.empty()) throw SolidDefect(answer.defect, answer.message);
+    if (answer.error_code != 0) throw Error(static_cast<ErrorCode>(answer.error_code), answer.message);
+    if (answer.body.file_hash != file_hash)
+        throw Error(ErrorCode::io, path + ": the file has changed while it was read. Run again.");
+    return std::move(answer.body);
+}
+
+Soup read_surface_or_cad(const std::string& path, const InputOptions& options) {
+    return read_surface_or_cad(read_file(path), path, options);
+}
+
+Soup read_surface_or_cad(std::string bytes, const std::string& path, const InputOptions& options) {
+    const Walls walls = options.keep_largest ? Walls::kept : Walls::refused;
+    Soup soup = read_unscaled(std::move(bytes), path, options.cad, walls);
+    if (options.scale != 1)
+        for (std::vector<Vec3>* points : {&soup.vertices, &soup.holes})
+            for (Vec3& p : *points) p *= options.scale;
+    return soup;
+}
+
+}  // namespace kerf

@@ -1,0 +1,20 @@
+// The tree of a decomposition, brought together over all ranks.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "decompose/tree_node.h"
+#include "parallel/communicator.h"
+
+namespace kerf {
+
+/// Collective: the nodes of all ranks, each once, ascending by number. `host`: of this rank, for the message.
+///
+/// Ranks that share a branch of the tree make its cuts each for itself, and parts of unlike cuts would not fit. So the
+/// hashes of the cuts are compared: if two ranks have the same node with different ones, as unlike mathematical
+/// libraries could make them, Error(internal) is thrown on every rank alike; it names the node, the ranks and their
+/// hosts.
+std::vector<TreeNode> gather_nodes(Communicator& ranks, const std::vector<TreeNode>& own, const std::string& host);
+
+}  // namespace kerf

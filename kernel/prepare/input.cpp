@@ -1,0 +1,148 @@
+#include "prepare/input.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+
+#include "core/error.h"
+#include "io/file_bytes.h"
+#include "io/run_manifest.h"
+#include "prepare/cad_input.h"
+#include "surface/hole_filling.h"
+#include "surface/intersections.h"
+#include "surface/mass_properties.h"
+#include "surface/optimisation.h"
+#include "surface/regions.h"
+
+namespace kerf {
+
+namespace {
+
+SurfaceArrays with_input_keys(Soup soup) {
+    SurfaceArrays arrays;
+    arrays.vertex_key.resize(soup.vertices.size());
+    arrays.facet_key.resize(soup.facets.size());
+    std::iota(arrays.vertex_key.begin(), arrays.vertex_key.end(), make_key(0, 0));
+    std::iota(arrays.facet_key.begin(), arrays.facet_key.end(), make_key(0, 0));
+    arrays.vertices = std::move(soup.vertices);
+    arrays.facets = std::move(soup.facets);
+    arrays.patch = std::move(soup.patch);
+    return arrays;
+}
+
+double diagonal_of(const Soup& soup) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : soup.vertices)
+        if (p.allFinite()) box.extend(p);
+    return box.isEmpty() ? 0 : box.diagonal().norm();
+}
+
+// The tolerance in units of the file. Throws Error(usage) for one that would leave nothing.
+double weld(Soup& soup, const Length& wanted, InputRepairs& repairs) {
+    constexpr double rounding = 1e-16;  // of the diagonal: nearer vertices are equal, and merged already
+    const double diagonal = diagonal_of(soup), tolerance = wanted.of(diagonal);
+    if (tolerance > diagonal && diagonal > 0)
+        throw Error(ErrorCode::usage, fmt::format("--weld is {:.6g}, but the surface, from corner to corner of its "
+                                                  "bounding box, is {:.6g}. Give less.",
+                                                  tolerance, diagonal));
+    if (tolerance > rounding * diagonal) repairs.merged_vertices = weld_within(soup, tolerance);
+    return tolerance;
+}
+
+// Moves vertices of a surface that is known to be clean.
+void optimise(Soup& soup, std::int32_t sweeps, Input& input) {
+    OptimisationOptions options;
+    options.sweeps = sweeps;
+    std::vector<Vec3> moved = optimise_nodes(soup.vertices, soup.facets, soup.patch, {}, options);
+    if (const auto pairs = find_self_intersections(moved, soup.facets, 1); !pairs.empty())
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("{}: with --optimise-surface {} the facets {} and {} would intersect. Use fewer sweeps or "
+                        "leave the option out.",
+                        input.path, sweeps, pairs[0].first, pairs[0].second));
+    for (std::size_t v = 0; v < moved.size(); ++v) {
+        input.moved_vertices += moved[v] != soup.vertices[v];
+        input.largest_move = std::max(input.largest_move, (moved[v] - soup.vertices[v]).norm());
+    }
+    soup.vertices = std::move(moved);
+}
+
+}  // namespace
+
+CheckedSoup check_input(const std::string& path, const InputOptions& options, double needle_angle_deg) {
+    return check_soup(read_surface_or_cad(path, options), options, needle_angle_deg);
+}
+
+CheckedSoup check_soup(Soup read, const InputOptions& options, double needle_angle_deg) {
+    CheckedSoup checked{std::move(read), {}, {}, 0};
+    Soup& soup = checked.soup;
+    InputRepairs& repairs = checked.repairs;
+    repairs.welded_vertices = weld_exactly(soup);
+    if (options.weld_tolerance.number() > 0) checked.weld_tolerance = weld(soup, options.weld_tolerance, repairs);
+    if (options.keep_largest) repairs.removed_facets = keep_largest_component(soup);
+    if (options.fill_hole_edges > 0) {
+        const HoleFilling filling = fill_holes(soup, options.fill_hole_edges);
+        repairs.filled_holes = filling.holes;
+        repairs.added_facets = filling.facets;
+    }
+    repairs.unused_vertices = drop_unused_vertices(soup);
+    checked.diagnosis = diagnose(soup, {options.voids, needle_angle_deg});
+    const std::vector<char>& dropped = checked.diagnosis.dropped;
+    repairs.dropped_facets = std::count(dropped.begin(), dropped.end(), char{1});
+    return checked;
+}
+
+OrientationReport apply_repairs(CheckedSoup& checked) {
+    if (checked.repairs.dropped_facets > 0) {
+        drop_facets(checked.soup, checked.diagnosis.dropped);
+        checked.repairs.unused_vertices += drop_unused_vertices(checked.soup);
+    }
+    checked.diagnosis = {};  // its numbers have lost their meaning
+    return orient(checked.soup);
+}
+
+Input read_input(const std::string& path, const InputOptions& options) {
+    Input input;
+    input.path = path;
+    std::string bytes = read_file(path);
+    input.file_hash = hash_text(digest_of(bytes));
+    CheckedSoup checked = check_soup(read_surface_or_cad(std::move(bytes), path, options), options);
+    Soup& soup = checked.soup;
+    if (!checked.diagnosis.clean())
+        throw Error(ErrorCode::input,
+                    fmt::format("{}: {} Run kerf check on it for all defects.", path, checked.diagnosis.summary(soup)));
+    input.orientation = apply_repairs(checked);
+    input.repairs = checked.repairs;
+    input.weld_tolerance = checked.weld_tolerance;
+    input.notes = soup.notes;
+    if (options.feature_angle_deg > 0 && soup.patch_names.size() == 1)
+        make_feature_patches(soup, options.feature_angle_deg);
+    if (options.optimisation_sweeps > 0) optimise(soup, options.optimisation_sweeps, input);
+    input.patch_names = soup.patch_names;
+    input.is_cad = soup.is_of_model;
+    for (const ModelEdge& edge : soup.model_edges)
+        if (edge.sharp != 0) input.creases.push_back(edge.vertices);
+    if (soup.patch_colours.size() == soup.patch_names.size()) input.patch_colours = soup.patch_colours;
+    input.diagonal = diagonal_of(soup);
+    input.surface = Surface(with_input_keys(std::move(soup)));
+    measure_input(input);
+    return input;
+}
+
+void measure_input(Input& input) {
+    const MassProperties mass = mass_properties(input.surface);
+    input.volume = mass.volume;
+    input.volume_error = mass.volume_error;
+    input.largest_coordinate = 0;
+    for (std::int32_t v = 0; v < input.surface.vertex_count(); ++v)
+        input.largest_coordinate = std::max(input.largest_coordinate, input.surface.point(v).cwiseAbs().maxCoeff());
+    input.area = mass.area;
+    input.vertices = input.surface.vertex_count();
+    input.facets = input.surface.facet_count();
+    input.components = input.orientation.shells;
+    input.genus = input.components - (input.vertices - input.facets / 2) / 2;  // V - E + F = 2 (c - g), E = 3 F / 2
+}
+
+}  // namespace kerf

@@ -1,0 +1,91 @@
+// From a surface file to the closed surface that is cut.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "request/input_options.h"
+#include "surface/diagnosis.h"
+#include "surface/orientation.h"
+#include "surface/surface.h"
+
+namespace kerf {
+
+/// What was repaired.
+struct InputRepairs {
+    std::int64_t welded_vertices = 0;  ///< merged because their coordinates are equal
+    std::int64_t unused_vertices = 0;  ///< dropped because no facet uses them
+    std::int64_t dropped_facets = 0;   ///< copies, and facets with a repeated vertex
+    std::int64_t merged_vertices = 0;  ///< by weld_tolerance
+    std::int64_t removed_facets = 0;   ///< by keep_largest
+    std::int64_t filled_holes = 0;     ///< by fill_hole_edges
+    std::int64_t added_facets = 0;     ///< in these holes
+};
+
+/// A surface file after the repairs that come before orientation, and what is wrong with it.
+struct CheckedSoup {
+    Soup soup;
+    Diagnosis diagnosis;  ///< of `soup`, in which dropped facets still are
+    InputRepairs repairs;
+    double weld_tolerance = 0;  ///< that was used, units of the file
+};
+
+/// What remeshing did to a surface (prepare/remeshing.h).
+struct InputRemeshing {
+    std::int64_t facets_before = 0;
+    double smallest_angle_before_deg = 0, smallest_angle_deg = 0;
+    double deviation = 0;  ///< that was allowed, units of the input
+    double distance_to_input = 0,
+           distance_from_input = 0;  ///< largest that was found, of the new surface and of the old
+    std::int64_t feature_edges = 0;  ///< of the new surface
+};
+
+/// A surface ready to be cut, and what was learnt about it.
+struct Input {
+    std::string path;
+    std::string file_hash;  ///< of the file's bytes, see hash_text()
+    std::int64_t vertices = 0;
+    std::int64_t facets = 0;
+    std::int64_t components = 0;
+    std::int64_t genus = 0;  ///< sum over the components
+    double volume = 0;
+    double volume_error = 0;  ///< as BoundedVolume has it
+    double area = 0;
+    double largest_coordinate = 0;  ///< as an absolute value
+    double diagonal = 0;            ///< of the bounding box
+    InputRepairs repairs;
+    double weld_tolerance = 0;  ///< that was used, units of the input
+    OrientationReport orientation;
+    std::int64_t moved_vertices = 0;  ///< by the optimisation of the surface
+    double largest_move = 0;          ///< of a vertex by that
+    std::optional<InputRemeshing> remeshed;
+    std::vector<std::string> patch_names;
+    std::vector<std::array<std::uint8_t, 4>> patch_colours;  ///< as Soup has them; empty: none
+    std::vector<std::string> notes;                          ///< what the reader passed over
+    bool is_cad = false;                                     ///< a file of curved faces, not of triangles
+    /// Of a CAD file: edges of the surface as it was read that are creases of the model, flat as they may be.
+    std::vector<UndirectedEdge> creases;
+    Surface surface;
+};
+
+/// Reads (CAD files, too: prepare/cad_input.h), repairs, diagnoses. Throws Error only for a file that cannot be read.
+CheckedSoup check_input(const std::string& path, const InputOptions& options = {}, double needle_angle_deg = 1);
+
+/// The same for what a reader returned.
+CheckedSoup check_soup(Soup soup, const InputOptions& options = {}, double needle_angle_deg = 1);
+
+/// Drops the superfluous facets of a soup without errors, and orients it.
+OrientationReport apply_repairs(CheckedSoup& checked);
+
+/// Fills the counts, volume, area and genus from the surface.
+void measure_input(Input& input);
+
+/// check_input() and apply_repairs(), then builds the surface. Throws Error(input), naming the file, the
+/// first offenders and what to do, if the surface has errors. Throws Error(usage) if the sweeps of the optimisation
+/// would make it intersect itself; else that surface takes the place of the file's in all that follows.
+Input read_input(const std::string& path, const InputOptions& options = {});
+
+}  // namespace kerf

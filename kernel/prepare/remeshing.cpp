@@ -1,0 +1,161 @@
+#include "prepare/remeshing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/number_text.h"
+#include "core/regular_tet.h"
+#include "parallel/process_memory.h"
+#include "prepare/size_reader.h"
+#include "remesh/remesh.h"
+#include "surface/mass_properties.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr double largest_share = 0.05;   // of the diagonal, for the deviation
+constexpr double smallest_share = 1e-9;  // coordinates have few more digits
+constexpr double longest_share = 0.03;   // of the diagonal, for edges where nothing else is wanted
+constexpr double bytes_per_facet = 280;  // of the process while it remeshes
+constexpr double deg_per_rad = 180 / std::numbers::pi;
+
+std::vector<double> smallest_sines(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
+    std::vector<double> sines;
+    sines.reserve(facets.size());
+    for (const Triangle& t : facets) sines.push_back(smallest_sine(vertices[t[0]], vertices[t[1]], vertices[t[2]]));
+    return sines;
+}
+
+double in_degrees(double sine) { return std::asin(std::min(1.0, sine)) * deg_per_rad; }
+
+double smallest_angle(const SurfaceArrays& surface) {
+    const std::vector<double> sines = smallest_sines(surface.vertices, surface.facets);
+    return in_degrees(*std::min_element(sines.begin(), sines.end()));
+}
+
+// Lengths in space that the options ask for; the growth from the surface's own edges, which are to change, is not.
+SizeField wanted_lengths(const RunOptions& options, const SurfaceArrays& surface, const Input& input) {
+    SizeOptions sizes = options.sizes;
+    sizes.growth = 0;
+    return sizes.depends_on_place() ? read_size_field(sizes, surface, input.patch_names)
+                                    : SizeField(sizes.constant_max_volume());
+}
+
+// Edge where nothing else is wanted.
+double longest_edge(const RunOptions& options, double diagonal) {
+    const double max_volume = options.sizes.constant_max_volume();
+    return max_volume > 0 ? std::min(regular_tet_edge(max_volume), diagonal) : longest_share * diagonal;
+}
+
+RemeshOptions remesh_options(const Input& input, const SurfaceArrays& surface, const RunOptions& options) {
+    RemeshOptions result = {.deviation = deviation_for(options.deviation, input.diagonal),
+                            .longest = longest_edge(options, input.diagonal),
+                            .creases = input.creases};
+    if (options.sizes.growth > 0) result.growth = options.sizes.growth;
+    const SizeField wanted = wanted_lengths(options, surface, input);
+    if (!wanted.is_empty()) result.wanted = [wanted](const Vec3& p) { return wanted.at(p); };
+    return result;
+}
+
+void check_memory(const SurfaceArrays& surface, const RemeshOptions& options, bool have_one_size, int processes) {
+    const double facets = forecast_facets(surface, options);
+    const double most = most_memory_bytes(processes) / bytes_per_facet;
+    if (facets <= most) return;
+    // A twentieth more than what there is memory for, so that it stays enough when it is rounded.
+    const std::string way_out =
+        have_one_size ? fmt::format("Use --size {:.2g} or larger", 1.05 * options.longest * std::sqrt(facets / most))
+                      : "Use larger sizes";
+    throw Error(ErrorCode::memory,
+                fmt::format("The remeshed surface would have about {} facets, but there is memory for {}. {}.",
+                            short_number(facets), short_number(most), way_out));
+}
+
+}  // namespace
+
+Slivers find_slivers(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
+    std::vector<double> sines = smallest_sines(vertices, facets);
+    if (sines.empty()) return {};
+    const double limit = std::sin(5 / deg_per_rad);
+    const auto below = std::count_if(sines.begin(), sines.end(), [&](double sine) { return sine < limit; });
+    const auto middle = sines.begin() + static_cast<std::ptrdiff_t>(sines.size() / 2);
+    std::nth_element(sines.begin(), middle, sines.end());
+    return {in_degrees(*middle), static_cast<double>(below) / static_cast<double>(sines.size())};
+}
+
+bool is_remeshed(const Input& input, const RunOptions& options) {
+    switch (options.remeshing) {
+        case Remeshing::never:
+            return false;
+        case Remeshing::always:
+            return true;
+        case Remeshing::of_cad_files:
+            return input.is_cad;
+        case Remeshing::where_slivers_spoil_cells:
+            break;
+    }
+    const SurfaceArrays surface = input.surface.arrays();
+    return find_slivers(surface.vertices, surface.facets).spoil_cells();
+}
+
+std::string sliver_note(const Slivers& slivers, const std::string& path) {
+    if (!slivers.spoil_cells()) return "";
+    return fmt::format(
+        "{:.0f} % of the facets have angles below 5 degrees, and cells will be no better. "
+        "kerf mesh {} --surface remesh cures that.",
+        100 * slivers.share_below_5_deg, path);
+}
+
+double deviation_for(const Length& wanted, double diagonal) {
+    const double deviation = wanted.of(diagonal);
+    if (!(deviation >= smallest_share * diagonal && deviation <= largest_share * diagonal))
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("--deviation is {}, but it must be a length or, with %, a share of the diagonal ({:g}), "
+                        "from 1e-7 % to 5 %.",
+                        wanted.text(), diagonal));
+    return deviation;
+}
+
+double forecast_remeshed_facets(const Input& input, const RunOptions& options) {
+    if (!is_remeshed(input, options)) return static_cast<double>(input.facets);
+    const SurfaceArrays surface = input.surface.arrays();
+    return forecast_facets(surface, remesh_options(input, surface, options));
+}
+
+Input remesh_where_asked(Input input, const RunOptions& options, StageListener* listener, int processes) {
+    const SurfaceArrays before = input.surface.arrays();
+    if (!is_remeshed(input, options)) {
+        const std::string note = sliver_note(find_slivers(before.vertices, before.facets), input.path);
+        if (!note.empty()) input.notes.push_back(note);
+        return input;
+    }
+    if (options.remeshing == Remeshing::of_cad_files)
+        input.notes.push_back(
+            "A CAD file has no triangles of its own: they are remeshed. --surface split keeps those "
+            "of OpenCASCADE.");
+    RemeshOptions wanted = remesh_options(input, before, options);
+    check_memory(before, wanted, !options.sizes.depends_on_place(), processes);
+    if (listener) {
+        wanted.poll = [listener, steps = std::size_t{0}]() mutable { tell_progress(listener, "remesh", steps++, 0); };
+        wanted.poll();
+    }
+    Remeshed remeshed = remesh(before, wanted);
+
+    input.remeshed = {.facets_before = input.facets,
+                      .smallest_angle_before_deg = smallest_angle(before),
+                      .smallest_angle_deg = smallest_angle(remeshed.surface),
+                      .deviation = wanted.deviation,
+                      .distance_to_input = remeshed.report.distance_to_input,
+                      .distance_from_input = remeshed.report.distance_from_input,
+                      .feature_edges = remeshed.report.feature_edges};
+    input.surface = Surface(std::move(remeshed.surface));
+    measure_input(input);
+    return input;
+}
+
+}  // namespace kerf

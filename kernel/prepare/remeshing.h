@@ -1,0 +1,46 @@
+// Whether and how the surface of a run is remeshed before it is cut.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "prepare/input.h"
+#include "prepare/stage_listener.h"
+#include "request/options.h"
+
+namespace kerf {
+
+/// How many facets are too sharp for good cells.
+struct Slivers {
+    double median_angle_deg = 60;  ///< of the smallest angles of the facets
+    double share_below_5_deg = 0;
+
+    /// Median below 15 degrees, or more than a tenth of the facets below 5: most of the cells at such a surface are no
+    /// better than it.
+    bool spoil_cells() const { return median_angle_deg < 15 || share_below_5_deg > 0.1; }
+};
+Slivers find_slivers(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets);
+
+/// Whether `options` have this input remeshed. All who ask about a run ask here.
+bool is_remeshed(const Input& input, const RunOptions& options);
+
+/// One sentence with the command that cures it; empty if they spoil nothing.
+std::string sliver_note(const Slivers& slivers, const std::string& path);
+
+/// The deviation that is wanted of a body with this diagonal. Throws Error(usage), naming the option, for one that is
+/// too small or too large for it.
+double deviation_for(const Length& wanted, double diagonal);
+
+/// Facets that the surface will have by remesh_where_asked(), about; more where its shape asks for them. O(#F).
+double forecast_remeshed_facets(const Input& input, const RunOptions& options);
+
+/// The input, remeshed where `options` says so, or with a note about slivers. That a CAD file is by default is noted.
+/// Remeshed, its surface, counts, area and volume are the new ones, and Input::remeshed tells what was done. The wanted
+/// lengths are those of options.sizes. `listener`, unless null, is told of the stage "remesh" again and again while it
+/// lasts, with the steps that are done, of nobody knows how many. Throws Error(usage) for a deviation out of range,
+/// Error(input) where the bound cannot be kept, Error(memory) with the way out for more facets than there is memory
+/// for, before the first of them, Error(cancelled).
+/// `processes`: that do the same on this machine.
+Input remesh_where_asked(Input input, const RunOptions& options, StageListener* listener = nullptr, int processes = 1);
+
+}  // namespace kerf

@@ -1,0 +1,99 @@
+#include "report/event_log.h"
+
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "io/checked_file.h"
+#include "io/output_file.h"
+#include "io/path_text.h"
+
+namespace kerf {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string absolute(const std::string& path) {
+    return path.empty() ? path : path_text(std::filesystem::absolute(path).lexically_normal().string());
+}
+
+}  // namespace
+
+EventLog::EventLog(const std::string& target) : file_(std::make_unique<CheckedFile>(open_output(target), target)) {}
+
+EventLog::~EventLog() = default;
+
+template <class Object>
+void EventLog::write(Object json) {
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
+    json["seconds"] = seconds.count();
+    if (!file_) return;
+    try {
+        file_->write(json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+        file_->flush();
+    } catch (const ReaderLeft&) {
+        file_.reset();
+    }
+}
+
+void EventLog::on_start(const RunOptions& options) {
+    write(Json{{"event", "run"},
+               {"input", absolute(options.input)},
+               {"scale", options.input_options.scale},
+               {"output", options.dry_run ? "" : absolute(options.output)},
+               {"trace", absolute(options.trace_file)},
+               {"parts", options.decompose.parts}});
+}
+
+void EventLog::on_progress(const char* stage, std::size_t, std::size_t) {
+    if (stage_ == stage) return;
+    stage_ = stage;
+    write(Json{{"event", "stage"}, {"stage", stage}});
+}
+
+void EventLog::on_parts(const std::vector<PartReport>& parts, const std::string&) {
+    Json list = Json::array();
+    for (const PartReport& part : parts)
+        list.push_back({{"id", part.id},
+                        {"load", part.load},
+                        {"facets", part.surface_facets},
+                        {"volume", part.surface_volume},
+                        {"resumed", part.resumed}});
+    write(Json{{"event", "parts"}, {"parts", list}});
+}
+
+void EventLog::on_part(const PartEvent& event) {
+    const PartReport& part = *event.part;
+    Json json = {{"event", "part"},
+                 {"id", part.id},
+                 {"state", part.result.code ? "failed"
+                           : part.resumed   ? "resumed"
+                                            : "done"},
+                 {"rank", part.rank},
+                 {"worker", part.worker},
+                 {"mesher", part.result.mesher},
+                 {"attempts", part.attempts},
+                 {"tets", part.result.tets},
+                 {"part_seconds", part.seconds},
+                 {"parts_done", event.done},
+                 {"parts", event.total},
+                 {"load_done", event.load_done},
+                 {"tets_done", event.tets}};
+    if (part.result.code) json["message"] = part.result.message;
+    if (!part.remedy.empty()) json["remedy"] = part.remedy;
+    if (!part.result.way.empty()) json["way"] = part.result.way;
+    if (part.result.core_tets) json["core_tets"] = part.result.core_tets;
+    write(std::move(json));
+}
+
+void EventLog::on_end(int exit_code, const std::string& message) {
+    Json json = {{"event", "end"}, {"exit_code", exit_code}};
+    if (!message.empty()) json["message"] = message;
+    try {
+        write(std::move(json));
+    } catch (const Error&) {
+    }
+}
+
+}  // namespace kerf

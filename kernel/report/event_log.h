@@ -1,0 +1,53 @@
+// The progress of a run for other programs: one JSON object per line.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "report/listener.h"
+
+namespace kerf {
+
+class CheckedFile;
+
+/// Writes each event when it happens. All objects have "event" and "seconds" since the start:
+///
+///     {"event": "run", "input", "scale", "output", "trace", "parts"}
+///     {"event": "stage", "stage": "read" | "remesh" | "decompose" | "prepare" | "volume" | "reference" | "write" |
+///                                 "hash"}
+///     {"event": "parts", "parts": [{"id", "load", "facets", "volume", "resumed"}]}
+///     {"event": "part", "id", "state": "done" | "resumed" | "failed", "rank", "worker", "mesher", "attempts",
+///                       "tets", "part_seconds", "parts_done", "parts", "load_done", "tets_done", "message", "remedy",
+///                       "way", "core_tets"}
+///     {"event": "end", "exit_code", "message"}
+///
+/// The first one says what runs: absolute paths, "" for one that is not written, and K, 0 if the run chooses it.
+/// A reader of a pipe that leaves is told nothing more, and the run goes on.
+/// "message" is there where something failed, "remedy" where the first attempt did, "way" where the mesher has several,
+/// "core_tets" where it has stamped cells.
+class EventLog : public RunListener {
+ public:
+    /// `target`: the path of a file, which is replaced, or fd:N, an open file descriptor, which stays open. Throws
+    /// Error(io).
+    explicit EventLog(const std::string& target);
+    ~EventLog() override;
+
+    /// The first event. Throws Error(io).
+    void on_start(const RunOptions& options);
+    void on_progress(const char* stage, std::size_t done, std::size_t total) override;
+    void on_parts(const std::vector<PartReport>& parts, const std::string& plan) override;
+    void on_part(const PartEvent& event) override;
+    /// The last event. `message`: the error, or empty. What cannot be written is lost: the run has ended anyway.
+    void on_end(int exit_code, const std::string& message);
+
+ private:
+    template <class Object>
+    void write(Object json);
+
+    std::unique_ptr<CheckedFile> file_;  // none when the reader has left
+    std::string stage_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace kerf

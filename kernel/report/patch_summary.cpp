@@ -1,0 +1,72 @@
+#include "report/patch_summary.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "export/format.h"
+
+namespace kerf {
+
+std::vector<PatchSummary> summarize_patches(const Soup& soup) {
+    std::vector<PatchSummary> patches(soup.patch_names.size());
+    for (std::size_t p = 0; p < patches.size(); ++p) patches[p].name = soup.patch_names[p];
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        const auto& [a, b, c] = soup.facets[f];
+        const Vec3 &p = soup.vertices[static_cast<std::size_t>(a)], &q = soup.vertices[static_cast<std::size_t>(b)],
+                   &r = soup.vertices[static_cast<std::size_t>(c)];
+        const Vec3 normal = (q - p).cross(r - p) / 2;
+        PatchSummary& patch = patches[static_cast<std::size_t>(soup.patch[f])];
+        ++patch.triangles;
+        patch.area += normal.norm();
+        patch.centroid += normal.norm() * (p + q + r) / 3;
+        patch.normal += normal;
+    }
+    for (PatchSummary& patch : patches) {
+        if (!(patch.area > 0)) continue;
+        patch.centroid /= patch.area;
+        patch.normal /= patch.area;
+    }
+    return patches;
+}
+
+std::string to_text(const std::vector<PatchSummary>& patches) {
+    std::string text =
+        fmt::format("{:>9} {:>12}  {:<36}  {:<24}  {}\n", "triangles", "area", "centroid", "normal", "name");
+    for (const PatchSummary& patch : patches) {
+        constexpr double shown = 1e-3;
+        const Vec3 &c = patch.centroid, n = (patch.normal / shown).array().round() * shown + 0.0;  // and no -0
+        text += fmt::format("{:>9} {:>12.6g}  {:<36}  {:<24}  {}\n", patch.triangles, patch.area,
+                            fmt::format("({:.6g}, {:.6g}, {:.6g})", c.x(), c.y(), c.z()),
+                            fmt::format("({:.3f}, {:.3f}, {:.3f})", n.x(), n.y(), n.z()), patch.name);
+    }
+    return text;
+}
+
+std::string spellings_text(const std::vector<std::string>& patch_names) {
+    std::vector<std::pair<const Format*, std::vector<std::string>>> spelled;
+    for (const Format* format : formats())
+        if (format->patch_words) spelled.emplace_back(format, format->patch_words(patch_names));
+    std::string text;
+    for (std::size_t p = 0; p < patch_names.size(); ++p) {
+        std::vector<std::pair<std::string, std::string>> words;  // and the formats that have them
+        for (const auto& [format, names] : spelled) {
+            const std::string& name = names[p];
+            if (name == patch_names[p]) continue;
+            const auto same = std::find_if(words.begin(), words.end(), [&](const auto& w) { return w.first == name; });
+            if (same == words.end())
+                words.emplace_back(name, format->name);
+            else
+                same->second += fmt::format(", {}", format->name);
+        }
+        if (words.empty()) continue;
+        text += fmt::format("  {}:", patch_names[p]);
+        for (std::size_t i = 0; i < words.size(); ++i)
+            text += fmt::format("{} {} in {}", i == 0 ? "" : ";", words[i].first, words[i].second);
+        text += "\n";
+    }
+    return text.empty() ? "" : "Formats that do not have these names spell them:\n" + text;
+}
+
+}  // namespace kerf

@@ -1,0 +1,125 @@
+// What a run did, as plain data and as report.json (schema 1).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "improve/improve.h"
+#include "io/run_manifest.h"
+#include "prepare/input.h"
+#include "request/options.h"
+#include "work/part_queue.h"
+
+namespace kerf {
+
+/// One leaf of the run: what it is, and how it fared.
+struct PartReport : PartOutcome {
+    NodeId id = 1;
+    std::int32_t rank = 0;  ///< that meshed it, before that the one that cut it
+    bool resumed = false;   ///< an interrupted run had finished it
+    double load = 0;        ///< predicted work, as LoadModel has it
+    FileHash job_hash = {0, 0};
+    FileHash surface_hash = {0, 0};  ///< of the file of its surface
+    double surface_volume = 0;
+    double surface_volume_error = 0;                       ///< as BoundedVolume has it
+    double sized_volume = 0;                               ///< as sized_volume() has it
+    Vec3 box_low = Vec3::Zero(), box_high = Vec3::Zero();  ///< corners of the box around its surface
+    std::int64_t surface_vertices = 0, surface_facets = 0;
+    std::int64_t interface_facets = 0;  ///< of them
+    double interface_area = 0;
+    double interface_in_squared_edges =
+        0;                           ///< the same, each facet over the square of CutOptions::max_interface_edge()
+    std::vector<NodeId> neighbours;  ///< ascending
+
+    Eigen::AlignedBox3d box() const { return {box_low, box_high}; }
+
+    template <class Archive>
+    void archive(Archive& a) {
+        PartOutcome::archive(a);
+        a(id, rank, resumed, load, job_hash, surface_hash, surface_volume, surface_volume_error, sized_volume, box_low,
+          box_high, surface_vertices, surface_facets, interface_facets, interface_area, interface_in_squared_edges,
+          neighbours);
+    }
+};
+
+/// The laws of the whole, each a count that must be zero.
+struct RunVerification {
+    bool passed = false;
+    double volume_rel_error = 0;                 ///< sum of the parts against the enclosed volume
+    double volume_rel_bound = 0;                 ///< what rounding may make of that, found beside both sums
+    std::int64_t input_faces_missing = 0;        ///< facets of the input that are no boundary face of exactly one part
+    std::int64_t extra_boundary_faces = 0;       ///< boundary faces of parts that are neither input nor interface
+    std::int64_t unmatched_interface_faces = 0;  ///< not once on each side, with the same keys in opposite order
+    std::int64_t inverted_tets = 0;
+    std::int64_t tets_zero_parts = 0;  ///< parts without a tetrahedron
+
+    /// True if the volumes agree within the bound and every count is zero.
+    bool all_hold() const;
+};
+
+/// Wall clock, the longest over the ranks.
+struct StageSeconds {
+    double read = 0, decompose = 0;
+    double prepare = 0;  ///< both sides of interfaces brought together, surfaces and jobs written
+    double mesh = 0;     ///< of the stage
+    double write = 0;    ///< the files of all formats
+    double hash = 0;     ///< other files read again for the list of their hashes
+    double wall = 0;     ///< of the run
+};
+
+/// How the workers spent the meshing stage, each a mean over all of them: the terms add up to StageSeconds::mesh.
+struct WorkerSeconds {
+    double mesher = 0;  ///< calls of the mesher
+    double verify = 0, store = 0;
+    double start = 0;  ///< starting processes, handing over jobs and answers, attempts that failed
+    double idle = 0;   ///< nothing left to do
+};
+
+/// The whole in one piece, by the same mesher with the same bounds.
+struct Reference {
+    PartOutcome outcome;     ///< code 0 if there is a mesh
+    std::string comparison;  ///< of both as text (quality/quality_text.h)
+};
+
+struct RunReport {
+    const Input* input = nullptr;
+    RunOptions options;
+    int ranks = 1;
+    std::vector<TreeNode> nodes;    ///< ascending by number
+    std::vector<PartReport> parts;  ///< in the order of the tree
+    RunVerification verification;
+    std::int64_t split_facets = 0;  ///< facets of the input that straight cuts have split
+    StageSeconds seconds;
+    WorkerSeconds worker_seconds;
+    std::int64_t vertices = 0;  ///< distinct, of the whole mesh
+    std::int64_t tets = 0;
+    double imbalance = 1;             ///< max over mean of the part seconds summed per worker
+    std::int64_t peak_rss_bytes = 0;  ///< of the ranks, and of the largest worker for each worker
+    PartQuality quality;
+    Improvement improvement;  ///< sum over the parts, and so are its seconds
+    double improve_seconds = 0;
+    SizeRatios sizes;                    ///< sum over the parts
+    std::optional<Reference> reference;  ///< on the root rank, where it was asked for
+    std::string mesh_hash;
+    std::vector<RunFile> files;   ///< all of the folder but the report, ascending
+    std::string folder;           ///< where the result is
+    bool kept_valid_run = false;  ///< parts have failed, and an older run without that has kept the folder's name
+    int exit_code = 0;
+};
+
+/// report.json as text, two spaces of indentation, sealed (io/run_manifest.h). Numbers that are not finite become null.
+std::string to_json(const RunReport& report);
+
+/// What remeshing did, in one line.
+std::string remeshing_text(const InputRemeshing& done);
+
+enum class ReportDetail {
+    brief,  ///< the mesh, its quality, the verdict and the time, and what has happened to this input alone
+    all
+};
+
+/// Some lines for people: a label, at the twelfth column what there is to say.
+std::string to_text(const RunReport& report, ReportDetail detail = ReportDetail::all);
+
+}  // namespace kerf

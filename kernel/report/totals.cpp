@@ -1,0 +1,96 @@
+#include "report/totals.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.h"
+#include "work/mesh_hash.h"
+
+namespace kerf {
+
+namespace {
+
+// What straight cuts add to the sum of the parts' volumes. A new vertex lies beside its edge by less than 16 e times
+// the largest coordinate (cut/facet_split.cpp), e = 2^-53, and so does each piece beside its facet, once a level of the
+// tree.
+double error_of_splits(const RunReport& report) {
+    if (report.split_facets == 0) return 0;
+    NodeId last = 1;
+    for (const PartReport& part : report.parts) last = std::max(last, part.id);
+    const auto levels = static_cast<double>(std::bit_width(static_cast<std::uint64_t>(last)));
+    return levels * 16 * 0x1p-53 * report.input->largest_coordinate * report.input->area;
+}
+
+RunVerification verify_parts(const RunReport& report) {
+    RunVerification v = report.verification;
+    double volume = 0, error = report.input->volume_error + error_of_splits(report);
+    bool parts_hold = true;
+    for (const PartReport& part : report.parts) {
+        const MeshLaws& laws = part.result.laws;
+        volume += report.options.volume ? laws.volume : part.surface_volume;
+        error += report.options.volume ? laws.volume_error : part.surface_volume_error;
+        v.inverted_tets += laws.inverted_tets;
+        v.input_faces_missing += laws.missing_facets;
+        v.extra_boundary_faces += laws.extra_boundary_faces;
+        if (!report.options.volume) continue;
+        v.tets_zero_parts += part.result.tets == 0;
+        parts_hold &= part.result.code == 0 && laws.hold();
+    }
+    error += static_cast<double>(report.parts.size()) * 0x1p-53 * volume;  // volumes are positive, and added in order
+    v.volume_rel_error = std::abs(volume - report.input->volume) / report.input->volume;
+    v.volume_rel_bound = error / report.input->volume;
+    v.passed = parts_hold && v.all_hold();
+    return v;
+}
+
+// Where the time of the workers went in the meshing stage, as means over all of them.
+void measure_workers(RunReport& report) {
+    const auto workers = static_cast<std::size_t>(report.ranks * report.options.workers);
+    std::vector<double> busy(workers, 0);
+    WorkerSeconds& mean = report.worker_seconds;
+    for (const PartReport& part : report.parts) {
+        if (part.resumed) continue;
+        busy[static_cast<std::size_t>(part.rank * report.options.workers + part.worker)] += part.seconds;
+        mean.mesher += part.result.mesh_seconds;
+        mean.verify += part.result.verify_seconds;
+        mean.store += part.result.store_seconds;
+    }
+    const double sum = std::accumulate(busy.begin(), busy.end(), 0.0);
+    if (sum > 0) report.imbalance = *std::max_element(busy.begin(), busy.end()) * static_cast<double>(workers) / sum;
+    for (double* seconds : {&mean.mesher, &mean.verify, &mean.store}) *seconds /= static_cast<double>(workers);
+    mean.start = sum / static_cast<double>(workers) - mean.mesher - mean.verify - mean.store;
+    mean.idle = std::max(0.0, report.seconds.mesh - sum / static_cast<double>(workers));
+}
+
+}  // namespace
+
+int failure_code(const std::vector<PartReport>& parts) {
+    int code = 0;
+    for (const PartReport& part : parts) {
+        if (part.result.code == 0) continue;
+        const bool memory = part.result.code == static_cast<int>(ErrorCode::memory);
+        if (!memory) return static_cast<int>(ErrorCode::subdomain);
+        code = part.result.code;
+    }
+    return code;
+}
+
+void add_up_parts(RunReport& report) {
+    std::vector<PartHash> hashes;
+    for (const PartReport& part : report.parts) {
+        report.tets += part.result.tets;
+        report.sizes.add(part.result.sizes);
+        report.improve_seconds += part.result.improve_seconds;
+        hashes.push_back({part.id, part.result.hash});
+    }
+    if (report.options.volume) report.mesh_hash = hash_of_parts(hashes);
+    report.verification = verify_parts(report);
+    measure_workers(report);
+    report.exit_code = failure_code(report.parts);
+    if (report.exit_code == 0 && !report.verification.passed)
+        report.exit_code = static_cast<int>(ErrorCode::verification);
+}
+
+}  // namespace kerf

@@ -1,0 +1,27 @@
+// What may be done to a surface file before it is cut.
+#pragma once
+
+#include <cstdint>
+
+#include "core/user_number.h"
+#include "io/cad_body.h"
+#include "surface/diagnosis.h"
+
+namespace kerf {
+
+/// What may be done to a surface before it is diagnosed and cut. Only `voids` leaves the geometry as it is.
+struct InputOptions {
+    double scale = 1;                  ///< of all coordinates, as they are read; other lengths are in units after it
+    Length weld_tolerance;             ///< vertices this close are merged; of the file's diagonal; 0: only equal ones
+    std::int32_t fill_hole_edges = 0;  ///< open loops of at most so many edges are spanned
+    bool keep_largest = false;         ///< only the connected component of the largest area stays
+    Voids voids = Voids::as_given;
+    double feature_angle_deg = 0;          ///< patches between sharper edges where the file has one patch; 0: none
+    std::int32_t optimisation_sweeps = 0;  ///< of vertices off the feature edges; 0: none moves
+    CadOptions cad;                        ///< of STEP, IGES and BREP files
+
+    /// Throws Error(usage) naming option, value and range.
+    void check() const;
+};
+
+}  // namespace kerf

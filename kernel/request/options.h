@@ -1,0 +1,142 @@
+// All that a user can choose about a run, and the one table of it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/user_number.h"
+#include "decompose/decomposition.h"
+#include "io/output_file.h"
+#include "request/input_options.h"
+#include "size/size_options.h"
+#include "volume/mesher.h"
+
+namespace kerf {
+
+/// Whether the surface is remeshed within a bound before all else (prepare/remeshing.h).
+enum class Remeshing { of_cad_files, never, always, where_slivers_spoil_cells };
+
+struct RunOptions {
+    std::string input;
+    std::string input_hash;  ///< of the bytes that the input must have, as a run that is continued has read them;
+                             ///< empty: any
+    std::string output;
+    std::string worker_program;  ///< path of kerf-worker
+    DecomposeOptions decompose = {
+        .parts = 0, .facets = FacetPolicy::split, .cut = {}};  ///< parts 0: see choose_parts()
+    MesherOptions mesher;
+    SizeOptions sizes;           ///< of tetrahedra, see use_sizes()
+    InputOptions input_options;  ///< of the surface before all else
+    Remeshing remeshing = Remeshing::of_cad_files;
+    Length deviation = Length::percent(0.002);  ///< of a remeshed surface from the input
+    std::int32_t workers = 0;                   ///< processes of each rank; 0: its share of the processors
+    double timeout_seconds = 600;               ///< of one attempt at one part; 0: none
+    std::int64_t memory_mb = 0;                 ///< address space of one worker; 0: unlimited
+    std::int32_t attempts = 10;                 ///< at one part, at most (volume/retries.h)
+    std::string report_file;                    ///< a copy of the report; empty: only DIR/report.json
+    std::string trace_file;   ///< all cuts with their stages (run/trace.h); empty: none. Not inside of `output`
+    std::string events_file;  ///< of an EventLog that the caller gives to the run; empty: none
+    std::string formats;      ///< names of export/format.h with commas between; empty: vtu
+    std::string fields;       ///< of cells in vtu files (parse_cell_fields()); empty: min-dihedral
+    std::vector<std::string> patch_types;  ///< of parse_patch_types(); for formats that have such
+    bool reference = false;                ///< the whole is meshed in one piece, too, and compared
+    bool stl = false;                      ///< the surfaces of the parts as STL, too
+    bool volume = true;                    ///< false: stop at the closed surfaces of the parts
+    std::int32_t least_parts = 1;          ///< where K follows: one for each rank that takes whole parts later
+    bool dry_run = false;                  ///< stop at the plan, and write nothing
+
+    /// Fills what follows from other choices, K excepted, and checks ranges and files. Throws Error(usage) naming
+    /// option, value and range, Error(io) for a file that could not be written or would be lost.
+    void resolve(int cores_of_rank);
+    /// Replaces percentages by the lengths that they are of this diagonal, and fills what follows from these. To be
+    /// called after resolve(), when the input is read. Throws Error(usage) as resolve() does.
+    void resolve_lengths(double diagonal);
+    /// Cuts, forecasts and the mesher obey this field. resolve() has them obey what `sizes` says of all places alike.
+    void use_sizes(const SizeField& field);
+    /// The part of resolve() that asks for input and outputs, for who writes one of them before the run.
+    void check_files() const;
+    /// The files beside its folder that the run writes, with their options; paths may be empty.
+    std::vector<NamedPath> output_files() const;
+
+ private:
+    void use_constant_size();
+};
+
+/// Of RunOptions::deviation, of which remesh_where_asked() knows more: shares of the diagonal that are too much.
+inline constexpr NumberRange deviation_range = {"a positive length in units of the input, or with % of its diagonal", 0,
+                                                std::numeric_limits<double>::infinity(), false, true};
+
+/// Headings under which help and manual list the options, in this order.
+namespace option_group {
+inline constexpr const char* input = "Input";
+inline constexpr const char* cuts = "Cuts";
+inline constexpr const char* sizes = "Sizes";
+inline constexpr const char* meshing = "Meshing";
+inline constexpr const char* output = "Output";
+inline constexpr const char* running = "Running";
+inline constexpr const char* expert = "Expert";
+inline constexpr const char* all[] = {input, cuts, sizes, meshing, output, running, expert};
+}  // namespace option_group
+
+/// One option: its name on the command line and in the config file, and where its value lives.
+struct OptionField {
+    /// An enumeration by its names.
+    struct Choice {
+        std::vector<std::string> names;
+        std::function<int()> get;
+        std::function<void(int)> set;
+    };
+    std::string name;        ///< without dashes
+    std::string short_name;  ///< a letter, or empty
+    std::string group;       ///< of option_group
+    std::string value_name;  ///< stands for the value in the help, as FILE; empty for flags and choices
+    std::string help;        ///< one sentence with unit and default
+    /// Of an option that may be given several times; as one text, with semicolons between (join_items()).
+    using List = std::vector<std::string>*;
+    std::variant<std::int32_t*, std::int64_t*, double*, Length*, bool*, std::string*, List, Choice> value;
+    bool shapes_parts = true;  ///< false: a finished run has the same part files whatever it is, but for parts that
+                               ///< took longer than a limit of time, which the run marks (PartOutcome::timed_out)
+    NumberRange range = {};    ///< of a number or a length
+
+    /// The value as text, numbers with all their digits; set_text() takes it back and throws Error(usage), naming the
+    /// option and what it may be, for what is no such value.
+    std::string text() const;
+    void set_text(const std::string& text) const;
+    /// Throws Error(usage) for a number that is out of range.
+    void check() const;
+    bool is_number() const;  ///< or a length
+};
+
+/// Items with semicolons between; those within an item, and backslashes, get a backslash before them. Empty items
+/// vanish.
+std::string join_items(const std::vector<std::string>& items);
+std::vector<std::string> split_items(const std::string& text);
+
+/// An option as text, as OptionField has it.
+struct OptionText {
+    std::string name, text;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(name, text);
+    }
+};
+
+/// The fields that say what is done to the input.
+std::vector<OptionField> input_option_fields(InputOptions& options);
+
+/// The fields that say how fine the mesh is, and where.
+std::vector<OptionField> size_option_fields(SizeOptions& options);
+
+/// The table: command line, config file, report and viewer show the same options in this order.
+std::vector<OptionField> option_fields(RunOptions& options);
+
+/// The values of the table, or only those that shape the parts.
+std::vector<OptionText> option_texts(RunOptions options, bool shapes_parts_only);
+/// Sets what option_texts() has said. Throws Error(usage) for a name or value that this version does not know, naming
+/// `source`.
+void set_options(RunOptions& options, const std::vector<OptionText>& texts, const std::string& source);
+
+}  // namespace kerf

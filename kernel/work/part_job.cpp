@@ -1,0 +1,174 @@
+#include "work/part_job.h"
+
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "core/elements.h"
+#include "core/error.h"
+#include "core/record.h"
+#include "io/checked_file.h"
+#include "io/file_bytes.h"
+#include "part/vtu_reader.h"
+#include "work/mesh_hash.h"
+#include "work/mesh_in_two.h"
+
+namespace kerf {
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Runs a stage and adds its wall clock to `seconds`.
+template <class Stage>
+auto timed(double& seconds, Stage stage) {
+    struct Stopwatch {
+        double& seconds;
+        std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+        ~Stopwatch() { seconds += seconds_since(start); }
+    } stopwatch{seconds};
+    return stage();
+}
+
+std::vector<char> interface_vertices(const SurfaceArrays& surface, std::size_t vertex_count) {
+    std::vector<char> on_interface(vertex_count, 0);
+    for (std::size_t f = 0; f < surface.facets.size(); ++f)
+        if (!is_of_input(surface.facet_key[f]))
+            for (std::int32_t v : surface.facets[f]) on_interface[v] = 1;
+    return on_interface;
+}
+
+std::string broken_laws(const MeshLaws& laws) {
+    std::string text = "The mesher returned a mesh that breaks the laws:";
+    const auto add = [&](std::int64_t count, const char* what) {
+        if (count) text += " " + std::to_string(count) + " " + what + ";";
+    };
+    add(laws.inverted_tets, "inverted tetrahedra");
+    add(laws.missing_facets, "facets of the surface missing");
+    add(laws.extra_boundary_faces, "boundary faces that are no facets");
+    add(laws.mismatched_neighbours, "faces with mismatched neighbours");
+    add(laws.moved_vertices, "moved surface vertices");
+    return text + fmt::format(" volume {:.6g}, {:+.2g} from the surface's, of which rounding explains {:.2g}.",
+                              laws.volume, laws.volume - laws.surface_volume, laws.volume_error);
+}
+
+void fill_result(const PartJob& job, const MesherCall& call, const std::string& part_file, PartResult& result) {
+    result.mesher = call.options.name;
+    Filling filling = timed(result.mesh_seconds, [&] {
+        return call.cut_first ? mesh_in_two(job.surface, call.options) : mesh_volume(job.surface, call.options);
+    });
+    TetMesh& mesh = filling.mesh;
+    result.way = filling.way;
+    result.improvement = filling.improvement;
+    result.improve_seconds = filling.improve_seconds;
+    mesh.neighbours = {};  // parts are stored without
+    timed(result.verify_seconds, [&] { result.laws = verify_mesh(mesh, job.surface, FaceProof::sum); });
+    if (!result.laws.hold()) throw Error(ErrorCode::subdomain, broken_laws(result.laws));
+    result.vertices = static_cast<std::int64_t>(mesh.vertices.size());
+    result.interior_vertices = mesh.interior_vertex_count();
+    result.tets = static_cast<std::int64_t>(mesh.tets.size());
+    result.core_tets = filling.core_tets;
+    timed(result.store_seconds, [&] {
+        result.sizes = measure_sizes(mesh, job.surface, call.options.size);
+        result.quality = measure_quality(mesh, interface_vertices(job.surface, mesh.vertices.size()), job.length_scale);
+        result.angles = ImprovedAngles(result.improvement, result.quality);
+    });
+    const Part part = part_of_job(job, std::move(mesh));
+    timed(result.verify_seconds, [&] { result.hash = hash_part(part); });
+    timed(result.store_seconds, [&] { result.file_hash = write_stored_part(part_file, part); });
+}
+
+}  // namespace
+
+ImprovedAngles::ImprovedAngles(const Improvement& improvement, const PartQuality& after) {
+    if (improvement.is_empty() || after.all.measures.empty()) return;
+    const Distribution &was = improvement.smallest_before, &is = after.all.measures[0];
+    min_before_deg = was.min();
+    p1_before_deg = was.percentile(0.01);
+    min_after_deg = is.min();
+    p1_after_deg = is.percentile(0.01);
+}
+
+Eigen::AlignedBox3d box_of(const PartJob& job) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : job.surface.vertices) box.extend(p);
+    return box;
+}
+
+Part part_of_job(const PartJob& job) {
+    TetMesh boundary;
+    boundary.vertices = job.surface.vertices;
+    boundary.boundary_vertex_count = static_cast<std::int32_t>(boundary.vertices.size());
+    return part_of_job(job, std::move(boundary));
+}
+
+Part part_of_job(const PartJob& job, TetMesh mesh) {
+    Part part;
+    part.id = job.part;
+    part.facets = job.surface.facets;
+    part.patch = job.surface.patch;
+    part.facet.reserve(part.facets.size());
+    for (const Key key : job.surface.facet_key) part.facet.push_back(is_of_input(key) ? key_index(key) : -1);
+    part.neighbour = job.neighbour;
+    part.tet_at_facet = tets_at_facets(mesh, part.facets);
+    part.global_id = job.boundary_id;
+    part.global_id.resize(mesh.vertices.size(), -1);
+    part.patch_names = job.patch_names;
+    part.shared = job.shared;
+    part.shared_edges = job.shared_edges;
+    part.mesh = std::move(mesh);
+    return part;
+}
+
+void restore_stored_part(const std::string& part_file, const std::string& vtu_file, const PartJob& job) {
+    if (!is_complete_part_file(vtu_file)) return;
+    Part part;
+    try {
+        part = read_part(vtu_file);
+    } catch (const Error&) {  // damaged
+        return;
+    }
+    if (!are_in_range(part.facets, static_cast<std::size_t>(part.mesh.boundary_vertex_count))) return;
+    part.tet_at_facet = tets_at_facets(part.mesh, part.facets);
+    part.shared = job.shared;
+    part.shared_edges = job.shared_edges;
+    write_stored_part(part_file, part);
+}
+
+void write_job(const std::string& path, const PartJob& job) {
+    const Bytes record = to_record(job);
+    CheckedFile file(path, "wb");
+    file.write(record.data(), record.size());
+    file.close();
+}
+
+PartJob read_job(const std::string& path) {
+    auto job = from_record<PartJob>(read_file(path));
+    if (!job)
+        throw Error(ErrorCode::io, fmt::format("{} is damaged. Check the disk; the same command again goes on.", path));
+    return *std::move(job);
+}
+
+PartResult out_of_memory() {
+    PartResult result;
+    result.code = static_cast<int>(ErrorCode::memory);
+    result.message = "Out of memory in the worker. Use more parts, fewer workers or a larger --memory.";
+    return result;
+}
+
+PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::string& part_file) {
+    PartResult result;
+    try {
+        fill_result(job, call, part_file, result);
+    } catch (const Error& e) {
+        result.code = static_cast<int>(e.code());
+        result.message = e.what();
+    } catch (const std::bad_alloc&) {
+        return out_of_memory();
+    }
+    return result;
+}
+
+}  // namespace kerf

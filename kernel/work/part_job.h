@@ -1,0 +1,115 @@
+// All that happens to one part: filled with tetrahedra, verified, measured, written. Runs inside of a worker process.
+#pragma once
+
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include "improve/improve.h"
+#include "mesh/quality.h"
+#include "mesh/verification.h"
+#include "part/part_store.h"
+#include "surface/surface.h"
+#include "volume/retries.h"
+#include "work/size_ratios.h"
+
+namespace kerf {
+
+/// What is known of a part before it is meshed. The mesh depends on this alone.
+struct PartJob {
+    NodeId part = 1;
+    SurfaceArrays surface;
+    std::vector<std::int64_t> boundary_id;  ///< #V; global numbers
+    std::vector<NodeId> neighbour;          ///< #F; the part on the other side of an interface facet, else -1
+    std::vector<SharedGroup> shared;
+    std::vector<SharedEdgeGroup> shared_edges;
+    std::vector<std::string> patch_names;
+    double length_scale = 1;  ///< diagonal of the whole input, for the bins of the distributions
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(part, surface, boundary_id, neighbour, shared, shared_edges, patch_names, length_scale);
+    }
+};
+
+/// Around its surface.
+Eigen::AlignedBox3d box_of(const PartJob& job);
+
+/// The part as it is before it is meshed: its boundary alone.
+Part part_of_job(const PartJob& job);
+/// The same with its cells, of which the boundary is the job's surface. Interior vertices have no global numbers yet:
+/// they are -1.
+Part part_of_job(const PartJob& job, TetMesh mesh);
+
+/// One attempt at a part: what a worker is told.
+struct PartAttempt {
+    std::string job_file;   ///< of write_job()
+    std::string part_file;  ///< is written by write_stored_part()
+    MesherCall call;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(job_file, part_file, call.remedy, call.options, call.cut_first);
+    }
+};
+
+/// Smallest dihedral angles before and after the improvement of cells; all 0 where there was none.
+struct ImprovedAngles {
+    double min_before_deg = 0, p1_before_deg = 0;  ///< of the worst cell, and of a hundredth of the cells at most
+    double min_after_deg = 0, p1_after_deg = 0;
+
+    ImprovedAngles() = default;
+    ImprovedAngles(const Improvement& improvement, const PartQuality& after);
+    bool known() const { return min_after_deg > 0; }
+};
+
+/// What the parent keeps of a part; the mesh itself goes from the worker to its file.
+struct PartResult {
+    int code = 0;         ///< value of ErrorCode, 0: the part is verified and written
+    std::string message;  ///< if code
+    std::string mesher;   ///< that has filled the part; empty if none was asked
+    std::string way;      ///< Filling::way
+    std::int64_t vertices = 0, interior_vertices = 0, tets = 0;
+    std::int64_t core_tets = 0;  ///< Filling::core_tets
+    MeshLaws laws;
+    PartQuality quality;
+    SizeRatios sizes;                            ///< against the sizes of the call, which a remedy may have made larger
+    std::array<std::uint64_t, 2> hash = {0, 0};  ///< of hash_part()
+    FileHash file_hash = {0, 0};                 ///< of the stored part
+    Improvement improvement;                     ///< Filling::improvement
+    ImprovedAngles angles;                       ///< by it
+    double improve_seconds = 0;                  ///< of mesh_seconds
+    double load_seconds = 0, mesh_seconds = 0, verify_seconds = 0, store_seconds = 0;
+    std::int64_t peak_rss_bytes = 0;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(code, message, mesher, way, vertices, interior_vertices, tets, core_tets, laws, quality, sizes, hash,
+          file_hash, improvement, angles, improve_seconds, load_seconds, mesh_seconds, verify_seconds, store_seconds,
+          peak_rss_bytes);
+    }
+};
+
+/// Of a part that did not fit into the memory of its worker.
+PartResult out_of_memory();
+
+/// Stores the part of a job again as it is in a file of write_part(), if there is a whole one: whoever finds its hash
+/// as it was has lost nothing. Throws Error(io) only if it cannot be written.
+void restore_stored_part(const std::string& part_file, const std::string& vtu_file, const PartJob& job);
+
+/// Keeps the bytes of a job in a file, from which any worker can take it. Throws Error(io).
+void write_job(const std::string& path, const PartJob& job);
+/// Throws Error(io) if the file cannot be read or is damaged.
+PartJob read_job(const std::string& path);
+
+/// Meshes, verifies, measures and stores a part. Never throws kerf::Error: it comes back as the result's code and
+/// message. A part whose laws do not hold is not written and has code `subdomain`. Deterministic but for seconds and
+/// memory.
+PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::string& part_file);
+
+/// Serves one attempt: reads it from standard input, answers on standard output, keeps whatever libraries print apart.
+/// `memory_mb` limits the address space (0: not at all). The process ends with `parent` (0: its own) and not by Ctrl-C,
+/// which reaches all processes of a terminal but is the parent's to answer. Returns the exit code.
+int serve_part_job(std::int64_t memory_mb, std::int64_t parent);
+
+}  // namespace kerf

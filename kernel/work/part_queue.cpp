@@ -1,0 +1,123 @@
+#include "work/part_queue.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "core/bytes.h"
+#include "core/check.h"
+#include "core/error.h"
+
+namespace kerf {
+
+namespace {
+
+bool died_by_itself(const ChildResult& child) {
+    const bool fatal_signal = child.signal == SIGABRT || child.signal == SIGSEGV || child.signal == SIGBUS ||
+                              child.signal == SIGFPE || child.signal == SIGILL;
+    return child.end == ChildResult::End::signalled && fatal_signal;
+}
+
+std::string last_line(const std::string& text) {
+    const std::size_t end = text.find_last_not_of("\r\n");
+    if (end == std::string::npos) return "";
+    const std::size_t begin = text.find_last_of('\n', end);
+    return text.substr(begin == std::string::npos ? 0 : begin + 1,
+                       end - (begin == std::string::npos ? 0 : begin + 1) + 1);
+}
+
+// What a worker that gave no answer left behind.
+PartResult result_of_silence(const ChildResult& child) {
+    PartResult result;
+    result.code = static_cast<int>(ErrorCode::subdomain);
+    result.message = "The worker " + child.describe() + ".";
+    if (const std::string line = last_line(child.log); !line.empty()) result.message += " Its last words: " + line;
+    return result;
+}
+
+// The first reason is that of the call as it was wanted; the others are those of remedies.
+std::string message_of_all(const PartOutcome& outcome) {
+    const std::string& last = outcome.result.message;
+    if (outcome.failures.empty() || outcome.failures.front() == last) return last;
+    return fmt::format("{} {} more attempt{} failed, too, the last one so: {}", outcome.failures.front(),
+                       outcome.failures.size(), outcome.failures.size() == 1 ? "" : "s", last);
+}
+
+}  // namespace
+
+PartQueue::PartQueue(std::vector<QueuedPart> parts, QueueOptions options)
+    : parts_(std::move(parts)),
+      options_(std::move(options)),
+      calls_(mesher_calls(options_.mesher)),
+      progress_(parts_.size()) {
+    KERF_CHECK(options_.workers >= 1 && options_.attempts >= 1);
+    for (std::int32_t worker = options_.workers; worker-- > 0;) idle_.push_back(worker);
+}
+
+std::optional<PartQueue::Finished> PartQueue::step(double wait_seconds) {
+    for (; !waiting_.empty() && !idle_.empty(); waiting_.pop_front()) {
+        progress_[waiting_.front()].outcome.worker = idle_.back();
+        idle_.pop_back();
+        start(waiting_.front());
+    }
+    KERF_CHECK(wait_seconds >= 0);
+    if (pool_.running() == 0) {
+        std::this_thread::sleep_for(std::chrono::duration<double>(wait_seconds));
+        return {};
+    }
+    const auto ended = pool_.wait_any(wait_seconds);
+    if (!ended) return {};
+    return take_result(static_cast<std::size_t>(ended->tag), ended->result);
+}
+
+void PartQueue::start(std::size_t part) {
+    MesherCall call = calls_[progress_[part].call];
+    call.options.size = call.options.size.within(parts_[part].box);
+    PartOutcome& outcome = progress_[part].outcome;
+    outcome.remedy = call.remedy;
+    ++outcome.attempts;
+    pool_.start(static_cast<int>(part), options_.worker_program,
+                {"--memory", std::to_string(options_.memory_mb), "--parent", std::to_string(::getpid())},
+                to_bytes(PartAttempt{parts_[part].job_file, parts_[part].part_file, call}), options_.timeout_seconds);
+}
+
+std::optional<PartQueue::Finished> PartQueue::take_result(std::size_t part, const ChildResult& child) {
+    PartOutcome& outcome = progress_[part].outcome;
+    outcome.seconds += child.seconds;
+    const bool answered = child.end == ChildResult::End::exited && child.exit_code == 0 && !child.output.empty();
+    outcome.result = answered ? from_bytes<PartResult>(child.output) : result_of_silence(child);
+    const bool timed_out = child.end == ChildResult::End::timed_out;
+    outcome.timed_out |= timed_out;
+    if (child.end == ChildResult::End::signalled && outcome.interruption.empty()) {
+        outcome.interruption = outcome.result.message;
+        --outcome.attempts;
+        start(part);
+        return {};
+    }
+    const bool mesher_failed = outcome.result.code == static_cast<int>(ErrorCode::subdomain) &&
+                               (answered || timed_out || died_by_itself(child));
+    if (mesher_failed && outcome.attempts < options_.attempts) {
+        const auto next =
+            next_call(calls_, progress_[part].call, timed_out ? MesherFailure::timed_out : MesherFailure::failed);
+        if (next) {
+            outcome.failures.push_back(outcome.result.message);
+            progress_[part].call = *next;
+            start(part);
+            return {};
+        }
+    }
+    idle_.push_back(outcome.worker);
+    if (outcome.result.code) {
+        outcome.result.message = message_of_all(outcome);
+        std::error_code ignored;
+        std::filesystem::remove(parts_[part].part_file, ignored);  // the worker may have ended while it wrote
+    }
+    return Finished{part, std::exchange(outcome, {})};
+}
+
+}  // namespace kerf

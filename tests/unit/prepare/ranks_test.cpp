@@ -1,0 +1,363 @@
+// What the ranks agree on: errors, interfaces, numbers. Ranks are threads here.
+#include <algorithm>
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <set>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "parallel/communicator.h"
+#include "prepare/gathered_nodes.h"
+#include "prepare/input_cover.h"
+#include "prepare/interface_match.h"
+#include "prepare/numbering.h"
+#include "support/assets.h"
+#include "support/decomposition_laws.h"
+
+namespace kerf {
+namespace {
+
+// Where the contributions of all ranks meet.
+class MeetingPoint {
+ public:
+    explicit MeetingPoint(int size) : size_(size), given_(size) {}
+    std::vector<Bytes> meet(int rank, const Bytes& contribution) {
+        std::unique_lock lock(mutex_);
+        given_[rank] = contribution;
+        const int round = round_;
+        if (++arrived_ == size_) {
+            result_ = given_;
+            arrived_ = 0;
+            ++round_;
+            all_here_.notify_all();
+        }
+        all_here_.wait(lock, [&] { return round_ != round; });
+        return result_;
+    }
+    int size() const { return size_; }
+
+ private:
+    int size_, arrived_ = 0, round_ = 0;
+    std::vector<Bytes> given_, result_;
+    std::mutex mutex_;
+    std::condition_variable all_here_;
+};
+
+class ThreadRank : public Communicator {
+ public:
+    ThreadRank(MeetingPoint& meeting, int rank) : meeting_(meeting), rank_(rank) {}
+    int rank() const override { return rank_; }
+    int size() const override { return meeting_.size(); }
+    std::vector<Bytes> all_gather(const Bytes& contribution) override { return meeting_.meet(rank_, contribution); }
+    void post(int, const Bytes&) override { FAIL() << "no stage under test posts messages"; }
+    std::optional<Bytes> poll() override { return {}; }
+    void drop_messages() override {}
+    void leave(const StageStatus&) override { FAIL() << "no stage under test ends on one rank alone"; }
+
+ private:
+    MeetingPoint& meeting_;
+    int rank_;
+};
+
+template <class Body>
+void run_ranks(int size, Body body) {
+    MeetingPoint meeting(size);
+    std::vector<std::thread> threads;
+    for (int rank = 0; rank < size; ++rank)
+        threads.emplace_back([&, rank] {
+            ThreadRank communicator(meeting, rank);
+            body(communicator);
+        });
+    for (std::thread& thread : threads) thread.join();
+}
+
+// The message of the error that a stage ends with on every rank, per rank.
+template <class Stage>
+std::vector<std::string> errors_of(int size, Stage stage, ErrorCode expected) {
+    std::vector<std::string> errors(size);
+    run_ranks(size, [&](Communicator& ranks) {
+        try {
+            in_agreement(ranks, [&] { stage(ranks.rank()); });
+        } catch (const Error& error) {
+            errors[ranks.rank()] = error.what();
+            EXPECT_EQ(error.code(), expected);
+        }
+        EXPECT_EQ(all_gather(ranks, ranks.rank()).back(), size - 1) << "the ranks are still in step";
+    });
+    return errors;
+}
+
+TEST(InAgreement, ReturnsEachRanksValue) {
+    run_ranks(3, [](Communicator& ranks) {
+        EXPECT_EQ(in_agreement(ranks, [&] { return 10 * ranks.rank(); }), 10 * ranks.rank());
+        EXPECT_EQ(all_gather(ranks, std::to_string(ranks.rank())), (std::vector<std::string>{"0", "1", "2"}));
+    });
+}
+
+TEST(InAgreement, ErrorOfOneRankIsThrownOnAll) {
+    const auto on_rank_1 = [](int rank) {
+        if (rank == 1) throw Error(ErrorCode::io, "The disk of rank 1 is full.");
+    };
+    const std::string message = "The disk of rank 1 is full.";
+    EXPECT_EQ(errors_of(2, on_rank_1, ErrorCode::io), (std::vector<std::string>{message, message}));
+}
+
+TEST(InAgreement, FirstRankWins) {
+    const auto on_all = [](int rank) {
+        throw Error(rank ? ErrorCode::io : ErrorCode::input, "rank " + std::to_string(rank));
+    };
+    EXPECT_EQ(errors_of(3, on_all, ErrorCode::input), std::vector<std::string>(3, "rank 0"));
+}
+
+// The rank that was stopped because of another's error must not hide it.
+TEST(InAgreement, BeingStoppedGivesWayToErrors) {
+    const auto rank_1_fails = [](int rank) {
+        throw Error(rank == 1 ? ErrorCode::io : ErrorCode::cancelled, "rank " + std::to_string(rank));
+    };
+    const auto all_stop = [](int rank) { throw Error(ErrorCode::cancelled, "rank " + std::to_string(rank)); };
+    EXPECT_EQ(errors_of(3, rank_1_fails, ErrorCode::io), std::vector<std::string>(3, "rank 1"));
+    EXPECT_EQ(errors_of(2, all_stop, ErrorCode::cancelled), std::vector<std::string>(2, "rank 0"));
+}
+
+TEST(InAgreement, OtherExceptionsGetTheirCodes) {
+    const auto memory = [](int rank) {
+        if (rank == 1) throw std::bad_alloc();
+    };
+    const auto bug = [](int rank) {
+        if (rank == 0) throw std::logic_error("a bug");
+    };
+    EXPECT_NE(errors_of(2, memory, ErrorCode::memory)[0].find("Out of memory"), std::string::npos);
+    EXPECT_EQ(errors_of(2, bug, ErrorCode::internal), (std::vector<std::string>{"a bug", "a bug"}));
+}
+
+Decomposition five_parts() {
+    DecomposeOptions options;
+    options.parts = 5;
+    return decompose(test::asset_surface("hollow_box"), options, {0, 5});
+}
+
+std::vector<TreeNode> by_number(std::vector<TreeNode> nodes) {
+    std::sort(nodes.begin(), nodes.end(), [](const TreeNode& a, const TreeNode& b) { return a.id < b.id; });
+    return nodes;
+}
+
+// What each of so many ranks has of the tree.
+std::vector<std::vector<TreeNode>> nodes_of_ranks(int size, std::int32_t parts) {
+    std::vector<std::vector<TreeNode>> nodes;
+    for (int rank = 0; rank < size; ++rank)
+        nodes.push_back(decompose(test::asset_surface("hollow_box"), test::in_parts(parts),
+                                  {parts * rank / size, parts * (rank + 1) / size})
+                            .nodes);
+    return nodes;
+}
+
+std::vector<std::pair<NodeId, FileHash>> hashes_of(const std::vector<TreeNode>& nodes) {
+    std::vector<std::pair<NodeId, FileHash>> hashes;
+    for (const TreeNode& node : nodes) hashes.emplace_back(node.id, node.cut_hash);
+    return hashes;
+}
+
+std::string host_of(int rank) { return "host_" + std::to_string(rank / 2); }
+
+// The error that every rank alike ends with; empty if none does.
+std::string error_of_gathering(const std::vector<std::vector<TreeNode>>& nodes) {
+    const int size = static_cast<int>(nodes.size());
+    std::vector<std::string> errors(size);
+    run_ranks(size, [&](Communicator& ranks) {
+        try {
+            gather_nodes(ranks, nodes[ranks.rank()], host_of(ranks.rank()));
+        } catch (const Error& error) {
+            errors[ranks.rank()] = error.what();
+            EXPECT_EQ(error.code(), ErrorCode::internal);
+        }
+        EXPECT_EQ(all_gather(ranks, ranks.rank()).back(), size - 1) << "the ranks are still in step";
+    });
+    EXPECT_EQ(errors, std::vector<std::string>(size, errors.front()));
+    return errors.front();
+}
+
+TEST(GatherNodes, GivesTheTreeOfOneRankWhereAllAgree) {
+    const auto expected = hashes_of(by_number(nodes_of_ranks(1, 7).front()));
+    for (const int size : {1, 2, 3, 7}) {
+        const auto nodes = nodes_of_ranks(size, 7);
+        run_ranks(size, [&](Communicator& ranks) {
+            EXPECT_EQ(hashes_of(gather_nodes(ranks, nodes[ranks.rank()], "host")), expected);
+        });
+    }
+}
+
+// Every node that several ranks have, and every rank of these but the first.
+TEST(GatherNodes, TellsWhichRankHasCutOtherwise) {
+    const auto nodes = nodes_of_ranks(4, 7);
+    const std::vector<void (*)(TreeNode&)> changes = {[](TreeNode& node) { node.cut_hash[1] ^= 1; },
+                                                      [](TreeNode& node) { node.cut_tried = !node.cut_tried; },
+                                                      [](TreeNode& node) { ++node.leaves; }};
+    std::map<NodeId, int> first_rank;
+    int shared = 0;
+    for (int rank = 0; rank < 4; ++rank)
+        for (std::size_t i = 0; i < nodes[rank].size(); ++i) {
+            const NodeId id = nodes[rank][i].id;
+            const auto [first, is_new] = first_rank.emplace(id, rank);
+            if (is_new) continue;
+            ++shared;
+            const std::string words = "Rank " + std::to_string(first->second) + " on " + host_of(first->second) +
+                                      " and rank " + std::to_string(rank) + " on " + host_of(rank) + " have cut node " +
+                                      std::to_string(id) + " ";
+            for (const auto& change : changes) {
+                auto unlike = nodes;
+                change(unlike[rank][i]);
+                const std::string error = error_of_gathering(unlike);
+                EXPECT_NE(error.find(words), std::string::npos) << error;
+            }
+        }
+    EXPECT_GE(shared, 3);
+    EXPECT_EQ(error_of_gathering(nodes), "");
+}
+
+TEST(CutHash, TellsTheLastBitOfACut) {
+    const SurfaceArrays box = test::asset_surface("hollow_box").arrays();
+    SurfaceArrays scaled = box;
+    for (Vec3& p : scaled.vertices) p *= 1 + 0x1p-51;
+    for (const ContourMethod contour : {ContourMethod::min_cut, ContourMethod::straight}) {
+        DecomposeOptions options = test::in_parts(5);
+        options.cut.contour = contour;
+        const auto hashes = [&](const SurfaceArrays& arrays) {
+            return hashes_of(by_number(test::decompose_whole(Surface(arrays), options).nodes));
+        };
+        const auto first = hashes(box), again = hashes(box), other = hashes(scaled);
+        EXPECT_EQ(first, again);
+        std::set<FileHash> of_cuts;
+        for (const auto& [id, hash] : first)
+            if (hash != FileHash{0, 0}) of_cuts.insert(hash);
+        EXPECT_EQ(of_cuts.size(), 4u);
+        for (const auto& [id, hash] : other) EXPECT_FALSE(of_cuts.contains(hash)) << "node " << id;
+    }
+}
+
+TEST(InterfaceTable, BothSidesNameEachOther) {
+    const Decomposition five = five_parts();
+    SingleRank alone;
+    const InterfaceTable table(alone, five.leaves);
+    EXPECT_EQ(table.unmatched(), 0);
+    std::map<Key, std::set<std::pair<NodeId, NodeId>>> sides;
+    for (const Leaf& leaf : five.leaves) {
+        const std::vector<NodeId> neighbours = table.neighbours(leaf);
+        for (std::size_t f = 0; f < neighbours.size(); ++f) {
+            EXPECT_EQ(neighbours[f] == -1, key_node(leaf.surface.facet_key[f]) == 0);
+            if (neighbours[f] >= 0) sides[leaf.surface.facet_key[f]].insert({leaf.id, neighbours[f]});
+        }
+    }
+    EXPECT_FALSE(sides.empty());
+    for (const auto& [facet, pair] : sides) {
+        ASSERT_EQ(pair.size(), 2u);
+        EXPECT_EQ(pair.begin()->first, pair.rbegin()->second);
+        EXPECT_EQ(pair.begin()->second, pair.rbegin()->first);
+    }
+}
+
+TEST(InterfaceTable, IsTheSameForLeavesOnSeveralRanks) {
+    const Decomposition five = five_parts();
+    SingleRank alone;
+    const InterfaceTable whole(alone, five.leaves);
+    run_ranks(2, [&](Communicator& ranks) {
+        const auto middle = five.leaves.begin() + 2;
+        const std::vector<Leaf> own(ranks.rank() ? middle : five.leaves.begin(),
+                                    ranks.rank() ? five.leaves.end() : middle);
+        const InterfaceTable table(ranks, own);
+        EXPECT_EQ(table.unmatched(), 0);
+        for (const Leaf& leaf : own) EXPECT_EQ(table.neighbours(leaf), whole.neighbours(leaf));
+    });
+}
+
+TEST(InterfaceTable, CountsWhatDoesNotMatch) {
+    const auto unmatched_after = [](const auto& damage) {
+        Decomposition five = five_parts();
+        damage(five.leaves);
+        SingleRank alone;
+        return InterfaceTable(alone, five.leaves).unmatched();
+    };
+    // The last facet of a leaf lies on the interface that was cut last.
+    EXPECT_EQ(unmatched_after([](auto& leaves) {
+                  std::swap(leaves[0].surface.facets.back()[0], leaves[0].surface.facets.back()[1]);
+              }),
+              1);
+    EXPECT_EQ(unmatched_after([](auto& leaves) { leaves[0].surface.facets.pop_back(); }), 1);
+    EXPECT_GT(unmatched_after([](auto& leaves) { leaves.pop_back(); }), 10);
+}
+
+// Half of the leaves on each of two ranks, after a damage to one of them.
+std::int64_t missing_after(const std::function<void(SurfaceArrays&)>& damage) {
+    std::int64_t missing = -1;
+    run_ranks(2, [&](Communicator& ranks) {
+        Decomposition own = five_parts();
+        damage(own.leaves[1].surface);
+        const std::int64_t facets = own.nodes.front().facets;
+        own.leaves.erase(ranks.rank() ? own.leaves.begin() : own.leaves.begin() + 2,
+                         ranks.rank() ? own.leaves.begin() + 2 : own.leaves.end());
+        const std::int64_t count = count_missing_input_facets(ranks, facets, own);
+        if (ranks.rank() == 1) missing = count;
+    });
+    return missing;
+}
+
+TEST(InputCover, CountsFacetsThatAreMissingOrNotThereOnce) {
+    const auto place_of_first = [](const SurfaceArrays& s) {
+        return std::find_if(s.facet_key.begin(), s.facet_key.end(), is_of_input) - s.facet_key.begin();
+    };
+    EXPECT_EQ(missing_after([](SurfaceArrays&) {}), 0);
+    EXPECT_EQ(missing_after([&](SurfaceArrays& s) {
+                  const auto first = place_of_first(s);
+                  s.facets.erase(s.facets.begin() + first);
+                  s.facet_key.erase(s.facet_key.begin() + first);
+              }),
+              1);
+    EXPECT_EQ(missing_after([&](SurfaceArrays& s) {
+                  const auto first = place_of_first(s);
+                  s.facets.push_back(s.facets[first]);
+                  s.facet_key.push_back(s.facet_key[first]);
+              }),
+              1);
+    EXPECT_EQ(missing_after([&](SurfaceArrays& s) {
+                  const auto first = s.facet_key.begin() + place_of_first(s);
+                  *std::find_if(first + 1, s.facet_key.end(), is_of_input) = *first;
+              }),
+              2)
+        << "as many as before";
+}
+
+TEST(VertexNumbering, IsDenseOverInputAndCuts) {
+    const Decomposition five = five_parts();
+    const std::int64_t input_vertices = five.nodes.front().vertices;
+    const VertexNumbering numbering(input_vertices, by_number(five.nodes));
+    std::map<Key, std::int64_t> number_of;
+    std::set<std::int64_t> numbers;
+    for (const Leaf& leaf : five.leaves) {
+        const std::vector<std::int64_t> ids = numbering.global_ids(leaf.surface.vertex_key);
+        for (std::size_t v = 0; v < ids.size(); ++v) {
+            const Key key = leaf.surface.vertex_key[v];
+            EXPECT_TRUE(key_node(key) != 0 || ids[v] == key_index(key));
+            EXPECT_EQ(number_of.emplace(key, ids[v]).first->second, ids[v]);
+            numbers.insert(ids[v]);
+        }
+    }
+    EXPECT_EQ(number_of.size(), numbers.size());
+    EXPECT_EQ(*numbers.begin(), 0);
+    EXPECT_EQ(*numbers.rbegin() + 1, static_cast<std::int64_t>(numbers.size()));
+    EXPECT_EQ(numbering.surface_vertices(), static_cast<std::int64_t>(numbers.size()));
+}
+
+TEST(VertexNumbering, SkipsNodesWithoutACut) {
+    std::vector<TreeNode> nodes(4);
+    for (int i = 0; i < 4; ++i) nodes[i].id = i + 1, nodes[i].interface_vertices = 10, nodes[i].cut_made = i % 2 == 0;
+    const VertexNumbering numbering(100, nodes);
+    EXPECT_EQ(numbering.global_id(make_key(0, 99)), 99);
+    EXPECT_EQ(numbering.global_id(make_key(1, 3)), 103);
+    EXPECT_EQ(numbering.global_id(make_key(3, 3)), 113);
+    EXPECT_EQ(numbering.surface_vertices(), 120);
+}
+
+}  // namespace
+}  // namespace kerf
