@@ -10,112 +10,26 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
-#include "io/binary_scanner.h"
+#include "io/gmsh_elements.h"
+#include "io/gmsh_model.h"
+#include "io/gmsh_source.h"
 #include "io/mesh_scanners.h"
 #include "io/soup_builder.h"
 #include "io/surface_reader.h"
-#include "io/text_scanner.h"
 
 namespace kerf {
+
+namespace gmsh {
 
 namespace {
 
 enum class Version { msh2, msh41 };
-
-// The numbers of the sections, as text or as bytes.
-class Source {
- public:
-    explicit Source(std::string_view bytes, const std::string& path) : bytes_(bytes), path_(path), text_(bytes, path) {}
-
-    /// The part of the file that is text whatever the rest is; it goes on where the numbers ended.
-    TextScanner& text() {
-        if (binary_) text_.go_to(binary_->position());
-        binary_.reset();
-        return text_;
-    }
-    void set_byte_order(std::endian order) { order_ = order; }
-    bool is_binary() const { return order_.has_value(); }
-
-    std::int32_t next_int() {
-        if (is_binary()) return binary().next<std::int32_t>();
-        const std::int64_t value = text_.next_integer();
-        if (value != static_cast<std::int32_t>(value))
-            fail("a tag or type has more than 32 bits. Save the mesh again.");
-        return static_cast<std::int32_t>(value);
-    }
-    std::int64_t next_long() { return is_binary() ? binary().next<std::int64_t>() : text_.next_integer(); }
-    double next_real() { return is_binary() ? binary().next<double>() : text_.next_real(); }
-    std::int64_t next_count() {
-        const std::int64_t count = next_long();
-        if (count < 0) fail("a number of elements is negative. Correct it or export the surface again.");
-        return count;
-    }
-    /// Passes over the numbers of a list in which each takes room in the file.
-    void skip_ints(std::int64_t count) {
-        for (std::int64_t i = 0; i < count; ++i) next_int();
-    }
-    void skip_reals(std::int64_t count) {
-        for (std::int64_t i = 0; i < count; ++i) next_real();
-    }
-    [[noreturn]] void fail(const std::string& what) const { binary_ ? binary_->fail(what) : text_.fail(what); }
-
- private:
-    // Behind the end of the line in which text was read last.
-    BinaryScanner& binary() {
-        if (!binary_) {
-            text_.skip_line();
-            binary_.emplace(bytes_, text_.position(), path_, *order_);
-        }
-        return *binary_;
-    }
-
-    std::string_view bytes_;
-    const std::string& path_;
-    TextScanner text_;
-    std::optional<std::endian> order_;
-    std::optional<BinaryScanner> binary_;  // while numbers are read
-};
-
-// Surfaces or volumes.
-struct EntityKind {
-    const char* name;
-    std::vector<std::pair<std::int64_t, std::string>> groups = {};            // tag, name; sorted once complete
-    std::vector<std::pair<std::int64_t, std::int64_t>> group_of_entity = {};  // entity, physical tag
-
-    std::string name_of(std::int64_t group, std::int64_t entity) const;
-};
-
-// What the elements need from the sections before them.
-struct Model {
-    EntityKind surfaces{"surface"}, volumes{"volume"};
-    std::vector<std::pair<std::int64_t, std::vector<std::int64_t>>> surfaces_of_volume;  // entities
-    bool is_partitioned = false;
-    std::vector<std::pair<std::int64_t, std::int64_t>> vertex_of_node;  // tag, index
-
-    EntityKind* of_dimension(std::int64_t dimension) {
-        return dimension == 2 ? &surfaces : dimension == 3 ? &volumes : nullptr;
-    }
-};
-
-// The value behind a key in sorted pairs.
-template <class Value>
-const Value* find(const std::vector<std::pair<std::int64_t, Value>>& pairs, std::int64_t key) {
-    const auto found = std::lower_bound(pairs.begin(), pairs.end(), key,
-                                        [](const auto& pair, std::int64_t wanted) { return pair.first < wanted; });
-    return found != pairs.end() && found->first == key ? &found->second : nullptr;
-}
-
-std::string EntityKind::name_of(std::int64_t group, std::int64_t entity) const {
-    if (const std::string* found = find(groups, group)) return *found;
-    return group != 0 ? "physical_" + std::to_string(group) : std::string(name) + "_" + std::to_string(entity);
-}
 
 [[noreturn]] void refuse_version(const TextScanner& text, const std::string& version) {
     text.fail("MSH version " + version.substr(0, 40) +
@@ -236,189 +150,6 @@ void read_nodes_4(Source& source, SoupBuilder& builder, Model& model) {
     sort_nodes(source, model);
 }
 
-enum class Shape { point, line, triangle, quadrangle, tetrahedron, hexahedron, prism, pyramid, unknown };
-
-constexpr std::array<std::array<const char*, 2>, 8> shape_names = {{{"point", "points"},
-                                                                    {"line", "lines"},
-                                                                    {"triangle", "triangles"},
-                                                                    {"quadrangle", "quadrangles"},
-                                                                    {"tetrahedron", "tetrahedra"},
-                                                                    {"hexahedron", "hexahedra"},
-                                                                    {"prism", "prisms"},
-                                                                    {"pyramid", "pyramids"}}};
-
-struct ElementType {
-    Shape shape = Shape::unknown;
-    std::int64_t nodes = 0;
-};
-
-// Gmsh's numbers of element types, from 1.
-ElementType element_type(std::int64_t number) {
-    using enum Shape;
-    constexpr std::array<ElementType, 32> types = {
-        {{unknown, 0},      {line, 2},        {triangle, 3}, {quadrangle, 4}, {tetrahedron, 4}, {hexahedron, 8},
-         {prism, 6},        {pyramid, 5},     {line, 3},     {triangle, 6},   {quadrangle, 9},  {tetrahedron, 10},
-         {hexahedron, 27},  {prism, 18},      {pyramid, 14}, {point, 1},      {quadrangle, 8},  {hexahedron, 20},
-         {prism, 15},       {pyramid, 13},    {triangle, 9}, {triangle, 10},  {triangle, 12},   {triangle, 15},
-         {triangle, 15},    {triangle, 21},   {line, 4},     {line, 5},       {line, 6},        {tetrahedron, 20},
-         {tetrahedron, 35}, {tetrahedron, 56}}};
-    return number > 0 && number < static_cast<std::int64_t>(types.size()) ? types[number] : ElementType{};
-}
-
-// Takes the elements one by one: faces and tetrahedra. What is neither is only counted, and so are tetrahedra of higher
-// order where a surface is wanted.
-class Elements {
- public:
-    Elements(Source& source, SoupBuilder& builder, const Model& model)
-        : source_(source), builder_(builder), model_(model) {}
-
-    /// Elements to come are of this type.
-    void set_type(std::int64_t number) {
-        type_ = element_type(number);
-        if (type_.shape == Shape::unknown || (is_taken() && type_.nodes > 4)) refuse_type(number);
-        if (type_.shape == Shape::tetrahedron && type_.nodes > 4) of_higher_order_ = number;
-    }
-    /// So many of them follow.
-    void announce(std::int64_t count) const {
-        if (is_face()) builder_.announce_facets(count);
-    }
-    void set_patch(std::int64_t group, std::int64_t entity) {
-        if (std::pair(group, entity) == patch_) return;
-        patch_ = {group, entity};
-        builder_.set_patch(model_.surfaces.name_of(group, entity));
-        volume_ = -1;
-    }
-    /// The nodes of one element.
-    template <class NextNode>
-    void read(std::int64_t tag, const NextNode& next_node) {
-        ++counts_[static_cast<std::size_t>(type_.shape)];
-        last_corners_.swap(corners_);
-        corners_.clear();
-        for (std::int64_t i = 0; i < type_.nodes; ++i) {
-            const std::int64_t node = next_node();
-            if (is_taken()) corners_.push_back(to_vertex(tag, node));
-        }
-        if (is_taken() && !repeats_last()) add_element();
-    }
-    /// When all have been read.
-    void finish() const {
-        if (!builder_.has_facets() && !builder_.has_tets() && of_higher_order_) refuse_type(of_higher_order_);
-        if (!builder_.wants_tets()) {
-            builder_.name_volumes(volume_names());
-            if (!builder_.has_tets()) refuse_shared_surfaces();
-        }
-        note_ignored();
-    }
-
- private:
-    void note_ignored() const {
-        for (const Shape shape :
-             {Shape::tetrahedron, Shape::hexahedron, Shape::prism, Shape::pyramid, Shape::line, Shape::point}) {
-            const auto i = static_cast<std::size_t>(shape);
-            if (shape == Shape::tetrahedron && (builder_.wants_tets() || !builder_.has_facets())) continue;
-            builder_.note_ignored(counts_[i], shape_names[i][0], shape_names[i][1]);
-        }
-    }
-    [[noreturn]] void refuse_type(std::int64_t number) const {
-        const ElementType type = element_type(number);
-        const bool is_face =
-            type.shape == Shape::unknown || type.shape == Shape::triangle || type.shape == Shape::quadrangle;
-        source_.fail("elements of type " + std::to_string(number) + " (" + describe(type) + ") cannot be read. " +
-                     (builder_.wants_tets() || !is_face ? "Save the mesh with elements of first order: gmsh -order 1."
-                                                        : "Save the surface with triangles of three nodes."));
-    }
-    bool is_face() const { return type_.shape == Shape::triangle || type_.shape == Shape::quadrangle; }
-    bool is_taken() const {
-        return is_face() || (type_.shape == Shape::tetrahedron && (builder_.wants_tets() || type_.nodes == 4));
-    }
-    // MSH 2 writes an element of several groups once for each, one directly behind the other.
-    bool repeats_last() const {
-        return corners_ == last_corners_ && patch_.second == last_patch_.second && patch_.first != last_patch_.first;
-    }
-    void add_element() {
-        last_patch_ = patch_;
-        const auto fail = [&](const std::string& what) { source_.fail(what); };
-        if (!is_face()) return builder_.add_tet(corners_, fail, volume());
-        builder_.add_polygon(corners_, fail);
-        if (model_.surfaces_of_volume.empty()) return;
-        if (surfaces_.empty() || surfaces_.back().first != patch_.second)
-            surfaces_.emplace_back(patch_.second, corners_.front());
-    }
-    // The number of that of the current patch.
-    std::int32_t volume() {
-        if (volume_ >= 0) return volume_;
-        const auto key = model_.is_partitioned ? std::pair<std::int64_t, std::int64_t>() : patch_;
-        const auto [found, is_new] = number_of_volume_.try_emplace(key, static_cast<std::int32_t>(volumes_.size()));
-        if (is_new) volumes_.push_back(key);
-        return volume_ = found->second;
-    }
-    // Those in the same group are told by their entities.
-    std::vector<std::string> volume_names() const {
-        std::map<std::int64_t, int> count_in_group;
-        for (const auto& [group, entity] : volumes_) ++count_in_group[group];
-        std::vector<std::string> names;
-        for (const auto& [group, entity] : volumes_)
-            names.push_back(model_.volumes.name_of(count_in_group[group] == 1 ? group : 0, entity));
-        return names;
-    }
-    // Of a file without tetrahedra, the geometry tells which surfaces are between two volumes; only volumes count all
-    // of whose surfaces are in the file.
-    void refuse_shared_surfaces() const {
-        if (model_.is_partitioned || builder_.keeps_walls()) return;
-        auto in_file = surfaces_;
-        std::sort(in_file.begin(), in_file.end());
-        std::vector<std::pair<std::int64_t, std::int64_t>> volume_of_surface;
-        for (const auto& [volume, surfaces] : model_.surfaces_of_volume) {
-            const auto is_in_file = [&](std::int64_t surface) { return find(in_file, surface) != nullptr; };
-            if (!std::all_of(surfaces.begin(), surfaces.end(), is_in_file)) continue;
-            for (const std::int64_t surface : surfaces) volume_of_surface.emplace_back(surface, volume);
-        }
-        std::sort(volume_of_surface.begin(), volume_of_surface.end());
-        const auto shared =
-            std::adjacent_find(volume_of_surface.begin(), volume_of_surface.end(),
-                               [](const auto& a, const auto& b) { return a.first == b.first && a.second != b.second; });
-        if (shared == volume_of_surface.end()) return;
-        const auto name_of = [&](std::int64_t volume) {
-            const std::int64_t* group = find(model_.volumes.group_of_entity, volume);
-            return model_.volumes.name_of(group ? *group : 0, volume);
-        };
-        const std::int64_t vertex = *find(in_file, shared->first);
-        builder_.refuse_wall(name_of(shared->second), name_of(std::next(shared)->second), builder_.vertex(vertex));
-    }
-    static std::string describe(const ElementType& type) {
-        if (type.shape == Shape::unknown) return "unknown";
-        return std::string(shape_names[static_cast<std::size_t>(type.shape)][1]) + " with " +
-               std::to_string(type.nodes) + " nodes";
-    }
-    // Tags mostly count from 1 without gaps, and need no search then.
-    const std::int64_t* find_vertex(std::int64_t node) const {
-        const auto& nodes = model_.vertex_of_node;
-        const auto place =
-            static_cast<std::uint64_t>(node) - (nodes.empty() ? 0 : static_cast<std::uint64_t>(nodes.front().first));
-        return place < nodes.size() && nodes[place].first == node ? &nodes[place].second : find(nodes, node);
-    }
-    std::int64_t to_vertex(std::int64_t element, std::int64_t node) const {
-        const std::int64_t* vertex = find_vertex(node);
-        if (!vertex)
-            source_.fail("element " + std::to_string(element) + " names node " + std::to_string(node) +
-                         ", which the file does not have. Save the mesh again.");
-        return *vertex;
-    }
-
-    Source& source_;
-    SoupBuilder& builder_;
-    const Model& model_;
-    ElementType type_;
-    std::pair<std::int64_t, std::int64_t> patch_ = {-1, -1}, last_patch_ = {-1, -1};  // group, entity
-    std::vector<std::pair<std::int64_t, std::int64_t>> volumes_;                      // of tetrahedra: group, entity
-    std::map<std::pair<std::int64_t, std::int64_t>, std::int32_t> number_of_volume_;
-    std::int32_t volume_ = -1;                                     // number of that of patch_; -1: not known yet
-    std::vector<std::pair<std::int64_t, std::int64_t>> surfaces_;  // of faces: entity, a vertex
-    std::int64_t of_higher_order_ = 0;                             // type of such tetrahedra; 0: there are none
-    std::vector<std::int64_t> corners_, last_corners_;             // of this face, of the last one
-    std::array<std::int64_t, shape_names.size()> counts_{};
-};
-
 // The tags of an element of MSH 2: its physical group, its entity, perhaps partitions.
 void read_tags_2(Source& source, std::int64_t count, Elements& elements) {
     const std::int64_t group = count > 0 ? source.next_int() : 0, entity = count > 1 ? source.next_int() : 0;
@@ -481,7 +212,7 @@ void read_node_data(Source& source, SoupBuilder& builder, const Model& model) {
         if (i < 3) numbers[static_cast<std::size_t>(i)] = number;
     }
     if (numbers[1] != 1) return;
-    std::vector<double>& values = builder.node_scalar(name);
+    std::vector<double>& values = builder.tets().scalar(name);
     for (std::int64_t i = 0; i < numbers[2]; ++i) {
         const std::int64_t tag = source.next_int();
         const double value = source.next_real();
@@ -507,7 +238,10 @@ std::string_view read_section_name(TextScanner& text) {
 
 }  // namespace
 
+}  // namespace gmsh
+
 void scan_gmsh(std::string_view bytes, const std::string& path, SoupBuilder& builder) {
+    using namespace gmsh;
     Source source(bytes, path);
     Model model;
     Elements elements(source, builder, model);
@@ -543,8 +277,7 @@ Soup read_gmsh(std::string_view bytes, const std::string& path) {
 }
 
 Soup read_gmsh_with_walls(std::string_view bytes, const std::string& path) {
-    SoupBuilder builder(path);
-    builder.keep_walls();
+    SoupBuilder builder(path, SoupBuilder::Wanted::surface_with_walls);
     scan_gmsh(bytes, path, builder);
     return builder.finish();
 }

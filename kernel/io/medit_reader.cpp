@@ -49,7 +49,7 @@ void read_tets(TextScanner& scanner, SoupBuilder& builder) {
     for (std::int64_t t = 0; t < count; ++t) {
         for (std::int64_t& corner : corners) corner = scanner.next_index(1);
         scanner.next_integer();  // the reference
-        builder.add_tet(corners, [&](const std::string& what) { scanner.fail(what); });
+        builder.tets().add(corners, [&](const std::string& what) { scanner.fail(what); });
     }
 }
 

@@ -131,6 +131,29 @@ bool is_kept_for_next_run(const std::string& file) {
     return file.starts_with("work/journal/") || file == "work/run.json";
 }
 
+void clear_all_but_parts(const RunFolder& folder) {
+    remove_run_files(folder.partial_path(), [](const std::string& name) {
+        return !name.starts_with("parts/") && !name.starts_with("work/journal/") && name != "work/run.json" &&
+               name != lock_file && name != ranks_file;
+    });
+    std::error_code ignored;
+    fs::remove(folder.file("failed"), ignored);  // only if it is empty
+}
+
+// What cannot be moved is meshed again.
+void take_over_finished_parts(const std::string& failed, const RunFolder& folder) {
+    std::error_code ignored;
+    for (const std::string& entry : names_in((fs::path(failed) / "work/journal").string())) {
+        const std::string journal = "work/journal/" + entry;
+        int leaf = 0;
+        const char* end = entry.data() + entry.size();
+        const auto [stop, error] = std::from_chars(entry.data(), end, leaf);
+        if (error != std::errc() || stop != end) continue;  // no entry
+        const std::string part = "parts/" + stored_part_file_name(leaf);
+        for (const std::string& name : {part, journal}) fs::rename(fs::path(failed) / name, folder.file(name), ignored);
+    }
+}
+
 // A run that was stopped between two renames has left its older one aside.
 void put_back(const std::string& older, const std::string& final_path) {
     std::error_code error;
@@ -139,8 +162,57 @@ void put_back(const std::string& older, const std::string& final_path) {
 
 }  // namespace
 
+// Opens the file and locks it without waiting: false if others hold a lock that excludes this one. A file system that
+// knows no locks excludes nobody.
+bool RunFolderLocks::try_lock(const std::string& name, int& fd, int operation) const {
+    fd = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (fd < 0) fail("write the output folder", partial_, last_error());
+    return ::flock(fd, operation | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+}
+
+void RunFolderLocks::take(const std::string& final_path) {
+    const std::string name = (fs::path(partial_) / lock_file).string();
+    while (true) {
+        if (!try_lock(name, creator_, LOCK_EX)) {
+            std::string who;
+            std::ifstream in(name);
+            std::getline(in, who);
+            throw Error(ErrorCode::io, fmt::format("Another run{} is writing {}. Wait for it, stop it, or choose "
+                                                   "another output folder.",
+                                                   who.empty() ? "" : " (" + who + ")", final_path));
+        }
+        if (is_same_file(creator_, name)) break;
+        release();
+        create_folder((fs::path(partial_) / "work").string());
+    }
+    if (!try_lock((fs::path(partial_) / ranks_file).string(), ranks_, LOCK_EX))
+        throw Error(ErrorCode::io, fmt::format("Ranks of an interrupted run into {} have not ended yet. Try again in a "
+                                               "moment, or stop them.",
+                                               final_path));
+    ::close(std::exchange(ranks_, -1));  // now those of this run may hold it
+    const std::string who = fmt::format("process {} on {}\n", ::getpid(), host_name());
+    if (::ftruncate(creator_, 0) != 0 ||
+        ::pwrite(creator_, who.data(), who.size(), 0) != static_cast<ssize_t>(who.size()))
+        fail("write the output folder", partial_, last_error());
+}
+
+void RunFolderLocks::share() {
+    if (!try_lock((fs::path(partial_) / ranks_file).string(), ranks_, LOCK_SH))
+        throw Error(ErrorCode::io, fmt::format("Another run is taking {} over.", partial_));
+}
+
+void RunFolderLocks::release() {
+    for (int* fd : {&creator_, &ranks_})
+        if (*fd >= 0) ::close(std::exchange(*fd, -1));
+}
+
+RunFolderLocks::RunFolderLocks(RunFolderLocks&& other) noexcept
+    : partial_(std::move(other.partial_)),
+      creator_(std::exchange(other.creator_, -1)),
+      ranks_(std::exchange(other.ranks_, -1)) {}
+
 RunFolder::RunFolder(std::string final_path, std::string partial, bool owner)
-    : final_(std::move(final_path)), partial_(std::move(partial)), owner_(owner) {}
+    : final_(std::move(final_path)), partial_(std::move(partial)), owner_(owner), locks_(partial_) {}
 
 RunFolder::RunFolder(RunFolder&& other) noexcept
     : final_(std::move(other.final_)),
@@ -148,8 +220,7 @@ RunFolder::RunFolder(RunFolder&& other) noexcept
       taken_over_(std::move(other.taken_over_)),
       owner_(std::exchange(other.owner_, false)),
       keep_(other.keep_),
-      lock_(std::exchange(other.lock_, -1)),
-      ranks_lock_(std::exchange(other.ranks_lock_, -1)) {}
+      locks_(std::move(other.locks_)) {}
 
 // Files that are open leave traces on network disks when they are removed, so locks go first; what they protected is
 // moved out of the way of other runs before.
@@ -159,15 +230,10 @@ RunFolder::~RunFolder() {
         const std::string removed = removed_path_of(partial_);
         const bool removes = owner_ && !keep_;
         if (removes) fs::rename(partial_, removed, ignored);
-        release_locks();
+        locks_.release();
         if (removes) remove_run_folder(removed);
     } catch (...) {  // no memory is left; the next run removes it
     }
-}
-
-void RunFolder::release_locks() {
-    for (int* fd : {&lock_, &ranks_lock_})
-        if (*fd >= 0) ::close(std::exchange(*fd, -1));
 }
 
 std::vector<std::string> RunFolder::folders_of(const std::string& path) {
@@ -206,80 +272,24 @@ RunFolder RunFolder::create(const std::string& path,
         refuse_finished_run(partial);
     remove_run_folder(removed_path_of(partial));
     create_folder(folder.file("work"));
-    folder.lock();
+    folder.locks_.take(final_path);
     folder.owner_ = true;
     if (inspect_run_folder(final_path).is_run) remove_run_folder(older);  // which that one has replaced
-    folder.clear_all_but_parts();
+    clear_all_but_parts(folder);
     for (const char* name : {"parts", "work/journal", "work/jobs", "work/taken"}) create_folder(folder.file(name));
     for (const std::string& candidate : {failed, final_path}) {
         const std::string saved = RunFolder("", candidate, false).saved_run_file();
         if (folder.finished_parts() > 0 || !continues || !fs::exists(saved, ignored)) continue;
         const FolderContent content = inspect_run_folder(candidate);  // a kill may have left the work of a valid run
-        if (content.is_run && !content.is_valid && continues(saved)) folder.take_over_finished_parts(candidate);
+        if (!content.is_run || content.is_valid || !continues(saved)) continue;
+        folder.taken_over_ = candidate;
+        take_over_finished_parts(candidate, folder);
     }
     folder.keep_ = folder.finished_parts() > 0;  // what an interrupted run left is lost only to its heir
     for (const std::string& parent :
          {fs::path(final_path).parent_path().string(), folder.partial_, folder.file("work")})
         sync_folder(parent);
     return folder;
-}
-
-// What cannot be moved is meshed again.
-void RunFolder::take_over_finished_parts(const std::string& failed) {
-    taken_over_ = failed;
-    std::error_code ignored;
-    for (const std::string& entry : names_in((fs::path(failed) / "work/journal").string())) {
-        const std::string journal = "work/journal/" + entry;
-        int leaf = 0;
-        const char* end = entry.data() + entry.size();
-        const auto [stop, error] = std::from_chars(entry.data(), end, leaf);
-        if (error != std::errc() || stop != end) continue;  // no entry
-        const std::string part = "parts/" + stored_part_file_name(leaf);
-        for (const std::string& name : {part, journal}) fs::rename(fs::path(failed) / name, file(name), ignored);
-    }
-}
-
-// Opens the file and locks it without waiting: false if others hold a lock that excludes this one. A file system that
-// knows no locks excludes nobody.
-bool RunFolder::try_lock(const std::string& name, int& fd, int operation) const {
-    fd = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (fd < 0) fail("write the output folder", partial_, last_error());
-    return ::flock(fd, operation | LOCK_NB) == 0 || errno != EWOULDBLOCK;
-}
-
-// Until both locks are held, nothing in the folder is this run's.
-void RunFolder::lock() {
-    const std::string name = file(lock_file);
-    while (true) {
-        if (!try_lock(name, lock_, LOCK_EX)) {
-            std::string who;
-            std::ifstream in(name);
-            std::getline(in, who);
-            throw Error(ErrorCode::io, fmt::format("Another run{} is writing {}. Wait for it, stop it, or choose "
-                                                   "another output folder.",
-                                                   who.empty() ? "" : " (" + who + ")", final_));
-        }
-        if (is_same_file(lock_, name)) break;
-        release_locks();
-        create_folder(file("work"));
-    }
-    if (!try_lock(file(ranks_file), ranks_lock_, LOCK_EX))
-        throw Error(ErrorCode::io, fmt::format("Ranks of an interrupted run into {} have not ended yet. Try again in a "
-                                               "moment, or stop them.",
-                                               final_));
-    ::close(std::exchange(ranks_lock_, -1));  // now those of this run may hold it
-    const std::string who = fmt::format("process {} on {}\n", ::getpid(), host_name());
-    if (::ftruncate(lock_, 0) != 0 || ::pwrite(lock_, who.data(), who.size(), 0) != static_cast<ssize_t>(who.size()))
-        fail("write the output folder", partial_, last_error());
-}
-
-void RunFolder::clear_all_but_parts() const {
-    remove_run_files(partial_, [](const std::string& name) {
-        return !name.starts_with("parts/") && !name.starts_with("work/journal/") && name != "work/run.json" &&
-               name != lock_file && name != ranks_file;
-    });
-    std::error_code ignored;
-    fs::remove(file("failed"), ignored);  // only if it is empty
 }
 
 void RunFolder::keep_only(const std::vector<int>& leaves) const {
@@ -302,8 +312,7 @@ RunFolder RunFolder::join(const std::string& partial_path) {
                                                "output folder on a shared disk under the same path.",
                                                partial_path));
     RunFolder folder("", partial_path, false);
-    if (!folder.try_lock(folder.file(ranks_file), folder.ranks_lock_, LOCK_SH))
-        throw Error(ErrorCode::io, fmt::format("Another run is taking {} over.", partial_path));
+    folder.locks_.share();
     return folder;
 }
 
@@ -342,7 +351,7 @@ std::string RunFolder::commit(bool valid) {
         fail("write the output folder", place, error);
     }
     owner_ = false;
-    release_locks();
+    locks_.release();
     sync_folder(fs::path(place).parent_path().string());
     // The result is complete with and without what follows.
     try {

@@ -3,9 +3,32 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace kerf {
+
+/// The locks on the partial folder of a run: one that its creator holds, one that its other ranks share.
+class RunFolderLocks {
+ public:
+    explicit RunFolderLocks(std::string partial) : partial_(std::move(partial)) {}
+    RunFolderLocks(RunFolderLocks&& other) noexcept;
+    RunFolderLocks& operator=(RunFolderLocks&&) = delete;
+    ~RunFolderLocks() { release(); }
+
+    /// Until this returns nothing in the folder is this run's. `final_path` serves messages. Throws Error(io) if
+    /// another run is writing there, or ranks of one still live.
+    void take(const std::string& final_path);
+    /// Throws Error(io) if another run is taking the folder over.
+    void share();
+    void release();
+
+ private:
+    bool try_lock(const std::string& name, int& fd, int operation) const;
+
+    std::string partial_;
+    int creator_ = -1, ranks_ = -1;  // open files
+};
 
 /// Builds a result under PATH.kerf-partial and renames it at the end.
 ///
@@ -79,16 +102,11 @@ class RunFolder {
 
  private:
     RunFolder(std::string final_path, std::string partial, bool owner);
-    bool try_lock(const std::string& name, int& fd, int operation) const;
-    void lock();
-    void release_locks();
-    void clear_all_but_parts() const;
-    void take_over_finished_parts(const std::string& failed);
 
     std::string final_, partial_;
     std::string taken_over_;  // the folder of a run with failed parts whose finished ones are here now; or empty
     bool owner_ = false, keep_ = false;
-    int lock_ = -1, ranks_lock_ = -1;  // open files
+    RunFolderLocks locks_;
 };
 
 /// part_0008.part, part_0008.vtu, part_0008.surface.vtu, part_0008.stl: names relative to the folder `parts`.

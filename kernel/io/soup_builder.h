@@ -1,4 +1,4 @@
-// Collects what a file says: vertices, polygons, named patches and, if they are wanted, tetrahedra.
+// Collects what a file says of a surface: vertices, polygons and named patches; tetrahedra with it.
 #pragma once
 
 #include <algorithm>
@@ -13,26 +13,28 @@
 
 #include "core/error.h"
 #include "io/polygon_fan.h"
-#include "io/tet_skin.h"
+#include "io/tet_collector.h"
 #include "surface/facet_triangulation.h"
 #include "surface/soup.h"
 
 namespace kerf {
 
-/// Numbers at the vertices of a file.
-struct NodeScalar {
-    std::string name;
-    std::vector<double> values;  ///< #V; NaN where the file has none
-};
-
 class SoupBuilder {
  public:
-    enum class Wanted { surface, tets, tets_and_scalars };
+    enum class Wanted { surface, surface_with_walls, tets, tets_and_scalars };
     /// `path` only serves messages. A reader that meets tetrahedra adds them if they are wanted, else passes over them.
-    explicit SoupBuilder(const std::string& path, Wanted wanted = Wanted::surface) : path_(path), wanted_(wanted) {}
+    explicit SoupBuilder(const std::string& path, Wanted wanted = Wanted::surface)
+        : path_(path), wanted_(wanted), tets_(path, soup_, !wants_tets()) {}
+    SoupBuilder(const SoupBuilder&) = delete;
+    SoupBuilder& operator=(const SoupBuilder&) = delete;
 
-    bool wants_tets() const { return wanted_ != Wanted::surface; }
+    bool wants_tets() const { return wanted_ == Wanted::tets || wants_scalars(); }
     bool wants_scalars() const { return wanted_ == Wanted::tets_and_scalars; }
+    /// Whether facets may lie between two volumes.
+    bool keeps_walls() const { return wanted_ == Wanted::surface_with_walls; }
+    /// Where a surface is wanted, tetrahedra say what it separates, and their skin is the surface if there is none.
+    TetCollector& tets() { return tets_; }
+    const TetCollector& tets() const { return tets_; }
 
     std::int64_t vertex_count() const { return static_cast<std::int64_t>(soup_.vertices.size()); }
     const Vec3& vertex(std::int64_t v) const { return soup_.vertices[static_cast<std::size_t>(v)]; }
@@ -59,7 +61,8 @@ class SoupBuilder {
     /// has less than three corners, or one that is no vertex so far. One that no fan covers (see find_fan()) is noted.
     template <class Fail>
     void add_polygon(std::span<const std::int64_t> corners, const Fail& fail) {
-        check_corners(corners, fail);
+        if (corners.size() < 3) fail("a facet has less than three vertices. Remove it or export the surface again.");
+        check_indices(corners, fail);
         add_fan(corners, corners.size() > 3 ? find_fan(soup_.vertices, corners) : PolygonFan{});
     }
     /// A facet of several polygons with holes, in the current patch, triangulated without new vertices; so is a single
@@ -99,39 +102,6 @@ class SoupBuilder {
         ++polygon_count_;
     }
     bool has_facets() const { return !soup_.facets.empty(); }
-    bool has_tets() const { return !tets_.empty(); }
-    std::int64_t tet_count() const { return static_cast<std::int64_t>(tets_.size()); }
-    /// Of any orientation, in a volume: any number from 0 on. Calls `fail(message)`, which must throw, for a corner
-    /// that is no vertex so far. Where a surface is wanted, tetrahedra say what it separates, and are one if there is
-    /// none.
-    template <class Fail>
-    void add_tet(std::span<const std::int64_t> corners, const Fail& fail, std::int32_t volume = 0) {
-        Tetrahedron tet{};
-        for (std::size_t i = 0; i < tet.size(); ++i) {
-            if (corners[i] < 0 || corners[i] >= vertex_count())
-                fail("a tetrahedron names vertex number " + std::to_string(corners[i]) +
-                     " (counted from 0), but there are " + std::to_string(vertex_count()) +
-                     " vertices. Correct it or save the mesh again.");
-            tet[i] = static_cast<std::int32_t>(corners[i]);
-        }
-        if (tets_.size() == std::numeric_limits<std::int32_t>::max())
-            throw Error(ErrorCode::input, path_ + ": the file has more than 2^31 - 1 tetrahedra. Split the mesh.");
-        tets_.push_back(tet);
-        if (!wants_tets()) volume_of_tet_.push_back(volume);
-    }
-    /// Facets may lie between two volumes.
-    void keep_walls() { keeps_walls_ = true; }
-    bool keeps_walls() const { return keeps_walls_; }
-    /// Names of the volumes of tetrahedra, by their numbers.
-    void name_volumes(std::vector<std::string> names) { volume_names_ = std::move(names); }
-    /// The values of this name, one for each vertex so far.
-    std::vector<double>& node_scalar(std::string_view name) {
-        const auto of_name = [&](const NodeScalar& scalar) { return scalar.name == name; };
-        auto found = std::find_if(scalars_.begin(), scalars_.end(), of_name);
-        if (found == scalars_.end()) found = scalars_.insert(found, {std::string(name), {}});
-        found->values.resize(soup_.vertices.size(), std::numeric_limits<double>::quiet_NaN());
-        return found->values;
-    }
     /// A point in a void.
     void add_hole(const Vec3& point) { soup_.holes.push_back(point); }
     void note(std::string text) { soup_.notes.push_back(std::move(text)); }
@@ -144,40 +114,22 @@ class SoupBuilder {
     /// The soup, whose facets are the skin of the tetrahedra if there were no others. Throws Error(input) if there is
     /// no facet in it, or one between two volumes.
     Soup finish() {
-        note_polygons();
-        if (soup_.facets.empty() && has_tets()) {
+        note_ignored(facets_without_area_, "facet of edges or points alone", "facets of edges or points alone");
+        note_ignored(edges_outside_, "edge or point outside of its facet", "edges or points outside of their facets");
+        if (soup_.facets.empty() && !tets_.empty()) {
             add_skin();
-        } else if (volume_names_.size() > 1) {
-            if (!keeps_walls_) refuse_walls();
-            note(tell_volumes(volume_names_));
+        } else if (tets_.volume_names().size() > 1) {
+            if (!keeps_walls()) tets_.refuse_walls();
+            note(tell_volumes(tets_.volume_names()));
         }
         if (soup_.facets.empty())
             throw Error(ErrorCode::input, path_ + ": the file holds no facets. Export the surface again.");
         return std::move(soup_);
     }
-    /// The tetrahedra; throws Error(input) if there are none.
-    std::vector<Tetrahedron> finish_tets() {
-        if (tets_.empty())
-            throw Error(ErrorCode::input, path_ + ": the file holds no tetrahedra. Name a file of a volume mesh.");
-        return std::move(tets_);
-    }
-    std::vector<NodeScalar> finish_scalars() {
-        for (NodeScalar& scalar : scalars_) node_scalar(scalar.name);
-        return std::move(scalars_);
-    }
-    /// Throws Error(input): a surface has one side inside, and these volumes are on both sides of it.
-    [[noreturn]] void refuse_wall(const std::string& volume, const std::string& other, const Vec3& where) const {
-        throw Error(ErrorCode::input, path_ + ": " + tell_wall(volume, other, where));
-    }
     /// What came beside the tetrahedra, which may be no facets.
     Soup finish_beside_tets() { return std::move(soup_); }
 
  private:
-    template <class Fail>
-    void check_corners(std::span<const std::int64_t> corners, const Fail& fail) const {
-        if (corners.size() < 3) fail("a facet has less than three vertices. Remove it or export the surface again.");
-        check_indices(corners, fail);
-    }
     template <class Fail>
     void check_indices(std::span<const std::int64_t> corners, const Fail& fail) const {
         for (std::int64_t v : corners)
@@ -194,38 +146,21 @@ class SoupBuilder {
         for (std::size_t i = 2; i < corners.size(); ++i) add_facet({corner(0), corner(i - 1), corner(i)});
         ++polygon_count_;
     }
-    void note_polygons() {
-        note_ignored(facets_without_area_, "facet of edges or points alone", "facets of edges or points alone");
-        note_ignored(edges_outside_, "edge or point outside of its facet", "edges or points outside of their facets");
-    }
     void add_skin() {
-        TetMesh mesh;
-        mesh.vertices = std::move(soup_.vertices);
-        mesh.tets = std::move(tets_);
-        const std::vector<Triangle> skin = skin_of(mesh);
-        soup_.vertices = std::move(mesh.vertices);
         set_patch("surface");  // whatever curves or volumes came last
-        for (const Triangle& facet : skin) add_facet(facet);
-        note(tell_skin(mesh.tets.size(), volume_names_));
-    }
-    void refuse_walls() {
-        TetMesh mesh;
-        mesh.vertices = std::move(soup_.vertices);
-        mesh.tets = std::move(tets_);
-        const auto wall = find_wall(mesh, volume_of_tet_, soup_.facets);
-        soup_.vertices = std::move(mesh.vertices);
-        if (wall) {
-            const Triangle& t = soup_.facets[static_cast<std::size_t>(wall->facet)];
-            const auto& p = soup_.vertices;
-            refuse_wall(volume_names_[wall->volumes[0]], volume_names_[wall->volumes[1]],
-                        (p[t[0]] + p[t[1]] + p[t[2]]) / 3);
-        }
+        for (const Triangle& facet : tets_.skin()) add_facet(facet);
+        note(tell_skin(static_cast<std::size_t>(tets_.count()), tets_.volume_names()));
     }
     void add_facet(const Triangle& facet) {
         if (soup_.facets.size() == static_cast<std::size_t>(most_facets))
             throw Error(ErrorCode::input, path_ + ": the file has more than " + std::to_string(most_facets) +
                                               " facets, which is the most that a surface can have. Split it.");
-        if (patch_ < 0) patch_ = find_or_add_patch();
+        if (patch_ < 0) {
+            patch_ = patch_of_name_.try_emplace(patch_name_, static_cast<std::int32_t>(soup_.patch_names.size()))
+                         .first->second;
+            if (patch_ == static_cast<std::int32_t>(soup_.patch_names.size()))
+                soup_.patch_names.push_back(patch_name_.substr(0, longest_name));
+        }
         soup_.facets.push_back(facet);
         soup_.patch.push_back(patch_);
         if (has_fans_) soup_.polygon.push_back(polygon_count_);
@@ -237,23 +172,12 @@ class SoupBuilder {
         soup_.polygon.resize(soup_.facets.size());
         std::iota(soup_.polygon.begin(), soup_.polygon.end(), 0);
     }
-    std::int32_t find_or_add_patch() {
-        const auto next = static_cast<std::int32_t>(soup_.patch_names.size());
-        const auto [found, is_new] = patch_of_name_.try_emplace(patch_name_, next);
-        if (is_new) soup_.patch_names.push_back(patch_name_.substr(0, longest_name));
-        return found->second;
-    }
-
     static constexpr std::size_t longest_name = 255;  // bytes that are kept
 
     const std::string& path_;
     Wanted wanted_;
     Soup soup_;
-    std::vector<Tetrahedron> tets_;
-    bool keeps_walls_ = false;
-    std::vector<std::int32_t> volume_of_tet_;  // where a surface is wanted
-    std::vector<std::string> volume_names_;
-    std::vector<NodeScalar> scalars_;
+    TetCollector tets_;
     std::string patch_name_ = "surface";
     std::int32_t polygon_count_ = 0;
     std::int64_t facets_without_area_ = 0, edges_outside_ = 0;

@@ -74,8 +74,8 @@ std::vector<char> facets_of_interface(const Soup& soup) {
 
 TetFile finish(SoupBuilder& builder, const std::string& path) {
     TetFile file;
-    file.mesh.tets = builder.finish_tets();
-    file.node_scalars = builder.finish_scalars();
+    file.mesh.tets = builder.tets().finish();
+    file.node_scalars = builder.tets().finish_scalars();
     Soup soup = builder.finish_beside_tets();
     file.is_interface = facets_of_interface(soup);
     file.mesh.vertices = std::move(soup.vertices);

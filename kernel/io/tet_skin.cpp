@@ -14,17 +14,17 @@ namespace {
 
 namespace skin {
 
-Triangle face_of(const TetMesh& mesh, const FaceSide& side) {
-    const Tetrahedron& tet = mesh.tets[static_cast<std::size_t>(side.tet())];
+Triangle face_of(const std::vector<Tetrahedron>& tets, const FaceSide& side) {
+    const Tetrahedron& tet = tets[static_cast<std::size_t>(side.tet())];
     Triangle face{};
     for (std::size_t i = 0; i < 3; ++i) face[i] = tet[static_cast<std::size_t>(tet_faces[side.corner()][i])];
     return face;
 }
 
-bool is_negative(const TetMesh& mesh, std::int32_t tet) {
-    const auto& [a, b, c, d] = mesh.tets[static_cast<std::size_t>(tet)];
-    const Vec3& origin = mesh.vertices[a];
-    const Vec3 u = mesh.vertices[b] - origin, v = mesh.vertices[c] - origin, w = mesh.vertices[d] - origin;
+bool is_negative(const std::vector<Vec3>& vertices, const Tetrahedron& tet) {
+    const auto& [a, b, c, d] = tet;
+    const Vec3& origin = vertices[a];
+    const Vec3 u = vertices[b] - origin, v = vertices[c] - origin, w = vertices[d] - origin;
     return u.cross(v).dot(w) < 0;
 }
 
@@ -46,29 +46,31 @@ std::string names_text(const std::vector<std::string>& volumes) {
 
 }  // namespace
 
-std::vector<Triangle> skin_of(const TetMesh& mesh) {
+std::vector<Triangle> skin_of(const std::vector<Vec3>& vertices, const std::vector<Tetrahedron>& tets) {
     std::vector<FaceSide> sides;
     match_faces(
-        mesh, [](const FaceSide&, const FaceSide&) {}, [&](const FaceSide& side) { sides.push_back(side); });
+        vertices.size(), tets, [](const FaceSide&, const FaceSide&) {},
+        [&](const FaceSide& side) { sides.push_back(side); });
     std::sort(sides.begin(), sides.end(), [](const FaceSide& a, const FaceSide& b) { return a.code < b.code; });
     std::vector<Triangle> facets;
     facets.reserve(sides.size());
     for (const FaceSide& side : sides) {
-        facets.push_back(skin::face_of(mesh, side));
-        if (skin::is_negative(mesh, side.tet())) std::swap(facets.back()[1], facets.back()[2]);
+        facets.push_back(skin::face_of(tets, side));
+        if (skin::is_negative(vertices, tets[static_cast<std::size_t>(side.tet())]))
+            std::swap(facets.back()[1], facets.back()[2]);
     }
     return facets;
 }
 
-std::optional<Wall> find_wall(const TetMesh& mesh, const std::vector<std::int32_t>& volume_of_tet,
-                              const std::vector<Triangle>& facets) {
+std::optional<Wall> find_wall(std::size_t vertex_count, const std::vector<Tetrahedron>& tets,
+                              const std::vector<std::int32_t>& volume_of_tet, const std::vector<Triangle>& facets) {
     std::vector<std::pair<Triangle, std::array<std::int32_t, 2>>> between;
     const auto pair = [&](const FaceSide& a, const FaceSide& b) {
         const auto [low, high] = std::minmax(volume_of_tet[static_cast<std::size_t>(a.tet())],
                                              volume_of_tet[static_cast<std::size_t>(b.tet())]);
-        if (low != high) between.push_back({skin::sorted(skin::face_of(mesh, a)), {low, high}});
+        if (low != high) between.push_back({skin::sorted(skin::face_of(tets, a)), {low, high}});
     };
-    match_faces(mesh, pair, [](const FaceSide&) {});
+    match_faces(vertex_count, tets, pair, [](const FaceSide&) {});
     std::sort(between.begin(), between.end());
     for (std::size_t f = 0; f < facets.size(); ++f) {
         const Triangle facet = skin::sorted(facets[f]);

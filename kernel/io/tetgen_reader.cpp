@@ -174,7 +174,7 @@ void scan_tetgen_cells(std::string_view elements, const std::string& path, SoupB
         scanner.next_integer();
         for (std::int64_t& corner : corners) corner = scanner.next_index(first_node);
         scanner.skip_line();  // attributes
-        builder.add_tet(corners, [&](const std::string& what) { scanner.fail(what); });
+        builder.tets().add(corners, [&](const std::string& what) { scanner.fail(what); });
     }
     scanner.expect_end("its tetrahedra");
 }

@@ -13,6 +13,37 @@
 
 namespace kerf {
 
+namespace detail {
+
+constexpr bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+constexpr bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+inline std::string_view without_plus(std::string_view word) {
+    const bool has_plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
+    return has_plus ? word.substr(1) : word;
+}
+// The whole word or nothing.
+template <class Number>
+std::errc parse(std::string_view word, Number& value) {
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return error == std::errc() && end != word.data() + word.size() ? std::errc::invalid_argument : error;
+}
+// Zero or infinity, by the power of ten of the first digit that is not 0.
+inline double nearest_beyond_range(std::string_view number) {
+    const bool is_negative = number.front() == '-';
+    const std::size_t e = std::min(number.find_first_of("eE"), number.size());
+    const std::size_t point = std::min(number.find('.'), e), first = number.find_first_of("123456789");
+    std::int64_t exponent = 0;
+    const std::string_view power = without_plus(number.substr(std::min(e + 1, number.size())));
+    const bool is_huge_power = parse(power, exponent) == std::errc::result_out_of_range;
+    const auto lead = static_cast<std::int64_t>(point) - static_cast<std::int64_t>(first);
+    const bool is_large = is_huge_power ? power.front() != '-' : exponent > -lead;
+    const double magnitude = is_large ? std::numeric_limits<double>::infinity() : 0.0;
+    return is_negative ? -magnitude : magnitude;
+}
+
+}  // namespace detail
+
 /// Walks over a text word by word. Words are separated by blanks, tabs and line ends (LF, CR LF or CR); a comment runs
 /// from the comment character to the end of its line. Numbers do not depend on the locale. Errors name file and line.
 class TextScanner {
@@ -28,7 +59,7 @@ class TextScanner {
     /// True if no word is left in the current line.
     bool at_line_end() {
         skip(false);
-        return position_ == text_.size() || is_line_end(text_[position_]);
+        return position_ == text_.size() || detail::is_line_end(text_[position_]);
     }
     /// The first character of the next word, over line ends; there must be one.
     char peek() {
@@ -55,15 +86,15 @@ class TextScanner {
     /// The nearest double: infinite or zero for a number beyond the doubles; "nan" and "inf" are read, too.
     double to_real(std::string_view word) const {
         double value = 0;
-        const std::string_view digits = without_plus(word);
-        const std::errc error = parse(digits, value);
-        if (error == std::errc::result_out_of_range) return nearest_beyond_range(digits);
+        const std::string_view digits = detail::without_plus(word);
+        const std::errc error = detail::parse(digits, value);
+        if (error == std::errc::result_out_of_range) return detail::nearest_beyond_range(digits);
         if (error != std::errc()) refuse(word, "number", error);
         return value;
     }
     std::int64_t to_integer(std::string_view word) const {
         std::int64_t value = 0;
-        const std::errc error = parse(without_plus(word), value);
+        const std::errc error = detail::parse(detail::without_plus(word), value);
         if (error != std::errc()) refuse(word, "whole number", error);
         return value;
     }
@@ -84,8 +115,8 @@ class TextScanner {
         const std::size_t begin = position_;
         skip_line();
         std::string_view rest = text_.substr(begin, position_ - begin);
-        while (!rest.empty() && is_space(rest.back())) rest.remove_suffix(1);
-        while (!rest.empty() && is_space(rest.front())) rest.remove_prefix(1);
+        while (!rest.empty() && detail::is_space(rest.back())) rest.remove_suffix(1);
+        while (!rest.empty() && detail::is_space(rest.front())) rest.remove_prefix(1);
         return rest;
     }
     void skip_line() {
@@ -106,53 +137,27 @@ class TextScanner {
     }
 
  private:
-    static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
-    static bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
-
     void skip(bool over_line_ends) {
         for (; position_ < text_.size(); ++position_) {
             const char c = text_[position_];
             if (comment_ && c == comment_)
                 position_ = find_line_end() - 1;
-            else if (!is_space(c) || (is_line_end(c) && !over_line_ends))
+            else if (!detail::is_space(c) || (detail::is_line_end(c) && !over_line_ends))
                 return;
         }
     }
     std::size_t find_line_end() const {
         std::size_t end = position_;
-        while (end < text_.size() && !is_line_end(text_[end])) ++end;
+        while (end < text_.size() && !detail::is_line_end(text_[end])) ++end;
         return end;
     }
     std::string_view scan_word() {
         word_ = position_;
-        while (position_ < text_.size() && !is_space(text_[position_]) && !(comment_ && text_[position_] == comment_))
+        while (position_ < text_.size() && !detail::is_space(text_[position_]) &&
+               !(comment_ && text_[position_] == comment_))
             ++position_;
         return text_.substr(word_, position_ - word_);
     }
-    static std::string_view without_plus(std::string_view word) {
-        const bool has_plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
-        return has_plus ? word.substr(1) : word;
-    }
-    /// The whole word or nothing.
-    template <class Number>
-    static std::errc parse(std::string_view word, Number& value) {
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-        return error == std::errc() && end != word.data() + word.size() ? std::errc::invalid_argument : error;
-    }
-    // Zero or infinity, by the power of ten of the first digit that is not 0.
-    static double nearest_beyond_range(std::string_view number) {
-        const bool is_negative = number.front() == '-';
-        const std::size_t e = std::min(number.find_first_of("eE"), number.size());
-        const std::size_t point = std::min(number.find('.'), e), first = number.find_first_of("123456789");
-        std::int64_t exponent = 0;
-        const std::string_view power = without_plus(number.substr(std::min(e + 1, number.size())));
-        const bool is_huge_power = parse(power, exponent) == std::errc::result_out_of_range;
-        const auto lead = static_cast<std::int64_t>(point) - static_cast<std::int64_t>(first);
-        const bool is_large = is_huge_power ? power.front() != '-' : exponent > -lead;
-        const double magnitude = is_large ? std::numeric_limits<double>::infinity() : 0.0;
-        return is_negative ? -magnitude : magnitude;
-    }
-
     [[noreturn]] void refuse(std::string_view word, const char* kind, std::errc error) const {
         const std::string quoted = "\"" + std::string(word.substr(0, 40)) + "\"";
         fail((error == std::errc::result_out_of_range ? "the number " + quoted + " is too large"

@@ -321,7 +321,7 @@ bool add_cell(std::int64_t type, const std::vector<std::int64_t>& corners, bool 
     if (corners.size() != (type == vtk_tetra ? 4U : 3U))
         fail_cell("it has " + std::to_string(corners.size()) + " corners. Save the mesh again.");
     builder.set_patch(is_interface ? interface_patch : "surface");
-    type == vtk_tetra ? builder.add_tet(corners, fail_cell) : builder.add_polygon(corners, fail_cell);
+    type == vtk_tetra ? builder.tets().add(corners, fail_cell) : builder.add_polygon(corners, fail_cell);
     return true;
 }
 
@@ -335,7 +335,7 @@ void scan_piece(const Decoder& decoder, const Piece& piece, const std::string& p
         const std::vector<double> values = decoder.values_of<double>(array);
         if (static_cast<std::int64_t>(values.size()) != piece.points)
             fail(path, "its array " + name + " has not one value for each point. Save or copy it again.");
-        std::copy(values.begin(), values.end(), builder.node_scalar(name).begin() + first_vertex);
+        std::copy(values.begin(), values.end(), builder.tets().scalar(name).begin() + first_vertex);
     }
     const Cells cells = read_cells(decoder, piece, path);
     std::vector<std::int64_t> corners;
@@ -366,7 +366,7 @@ void scan_vtu(std::string_view bytes, const std::string& path, SoupBuilder& buil
 Soup read_vtu(std::string_view bytes, const std::string& path) {
     SoupBuilder builder(path);
     scan_vtu(bytes, path, builder);
-    if (builder.has_facets()) builder.note_ignored(builder.tet_count(), "tetrahedron", "tetrahedra");
+    if (builder.has_facets()) builder.note_ignored(builder.tets().count(), "tetrahedron", "tetrahedra");
     return builder.finish();
 }
 

@@ -96,21 +96,28 @@ void match_sides(std::span<KeyedSide> sides, std::vector<std::int32_t>& table, c
 /// for all other sides. Requires vertex indices in range. O(#V + #T) for bounded vertex degrees. Memory: 16 bytes a
 /// tetrahedron and 8 a vertex. Deterministic.
 template <class Pair, class Single>
-void match_faces(const TetMesh& mesh, const Pair& pair, const Single& single) {
+void match_faces(std::size_t vertex_count, const std::vector<Tetrahedron>& tets, const Pair& pair,
+                 const Single& single) {
     const auto for_each_side = [&](const auto& take) {
-        for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-            const detail::SortedCorners sorted(mesh.tets[t]);
+        for (std::size_t t = 0; t < tets.size(); ++t) {
+            const detail::SortedCorners sorted(tets[t]);
             take(sorted.vertex(0), sorted.side(t, 1, 2, 3));
             take(sorted.vertex(0), sorted.side(t, 1, 3, 2));
             take(sorted.vertex(0), sorted.side(t, 2, 3, 1));
             take(sorted.vertex(1), sorted.side(t, 2, 3, 0));
         }
     };
-    const std::size_t most_sides = mesh.tets.size() * sizeof(Tetrahedron) / sizeof(detail::KeyedSide);
+    const std::size_t most_sides = tets.size() * sizeof(Tetrahedron) / sizeof(detail::KeyedSide);
     std::vector<std::int32_t> table;
     visit_buckets<detail::KeyedSide>(
-        mesh.vertices.size(), most_sides, for_each_side,
+        vertex_count, most_sides, for_each_side,
         [&](std::size_t, std::span<detail::KeyedSide> sides) { detail::match_sides(sides, table, pair, single); });
+}
+
+/// The same for the faces of a mesh.
+template <class Pair, class Single>
+void match_faces(const TetMesh& mesh, const Pair& pair, const Single& single) {
+    match_faces(mesh.vertices.size(), mesh.tets, pair, single);
 }
 
 }  // namespace kerf

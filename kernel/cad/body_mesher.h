@@ -1,0 +1,29 @@
+// One solid as facets that hold what it holds.
+#pragma once
+
+#include <string>
+
+#include "cad/model.h"
+#include "cad/tessellation.h"
+
+namespace kerf::cad {
+
+struct MeshedBody {
+    Tessellation facets;      ///< closed, without crossings, outwards
+    double exact_volume = 0;  ///< of the solid; cubic millimetres
+};
+
+/// Tessellates a body until its facets are closed and do not cross, and hold the volume of the solid to within
+/// CadOptions::volume_tolerance. `deflection` is a fraction of the diagonal; 0: as fine as the volume asks for. With
+/// `may_balance` vertices are moved off the faces for the volume, else all stay on them. Closed faces of the body may
+/// be divided, which the model notes. Throws SolidDefect. Deterministic.
+MeshedBody mesh_body(Body& body, Model& model, const std::string& path, double deflection, bool may_balance);
+
+/// Throws SolidDefect of a kind that io/cad_body.h names.
+[[noreturn]] void refuse(const std::string& path, const std::string& what, const char* kind = SolidDefect::broken);
+
+/// "1 face", "2 faces".
+std::string counted(std::size_t n, const char* one, const char* many);
+std::string place_text(const Vec3& p);
+
+}  // namespace kerf::cad

@@ -1,0 +1,149 @@
+#include "io/gmsh_elements.h"
+
+#include <algorithm>
+
+namespace kerf::gmsh {
+
+namespace {
+
+constexpr std::array<std::array<const char*, 2>, 8> shape_names = {{{"point", "points"},
+                                                                    {"line", "lines"},
+                                                                    {"triangle", "triangles"},
+                                                                    {"quadrangle", "quadrangles"},
+                                                                    {"tetrahedron", "tetrahedra"},
+                                                                    {"hexahedron", "hexahedra"},
+                                                                    {"prism", "prisms"},
+                                                                    {"pyramid", "pyramids"}}};
+
+// Gmsh's numbers of element types, from 1.
+ElementType element_type(std::int64_t number) {
+    using enum Shape;
+    constexpr std::array<ElementType, 32> types = {
+        {{unknown, 0},      {line, 2},        {triangle, 3}, {quadrangle, 4}, {tetrahedron, 4}, {hexahedron, 8},
+         {prism, 6},        {pyramid, 5},     {line, 3},     {triangle, 6},   {quadrangle, 9},  {tetrahedron, 10},
+         {hexahedron, 27},  {prism, 18},      {pyramid, 14}, {point, 1},      {quadrangle, 8},  {hexahedron, 20},
+         {prism, 15},       {pyramid, 13},    {triangle, 9}, {triangle, 10},  {triangle, 12},   {triangle, 15},
+         {triangle, 15},    {triangle, 21},   {line, 4},     {line, 5},       {line, 6},        {tetrahedron, 20},
+         {tetrahedron, 35}, {tetrahedron, 56}}};
+    return number > 0 && number < static_cast<std::int64_t>(types.size()) ? types[number] : ElementType{};
+}
+
+}  // namespace
+
+void Elements::set_type(std::int64_t number) {
+    type_ = element_type(number);
+    if (type_.shape == Shape::unknown || (is_taken() && type_.nodes > 4)) refuse_type(number);
+    if (type_.shape == Shape::tetrahedron && type_.nodes > 4) of_higher_order_ = number;
+}
+
+void Elements::set_patch(std::int64_t group, std::int64_t entity) {
+    if (std::pair(group, entity) == patch_) return;
+    patch_ = {group, entity};
+    builder_.set_patch(model_.surfaces.name_of(group, entity));
+    volume_ = -1;
+}
+
+void Elements::finish() const {
+    if (!builder_.has_facets() && builder_.tets().empty() && of_higher_order_) refuse_type(of_higher_order_);
+    if (!builder_.wants_tets()) {
+        builder_.tets().name_volumes(volume_names());
+        if (builder_.tets().empty()) refuse_shared_surfaces();
+    }
+    note_ignored();
+}
+
+void Elements::note_ignored() const {
+    for (const Shape shape :
+         {Shape::tetrahedron, Shape::hexahedron, Shape::prism, Shape::pyramid, Shape::line, Shape::point}) {
+        const auto i = static_cast<std::size_t>(shape);
+        if (shape == Shape::tetrahedron && (builder_.wants_tets() || !builder_.has_facets())) continue;
+        builder_.note_ignored(counts_[i], shape_names[i][0], shape_names[i][1]);
+    }
+}
+
+void Elements::refuse_type(std::int64_t number) const {
+    const ElementType type = element_type(number);
+    const bool is_face =
+        type.shape == Shape::unknown || type.shape == Shape::triangle || type.shape == Shape::quadrangle;
+    source_.fail("elements of type " + std::to_string(number) + " (" + describe(type) + ") cannot be read. " +
+                 (builder_.wants_tets() || !is_face ? "Save the mesh with elements of first order: gmsh -order 1."
+                                                    : "Save the surface with triangles of three nodes."));
+}
+
+void Elements::add_element() {
+    last_patch_ = patch_;
+    const auto fail = [&](const std::string& what) { source_.fail(what); };
+    if (!is_face()) return builder_.tets().add(corners_, fail, volume());
+    builder_.add_polygon(corners_, fail);
+    if (model_.surfaces_of_volume.empty()) return;
+    if (surfaces_.empty() || surfaces_.back().first != patch_.second)
+        surfaces_.emplace_back(patch_.second, corners_.front());
+}
+
+// The number of that of the current patch.
+std::int32_t Elements::volume() {
+    if (volume_ >= 0) return volume_;
+    const auto key = model_.is_partitioned ? std::pair<std::int64_t, std::int64_t>() : patch_;
+    const auto [found, is_new] = number_of_volume_.try_emplace(key, static_cast<std::int32_t>(volumes_.size()));
+    if (is_new) volumes_.push_back(key);
+    return volume_ = found->second;
+}
+
+// Those in the same group are told by their entities.
+std::vector<std::string> Elements::volume_names() const {
+    std::map<std::int64_t, int> count_in_group;
+    for (const auto& [group, entity] : volumes_) ++count_in_group[group];
+    std::vector<std::string> names;
+    for (const auto& [group, entity] : volumes_)
+        names.push_back(model_.volumes.name_of(count_in_group[group] == 1 ? group : 0, entity));
+    return names;
+}
+
+// Of a file without tetrahedra, the geometry tells which surfaces are between two volumes; only volumes count all
+// of whose surfaces are in the file.
+void Elements::refuse_shared_surfaces() const {
+    if (model_.is_partitioned || builder_.keeps_walls()) return;
+    auto in_file = surfaces_;
+    std::sort(in_file.begin(), in_file.end());
+    std::vector<std::pair<std::int64_t, std::int64_t>> volume_of_surface;
+    for (const auto& [volume, surfaces] : model_.surfaces_of_volume) {
+        const auto is_in_file = [&](std::int64_t surface) { return find(in_file, surface) != nullptr; };
+        if (!std::all_of(surfaces.begin(), surfaces.end(), is_in_file)) continue;
+        for (const std::int64_t surface : surfaces) volume_of_surface.emplace_back(surface, volume);
+    }
+    std::sort(volume_of_surface.begin(), volume_of_surface.end());
+    const auto shared =
+        std::adjacent_find(volume_of_surface.begin(), volume_of_surface.end(),
+                           [](const auto& a, const auto& b) { return a.first == b.first && a.second != b.second; });
+    if (shared == volume_of_surface.end()) return;
+    const auto name_of = [&](std::int64_t volume) {
+        const std::int64_t* group = find(model_.volumes.group_of_entity, volume);
+        return model_.volumes.name_of(group ? *group : 0, volume);
+    };
+    const std::int64_t vertex = *find(in_file, shared->first);
+    builder_.tets().refuse_wall(name_of(shared->second), name_of(std::next(shared)->second), builder_.vertex(vertex));
+}
+
+std::string Elements::describe(const ElementType& type) {
+    if (type.shape == Shape::unknown) return "unknown";
+    return std::string(shape_names[static_cast<std::size_t>(type.shape)][1]) + " with " + std::to_string(type.nodes) +
+           " nodes";
+}
+
+// Tags mostly count from 1 without gaps, and need no search then.
+const std::int64_t* Elements::find_vertex(std::int64_t node) const {
+    const auto& nodes = model_.vertex_of_node;
+    const auto place =
+        static_cast<std::uint64_t>(node) - (nodes.empty() ? 0 : static_cast<std::uint64_t>(nodes.front().first));
+    return place < nodes.size() && nodes[place].first == node ? &nodes[place].second : find(nodes, node);
+}
+
+std::int64_t Elements::to_vertex(std::int64_t element, std::int64_t node) const {
+    const std::int64_t* vertex = find_vertex(node);
+    if (!vertex)
+        source_.fail("element " + std::to_string(element) + " names node " + std::to_string(node) +
+                     ", which the file does not have. Save the mesh again.");
+    return *vertex;
+}
+
+}  // namespace kerf::gmsh

@@ -1,0 +1,86 @@
+// The elements of one of Gmsh's files, one by one.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/gmsh_model.h"
+#include "io/gmsh_source.h"
+#include "io/soup_builder.h"
+
+namespace kerf::gmsh {
+
+enum class Shape { point, line, triangle, quadrangle, tetrahedron, hexahedron, prism, pyramid, unknown };
+
+struct ElementType {
+    Shape shape = Shape::unknown;
+    std::int64_t nodes = 0;
+};
+
+/// Takes the elements one by one: faces and tetrahedra. What is neither is only counted, and so are tetrahedra of
+/// higher order where a surface is wanted.
+class Elements {
+ public:
+    Elements(Source& source, SoupBuilder& builder, const Model& model)
+        : source_(source), builder_(builder), model_(model) {}
+
+    /// Elements to come are of this type.
+    void set_type(std::int64_t number);
+    /// So many of them follow.
+    void announce(std::int64_t count) const {
+        if (is_face()) builder_.announce_facets(count);
+    }
+    void set_patch(std::int64_t group, std::int64_t entity);
+    /// The nodes of one element.
+    template <class NextNode>
+    void read(std::int64_t tag, const NextNode& next_node) {
+        ++counts_[static_cast<std::size_t>(type_.shape)];
+        last_corners_.swap(corners_);
+        corners_.clear();
+        for (std::int64_t i = 0; i < type_.nodes; ++i) {
+            const std::int64_t node = next_node();
+            if (is_taken()) corners_.push_back(to_vertex(tag, node));
+        }
+        if (is_taken() && !repeats_last()) add_element();
+    }
+    /// When all have been read.
+    void finish() const;
+
+ private:
+    void note_ignored() const;
+    [[noreturn]] void refuse_type(std::int64_t number) const;
+    bool is_face() const { return type_.shape == Shape::triangle || type_.shape == Shape::quadrangle; }
+    bool is_taken() const {
+        return is_face() || (type_.shape == Shape::tetrahedron && (builder_.wants_tets() || type_.nodes == 4));
+    }
+    // MSH 2 writes an element of several groups once for each, one directly behind the other.
+    bool repeats_last() const {
+        return corners_ == last_corners_ && patch_.second == last_patch_.second && patch_.first != last_patch_.first;
+    }
+    void add_element();
+    std::int32_t volume();
+    std::vector<std::string> volume_names() const;
+    void refuse_shared_surfaces() const;
+    static std::string describe(const ElementType& type);
+    const std::int64_t* find_vertex(std::int64_t node) const;
+    std::int64_t to_vertex(std::int64_t element, std::int64_t node) const;
+
+    Source& source_;
+    SoupBuilder& builder_;
+    const Model& model_;
+    ElementType type_;
+    std::pair<std::int64_t, std::int64_t> patch_ = {-1, -1}, last_patch_ = {-1, -1};  // group, entity
+    std::vector<std::pair<std::int64_t, std::int64_t>> volumes_;                      // of tetrahedra: group, entity
+    std::map<std::pair<std::int64_t, std::int64_t>, std::int32_t> number_of_volume_;
+    std::int32_t volume_ = -1;                                     // number of that of patch_; -1: not known yet
+    std::vector<std::pair<std::int64_t, std::int64_t>> surfaces_;  // of faces: entity, a vertex
+    std::int64_t of_higher_order_ = 0;                             // type of such tetrahedra; 0: there are none
+    std::vector<std::int64_t> corners_, last_corners_;             // of this face, of the last one
+    std::array<std::int64_t, static_cast<std::size_t>(Shape::unknown)> counts_{};
+};
+
+}  // namespace kerf::gmsh
