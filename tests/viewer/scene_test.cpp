@@ -14,7 +14,7 @@
 #include "support/temporary_folder.h"
 #include "support/write_off.h"
 #include "viewer/driver.h"
-#include "viewer/scene/shapes.h"
+#include "viewer/scene/cell_shapes.h"
 
 namespace kerf::test {
 namespace {

@@ -8,7 +8,6 @@
 
 #include "core/error.h"
 #include "io/text_file.h"
-#include "viewer/app/keys.h"
 #include "viewer/app/settings.h"
 #include "viewer/model/file_kind.h"
 #include "viewer/model/timeline.h"
@@ -30,13 +29,6 @@ std::string scene_key(ViewState state) {
     return to_json(state);
 }
 
-Eigen::AlignedBox3d framed_box(const std::vector<Vec3>& points, double least) {
-    Eigen::AlignedBox3d box;
-    for (const Vec3& p : points) box.extend(p);
-    const Vec3 more = Vec3::Constant(least) + box.sizes();
-    return {box.min() - more, box.max() + more};
-}
-
 std::string unused_picture(const std::string& folder) {
     for (int i = 1;; ++i) {
         const std::string path = fmt::format("{}/kerf-{:03}.png", folder, i);
@@ -46,37 +38,6 @@ std::string unused_picture(const std::string& folder) {
 }
 
 }  // namespace
-
-ImGuiOwner::ImGuiOwner() {
-    IMGUI_CHECKVERSION();
-    ImGui::CreateContext();
-    ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;
-    io.LogFilename = nullptr;
-    io.ConfigInputTextCursorBlink = false;
-    io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
-    io.KeyMap[ImGuiKey_Tab] = key_tab;
-    io.KeyMap[ImGuiKey_LeftArrow] = key_left;
-    io.KeyMap[ImGuiKey_RightArrow] = key_right;
-    io.KeyMap[ImGuiKey_UpArrow] = key_up;
-    io.KeyMap[ImGuiKey_DownArrow] = key_down;
-    io.KeyMap[ImGuiKey_PageUp] = key_page_up;
-    io.KeyMap[ImGuiKey_PageDown] = key_page_down;
-    io.KeyMap[ImGuiKey_Home] = key_home;
-    io.KeyMap[ImGuiKey_End] = key_end;
-    io.KeyMap[ImGuiKey_Delete] = key_delete;
-    io.KeyMap[ImGuiKey_Backspace] = key_backspace;
-    io.KeyMap[ImGuiKey_Space] = key_space;
-    io.KeyMap[ImGuiKey_Enter] = key_enter;
-    io.KeyMap[ImGuiKey_Escape] = key_escape;
-    io.KeyMap[ImGuiKey_KeyPadEnter] = key_keypad_enter;
-    for (const auto& [name, letter] :
-         {std::pair(ImGuiKey_A, 'A'), std::pair(ImGuiKey_C, 'C'), std::pair(ImGuiKey_V, 'V'),
-          std::pair(ImGuiKey_X, 'X'), std::pair(ImGuiKey_Y, 'Y'), std::pair(ImGuiKey_Z, 'Z')})
-        io.KeyMap[name] = key_of(letter);
-}
-
-ImGuiOwner::~ImGuiOwner() { ImGui::DestroyContext(); }
 
 App::App(const Gl& gl, AppOptions options)
     : options_(std::move(options)),
@@ -128,68 +89,6 @@ void App::reload() {
 void App::open_again(const RunOptions& options) {
     session_.open(std::string(session_.document().path), options);
     await_document();
-}
-
-void App::frame_selection() {
-    const double diagonal = session_.document().box.diagonal().norm();
-    const std::vector<Vec3> points = selected_points(session_, state_.selection);
-    if (!points.empty()) {
-        camera_.target = framed_box(points, 0.01 * diagonal).center();
-        Camera framed = camera_;
-        fit_body(framed, framed_box(points, 0.01 * diagonal));
-        state_.camera = framed;
-    } else if (const auto surface = surface_of(session_, state_.node)) {
-        Camera framed = camera_;
-        fit_body(framed, framed_box(surface->vertices, 0));
-        framed.height /= 2;
-        state_.camera = framed;
-    }
-}
-
-void App::fly_to(const Vec3& point, double radius, const Vec3& back) {
-    Camera camera = camera_;
-    if (back.squaredNorm() > 0 && !back.isApprox(camera.back())) look_from(camera, back);
-    camera.target = point;
-    camera.height = std::max(6 * radius, 1e-4 * session_.document().box.diagonal().norm());
-    state_.camera = camera_ = camera;
-    if (state_.selection.kind != Selection::Kind::cell) {
-        state_.selection = {};
-        state_.selection.kind = Selection::Kind::place;
-        state_.selection.owner = state_.node;
-        state_.selection.place = point;
-    }
-}
-
-void App::resolve_turn() {
-    if (!turning_to_) return;
-    const Selection& s = *turning_to_;
-    const auto cells = session_.cells(s.owner);
-    const auto part = session_.part_surface(s.owner), shown = surface_of(session_, state_.node);
-    const bool is_known = cells && part && shown;
-    if (!is_known && session_.pending()) return;
-    if (is_known && state_.selection == s && state_.camera)
-        if (const auto back = direction_to_cell(*cells, *part, *shown, s.index, camera_.back())) {
-            if (!back->isApprox(state_.camera->back())) look_from(*state_.camera, *back);
-            wake();
-        }
-    turning_to_.reset();
-}
-
-void App::clip_through_selection(bool faces_eye) {
-    const std::vector<Vec3> points = selected_points(session_, state_.selection);
-    if (points.empty() || session_.document().box.isEmpty()) return notify("Select something to clip through first.");
-    Vec3 middle = Vec3::Zero();
-    for (const Vec3& p : points) middle += p / static_cast<double>(points.size());
-    // What lies towards the eye is cut away.
-    const Vec3 normal = faces_eye ? camera_.back() : state_.clip.normal;
-    if (faces_eye) state_.clip.flipped = false;
-    snap_to(state_.clip, Plane(middle, normal), session_.document().box);
-}
-
-void App::look(Direction direction) {
-    Camera camera = camera_;
-    look_from(camera, direction);
-    state_.camera = camera;
 }
 
 void App::quit() { quit_ = true; }
@@ -287,34 +186,6 @@ ViewState App::shown_state() const {
     return shown;
 }
 
-// Without a camera in the state everything fits, whatever is shown.
-void App::update_camera() {
-    if (state_.camera) {
-        camera_ = *state_.camera;
-        return;
-    }
-    camera_ = {};
-    const Clip& clip = state_.clip;
-    if (chosen_.faces_clip && clip.on && !built_.left.isEmpty()) {
-        look_from(camera_, clip.flipped ? Vec3(-clip.normal) : clip.normal);
-        fit_body(camera_, built_.left);
-        return;
-    }
-    look_from(camera_, Direction::corner);
-    fit_body(camera_, built_.box);
-}
-
-void App::project_scene() {
-    projection_ =
-        project(camera_, built_.frame, built_.box, static_cast<int>(area_.width), static_cast<int>(area_.height));
-    move_center(projection_, (2 * body_.x + body_.width - 2 * area_.x - area_.width) / std::max(area_.width, 1.f),
-                -(2 * body_.y + body_.height - 2 * area_.y - area_.height) / std::max(area_.height, 1.f));
-    projection_.x = static_cast<int>(area_.x);
-    projection_.y = size_.height - static_cast<int>(area_.y + area_.height);
-    projection_.pixel_ratio = size_.scale;
-    renderer_.resize(size_.width, size_.height);
-}
-
 // Of patches, where there is room for them on what is seen of their faces.
 void App::place_numbers() {
     const auto has_numbers = [](const Layer& layer) { return layer.patch != nullptr; };
@@ -335,13 +206,6 @@ void App::place_numbers() {
         if (static_cast<float>(place.room) >= least_room)
             facts_.numbers.push_back(
                 {place.number, static_cast<float>(place.x) + 0.5f, static_cast<float>(place.y) + 0.5f});
-}
-
-// Into what the legend leaves of the scene.
-void App::fit_body(Camera& camera, const Eigen::AlignedBox3d& box) const {
-    const float height = std::max(body_.height, 1.f);
-    fit(camera, box, body_.width / height);
-    camera.height *= area_.height / height;
 }
 
 void App::move_step(int direction) {

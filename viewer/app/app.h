@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "viewer/app/imgui_owner.h"
 #include "viewer/model/session.h"
 #include "viewer/panels/panels.h"
 #include "viewer/render/frame_size.h"
@@ -19,15 +20,6 @@
 namespace kerf::view {
 
 struct Gl;
-
-/// Dear ImGui's global context, for as long as it lives. Keys are numbered as in app/keys.h; nothing is saved.
-class ImGuiOwner {
- public:
-    ImGuiOwner();
-    ~ImGuiOwner();
-    ImGuiOwner(const ImGuiOwner&) = delete;
-    ImGuiOwner& operator=(const ImGuiOwner&) = delete;
-};
 
 struct AppOptions {
     std::string shader_folder;

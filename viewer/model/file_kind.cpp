@@ -16,11 +16,6 @@ namespace {
 
 constexpr std::string_view partial_ending = ".kerf-partial";
 
-bool is_there(const fs::path& path) {
-    std::error_code ignored;
-    return fs::exists(path, ignored);
-}
-
 bool begins_with_event(const std::string& path) {
     constexpr std::size_t limit = 1 << 16;  // the first event is short
     std::ifstream file(path, std::ios::binary);
@@ -40,6 +35,11 @@ bool begins_like_trace(const std::string& path) {
 
 }  // namespace
 
+bool exists(const std::string& path) {
+    std::error_code ignored;
+    return !path.empty() && fs::exists(path, ignored);
+}
+
 std::string absolute_path(const std::string& path) {
     const fs::path normal = fs::absolute(path).lexically_normal();
     return normal.has_filename() ? normal : normal.parent_path();
@@ -51,15 +51,15 @@ OpenedPath tell_kind(const std::string& path) {
         full.ends_with(partial_ending) ? full.substr(0, full.size() - partial_ending.size()) : full;
     const std::string partial = folder + std::string(partial_ending);
     std::error_code ignored;
-    const bool is_file = is_there(full) && !fs::is_directory(full, ignored);
+    const bool is_file = exists(full) && !fs::is_directory(full, ignored);
     if (!is_file) {
         // A run that is under way is of more interest than the one that it replaces, but only to who asks for it.
         const bool asks_for_partial = full != folder;
-        if (!asks_for_partial && is_there(fs::path(folder) / "report.json")) return {OpenedPath::Kind::run, folder, ""};
-        if (is_there(fs::path(partial) / "work/run.json")) return {OpenedPath::Kind::partial_run, folder, partial};
+        if (!asks_for_partial && exists(fs::path(folder) / "report.json")) return {OpenedPath::Kind::run, folder, ""};
+        if (exists(fs::path(partial) / "work/run.json")) return {OpenedPath::Kind::partial_run, folder, partial};
         for (const char* report : {"report.json", "solution/report.json"})
-            if (is_there(fs::path(folder) / report)) return {OpenedPath::Kind::run, folder, ""};
-        if (is_there(full))
+            if (exists(fs::path(folder) / report)) return {OpenedPath::Kind::run, folder, ""};
+        if (exists(full))
             throw Error(ErrorCode::io, fmt::format("{} is a folder without report.json, so it is no finished run. Open "
                                                    "the folder that kerf mesh -o has written, or a surface file.",
                                                    path));

@@ -21,6 +21,9 @@ struct OpenedPath {
 /// Without ".", ".." and a slash at the end.
 std::string absolute_path(const std::string& path);
 
+/// Whether something lies there that can be looked at; not for an empty path.
+bool exists(const std::string& path);
+
 /// Looks at names and the first bytes. Throws Error(io) for a folder that is no run.
 OpenedPath tell_kind(const std::string& path);
 

@@ -141,6 +141,8 @@ class Session::Impl {
     void follow_events(const std::string& path);
     void launch(const RunOptions& options, bool volume);
     std::string input_of_next_run() const;
+    std::optional<Document> document_before_next_run();
+    void follow_files_of(RunOptions& options);
     bool poll_run();
     bool poll_events();
     bool poll_process();

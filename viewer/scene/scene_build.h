@@ -8,9 +8,9 @@
 
 #include "viewer/model/surface_values.h"
 #include "viewer/model/timeline.h"
+#include "viewer/scene/cell_shapes.h"
 #include "viewer/scene/colors.h"
 #include "viewer/scene/scene_builder.h"
-#include "viewer/scene/shapes.h"
 
 namespace kerf::view {
 

@@ -1,0 +1,64 @@
+// Triangles with values and edges, as all shapes add them to a geometry.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/types.h"
+#include "viewer/scene/layer.h"
+
+namespace kerf::view {
+
+using Corners = std::array<Vec3, 3>;
+
+using Places = std::span<const Vec3>;
+
+inline void add_triangle(Geometry& geometry, const Frame& frame, const Corners& corners, float value,
+                         std::uint16_t edges, std::int32_t element) {
+    for (const Vec3& p : corners) geometry.corners.push_back({frame.draw(p), {}, edges, value});
+    geometry.element.push_back(element);
+}
+
+inline Corners shrunk(Corners corners, const Vec3& center, double shrink) {
+    if (shrink > 0)
+        for (Vec3& p : corners) p += shrink * (center - p);
+    return corners;
+}
+
+inline Corners corners_at(const Places& places, const Triangle& t) {
+    return {places[static_cast<std::size_t>(t[0])], places[static_cast<std::size_t>(t[1])],
+            places[static_cast<std::size_t>(t[2])]};
+}
+
+// The last triangle gets values of its own at its corners.
+inline void set_corner_values(Geometry& geometry, const std::array<float, 3>& values) {
+    for (std::size_t k = 0; k < 3; ++k)
+        (geometry.corners.end() - 3 + static_cast<std::ptrdiff_t>(k))->value = values[k];
+}
+inline void set_corner_values(Geometry& geometry, const Triangle& t, std::span<const float> vertex_value) {
+    set_corner_values(geometry,
+                      {vertex_value[static_cast<std::size_t>(t[0])], vertex_value[static_cast<std::size_t>(t[1])],
+                       vertex_value[static_cast<std::size_t>(t[2])]});
+}
+
+struct ValuedPoint {
+    Vec3 place = Vec3::Zero();
+    float value = 0;
+};
+
+// A convex polygon as a fan of triangles whose inner edges are not drawn.
+inline void add_polygon(Geometry& geometry, const Frame& frame, const std::vector<ValuedPoint>& polygon,
+                        std::int32_t element) {
+    for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+        std::uint16_t edges = 2;  // from i to i + 1
+        if (i == 1) edges |= 1;
+        if (i + 2 == polygon.size()) edges |= 4;
+        const ValuedPoint &a = polygon[0], &b = polygon[i], &c = polygon[i + 1];
+        add_triangle(geometry, frame, {a.place, b.place, c.place}, 0, edges, element);
+        set_corner_values(geometry, {a.value, b.value, c.value});
+    }
+}
+
+}  // namespace kerf::view
