@@ -17,11 +17,11 @@ namespace kerf {
 
 namespace {
 
-Input read_and_remesh(RunOptions options, bool quiet) {
+Input read_and_remesh(const RunOptions& options, bool quiet) {
     ProgressLine progress(quiet, nullptr);
     Input input = read_input(options.input, options.input_options);
-    options.resolve_lengths(input.diagonal);
-    return remesh_where_asked(std::move(input), options, &progress);
+    const RunOptions with_units = with_lengths(options, input.diagonal);
+    return remesh_where_asked(std::move(input), with_units, &progress);
 }
 
 }  // namespace

@@ -49,4 +49,11 @@ SizeField read_size_field(const SizeOptions& options, const SurfaceArrays& surfa
     return make_size_field(options, surface, patch_names, std::move(background));
 }
 
+RunOptions with_sizes_on(RunOptions options, const SurfaceArrays& surface,
+                         const std::vector<std::string>& patch_names) {
+    if (!options.sizes.depends_on_place()) return options;
+    const SizeField field = read_size_field(options.sizes, surface, patch_names);
+    return with_sizes(std::move(options), field);
+}
+
 }  // namespace kerf

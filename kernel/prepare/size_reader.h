@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "request/options.h"
 #include "size/size_options.h"
 
 namespace kerf {
@@ -12,5 +13,9 @@ namespace kerf {
 /// cannot be read or has no positive scalar at each of its nodes, Error(usage) as make_size_field() does.
 SizeField read_size_field(const SizeOptions& options, const SurfaceArrays& surface,
                           const std::vector<std::string>& patch_names);
+
+/// Options by which cuts, forecasts and the mesher obey the sizes that are asked for over this surface; as they are
+/// where these do not depend on the place. Throws as read_size_field() does.
+RunOptions with_sizes_on(RunOptions options, const SurfaceArrays& surface, const std::vector<std::string>& patch_names);
 
 }  // namespace kerf

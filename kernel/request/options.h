@@ -1,15 +1,14 @@
 // All that a user can choose about a run, and the one table of it.
 #pragma once
 
-#include <functional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "core/user_number.h"
 #include "decompose/decomposition.h"
 #include "io/output_file.h"
 #include "request/input_options.h"
+#include "request/option_field.h"
 #include "size/size_options.h"
 #include "volume/mesher.h"
 
@@ -27,7 +26,7 @@ struct RunOptions {
     DecomposeOptions decompose = {
         .parts = 0, .facets = FacetPolicy::split, .cut = {}};  ///< parts 0: see choose_parts()
     MesherOptions mesher;
-    SizeOptions sizes;           ///< of tetrahedra, see use_sizes()
+    SizeOptions sizes;           ///< of tetrahedra, see with_sizes()
     InputOptions input_options;  ///< of the surface before all else
     Remeshing remeshing = Remeshing::of_cad_files;
     Length deviation = Length::percent(0.002);  ///< of a remeshed surface from the input
@@ -47,82 +46,26 @@ struct RunOptions {
     std::int32_t least_parts = 1;          ///< where K follows: one for each rank that takes whole parts later
     bool dry_run = false;                  ///< stop at the plan, and write nothing
 
-    /// Fills what follows from other choices, K excepted, and checks ranges and files. Throws Error(usage) naming
-    /// option, value and range, Error(io) for a file that could not be written or would be lost.
-    void resolve(int cores_of_rank);
-    /// Replaces percentages by the lengths that they are of this diagonal, and fills what follows from these. To be
-    /// called after resolve(), when the input is read. Throws Error(usage) as resolve() does.
-    void resolve_lengths(double diagonal);
-    /// Cuts, forecasts and the mesher obey this field. resolve() has them obey what `sizes` says of all places alike.
-    void use_sizes(const SizeField& field);
-    /// The part of resolve() that asks for input and outputs, for who writes one of them before the run.
+    /// Throws Error(usage) or Error(io) for input and outputs that are in each other's way: what resolved() asks of
+    /// files, for who writes one of them before the run.
     void check_files() const;
     /// The files beside its folder that the run writes, with their options; paths may be empty.
     std::vector<NamedPath> output_files() const;
-
- private:
-    void use_constant_size();
 };
+
+/// The options with what follows from others, K excepted, all of them checked. Throws Error(usage) naming option, value
+/// and range, Error(io) for a file that could not be written or would be lost.
+RunOptions resolved(RunOptions options, int cores_of_rank = 1);
+/// Resolved options with lengths in place of percentages of this diagonal, and what follows from these. Throws
+/// Error(usage) as resolved() does.
+RunOptions with_lengths(RunOptions options, double diagonal);
+/// Options by which cuts, forecasts and the mesher obey this field. Those of resolved() obey what `sizes` says of all
+/// places alike.
+RunOptions with_sizes(RunOptions options, const SizeField& field);
 
 /// Of RunOptions::deviation, of which remesh_where_asked() knows more: shares of the diagonal that are too much.
 inline constexpr NumberRange deviation_range = {"a positive length in units of the input, or with % of its diagonal", 0,
                                                 std::numeric_limits<double>::infinity(), false, true};
-
-/// Headings under which help and manual list the options, in this order.
-namespace option_group {
-inline constexpr const char* input = "Input";
-inline constexpr const char* cuts = "Cuts";
-inline constexpr const char* sizes = "Sizes";
-inline constexpr const char* meshing = "Meshing";
-inline constexpr const char* output = "Output";
-inline constexpr const char* running = "Running";
-inline constexpr const char* expert = "Expert";
-inline constexpr const char* all[] = {input, cuts, sizes, meshing, output, running, expert};
-}  // namespace option_group
-
-/// One option: its name on the command line and in the config file, and where its value lives.
-struct OptionField {
-    /// An enumeration by its names.
-    struct Choice {
-        std::vector<std::string> names;
-        std::function<int()> get;
-        std::function<void(int)> set;
-    };
-    std::string name;        ///< without dashes
-    std::string short_name;  ///< a letter, or empty
-    std::string group;       ///< of option_group
-    std::string value_name;  ///< stands for the value in the help, as FILE; empty for flags and choices
-    std::string help;        ///< one sentence with unit and default
-    /// Of an option that may be given several times; as one text, with semicolons between (join_items()).
-    using List = std::vector<std::string>*;
-    std::variant<std::int32_t*, std::int64_t*, double*, Length*, bool*, std::string*, List, Choice> value;
-    bool shapes_parts = true;  ///< false: a finished run has the same part files whatever it is, but for parts that
-                               ///< took longer than a limit of time, which the run marks (PartOutcome::timed_out)
-    NumberRange range = {};    ///< of a number or a length
-
-    /// The value as text, numbers with all their digits; set_text() takes it back and throws Error(usage), naming the
-    /// option and what it may be, for what is no such value.
-    std::string text() const;
-    void set_text(const std::string& text) const;
-    /// Throws Error(usage) for a number that is out of range.
-    void check() const;
-    bool is_number() const;  ///< or a length
-};
-
-/// Items with semicolons between; those within an item, and backslashes, get a backslash before them. Empty items
-/// vanish.
-std::string join_items(const std::vector<std::string>& items);
-std::vector<std::string> split_items(const std::string& text);
-
-/// An option as text, as OptionField has it.
-struct OptionText {
-    std::string name, text;
-
-    template <class Archive>
-    void archive(Archive& a) {
-        a(name, text);
-    }
-};
 
 /// The fields that say what is done to the input.
 std::vector<OptionField> input_option_fields(InputOptions& options);

@@ -14,9 +14,9 @@ namespace kerf {
 /// exit_code 8. Throws Error on every rank alike for what leaves no result, a full disk among them; the run folder then
 /// does not exist, but what is finished waits beside it for the next run into it (io/run_folder.h), which has only the
 /// other parts to do.
-/// With options.dry_run it ends after on_parts() of the listener, and nothing is written but the trace.
+/// With request.dry_run it ends after on_parts() of the listener, and nothing is written but the trace.
 /// `input` receives the surface that the report refers to.
-RunReport run(RunOptions options, int cores_of_rank, Communicator& ranks, Input& input,
+RunReport run(const RunOptions& request, int cores_of_rank, Communicator& ranks, Input& input,
               RunListener* listener = nullptr);
 
 }  // namespace kerf

@@ -37,14 +37,13 @@ PartOutcome mesh_in_one_piece(const RunFolder& folder, const Surface& surface, d
     return std::move(finished->outcome);
 }
 
-Reference compare_with_whole(const RunFolder& folder, const RunReport& report, std::int64_t vertices,
-                             PartOutcome whole) {
+Reference compare_with_whole(const RunFolder& folder, const RunReport& report, PartOutcome whole) {
     if (whole.result.code) return {std::move(whole), ""};
     const std::string name = std::filesystem::path(report.input->path).filename().string();
     MeshQuality parts, one;
     parts.name = fmt::format("{} in {} parts", name, report.parts.size());
     parts.parts = static_cast<std::int64_t>(report.parts.size());
-    parts.vertices = vertices;
+    parts.vertices = report.vertices;
     parts.cells = report.quality;
     one.name = name + " in one piece";
     one.vertices = whole.result.vertices;

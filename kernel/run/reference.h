@@ -14,9 +14,7 @@ namespace kerf {
 PartOutcome mesh_in_one_piece(const RunFolder& folder, const Surface& surface, double length_scale,
                               const RunOptions& options, const std::function<void()>& while_waiting);
 
-/// The quality of the report's parts, of which the mesh has so many vertices, beside that of the whole: both as a sheet
-/// of pictures in the folder, and as text.
-Reference compare_with_whole(const RunFolder& folder, const RunReport& report, std::int64_t vertices,
-                             PartOutcome whole);
+/// The quality of the report's parts beside that of the whole: both as a sheet of pictures in the folder, and as text.
+Reference compare_with_whole(const RunFolder& folder, const RunReport& report, PartOutcome whole);
 
 }  // namespace kerf

@@ -129,14 +129,14 @@ class VolumeStage::Tally {
 void VolumeStage::hand_over(const PartJob& job, PartReport& part) {
     const std::string journal = folder_.journal_file(part.id), file = folder_.stored_part_file(part.id);
     const std::string vtu_file = folder_.part_file(part.id);
-    MesherOptions mesher = options_.mesher;
+    MesherOptions mesher = plan_.options.mesher;
     mesher.size = mesher.size.within(part.box());
-    part.job_hash = hash_of_job(job, mesher, options_.attempts, worker_hash_);
+    part.job_hash = hash_of_job(job, mesher, plan_.options.attempts, plan_.worker_hash);
     std::error_code ignored;
     if (std::filesystem::exists(journal, ignored) && !std::filesystem::exists(file, ignored))
         restore_stored_part(file, vtu_file, job);
     remove_file(vtu_file);
-    if (const auto outcome = find_finished_part(journal, file, part.job_hash, options_.timeout_seconds)) {
+    if (const auto outcome = find_finished_part(journal, file, part.job_hash, plan_.options.timeout_seconds)) {
         static_cast<PartOutcome&>(part) = *outcome;
         part.resumed = true;
         add_quality(part.result);
@@ -148,8 +148,8 @@ void VolumeStage::hand_over(const PartJob& job, PartReport& part) {
 }
 
 void VolumeStage::add_quality(const PartResult& result) {
-    quality_.add(result.quality);
-    improvement_.add(result.improvement);
+    own_.quality.add(result.quality);
+    own_.improvement.add(result.improvement);
 }
 
 std::vector<std::size_t> VolumeStage::waiting_parts(const std::vector<PartReport>& parts) const {
@@ -166,11 +166,11 @@ void VolumeStage::keep_outcome(const PartReport& part) const {
     if (code == ErrorCode::io) throw Error(code, part.result.message);
     const std::string job_file = folder_.job_file(part.id);
     if (part.result.code)
-        write_failed_part(folder_.file("failed"), part.id, read_job(job_file).surface, options_.mesher,
+        write_failed_part(folder_.file("failed"), part.id, read_job(job_file).surface, plan_.options.mesher,
                           part.result.message);
     else
         write_journal_entry(folder_.journal_file(part.id),
-                            {part.job_hash, part.timed_out ? options_.timeout_seconds : 0, part});
+                            {part.job_hash, part.timed_out ? plan_.options.timeout_seconds : 0, part});
     remove_file(job_file);
 }
 
@@ -185,85 +185,99 @@ PartQueue VolumeStage::queue_of(const std::vector<PartReport>& parts, const std:
     for (const std::size_t i : order)
         queued.push_back({folder_.job_file(parts[i].id), folder_.stored_part_file(parts[i].id), parts[i].box()});
     return {std::move(queued),
-            {options_.worker_program, options_.mesher, options_.workers, options_.timeout_seconds, options_.memory_mb,
-             options_.attempts}};
+            {plan_.options.worker_program, plan_.options.mesher, plan_.options.workers, plan_.options.timeout_seconds,
+             plan_.options.memory_mb, plan_.options.attempts}};
 }
 
-// Returns the parts that this rank has meshed.
-std::vector<PartReport> VolumeStage::mesh_share(const std::vector<PartReport>& parts, bool& was_told_to_stop) {
-    std::optional<Tally> tally;  // on the root rank
-    if (ranks_.rank() == root) tally.emplace(parts, options_, ranks_.size(), listener_);
-    const std::vector<std::size_t> order = waiting_parts(parts);
-    PartQueue queue = queue_of(parts, order);
-    HandOut hand_out(ranks_, order.size(), queue,
-                     [&](std::size_t place) { CheckedFile(folder_.begun_file(parts[order[place]].id), "wb").close(); });
-    std::vector<PartReport> meshed;
-    for (;;) {
-        end_if_cancelled(listener_);
-        while (const std::optional<Bytes> bytes = ranks_.poll()) {
-            const auto message = from_bytes<Message>(*bytes);
-            switch (message.kind) {
-                case Message::Kind::wish:
-                    hand_out.answer(message);
-                    break;
-                case Message::Kind::assignment:
-                    hand_out.receive(message);
-                    break;
-                case Message::Kind::part_done:
-                    tally->add(message.part.front());
-                    break;
-                case Message::Kind::all_done:
-                    return meshed;
-                case Message::Kind::stop:
-                    was_told_to_stop = true;
-                    throw Error(ErrorCode::cancelled, "The run was cancelled.");  // or an error of the sender says why
-            }
+VolumeStage::HandOut VolumeStage::hand_out_to(PartQueue& queue, const std::vector<PartReport>& parts,
+                                              const std::vector<std::size_t>& order) const {
+    return {ranks_, order.size(), queue,
+            [&](std::size_t place) { CheckedFile(folder_.begun_file(parts[order[place]].id), "wb").close(); }};
+}
+
+// Returns whether all parts are done.
+bool VolumeStage::take_messages(HandOut& hand_out, Tally* tally, bool& was_told_to_stop) {
+    while (const std::optional<Bytes> bytes = ranks_.poll()) {
+        const auto message = from_bytes<Message>(*bytes);
+        switch (message.kind) {
+            case Message::Kind::wish:
+                hand_out.answer(message);
+                break;
+            case Message::Kind::assignment:
+                hand_out.receive(message);
+                break;
+            case Message::Kind::part_done:
+                tally->add(message.part.front());
+                break;
+            case Message::Kind::all_done:
+                return true;
+            case Message::Kind::stop:
+                was_told_to_stop = true;
+                throw Error(ErrorCode::cancelled, "The run was cancelled.");  // or an error of the sender says why
         }
-        if (tally && tally->all_done()) {
-            post_to_others({Message::Kind::all_done, 0, {}});
-            return meshed;
-        }
-        hand_out.fill();
-        const auto finished = queue.step(queue.empty() || hand_out.is_waiting() ? idle_seconds : busy_seconds);
-        // A signal to all processes of a terminal or a job ends workers, too: that is no failure of their parts.
-        if (!finished || (listener_ && listener_->cancelled())) continue;
-        PartReport part = parts[order[finished->part]];
-        static_cast<PartOutcome&>(part) = finished->outcome;
-        part.rank = ranks_.rank();
-        keep_outcome(part);
-        if (tally)
-            tally->add(part);
-        else
-            ranks_.post(root, to_bytes(Message{Message::Kind::part_done, 0, {without_quality(part)}}));
-        if (part.result.tets > 0) add_quality(part.result);
-        meshed.push_back(without_quality(std::move(part)));
     }
+    if (!tally || !tally->all_done()) return false;
+    post_to_others({Message::Kind::all_done, 0, {}});
+    return true;
 }
 
-void VolumeStage::mesh(std::vector<PartReport>& parts, PartQuality& quality, Improvement& improvement) {
-    std::vector<PartReport> meshed;
-    const auto mesh_or_stop_all = [&] {
-        bool was_told_to_stop = false;
-        try {
-            meshed = mesh_share(parts, was_told_to_stop);
-        } catch (...) {
-            if (!was_told_to_stop) post_to_others({Message::Kind::stop, 0, {}});
-            throw;
+void VolumeStage::keep_finished(PartReport part, Tally* tally) {
+    keep_outcome(part);
+    if (tally)
+        tally->add(part);
+    else
+        ranks_.post(root, to_bytes(Message{Message::Kind::part_done, 0, {without_quality(part)}}));
+    if (part.result.tets > 0) add_quality(part.result);
+    own_.parts.push_back(without_quality(std::move(part)));
+}
+
+MeshedParts VolumeStage::mesh(const std::vector<PartReport>& parts) {
+    bool was_told_to_stop = false;
+    const auto mesh_share = [&] {
+        std::optional<Tally> tally;  // on the root rank
+        if (ranks_.rank() == root) tally.emplace(parts, plan_.options, ranks_.size(), listener_);
+        const std::vector<std::size_t> order = waiting_parts(parts);
+        PartQueue queue = queue_of(parts, order);
+        HandOut hand_out = hand_out_to(queue, parts, order);
+        for (;;) {
+            end_if_cancelled(listener_);
+            if (take_messages(hand_out, tally ? &*tally : nullptr, was_told_to_stop)) return;
+            hand_out.fill();
+            auto finished = queue.step(queue.empty() || hand_out.is_waiting() ? idle_seconds : busy_seconds);
+            // A signal to all processes of a terminal or a job ends workers, too: that is no failure of their parts.
+            if (!finished || (listener_ && listener_->cancelled())) continue;
+            PartReport part = parts[order[finished->part]];
+            static_cast<PartOutcome&>(part) = std::move(finished->outcome);
+            part.rank = ranks_.rank();
+            keep_finished(std::move(part), tally ? &*tally : nullptr);
         }
     };
     try {
-        in_agreement(ranks_, mesh_or_stop_all);
+        in_agreement(ranks_, [&] {
+            try {
+                mesh_share();
+            } catch (...) {
+                if (!was_told_to_stop) post_to_others({Message::Kind::stop, 0, {}});
+                throw;
+            }
+        });
     } catch (const Error&) {
         ranks_.drop_messages();
         throw;
     }
     ranks_.drop_messages();
+    return gather(parts);
+}
+
+MeshedParts VolumeStage::gather(std::vector<PartReport> parts) {
+    MeshedParts all{std::move(parts), PartQuality(length_scale_), {}};
     std::map<NodeId, PartReport*> by_id;
-    for (PartReport& part : parts) by_id[part.id] = &part;
-    for (std::vector<PartReport>& of_rank : all_gather(ranks_, meshed))
+    for (PartReport& part : all.parts) by_id[part.id] = &part;
+    for (std::vector<PartReport>& of_rank : all_gather(ranks_, own_.parts))
         for (PartReport& part : of_rank) *by_id[part.id] = std::move(part);
-    for (const PartQuality& of_rank : all_gather(ranks_, quality_)) quality.add(of_rank);
-    for (const Improvement& of_rank : all_gather(ranks_, improvement_)) improvement.add(of_rank);
+    for (const PartQuality& of_rank : all_gather(ranks_, own_.quality)) all.quality.add(of_rank);
+    for (const Improvement& of_rank : all_gather(ranks_, own_.improvement)) all.improvement.add(of_rank);
+    return all;
 }
 
 }  // namespace kerf

@@ -4,9 +4,17 @@
 #include "io/run_folder.h"
 #include "parallel/communicator.h"
 #include "report/listener.h"
+#include "run/plan.h"
 #include "work/part_queue.h"
 
 namespace kerf {
+
+/// What has become of the parts of a run.
+struct MeshedParts {
+    std::vector<PartReport> parts;  ///< without the distributions of their quality: sums of these are beside them
+    PartQuality quality;
+    Improvement improvement;
+};
 
 /// Every rank hands over the parts that it has cut; then the workers of all ranks take them, longest first, from one
 /// list. A part goes by files, from the rank that cut it to the worker that takes it, and from the worker to its place:
@@ -15,26 +23,22 @@ namespace kerf {
 class VolumeStage {
  public:
     /// `length_scale`: of the distributions of the quality.
-    /// `worker_hash`: of the program that does the work, see hash_of_job().
-    VolumeStage(Communicator& ranks, RunFolder& folder, const RunOptions& options, std::string worker_hash,
-                double length_scale, RunListener* listener)
+    VolumeStage(Communicator& ranks, RunFolder& folder, const RunPlan& plan, double length_scale, RunListener* listener)
         : ranks_(ranks),
           folder_(folder),
-          options_(options),
-          worker_hash_(std::move(worker_hash)),
+          plan_(plan),
           listener_(listener),
-          quality_(length_scale) {}
+          length_scale_(length_scale),
+          own_{{}, PartQuality(length_scale), {}} {}
 
     /// The job of `part` waits in the folder when this returns, unless an interrupted run has finished it: then
     /// `part` gets its outcome. Throws Error(io).
     void hand_over(const PartJob& job, PartReport& part);
 
-    /// Collective. `parts`: all parts of the run, the same on every rank, after they were handed over. On return they
-    /// have their outcomes on every rank, but for the distributions of their quality, which are added to `quality`
-    /// and `improvement`.
-    /// Throws Error on every rank alike: `cancelled` if any was cancelled, `io` if a part could not be written, with
-    /// all workers ended.
-    void mesh(std::vector<PartReport>& parts, PartQuality& quality, Improvement& improvement);
+    /// Collective. `parts`: all parts of the run, the same on every rank, after they were handed over. Returns the same
+    /// on every rank. Throws Error on every rank alike: `cancelled` if any was cancelled, `io` if a part could not be
+    /// written, with all workers ended.
+    MeshedParts mesh(const std::vector<PartReport>& parts);
 
  private:
     struct Message;
@@ -42,19 +46,21 @@ class VolumeStage {
     class HandOut;
     std::vector<std::size_t> waiting_parts(const std::vector<PartReport>& parts) const;
     PartQueue queue_of(const std::vector<PartReport>& parts, const std::vector<std::size_t>& order) const;
-    std::vector<PartReport> mesh_share(const std::vector<PartReport>& parts, bool& was_told_to_stop);
+    HandOut hand_out_to(PartQueue& queue, const std::vector<PartReport>& parts,
+                        const std::vector<std::size_t>& order) const;
+    bool take_messages(HandOut& hand_out, Tally* tally, bool& was_told_to_stop);
+    void keep_finished(PartReport part, Tally* tally);
     void add_quality(const PartResult& result);
     void keep_outcome(const PartReport& part) const;
     void post_to_others(const Message& message);
+    MeshedParts gather(std::vector<PartReport> parts);
 
     Communicator& ranks_;
     RunFolder& folder_;
-    const RunOptions& options_;
-    std::string worker_hash_;
+    const RunPlan& plan_;
     RunListener* listener_;
-    // Of the parts that this rank has meshed, or found finished.
-    PartQuality quality_;
-    Improvement improvement_;
+    double length_scale_;
+    MeshedParts own_;  // the parts that this rank has meshed; the sums are of those that it has found finished, too
 };
 
 }  // namespace kerf

@@ -54,32 +54,6 @@ std::string broken_laws(const MeshLaws& laws) {
                               laws.volume, laws.volume - laws.surface_volume, laws.volume_error);
 }
 
-void fill_result(const PartJob& job, const MesherCall& call, const std::string& part_file, PartResult& result) {
-    result.mesher = call.options.name;
-    Filling filling = timed(result.mesh_seconds, [&] {
-        return call.cut_first ? mesh_in_two(job.surface, call.options) : mesh_volume(job.surface, call.options);
-    });
-    TetMesh& mesh = filling.mesh;
-    result.way = filling.way;
-    result.improvement = filling.improvement;
-    result.improve_seconds = filling.improve_seconds;
-    mesh.neighbours = {};  // parts are stored without
-    timed(result.verify_seconds, [&] { result.laws = verify_mesh(mesh, job.surface, FaceProof::sum); });
-    if (!result.laws.hold()) throw Error(ErrorCode::subdomain, broken_laws(result.laws));
-    result.vertices = static_cast<std::int64_t>(mesh.vertices.size());
-    result.interior_vertices = mesh.interior_vertex_count();
-    result.tets = static_cast<std::int64_t>(mesh.tets.size());
-    result.core_tets = filling.core_tets;
-    timed(result.store_seconds, [&] {
-        result.sizes = measure_sizes(mesh, job.surface, call.options.size);
-        result.quality = measure_quality(mesh, interface_vertices(job.surface, mesh.vertices.size()), job.length_scale);
-        result.angles = ImprovedAngles(result.improvement, result.quality);
-    });
-    const Part part = part_of_job(job, std::move(mesh));
-    timed(result.verify_seconds, [&] { result.hash = hash_part(part); });
-    timed(result.store_seconds, [&] { result.file_hash = write_stored_part(part_file, part); });
-}
-
 }  // namespace
 
 ImprovedAngles::ImprovedAngles(const Improvement& improvement, const PartQuality& after) {
@@ -161,7 +135,30 @@ PartResult out_of_memory() {
 PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::string& part_file) {
     PartResult result;
     try {
-        fill_result(job, call, part_file, result);
+        result.mesher = call.options.name;
+        Filling filling = timed(result.mesh_seconds, [&] {
+            return call.cut_first ? mesh_in_two(job.surface, call.options) : mesh_volume(job.surface, call.options);
+        });
+        TetMesh& mesh = filling.mesh;
+        result.way = filling.way;
+        result.improvement = filling.improvement;
+        result.improve_seconds = filling.improve_seconds;
+        mesh.neighbours = {};  // parts are stored without
+        timed(result.verify_seconds, [&] { result.laws = verify_mesh(mesh, job.surface, FaceProof::sum); });
+        if (!result.laws.hold()) throw Error(ErrorCode::subdomain, broken_laws(result.laws));
+        result.vertices = static_cast<std::int64_t>(mesh.vertices.size());
+        result.interior_vertices = mesh.interior_vertex_count();
+        result.tets = static_cast<std::int64_t>(mesh.tets.size());
+        result.core_tets = filling.core_tets;
+        timed(result.store_seconds, [&] {
+            result.sizes = measure_sizes(mesh, job.surface, call.options.size);
+            result.quality =
+                measure_quality(mesh, interface_vertices(job.surface, mesh.vertices.size()), job.length_scale);
+            result.angles = ImprovedAngles(result.improvement, result.quality);
+        });
+        const Part part = part_of_job(job, std::move(mesh));
+        timed(result.verify_seconds, [&] { result.hash = hash_part(part); });
+        timed(result.store_seconds, [&] { result.file_hash = write_stored_part(part_file, part); });
     } catch (const Error& e) {
         result.code = static_cast<int>(e.code());
         result.message = e.what();

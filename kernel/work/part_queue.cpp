@@ -61,9 +61,18 @@ PartQueue::PartQueue(std::vector<QueuedPart> parts, QueueOptions options)
 
 std::optional<PartQueue::Finished> PartQueue::step(double wait_seconds) {
     for (; !waiting_.empty() && !idle_.empty(); waiting_.pop_front()) {
-        progress_[waiting_.front()].outcome.worker = idle_.back();
+        const std::size_t part = waiting_.front();
+        PartOutcome& outcome = progress_[part].outcome;
+        outcome.worker = idle_.back();
         idle_.pop_back();
-        start(waiting_.front());
+        MesherCall call = calls_[progress_[part].call];
+        call.options.size = call.options.size.within(parts_[part].box);
+        outcome.remedy = call.remedy;
+        ++outcome.attempts;
+        pool_.start(static_cast<int>(part), options_.worker_program,
+                    {"--memory", std::to_string(options_.memory_mb), "--parent", std::to_string(::getpid())},
+                    to_bytes(PartAttempt{parts_[part].job_file, parts_[part].part_file, call}),
+                    options_.timeout_seconds);
     }
     KERF_CHECK(wait_seconds >= 0);
     if (pool_.running() == 0) {
@@ -75,17 +84,6 @@ std::optional<PartQueue::Finished> PartQueue::step(double wait_seconds) {
     return take_result(static_cast<std::size_t>(ended->tag), ended->result);
 }
 
-void PartQueue::start(std::size_t part) {
-    MesherCall call = calls_[progress_[part].call];
-    call.options.size = call.options.size.within(parts_[part].box);
-    PartOutcome& outcome = progress_[part].outcome;
-    outcome.remedy = call.remedy;
-    ++outcome.attempts;
-    pool_.start(static_cast<int>(part), options_.worker_program,
-                {"--memory", std::to_string(options_.memory_mb), "--parent", std::to_string(::getpid())},
-                to_bytes(PartAttempt{parts_[part].job_file, parts_[part].part_file, call}), options_.timeout_seconds);
-}
-
 std::optional<PartQueue::Finished> PartQueue::take_result(std::size_t part, const ChildResult& child) {
     PartOutcome& outcome = progress_[part].outcome;
     outcome.seconds += child.seconds;
@@ -93,10 +91,11 @@ std::optional<PartQueue::Finished> PartQueue::take_result(std::size_t part, cons
     outcome.result = answered ? from_bytes<PartResult>(child.output) : result_of_silence(child);
     const bool timed_out = child.end == ChildResult::End::timed_out;
     outcome.timed_out |= timed_out;
+    idle_.push_back(outcome.worker);
     if (child.end == ChildResult::End::signalled && outcome.interruption.empty()) {
         outcome.interruption = outcome.result.message;
         --outcome.attempts;
-        start(part);
+        waiting_.push_front(part);  // for the same worker
         return {};
     }
     const bool mesher_failed = outcome.result.code == static_cast<int>(ErrorCode::subdomain) &&
@@ -107,11 +106,10 @@ std::optional<PartQueue::Finished> PartQueue::take_result(std::size_t part, cons
         if (next) {
             outcome.failures.push_back(outcome.result.message);
             progress_[part].call = *next;
-            start(part);
+            waiting_.push_front(part);
             return {};
         }
     }
-    idle_.push_back(outcome.worker);
     if (outcome.result.code) {
         outcome.result.message = message_of_all(outcome);
         std::error_code ignored;

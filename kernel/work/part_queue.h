@@ -77,7 +77,6 @@ class PartQueue {
         PartOutcome outcome;
         std::size_t call = 0;  // of calls_, the one under way
     };
-    void start(std::size_t part);
     std::optional<Finished> take_result(std::size_t part, const ChildResult& child);
 
     std::vector<QueuedPart> parts_;

@@ -12,10 +12,7 @@ inline RunOptions options_of(const Trace& trace) {
     RunOptions options;
     set_options(options, trace.options, "The trace of " + trace.input);
     options.input = trace.input;
-    options.resolve(1);
-    if (options.sizes.depends_on_place())
-        options.use_sizes(read_size_field(options.sizes, trace.surface, trace.patch_names));
-    return options;
+    return with_sizes_on(resolved(std::move(options)), trace.surface, trace.patch_names);
 }
 
 }  // namespace kerf::test

@@ -98,7 +98,7 @@ bool is_set(const RunOptions& options, const OptionText& option) {
 std::optional<RunOptions> options_with(RunOptions options, const OptionText& option) {
     try {
         set_options(options, {option}, "The advice");
-        RunOptions(options).resolve(1);
+        resolved(options);
     } catch (const Error&) {
         return std::nullopt;
     }

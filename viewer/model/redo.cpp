@@ -119,13 +119,11 @@ MadeCut make_cut(const Surface& surface, NodeId node, const CutPlace& place, con
 }  // namespace
 
 RedoneCut redo_cut(Replayer& replayer, NodeId node, RunOptions options, const std::optional<Plane>& plane) {
-    options.resolve(1);
+    options = resolved(std::move(options));
     const Trace& old = *replayer.trace();
     Eigen::AlignedBox3d box;
     for (const Vec3& p : old.surface.vertices) box.extend(p);
-    options.resolve_lengths(box.diagonal().norm());
-    if (options.sizes.depends_on_place())
-        options.use_sizes(read_size_field(options.sizes, old.surface, old.patch_names));
+    options = with_sizes_on(with_lengths(std::move(options), box.diagonal().norm()), old.surface, old.patch_names);
     const Cut* before = old.find(node);
     RedoneCut redone;
     const std::shared_ptr<const Surface> surface = replayer.uncut_surface(node);

@@ -93,9 +93,9 @@ void draw_fields(UiContext& context, Memory& memory) {
 }
 
 // The message of the first option that is out of its range.
-std::string complaint(RunOptions options) {
+std::string complaint(const RunOptions& options) {
     try {
-        options.resolve(1);
+        resolved(options);
         return "";
     } catch (const Error& error) {
         return error.what();

@@ -19,18 +19,13 @@
 namespace kerf {
 namespace {
 
-RunOptions resolved(RunOptions options, int cores = 1) {
-    options.resolve(cores);
-    return options;
-}
-
 template <class Change>
 void expect_refused(const std::string& name, Change change) {
     SCOPED_TRACE(name);
     RunOptions options;
     change(options);
     try {
-        options.resolve(1);
+        resolved(options);
         ADD_FAILURE() << "no error";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::usage);
@@ -167,9 +162,9 @@ TEST(RunOptions, PercentagesAreOfTheDiagonal) {
     options.sizes.inside = {"sphere:1,2,3,4=1%", "box:0,0,0,1,1,1=7"};
     options.sizes.on = {"in=let 5%=3%"};
     options.sizes.near = {"a=2%:10%", "b=1:10%", "c=1e-3:2"};
-    options.resolve(1);
+    options = resolved(options);
     EXPECT_TRUE(options.mesher.size.is_empty()) << "nobody knows yet";
-    options.resolve_lengths(50);
+    options = with_lengths(options, 50);
     EXPECT_EQ(options.sizes.size, 1.0);
     EXPECT_EQ(options.sizes.chord_error, 0.25);
     EXPECT_EQ(options.deviation, 0.001);
@@ -187,7 +182,7 @@ TEST(RunOptions, TraceMustLieOutsideOfTheOutputFolder) {
         options.trace_file = trace;
         options.output = output;
         try {
-            options.resolve(1);
+            resolved(options);
             return false;
         } catch (const Error& error) {
             return error.code() == ErrorCode::usage;

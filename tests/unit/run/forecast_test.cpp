@@ -17,8 +17,7 @@ RunOptions with(std::int32_t workers, std::int64_t memory_mb, double max_volume)
     RunOptions options;
     options.workers = workers;
     options.memory_mb = memory_mb;
-    options.use_sizes(SizeField(max_volume));
-    return options;
+    return with_sizes(std::move(options), SizeField(max_volume));
 }
 
 TEST(ChooseParts, AreFourForEachWorker) {

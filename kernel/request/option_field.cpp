@@ -1,0 +1,96 @@
+#include "request/option_field.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace kerf {
+
+namespace {
+
+template <class T>
+std::string text_of(const T* value) {
+    return fmt::format("{}", *value);
+}
+std::string text_of(const Length* length) { return length->text(); }
+std::string text_of(const OptionField::List items) { return join_items(*items); }
+std::string text_of(const OptionField::Choice& choice) { return choice.names[static_cast<std::size_t>(choice.get())]; }
+
+// Sets the value. Throws Error(usage) for a text that is none.
+template <class Number>
+void assign(Number* value, const std::string& text, const OptionField& field) {
+    *value = parse_number<Number>(field.name, text, field.range);
+}
+void assign(Length* value, const std::string& text, const OptionField& field) {
+    *value = parse_length(field.name, text, field.range);
+}
+void assign(bool* value, const std::string& text, const OptionField& field) {
+    if (text != "true" && text != "false")
+        throw Error(ErrorCode::usage, fmt::format("--{} is '{}', but it must be true or false.", field.name, text));
+    *value = text == "true";
+}
+void assign(std::string* value, const std::string& text, const OptionField&) { *value = text; }
+void assign(OptionField::List items, const std::string& text, const OptionField&) { *items = split_items(text); }
+void assign(const OptionField::Choice& choice, const std::string& text, const OptionField& field) {
+    const auto found = std::find(choice.names.begin(), choice.names.end(), text);
+    if (found == choice.names.end())
+        throw Error(ErrorCode::usage, fmt::format("--{} is '{}', but it must be one of {}.", field.name, text,
+                                                  fmt::join(choice.names, ", ")));
+    choice.set(static_cast<int>(found - choice.names.begin()));
+}
+
+}  // namespace
+
+std::string join_items(const std::vector<std::string>& items) {
+    std::string text;
+    for (const std::string& item : items) {
+        if (item.empty()) continue;
+        if (!text.empty()) text += ';';
+        for (const char c : item) {
+            if (c == ';' || c == '\\') text += '\\';
+            text += c;
+        }
+    }
+    return text;
+}
+
+std::vector<std::string> split_items(const std::string& text) {
+    std::vector<std::string> items(1);
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == ';')
+            items.emplace_back();
+        else
+            items.back() += text[i] == '\\' && i + 1 < text.size() ? text[++i] : text[i];
+    }
+    std::erase(items, "");
+    return items;
+}
+
+std::string OptionField::text() const {
+    return std::visit([](const auto& place) { return text_of(place); }, value);
+}
+
+void OptionField::set_text(const std::string& text) const {
+    std::visit([&](const auto& place) { assign(place, text, *this); }, value);
+}
+
+void OptionField::check() const {
+    const auto check_value = [&](const auto& place) {
+        using Place = std::decay_t<decltype(place)>;
+        if constexpr (std::is_same_v<Place, Length*>)
+            require_in(range, name, place->number());
+        else if constexpr (std::is_same_v<Place, double*> || std::is_same_v<Place, std::int32_t*> ||
+                           std::is_same_v<Place, std::int64_t*>)
+            require_in(range, name, static_cast<double>(*place));
+    };
+    std::visit(check_value, value);
+}
+
+bool OptionField::is_number() const {
+    return std::holds_alternative<std::int32_t*>(value) || std::holds_alternative<std::int64_t*>(value) ||
+           std::holds_alternative<double*>(value) || std::holds_alternative<Length*>(value);
+}
+
+}  // namespace kerf

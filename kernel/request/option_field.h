@@ -1,0 +1,71 @@
+// One option: what it is called, what help says of it, and where its value lives.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/user_number.h"
+
+namespace kerf {
+
+/// Headings under which help and manual list the options, in this order.
+namespace option_group {
+inline constexpr const char* input = "Input";
+inline constexpr const char* cuts = "Cuts";
+inline constexpr const char* sizes = "Sizes";
+inline constexpr const char* meshing = "Meshing";
+inline constexpr const char* output = "Output";
+inline constexpr const char* running = "Running";
+inline constexpr const char* expert = "Expert";
+inline constexpr const char* all[] = {input, cuts, sizes, meshing, output, running, expert};
+}  // namespace option_group
+
+/// One option: its name on the command line and in the config file, and where its value lives.
+struct OptionField {
+    /// An enumeration by its names.
+    struct Choice {
+        std::vector<std::string> names;
+        std::function<int()> get;
+        std::function<void(int)> set;
+    };
+    std::string name;        ///< without dashes
+    std::string short_name;  ///< a letter, or empty
+    std::string group;       ///< of option_group
+    std::string value_name;  ///< stands for the value in the help, as FILE; empty for flags and choices
+    std::string help;        ///< one sentence with unit and default
+    /// Of an option that may be given several times; as one text, with semicolons between (join_items()).
+    using List = std::vector<std::string>*;
+    using Value = std::variant<std::int32_t*, std::int64_t*, double*, Length*, bool*, std::string*, List, Choice>;
+    Value value;
+    bool shapes_parts = true;  ///< false: a finished run has the same part files whatever it is, but for parts that
+                               ///< took longer than a limit of time, which the run marks (PartOutcome::timed_out)
+    NumberRange range = {};    ///< of a number or a length
+
+    /// The value as text, numbers with all their digits; set_text() takes it back and throws Error(usage), naming the
+    /// option and what it may be, for what is no such value.
+    std::string text() const;
+    void set_text(const std::string& text) const;
+    /// Throws Error(usage) for a number that is out of range.
+    void check() const;
+    bool is_number() const;  ///< or a length
+};
+
+/// Items with semicolons between; those within an item, and backslashes, get a backslash before them. Empty items
+/// vanish.
+std::string join_items(const std::vector<std::string>& items);
+std::vector<std::string> split_items(const std::string& text);
+
+/// An option as text, as OptionField has it.
+struct OptionText {
+    std::string name, text;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(name, text);
+    }
+};
+
+}  // namespace kerf

@@ -1,0 +1,51 @@
+#include "run/cut_stage.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+
+#include "core/host_name.h"
+#include "decompose/straight_division.h"
+#include "prepare/gathered_nodes.h"
+#include "run/range_of_rank.h"
+#include "run/trace.h"
+
+namespace kerf {
+
+namespace {
+
+// Parts without a contour of edges need all others beside them, because split facets may be theirs too.
+Decomposition divide_unfinished(Communicator& ranks, Decomposition own, const DecomposeOptions& options,
+                                CutListener* cuts) {
+    const auto is_unfinished = [](const Leaf& leaf) { return leaf.leaves > 1; };
+    const bool any_own = std::any_of(own.leaves.begin(), own.leaves.end(), is_unfinished);
+    const std::vector<char> any_of_rank = all_gather(ranks, static_cast<char>(any_own));
+    if (std::none_of(any_of_rank.begin(), any_of_rank.end(), [](char any) { return any; })) return own;
+    Decomposition whole;
+    whole.nodes = gather_nodes(ranks, own.nodes, host_name());
+    for (std::vector<Leaf>& leaves : all_gather(ranks, own.leaves))
+        std::move(leaves.begin(), leaves.end(), std::back_inserter(whole.leaves));
+    return in_agreement(
+        ranks, [&] { return divide_straight(std::move(whole), options, range_of_rank(options.parts, ranks), cuts); });
+}
+
+}  // namespace
+
+Decomposition cut_surface(Communicator& ranks, Input& input, const RunOptions& options, StageListener* listener) {
+    DecomposeOptions wanted = options.decompose;
+    const LeafRange range = range_of_rank(wanted.parts, ranks);
+    CutListener* cuts = listener;
+    std::optional<TraceRecorder> trace;
+    // A forecast counts the triangles of fine interfaces without making them.
+    if (options.dry_run && options.trace_file.empty()) wanted.cut.size = SizeField();
+    if (!options.trace_file.empty()) cuts = &trace.emplace(options, input, cuts);
+    Decomposition own = in_agreement(ranks, [&] {
+        tell_progress(listener, "decompose", 0, 1);
+        return decompose(std::move(input.surface), wanted, range, cuts);
+    });
+    if (wanted.facets == FacetPolicy::split) own = divide_unfinished(ranks, std::move(own), options.decompose, cuts);
+    if (trace) trace->write(options.trace_file, ranks, own, range);  // a run that fails later has one, too
+    return own;
+}
+
+}  // namespace kerf

@@ -1,0 +1,16 @@
+// The surface is cut into the surfaces of the parts, by all ranks.
+#pragma once
+
+#include "decompose/decomposition.h"
+#include "parallel/communicator.h"
+#include "prepare/input.h"
+#include "prepare/stage_listener.h"
+#include "request/options.h"
+
+namespace kerf {
+
+/// What this rank has of the tree, and the parts of its range (range_of_rank()). Takes the surface out of `input`.
+/// Writes the trace, if the options ask for one. Collective; throws Error on every rank alike.
+Decomposition cut_surface(Communicator& ranks, Input& input, const RunOptions& options, StageListener* listener);
+
+}  // namespace kerf

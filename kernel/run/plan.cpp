@@ -1,0 +1,103 @@
+#include "run/plan.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/host_name.h"
+#include "export/patch_types.h"
+#include "io/run_manifest.h"
+#include "prepare/remeshing.h"
+#include "prepare/size_reader.h"
+#include "request/saved_run.h"
+#include "run/forecast.h"
+
+namespace kerf {
+
+namespace {
+
+// Fewer facets leave no contour of edges; fewer than a tetrahedron has make no part.
+std::int64_t least_facets(const DecomposeOptions& options) {
+    return options.facets == FacetPolicy::keep ? min_facets_per_part : 4;
+}
+
+// K as given, if the surface allows it; else that of a run into the same folder that was interrupted, perhaps on
+// another machine; else as it follows from the surface, its sized volume, the machine and its memory.
+std::int32_t part_count(const Input& input, const RunOptions& options, double volume, int ranks) {
+    const auto most =
+        static_cast<std::int32_t>(std::max<std::int64_t>(1, input.facets / least_facets(options.decompose)));
+    const std::int32_t wanted = options.decompose.parts;
+    if (wanted == 0) {
+        const std::int32_t interrupted = options.dry_run ? 0 : interrupted_part_count(options.output, input.file_hash);
+        if (interrupted > 0 && interrupted <= most) return interrupted;
+        return std::max(choose_parts(options, static_cast<double>(input.facets), volume, ranks, most),
+                        std::min(options.least_parts, most));
+    }
+    if (wanted > most)
+        throw Error(ErrorCode::usage, fmt::format("{} has {} facets, too few for {} parts. Use -n {} or fewer, or a "
+                                                  "finer surface.",
+                                                  input.path, input.facets, wanted, most));
+    return wanted;
+}
+
+RunOptions sized_on(const Input& input, RunOptions options) {
+    return with_sizes_on(std::move(options), input.surface.arrays(), input.patch_names);
+}
+
+double sized_volume_of(const Input& input, const RunOptions& options) {
+    const SurfaceArrays surface = options.mesher.size.is_constant() ? SurfaceArrays() : input.surface.arrays();
+    return sized_volume(options.mesher.size, surface.vertices, surface.facets, input.volume);
+}
+
+// Remeshing takes longer than to see that its result could not be filled.
+void check_budget_before_remeshing(const Input& input, RunOptions options, int ranks) {
+    if (options.dry_run || !is_remeshed(input, options)) return;
+    options.sizes.growth = 0;  // from edges that are to change
+    options = sized_on(input, std::move(options));
+    const double volume = sized_volume_of(input, options), facets = forecast_remeshed_facets(input, options);
+    if (options.decompose.parts == 0)
+        options.decompose.parts =
+            choose_parts(options, facets, volume, ranks, std::numeric_limits<std::int32_t>::max());
+    check_budget(options, facets, volume, Facets::follow_size);
+}
+
+int ranks_of_this_host(Communicator& ranks) {
+    const std::vector<std::string> hosts = all_gather(ranks, host_name());
+    return static_cast<int>(std::count(hosts.begin(), hosts.end(), host_name()));
+}
+
+}  // namespace
+
+RunPlan plan_run(const RunOptions& request, int cores_of_rank, Communicator& ranks, Input& input,
+                 StageListener* listener) {
+    // Hosts may differ, but the defaults of K and workers must not.
+    for (const int cores : all_gather(ranks, cores_of_rank)) cores_of_rank = std::min(cores_of_rank, cores);
+    const int ranks_here = ranks_of_this_host(ranks);
+    RunPlan plan;
+    const RunOptions wanted = in_agreement(ranks, [&] {
+        RunOptions options = resolved(request, cores_of_rank);
+        if (options.volume && !options.dry_run) plan.worker_hash = describe_file("", options.worker_program).hash;
+        if (listener) listener->on_progress("read", 0, 1);
+        input = read_input(options.input, options.input_options);
+        refuse_changed_input(options, input.file_hash);
+        options.input_options.weld_tolerance = input.weld_tolerance;
+        options = with_lengths(std::move(options), input.diagonal);
+        if (ranks.rank() == 0) check_budget_before_remeshing(input, options, ranks.size());
+        return options;
+    });
+    plan.options = in_agreement(ranks, [&] {
+        input = remesh_where_asked(std::move(input), wanted, listener, ranks_here);
+        RunOptions options = sized_on(input, wanted);
+        require_patches(parse_patch_types(options.patch_types), input.patch_names);
+        if (ranks.rank() != 0) return options;
+        const double volume = sized_volume_of(input, options);
+        options.decompose.parts = part_count(input, options, volume, ranks.size());
+        if (!options.dry_run) check_budget(options, static_cast<double>(input.facets), volume);
+        return options;
+    });
+    plan.options.decompose.parts = all_gather(ranks, plan.options.decompose.parts).front();
+    return plan;
+}
+
+}  // namespace kerf

@@ -1,0 +1,25 @@
+// From what a user asks to what a run does.
+#pragma once
+
+#include <string>
+
+#include "parallel/communicator.h"
+#include "prepare/input.h"
+#include "prepare/stage_listener.h"
+#include "request/options.h"
+
+namespace kerf {
+
+/// All choices of a run; none of them changes while its stages go on.
+struct RunPlan {
+    RunOptions options;       ///< resolved: K, lengths in units of the input, sizes over the surface that is cut
+    std::string worker_hash;  ///< of the program that meshes the parts; empty if there is nothing for it to do
+};
+
+/// Reads the surface into `input`, remeshes it where that is asked for, and resolves the request. Collective; the same
+/// plan on every rank. Throws Error on every rank alike, for what cannot end well (check_budget()) before the surface
+/// is remeshed or cut.
+RunPlan plan_run(const RunOptions& request, int cores_of_rank, Communicator& ranks, Input& input,
+                 StageListener* listener);
+
+}  // namespace kerf
