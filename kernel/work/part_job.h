@@ -107,9 +107,4 @@ PartJob read_job(const std::string& path);
 /// memory.
 PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::string& part_file);
 
-/// Serves one attempt: reads it from standard input, answers on standard output, keeps whatever libraries print apart.
-/// `memory_mb` limits the address space (0: not at all). The process ends with `parent` (0: its own) and not by Ctrl-C,
-/// which reaches all processes of a terminal but is the parent's to answer. Returns the exit code.
-int serve_part_job(std::int64_t memory_mb, std::int64_t parent);
-
 }  // namespace kerf

@@ -85,7 +85,7 @@ inline double seconds_computed(pid_t process) {
 }
 
 /// Whether a worker has asked to end with its parent, after which its standard output is its standard error
-/// (serve_part_job()).
+/// (cli/worker_main.cpp).
 inline bool ends_with_parent(pid_t worker) {
     const std::string descriptors = "/proc/" + std::to_string(worker) + "/fd/";
     std::error_code error;
