@@ -11,11 +11,11 @@ double EdgeRemoval::badness_of_triangle(const EditedMesh& mesh, const EdgeRing& 
 
 bool EdgeRemoval::find(const EditedMesh& mesh, const EdgeRing& ring, double limit) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    const double excess = mesh.most_excess({ring.cells.data(), ring.size});
-    for (std::size_t i = 0; i < ring.size; ++i) points_[i] = mesh.point(ring.ring[i]);
-    for (std::size_t i = 0; i + 1 < ring.size; ++i) best_[i][i + 1] = -infinity;
-    for (std::size_t width = 2; width < ring.size; ++width)
-        for (std::size_t i = 0, k = width; k < ring.size; ++i, ++k) {
+    const double excess = mesh.most_excess(ring.cells);
+    for (std::size_t i = 0; i < ring.size(); ++i) points_[i] = mesh.point(ring.ring[i]);
+    for (std::size_t i = 0; i + 1 < ring.size(); ++i) best_[i][i + 1] = -infinity;
+    for (std::size_t width = 2; width < ring.size(); ++width)
+        for (std::size_t i = 0, k = width; k < ring.size(); ++i, ++k) {
             double best = limit;
             for (std::size_t j = i + 1; j < k; ++j) {
                 const double parts = std::max(best_[i][j], best_[j][k]);
@@ -27,10 +27,10 @@ bool EdgeRemoval::find(const EditedMesh& mesh, const EdgeRing& ring, double limi
             }
             best_[i][k] = best < limit ? best : infinity;
         }
-    badness_ = best_[0][ring.size - 1];
+    badness_ = best_[0][ring.size() - 1];
     if (badness_ == infinity) return false;
     cells_.clear();
-    add_cells(ring, 0, ring.size - 1);
+    add_cells(ring, 0, ring.size() - 1);
     return std::all_of(cells_.begin(), cells_.end(), [&](const Tetrahedron& cell) { return mesh.is_positive(cell); });
 }
 

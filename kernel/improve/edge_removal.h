@@ -19,7 +19,7 @@ class EdgeRemoval {
     const std::vector<Tetrahedron>& cells() const { return cells_; }
 
  private:
-    static constexpr std::size_t most = EdgeRing::most_cells;
+    static constexpr std::size_t most = EditedMesh::most_cells_of_a_ring;
 
     double badness_of_triangle(const EditedMesh& mesh, const EdgeRing& ring, std::size_t i, std::size_t j,
                                std::size_t k, double limit, double excess) const;

@@ -1,4 +1,4 @@
-// A tetrahedral mesh whose cells are replaced by others with the same boundary.
+// A mesh that is made better: its cells, what they are like, and what they may become.
 #pragma once
 
 #include <functional>
@@ -6,53 +6,43 @@
 #include <vector>
 
 #include "improve/cell_shape.h"
-#include "mesh/tet_mesh.h"
+#include "mesh/editable_tets.h"
 #include "size/size_field.h"
 
 namespace kerf {
 
-/// Cells around an edge from a to b: cell i has the corners a, b, ring[i] and ring[i+1], in positive order.
-struct EdgeRing {
-    static constexpr std::size_t most_cells = 10;
-    std::int32_t a = 0, b = 0;
-    std::size_t size = 0;
-    std::array<std::int32_t, most_cells> cells, ring;
-};
-
-/// Edits the arrays of a TetMesh. Numbers of cells do not change until finish(); those that have been removed are used
-/// again. 28 bytes a cell beside the mesh.
-///
-/// What new cells must be is asked here: see badness_of() and is_positive().
+/// The cells of a mesh, how bad they are, and what new cells must be, see badness_of() and is_positive(). Numbers of
+/// cells do not change until finish(). 40 bytes a cell and 29 a vertex.
 class EditedMesh {
  public:
-    /// Faces are numbered by 31 bits.
-    static constexpr std::size_t most_cells = std::size_t{1} << 29;
+    static constexpr std::int32_t most_cells = EditableTets::most_cells;
+    static constexpr std::size_t most_cells_of_a_ring = 10;
 
     /// Finds neighbours where the mesh has none, and looks at the shapes of all cells, which `visit` is told. The first
     /// `frozen_cells` cells never change. Error (memory) if there are more than `most`, which is at most most_cells.
-    EditedMesh(TetMesh& mesh, std::int64_t frozen_cells, SizeField max_size,
-               const std::function<void(const CellShape&)>& visit, std::size_t most = most_cells);
+    EditedMesh(TetMesh mesh, std::int64_t frozen_cells, SizeField max_size,
+               const std::function<void(const CellShape&)>& visit, std::int32_t most = most_cells);
+    /// The mesh as it is now, without gaps among the cells, and with neighbours if it had some. Afterwards there are no
+    /// cells.
+    TetMesh finish();
 
     // --- what there is ---
 
-    std::int32_t cell_count() const { return static_cast<std::int32_t>(mesh_->tets.size()); }
-    bool is_removed(std::int32_t cell) const { return mesh_->tets[cell][0] < 0; }
+    std::int32_t cell_count() const { return tets_.cell_count(); }
+    bool is_removed(std::int32_t cell) const { return corners(cell)[0] < 0; }
     bool is_frozen(std::int32_t cell) const { return cell < frozen_cells_; }
-    const Tetrahedron& corners(std::int32_t cell) const { return mesh_->tets[cell]; }
-    const Vec3& point(std::int32_t vertex) const { return mesh_->vertices[vertex]; }
+    const Tetrahedron& corners(std::int32_t cell) const { return tets_.vertices(cell); }
+    const Vec3& point(std::int32_t vertex) const { return tets_.points()[vertex]; }
     double badness(std::int32_t cell) const { return badness_[cell]; }
     /// Behind the face opposite to corner i; below 0: the boundary.
-    std::int32_t neighbour(std::int32_t cell, int i) const { return links_[cell][i] < 0 ? none : links_[cell][i] >> 2; }
+    std::int32_t neighbour(std::int32_t cell, int i) const { return tets_.neighbour(cell, i); }
     /// Opposite to corner i, and positive after it.
-    Triangle face(std::int32_t cell, int i) const {
-        const auto& [p, q, r] = tet_faces[i];
-        return {corners(cell)[p], corners(cell)[q], corners(cell)[r]};
-    }
+    Triangle face(std::int32_t cell, int i) const { return tets_.face_vertices(cell_face(cell, i)); }
     CellShape shape(const Tetrahedron& corners) const {
         return cell_shape(point(corners[0]), point(corners[1]), point(corners[2]), point(corners[3]));
     }
     /// Those around the edge between corners i and j of a cell. False if it lies on the boundary, has a frozen cell, or
-    /// more cells than there is room for.
+    /// more cells than most_cells_of_a_ring.
     bool find_ring(std::int32_t cell, int i, int j, EdgeRing& ring) const;
     /// Those around the corner i of a cell. False if the corner must not move.
     bool find_star(std::int32_t cell, int i, std::vector<std::int32_t>& star);
@@ -70,9 +60,10 @@ class EditedMesh {
 
     // --- changes ---
 
-    /// Replaces cells by others, positive ones, that fill the same space and have the same faces around them. Appends
-    /// the numbers of the new ones to `made`. Error (memory), and nothing has changed, if there would be too many.
-    void replace(std::span<const std::int32_t> cells, std::span<const Tetrahedron> by, std::vector<std::int32_t>& made);
+    /// Replaces cells by others, positive ones, that fill the same space and have the same faces around them. The
+    /// numbers of the new ones are valid until the next change. Error (memory), and nothing has changed, if there would
+    /// be too many.
+    std::span<const std::int32_t> replace(std::span<const std::int32_t> cells, std::span<const Tetrahedron> by);
     /// Moves a corner that all of `star` have. False, and nothing has changed, if a cell would not be positive then.
     bool move(std::int32_t vertex, const Vec3& to, std::span<const std::int32_t> star);
 
@@ -81,42 +72,19 @@ class EditedMesh {
     /// One that no cell has.
     void remove_last_vertex();
 
-    /// Closes the gaps among the cells, and gives the mesh neighbours if it had some.
-    void finish();
-
  private:
-    static constexpr std::int32_t none = -1;
-    struct OpenFace {
-        Triangle vertices;  // ascending
-        std::int32_t side;  // 4 * cell + i of one of its cells; none
-    };
-
-    void find_links();
-    void copy_links();
     void find_limits(const std::function<void(const CellShape&)>& visit);
     double excess_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double six_volumes) const;
-    double excess_of(std::int32_t cell) const;
-    std::int32_t take_cell();
-    void open_faces(std::span<const std::int32_t> cells);
-    void close_face(std::int32_t side);
-    Triangle face_key(std::int32_t cell, int i) const;
-    void restore_neighbours();
-    void require_room(std::size_t cells) const;
 
-    TetMesh* mesh_;
     SizeField max_size_;
     std::int64_t frozen_cells_;
-    std::size_t most_;
+    std::int32_t boundary_vertex_count_;
     bool had_neighbours_;
     double least_bound_six_ = 0;  // six times the least bound of volume; infinity: none
     double most_sharp_ = 0, most_flat_ = 0;
-    std::vector<std::array<std::int32_t, 4>> links_;  // 4 * cell + i of the other side; below 0: none
+    EditableTets tets_;
     std::vector<double> badness_;
-    std::vector<std::uint32_t> seen_;  // in which search
-    std::uint32_t search_ = 0;
     mutable std::int64_t looks_ = 0;
-    std::vector<std::int32_t> free_;
-    std::vector<OpenFace> open_;
     std::vector<char> is_fixed_;  // #V
 };
 

@@ -27,15 +27,15 @@ constexpr int cells_between_questions = 1024;        // whether it is cancelled
 class Improver {
  public:
     Improver(TetMesh& mesh, const ImproveOptions& options, Improvement& improvement)
-        : mesh_(mesh, options.frozen_cells, options.max_size,
+        : most_looks_(most_looks_of(mesh, options)),
+          is_settled_(mesh.vertices.size(), 0),
+          mesh_(std::move(mesh), options.frozen_cells, options.max_size,
                 [&](const CellShape& shape) { improvement.smallest_before.add(degrees_from_square(shape.sharpest)); }),
           options_(&options),
           result_(&improvement),
           bad_(square_from_degrees(options.threshold_deg)),
           bad_enough_for_a_vertex_(std::max(bad_, square_from_degrees(worth_a_vertex_deg(options)))),
-          without_volume_(square_from_degrees(angle_of_no_volume_deg)),
-          most_looks_(most_looks_of(mesh, options)),
-          is_settled_(mesh.vertices.size(), 0) {}
+          without_volume_(square_from_degrees(angle_of_no_volume_deg)) {}
 
     void run() {
         for (std::int32_t cell = 0; cell < mesh_.cell_count(); ++cell)
@@ -50,7 +50,7 @@ class Improver {
         for (std::int32_t cell = 0; cell < mesh_.cell_count(); ++cell) result_->bad_cells_after += is_bad(cell);
     }
     bool is_cancelled() const { return is_cancelled_; }
-    void finish() { mesh_.finish(); }
+    TetMesh finish() { return mesh_.finish(); }
 
  private:
     struct Entry {
@@ -111,21 +111,18 @@ class Improver {
     // The edge without which the worst of the cells around it is best.
     bool remove_an_edge(std::int32_t cell) {
         double best = std::numeric_limits<double>::infinity();
-        EdgeRing ring;
         for (int i = 0; i < 4; ++i)
             for (int j = i + 1; j < 4; ++j) {
-                if (!mesh_.find_ring(cell, i, j, ring)) continue;
+                if (!mesh_.find_ring(cell, i, j, ring_)) continue;
                 double limit = -std::numeric_limits<double>::infinity();
-                for (std::size_t k = 0; k < ring.size; ++k) limit = std::max(limit, mesh_.badness(ring.cells[k]));
-                if (!edge_.find(mesh_, ring, std::min(limit, best))) continue;
+                for (const std::int32_t at : ring_.cells) limit = std::max(limit, mesh_.badness(at));
+                if (!edge_.find(mesh_, ring_, std::min(limit, best))) continue;
                 best = edge_.badness();
-                best_ring_ = ring;
+                best_ring_ = ring_.cells;
                 best_cells_ = edge_.cells();
             }
         if (best == std::numeric_limits<double>::infinity()) return false;
-        made_.clear();
-        mesh_.replace({best_ring_.cells.data(), best_ring_.size}, best_cells_, made_);
-        take_up(made_);
+        take_up(mesh_.replace(best_ring_, best_cells_));
         ++result_->removed_edges;
         return true;
     }
@@ -156,28 +153,27 @@ class Improver {
         looks_at_vertices_ += mesh_.looks();
         if (cavity.empty()) return false;
         is_settled_.push_back(0);
-        made_.clear();
-        mesh_.replace(cavity, insertion_.cells(), made_);
-        take_up(made_);
+        take_up(mesh_.replace(cavity, insertion_.cells()));
         ++result_->new_vertices;
         return true;
     }
 
+    std::int64_t most_looks_;
+    std::vector<char> is_settled_;  // #V; whether the cells around it are those that no move has helped
     EditedMesh mesh_;
     const ImproveOptions* options_;
     Improvement* result_;
     double bad_, bad_enough_for_a_vertex_, without_volume_;
-    std::int64_t most_looks_, looks_at_vertices_ = 0;
+    std::int64_t looks_at_vertices_ = 0;
     bool is_cancelled_ = false;
     std::priority_queue<Entry> queue_;
     std::vector<std::int32_t> waiting_;  // bad cells that are not in the queue; ascending between rounds
     EdgeRemoval edge_;
     Smoothing smoothing_;
     VertexInsertion insertion_;
-    EdgeRing best_ring_;
+    EdgeRing ring_;
+    std::vector<std::int32_t> best_ring_, star_;
     std::vector<Tetrahedron> best_cells_;
-    std::vector<std::int32_t> star_, made_;
-    std::vector<char> is_settled_;  // #V; whether the cells around it are those that no move has helped
 };
 
 }  // namespace
@@ -201,7 +197,7 @@ Improvement improve(TetMesh& mesh, const ImproveOptions& options) {
     improvement.smallest_before = Distribution(Distribution::Scale::linear, 0, 180);
     Improver improver(mesh, options, improvement);
     improver.run();
-    improver.finish();
+    mesh = improver.finish();
     if (improver.is_cancelled()) throw Error(ErrorCode::cancelled, "The improvement of the mesh was cancelled.");
     return improvement;
 }

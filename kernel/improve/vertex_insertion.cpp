@@ -65,11 +65,11 @@ double VertexInsertion::worst_at(const EditedMesh& mesh, const Vec3& at) const {
 }
 
 // In turn grows the cavity and moves the place, and keeps the best of both.
-void VertexInsertion::grow_and_move(const EditedMesh& mesh, const EdgeRing& ring) {
-    cavity_.assign(ring.cells.begin(), ring.cells.begin() + ring.size);
+void VertexInsertion::grow_and_move(const EditedMesh& mesh) {
+    cavity_ = ring_.cells;
     excess_ = mesh.most_excess(cavity_);
     find_sides(mesh);
-    BestPlace::Place place = {(mesh.point(ring.a) + mesh.point(ring.b)) / 2, 0};
+    BestPlace::Place place = {(mesh.point(ring_.a) + mesh.point(ring_.b)) / 2, 0};
     for (int moves = 0; moves < most_moves; ++moves) {
         places_.clear();
         for (const Side& side : sides_) {
@@ -92,10 +92,9 @@ void VertexInsertion::grow_and_move(const EditedMesh& mesh, const EdgeRing& ring
 std::span<const std::int32_t> VertexInsertion::insert(EditedMesh& mesh, std::int32_t cell, double limit) {
     best_ = {Vec3::Zero(), limit};
     best_cavity_.clear();
-    EdgeRing ring;
     for (int i = 0; i < 4; ++i)
         for (int j = i + 1; j < 4; ++j)
-            if (mesh.find_ring(cell, i, j, ring)) grow_and_move(mesh, ring);
+            if (mesh.find_ring(cell, i, j, ring_)) grow_and_move(mesh);
     if (best_cavity_.empty()) return {};
     cavity_ = best_cavity_;
     find_sides(mesh);

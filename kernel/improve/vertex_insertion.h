@@ -24,7 +24,7 @@ class VertexInsertion {
         double badness;  // of the cell between it and the place
     };
 
-    void grow_and_move(const EditedMesh& mesh, const EdgeRing& ring);
+    void grow_and_move(const EditedMesh& mesh);
     void find_sides(const EditedMesh& mesh);
     bool grow(const EditedMesh& mesh, const Vec3& at);
     bool has_inner_vertex(const EditedMesh& mesh) const;
@@ -32,6 +32,7 @@ class VertexInsertion {
     double badness_at(const EditedMesh& mesh, const Vec3& at, std::int32_t cell, int i) const;
     double worst_at(const EditedMesh& mesh, const Vec3& at) const;
 
+    EdgeRing ring_;
     std::vector<std::int32_t> cavity_, best_cavity_;
     BestPlace::Place best_ = {};
     std::vector<Side> sides_;

@@ -129,7 +129,7 @@ class FaceRecovery {
     Crossing crossing_of(std::int32_t a, std::int32_t b) {
         Crossing crossing;
         for (const std::int32_t cell : t_.cells_around_vertex(a)) {
-            if (t_.index_of(cell, b) < 4) {
+            if (index_of(t_.vertices(cell), b) < 4) {
                 crossing.cell = cell;
                 crossing.has_end = true;
                 return crossing;
@@ -140,7 +140,7 @@ class FaceRecovery {
     }
 
     void look_at(std::int32_t cell, std::int32_t a, std::int32_t b, Crossing& crossing) const {
-        const CellFace face = cell_face(cell, t_.index_of(cell, a));
+        const CellFace face = cell_face(cell, index_of(t_.vertices(cell), a));
         const Triangle corners = t_.face_vertices(face);
         int zeros = 0, on_edge = 0;
         for (int i = 0; i < 3; ++i) {
@@ -198,7 +198,7 @@ class FaceRecovery {
     }
 
     bool clear_edge(std::int32_t cell, std::int32_t c, std::int32_t d, std::int32_t a, std::int32_t b) {
-        const CellRing ring = ring_around(t_, cell, c, d);
+        const EdgeRing ring = ring_around(t_, cell, c, d);
         if (ring.place_of(b) < ring.size())
             if (span_ring(t_, ring, a, b, new_vertices_) || remove_ring_edge(t_, ring, std::array{a, b}, new_vertices_))
                 return true;
@@ -209,11 +209,11 @@ class FaceRecovery {
 
     // Removes the edge, or at least some of those that lead from its ends to its ring, but to the `kept` vertices:
     // then the ring has others.
-    bool remove_edge(const CellRing& ring, std::span<const std::int32_t> kept, int depth) {
+    bool remove_edge(const EdgeRing& ring, std::span<const std::int32_t> kept, int depth) {
         if (remove_ring_edge(t_, ring, {})) return true;
         if (depth == 0) return false;
         for (const std::int32_t v : ring.ring)
-            for (const std::int32_t end : {ring.c, ring.d}) {
+            for (const std::int32_t end : {ring.a, ring.b}) {
                 if (v < 0 || std::find(kept.begin(), kept.end(), v) != kept.end()) continue;
                 if (--rings_left_ < 0) return false;
                 const std::int32_t cell = cell_with_edge(end, v);
@@ -224,7 +224,7 @@ class FaceRecovery {
 
     std::int32_t cell_with_edge(std::int32_t c, std::int32_t d) {
         for (const std::int32_t cell : t_.cells_around_vertex(c))
-            if (t_.index_of(cell, d) < 4) return cell;
+            if (index_of(t_.vertices(cell), d) < 4) return cell;
         return Triangulation::none;
     }
 
@@ -241,12 +241,12 @@ class FaceRecovery {
         bool is_pierced = false;
         for (const std::int32_t first : t_.cells_around_vertex(triangle[0])) {
             if (t_.is_ghost(first)) continue;
-            const int i = t_.index_of(first, triangle[0]);
+            const int i = index_of(t_.vertices(first), triangle[0]);
             const Triangle far = t_.face_vertices(cell_face(first, i));
             for (int k = 0; k < 3; ++k) {
                 const std::int32_t p = far[k], q = far[(k + 1) % 3];
                 if (!pierces(p, q, triangle)) continue;
-                const CellRing ring = ring_around(t_, first, p, q);
+                const EdgeRing ring = ring_around(t_, first, p, q);
                 if (remove_ring_edge(t_, ring, triangle, new_vertices_) || remove_edge(ring, triangle, depth_))
                     return true;
                 is_pierced = true;

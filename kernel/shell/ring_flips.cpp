@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/check.h"
 #include "delaunay/predicates.h"
 #include "improve/cell_shape.h"
 
@@ -37,13 +36,13 @@ double badness_of(const Triangulation& t, const Tetrahedron& v) {
 }
 
 // Of the cells between a point, the polygon of a ring's vertices, and the ring's two ends.
-double badness_of_star(const Triangulation& t, const CellRing& ring, const std::vector<std::int32_t>& polygon,
+double badness_of_star(const Triangulation& t, const EdgeRing& ring, const std::vector<std::int32_t>& polygon,
                        const Vec3& centre) {
     const auto& points = t.points();
     double worst = 0;
     for (std::size_t k = 0; k < polygon.size() && worst < impossible; ++k) {
         const Vec3 &p = points[polygon[k]], &q = points[polygon[(k + 1) % polygon.size()]];
-        worst = std::max({worst, badness_of(points[ring.c], centre, p, q), badness_of(centre, points[ring.d], p, q)});
+        worst = std::max({worst, badness_of(points[ring.a], centre, p, q), badness_of(centre, points[ring.b], p, q)});
     }
     return worst;
 }
@@ -68,7 +67,7 @@ Tetrahedron with_ghost_last(Tetrahedron v) {
 // Triangles of a polygon of the ring's vertices, and the cells that they make.
 class PolygonCells {
  public:
-    PolygonCells(const Triangulation& t, const CellRing& ring) : t_(&t), ring_(&ring) {}
+    PolygonCells(const Triangulation& t, const EdgeRing& ring) : t_(&t), ring_(&ring) {}
 
     // Appends the cells of the polygon of these vertices. False if there are none that are positive.
     bool append(const std::vector<std::int32_t>& polygon, std::vector<Tetrahedron>& cells) {
@@ -96,24 +95,24 @@ class PolygonCells {
  private:
     // Of the two cells of a triangle. With the ghost they lie outside, and the edge in the plane of the other two.
     double badness(std::int32_t p, std::int32_t q, std::int32_t r) const {
-        const Tetrahedron below = {ring_->c, p, q, r}, above = {p, q, r, ring_->d};
+        const Tetrahedron below = {ring_->a, p, q, r}, above = {p, q, r, ring_->b};
         if (std::min({p, q, r}) >= 0) return std::max(badness_of(*t_, below), badness_of(*t_, above));
         const std::int32_t u = p < 0 ? q : p, v = r < 0 ? q : r;
-        return orientation_of(*t_, {ring_->c, ring_->d, u, v}) == 0 ? 0 : impossible;
+        return orientation_of(*t_, {ring_->a, ring_->b, u, v}) == 0 ? 0 : impossible;
     }
 
     void append_between(const std::vector<std::int32_t>& polygon, std::size_t i, std::size_t k,
                         std::vector<Tetrahedron>& cells) const {
         if (k - i < 2) return;
         const std::size_t j = middle_[i * polygon.size() + k];
-        cells.push_back(with_ghost_last({ring_->c, polygon[i], polygon[j], polygon[k]}));
-        cells.push_back(with_ghost_last({polygon[i], polygon[j], polygon[k], ring_->d}));
+        cells.push_back(with_ghost_last({ring_->a, polygon[i], polygon[j], polygon[k]}));
+        cells.push_back(with_ghost_last({polygon[i], polygon[j], polygon[k], ring_->b}));
         append_between(polygon, i, j, cells);
         append_between(polygon, j, k, cells);
     }
 
     const Triangulation* t_;
-    const CellRing* ring_;
+    const EdgeRing* ring_;
     std::vector<double> best_;
     std::vector<std::size_t> middle_;
 };
@@ -121,17 +120,17 @@ class PolygonCells {
 // Appends the cells between the polygon of a ring's vertices, its two ends, and a new vertex, which is added. It comes
 // to lie next to the closing edge, from where the ring's own edge, which is near, sees all of these cells' outer faces.
 // False, and there is no new vertex, if none of a few places makes positive cells.
-bool append_star(Triangulation& t, const CellRing& ring, const std::vector<std::int32_t>& polygon,
+bool append_star(Triangulation& t, const EdgeRing& ring, const std::vector<std::int32_t>& polygon,
                  std::vector<Tetrahedron>& cells) {
     if (std::find(polygon.begin(), polygon.end(), Triangulation::ghost) != polygon.end()) return false;
     const auto point = [&](std::int32_t v) -> const Vec3& { return t.points()[v]; };
-    const Vec3 start = nearest_to_line(point(polygon.front()), point(polygon.back()), point(ring.c), point(ring.d));
+    const Vec3 start = nearest_to_line(point(polygon.front()), point(polygon.back()), point(ring.a), point(ring.b));
     Vec3 middle = Vec3::Zero();
     for (std::size_t k = 1; k + 1 < polygon.size(); ++k) middle += point(polygon[k]);
     middle /= static_cast<double>(polygon.size() - 2);
     Vec3 best;
     double least = impossible;
-    for (const std::int32_t end : {ring.c, ring.d})
+    for (const std::int32_t end : {ring.a, ring.b})
         for (double share = 0.5; share > least_share_of_star; share /= 2) {
             const Vec3 p = start + share * (middle + share_towards_end * (point(end) - middle) - start);
             const double badness = badness_of_star(t, ring, polygon, p);
@@ -141,35 +140,35 @@ bool append_star(Triangulation& t, const CellRing& ring, const std::vector<std::
     const std::int32_t centre = t.add_vertex(best);
     for (std::size_t k = 0; k < polygon.size(); ++k) {
         const std::int32_t p = polygon[k], q = polygon[(k + 1) % polygon.size()];
-        cells.push_back({ring.c, centre, p, q});
-        cells.push_back({centre, ring.d, p, q});
+        cells.push_back({ring.a, centre, p, q});
+        cells.push_back({centre, ring.b, p, q});
     }
     return true;
 }
 
 // Whether the face between cells k - 1 and k of a ring may go.
-bool is_spoke_constrained(const Triangulation& t, const CellRing& ring, std::size_t k) {
+bool is_spoke_constrained(const Triangulation& t, const EdgeRing& ring, std::size_t k) {
     const std::int32_t cell = ring.cells[k];
-    return t.is_constrained(cell_face(cell, t.index_of(cell, ring.ring[(k + 1) % ring.size()])));
+    return t.is_constrained(cell_face(cell, index_of(t.vertices(cell), ring.ring[(k + 1) % ring.size()])));
 }
 
-std::vector<std::int32_t> polygon_between(const CellRing& ring, std::size_t from, std::size_t to) {
+std::vector<std::int32_t> polygon_between(const EdgeRing& ring, std::size_t from, std::size_t to) {
     std::vector<std::int32_t> polygon;
     for (std::size_t k = from; k != to; k = (k + 1) % ring.size()) polygon.push_back(ring.ring[k]);
     polygon.push_back(ring.ring[to]);
     return polygon;
 }
 
-bool append_cells(Triangulation& t, const CellRing& ring, const std::vector<std::int32_t>& polygon,
+bool append_cells(Triangulation& t, const EdgeRing& ring, const std::vector<std::int32_t>& polygon,
                   NewVertices new_vertices, std::vector<Tetrahedron>& cells) {
     if (PolygonCells(t, ring).append(polygon, cells)) return true;
     return new_vertices == NewVertices::allowed && append_star(t, ring, polygon, cells);
 }
 
-bool span_ring_between(Triangulation& t, const CellRing& ring, std::size_t from, std::size_t to,
+bool span_ring_between(Triangulation& t, const EdgeRing& ring, std::size_t from, std::size_t to,
                        NewVertices new_vertices) {
     const std::vector<std::int32_t> polygon = polygon_between(ring, from, to);
-    const Tetrahedron middle = {ring.c, ring.d, polygon.front(), polygon.back()};
+    const Tetrahedron middle = {ring.a, ring.b, polygon.front(), polygon.back()};
     if (std::min(middle[2], middle[3]) < 0 || polygon.size() < 3 || orientation_of(t, middle) <= 0) return false;
     std::vector<std::int32_t> cells;
     for (std::size_t k = from; k != to; k = (k + 1) % ring.size()) {
@@ -184,29 +183,14 @@ bool span_ring_between(Triangulation& t, const CellRing& ring, std::size_t from,
 
 }  // namespace
 
-std::size_t CellRing::place_of(std::int32_t vertex) const {
-    return static_cast<std::size_t>(std::find(ring.begin(), ring.end(), vertex) - ring.begin());
-}
-
-CellRing ring_around(const Triangulation& triangulation, std::int32_t cell, std::int32_t c, std::int32_t d) {
-    CellRing ring{c, d, {}, {}};
-    ring.cells =
-        triangulation.cells_around_edge(cell, triangulation.index_of(cell, c), triangulation.index_of(cell, d));
-    const std::size_t n = ring.cells.size();
-    for (std::size_t k = 0; k < n; ++k) {
-        // What this cell has in common with the one before it, beside c and d.
-        const std::int32_t before = ring.cells[(k + n - 1) % n];
-        for (int i = 0; i < 4; ++i) {
-            const std::int32_t v = triangulation.vertices(ring.cells[k])[i];
-            if (v == c || v == d || triangulation.neighbour(ring.cells[k], i) == before) continue;
-            ring.ring.push_back(v);
-        }
-    }
-    KERF_CHECK(ring.ring.size() == n);
+EdgeRing ring_around(const Triangulation& triangulation, std::int32_t cell, std::int32_t a, std::int32_t b) {
+    EdgeRing ring;
+    const Tetrahedron& vertices = triangulation.vertices(cell);
+    find_ring(triangulation, cell, index_of(vertices, a), index_of(vertices, b), ring);
     return ring;
 }
 
-bool remove_ring_edge(Triangulation& triangulation, const CellRing& ring, std::span<const std::int32_t> kept,
+bool remove_ring_edge(Triangulation& triangulation, const EdgeRing& ring, std::span<const std::int32_t> kept,
                       NewVertices new_vertices) {
     if (ring.size() > most_cells_of_a_ring) return false;
     std::vector<std::size_t> corners;
@@ -234,7 +218,7 @@ bool remove_ring_edge(Triangulation& triangulation, const CellRing& ring, std::s
     return true;
 }
 
-bool span_ring(Triangulation& triangulation, const CellRing& ring, std::int32_t a, std::int32_t b,
+bool span_ring(Triangulation& triangulation, const EdgeRing& ring, std::int32_t a, std::int32_t b,
                NewVertices new_vertices) {
     const std::size_t from = ring.place_of(a), to = ring.place_of(b);
     if (from == ring.size() || to == ring.size() || ring.size() > most_cells_of_a_ring) return false;

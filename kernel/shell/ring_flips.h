@@ -9,19 +9,8 @@
 
 namespace kerf {
 
-/// Cells around an edge from c to d: cell k has the corners c, d, ring[k] and ring[k + 1], in positive order; the ghost
-/// may be among the ring.
-struct CellRing {
-    std::int32_t c = 0, d = 0;
-    std::vector<std::int32_t> cells, ring;
-
-    std::size_t size() const { return cells.size(); }
-    /// The place of a vertex in the ring; size() if it has none.
-    std::size_t place_of(std::int32_t vertex) const;
-};
-
 /// The ring of the edge between vertices c and d, both of the cell.
-CellRing ring_around(const Triangulation& triangulation, std::int32_t cell, std::int32_t c, std::int32_t d);
+EdgeRing ring_around(const Triangulation& triangulation, std::int32_t cell, std::int32_t c, std::int32_t d);
 
 /// Whether a flip may add a vertex on each side of the kept ones where there are no positive cells without.
 enum class NewVertices { none, allowed };
@@ -29,12 +18,12 @@ enum class NewVertices { none, allowed };
 /// Replaces all cells of a ring by others without its edge, of which one has the edges between the `kept` vertices of
 /// the ring: none, two, or three, which are a face then. The others are chosen so that the worst of them is best.
 /// False, and nothing has changed, if that is not possible with positive cells, or would remove a constrained face.
-bool remove_ring_edge(Triangulation& triangulation, const CellRing& ring, std::span<const std::int32_t> kept,
+bool remove_ring_edge(Triangulation& triangulation, const EdgeRing& ring, std::span<const std::int32_t> kept,
                       NewVertices new_vertices = NewVertices::none);
 
 /// Replaces those cells of a ring that are between vertices a and b, on either side, by others and by one with corners
 /// a, b and the edge of the ring, which stays. False, and nothing has changed, as above.
-bool span_ring(Triangulation& triangulation, const CellRing& ring, std::int32_t a, std::int32_t b,
+bool span_ring(Triangulation& triangulation, const EdgeRing& ring, std::int32_t a, std::int32_t b,
                NewVertices new_vertices = NewVertices::none);
 
 /// Replaces two cells with a common face by three around the edge between the other two vertices. False, and nothing

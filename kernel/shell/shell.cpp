@@ -52,26 +52,6 @@ void mark_shell(Triangulation& triangulation, const std::vector<CellFace>& faces
         if ((*behind)[cell]) triangulation.set_region(cell, shell_region);
 }
 
-TetMesh cells_of_shell(const Triangulation& triangulation) {
-    TetMesh mesh;
-    std::vector<std::int32_t> number(triangulation.cell_count(), -1);
-    std::int32_t count = 0;
-    for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell)
-        if (triangulation.region(cell) == shell_region) number[cell] = count++;
-    mesh.tets.reserve(count);
-    mesh.neighbours.reserve(count);
-    for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell) {
-        if (number[cell] < 0) continue;
-        mesh.tets.push_back(triangulation.vertices(cell));
-        auto& neighbours = mesh.neighbours.emplace_back();
-        for (int i = 0; i < 4; ++i)
-            neighbours[i] =
-                triangulation.is_constrained(cell_face(cell, i)) ? -1 : number[triangulation.neighbour(cell, i)];
-    }
-    mesh.vertices = triangulation.points();
-    return mesh;
-}
-
 // Recovery may have added some outside of the shell, and merging has taken some away.
 void drop_unused_vertices(TetMesh& mesh) {
     std::vector<std::int32_t> number(mesh.vertices.size(), -1);
@@ -104,7 +84,8 @@ FilledShell fill_shell(const SurfaceArrays& surface, ShellCore core, const Refin
     mark_shell(triangulation, found.faces);
     shell.refining_points = refine(triangulation, shell_region, bounds);
     if (!bounds.size.is_constant()) merge_close_vertices(triangulation, shell_region, bounds.size);
-    shell.mesh = cells_of_shell(triangulation);
+    shell.mesh =
+        triangulation.take_mesh([&](std::int32_t cell) { return triangulation.region(cell) == shell_region; }, true);
     shell.mesh.boundary_vertex_count = static_cast<std::int32_t>(boundary_vertices);
     drop_unused_vertices(shell.mesh);
     return shell;

@@ -75,9 +75,9 @@ class VertexMerging {
                       std::vector<Tetrahedron>& cells) const {
         double worst = -infinity;
         for (const std::int32_t cell : star) {
-            if (t_.index_of(cell, u) < 4) continue;
+            if (index_of(t_.vertices(cell), u) < 4) continue;
             Tetrahedron vertices = t_.vertices(cell);
-            vertices[t_.index_of(cell, v)] = u;
+            vertices[index_of(t_.vertices(cell), v)] = u;
             const auto& [a, b, c, d] = vertices;
             if (orientation(point(a), point(b), point(c), point(d)) <= 0 ||
                 is_too_large(size_, {point(a), point(b), point(c), point(d)}))

@@ -139,8 +139,8 @@ void expect_valid(const Triangulation& triangulation) {
             ASSERT_NE(cell_of(behind), cell);
             ASSERT_EQ(triangulation.is_constrained(face), triangulation.is_constrained(behind));
             for (int k = 1; k < 4; ++k)
-                ASSERT_LT(triangulation.index_of(cell_of(behind), v[i ^ k]), 4) << "of the same face";
-            ASSERT_EQ(triangulation.index_of(cell_of(behind), v[i]), 4);
+                ASSERT_LT(index_of(triangulation.vertices(cell_of(behind)), v[i ^ k]), 4) << "of the same face";
+            ASSERT_EQ(index_of(triangulation.vertices(cell_of(behind)), v[i]), 4);
             ASSERT_EQ(v[i] == Triangulation::ghost, i == 3 && triangulation.is_ghost(cell));
             if (v[i] >= 0) has_cell[v[i]] = true;
         }
@@ -155,7 +155,7 @@ void expect_valid(const Triangulation& triangulation) {
         const std::int32_t cell = triangulation.cell_at(static_cast<std::int32_t>(v));
         ASSERT_EQ(has_cell[v], cell != Triangulation::none);
         if (has_cell[v]) {
-            ASSERT_LT(triangulation.index_of(cell, static_cast<std::int32_t>(v)), 4);
+            ASSERT_LT(index_of(triangulation.vertices(cell), static_cast<std::int32_t>(v)), 4);
         }
     }
 }

@@ -180,19 +180,21 @@ TEST(Triangulation, TurnsAroundEdges) {
         for (std::int32_t cell = 0; cell < triangulation.cell_count(); cell += 7) {
             const int i = cell % 4, j = (i + 1 + cell / 4 % 3) % 4;
             const std::int32_t from = triangulation.vertices(cell)[i], to = triangulation.vertices(cell)[j];
-            const std::vector<std::int32_t> cells = triangulation.cells_around_edge(cell, i, j);
+            EdgeRing ring;
+            ASSERT_TRUE(find_ring(triangulation, cell, i, j, ring));
+            const std::vector<std::int32_t>& cells = ring.cells;
             ASSERT_EQ(cells[0], cell);
             ASSERT_EQ(static_cast<std::int32_t>(cells.size()), cells_at.at(undirected(from, to)));
             ASSERT_EQ(std::set(cells.begin(), cells.end()).size(), cells.size());
             for (std::size_t k = 0; k < cells.size(); ++k) {
                 const std::int32_t next = cells[(k + 1) % cells.size()];
-                ASSERT_LT(triangulation.index_of(cells[k], from), 4);
-                ASSERT_LT(triangulation.index_of(cells[k], to), 4);
+                ASSERT_LT(index_of(triangulation.vertices(cells[k]), from), 4);
+                ASSERT_LT(index_of(triangulation.vertices(cells[k]), to), 4);
                 std::vector<std::int32_t> order;  // that of the cell which is left, then that of both
                 for (const std::int32_t v : triangulation.vertices(cells[k]))
                     if (v != from && v != to) order.push_back(v);
-                if (triangulation.index_of(next, order[0]) < 4) std::swap(order[0], order[1]);
-                ASSERT_LT(triangulation.index_of(next, order[1]), 4);
+                if (index_of(triangulation.vertices(next), order[0]) < 4) std::swap(order[0], order[1]);
+                ASSERT_LT(index_of(triangulation.vertices(next), order[1]), 4);
                 if (from < 0 || triangulation.is_ghost(cells[k])) continue;
                 ASSERT_EQ(orientation(points[from], points[to], points[order[0]], points[order[1]]), 1);
             }

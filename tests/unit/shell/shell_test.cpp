@@ -66,7 +66,7 @@ bool flip_somewhere(Triangulation& triangulation, Random& random) {
     if (triangulation.is_ghost(cell)) return false;
     const int i = integer(random, 0, 3), j = (i + integer(random, 1, 3)) % 4, kind = integer(random, 0, 4);
     if (kind == 0) return replace_face_by_edge(triangulation, cell_face(cell, i));
-    const CellRing ring =
+    const EdgeRing ring =
         ring_around(triangulation, cell, triangulation.vertices(cell)[i], triangulation.vertices(cell)[j]);
     const auto n = static_cast<int>(ring.size());
     const std::int32_t a = ring.ring[integer(random, 0, n - 1)], b = ring.ring[integer(random, 0, n - 1)];

@@ -1,0 +1,174 @@
+// Tetrahedra that are replaced by others, and always know their neighbours.
+//
+// Every cell has four vertices and four links; link i leads across face i, opposite to vertex i. A face seen from one
+// of its two cells is named by 4 * cell + i, as half-edges are on a surface. A link is the name of the same face seen
+// from the other side, with a flag where the face is constrained, or it is below 0 where there is no cell behind.
+//
+// Delaunay insertion (delaunay/triangulation.h) and improvement (improve/edited_mesh.h) are built on this. Whoever
+// changes cells needs three things: find_ring() or find_star() tells which cells there are around an edge or a vertex,
+// cells of one's own choice are made as Tetrahedron, and replace() puts them in their place.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "mesh/tet_mesh.h"
+
+namespace kerf {
+
+/// 4 * cell + i: the face of the cell that is opposite to its vertex i.
+using CellFace = std::int32_t;
+
+constexpr CellFace cell_face(std::int32_t cell, int i) { return 4 * cell + i; }
+constexpr std::int32_t cell_of(CellFace face) { return face >> 2; }
+constexpr int index_in_cell(CellFace face) { return face & 3; }
+
+/// Which of the four vertices the vertex is; 4 if none.
+inline int index_of(const Tetrahedron& vertices, std::int32_t vertex) {
+    int i = 0;
+    while (i < 4 && vertices[i] != vertex) ++i;
+    return i;
+}
+
+/// The two vertices of a cell that are neither i nor j, as other_two[i][j]: (i, j, first, second) is an even
+/// permutation.
+inline constexpr std::array<std::array<std::array<int, 2>, 4>, 4> other_two = {{{{{0, 0}, {2, 3}, {3, 1}, {1, 2}}},
+                                                                                {{{3, 2}, {0, 0}, {0, 3}, {2, 0}}},
+                                                                                {{{1, 3}, {3, 0}, {0, 0}, {0, 1}}},
+                                                                                {{{2, 1}, {0, 2}, {1, 0}, {0, 0}}}}};
+
+/// Cells of positive orientation, and points, their vertices. All answers and the numbers of cells depend on the calls
+/// alone. 32 bytes a cell and 28 a vertex.
+///
+/// Cells that are made of points may have ghosts: cells outside of the hull, one on each of its faces, whose vertex 3
+/// is the ghost, so that every face has two cells. They are numbered from 0 without gaps; a change may give any cell
+/// another number. Cells that are made of a TetMesh have no ghosts, and keep their numbers until take_mesh(); those
+/// that have been removed leave gaps, which new cells fill.
+class EditableTets {
+ public:
+    static constexpr std::int32_t ghost = -1, none = -1;
+    /// Faces of cells are numbered by 30 bits.
+    static constexpr std::int32_t most_cells = 1 << 28;
+
+    /// Points without cells. There are never more than `most` cells, which is at most most_cells.
+    explicit EditableTets(std::vector<Vec3> points = {}, std::int32_t most = most_cells);
+    /// The cells of a mesh. Finds their neighbours where the mesh has none. Error (memory) if there are more than
+    /// `most`. Linear.
+    EditableTets(TetMesh mesh, std::int32_t most);
+    /// The cells for which `keeps` holds, in order, and all points; with neighbours if they are asked for, none across
+    /// constrained faces. Afterwards there are no cells. boundary_vertex_count is left to the caller. Linear.
+    TetMesh take_mesh(const std::function<bool(std::int32_t)>& keeps, bool with_neighbours);
+
+    // --- what there is ---
+
+    const std::vector<Vec3>& points() const { return points_; }
+    /// Ghosts and gaps included.
+    std::int32_t cell_count() const { return static_cast<std::int32_t>(cells_.size()); }
+    bool is_ghost(std::int32_t cell) const { return cells_[cell].vertex[3] < 0; }
+    /// The ghost is always vertex 3, and would see the others counter-clockwise. The first is below 0 in a gap.
+    const Tetrahedron& vertices(std::int32_t cell) const { return cells_[cell].vertex; }
+    /// The same face seen from its other cell; below 0 where there is none.
+    CellFace mirror(CellFace face) const { return cells_[cell_of(face)].link[index_in_cell(face)] & ~constraint; }
+    /// The cell behind the face opposite to vertex i; below 0 where there is none.
+    std::int32_t neighbour(std::int32_t cell, int i) const { return cell_of(mirror(cell_face(cell, i))); }
+    std::int32_t opposite_vertex(CellFace face) const { return cells_[cell_of(face)].vertex[index_in_cell(face)]; }
+    /// The vertices of a face that is not the ghost's, counter-clockwise seen from outside of the cell.
+    Triangle face_vertices(CellFace face) const {
+        const Tetrahedron& corners = cells_[cell_of(face)].vertex;
+        const auto& [i, j, k] = tet_faces[index_in_cell(face)];
+        return {corners[i], corners[j], corners[k]};
+    }
+    /// One of the cells around a vertex; none if it has no cells.
+    std::int32_t cell_at(std::int32_t vertex) const { return cell_at_vertex_[vertex]; }
+    /// All cells around a vertex that has some, and is not on a face without a cell behind; ghosts included. Linear.
+    std::vector<std::int32_t> cells_around_vertex(std::int32_t vertex);
+    /// The same in a place of the caller's, and the given cell, one of them, is the first.
+    void find_star(std::int32_t cell, std::int32_t vertex, std::vector<std::int32_t>& star);
+
+    // --- faces that stay ---
+
+    /// A face without a cell behind counts as constrained.
+    bool is_constrained(CellFace face) const {
+        return (cells_[cell_of(face)].link[index_in_cell(face)] & constraint) != 0;
+    }
+    /// Constrains both sides of a face.
+    void constrain(CellFace face);
+
+    // --- regions ---
+
+    /// A number of each cell, 0 at first. New cells have that of the ones that they replace.
+    std::uint8_t region(std::int32_t cell) const { return regions_.empty() ? 0 : regions_[cell]; }
+    void set_region(std::int32_t cell, std::uint8_t region);
+
+    // --- changes ---
+
+    /// Replaces cells of one region by others that fill the same space and have the same faces around them, constrained
+    /// or not; faces between the cells must not be constrained. Ghost cells may be among both. The numbers of the new
+    /// cells, in the order of `by`, are valid until the next change. Error (memory), and nothing has changed, if there
+    /// would be too many. Quadratic in the number of faces.
+    std::span<const std::int32_t> replace(std::span<const std::int32_t> cells, std::span<const Tetrahedron> by);
+
+    /// The number of a new vertex, which cells get by replace().
+    std::int32_t add_vertex(const Vec3& p);
+    /// The cells around the vertex must stay positive.
+    void move_vertex(std::int32_t vertex, const Vec3& to) { points_[vertex] = to; }
+    /// Forgets the last vertices, which must have no cells, so that `count` are left.
+    void remove_unused_vertices(std::size_t count);
+
+ protected:
+    struct Cell {
+        Tetrahedron vertex;
+        std::array<CellFace, 4> link;  // with `constraint` where the face is constrained
+
+        // While it is searched. Vertex 0 is never the ghost.
+        bool is_marked() const { return vertex[0] < 0; }
+        void flip_mark() { vertex[0] = ~vertex[0]; }
+    };
+
+    static constexpr CellFace constraint = 1 << 30;
+
+    CellFace& link(CellFace face) { return cells_[cell_of(face)].link[index_in_cell(face)]; }
+    void require_room(std::size_t more_cells) const;
+    // The last cells move to where the removed ones were, and so do their numbers in `followed`.
+    void remove_cells(std::span<const std::int32_t> cells, std::span<std::int32_t> followed);
+
+    std::vector<Vec3> points_;
+    std::vector<Cell> cells_;
+    std::vector<std::int32_t> cell_at_vertex_;
+    std::vector<std::uint8_t> regions_;  // of each cell; empty: all 0
+    std::int32_t most_ = most_cells;
+    bool has_constraints_ = false;
+
+ private:
+    // Of a replacement under way: a face that has one of its sides.
+    struct OpenFace {
+        Triangle vertices;  // ascending
+        CellFace side;      // and `constraint` for those that stay
+    };
+
+    bool keeps_numbers_ = false;
+    std::vector<std::int32_t> gaps_;  // the last one is filled first
+    std::vector<std::int32_t> places_;
+    std::vector<OpenFace> open_;
+};
+
+/// Cells around an edge from a to b: cell i has the corners a, b, ring[i] and ring[i + 1], in positive order; the ghost
+/// may be among the ring.
+struct EdgeRing {
+    std::int32_t a = 0, b = 0;
+    std::vector<std::int32_t> cells, ring;
+
+    std::size_t size() const { return cells.size(); }
+    /// The place of a vertex in the ring; size() if it has none.
+    std::size_t place_of(std::int32_t vertex) const;
+};
+
+/// The ring of the edge from vertex i to vertex j of a cell, which is the first in it. They turn counter-clockwise seen
+/// from b. False if there is a face without a cell behind, or more cells than `most`.
+bool find_ring(const EditableTets& tets, std::int32_t cell, int i, int j, EdgeRing& ring,
+               std::size_t most = std::numeric_limits<std::size_t>::max());
+
+}  // namespace kerf

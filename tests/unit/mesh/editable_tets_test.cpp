@@ -1,0 +1,131 @@
+// Cells in place of others, the numbers that they get, and what their neighbours are told.
+#include "mesh/editable_tets.h"
+
+#include <algorithm>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "mesh/adjacency.h"
+#include "mesh/verification.h"
+
+namespace kerf {
+namespace {
+
+// The regular tetrahedron, and vertex 4 inside of it.
+TetMesh four_cells() {
+    TetMesh mesh;
+    mesh.vertices = {Vec3(1, 1, 1), Vec3(-1, 1, -1), Vec3(1, -1, -1), Vec3(-1, -1, 1), Vec3::Zero()};
+    mesh.boundary_vertex_count = 4;
+    mesh.tets = {{4, 1, 2, 3}, {0, 4, 2, 3}, {0, 1, 4, 3}, {0, 1, 2, 4}};
+    return mesh;
+}
+
+TetMesh all_of(EditableTets tets) {
+    return tets.take_mesh([&](std::int32_t cell) { return tets.vertices(cell)[0] >= 0; }, true);
+}
+
+void expect_links_agree(const EditableTets& tets) {
+    for (std::int32_t cell = 0; cell < tets.cell_count(); ++cell) {
+        if (tets.vertices(cell)[0] < 0) continue;
+        for (int i = 0; i < 4; ++i) {
+            const CellFace face = cell_face(cell, i), behind = tets.mirror(face);
+            if (behind < 0) {
+                EXPECT_TRUE(tets.is_constrained(face));
+                continue;
+            }
+            EXPECT_EQ(tets.mirror(behind), face);
+            EXPECT_EQ(tets.is_constrained(behind), tets.is_constrained(face));
+            const Triangle here = tets.face_vertices(face), there = tets.face_vertices(behind);
+            EXPECT_EQ(std::set(here.begin(), here.end()), std::set(there.begin(), there.end()));
+            EXPECT_EQ(index_of(tets.vertices(cell_of(behind)), tets.opposite_vertex(face)), 4);
+        }
+        for (const std::int32_t v : tets.vertices(cell)) EXPECT_LT(index_of(tets.vertices(tets.cell_at(v)), v), 4);
+    }
+}
+
+TEST(EditableTets, GivesTheMeshBackThatItWasMadeOf) {
+    for (const bool has_neighbours : {false, true}) {
+        TetMesh mesh = four_cells();
+        const TetNeighbours neighbours = find_neighbours(mesh);
+        if (has_neighbours) mesh.neighbours = neighbours;
+        const EditableTets tets(mesh, EditableTets::most_cells);
+        expect_links_agree(tets);
+        const TetMesh again = all_of(tets);
+        EXPECT_EQ(again.tets, mesh.tets);
+        EXPECT_EQ(again.vertices, mesh.vertices);
+        EXPECT_EQ(again.neighbours, neighbours);
+    }
+}
+
+TEST(EditableTets, RefusesMoreCellsThanItMayHave) {
+    EXPECT_THROW(EditableTets(four_cells(), 3), Error);
+    EditableTets tets(four_cells(), 4);
+    const std::int32_t v = tets.add_vertex((tets.points()[1] + tets.points()[2] + tets.points()[3]) / 4);
+    const std::array<Tetrahedron, 4> by = {{{v, 1, 2, 3}, {4, v, 2, 3}, {4, 1, v, 3}, {4, 1, 2, v}}};
+    EXPECT_THROW(tets.replace(std::array{0}, by), Error);
+    tets.remove_unused_vertices(5);
+    EXPECT_EQ(all_of(tets).tets, four_cells().tets);
+}
+
+TEST(EditableTets, FindsRingsAndStarsInsideOnly) {
+    EditableTets tets(four_cells(), EditableTets::most_cells);
+    EdgeRing ring;
+    ASSERT_TRUE(find_ring(tets, 2, 0, 2, ring));  // from vertex 0 to vertex 4
+    EXPECT_EQ(ring.a, 0);
+    EXPECT_EQ(ring.b, 4);
+    ASSERT_EQ(ring.size(), 3u);
+    EXPECT_EQ(ring.cells[0], 2);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::int32_t p = ring.ring[k], q = ring.ring[(k + 1) % 3];
+        const auto point = [&](std::int32_t v) { return tets.points()[v]; };
+        EXPECT_GT((point(ring.b) - point(ring.a)).cross(point(p) - point(ring.a)).dot(point(q) - point(ring.a)), 0);
+        for (const std::int32_t v : {ring.a, ring.b, p, q}) EXPECT_LT(index_of(tets.vertices(ring.cells[k]), v), 4);
+        EXPECT_EQ(ring.place_of(p), k);
+    }
+    EXPECT_EQ(ring.place_of(4), ring.size());
+    EXPECT_FALSE(find_ring(tets, 2, 0, 2, ring, 2)) << "more cells than asked for";
+    EXPECT_FALSE(find_ring(tets, 2, 0, 1, ring)) << "on the boundary";
+    std::vector<std::int32_t> star;
+    tets.find_star(3, 4, star);
+    EXPECT_EQ(star[0], 3);
+    std::sort(star.begin(), star.end());
+    EXPECT_EQ(star, (std::vector<std::int32_t>{0, 1, 2, 3}));
+}
+
+// Three cells around an edge, one with another cell behind a face, become two, and one number is free; it is taken
+// before a new one.
+TEST(EditableTets, FillsGapsBeforeItGrows) {
+    TetMesh mesh;
+    mesh.vertices = {Vec3(0, 0, -1),      Vec3(1, 0, 0), Vec3(-0.5, 0.8, 0),
+                     Vec3(-0.5, -0.8, 0), Vec3(0, 0, 1), Vec3(2, 3, -2)};
+    mesh.tets = {{0, 4, 1, 2}, {0, 4, 2, 3}, {0, 4, 3, 1}, {0, 2, 1, 5}};
+    EditableTets tets(mesh, EditableTets::most_cells);
+    tets.constrain(cell_face(0, 1));
+    for (std::int32_t cell = 0; cell < 3; ++cell) tets.set_region(cell, 7);
+    EdgeRing ring;
+    ASSERT_TRUE(find_ring(tets, 1, 0, 1, ring));
+    EXPECT_EQ(ring.cells, (std::vector{1, 2, 0}));
+    const std::array<Tetrahedron, 2> two = {{{0, 1, 2, 3}, {1, 2, 3, 4}}};
+    const auto made = tets.replace(ring.cells, two);
+    EXPECT_EQ(std::vector(made.begin(), made.end()), (std::vector{1, 2}));
+    EXPECT_LT(tets.vertices(0)[0], 0);
+    EXPECT_EQ(tets.cell_count(), 4);
+    EXPECT_EQ(tets.region(1), 7);
+    EXPECT_EQ(tets.region(3), 0);
+    EXPECT_EQ(tets.neighbour(3, 3), 1);
+    EXPECT_TRUE(tets.is_constrained(cell_face(3, 3)));
+    expect_links_agree(tets);
+
+    const std::int32_t v = tets.add_vertex(Vec3(0, 0, -0.1));
+    const std::array<Tetrahedron, 4> four = {{{v, 1, 2, 3}, {0, v, 2, 3}, {0, 1, v, 3}, {0, 1, 2, v}}};
+    const auto filled = tets.replace(std::array{1}, four);
+    EXPECT_EQ(std::vector(filled.begin(), filled.end()), (std::vector{1, 0, 4, 5}));
+    EXPECT_EQ(tets.region(5), 7);
+    expect_links_agree(tets);
+    EXPECT_EQ(all_of(tets).tets.size(), 6u);
+}
+
+}  // namespace
+}  // namespace kerf
