@@ -27,10 +27,9 @@ double height_over(const EditMesh& mesh, EditedSurface::HalfEdge h) {
 
 // How long edges across a fold may be: as far as a chord of the circle through the facets beside it stays within the
 // tolerance. Infinite where nothing is folded, 0 at features.
-double chord_over(const EditedSurface& surface, EditedSurface::Edge e) {
-    const EditMesh& mesh = surface.mesh();
+double chord_over(const EditMesh& mesh, EditedSurface::Edge e) {
     if (mesh.data(e).is_feature) return 0;
-    const double angle = surface.is_flat(e) ? 0 : std::acos(std::clamp(surface.fold_cosine(e), -1.0, 1.0));
+    const double angle = mesh.is_flat(e) ? 0 : std::acos(std::clamp(mesh.fold_cosine(e), -1.0, 1.0));
     if (angle == 0) return infinite;
     const auto h = mesh.halfedge_handle(e, 0), back = mesh.halfedge_handle(e, 1);
     const double width = (height_over(mesh, h) + height_over(mesh, back)) / 2;
@@ -40,11 +39,11 @@ double chord_over(const EditedSurface& surface, EditedSurface::Edge e) {
 }
 
 // The longest edge around a vertex if all facets there are as they should be, 0 otherwise.
-double well_shaped_length(const EditedSurface& surface, EditedSurface::Vertex v) {
+double well_shaped_length(const EditMesh& mesh, EditedSurface::Vertex v) {
     double longest = 0;
-    for (const auto out : surface.mesh().voh_range(v)) {
-        if (surface.sine(out.face()) < well_shaped_sine) return 0;
-        longest = std::max(longest, surface.length(out.edge()));
+    for (const auto out : mesh.voh_range(v)) {
+        if (mesh.sine(out.face()) < well_shaped_sine) return 0;
+        longest = std::max(longest, mesh.calc_edge_length(out));
     }
     return longest;
 }
@@ -90,7 +89,7 @@ FoldSizes::FoldSizes(EditedSurface& surface, const FoldSizeOptions& options) : s
         double own_chord = infinite;
         for (const auto e : mesh.ve_range(v))
             if (const std::int32_t fold = mesh.data(e).fold; fold >= 0) own_chord = std::min(own_chord, chord_[fold]);
-        const double size = std::max(at(v, own_chord, sizes[v.idx()]), well_shaped_length(surface, v));
+        const double size = std::max(at(v, own_chord, sizes[v.idx()]), well_shaped_length(mesh, v));
         sizes[v.idx()] = std::min(size, asked(mesh.point(v)));
     }
     limit_growth(mesh, options.growth, sizes);
@@ -100,12 +99,12 @@ FoldSizes::FoldSizes(EditedSurface& surface, const FoldSizeOptions& options) : s
 void FoldSizes::find_folds(EditedSurface& surface) {
     std::vector<Triangle> segments;
     for (const auto e : surface.mesh().edges()) {
-        const double chord = chord_over(surface, e);
+        const double chord = chord_over(surface.mesh(), e);
         if (chord >= options_.longest) continue;
         const auto number = static_cast<std::int32_t>(segments.size());
         surface.set_fold(e, number);
         chord_.push_back(chord);
-        for (const auto v : {e.v0(), e.v1()}) ends_.push_back(surface.point(v));
+        for (const auto v : {e.v0(), e.v1()}) ends_.push_back(surface.mesh().point(v));
         segments.push_back({2 * number, 2 * number + 1, 2 * number + 1});
     }
     if (!segments.empty()) folds_.emplace(ends_, segments);
@@ -114,14 +113,14 @@ void FoldSizes::find_folds(EditedSurface& surface) {
 // Of an edge and those that go on from its ends as features in the same direction.
 double FoldSizes::straight_length(EditedSurface::Edge e) const {
     const EditMesh& mesh = surface_.mesh();
-    double length = surface_.length(e);
+    double length = mesh.calc_edge_length(e);
     if (!mesh.data(e).is_feature) return length;
     for (const int side : {0, 1}) {
         auto h = mesh.halfedge_handle(e, side);
         const Vec3 start = mesh.point(mesh.from_vertex_handle(h));
         while (length < options_.longest) {
             const EditedSurface::Vertex end = mesh.to_vertex_handle(h);
-            if (surface_.feature_count(end) != 2) break;
+            if (mesh.feature_count(end) != 2) break;
             auto next = mesh.next_halfedge_handle(h);
             while (!mesh.data(mesh.edge_handle(next)).is_feature)
                 next = mesh.next_halfedge_handle(mesh.opposite_halfedge_handle(next));
@@ -130,7 +129,7 @@ double FoldSizes::straight_length(EditedSurface::Edge e) const {
             if ((middle - mesh.point(end)).norm() > straight_share * mesh.data(end).tolerance || middle == start ||
                 middle == beyond)
                 break;
-            length += surface_.length(mesh.edge_handle(next));
+            length += mesh.calc_edge_length(next);
             h = next;
         }
     }
@@ -143,7 +142,7 @@ double FoldSizes::of_new(EditedSurface::Vertex v, std::int32_t fold, double grow
 
 // Folds that come close ask for small triangles between them only if neither can be left out at that length.
 double FoldSizes::at(EditedSurface::Vertex v, double own_chord, double grown) const {
-    const Vec3& p = surface_.point(v);
+    const Vec3& p = surface_.mesh().point(v);
     double size = grown;
     if (folds_ && own_chord < grown)
         folds_->any_within(p, grown, [&](std::int32_t fold, double squared) {
@@ -162,7 +161,7 @@ double FoldSizes::across_wall(EditedSurface::Vertex v, double limit) const {
     const InputShape& input = surface_.input();
     const Vec3 inwards = -vertex_normal(surface_.mesh(), v);
     const auto faces_away = [&](std::int32_t facet) { return input.normal(facet).dot(inwards) > 0.5; };
-    return input.tree().first_hit(surface_.point(v), inwards, 1e-6 * options_.longest,
+    return input.tree().first_hit(surface_.mesh().point(v), inwards, 1e-6 * options_.longest,
                                   limit * options_.edges_per_thickness, faces_away) /
            options_.edges_per_thickness;
 }

@@ -11,8 +11,7 @@
 #include "core/error.h"
 #include "remesh/edited_surface.h"
 #include "remesh/fold_sizes.h"
-#include "surface/intersections.h"
-#include "surface/nearness.h"
+#include "remesh/inspection.h"
 
 namespace kerf {
 
@@ -30,11 +29,8 @@ constexpr double shortest_over_deviation = 3, shortest_over_longest = 0.02;
 constexpr double used_share = 0.8;
 constexpr int most_rounds = 5;
 constexpr std::int64_t steps_between_polls = 256;
-constexpr double smaller_tolerance = 0.25;                 // of the tolerance, where the result of a round is refused
-constexpr int samples_per_edge = 6;                        // to find the input beside a facet of the result
-constexpr double first_bound = 0.2, step_of_bound = 1.25;  // of the deviation; of the one before
-constexpr double area_per_squared_length = 0.342;          // of a facet, and of the length wanted there; measured
-constexpr int most_divisions_of_inspection = 100'000;      // of a facet, to see that it is near the other surface
+constexpr double smaller_tolerance = 0.25;         // of the tolerance, where the result of a round is refused
+constexpr double area_per_squared_length = 0.342;  // of a facet, and of the length wanted there; measured
 
 // What was refused is refused again as long as nothing around it has changed.
 class Refusals {
@@ -98,10 +94,10 @@ class Remesher {
     double target(Edge e) const {
         const Vertex a = mesh().to_vertex_handle(mesh().halfedge_handle(e, 0));
         const Vertex b = mesh().to_vertex_handle(mesh().halfedge_handle(e, 1));
-        return std::min(std::max(surface_.asked(a), surface_.asked(b)),
-                        std::min(surface_.size(a), surface_.size(b)) + options_.growth * surface_.length(e) / 3);
+        return std::min(std::max(mesh().data(a).asked, mesh().data(b).asked),
+                        std::min(mesh().size(a), mesh().size(b)) + options_.growth * mesh().calc_edge_length(e) / 3);
     }
-    double ratio(Edge e) const { return surface_.length(e) / target(e); }
+    double ratio(Edge e) const { return mesh().calc_edge_length(e) / target(e); }
     bool is_alive(Edge e) const { return !mesh().status(e).deleted(); }
 
     // Lawson's flips within flat regions.
@@ -116,7 +112,7 @@ class Remesher {
         for (std::size_t steps = 0; !open.empty() && steps < limit; ++steps) {
             const Edge e = open.back();
             open.pop_back();
-            if (!is_alive(e) || !surface_.is_flat(e) || !surface_.make_delaunay(e)) continue;
+            if (!is_alive(e) || !mesh().is_flat(e) || !surface_.make_delaunay(e)) continue;
             for (const int side : {0, 1}) {
                 const HalfEdge h = mesh().halfedge_handle(e, side);
                 open.push_back(mesh().edge_handle(mesh().next_halfedge_handle(h)));
@@ -131,7 +127,7 @@ class Remesher {
     std::vector<std::pair<double, Edge>> edges_by_length(Wanted is_wanted) const {
         std::vector<std::pair<double, Edge>> edges;
         for (const auto e : mesh().edges())
-            if (const double length = surface_.length(e); is_wanted(e, length)) edges.emplace_back(length, e);
+            if (const double length = mesh().calc_edge_length(e); is_wanted(e, length)) edges.emplace_back(length, e);
         std::sort(edges.begin(), edges.end());
         return edges;
     }
@@ -151,8 +147,8 @@ class Remesher {
         Refusals refused;
         const auto last_change = [&](Edge e) {
             const HalfEdge h = mesh().halfedge_handle(e, 0);
-            return std::max(surface_.last_change(mesh().to_vertex_handle(h)),
-                            surface_.last_change(mesh().from_vertex_handle(h)));
+            return std::max(mesh().last_change(mesh().to_vertex_handle(h)),
+                            mesh().last_change(mesh().from_vertex_handle(h)));
         };
         for (int pass = 0; pass < most_simplifications; ++pass) {
             std::size_t collapsed = 0;
@@ -200,10 +196,11 @@ class Remesher {
             const Edge e = longest_around(wanted);
             const Vertex a = mesh().to_vertex_handle(mesh().halfedge_handle(e, 0));
             const Vertex b = mesh().to_vertex_handle(mesh().halfedge_handle(e, 1));
-            const double size = std::min(surface_.size(a), surface_.size(b)) + options_.growth * surface_.length(e) / 2;
+            const double size =
+                std::min(mesh().size(a), mesh().size(b)) + options_.growth * mesh().calc_edge_length(e) / 2;
             const std::int32_t fold = mesh().data(e).fold;
             const Vertex v = surface_.split(e, 0.5);
-            surface_.set_size(v, sizes_->of_new(v, fold, size), sizes_->asked(surface_.point(v)));
+            surface_.set_size(v, sizes_->of_new(v, fold, size), sizes_->asked(mesh().point(v)));
             for (const auto h : mesh().voh_range(v))
                 around.push_back(mesh().edge_handle(mesh().next_halfedge_handle(h)));
             legalise(around, 200);
@@ -223,7 +220,7 @@ class Remesher {
                 const HalfEdge h = mesh().halfedge_handle(e, side);
                 for (const Edge other : {mesh().edge_handle(mesh().next_halfedge_handle(h)),
                                          mesh().edge_handle(mesh().prev_halfedge_handle(h))})
-                    if (surface_.length(other) > surface_.length(e) * (1 + 1e-9)) {
+                    if (mesh().calc_edge_length(other) > mesh().calc_edge_length(e) * (1 + 1e-9)) {
                         e = other;
                         goes_on = true;
                     }
@@ -238,7 +235,7 @@ class Remesher {
             std::size_t flipped = 0;
             for (const auto e : mesh().edges()) {
                 poll();
-                if (refused_flips_.knows(e.idx(), surface_.last_change(e))) continue;
+                if (refused_flips_.knows(e.idx(), mesh().last_change(e))) continue;
                 if (surface_.flip(e))
                     ++flipped;
                 else
@@ -253,19 +250,19 @@ class Remesher {
         for (int pass = 0; pass < smoothings; ++pass)
             for (const auto v : mesh().vertices()) {
                 poll();
-                if (refused_moves_.knows(v.idx(), surface_.last_change(v))) continue;
+                if (refused_moves_.knows(v.idx(), mesh().last_change(v))) continue;
                 Vec3 sum = Vec3::Zero();
                 double weights = 0;
                 for (const auto h : mesh().voh_range(v)) {
                     const Vec3 &b = mesh().point(h.to()), &c = mesh().point(h.next().to());
                     const Vec3 centre = (mesh().point(v) + b + c) / 3;
                     const double area = (b - mesh().point(v)).cross(c - mesh().point(v)).norm();
-                    const double size = (surface_.size(v) + surface_.size(h.to()) + surface_.size(h.next().to())) / 3;
+                    const double size = (mesh().size(v) + mesh().size(h.to()) + mesh().size(h.next().to())) / 3;
                     const double weight = area / (size * size);
                     sum += weight * centre;
                     weights += weight;
                 }
-                if (weights > 0 && (sum / weights - mesh().point(v)).norm() > least_move * surface_.size(v))
+                if (weights > 0 && (sum / weights - mesh().point(v)).norm() > least_move * mesh().size(v))
                     if (surface_.move(v, sum / weights)) continue;
                 refused_moves_.note(v.idx(), surface_.changes());
             }
@@ -275,7 +272,7 @@ class Remesher {
     void mend_needles() {
         const EditedSurface::CollapseRules rules = {.good_sine = sine_of_10};
         for (const auto f : mesh().faces()) {
-            if (mesh().status(f).deleted() || surface_.sine(f) > sine_of_20) continue;
+            if (mesh().status(f).deleted() || mesh().sine(f) > sine_of_20) continue;
             HalfEdge shortest = mesh().halfedge_handle(f);
             for (const auto h : mesh().fh_range(f))
                 if (mesh().calc_edge_length(h) < mesh().calc_edge_length(shortest)) shortest = h;
@@ -288,77 +285,6 @@ class Remesher {
     std::optional<FoldSizes> sizes_;
     std::int64_t steps_ = 0;
     Refusals refused_moves_, refused_flips_;
-};
-
-// Calls visit(point) for the points of a facet that divide each edge in so many.
-template <class Visit>
-void for_each_sample(const std::vector<Vec3>& vertices, const Triangle& t, Visit visit) {
-    for (int i = 0; i <= samples_per_edge; ++i)
-        for (int j = 0; i + j <= samples_per_edge; ++j)
-            visit(Vec3((i * vertices[t[0]] + j * vertices[t[1]] + (samples_per_edge - i - j) * vertices[t[2]]) /
-                       samples_per_edge));
-}
-
-// Compares a result with the input: facets that meet, and points too far from the other surface. Says which facets of
-// the input are there.
-class Inspection {
- public:
-    Inspection(const SurfaceArrays& input, const TriangleTree& input_tree, const RemeshOptions& options)
-        : input_(input),
-          input_tree_(input_tree),
-          deviation_(options.deviation),
-          poll_(options.poll),
-          refused_(input.facets.size(), 0) {}
-
-    std::vector<char> run(const SurfaceArrays& result, RemeshReport& report) {
-        for (const auto& [f, g] : find_self_intersections(result.vertices, result.facets))
-            for (const std::int32_t facet : {f, g}) refuse_around(result, facet);
-        Side to_input{Nearness(input_tree_, input_.facets), first_bound * deviation_};
-        for (const Triangle& t : result.facets)
-            if (!is_near(result.vertices, t, to_input))
-                for_each_sample(result.vertices, t, [&](const Vec3& p) { refused_[input_tree_.closest(p).facet] = 1; });
-        const TriangleTree tree(result.vertices, result.facets);
-        Side from_input{Nearness(tree, result.facets), first_bound * deviation_};
-        for (std::size_t f = 0; f < input_.facets.size(); ++f)
-            if (!is_near(input_.vertices, input_.facets[f], from_input)) refused_[f] = 1;
-        report.distance_to_input = to_input.nearness.directed_distance();
-        report.distance_from_input = from_input.nearness.directed_distance();
-        return std::move(refused_);
-    }
-
- private:
-    // One of the surfaces, and what the facets of the other are known to be near.
-    struct Side {
-        Nearness nearness;
-        double bound;            // that does for all so far
-        std::int32_t last = -1;  // facet of this side that the last one is near
-    };
-
-    bool is_near(const std::vector<Vec3>& vertices, const Triangle& t, Side& side) const {
-        if (poll_) poll_();
-        const auto holds = [&] {
-            return side.nearness.holds(
-                {vertices[t[0]], vertices[t[1]], vertices[t[2]]}, side.bound, [&](std::int32_t) { return side.bound; },
-                most_divisions_of_inspection, side.last);
-        };
-        for (; !holds(); side.bound = std::min(deviation_, step_of_bound * side.bound))
-            if (side.bound == deviation_) return false;
-        return true;
-    }
-    void refuse_around(const SurfaceArrays& result, std::int32_t facet) {
-        for_each_sample(result.vertices, result.facets[facet], [&](const Vec3& p) {
-            input_tree_.any_within(p, deviation_, [&](std::int32_t near, double) {
-                refused_[near] = 1;
-                return false;
-            });
-        });
-    }
-
-    const SurfaceArrays& input_;
-    const TriangleTree& input_tree_;
-    double deviation_;
-    const std::function<void()>& poll_;
-    std::vector<char> refused_;
 };
 
 std::vector<InputPlace> places_on(const TriangleTree& input, const std::vector<Vec3>& vertices) {
@@ -376,7 +302,7 @@ Remeshed remesh_once(const SurfaceArrays& surface, const TriangleTree& tree, con
     const InputShape input(surface, tree, tolerance, options.feature_angle_deg, options.creases);
     Remesher remesher(input, options);
     remesher.run();
-    return {remesher.surface().arrays(), {}, {.feature_edges = remesher.surface().feature_edges()}};
+    return {remesher.surface().arrays(), {}, {.feature_edges = remesher.surface().mesh().feature_edges()}};
 }
 
 void check_remesh_options(const RemeshOptions& options) {
@@ -410,7 +336,7 @@ Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& options) {
     for (int round = 1;; ++round) {
         Remeshed result = remesh_once(surface, tree, tolerance, options);
         result.report.rounds = round;
-        const std::vector<char> refused = Inspection(surface, tree, options).run(result.surface, result.report);
+        const std::vector<char> refused = inspect(surface, tree, options, result.surface, result.report);
         const auto count = std::count(refused.begin(), refused.end(), char{1});
         if (count == 0) {
             result.places = places_on(tree, result.surface.vertices);

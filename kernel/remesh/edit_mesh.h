@@ -1,0 +1,71 @@
+// The half-edge mesh of the remesher, and what can be asked about it.
+#pragma once
+
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+
+// Specialises what the header above declares.
+#include <OpenMesh/Core/Geometry/EigenVectorT.hh>
+
+#include "surface/surface.h"
+
+namespace kerf {
+
+struct EditTraits : OpenMesh::DefaultTraits {
+    using Point = Vec3;
+    using Normal = Vec3;
+    VertexAttributes(OpenMesh::Attributes::Status);
+    FaceAttributes(OpenMesh::Attributes::Status);
+    EdgeAttributes(OpenMesh::Attributes::Status);
+    HalfedgeAttributes(OpenMesh::Attributes::Status | OpenMesh::Attributes::PrevHalfedge);
+    VertexTraits {
+        double size = 0;          // wanted length of the edges
+        double asked = 0;         // by the user alone, at least size
+        double tolerance = 0;     // of the input around
+        std::int32_t input = -1;  // vertex of the input that it is, -1: none
+    };
+    FaceTraits {
+        std::int32_t patch = 0;
+        std::int32_t region = -1;       // flat region that holds its corners, -1: none
+        std::int32_t near = -1;         // some facet of the input near it
+        std::int32_t first_point = -1;  // of the input's vertices that it stands for
+        std::int64_t changed = 0;       // number of the operation that last changed it
+    };
+    EdgeTraits {
+        bool is_feature = false;
+        std::int32_t fold = -1;  // number of the fold that it is a piece of
+    };
+};
+
+class EditMesh : public OpenMesh::TriMesh_ArrayKernelT<EditTraits> {
+ public:
+    using Corners = std::array<Vec3, 3>;
+
+    Corners corners(FaceHandle f) const;
+    /// Smallest of the angles of a facet, as its sine.
+    double sine(FaceHandle f) const;
+    double size(VertexHandle v) const { return data(v).size; }
+    /// Features that meet at the vertex.
+    int feature_count(VertexHandle v) const;
+    EdgeHandle edge_between(VertexHandle v, VertexHandle w) const { return edge_handle(find_halfedge(v, w)); }
+    std::array<FaceHandle, 2> facets_at(EdgeHandle e) const {
+        return {face_handle(halfedge_handle(e, 0)), face_handle(halfedge_handle(e, 1))};
+    }
+    /// Whether the facets at the edge lie in one flat region, and it is no feature.
+    bool is_flat(EdgeHandle e) const;
+    /// Whether all facets around the vertex lie in one flat region, and no feature is there.
+    bool is_inside_region(VertexHandle v) const;
+    /// cos of the angle between the normals of the facets at the edge.
+    double fold_cosine(EdgeHandle e) const;
+    /// Number of the operation that last changed the facets around a vertex or at an edge: what was refused there since
+    /// then is refused again.
+    std::int64_t last_change(VertexHandle v) const;
+    std::int64_t last_change(EdgeHandle e) const;
+    std::int64_t feature_edges() const;
+    /// The facets and vertices that are left, in order. Renumbers everything.
+    SurfaceArrays arrays();
+};
+
+/// The cross product of two edges: twice the area of the triangle, along its normal.
+Vec3 area_normal(const EditMesh::Corners& t);
+
+}  // namespace kerf
