@@ -3,11 +3,9 @@
 
 #include <string>
 
-#include "prepare/input.h"
+#include "report/file_diagnosis.h"
 
 namespace kerf {
-
-inline constexpr NumberRange needle_angle_range = {"0 (no needles) to 60 degrees", 0, 60};
 
 struct CheckRequest {
     std::string path;

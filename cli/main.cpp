@@ -56,7 +56,7 @@ void check_outputs(const CommandLine& line, Communicator& ranks) {
             for (const std::string& read :
                  {line.options.input, node_file_of(line.options.input), line.options.sizes.field_file})
                 refuse_to_overwrite(read, "--output", line.merged_file);
-            check_merged_file({line.options.output, line.merged_file, {}, line.quiet});
+            check_merged_file({line.options.output, line.merged_file, {}});
             outputs.push_back({"--output", line.merged_file});
         }
         for (const NamedPath& output : outputs) refuse_to_overwrite(line.config_file, output.option, output.path);
@@ -69,7 +69,7 @@ void merge_result(const CommandLine& line, const RunReport& report, Communicator
     in_agreement(ranks, [&] {
         if (ranks.rank() != 0) return;
         try {
-            merge_run({.folder = report.folder, .output = line.merged_file, .options = {}, .quiet = true});
+            merge_run({.folder = report.folder, .output = line.merged_file, .options = {}});
         } catch (const Error& e) {
             throw Error(e.code(), fmt::format("{} The mesh is whole in {}; kerf merge {} -o {} writes it.", e.what(),
                                               report.folder, shell_word(report.folder), shell_word(line.merged_file)));
@@ -175,7 +175,7 @@ int run_program(int argc, char** argv) {
         case Command::export_formats:
             return export_formats(line.export_request, line.quiet);
         case Command::merge:
-            return merge_run(line.merge);
+            return merge_command(line.merge, line.quiet);
         case Command::quality:
             return show_quality(line.quality);
         case Command::remesh:

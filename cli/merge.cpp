@@ -1,138 +1,16 @@
 #include "cli/merge.h"
 
-#include <cerrno>
-#include <cstdint>
-#include <cstdlib>
-#include <filesystem>
-#include <string_view>
-#include <system_error>
-
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "io/output_file.h"
-#include "io/run_folder.h"
 #include "io/standard_streams.h"
-#include "part/solution_parts.h"
 
 namespace kerf {
 
-namespace {
-
-namespace fs = std::filesystem;
-
-constexpr std::string_view run_ending = ".kerf-run";
-
-const Format& format_of(const fs::path& file) {
-    if (const Format* format = find_merged_format(file.string())) return *format;
-    std::string endings;
-    for (const Format* format : formats())
-        if (format->ending) endings += fmt::format("{}{}", endings.empty() ? "" : ", ", format->ending);
-    throw Error(ErrorCode::usage, fmt::format("--output is {}, whose ending is that of no format. There are {}.",
-                                              file.string(), endings));
-}
-
-// A folder for files that are not complete yet, on the disk where they will lie. Removed with what is in it.
-class FolderBeside {
- public:
-    explicit FolderBeside(const fs::path& file) : path_(file.string() + ".XXXXXX") {
-        if (::mkdtemp(path_.data())) return;
-        const std::string reason = std::generic_category().message(errno);
-        throw Error(ErrorCode::io, fmt::format("Cannot write beside {}: {}. Choose another place for --output.",
-                                               file.string(), reason));
-    }
-    ~FolderBeside() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    FolderBeside(const FolderBeside&) = delete;
-    FolderBeside& operator=(const FolderBeside&) = delete;
-
-    const std::string& path() const { return path_; }
-
- private:
-    std::string path_;
-};
-
-// Where a file goes: behind links, to a place that is free or has a file, and outside of the run.
-fs::path place_for(const fs::path& file, const std::string& run) {
-    const fs::path place = behind_links(file.string());
-    if (lies_inside(place.string(), run))
-        throw Error(ErrorCode::io, fmt::format("--output is {}, which lies in the run {}, whose files it would mix "
-                                               "with others. Choose another place.",
-                                               file.string(), run));
-    require_writable("--output", file.string());
-    std::error_code ignored;
-    if (fs::exists(place, ignored) && !fs::is_regular_file(place, ignored))
-        throw Error(ErrorCode::io,
-                    fmt::format("--output is {}, which is no file. Choose another place.", file.string()));
-    return place;
-}
-
-// An older file gives its permissions to the one that replaces it.
-void move_to(const fs::path& from, const fs::path& place) {
-    std::error_code error, ignored;
-    if (fs::exists(place, ignored)) fs::permissions(from, fs::status(place).permissions(), ignored);
-    fs::rename(from, place, error);
-    if (error)
-        throw Error(ErrorCode::io, fmt::format("Cannot rename {} to {}: {}. Choose another place for --output.",
-                                               from.string(), place.string(), error.message()));
-}
-
-}  // namespace
-
-const Format* find_merged_format(const std::string& file) {
-    for (const Format* format : formats())
-        if (format->ending && fs::path(file).extension() == format->ending) return format;
-    return nullptr;
-}
-
-void check_merged_file(const MergeRequest& request) {
-    format_of(request.output);
-    place_for(request.output, request.folder);
-}
-
-std::string run_folder_beside(const std::string& merged_file) { return merged_file + std::string(run_ending); }
-
-std::string merged_file_of(const std::string& run_folder) {
-    std::string file = RunFolder::result_of(run_folder);
-    while (file.ends_with('/')) file.pop_back();
-    if (!file.ends_with(run_ending)) return "";
-    file.resize(file.size() - run_ending.size());
-    return find_merged_format(file) ? file : "";
-}
-
-int merge_run(const MergeRequest& request) {
-    const fs::path output = request.output;
-    const Format& format = format_of(output);
-    if (request.msh_ascii && &format != &find_format("msh"))
-        throw Error(ErrorCode::usage, fmt::format("--msh-ascii is for files that end with .msh, and --output is {}. "
-                                                  "Drop one.",
-                                                  request.output));
-    const fs::path main_place = place_for(output, request.folder);
-    if (const auto solution = find_solution_folder(request.folder)) place_for(output, mesh_of_solution(*solution));
-    const std::unique_ptr<PartSource> source = open_parts(request.folder);
-    const PartSource& parts = *source;
-    const FolderBeside beside(main_place);
-    ExportFiles files(beside.path(), "", {}, {.msh_ascii = request.msh_ascii});
-    format.write_merged(parts, request.options, files, output.stem().string());
-
-    const std::vector<RunFile> written = files.list();
-    std::vector<fs::path> places;
-    for (const RunFile& file : written)
-        places.push_back(fs::path(file.path) == output.filename()
-                             ? main_place
-                             : place_for(output.parent_path() / file.path, request.folder));
-    std::uintmax_t bytes = 0;
-    for (std::size_t i = 0; i < written.size(); ++i) {
-        move_to(fs::path(beside.path()) / written[i].path, places[i]);
-        bytes += fs::file_size(places[i]);
-    }
-
-    if (request.quiet) return 0;
-    const MeshOutline& outline = parts.outline();
-    tell(fmt::format("kerf: {}: {} vertices, {} tetrahedra, {:.1f} MB\n", request.output, outline.vertices,
-                     outline.tets(), static_cast<double>(bytes) * 1e-6));
+int merge_command(const MergeRequest& request, bool quiet) {
+    const MergedFile merged = merge_run(request);
+    if (!quiet)
+        tell(fmt::format("kerf: {}: {} vertices, {} tetrahedra, {:.1f} MB\n", request.output, merged.vertices,
+                         merged.tets, static_cast<double>(merged.bytes) * 1e-6));
     return 0;
 }
 

@@ -23,6 +23,10 @@ struct FolderVerification {
     std::int32_t parts = 0;
     std::vector<std::string> differences;  ///< what is not as the run has left it, or does not follow from the mesh
     std::string not_compared;              ///< why the input was not compared; empty: it was, or was not to be
+
+    /// Value of ErrorCode: `verification` if a law that was asked for does not hold, `io` if all that can be told
+    /// without the input hold, but that is gone or another; 0: every law holds.
+    int exit_code() const;
 };
 
 /// Reads report.json, the input and every file of a run folder, one part at a time, and checks every law again: each
@@ -31,5 +35,8 @@ struct FolderVerification {
 /// (quality, headers, surfaces, mesh.pvtu, totals, the hash of the mesh) is computed again and compared. Memory follows
 /// the surface, not the mesh. Throws Error(io) for a folder that is no finished run, a missing or unreadable part.
 FolderVerification verify_folder(const std::string& folder, const VerifyOptions& options = {});
+
+/// Lines for people: counts, a line for each law that does not hold, the verdict.
+std::string to_text(const FolderVerification& found, const std::string& folder, const VerifyOptions& options);
 
 }  // namespace kerf

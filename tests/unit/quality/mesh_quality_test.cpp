@@ -9,12 +9,12 @@
 #include <regex>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "quality/compared_quality.h"
 #include "quality/histogram_rows.h"
-#include "quality/quality_gate.h"
 #include "quality/quality_sheet.h"
-#include "quality/quality_text.h"
 #include "support/shapes.h"
 #include "support/surface_files.h"
 #include "support/temporary_folder.h"
@@ -159,6 +159,23 @@ TEST(MeshQuality, OfAFileWithoutTrianglesHasThoseOfItsHull) {
         EXPECT_NEAR(hull.boundary.measures[i].max(), listed.boundary.measures[i].max(), 1e-12);
     }
     EXPECT_NEAR(hull.boundary.measures[0].min(), 45, 1e-9);
+}
+
+TEST(ComparedQuality, HasOneLengthScaleAndTheLimitsOfTheFirst) {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder.file("small.mesh")) << test::to_medit(test::tetrahedron(), {{0, 1, 2, 3}});
+    Soup twice = test::tetrahedron();
+    for (Vec3& p : twice.vertices) p *= 2;
+    std::ofstream(folder.file("large.mesh")) << test::to_medit(twice, {{0, 1, 2, 3}});
+    const ComparedQuality both = compare_quality(folder.file("small.mesh"), folder.file("large.mesh"));
+    EXPECT_EQ(to_text(both, QualityDetail::brief), comparison_text(both.mesh, *both.other, QualityDetail::brief));
+    EXPECT_EQ(to_picture(both), comparison_sheet(both.mesh, *both.other));
+    const auto missed = QualityGate::parse("volume=1", "max-edge=2").missed_by(both.mesh);
+    ASSERT_EQ(missed.size(), 1U);
+    const auto json = nlohmann::json::parse(to_json(both, missed));
+    EXPECT_EQ(json["missed_limits"][0], missed[0]);
+    EXPECT_EQ(json["compared_with"]["tets"], json["tets"]);
+    EXPECT_FALSE(compare_quality(folder.file("small.mesh")).other);
 }
 
 TEST(QualityGate, ComparesTheWorstWithItsLimit) {

@@ -1,0 +1,40 @@
+// A finished run as one mesh in a file.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "export/format.h"
+
+namespace kerf {
+
+struct MergeRequest {
+    std::string folder;  ///< of the run
+    std::string output;  ///< file, whose ending chooses the format
+    MergeOptions options;
+    bool msh_ascii = false;  ///< Gmsh's files as text
+};
+
+/// What merge_run() has written.
+struct MergedFile {
+    std::int64_t vertices = 0, tets = 0;
+    std::int64_t bytes = 0;  ///< of all files of the mesh
+};
+
+/// The format that merges a run into a file with the ending of this one; null if there is none, also for a folder's
+/// name with a slash at its end.
+const Format* find_merged_format(const std::string& file);
+
+/// Throws Error if the request's file could not be written, or lies in its run, which need not be there yet.
+void check_merged_file(const MergeRequest& request);
+
+/// The folder of a run whose mesh is to be merged into the file when it is done: beside it.
+std::string run_folder_beside(const std::string& merged_file);
+/// The file of such a folder, or of its partial folder; empty for the name of any other.
+std::string merged_file_of(const std::string& run_folder);
+
+/// Writes all files of the mesh beside their places and moves them there when they are complete. Refuses places inside
+/// of the run's folder. Throws Error.
+MergedFile merge_run(const MergeRequest& request);
+
+}  // namespace kerf

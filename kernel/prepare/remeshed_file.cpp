@@ -1,0 +1,34 @@
+#include "prepare/remeshed_file.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "io/obj_writer.h"
+#include "io/output_file.h"
+#include "io/stl_writer.h"
+#include "prepare/remeshing.h"
+
+namespace kerf {
+
+RemeshedFile remesh_file(RunOptions options, const std::string& output, StageListener* listener) {
+    const std::string ending = std::filesystem::path(output).extension().string();
+    if (ending != ".obj" && ending != ".stl")
+        throw Error(ErrorCode::usage, fmt::format("--output is {}, but surfaces are written as .obj or .stl.", output));
+    refuse_to_overwrite(options.input, "--output", output);
+    require_writable("--output", output);
+    options.remeshing = Remeshing::always;
+    options.input_options.check();
+    options.sizes.check();
+    Input input = read_input(options.input, options.input_options);
+    input = remesh_where_asked(std::move(input), with_lengths(options, input.diagonal), listener);
+    const SurfaceArrays surface = input.surface.arrays();
+    if (ending == ".obj")
+        write_obj(output, surface.vertices, surface.facets, surface.patch, input.patch_names);
+    else
+        write_stl(output, surface.vertices, surface.facets);
+    return {static_cast<std::int64_t>(surface.facets.size()), *input.remeshed};
+}
+
+}  // namespace kerf

@@ -1,0 +1,23 @@
+// A surface file remeshed into another one.
+#pragma once
+
+#include <string>
+
+#include "prepare/input.h"
+#include "prepare/stage_listener.h"
+#include "request/options.h"
+
+namespace kerf {
+
+/// What remesh_file() has written.
+struct RemeshedFile {
+    std::int64_t facets = 0;
+    InputRemeshing done;
+};
+
+/// Remeshes options.input within options.deviation to the wanted lengths (prepare/remeshing.h) and writes it to `output`,
+/// an .obj with patches or an .stl. `listener` may be null. Throws Error, before the work where the output cannot be
+/// written.
+RemeshedFile remesh_file(RunOptions options, const std::string& output, StageListener* listener = nullptr);
+
+}  // namespace kerf

@@ -1,0 +1,163 @@
+#include "report/file_diagnosis.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "io/cad_body.h"
+#include "prepare/remeshing.h"
+#include "surface/regions.h"
+
+namespace kerf {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json defect_json(const Defect& defect, const Soup& soup) {
+    Json json = {{"kind", name(defect.kind)},
+                 {"severity", name(defect.severity)},
+                 {"facets", soup.file_facets(defect.facets)},
+                 {"vertices", soup.file_vertices(defect.vertices)},
+                 {"where", {defect.where.x(), defect.where.y(), defect.where.z()}},
+                 {"what_to_do", remedy(defect)}};
+    if (defect.kind == DefectKind::needle) json["angle_deg"] = defect.measure;
+    if (defect.kind == DefectKind::open_edge || defect.kind == DefectKind::short_edge) json["length"] = defect.measure;
+    return json;
+}
+
+Json repairs_json(const InputRepairs& r) {
+    return {{"vertices_welded", r.welded_vertices}, {"vertices_unused", r.unused_vertices},
+            {"facets_dropped", r.dropped_facets},   {"vertices_merged", r.merged_vertices},
+            {"facets_removed", r.removed_facets},   {"holes_filled", r.filled_holes},
+            {"facets_added", r.added_facets}};
+}
+
+Json surface_json(const std::string& path, const CheckedSoup& checked) {
+    const Soup& soup = checked.soup;
+    Json counts = Json::object(), defects = Json::array();
+    for (std::size_t k = 0; k < defect_kind_count; ++k)
+        if (const std::int64_t n = checked.diagnosis.counts[k]) counts[name(static_cast<DefectKind>(k))] = n;
+    for (const Defect& defect : checked.diagnosis.defects) defects.push_back(defect_json(defect, soup));
+    return {{"path", path},
+            {"can_be_meshed", checked.diagnosis.clean()},
+            {"vertices", soup.vertices.size()},
+            {"faces", soup.facets.size()},
+            {"patches", soup.patch_names},
+            {"notes", soup.notes},
+            {"repairs", repairs_json(checked.repairs)},
+            {"counts", std::move(counts)},
+            {"defects", std::move(defects)}};
+}
+
+Json refused_json(const std::string& path, const RefusedFile& refused) {
+    return {{"path", path},
+            {"can_be_meshed", false},
+            {"counts", {{refused.kind, 1}}},
+            {"defects", Json::array({Json{{"kind", refused.kind},
+                                          {"severity", "error"},
+                                          {"facets", Json::array()},
+                                          {"vertices", Json::array()},
+                                          {"message", refused.error.what()}}})}};
+}
+
+std::string place_and_measure(const Defect& defect, const Soup& soup) {
+    const std::string text = place(defect, soup);
+    if (defect.kind == DefectKind::needle) return fmt::format("{}, {:.3g} deg", text, defect.measure);
+    if (defect.kind == DefectKind::open_edge)
+        return fmt::format("{}, {} edges, length {:.6g}", text, defect.facets.size(), defect.measure);
+    if (defect.kind == DefectKind::short_edge) return fmt::format("{}, length {:.3g}", text, defect.measure);
+    return text;
+}
+
+// The defects of one kind and severity, in their order. A single one takes one line; of many, the worst are named: the
+// longest loops, the smallest angles, the shortest edges, the first of what has no measure.
+std::string group_text(const CheckedSoup& checked, std::vector<const Defect*> defects) {
+    constexpr std::size_t most_named = 10;
+    std::stable_sort(defects.begin(), defects.end(), [](const Defect* a, const Defect* b) {
+        return a->kind == DefectKind::open_edge ? a->measure > b->measure : a->measure < b->measure;
+    });
+    const Defect& worst = *defects.front();
+    const auto listed = static_cast<std::int64_t>(defects.size());
+    const std::int64_t count =
+        worst.severity == Severity::warning ? checked.diagnosis.count(worst.kind) : listed;  // not all are listed
+    const std::string head = fmt::format("  {:<9} {}", name(worst.severity), counted(count, worst.kind));
+    if (count == 1) return fmt::format("{}: {}; {}.\n", head, place_and_measure(worst, checked.soup), remedy(worst));
+    std::string text = fmt::format("{}; {}:\n", head, remedy(worst));
+    const std::size_t named = std::min(defects.size(), most_named);
+    for (std::size_t i = 0; i < named; ++i)
+        text += fmt::format("{:12}{}\n", "", place_and_measure(*defects[i], checked.soup));
+    const std::int64_t more = count - static_cast<std::int64_t>(named);
+    return more > 0 ? fmt::format("{}{:12}and {} more\n", text, "", more) : text;
+}
+
+// By kind, and the errors of a kind before what is repaired.
+std::string defects_text(const CheckedSoup& checked) {
+    std::map<std::pair<DefectKind, Severity>, std::vector<const Defect*>> groups;
+    for (const Defect& defect : checked.diagnosis.defects) groups[{defect.kind, defect.severity}].push_back(&defect);
+    std::string text;
+    for (const auto& [kind, defects] : groups) text += group_text(checked, defects);
+    return text;
+}
+
+}  // namespace
+
+int FileDiagnosis::exit_code() const {
+    if (refused) return static_cast<int>(refused->error.code());
+    return can_be_meshed() ? 0 : static_cast<int>(ErrorCode::input);
+}
+
+FileDiagnosis diagnose_file(const std::string& path, const InputOptions& options, double needle_angle_deg) {
+    options.check();
+    require_in(needle_angle_range, "needle-angle", needle_angle_deg);
+    FileDiagnosis found{path, {}, {}};
+    try {
+        found.checked = check_input(path, options, needle_angle_deg);
+    } catch (const SolidDefect& defect) {
+        found.refused = {defect.kind(), defect};
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::input) throw;
+        found.refused = {"unreadable", error};
+    }
+    return found;
+}
+
+std::string to_json(const FileDiagnosis& found) {
+    const Json json =
+        found.refused ? refused_json(found.path, *found.refused) : surface_json(found.path, found.checked);
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string to_text(const FileDiagnosis& found) {
+    if (found.refused) return fmt::format("  error     {}: {}\n", found.refused->kind, found.refused->error.what());
+    const Soup& soup = found.checked.soup;
+    std::string text =
+        fmt::format("{}: {} facets, {} vertices, {} patch{}\n", found.path, soup.facets.size(), soup.vertices.size(),
+                    soup.patch_names.size(), soup.patch_names.size() == 1 ? "" : "es");
+    for (const std::string& note : soup.notes) text += fmt::format("  note      {}\n", note);
+    text += defects_text(found.checked);
+    const bool clean = found.can_be_meshed();
+    if (const std::string note = sliver_note(find_slivers(soup.vertices, soup.facets), found.path);
+        clean && !note.empty() && !soup.is_of_model)  // else kerf mesh remeshes it anyway
+        text += fmt::format("  slivers   {}\n", note);
+    return text + (clean ? "It can be meshed.\n" : "It cannot be meshed as it is.\n");
+}
+
+std::vector<PatchSummary> patches_of_run(FileDiagnosis found, const InputOptions& options) {
+    if (found.refused) throw found.refused->error;
+    CheckedSoup& checked = found.checked;
+    if (checked.diagnosis.clean())
+        apply_repairs(checked);
+    else if (options.feature_angle_deg > 0)
+        throw Error(ErrorCode::input, fmt::format("{}: {} Only a surface that can be meshed is divided at "
+                                                  "--feature-angle: leave that out, or repair the surface.",
+                                                  found.path, checked.diagnosis.summary(checked.soup)));
+    if (options.feature_angle_deg > 0 && checked.soup.patch_names.size() == 1)
+        make_feature_patches(checked.soup, options.feature_angle_deg);
+    return summarize_patches(checked.soup);
+}
+
+}  // namespace kerf
