@@ -59,19 +59,19 @@ void write_coordinate(ExportFile& file, double x) {
     char* end = std::to_chars(begin, begin + text.size(), x).ptr;
     for (int precision = 15; end - begin > most_digits; --precision)
         end = std::to_chars(begin, begin + text.size(), x, std::chars_format::scientific, precision).ptr;
-    file.text({begin, static_cast<std::size_t>(end - begin)});
+    file.write({begin, static_cast<std::size_t>(end - begin)});
 }
 
 void write_nodes(const PartSource& parts, ExportFile& file) {
-    file.text("*NODE, NSET=NALL\n");
+    file.write("*NODE, NSET=NALL\n");
     for_each_vertex(parts, [&](std::int64_t first, std::span<const Vec3> points) {
         for (const Vec3& p : points) {
             file.number(++first);
             for (const double x : {p.x(), p.y(), p.z()}) {
-                file.text(",");
+                file.write(",");
                 write_coordinate(file, x);
             }
-            file.text("\n");
+            file.write("\n");
         }
     });
 }
@@ -79,13 +79,13 @@ void write_nodes(const PartSource& parts, ExportFile& file) {
 void write_elements(const PartSource& parts, ExportFile& file) {
     std::int64_t element = 0;
     for_each_part(parts, [&](std::int32_t rank, const Part& part) {
-        file.text(fmt::format("** part {}\n*ELEMENT, TYPE=C3D4, ELSET=SUBDOMAIN_{}\n", part.id, rank + 1));
+        file.write(fmt::format("** part {}\n*ELEMENT, TYPE=C3D4, ELSET=SUBDOMAIN_{}\n", part.id, rank + 1));
         for (const Tetrahedron& tet : part.mesh.tets) {
             const auto [a, b, c, d] = global_corners(part, tet);
             write_row(file, {++element, a + 1, b + 1, c + 1, d + 1}, ",");
         }
     });
-    file.text(fmt::format("*ELSET, ELSET=EALL, GENERATE\n1,{},1\n", element));
+    file.write(fmt::format("*ELSET, ELSET=EALL, GENERATE\n1,{},1\n", element));
 }
 
 // An element of a body: for_each_by_patch() takes what has such a number.
@@ -97,16 +97,16 @@ struct BodyElement {
 void write_list(ExportFile& file, std::span<const std::int64_t> labels) {
     constexpr std::size_t in_a_line = 12;
     for (std::size_t i = 0; i < labels.size(); ++i) {
-        if (i > 0) file.text(i % in_a_line ? "," : "\n");
+        if (i > 0) file.write(i % in_a_line ? "," : "\n");
         file.number(labels[i]);
     }
-    file.text("\n");
+    file.write("\n");
 }
 
 void write_body_sets(const PartSource& parts, ExportFile& file) {
     const Bodies& bodies = parts.bodies();
     if (bodies.count() == 1)
-        return file.text(fmt::format("*ELSET, ELSET=BODY_1, GENERATE\n1,{},1\n", parts.outline().tets()));
+        return file.write(fmt::format("*ELSET, ELSET=BODY_1, GENERATE\n1,{},1\n", parts.outline().tets()));
     const auto visit = [&](const auto& add) {
         for_each_part(parts, [&](std::int32_t rank, const Part& part) {
             std::int64_t element = parts.outline().first_tet(rank);
@@ -116,7 +116,7 @@ void write_body_sets(const PartSource& parts, ExportFile& file) {
     std::int32_t current = -1;
     std::vector<std::int64_t> elements;
     for_each_by_patch<BodyElement>(bodies.sizes(), visit, [&](std::int32_t body, std::span<const BodyElement> of_body) {
-        if (body != current) file.text(fmt::format("*ELSET, ELSET=BODY_{}\n", body + 1));
+        if (body != current) file.write(fmt::format("*ELSET, ELSET=BODY_{}\n", body + 1));
         current = body;
         elements.clear();
         for (const BodyElement& each : of_body) elements.push_back(each.element);
@@ -137,8 +137,8 @@ void write_node_sets(const PartSource& parts, const Names& names, ExportFile& fi
         std::sort(nodes.begin(), nodes.end());
         nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
         if (patch != current) {
-            file.text(fmt::format("** patch {}: {}\n*NSET, NSET={}\n", patch + 1,
-                                  comment_text(parts.outline().patch_names[p]), names.words[p]));
+            file.write(fmt::format("** patch {}: {}\n*NSET, NSET={}\n", patch + 1,
+                                   comment_text(parts.outline().patch_names[p]), names.words[p]));
             is_written.clear();
         } else {
             std::erase_if(nodes, [&](std::int64_t node) { return is_written[static_cast<std::size_t>(node)]; });
@@ -175,7 +175,7 @@ void write_face_sets(const PartSource& parts, const Names& names, ExportFile& fi
             std::sort(elements.begin(), elements.end());
             const auto p = static_cast<std::size_t>(patch);
             faces_of[p] |= 1U << face;
-            file.text(fmt::format("*ELSET, ELSET={}_S{}\n", names.words[p], face));
+            file.write(fmt::format("*ELSET, ELSET={}_S{}\n", names.words[p], face));
             write_list(file, elements);
         }
     });
@@ -187,9 +187,9 @@ void write_surfaces(const PartSource& parts, const Names& names, ExportFile& fil
     for (std::size_t patch = 0; patch < names.words.size(); ++patch) {
         if (faces_of[patch] == 0) continue;
         const std::string& word = names.words[patch];
-        file.text(fmt::format("*SURFACE, NAME={}, TYPE=ELEMENT\n", word));
+        file.write(fmt::format("*SURFACE, NAME={}, TYPE=ELEMENT\n", word));
         for (unsigned face = 1; face <= 4; ++face)
-            if (faces_of[patch] >> face & 1U) file.text(fmt::format("{}_S{},S{}\n", word, face, face));
+            if (faces_of[patch] >> face & 1U) file.write(fmt::format("{}_S{},S{}\n", word, face, face));
     }
 }
 

@@ -38,7 +38,7 @@ char* ExportFile::room(std::size_t size) {
     return buffer_.data() + used_;
 }
 
-void ExportFile::bytes(const void* data, std::size_t size) {
+void ExportFile::write(const void* data, std::size_t size) {
     if (size >= buffer_.size()) {
         flush();
         file_->write(data, size);
@@ -49,8 +49,6 @@ void ExportFile::bytes(const void* data, std::size_t size) {
     std::memcpy(room(size), data, size);
     used_ += size;
 }
-
-void ExportFile::text(std::string_view text) { bytes(text.data(), text.size()); }
 
 void ExportFile::number(std::int64_t number) {
     char* begin = room(longest_number);
@@ -64,9 +62,9 @@ void ExportFile::number(double number) {
 
 void ExportFile::point(const Vec3& p) {
     number(p.x());
-    text(" ");
+    write(" ");
     number(p.y());
-    text(" ");
+    write(" ");
     number(p.z());
 }
 

@@ -14,15 +14,15 @@
 #include "export/patch_types.h"
 #include "io/checked_file.h"
 #include "io/run_manifest.h"
-#include "part/vtu_writer.h"
+#include "part/cell_fields.h"
 
 namespace kerf {
 
 /// What formats are asked for beside the mesh. Each looks for what concerns it.
 struct FormatOptions {
-    CellFieldSet fields = VtuLayout().fields;  ///< what vtu says of cells
-    bool msh_ascii = false;                    ///< msh as text
-    std::vector<PatchType> patch_types = {};   ///< of openfoam; other patches are of the type `patch`
+    CellFieldSet fields = default_cell_fields;  ///< what vtu says of cells
+    bool msh_ascii = false;                     ///< msh as text
+    std::vector<PatchType> patch_types = {};    ///< of openfoam; other patches are of the type `patch`
 };
 
 class ExportFiles;
@@ -32,15 +32,15 @@ class ExportFile {
  public:
     ExportFile(ExportFile&&) = default;
 
-    void text(std::string_view text);
-    void bytes(const void* data, std::size_t size);
+    void write(const void* data, std::size_t size);
+    void write(std::string_view text) { write(text.data(), text.size()); }
     template <class T>
     void values(std::span<const T> values) {
-        bytes(values.data(), values.size_bytes());
+        write(values.data(), values.size_bytes());
     }
     template <class T>
     void value(const T& value) {
-        bytes(&value, sizeof value);
+        write(&value, sizeof value);
     }
     /// Decimal; a double with as few digits as give it back exactly.
     void number(std::int64_t number);

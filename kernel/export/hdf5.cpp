@@ -5,99 +5,18 @@
 // all its arrays; then parts write their rows, in any order and from any process.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include <fmt/format.h>
-
-#include "core/xml_text.h"
 #include "export/format.h"
+#include "export/hdf5_arrays.h"
 #include "export/hdf5_file.h"
 #include "export/whole_mesh.h"
+#include "export/xdmf.h"
 #include "io/vtk_cell_types.h"
 #include "part/bodies.h"
 
 namespace kerf {
 
 namespace {
-
-// Number of rows in arrays that have some for each part, before the part or over all of them.
-struct PieceRows {
-    std::int64_t points = 0, cells = 0, corners = 0, offsets = 0;
-
-    void add(const PartExtent& part) {
-        points += part.vertices;
-        cells += part.tets + part.patch_facets;
-        corners += 4 * part.tets + 3 * part.patch_facets;
-        offsets += part.tets + part.patch_facets + 1;
-    }
-};
-
-PieceRows rows_before(const MeshOutline& outline, std::size_t rank) {
-    PieceRows rows;
-    for (std::size_t r = 0; r < rank; ++r) rows.add(outline.parts[r]);
-    return rows;
-}
-
-Hdf5Type type_for(std::int64_t largest) {
-    return largest > std::numeric_limits<std::int32_t>::max() ? Hdf5Type::int64 : Hdf5Type::int32;
-}
-
-// Of global numbers.
-Hdf5Type id_type(const MeshOutline& outline) { return type_for(outline.vertices); }
-
-// Of the corners and offsets in a piece, which VTK wants to be of one type.
-Hdf5Type corner_type(const MeshOutline& outline) {
-    std::int64_t most = 0;
-    for (const PartExtent& part : outline.parts) most = std::max(most, 4 * part.tets + 3 * part.patch_facets);
-    return type_for(most);
-}
-
-// A slash would be a group.
-std::string array_name(const PartValues& values) {
-    std::string name = values.name;
-    std::replace(name.begin(), name.end(), '/', '_');
-    return name;
-}
-// Of the pieces, and by global numbers.
-std::string piece_array_of(const PartValues& values) {
-    const bool of_points = values.of == PartValues::Of::points;
-    return (of_points ? "VTKHDF/PointData/" : "VTKHDF/CellData/") + array_name(values);
-}
-std::string whole_array_of(const PartValues& values) {
-    const bool of_points = values.of == PartValues::Of::points;
-    return (of_points ? "fields/vertices/" : "fields/cells/") + array_name(values);
-}
-
-std::vector<Hdf5Array> arrays_of(const MeshOutline& outline) {
-    const auto parts = static_cast<std::int64_t>(outline.parts.size());
-    const PieceRows all = rows_before(outline, outline.parts.size());
-    const std::int64_t tets = outline.tets(), facets = outline.first_patch_facet(static_cast<std::int32_t>(parts));
-    std::vector<Hdf5Array> arrays = {
-        {"VTKHDF/NumberOfPoints", Hdf5Type::int64, parts},
-        {"VTKHDF/NumberOfCells", Hdf5Type::int64, parts},
-        {"VTKHDF/NumberOfConnectivityIds", Hdf5Type::int64, parts},
-        {"VTKHDF/Points", Hdf5Type::real, all.points, 3},
-        {"VTKHDF/PointData/GlobalVertexId", Hdf5Type::int64, all.points},
-        {"VTKHDF/Connectivity", corner_type(outline), all.corners},
-        {"VTKHDF/Offsets", corner_type(outline), all.offsets},
-        {"VTKHDF/Types", Hdf5Type::byte, all.cells},
-        {"VTKHDF/CellData/Part", Hdf5Type::int32, all.cells},
-        {"VTKHDF/CellData/Patch", Hdf5Type::int32, all.cells},
-        {"geometry/vertices", Hdf5Type::real, outline.vertices, 3},
-        {"viz/topology/cells", id_type(outline), tets, 4},
-        {"viz/topology/facets", id_type(outline), facets, 3},
-        {"viz/body", Hdf5Type::int32, tets},
-        {"viz/part", Hdf5Type::int32, tets},
-        {"viz/patch", Hdf5Type::int32, facets},
-    };
-    for (const PartValues& values : outline.values) {
-        const bool of_points = values.of == PartValues::Of::points;
-        const std::int64_t columns = values.components == 1 ? 0 : values.components;
-        arrays.push_back({piece_array_of(values), Hdf5Type::real, of_points ? all.points : all.cells, columns});
-        arrays.push_back({whole_array_of(values), Hdf5Type::real, of_points ? outline.vertices : tets, columns});
-    }
-    return arrays;
-}
 
 // Writes values of an array, one behind the other from a row on, through a buffer.
 template <class T>
@@ -302,59 +221,6 @@ class Hdf5Piece {
     PieceRows own_;  // before those of this part
 };
 
-// What the arrays by global numbers mean, for readers of XDMF. They lie in the file `h5` beside it.
-class XdmfText {
- public:
-    XdmfText(const MeshOutline& outline, std::string h5) : outline_(outline), h5_(std::move(h5)) {}
-
-    std::string text() const {
-        std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n";
-        for (std::size_t patch = 0; patch < outline_.patch_names.size(); ++patch)
-            text += fmt::format("    <Information Name=\"patch {}\" Value=\"{}\"/>\n", patch + 1,
-                                xml_text(outline_.patch_names[patch]));
-        std::string values;
-        for (const PartValues& each : outline_.values)
-            values += attribute(array_name(each), each.components, each.of == PartValues::Of::points ? "Node" : "Cell",
-                                whole_array_of(each));
-        // DOLFINx takes the first attribute for the tags.
-        const std::string tags = attribute("body", 1, "Cell", "viz/body") + attribute("part", 1, "Cell", "viz/part");
-        text += grid("mesh", "Tetrahedron", 4, "viz/topology/cells", tags + values);
-        text += grid("facets", "Triangle", 3, "viz/topology/facets", attribute("patch", 1, "Cell", "viz/patch"));
-        return text + "  </Domain>\n</Xdmf>\n";
-    }
-
- private:
-    std::string item(const std::string& name) const {
-        const std::vector<Hdf5Array> arrays = arrays_of(outline_);
-        const auto array =
-            std::find_if(arrays.begin(), arrays.end(), [&](const Hdf5Array& each) { return each.name == name; });
-        const std::string columns = array->columns ? fmt::format(" {}", array->columns) : "";
-        return fmt::format(
-            "<DataItem Dimensions=\"{}{}\" NumberType=\"{}\" Precision=\"{}\" Format=\"HDF\">{}:/{}</DataItem>",
-            array->rows, columns, array->type == Hdf5Type::real ? "Float" : "Int", size_of(array->type), xml_text(h5_),
-            name);
-    }
-
-    std::string attribute(const std::string& name, int components, const char* center, const std::string& array) const {
-        const char* type = components == 1 ? "Scalar" : components == 3 ? "Vector" : "Matrix";
-        return fmt::format("      <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n",
-                           xml_text(name), type, center, item(array));
-    }
-
-    std::string grid(const char* name, const char* cell, int corners, const char* cells,
-                     const std::string& attributes) const {
-        return fmt::format(
-            "    <Grid Name=\"{}\" GridType=\"Uniform\">\n"
-            "      <Topology TopologyType=\"{}\" NodesPerElement=\"{}\">{}</Topology>\n"
-            "      <Geometry GeometryType=\"XYZ\">{}</Geometry>\n"
-            "{}    </Grid>\n",
-            name, cell, corners, item(cells), item("geometry/vertices"), attributes);
-    }
-
-    const MeshOutline& outline_;
-    std::string h5_;
-};
-
 void make_hdf5(const MeshOutline& outline, ExportFiles& files, const std::string& stem) {
     Hdf5Content content;
     content.groups = {"VTKHDF", "VTKHDF/PointData", "VTKHDF/CellData", "geometry", "viz", "viz/topology"};
@@ -371,7 +237,7 @@ void make_hdf5(const MeshOutline& outline, ExportFiles& files, const std::string
 
 void make_xdmf(const MeshOutline& outline, ExportFiles& files, const std::string& stem) {
     ExportFile file = files.create(stem + ".xdmf");
-    file.text(XdmfText(outline, stem.substr(stem.rfind('/') + 1) + ".h5").text());
+    file.write(xdmf_text(outline, stem.substr(stem.rfind('/') + 1) + ".h5"));
     file.close();
 }
 

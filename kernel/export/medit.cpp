@@ -14,24 +14,24 @@ namespace kerf {
 namespace medit {
 
 void write_head(const MeshOutline& outline, ExportFile& file) {
-    file.text("MeshVersionFormatted 2\nDimension 3\n");
+    file.write("MeshVersionFormatted 2\nDimension 3\n");
     for (std::size_t patch = 0; patch < outline.patch_names.size(); ++patch)
-        file.text(
+        file.write(
             fmt::format("# reference {} of triangles: {}\n", patch + 1, comment_text(outline.patch_names[patch])));
 }
 
 void write_vertices(const PartSource& parts, ExportFile& file) {
-    file.text(fmt::format("Vertices\n{}\n", parts.outline().vertices));
+    file.write(fmt::format("Vertices\n{}\n", parts.outline().vertices));
     for_each_vertex(parts, [&](std::int64_t, std::span<const Vec3> points) {
         for (const Vec3& p : points) {
             file.point(p);
-            file.text(" 0\n");
+            file.write(" 0\n");
         }
     });
 }
 
 void write_tetrahedra(const PartSource& parts, ExportFile& file) {
-    file.text(fmt::format("Tetrahedra\n{}\n", parts.outline().tets()));
+    file.write(fmt::format("Tetrahedra\n{}\n", parts.outline().tets()));
     for_each_part(parts, [&](std::int32_t rank, const Part& part) {
         const std::vector<std::int32_t> bodies = parts.bodies().of_tets(rank, part);
         for (std::size_t t = 0; t < bodies.size(); ++t) {
@@ -42,7 +42,7 @@ void write_tetrahedra(const PartSource& parts, ExportFile& file) {
 }
 
 void write_triangles(const PartSource& parts, ExportFile& file) {
-    file.text(fmt::format("Triangles\n{}\n", parts.outline().patch_facets()));
+    file.write(fmt::format("Triangles\n{}\n", parts.outline().patch_facets()));
     for_each_surface(parts, [&](std::int32_t, const Part& part) {
         for (std::size_t f = 0; f < part.facets.size(); ++f) {
             if (part.is_interface(f)) continue;
@@ -59,7 +59,7 @@ void write_merged(const PartSource& parts, const MergeOptions&, ExportFiles& fil
     write_vertices(parts, file);
     write_tetrahedra(parts, file);
     write_triangles(parts, file);
-    file.text("End\n");
+    file.write("End\n");
     file.close();
 }
 

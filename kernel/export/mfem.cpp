@@ -36,13 +36,13 @@ class MfemFile {
           file_(files.create(fmt::format("mesh.{:06}", rank))) {}
 
     void write() {
-        file_.text("MFEM mesh v1.2\n\ndimension\n3\n");
+        file_.write("MFEM mesh v1.2\n\ndimension\n3\n");
         write_cells();
         write_vertices();
-        file_.text("\nmfem_serial_mesh_end\n");
+        file_.write("\nmfem_serial_mesh_end\n");
         find_groups();
         write_groups();
-        file_.text("\nmfem_mesh_end\n");
+        file_.write("\nmfem_mesh_end\n");
         file_.close();
     }
 
@@ -50,29 +50,29 @@ class MfemFile {
     template <std::size_t n>
     void write_numbers(const std::array<std::int32_t, n>& numbers) {
         for (std::size_t i = 0; i < n; ++i) {
-            if (i > 0) file_.text(" ");
+            if (i > 0) file_.write(" ");
             file_.number(std::int64_t{numbers[i]});
         }
-        file_.text("\n");
+        file_.write("\n");
     }
 
-    void write_entry(const char* name, std::size_t number) { file_.text(fmt::format("{} {}\n", name, number)); }
+    void write_entry(const char* name, std::size_t number) { file_.write(fmt::format("{} {}\n", name, number)); }
 
     void write_cells() {
-        file_.text(fmt::format("\nelements\n{}\n", part_.mesh.tets.size()));
+        file_.write(fmt::format("\nelements\n{}\n", part_.mesh.tets.size()));
         const std::string tetrahedron = fmt::format(" {} ", mfem_tetrahedron);
         const std::vector<std::int32_t> bodies = parts_.bodies().of_tets(rank_, part_);
         for (std::size_t t = 0; t < bodies.size(); ++t) {
             file_.number(std::int64_t{bodies[t]} + 1);
-            file_.text(tetrahedron);
+            file_.write(tetrahedron);
             write_numbers(part_.mesh.tets[t]);
         }
-        file_.text("\n");
+        file_.write("\n");
         write_names();
-        file_.text(fmt::format("boundary\n{}\n", outline_.parts[static_cast<std::size_t>(rank_)].patch_facets));
+        file_.write(fmt::format("boundary\n{}\n", outline_.parts[static_cast<std::size_t>(rank_)].patch_facets));
         for (std::size_t f = 0; f < part_.facets.size(); ++f) {
             if (part_.is_interface(f)) continue;
-            file_.text(fmt::format("{} {} ", part_.patch[f] + 1, mfem_triangle));
+            file_.write(fmt::format("{} {} ", part_.patch[f] + 1, mfem_triangle));
             write_numbers(part_.facets[f]);
         }
     }
@@ -82,15 +82,15 @@ class MfemFile {
             std::string name = part_.patch_names[patch];
             std::replace_if(
                 name.begin(), name.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-            file_.text(fmt::format("# boundary attribute {}: {}\n", patch + 1, name));
+            file_.write(fmt::format("# boundary attribute {}: {}\n", patch + 1, name));
         }
     }
 
     void write_vertices() {
-        file_.text(fmt::format("\nvertices\n{}\n3\n", part_.mesh.vertices.size()));
+        file_.write(fmt::format("\nvertices\n{}\n3\n", part_.mesh.vertices.size()));
         for (const Vec3& p : part_.mesh.vertices) {
             file_.point(p);
-            file_.text("\n");
+            file_.write("\n");
         }
     }
 
@@ -124,10 +124,10 @@ class MfemFile {
 
     void write_groups() {
         write_entry("\ncommunication_groups\nnumber_of_groups", groups_.size() + 1);
-        file_.text(fmt::format("\n# number of ranks in each group, followed by the ranks\n1 {}\n", rank_));
+        file_.write(fmt::format("\n# number of ranks in each group, followed by the ranks\n1 {}\n", rank_));
         std::size_t vertices = 0, edges = 0, faces = 0;
         for (const auto& [ranks, group] : groups_) {
-            file_.text(fmt::format("{} {}\n", ranks.size(), fmt::join(ranks, " ")));
+            file_.write(fmt::format("{} {}\n", ranks.size(), fmt::join(ranks, " ")));
             vertices += group.vertices.size();
             edges += group.edges.size();
             faces += group.faces.size();
@@ -140,14 +140,14 @@ class MfemFile {
     }
 
     void write_group(std::int32_t number, const MfemGroup& group) {
-        file_.text(fmt::format("\n# group {}\n", number));
+        file_.write(fmt::format("\n# group {}\n", number));
         write_entry("shared_vertices", group.vertices.size());
         for (const std::int32_t v : group.vertices) write_numbers(std::array{v});
         write_entry("\nshared_edges", group.edges.size());
         for (const UndirectedEdge& edge : group.edges) write_numbers(edge);
         write_entry("\nshared_faces", group.faces.size());
         for (const Triangle& face : group.faces) {
-            file_.text(fmt::format("{} ", mfem_triangle));
+            file_.write(fmt::format("{} ", mfem_triangle));
             write_numbers(face);
         }
     }

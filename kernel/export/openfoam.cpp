@@ -158,10 +158,10 @@ Boundary boundary_faces_of(const Part& part, const MeshOutline& outline, std::in
 // A list of known length that is written an entry at a time.
 class ListFile {
  public:
-    ListFile(ExportFile file, std::string_view beginning) : file_(std::move(file)) { file_.text(beginning); }
+    ListFile(ExportFile file, std::string_view beginning) : file_(std::move(file)) { file_.write(beginning); }
     void begin(std::int64_t length) {
         file_.number(length);
-        file_.text("\n(");
+        file_.write("\n(");
     }
     template <class T>
     void entry(const T& value) {
@@ -171,7 +171,7 @@ class ListFile {
     void entries(const std::vector<T>& values) {
         file_.values(std::span(values));
     }
-    void end() { file_.text(")\n"); }
+    void end() { file_.write(")\n"); }
     void close() { file_.close(); }
 
  private:
@@ -244,19 +244,19 @@ void write_faces(const Part& part, const Boundary& boundary, ExportFiles& files,
 void write_boundary(const std::vector<Patch>& patches, std::int32_t rank, ExportFiles& files,
                     const std::string& folder) {
     ExportFile file = files.create(folder + "boundary");
-    file.text(header("polyBoundaryMesh", "boundary", false));
-    file.text(fmt::format("{}\n(\n", patches.size()));
+    file.write(header("polyBoundaryMesh", "boundary", false));
+    file.write(fmt::format("{}\n(\n", patches.size()));
     for (const Patch& patch : patches) {
         const bool is_between = patch.other >= 0;
-        file.text(
+        file.write(
             fmt::format("{}    {}\n    {{\n        type            {};\n", patch.comment, patch.name, patch.type));
-        if (patch.type == "wall") file.text("        inGroups        1(wall);\n");
-        file.text(fmt::format("        nFaces          {};\n        startFace       {};\n", patch.faces, patch.start));
+        if (patch.type == "wall") file.write("        inGroups        1(wall);\n");
+        file.write(fmt::format("        nFaces          {};\n        startFace       {};\n", patch.faces, patch.start));
         if (is_between)
-            file.text(fmt::format("        myProcNo        {};\n        neighbProcNo    {};\n", rank, patch.other));
-        file.text("    }\n");
+            file.write(fmt::format("        myProcNo        {};\n        neighbProcNo    {};\n", rank, patch.other));
+        file.write("    }\n");
     }
-    file.text(")\n");
+    file.write(")\n");
     file.close();
 }
 
@@ -302,7 +302,7 @@ void write_dictionary(ExportFiles& files, const std::string& object, std::string
         "    location    \"system\";\n    object      {};\n}}\n\n{}",
         object, entries);
     ExportFile file = files.create(name);
-    file.text(text);
+    file.write(text);
     file.close();
 }
 

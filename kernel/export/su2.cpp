@@ -16,7 +16,7 @@ namespace kerf {
 namespace su2 {
 
 void write_elements(const PartSource& parts, ExportFile& file) {
-    file.text(fmt::format("NDIME= 3\nNELEM= {}\n", parts.outline().tets()));
+    file.write(fmt::format("NDIME= 3\nNELEM= {}\n", parts.outline().tets()));
     std::int64_t number = 0;
     for_each_part(parts, [&](std::int32_t, const Part& part) {
         for (const Tetrahedron& tet : part.mesh.tets) {
@@ -27,13 +27,13 @@ void write_elements(const PartSource& parts, ExportFile& file) {
 }
 
 void write_points(const PartSource& parts, ExportFile& file) {
-    file.text(fmt::format("NPOIN= {}\n", parts.outline().vertices));
+    file.write(fmt::format("NPOIN= {}\n", parts.outline().vertices));
     for_each_vertex(parts, [&](std::int64_t first, std::span<const Vec3> points) {
         for (const Vec3& p : points) {
             file.point(p);
-            file.text(" ");
+            file.write(" ");
             file.number(first++);
-            file.text("\n");
+            file.write("\n");
         }
     });
 }
@@ -51,13 +51,13 @@ void write_markers(const PartSource& parts, ExportFile& file) {
     const std::vector<std::string>& names = parts.outline().patch_names;
     const std::vector<std::string> words = patch_words(names);
     const std::vector<std::int64_t> sizes = patch_sizes(parts);
-    file.text(
+    file.write(
         fmt::format("NMARK= {}\n", std::count_if(sizes.begin(), sizes.end(), [](std::int64_t n) { return n > 0; })));
     std::int32_t current = -1;
     for_each_patch_triangle(parts, sizes, [&](std::int32_t patch, std::span<const PatchTriangle> triangles) {
         const auto p = static_cast<std::size_t>(patch);
         if (patch != current)
-            file.text(
+            file.write(
                 fmt::format("% {}\nMARKER_TAG= {}\nMARKER_ELEMS= {}\n", marker_comment(names[p]), words[p], sizes[p]));
         current = patch;
         for (const auto& [of, corners] : triangles) write_row(file, {vtk_triangle, corners[0], corners[1], corners[2]});

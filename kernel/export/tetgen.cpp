@@ -13,20 +13,20 @@ namespace kerf {
 namespace tetgen {
 
 void write_nodes(const PartSource& parts, ExportFile file) {
-    file.text(fmt::format("{} 3 0 0\n", parts.outline().vertices));
+    file.write(fmt::format("{} 3 0 0\n", parts.outline().vertices));
     for_each_vertex(parts, [&](std::int64_t first, std::span<const Vec3> points) {
         for (const Vec3& p : points) {
             file.number(first++);
-            file.text(" ");
+            file.write(" ");
             file.point(p);
-            file.text("\n");
+            file.write("\n");
         }
     });
     file.close();
 }
 
 void write_elements(const PartSource& parts, ExportFile file) {
-    file.text(fmt::format("{} 4 1\n", parts.outline().tets()));
+    file.write(fmt::format("{} 4 1\n", parts.outline().tets()));
     std::int64_t number = 0;
     for_each_part(parts, [&](std::int32_t rank, const Part& part) {
         const std::vector<std::int32_t> bodies = parts.bodies().of_tets(rank, part);
@@ -41,8 +41,8 @@ void write_elements(const PartSource& parts, ExportFile file) {
 void write_faces(const PartSource& parts, ExportFile file) {
     const MeshOutline& outline = parts.outline();
     for (std::size_t patch = 0; patch < outline.patch_names.size(); ++patch)
-        file.text(fmt::format("# marker {}: {}\n", patch + 1, comment_text(outline.patch_names[patch])));
-    file.text(fmt::format("{} 1\n", outline.patch_facets()));
+        file.write(fmt::format("# marker {}: {}\n", patch + 1, comment_text(outline.patch_names[patch])));
+    file.write(fmt::format("{} 1\n", outline.patch_facets()));
     std::int64_t number = 0;
     for_each_surface(parts, [&](std::int32_t, const Part& part) {
         for (std::size_t f = 0; f < part.facets.size(); ++f) {

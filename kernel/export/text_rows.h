@@ -13,11 +13,11 @@ namespace kerf {
 inline void write_row(ExportFile& file, std::initializer_list<std::int64_t> numbers, std::string_view separator = " ") {
     bool is_first = true;
     for (const std::int64_t number : numbers) {
-        if (!is_first) file.text(separator);
+        if (!is_first) file.write(separator);
         file.number(number);
         is_first = false;
     }
-    file.text("\n");
+    file.write("\n");
 }
 
 }  // namespace kerf

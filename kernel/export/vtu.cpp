@@ -1,10 +1,9 @@
 // VTK XML: a file a part and one that joins them; or all as one grid, whose cells are the tetrahedra of all parts, then
 // the triangles on patches. The arrays of the grid have the names and values that they have in part files, which are
-// described in part/vtu_writer.h; they follow the XML as raw bytes, each behind its size.
+// described in part/vtu_writer.h.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 
 #include <fmt/format.h>
 
@@ -12,6 +11,7 @@
 #include "export/whole_mesh.h"
 #include "io/run_folder.h"
 #include "io/vtk_cell_types.h"
+#include "part/appended_vtu.h"
 #include "part/vtu_writer.h"
 
 namespace kerf {
@@ -24,7 +24,7 @@ void write_joining_file(const PartSource& parts, ExportFiles& files) {
     std::vector<std::string> pieces;
     for (const PartExtent& part : parts.outline().parts) pieces.push_back(file_of_part(part.id));
     ExportFile file = files.create("mesh.pvtu");
-    file.text(pvtu_text(pieces, layout_for(parts.outline(), files.options().fields), parts.outline().values));
+    file.write(pvtu_text(pieces, layout_for(parts.outline(), files.options().fields), parts.outline().values));
     file.close();
 }
 
@@ -34,32 +34,11 @@ void write_piece(const PartSource& parts, std::int32_t, const Part& part, Export
     files.add({name, static_cast<std::int64_t>(std::filesystem::file_size(path)), hash_text(hash)});
 }
 
-struct GridArray {
-    const char* section;  // element of the XML
-    const char* type;
-    std::string name;
-    int components;
-    std::int64_t tuples;
-    std::int64_t item_size;
-    std::function<void(ExportFile&)> write_values;
-
-    std::int64_t bytes() const { return components * tuples * item_size; }
-};
-
-// value(0), value(1), ...
-template <class T, class Value>
-void write_computed(ExportFile& file, std::int64_t count, const Value& value) {
-    constexpr std::int64_t at_once = std::int64_t{1} << 16;
-    std::vector<T> values(static_cast<std::size_t>(std::min(count, at_once)));
-    for (std::int64_t begin = 0; begin < count; begin += at_once) {
-        const std::int64_t size = std::min(at_once, count - begin);
-        for (std::int64_t i = 0; i < size; ++i) values[static_cast<std::size_t>(i)] = static_cast<T>(value(begin + i));
-        file.values(std::span<const T>(values).first(static_cast<std::size_t>(size)));
-    }
-}
+using Grid = VtuGrid<ExportFile>;
+using Array = VtuArray<ExportFile>;
 
 void write_names(const MeshOutline& outline, ExportFile& file) {
-    for (const std::string& name : outline.patch_names) file.bytes(name.c_str(), name.size() + 1);
+    for (const std::string& name : outline.patch_names) file.write(name.c_str(), name.size() + 1);
 }
 
 void write_points(const PartSource& parts, ExportFile& file) {
@@ -82,29 +61,28 @@ void write_of_facets(const PartSource& parts, std::vector<std::int32_t> Part::*v
 }
 
 template <class Id>
-void write_connectivity(const PartSource& parts, ExportFile& file) {
-    const auto write_cell = [&](const Part& part, const auto& cell) {
-        for (const std::int64_t id : global_corners(part, cell)) file.value(static_cast<Id>(id));
-    };
-    for_each_part(parts, [&](std::int32_t, const Part& part) {
-        for (const Tetrahedron& tet : part.mesh.tets) write_cell(part, tet);
+Array connectivity(const PartSource& parts) {
+    const std::int64_t corners = 4 * parts.outline().tets() + 3 * parts.outline().patch_facets();
+    return Array::of<Id>("Cells", "connectivity", 1, corners, [&parts](ExportFile& file) {
+        const auto write_cell = [&](const Part& part, const auto& cell) {
+            for (const std::int64_t id : global_corners(part, cell)) file.value(static_cast<Id>(id));
+        };
+        for_each_part(parts, [&](std::int32_t, const Part& part) {
+            for (const Tetrahedron& tet : part.mesh.tets) write_cell(part, tet);
+        });
+        for_each_surface(parts, [&](std::int32_t, const Part& part) {
+            for (std::size_t f = 0; f < part.facets.size(); ++f)
+                if (!part.is_interface(f)) write_cell(part, part.facets[f]);
+        });
     });
-    for_each_surface(parts, [&](std::int32_t, const Part& part) {
-        for (std::size_t f = 0; f < part.facets.size(); ++f)
-            if (!part.is_interface(f)) write_cell(part, part.facets[f]);
-    });
-}
-
-void write_number(const PartValues& values, double number, ExportFile& file) {
-    values.is_double() ? file.value(number) : file.value(static_cast<float>(number));
 }
 
 // Of tetrahedra, then of the triangles on patches, which have those of the tetrahedron behind them.
+template <class T>
 void write_cell_values(const PartSource& parts, std::size_t k, ExportFile& file) {
     const auto write_row = [&](const PartValues& values, std::int32_t tet) {
         for (int i = 0; i < values.components; ++i)
-            write_number(values, tet < 0 ? NAN : values.number(static_cast<std::size_t>(values.components * tet + i)),
-                         file);
+            file.value(static_cast<T>(tet < 0 ? NAN : values.number(std::int64_t{values.components} * tet + i)));
     };
     for_each_whole_part(parts, [&](std::int32_t, const Part& part) {
         for (std::int32_t tet = 0; tet < part.tet_count(); ++tet) write_row(part.values[k], tet);
@@ -115,99 +93,64 @@ void write_cell_values(const PartSource& parts, std::size_t k, ExportFile& file)
     });
 }
 
-// Behind the other arrays of their section.
-void add_values(const PartSource& parts, std::vector<GridArray>& arrays) {
-    const MeshOutline& outline = parts.outline();
-    for (std::size_t k = 0; k < outline.values.size(); ++k) {
-        const PartValues& values = outline.values[k];
-        const bool of_points = values.of == PartValues::Of::points;
-        const char* const section = of_points ? "PointData" : "CellData";
-        const auto write = [&parts, &values, k, of_points](ExportFile& file) {
-            if (!of_points) return write_cell_values(parts, k, file);
-            for_each_vertex_value(parts, k, [&](std::int64_t, std::span<const double> rows) {
-                for (const double number : rows) write_number(values, number, file);
-            });
-        };
-        const auto behind = std::find_if(arrays.rbegin(), arrays.rend(), [section](const GridArray& array) {
-            return std::string_view(array.section) == section;
+template <class T>
+void add_values_of(const PartSource& parts, std::size_t k, Grid& grid) {
+    const PartValues& values = parts.outline().values[k];
+    if (values.of == PartValues::Of::tets)
+        return grid.add(Array::of<T>("CellData", values.name, values.components, grid.cells,
+                                     [&parts, k](ExportFile& file) { write_cell_values<T>(parts, k, file); }));
+    grid.add(Array::of<T>("PointData", values.name, values.components, grid.points, [&parts, k](ExportFile& file) {
+        for_each_vertex_value(parts, k, [&](std::int64_t, std::span<const double> rows) {
+            for (const double number : rows) file.value(static_cast<T>(number));
         });
-        arrays.insert(behind.base(),
-                      {section, values.is_double() ? "Float64" : "Float32", values.name, values.components,
-                       of_points ? outline.vertices : outline.tets() + outline.patch_facets(),
-                       values.is_double() ? 8 : 4, write});
-    }
+    }));
 }
 
-// In the order of the file. The outline must outlive them.
-std::vector<GridArray> arrays_of(const PartSource& parts) {
+// The outline must outlive it.
+Grid grid_of(const PartSource& parts) {
     const MeshOutline& outline = parts.outline();
-    const std::int64_t tets = outline.tets(), facets = outline.patch_facets(), cells = tets + facets;
+    const std::int64_t tets = outline.tets(), facets = outline.patch_facets();
+    Grid grid{outline.vertices, tets + facets};
     std::int64_t name_bytes = 0;
-    for (const std::string& name : outline.patch_names) name_bytes += static_cast<std::int64_t>(name.size()) + 1;
-    const bool is_small = outline.vertices <= most_of_32_bits;
-    std::vector<GridArray> arrays = {
-        {"FieldData", "UInt8", "PatchNames", 1, name_bytes, 1, [&](ExportFile& file) { write_names(outline, file); }},
-        {"PointData", "Int64", "GlobalVertexId", 1, outline.vertices, 8,
-         [&](ExportFile& file) {
-             write_computed<std::int64_t>(file, outline.vertices, [](std::int64_t v) { return v; });
-         }},
-        {"CellData", "Int32", "Part", 1, cells, 4, [&](ExportFile& file) { write_parts(outline, file); }},
-        {"CellData", "Int32", "Patch", 1, cells, 4,
-         [&](ExportFile& file) { write_of_facets(parts, &Part::patch, file); }},
-        {"CellData", "Int32", "Facet", 1, cells, 4,
-         [&](ExportFile& file) { write_of_facets(parts, &Part::facet, file); }},
-        {"Points", "Float64", "Points", 3, outline.vertices, 8, [&](ExportFile& file) { write_points(parts, file); }},
-        {"Cells", is_small ? "Int32" : "Int64", "connectivity", 1, 4 * tets + 3 * facets, is_small ? 4 : 8,
-         [&, is_small](ExportFile& file) {
-             is_small ? write_connectivity<std::int32_t>(parts, file) : write_connectivity<std::int64_t>(parts, file);
-         }},
-        {"Cells", "Int64", "offsets", 1, cells, 8,
-         [=](ExportFile& file) {
-             write_computed<std::int64_t>(
-                 file, cells, [=](std::int64_t c) { return 4 * (c + 1) - std::max<std::int64_t>(0, c + 1 - tets); });
-         }},
-        {"Cells", "UInt8", "types", 1, cells, 1,
-         [=](ExportFile& file) {
-             write_computed<std::uint8_t>(file, cells,
-                                          [=](std::int64_t c) { return c < tets ? vtk_tetra : vtk_triangle; });
-         }},
+    for (const std::string& name : outline.patch_names) name_bytes += name.size() + 1;
+    const auto of_cells = [&](const char* name, std::vector<std::int32_t> Part::*of_facets) {
+        return Array::of<std::int32_t>("CellData", name, 1, grid.cells, [&parts, of_facets](ExportFile& file) {
+            write_of_facets(parts, of_facets, file);
+        });
     };
-    add_values(parts, arrays);
-    return arrays;
-}
-
-std::string head_of(const MeshOutline& outline, std::span<const GridArray> arrays) {
-    std::string xml =
-        "<?xml version=\"1.0\"?>\n"
-        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
-        "<UnstructuredGrid>\n";
-    std::int64_t offset = 0;
-    for (std::size_t i = 0; i < arrays.size(); ++i) {
-        const GridArray& array = arrays[i];
-        const std::string_view section = array.section;
-        if (i == 0 || section != arrays[i - 1].section) xml += fmt::format("<{}>\n", section);
-        xml += fmt::format(
-            "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" NumberOfTuples=\"{}\" format=\"appended\" "
-            "offset=\"{}\"/>\n",
-            array.type, array.name, array.components, array.tuples, offset);
-        if (i + 1 == arrays.size() || section != arrays[i + 1].section) xml += fmt::format("</{}>\n", section);
-        if (i == 0)
-            xml += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", outline.vertices,
-                               outline.tets() + outline.patch_facets());
-        offset += static_cast<std::int64_t>(sizeof(std::uint64_t)) + array.bytes();
-    }
-    return xml + "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+    grid.arrays = {
+        Array::of<std::uint8_t>("FieldData", "PatchNames", 1, name_bytes,
+                                [&](ExportFile& file) { write_names(outline, file); }),
+        Array::of<std::int64_t>("PointData", "GlobalVertexId", 1, outline.vertices,
+                                [&](ExportFile& file) {
+                                    write_computed<std::int64_t>(file, outline.vertices,
+                                                                 [](std::int64_t v) { return v; });
+                                }),
+        Array::of<std::int32_t>("CellData", "Part", 1, grid.cells,
+                                [&](ExportFile& file) { write_parts(outline, file); }),
+        of_cells("Patch", &Part::patch),
+        of_cells("Facet", &Part::facet),
+        Array::of<double>("Points", "Points", 3, outline.vertices,
+                          [&](ExportFile& file) { write_points(parts, file); }),
+        outline.vertices <= most_of_32_bits ? connectivity<std::int32_t>(parts) : connectivity<std::int64_t>(parts),
+        Array::of<std::int64_t>("Cells", "offsets", 1, grid.cells,
+                                [=](ExportFile& file) {
+                                    write_computed<std::int64_t>(file, tets + facets, [=](std::int64_t c) {
+                                        return 4 * (c + 1) - std::max<std::int64_t>(0, c + 1 - tets);
+                                    });
+                                }),
+        Array::of<std::uint8_t>("Cells", "types", 1, grid.cells, [=](ExportFile& file) {
+            write_computed<std::uint8_t>(file, tets + facets,
+                                         [=](std::int64_t c) { return c < tets ? vtk_tetra : vtk_triangle; });
+        })};
+    for (std::size_t k = 0; k < outline.values.size(); ++k)
+        outline.values[k].is_double() ? add_values_of<double>(parts, k, grid) : add_values_of<float>(parts, k, grid);
+    return grid;
 }
 
 void write_merged(const PartSource& parts, const MergeOptions&, ExportFiles& files, const std::string& stem) {
-    const std::vector<GridArray> arrays = arrays_of(parts);
     ExportFile file = files.create(stem + ".vtu");
-    file.text(head_of(parts.outline(), arrays));
-    for (const GridArray& array : arrays) {
-        file.value(static_cast<std::uint64_t>(array.bytes()));
-        array.write_values(file);
-    }
-    file.text("\n</AppendedData>\n</VTKFile>\n");
+    grid_of(parts).write(file);
     file.close();
 }
 

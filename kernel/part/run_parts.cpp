@@ -50,7 +50,9 @@ MeshOutline read_outline(const std::string& folder) {
 
 }  // namespace
 
-RunParts::RunParts(std::string folder) : folder_(std::move(folder)), outline_(read_outline(folder_)) {
+RunParts::RunParts(std::string folder, std::string solution)
+    : folder_(std::move(folder)), solution_(std::move(solution)), outline_(read_outline(folder_)) {
+    if (!solution_.empty()) outline_.values = read_value_names(path_of_part(solution_, outline_.parts.front().id));
     std::vector<SharedVertices::Held> held;
     std::vector<SharedEdges::Held> told;
     std::vector<NodeId> ids;
@@ -83,6 +85,7 @@ Part RunParts::load(std::int32_t rank) const {
     part.shared = shared_.groups_of(
         rank, std::span(part.global_id).first(static_cast<std::size_t>(part.mesh.boundary_vertex_count)));
     part.shared_edges = shared_edges_.groups_of(part);
+    if (!solution_.empty()) part.values = read_values(path_of_part(solution_, part.id));
     return part;
 }
 

@@ -9,19 +9,21 @@
 
 namespace kerf {
 
-/// The parts in a run folder. Memory: the vertices on interfaces, and the parts that are loaded.
+/// The parts in a run folder, with values if there is a solution. Memory: the vertices on interfaces, and the parts
+/// that are loaded.
 class RunParts : public PartSource {
  public:
     /// Reads report.json and the surfaces of the parts. Throws Error(io) for what is no finished run, or one with parts
-    /// that were not meshed, naming it and the way out.
-    explicit RunParts(std::string folder);
+    /// that were not meshed, naming it and the way out. `solution`: the folder of one on this run
+    /// (part/solution_parts.h), whose values parts have that are loaded with everything.
+    explicit RunParts(std::string folder, std::string solution = "");
 
     const MeshOutline& outline() const override { return outline_; }
     Part load(std::int32_t rank) const override;
     Part load_only(std::int32_t rank, PartContent content) const override;
 
  private:
-    std::string folder_;
+    std::string folder_, solution_;
     MeshOutline outline_;
     std::vector<std::int64_t> first_interior_ids_;  // by rank
     SharedVertices shared_;

@@ -9,7 +9,7 @@
 #include "io/file_bytes.h"
 #include "io/path_text.h"
 #include "io/run_folder.h"
-#include "part/vtu_reader.h"
+#include "part/run_parts.h"
 
 namespace kerf {
 
@@ -76,24 +76,9 @@ std::string mesh_of_solution(const std::string& solution) {
     }
 }
 
-SolutionParts::SolutionParts(std::string folder)
-    : folder_(std::move(folder)), mesh_(mesh_of_solution(folder_)), outline_(mesh_.outline()) {
-    outline_.values = read_value_names(path_of_part(folder_, outline_.parts.front().id));
-}
-
-Part SolutionParts::load(std::int32_t rank) const {
-    Part part = mesh_.load(rank);
-    part.values = read_values(path_of_part(folder_, part.id));
-    return part;
-}
-
-Part SolutionParts::load_only(std::int32_t rank, PartContent content) const {
-    return content == PartContent::all ? load(rank) : mesh_.load_only(rank, content);
-}
-
 std::unique_ptr<PartSource> open_parts(const std::string& folder) {
     if (const std::optional<std::string> solution = find_solution_folder(folder))
-        return std::make_unique<SolutionParts>(*solution);
+        return std::make_unique<RunParts>(mesh_of_solution(*solution), *solution);
     return std::make_unique<RunParts>(folder);
 }
 

@@ -1,42 +1,21 @@
 // VTK XML unstructured grids (VTU, PVTU): raw appended data, UInt64 headers, little endian.
 #pragma once
 
-#include <array>
-#include <bitset>
-#include <cstdint>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/hash.h"
-#include "mesh/quality.h"
+#include "part/cell_fields.h"
 #include "part/part.h"
+#include "part/vtu_header.h"
 
 namespace kerf {
 
-/// A quality that cells of part files may have.
-struct CellField {
-    const char* name;   ///< of --fields
-    const char* array;  ///< in the file
-    double TetQuality::*measure;
-};
-inline constexpr std::array<CellField, 5> cell_fields = {
-    {{"min-dihedral", "MinDihedralAngle", &TetQuality::min_dihedral_deg},
-     {"max-dihedral", "MaxDihedralAngle", &TetQuality::max_dihedral_deg},
-     {"radius-edge", "RadiusEdgeRatio", &TetQuality::radius_edge},
-     {"aspect", "AspectRatio", &TetQuality::aspect},
-     {"shape", "Shape", &TetQuality::shape}}};
-/// Some of them, by their places.
-using CellFieldSet = std::bitset<cell_fields.size()>;
-
-/// Of names with commas between, `all` or `none`; of an empty text the smallest dihedral angle. Throws Error(usage).
-CellFieldSet parse_cell_fields(std::string_view list);
-
 /// What may differ between the files of two meshes, but not between those of one: mesh.pvtu says it for all.
 struct VtuLayout {
-    CellFieldSet fields = 1;  ///< the smallest dihedral angle
-    int tag_bytes = 4;        ///< of a value of Part, Patch and Neighbour: 1, 2 or 4
+    CellFieldSet fields = default_cell_fields;
+    int tag_bytes = 4;  ///< of a value of Part, Patch and Neighbour: 1, 2 or 4
 };
 
 /// With the shortest tags that name all parts and patches.
@@ -70,30 +49,7 @@ std::string pvtu_text(const std::vector<std::string>& pieces, const VtuLayout& l
 void write_pvtu(const std::string& path, const std::vector<std::string>& pieces, const VtuLayout& layout = {},
                 std::span<const PartValues> values = {});
 
-/// The XML header of a file of write_part() or write_part_surface(): where its arrays lie.
-struct VtuHeader {
-    struct Array {
-        std::string name, type;  ///< type as VTK names it: UInt8, Int32, Float64, ...
-        std::int64_t components = 0, tuples = 0;
-        std::int64_t position = 0;  ///< of the array's UInt64 size in the file; its values follow
-    };
-    std::int64_t point_count = 0, cell_count = 0, boundary_vertex_count = 0;
-    std::vector<Array> arrays;  ///< in the order of the file
-
-    const Array* find(std::string_view name) const;  ///< the first; nullptr if there is none
-    /// The same with a tuple for every cell: those of points, which come first, may have the same name.
-    const Array* find_of_cells(std::string_view name) const;
-};
-
-/// Reads the header from the first bytes of a file, of which vtu_header_limit are enough. Throws Error(io) if it is not
-/// a header of this writer; `path` is for the message.
-VtuHeader parse_vtu_header(std::string_view begin_of_file, const std::string& path);
-inline constexpr std::size_t vtu_header_limit = 16384;
-
 /// That of the part file with this header, if it is one.
 VtuLayout layout_of(const VtuHeader& header);
-
-/// Throws the Error(io) for a file that is not as this writer leaves it; `what` is a clause without a full stop.
-[[noreturn]] void fail_damaged_vtu(const std::string& path, const std::string& what);
 
 }  // namespace kerf

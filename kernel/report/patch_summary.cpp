@@ -9,25 +9,28 @@
 
 namespace kerf {
 
+void PatchSummary::add(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 of_triangle = (b - a).cross(c - a) / 2;
+    ++triangles;
+    area += of_triangle.norm();
+    centroid += of_triangle.norm() * (a + b + c) / 3;
+    normal += of_triangle;
+}
+
+void PatchSummary::finish() {
+    if (!(area > 0)) return;
+    centroid /= area;
+    normal /= area;
+}
+
 std::vector<PatchSummary> summarize_patches(const Soup& soup) {
     std::vector<PatchSummary> patches(soup.patch_names.size());
     for (std::size_t p = 0; p < patches.size(); ++p) patches[p].name = soup.patch_names[p];
     for (std::size_t f = 0; f < soup.facets.size(); ++f) {
         const auto& [a, b, c] = soup.facets[f];
-        const Vec3 &p = soup.vertices[static_cast<std::size_t>(a)], &q = soup.vertices[static_cast<std::size_t>(b)],
-                   &r = soup.vertices[static_cast<std::size_t>(c)];
-        const Vec3 normal = (q - p).cross(r - p) / 2;
-        PatchSummary& patch = patches[static_cast<std::size_t>(soup.patch[f])];
-        ++patch.triangles;
-        patch.area += normal.norm();
-        patch.centroid += normal.norm() * (p + q + r) / 3;
-        patch.normal += normal;
+        patches[soup.patch[f]].add(soup.vertices[a], soup.vertices[b], soup.vertices[c]);
     }
-    for (PatchSummary& patch : patches) {
-        if (!(patch.area > 0)) continue;
-        patch.centroid /= patch.area;
-        patch.normal /= patch.area;
-    }
+    for (PatchSummary& patch : patches) patch.finish();
     return patches;
 }
 

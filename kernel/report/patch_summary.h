@@ -10,13 +10,18 @@
 
 namespace kerf {
 
-/// Of a surface as it was read, or of the boundary of a mesh.
+/// What a patch is, of a surface as it was read, or of the boundary of a mesh.
 struct PatchSummary {
     std::string name;
     std::int64_t triangles = 0;
     double area = 0;
     Vec3 centroid = Vec3::Zero();
     Vec3 normal = Vec3::Zero();  ///< mean, weighted by area: shorter than 1 where the patch is curved, 0 where closed
+
+    /// Adds a triangle, with its corners counter-clockwise seen from outside; `centroid` and `normal` are sums weighted
+    /// by area until finish().
+    void add(const Vec3& a, const Vec3& b, const Vec3& c);
+    void finish();
 };
 
 /// All patches in the order of their numbers. O(#F).

@@ -1,7 +1,7 @@
 #include "solve/elastic_problem.h"
 
 #include <algorithm>
-#include <set>
+#include <map>
 
 #include <fmt/format.h>
 #include <Eigen/Eigenvalues>
@@ -13,6 +13,15 @@
 namespace kerf {
 
 namespace {
+
+constexpr std::uint8_t no_material = 255;
+
+// The numbers of the materials of parts that are named, of bodies, and of all else.
+struct MaterialPlaces {
+    std::map<NodeId, std::uint8_t> of_part;
+    std::vector<std::uint8_t> of_body;
+    std::uint8_t of_rest = no_material;
+};
 
 class ProblemMaker {
  public:
@@ -35,6 +44,7 @@ class ProblemMaker {
 
  private:
     void choose_materials();
+    void place_material(const MaterialUse& use, MaterialPlaces& places) const;
     std::vector<char> bodies_at(const std::vector<std::string>& patches, const std::string& who) const;
     void hold();
     std::vector<double> forces_of(const std::string& load_case) const;
@@ -62,59 +72,26 @@ std::vector<char> ProblemMaker::bodies_at(const std::vector<std::string>& patche
 }
 
 void ProblemMaker::choose_materials() {
-    constexpr std::uint8_t none = 255;
-    if (wanted_.materials.size() >= none) throw Error(ErrorCode::usage, "A case may have up to 254 materials.");
+    if (wanted_.materials.size() >= no_material) throw Error(ErrorCode::usage, "A case may have up to 254 materials.");
     problem_.materials.clear();
-    std::set<NodeId> named_parts;
-    std::vector<std::int32_t> of_body(static_cast<std::size_t>(bodies_.count), none);
-    std::int32_t of_rest = none;
+    MaterialPlaces places;
+    places.of_body.resize(bodies_.count, no_material);
     for (const MaterialUse& use : wanted_.materials) {
-        const auto number = static_cast<std::int32_t>(problem_.materials.size());
-        const std::string who = fmt::format("Material '{}'", use.material.name);
         problem_.materials.push_back(use.material);
-        for (const NodeId id : use.parts) {
-            if (std::none_of(outline_.parts.begin(), outline_.parts.end(),
-                             [&](const PartExtent& e) { return e.id == id; }))
-                throw Error(ErrorCode::usage, fmt::format("{} names part {}, which this mesh does not have.", who, id));
-            if (!named_parts.insert(id).second)
-                throw Error(ErrorCode::usage, fmt::format("Part {} has two materials.", id));
-        }
-        if (!use.patches.empty()) {
-            const std::vector<char> here = bodies_at(use.patches, who);
-            for (std::size_t b = 0; b < here.size(); ++b) {
-                if (!here[b]) continue;
-                if (of_body[b] != none)
-                    throw Error(
-                        ErrorCode::usage,
-                        fmt::format("The body at patch '{}' has two materials: '{}' and '{}'.", use.patches.front(),
-                                    problem_.materials[static_cast<std::size_t>(of_body[b])].name, use.material.name));
-                of_body[b] = number;
-            }
-        }
-        if (use.parts.empty() && use.patches.empty()) {
-            if (of_rest != none)
-                throw Error(ErrorCode::usage,
-                            fmt::format("Materials '{}' and '{}' are for everything. Say with parts or patch where one "
-                                        "of them is.",
-                                        problem_.materials[static_cast<std::size_t>(of_rest)].name, use.material.name));
-            of_rest = number;
-        }
+        place_material(use, places);
     }
-    if (problem_.materials.size() == 1 && of_rest == 0) return;
+    if (problem_.materials.size() == 1 && places.of_rest == 0) return;
     std::int64_t without = 0;
     for (std::size_t p = 0; p < space_.parts().size(); ++p) {
         const Part& part = space_.parts()[p];
-        std::int32_t of_part = none;
-        for (std::size_t m = 0; m < wanted_.materials.size(); ++m)
-            for (const NodeId id : wanted_.materials[m].parts)
-                if (id == part.id) of_part = static_cast<std::int32_t>(m);
+        const auto named = places.of_part.find(part.id);
         std::vector<std::uint8_t>& of_tet = problem_.material_of_tet.emplace_back();
         for (std::size_t t = 0; t < part.mesh.tets.size(); ++t) {
-            const auto body =
-                static_cast<std::size_t>(bodies_.of_node[static_cast<std::size_t>(space_.nodes_of(p, t)[0])]);
-            const std::int32_t chosen = of_part != none ? of_part : of_body[body] != none ? of_body[body] : of_rest;
-            of_tet.push_back(static_cast<std::uint8_t>(chosen));
-            if (chosen == none) ++without;
+            const std::uint8_t of_body = places.of_body[bodies_.of_node[space_.nodes_of(p, t)[0]]];
+            of_tet.push_back(named != places.of_part.end() ? named->second
+                             : of_body != no_material      ? of_body
+                                                           : places.of_rest);
+            if (of_tet.back() == no_material) ++without;
         }
     }
     MPI_Allreduce(MPI_IN_PLACE, &without, 1, MPI_INT64_T, MPI_SUM, space_.comm());
@@ -122,6 +99,35 @@ void ProblemMaker::choose_materials() {
         throw Error(ErrorCode::usage,
                     fmt::format("{} tetrahedra have no material. Add one without parts and patch: it is for the rest.",
                                 without));
+}
+
+// Where the material that was added last is.
+void ProblemMaker::place_material(const MaterialUse& use, MaterialPlaces& places) const {
+    const std::uint8_t number = problem_.materials.size() - 1;
+    const std::string who = fmt::format("Material '{}'", use.material.name);
+    for (const NodeId id : use.parts) {
+        if (std::none_of(outline_.parts.begin(), outline_.parts.end(), [&](const PartExtent& e) { return e.id == id; }))
+            throw Error(ErrorCode::usage, fmt::format("{} names part {}, which this mesh does not have.", who, id));
+        if (!places.of_part.emplace(id, number).second)
+            throw Error(ErrorCode::usage, fmt::format("Part {} has two materials.", id));
+    }
+    if (!use.patches.empty()) {
+        const std::vector<char> here = bodies_at(use.patches, who);
+        for (std::size_t b = 0; b < here.size(); ++b) {
+            if (!here[b]) continue;
+            if (places.of_body[b] != no_material)
+                throw Error(ErrorCode::usage,
+                            fmt::format("The body at patch '{}' has two materials: '{}' and '{}'.", use.patches.front(),
+                                        problem_.materials[places.of_body[b]].name, use.material.name));
+            places.of_body[b] = number;
+        }
+    }
+    if (!use.parts.empty() || !use.patches.empty()) return;
+    if (places.of_rest != no_material)
+        throw Error(ErrorCode::usage, fmt::format("Materials '{}' and '{}' are for everything. Say with parts or patch "
+                                                  "where one of them is.",
+                                                  problem_.materials[places.of_rest].name, use.material.name));
+    places.of_rest = number;
 }
 
 // A part may have a node of a patch without a triangle of it: all who have the node are told.

@@ -136,31 +136,26 @@ std::int64_t SurfaceSelector::nearest_vertex(const Vec3& point) const {
 }
 
 std::vector<PatchSummary> SurfaceSelector::summaries() const {
-    constexpr std::size_t sums_each = 8;  // triangles, area, area x centroid, area x normal
-    std::vector<double> sums(names_.size() * sums_each, 0);
+    std::vector<PatchSummary> patches(names_.size());
     for (const SurfaceFacet& facet : surface_) {
         const Part& part = space_.parts()[facet.part];
-        if (part.patch[facet.facet] < 0) continue;
-        double* sum = &sums[static_cast<std::size_t>(part.patch[facet.facet]) * sums_each];
-        Vec3 centroid = Vec3::Zero();
-        for (const std::int32_t v : part.facets[facet.facet])
-            centroid += part.mesh.vertices[static_cast<std::size_t>(v)] / 3;
-        sum[0] += 1;
-        sum[1] += facet.area;
-        for (int c = 0; c < 3; ++c) {
-            sum[2 + c] += facet.area * centroid[c];
-            sum[5 + c] += facet.area * facet.normal[c];
-        }
+        const auto& [a, b, c] = part.facets[facet.facet];
+        const std::vector<Vec3>& points = part.mesh.vertices;
+        if (part.patch[facet.facet] >= 0) patches[part.patch[facet.facet]].add(points[a], points[b], points[c]);
     }
+    std::vector<double> sums;
+    for (const PatchSummary& own : patches)
+        for (const double sum : {static_cast<double>(own.triangles), own.area, own.centroid.x(), own.centroid.y(),
+                                 own.centroid.z(), own.normal.x(), own.normal.y(), own.normal.z()})
+            sums.push_back(sum);
     MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, space_.comm());
-    std::vector<PatchSummary> result;
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-        const double* sum = &sums[i * sums_each];
-        const double area = sum[1] > 0 ? sum[1] : 1;
-        result.push_back({names_[i], static_cast<std::int64_t>(sum[0]), sum[1], Vec3(sum[2], sum[3], sum[4]) / area,
-                          Vec3(sum[5], sum[6], sum[7]) / area});
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+        const double* sum = &sums[8 * i];
+        patches[i] = {names_[i], static_cast<std::int64_t>(sum[0]), sum[1], Vec3(sum[2], sum[3], sum[4]),
+                      Vec3(sum[5], sum[6], sum[7])};
+        patches[i].finish();
     }
-    return result;
+    return patches;
 }
 
 }  // namespace kerf

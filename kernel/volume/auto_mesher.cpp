@@ -28,16 +28,9 @@ Reproducer auto_reproducer(const SurfaceArrays& surface, const MesherOptions& op
 
 }  // namespace
 
-// The lattice's own; TetGen with switches is not known in advance.
+// TetGen with switches is not known in advance.
 extern const Mesher auto_mesher = {.name = "auto",
-                                   .forecast = {.tets_per_facet = 2.1,
-                                                .tets_per_volume_bound = 1.7,
-                                                .most_tets_per_facet = 2.5,
-                                                .seconds_per_facet = 6e-6,
-                                                .seconds_per_tet = 1e-6,
-                                                .bytes_per_tet = 70,
-                                                .volume_weight = 0.1,
-                                                .most_tets = (std::int64_t{1} << 31) - 2},
+                                   .forecast = lattice_forecast,
                                    .check = check_auto_options,
                                    .fill = fill_with_chosen_mesher,
                                    .calls = auto_calls,

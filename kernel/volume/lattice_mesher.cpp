@@ -139,16 +139,8 @@ Reproducer lattice_reproducer(const SurfaceArrays& surface, const MesherOptions&
 
 }  // namespace
 
-// Of twelve surfaces with 5,000 to 330,000 facets and no size, ten have 1.6 to 2.7 tetrahedra for each facet.
 extern const Mesher lattice_mesher = {.name = "lattice",
-                                      .forecast = {.tets_per_facet = 2.1,
-                                                   .tets_per_volume_bound = 1.7,
-                                                   .most_tets_per_facet = 2.5,
-                                                   .seconds_per_facet = 6e-6,
-                                                   .seconds_per_tet = 1e-6,
-                                                   .bytes_per_tet = 70,
-                                                   .volume_weight = 0.1,
-                                                   .most_tets = (std::int64_t{1} << 31) - 2},
+                                      .forecast = lattice_forecast,
                                       .check = check_lattice_options,
                                       .fill = fill_with_lattice,
                                       .calls = lattice_calls,

@@ -24,6 +24,17 @@ struct MesherForecast {
     double most_tets;              ///< that one call can count
 };
 
+/// The mesher `lattice` has this one, and so has who asks it: of twelve surfaces with 5,000 to 330,000 facets and no
+/// size, ten have 1.6 to 2.7 tetrahedra for each facet.
+inline constexpr MesherForecast lattice_forecast = {.tets_per_facet = 2.1,
+                                                    .tets_per_volume_bound = 1.7,
+                                                    .most_tets_per_facet = 2.5,
+                                                    .seconds_per_facet = 6e-6,
+                                                    .seconds_per_tet = 1e-6,
+                                                    .bytes_per_tet = 70,
+                                                    .volume_weight = 0.1,
+                                                    .most_tets = (std::int64_t{1} << 31) - 2};
+
 /// What repeats a failed call without Kerf.
 struct Reproducer {
     std::string ending;   ///< of the file beside the text that tells of the failure, with its dot

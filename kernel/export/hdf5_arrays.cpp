@@ -1,0 +1,77 @@
+#include "export/hdf5_arrays.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace kerf {
+
+PieceRows rows_before(const MeshOutline& outline, std::size_t rank) {
+    PieceRows rows;
+    for (std::size_t r = 0; r < rank; ++r) rows.add(outline.parts[r]);
+    return rows;
+}
+
+namespace {
+
+Hdf5Type type_for(std::int64_t largest) {
+    return largest > std::numeric_limits<std::int32_t>::max() ? Hdf5Type::int64 : Hdf5Type::int32;
+}
+
+}  // namespace
+
+Hdf5Type id_type(const MeshOutline& outline) { return type_for(outline.vertices); }
+
+Hdf5Type corner_type(const MeshOutline& outline) {
+    std::int64_t most = 0;
+    for (const PartExtent& part : outline.parts) most = std::max(most, 4 * part.tets + 3 * part.patch_facets);
+    return type_for(most);
+}
+
+std::string array_name(const PartValues& values) {
+    std::string name = values.name;
+    std::replace(name.begin(), name.end(), '/', '_');
+    return name;
+}
+
+std::string piece_array_of(const PartValues& values) {
+    const bool of_points = values.of == PartValues::Of::points;
+    return (of_points ? "VTKHDF/PointData/" : "VTKHDF/CellData/") + array_name(values);
+}
+
+std::string whole_array_of(const PartValues& values) {
+    const bool of_points = values.of == PartValues::Of::points;
+    return (of_points ? "fields/vertices/" : "fields/cells/") + array_name(values);
+}
+
+std::vector<Hdf5Array> arrays_of(const MeshOutline& outline) {
+    const std::int64_t parts = std::ssize(outline.parts);
+    const PieceRows all = rows_before(outline, outline.parts.size());
+    const std::int64_t tets = outline.tets(), facets = outline.patch_facets();
+    std::vector<Hdf5Array> arrays = {
+        {"VTKHDF/NumberOfPoints", Hdf5Type::int64, parts},
+        {"VTKHDF/NumberOfCells", Hdf5Type::int64, parts},
+        {"VTKHDF/NumberOfConnectivityIds", Hdf5Type::int64, parts},
+        {"VTKHDF/Points", Hdf5Type::real, all.points, 3},
+        {"VTKHDF/PointData/GlobalVertexId", Hdf5Type::int64, all.points},
+        {"VTKHDF/Connectivity", corner_type(outline), all.corners},
+        {"VTKHDF/Offsets", corner_type(outline), all.offsets},
+        {"VTKHDF/Types", Hdf5Type::byte, all.cells},
+        {"VTKHDF/CellData/Part", Hdf5Type::int32, all.cells},
+        {"VTKHDF/CellData/Patch", Hdf5Type::int32, all.cells},
+        {"geometry/vertices", Hdf5Type::real, outline.vertices, 3},
+        {"viz/topology/cells", id_type(outline), tets, 4},
+        {"viz/topology/facets", id_type(outline), facets, 3},
+        {"viz/body", Hdf5Type::int32, tets},
+        {"viz/part", Hdf5Type::int32, tets},
+        {"viz/patch", Hdf5Type::int32, facets},
+    };
+    for (const PartValues& values : outline.values) {
+        const bool of_points = values.of == PartValues::Of::points;
+        const std::int64_t columns = values.components == 1 ? 0 : values.components;
+        arrays.push_back({piece_array_of(values), Hdf5Type::real, of_points ? all.points : all.cells, columns});
+        arrays.push_back({whole_array_of(values), Hdf5Type::real, of_points ? outline.vertices : tets, columns});
+    }
+    return arrays;
+}
+
+}  // namespace kerf

@@ -1,0 +1,39 @@
+// The arrays of the format hdf5: names, types and sizes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "export/hdf5_file.h"
+#include "part/part.h"
+
+namespace kerf {
+
+/// The number of rows in arrays that have some for each part, before the part or over all of them.
+struct PieceRows {
+    std::int64_t points = 0, cells = 0, corners = 0, offsets = 0;
+
+    void add(const PartExtent& part) {
+        points += part.vertices;
+        cells += part.tets + part.patch_facets;
+        corners += 4 * part.tets + 3 * part.patch_facets;
+        offsets += part.tets + part.patch_facets + 1;
+    }
+};
+
+PieceRows rows_before(const MeshOutline& outline, std::size_t rank);
+
+/// The type of global numbers.
+Hdf5Type id_type(const MeshOutline& outline);
+/// The type of the corners and offsets in a piece, which VTK wants to be the same.
+Hdf5Type corner_type(const MeshOutline& outline);
+
+/// What values are called: by their name, in which a slash would be a group.
+std::string array_name(const PartValues& values);
+/// The array of the pieces, and the one by global numbers.
+std::string piece_array_of(const PartValues& values);
+std::string whole_array_of(const PartValues& values);
+
+std::vector<Hdf5Array> arrays_of(const MeshOutline& outline);
+
+}  // namespace kerf

@@ -1,0 +1,80 @@
+#include "export/msh_tags.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "part/bodies.h"
+
+namespace kerf::msh {
+
+Tags::Tags(const PartSource& source)
+    : parts_(static_cast<std::int32_t>(source.outline().parts.size())),
+      patches_(static_cast<std::int32_t>(source.outline().patch_names.size())),
+      bodies_(source.bodies().count()) {
+    const std::int64_t volumes = (std::int64_t{parts_} + 1) * bodies_ + parts_;
+    const std::int64_t surfaces = (std::int64_t{parts_} + 1) * patches_;
+    if (std::max(volumes, surfaces) >= most_int32)
+        throw Error(ErrorCode::usage,
+                    fmt::format("{} patches in {} parts of {} bodies are more than Gmsh's 32-bit tags can tell "
+                                "apart. Use fewer parts, or another format.",
+                                patches_, parts_, bodies_));
+}
+
+std::int64_t first_triangle(const MeshOutline& outline, std::int32_t rank) {
+    return outline.tets() + outline.first_patch_facet(rank);
+}
+
+std::int64_t element_count(const MeshOutline& outline) {
+    return first_triangle(outline, static_cast<std::int32_t>(outline.parts.size()));
+}
+
+std::string readable(std::string name, std::size_t most) {
+    for (char& c : name) {
+        if (c == '"') c = '\'';
+        if (static_cast<unsigned char>(c) < ' ') c = ' ';
+    }
+    if (name.size() <= most) return name;
+    const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; };
+    while (most > 0 && continues(name[most])) --most;
+    return name.substr(0, most);
+}
+
+std::vector<std::string> names_of_patches(const std::vector<std::string>& patch_names) {
+    std::vector<std::string> names;
+    std::set<std::string> used;
+    for (const std::string& given : patch_names) {
+        std::string name = readable(given, longest_name);
+        for (std::size_t number = names.size() + 1; !used.insert(name).second; number += patch_names.size()) {
+            const std::string suffix = fmt::format(" ({})", number);
+            name = readable(given, longest_name - suffix.size()) + suffix;
+        }
+        names.push_back(name);
+    }
+    return names;
+}
+
+std::vector<BodyPiece> body_pieces(const PartSource& parts, std::int32_t rank, const Part& part,
+                                   const std::vector<std::int32_t>& inside) {
+    const std::vector<std::int32_t> of_tets = parts.bodies().of_tets(rank, part);
+    std::map<std::int32_t, BodyPiece> pieces;
+    std::vector<std::int32_t> of_vertices(part.mesh.vertices.size(), -1);
+    for (std::size_t t = 0; t < of_tets.size(); ++t) {
+        pieces[of_tets[t]].tets.push_back(static_cast<std::int32_t>(t));
+        for (const std::int32_t v : part.mesh.tets[t]) of_vertices[static_cast<std::size_t>(v)] = of_tets[t];
+    }
+    for (std::size_t v = 0; v < of_vertices.size(); ++v)
+        if (of_vertices[v] >= 0) pieces[of_vertices[v]].box.extend(part.mesh.vertices[v]);
+    for (const std::int32_t v : inside) pieces[of_vertices[static_cast<std::size_t>(v)]].inside.push_back(v);
+    std::vector<BodyPiece> ordered;
+    for (auto& [body, piece] : pieces) {
+        piece.body = body;
+        ordered.push_back(std::move(piece));
+    }
+    return ordered;
+}
+
+}  // namespace kerf::msh

@@ -1,0 +1,75 @@
+// What nodes, elements, entities and patches are called in Gmsh's files, and which tetrahedra of a part are whose.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "part/part.h"
+
+namespace kerf::msh {
+
+inline constexpr std::int32_t triangle_type = 2, tet_type = 4;
+inline constexpr std::int64_t most_int32 = std::numeric_limits<std::int32_t>::max();
+inline constexpr std::size_t longest_name = 251;  ///< bytes; Gmsh refuses files with 253
+
+/// One of Gmsh's: a surface or a volume.
+struct Entity {
+    std::int32_t dimension, tag;
+};
+
+/// All entities have tags of their own, those of the whole and those of every part.
+class Tags {
+ public:
+    /// Throws Error(usage) for more than 32 bits tell apart.
+    explicit Tags(const PartSource& source);
+
+    static Entity surface(std::int32_t patch) { return {2, patch + 1}; }
+    static Entity whole(std::int32_t body) { return {3, body + 1}; }
+    Entity surface_of_part(std::int32_t rank, std::int32_t patch) const {
+        return {2, (rank + 1) * patches_ + patch + 1};
+    }
+    Entity volume_of_part(std::int32_t rank, std::int32_t body) const { return {3, (rank + 1) * bodies_ + body + 1}; }
+    Entity ghosts_of_part(std::int32_t rank) const { return {3, (parts_ + 1) * bodies_ + rank + 1}; }
+    /// Merged, the parts are the volumes, for each body that they have something of.
+    Entity merged_volume(std::int32_t rank, std::int32_t body) const { return {3, rank * bodies_ + body + 1}; }
+
+    /// Physical tags are different in all dimensions, as Gmsh chooses them itself, and GetDP needs them.
+    static std::int32_t physical_patch(std::int32_t patch) { return patch + 1; }
+    std::int32_t physical_body(std::int32_t body) const { return patches_ + body + 1; }
+
+    std::int32_t parts() const { return parts_; }
+    std::int32_t bodies() const { return bodies_; }
+
+ private:
+    std::int32_t parts_, patches_, bodies_;
+};
+
+constexpr std::int64_t tag_of(std::int64_t number) { return number + 1; }
+
+/// The number of a part's first triangle among all elements.
+std::int64_t first_triangle(const MeshOutline& outline, std::int32_t rank);
+std::int64_t element_count(const MeshOutline& outline);
+
+/// The name without what ends a name or a line, and not ending inside of a character that takes several bytes.
+std::string readable(std::string name, std::size_t most);
+
+/// Gmsh has no escapes: quotes become apostrophes. Names that are alike then get the number of their patch.
+std::vector<std::string> names_of_patches(const std::vector<std::string>& patch_names);
+
+/// What a part has of a body.
+struct BodyPiece {
+    std::int32_t body = 0;
+    std::vector<std::int32_t> tets;    ///< of the part, ascending
+    std::vector<std::int32_t> inside;  ///< vertices on no patch
+    Eigen::AlignedBox3d box;
+};
+
+/// Ascending by body. `inside`: those vertices that are asked for.
+std::vector<BodyPiece> body_pieces(const PartSource& parts, std::int32_t rank, const Part& part,
+                                   const std::vector<std::int32_t>& inside);
+
+}  // namespace kerf::msh

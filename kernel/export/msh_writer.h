@@ -1,0 +1,161 @@
+// The sections that Gmsh's files consist of.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "export/export_files.h"
+#include "export/ghosts.h"
+#include "export/msh_tags.h"
+#include "export/patch_pieces.h"
+#include "export/whole_mesh.h"
+
+namespace kerf::msh {
+
+/// The range of some numbers.
+struct Numbers {
+    std::int64_t first, last;
+
+    void add(std::int64_t number) {
+        first = std::min(first, number);
+        last = std::max(last, number);
+    }
+};
+
+/// Writes numbers one behind the other, or, as text, a row of them on a line.
+class Writer {
+ public:
+    Writer(ExportFile file, const char* version, bool is_ascii) : file_(std::move(file)), is_ascii_(is_ascii) {
+        file_.write(fmt::format("$MeshFormat\n{} {} 8\n", version, is_ascii_ ? 0 : 1));
+        if (!is_ascii_) {
+            file_.value(std::int32_t{1});
+            file_.write("\n");
+        }
+        file_.write("$EndMeshFormat\n");
+    }
+
+    ExportFile& file() { return file_; }
+    void begin(const char* section) { file_.write(fmt::format("${}\n", section)); }
+    void end(const char* section) { file_.write(fmt::format("{}$End{}\n", is_ascii_ ? "" : "\n", section)); }
+    void size(std::int64_t value) { put(value); }
+    void number(std::int32_t value) { put(value); }
+    void real(double value) { put(value); }
+    void point(const Vec3& p) {
+        for (const double x : p) put(x);
+    }
+    void end_row() {
+        if (is_ascii_) file_.write("\n");
+        is_in_row_ = false;
+    }
+    template <class T, std::size_t n>
+    void row(const std::array<T, n>& numbers) {
+        if (!is_ascii_) return file_.value(numbers);
+        for (const T number : numbers) put(number);
+        end_row();
+    }
+    bool is_ascii() const { return is_ascii_; }
+
+    /// Entities of the whole, or of a part, none of which has a boundary of its own.
+    void entity(const Entity& entity, const Eigen::AlignedBox3d& box, std::int32_t physical) {
+        number(entity.tag);
+        box_and_physical(box, physical);
+    }
+    void entity_of_part(const Entity& entity, const Entity& of, std::int32_t rank, const Eigen::AlignedBox3d& box,
+                        std::int32_t physical) {
+        number(entity.tag);
+        number(of.dimension);
+        number(of.tag);
+        size(1);
+        number(rank + 1);
+        box_and_physical(box, physical);
+    }
+    void counts_of_entities(std::size_t surfaces, std::size_t volumes) {
+        row(std::array<std::int64_t, 4>{0, 0, static_cast<std::int64_t>(surfaces), static_cast<std::int64_t>(volumes)});
+    }
+
+    /// What $Nodes and $Elements begin with.
+    void extent(std::size_t blocks, std::size_t count, const Numbers& numbers) {
+        row(std::array<std::int64_t, 4>{static_cast<std::int64_t>(blocks), static_cast<std::int64_t>(count),
+                                        tag_of(numbers.first), tag_of(numbers.last)});
+    }
+
+    void nodes(const Entity& entity, const Part& part, const std::vector<std::int32_t>& vertices) {
+        block(entity, 0, vertices.size());
+        for (const std::int32_t v : vertices) size_row(tag_of(part.global_id[static_cast<std::size_t>(v)]));
+        for (const std::int32_t v : vertices) point_row(part.mesh.vertices[static_cast<std::size_t>(v)]);
+    }
+    void nodes(const Entity& entity, const std::vector<GhostVertex>& vertices) {
+        block(entity, 0, vertices.size());
+        for (const GhostVertex& vertex : vertices) size_row(tag_of(vertex.id));
+        for (const GhostVertex& vertex : vertices) point_row(vertex.point);
+    }
+    void triangles(const Entity& entity, const Part& part, const PatchPiece& piece, std::int64_t first) {
+        block(entity, triangle_type, piece.facets.size());
+        for (std::size_t i = 0; i < piece.facets.size(); ++i)
+            element(first + piece.places[i],
+                    global_corners(part, part.facets[static_cast<std::size_t>(piece.facets[i])]));
+    }
+    void tets(const Entity& entity, const Part& part, const std::vector<std::int32_t>& tets, std::int64_t first) {
+        block(entity, tet_type, tets.size());
+        for (const std::int32_t t : tets)
+            element(first + t, global_corners(part, part.mesh.tets[static_cast<std::size_t>(t)]));
+    }
+    void tets(const Entity& entity, const std::vector<GhostCell>& cells) {
+        block(entity, tet_type, cells.size());
+        for (const GhostCell& cell : cells) element(cell.number, cell.corners);
+    }
+
+ private:
+    template <class T>
+    void put(T value) {
+        if (!is_ascii_) return file_.value(value);
+        if (is_in_row_) file_.write(" ");
+        is_in_row_ = true;
+        if constexpr (std::is_floating_point_v<T>)
+            file_.number(value);
+        else
+            file_.number(std::int64_t{value});
+    }
+    void size_row(std::int64_t value) {
+        size(value);
+        end_row();
+    }
+    void point_row(const Vec3& p) {
+        point(p);
+        end_row();
+    }
+    void box_and_physical(const Eigen::AlignedBox3d& box, std::int32_t physical) {
+        point(box.min());
+        point(box.max());
+        size(1);
+        number(physical);
+        size(0);
+        end_row();
+    }
+    void block(const Entity& entity, std::int32_t kind, std::size_t count) {
+        number(entity.dimension);
+        number(entity.tag);
+        number(kind);
+        size(static_cast<std::int64_t>(count));
+        end_row();
+    }
+    template <std::size_t n>
+    void element(std::int64_t number, const std::array<std::int64_t, n>& corners) {
+        std::array<std::int64_t, n + 1> record{tag_of(number)};
+        for (std::size_t i = 0; i < n; ++i) record[i + 1] = tag_of(corners[i]);
+        row(record);
+    }
+
+    ExportFile file_;
+    bool is_ascii_, is_in_row_ = false;
+};
+
+/// $PhysicalNames: those of patches and bodies.
+void write_names(ExportFile& file, const Tags& tags, const std::vector<std::string>& patch_names);
+
+}  // namespace kerf::msh
