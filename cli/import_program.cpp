@@ -29,6 +29,7 @@ CadAnswer answer_for(const std::string& path, std::span<const std::string> argum
     } catch (const SolidDefect& defect) {
         CadAnswer answer = failed(defect.code(), defect.what());
         answer.defect = defect.kind();
+        answer.elements = defect.elements();
         return answer;
     } catch (const Error& error) {
         return failed(error.code(), error.what());

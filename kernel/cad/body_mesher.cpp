@@ -211,8 +211,8 @@ std::string counted(std::size_t n, const char* one, const char* many) {
 
 std::string place_text(const Vec3& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z()); }
 
-void refuse(const std::string& path, const std::string& what, const char* kind) {
-    throw SolidDefect(kind, path + ": " + what);
+void refuse(const std::string& path, const std::string& what, const char* kind, std::vector<ErrorElements> elements) {
+    throw SolidDefect(kind, path + ": " + what, std::move(elements));
 }
 
 MeshedBody mesh_body(Body& body, Model& model, const std::string& path, double deflection, bool may_balance) {

@@ -20,7 +20,8 @@ struct MeshedBody {
 MeshedBody mesh_body(Body& body, Model& model, const std::string& path, double deflection, bool may_balance);
 
 /// Throws SolidDefect of a kind that io/cad_body.h names.
-[[noreturn]] void refuse(const std::string& path, const std::string& what, const char* kind = SolidDefect::broken);
+[[noreturn]] void refuse(const std::string& path, const std::string& what, const char* kind = SolidDefect::broken,
+                         std::vector<ErrorElements> elements = {});
 
 /// "1 face", "2 faces".
 std::string counted(std::size_t n, const char* one, const char* many);

@@ -1,8 +1,13 @@
 // The one exception type of the kernel. Its code is the exit code of the program.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace kerf {
 
@@ -20,14 +25,35 @@ enum class ErrorCode : int {
     cancelled = 130,   ///< stopped by the user
 };
 
+enum class ElementKind : std::int32_t { vertex, edge, facet, solid };
+
+/// Elements of one kind that an error is about, for programs; its message names the first of them for people.
+struct ErrorElements {
+    ElementKind kind = ElementKind::facet;
+    std::vector<std::int64_t> ids;  ///< numbers as the input has them, counted from 0; of an edge its two vertices
+    std::vector<std::array<double, 3>> points;  ///< at them, in units of the input; one for all, or one for each
+    std::vector<std::string> names;             ///< of the patches in which they lie, or of the solids
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(kind, ids, points, names);
+    }
+};
+
 /// What went wrong, where (element numbers of the input file, coordinates, part) and what to do, in one sentence each.
 class Error : public std::runtime_error {
  public:
-    Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+    Error(ErrorCode code, const std::string& message, std::vector<ErrorElements> elements = {})
+        : std::runtime_error(message),
+          code_(code),
+          elements_(std::make_shared<const std::vector<ErrorElements>>(std::move(elements))) {}
     ErrorCode code() const { return code_; }
+    /// The elements that the error is about, the worst first; none where it is about something else.
+    const std::vector<ErrorElements>& elements() const { return *elements_; }
 
  private:
     ErrorCode code_;
+    std::shared_ptr<const std::vector<ErrorElements>> elements_;  // copies of an exception must not throw
 };
 
 }  // namespace kerf

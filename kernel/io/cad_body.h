@@ -65,8 +65,8 @@ class SolidDefect : public Error {
     static constexpr const char* open = "open solid";
     static constexpr const char* broken = "broken solid";  ///< intersects itself, or its faces do not bound it
 
-    SolidDefect(std::string kind, const std::string& message)
-        : Error(ErrorCode::input, message), kind_(std::move(kind)) {}
+    SolidDefect(std::string kind, const std::string& message, std::vector<ErrorElements> elements = {})
+        : Error(ErrorCode::input, message, std::move(elements)), kind_(std::move(kind)) {}
     const std::string& kind() const { return kind_; }
 
  private:
@@ -79,10 +79,11 @@ struct CadAnswer {
     std::string message;
     CadBody body;
     std::string defect = {};  ///< kind of a SolidDefect; empty: another error, or none
+    std::vector<ErrorElements> elements = {};
 
     template <class Archive>
     void archive(Archive& a) {
-        a(error_code, message, body, defect);
+        a(error_code, message, body, defect, elements);
     }
 };
 

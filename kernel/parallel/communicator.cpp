@@ -9,7 +9,7 @@ StageStatus status_of_exception() {
     try {
         throw;
     } catch (const Error& e) {
-        return {static_cast<int>(e.code()), e.what()};
+        return {static_cast<int>(e.code()), e.what(), e.elements()};
     } catch (const std::bad_alloc&) {
         return {static_cast<int>(ErrorCode::memory), "Out of memory. Use more parts, fewer workers or more hosts."};
     } catch (const std::exception& e) {
@@ -24,7 +24,7 @@ void throw_first_error(Communicator& ranks, const StageStatus& own) {
     auto first = std::find_if(all.begin(), all.end(), failed);
     if (first == all.end())
         first = std::find_if(all.begin(), all.end(), [](const StageStatus& status) { return status.code != 0; });
-    if (first != all.end()) throw Error(static_cast<ErrorCode>(first->code), first->message);
+    if (first != all.end()) throw first->error();
 }
 
 }  // namespace kerf

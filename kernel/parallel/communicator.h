@@ -16,10 +16,14 @@ namespace kerf {
 struct StageStatus {
     int code = 0;  ///< value of ErrorCode, 0: good
     std::string message;
+    std::vector<ErrorElements> elements = {};
+
+    /// What is thrown for it elsewhere.
+    Error error() const { return {static_cast<ErrorCode>(code), message, elements}; }
 
     template <class Archive>
     void archive(Archive& a) {
-        a(code, message);
+        a(code, message, elements);
     }
 };
 
@@ -107,7 +111,7 @@ auto run_together(Communicator& ranks, Body body) -> std::invoke_result_t<Body> 
         why = status_of_exception();
     }
     ranks.leave(why);
-    throw Error(static_cast<ErrorCode>(why.code), why.message);
+    throw why.error();
 }
 
 }  // namespace kerf

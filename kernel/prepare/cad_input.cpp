@@ -94,7 +94,7 @@ CadBody read_cad(const std::string& path, const FileHash& file_hash, const CadOp
                                 path, kind.files, kind.name, kind.build_package, kind.name, kind.run_package));
     const ChildResult result = run_import_program(program, path, options, timeout_seconds);
     CadAnswer answer = answer_of(result, path, program, kind);
-    if (!answer.defect.empty()) throw SolidDefect(answer.defect, answer.message);
+    if (!answer.defect.empty()) throw SolidDefect(answer.defect, answer.message, answer.elements);
     if (answer.error_code != 0) throw Error(static_cast<ErrorCode>(answer.error_code), answer.message);
     if (answer.body.file_hash != file_hash)
         throw Error(ErrorCode::io, path + ": the file has changed while it was read. Run again.");

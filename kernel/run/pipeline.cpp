@@ -267,7 +267,8 @@ Error with_way_to_go_on(const RunOptions& options, std::optional<RunFolder>& fol
     const bool are_all = finished >= static_cast<std::size_t>(options.decompose.parts);
     return {error.code(),
             fmt::format("{} {}{} parts are finished; kerf mesh --resume {} {}.", error.what(), are_all ? "All " : "",
-                        finished, options.output, are_all ? "writes the files that are missing" : "does the others")};
+                        finished, options.output, are_all ? "writes the files that are missing" : "does the others"),
+            error.elements()};
 }
 
 RunReport empty_report(const RunContext& run) {

@@ -16,6 +16,15 @@ std::string list(const char* one, const char* many, const std::vector<std::int32
     return fmt::format("{} {}{}", many, fmt::join(numbers.begin(), end, ", "), numbers.size() > limit ? ", ..." : "");
 }
 
+// The corners of a facet say nothing that its number does not say.
+bool are_vertices_told(const Defect& defect) {
+    return !defect.vertices.empty() && (defect.facets.empty() || defect.vertices.size() < 3);
+}
+
+ErrorElements elements_at(const Defect& defect, ElementKind kind, const std::vector<std::int32_t>& ids) {
+    return {kind, {ids.begin(), ids.end()}, {{defect.where.x(), defect.where.y(), defect.where.z()}}, {}};
+}
+
 }  // namespace
 
 const char* name(DefectKind kind) {
@@ -131,10 +140,26 @@ std::string counted(std::int64_t n, DefectKind kind) {
 std::string place(const Defect& defect, const Soup& soup) {
     std::string text;
     if (!defect.facets.empty()) text = list("facet", "facets", soup.file_facets(defect.facets));
-    // The corners of a facet say nothing that its number does not say.
-    if (!defect.vertices.empty() && (defect.facets.empty() || defect.vertices.size() < 3))
+    if (are_vertices_told(defect))
         text += (text.empty() ? "" : ", ") + list("vertex", "vertices", soup.file_vertices(defect.vertices));
     return fmt::format("{} near ({:.9g}, {:.9g}, {:.9g})", text, defect.where.x(), defect.where.y(), defect.where.z());
+}
+
+std::vector<ErrorElements> elements_of(const Defect& defect, const Soup& soup) {
+    std::vector<ErrorElements> elements;
+    if (!defect.facets.empty()) {
+        ErrorElements& facets =
+            elements.emplace_back(elements_at(defect, ElementKind::facet, soup.file_facets(defect.facets)));
+        for (const std::int32_t f : defect.facets)
+            facets.names.push_back(soup.patch_names[static_cast<std::size_t>(soup.patch[static_cast<std::size_t>(f)])]);
+        std::sort(facets.names.begin(), facets.names.end());
+        facets.names.erase(std::unique(facets.names.begin(), facets.names.end()), facets.names.end());
+    }
+    const bool is_edge = defect.kind == DefectKind::non_manifold_edge || defect.kind == DefectKind::short_edge;
+    if (are_vertices_told(defect))
+        elements.push_back(elements_at(defect, is_edge ? ElementKind::edge : ElementKind::vertex,
+                                       soup.file_vertices(defect.vertices)));
+    return elements;
 }
 
 }  // namespace kerf

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "surface/soup.h"
 
 namespace kerf {
@@ -59,5 +60,9 @@ std::string counted(std::int64_t n, DefectKind kind);
 /// Where it is, as one phrase: "facets 3, 8, vertex 4 near (0, 0, 1)". Facets have the numbers that the file gives them
 /// (Soup::polygon), counted from 0; vertices those that the file gives them (Soup::vertex_number).
 std::string place(const Defect& defect, const Soup& soup);
+
+/// Its facets, and its vertices or the edge that they are, with the numbers that place() tells and the names of
+/// patches.
+std::vector<ErrorElements> elements_of(const Defect& defect, const Soup& soup);
 
 }  // namespace kerf

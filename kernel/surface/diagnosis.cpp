@@ -372,6 +372,15 @@ std::string Diagnosis::summary(const Soup& soup) const {
                        errors > 1 ? "the first at " : "at ", place(*first, soup), remedy(*first));
 }
 
+std::vector<ErrorElements> Diagnosis::elements(const Soup& soup) const {
+    std::vector<ErrorElements> elements;
+    const auto first = std::find_if(defects.begin(), defects.end(), is_error);
+    for (auto defect = first; defect != defects.end(); ++defect)
+        if (is_error(*defect) && defect->kind == first->kind)
+            for (ErrorElements& each : elements_of(*defect, soup)) elements.push_back(std::move(each));
+    return elements;
+}
+
 Diagnosis diagnose(const Soup& soup, const DiagnosisOptions& options) {
     KERF_CHECK(are_in_range(soup.facets, soup.vertices.size()));
     KERF_CHECK(soup.polygon.empty() || soup.polygon.size() == soup.facets.size());

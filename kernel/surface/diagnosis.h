@@ -29,6 +29,8 @@ struct Diagnosis {
     std::int64_t count(DefectKind kind) const { return counts[static_cast<std::size_t>(kind)]; }
     /// One sentence: the most fundamental error, how many, the first with numbers and coordinates, and what to do.
     std::string summary(const Soup& soup) const;
+    /// The elements of all errors of that kind, in their order.
+    std::vector<ErrorElements> elements(const Soup& soup) const;
 };
 
 /// Finds all defects in one pass, each check on what it can work with: edges on facets without repeated vertices,

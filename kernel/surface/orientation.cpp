@@ -148,8 +148,11 @@ bool is_closed(const std::vector<Triangle>& facets) {
 
 [[noreturn]] void refuse(const Soup& soup, std::int32_t facet, const char* what) {
     const Vec3& p = soup.vertices[soup.facets[facet][0]];
-    throw Error(ErrorCode::input, fmt::format("The shell of facet {} near ({:.9g}, {:.9g}, {:.9g}) {}",
-                                              soup.file_facets({facet})[0], p.x(), p.y(), p.z(), what));
+    const std::int32_t number = soup.file_facets({facet})[0];
+    throw Error(
+        ErrorCode::input,
+        fmt::format("The shell of facet {} near ({:.9g}, {:.9g}, {:.9g}) {}", number, p.x(), p.y(), p.z(), what),
+        {{ElementKind::facet, {number}, {{p.x(), p.y(), p.z()}}, {}}});
 }
 
 }  // namespace

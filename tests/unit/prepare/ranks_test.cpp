@@ -105,6 +105,25 @@ TEST(InAgreement, ErrorOfOneRankIsThrownOnAll) {
     EXPECT_EQ(errors_of(2, on_rank_1, ErrorCode::io), (std::vector<std::string>{message, message}));
 }
 
+TEST(InAgreement, ElementsOfAnErrorReachAllRanks) {
+    run_ranks(2, [](Communicator& ranks) {
+        try {
+            in_agreement(ranks, [&] {
+                if (ranks.rank() == 1)
+                    throw Error(ErrorCode::input, "Facet 7.", {{ElementKind::facet, {7}, {{1, 2, 3}}, {"inlet"}}});
+            });
+            ADD_FAILURE() << "nothing was thrown";
+        } catch (const Error& error) {
+            ASSERT_EQ(error.elements().size(), 1u);
+            const ErrorElements& facet = error.elements()[0];
+            EXPECT_EQ(facet.kind, ElementKind::facet);
+            EXPECT_EQ(facet.ids, std::vector<std::int64_t>{7});
+            EXPECT_EQ(facet.points[0], (std::array<double, 3>{1, 2, 3}));
+            EXPECT_EQ(facet.names, std::vector<std::string>{"inlet"});
+        }
+    });
+}
+
 TEST(InAgreement, FirstRankWins) {
     const auto on_all = [](int rank) {
         throw Error(rank ? ErrorCode::io : ErrorCode::input, "rank " + std::to_string(rank));
