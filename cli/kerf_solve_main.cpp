@@ -157,7 +157,6 @@ int solve_on_ranks(const SolveLine& line, Communicator& ranks) {
 int mesh_and_solve_on_ranks(const SolveLine& line, const Ranks& ranks) {
     const bool root = ranks.communicator->rank() == 0;
     MeshAndSolveRequest request = line.request;
-    request.mesh.worker_program = program_beside_this("kerf-worker");
     MeshAndSolveReport report;
     {
         ProgressLine progress(line.quiet || !root, nullptr);

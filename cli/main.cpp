@@ -19,6 +19,7 @@
 #include "cli/terminal.h"
 #include "cli/verify.h"
 #include "io/output_file.h"
+#include "io/program_finder.h"
 #include "io/run_manifest.h"
 #include "io/standard_streams.h"
 #include "report/tree_text.h"
@@ -89,8 +90,7 @@ bool can_be_measured(const std::string& file) {
 std::string next_command(const CommandLine& line, const RunReport& report) {
     if (!line.merged_file.empty())
         return can_be_measured(line.merged_file) ? "kerf quality " + shell_word(line.merged_file) : "";
-    if (has_display() && std::filesystem::exists(program_beside_this("kerf-view")))
-        return "kerf view " + shell_word(line.options.output);
+    if (has_display() && look_for_program("kerf-view").found) return "kerf view " + shell_word(line.options.output);
     return report.options.volume ? "kerf quality " + shell_word(line.options.output)
                                  : "kerf mesh " + shell_word(report.options.input);
 }
@@ -112,7 +112,6 @@ void tell_result(const CommandLine& line, const RunReport& report) {
 int run_on_ranks(const CommandLine& line, const Ranks& ranks, std::unique_ptr<EventLog>& events) {
     const bool root = ranks.communicator->rank() == 0;
     RunOptions options = line.options;
-    options.worker_program = program_beside_this("kerf-worker");
     check_outputs(line, *ranks.communicator);
     events = open_event_log(line, *ranks.communicator);
     Input input;

@@ -5,20 +5,16 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <iterator>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "io/program_finder.h"
 #include "volume/child_process.h"
 
 namespace kerf {
-
-std::string program_beside_this(const std::string& name) {
-    return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / name).string();
-}
 
 const OtherProgram* find_other_program(const std::string& command) {
     const auto found = std::find_if(std::begin(other_programs), std::end(other_programs),
@@ -29,10 +25,10 @@ const OtherProgram* find_other_program(const std::string& command) {
 std::string output_of_other_programs(const std::vector<std::string>& arguments) {
     constexpr double patience_seconds = 60;
     std::set<std::string> programs;
-    for (const OtherProgram& other : other_programs) programs.insert(program_beside_this(other.program));
+    for (const OtherProgram& other : other_programs)
+        if (const ProgramSearch search = look_for_program(other.program); search.found) programs.insert(search.path);
     std::string output;
     for (const std::string& program : programs) {
-        if (!std::filesystem::exists(program)) continue;
         ChildPool pool;
         pool.start(0, program, arguments, {}, patience_seconds);
         const ChildResult result = pool.wait_any()->result;
@@ -45,7 +41,7 @@ std::string output_of_other_programs(const std::vector<std::string>& arguments) 
 }
 
 void become(const OtherProgram& other, char** argv) {
-    const std::string program = program_beside_this(other.program);
+    const std::string program = look_for_program(other.program).path;
     ::execv(program.c_str(), argv);
     const int reason = errno;
     throw Error(ErrorCode::usage,

@@ -13,9 +13,6 @@ struct OtherProgram {
     const char* remedy;   ///< where the program is missing: how to build it, and what to do without
 };
 
-/// Path of a program in the folder of this one.
-std::string program_beside_this(const std::string& name);
-
 /// The program of a command; null if it is kerf's own.
 const OtherProgram* find_other_program(const std::string& command);
 

@@ -1,7 +1,5 @@
 #include "prepare/cad_input.h"
 
-#include <cstdlib>
-#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +7,7 @@
 #include "core/error.h"
 #include "io/compressed.h"
 #include "io/file_bytes.h"
+#include "io/program_finder.h"
 #include "io/surface_reader.h"
 #include "io/threemf_file.h"
 #include "volume/child_process.h"
@@ -16,8 +15,6 @@
 namespace kerf {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 ChildResult run_import_program(const std::string& program, const std::string& path, const CadOptions& options,
                                double timeout_seconds) {
@@ -52,6 +49,16 @@ void refuse_unit(const std::string& path, const CadOptions& options) {
                             path));
 }
 
+std::string find_import_program(const ImportProgram& kind, const std::string& path) {
+    ProgramSearch search = look_for_program(kind.name);
+    if (search.found) return std::move(search.path);
+    throw Error(ErrorCode::usage,
+                fmt::format("{}: {} are read by the program {}, which is not here: {}. Install {}, build {} and put it "
+                            "beside kerf (to run, it needs {}), or export the file as STL, OBJ or PLY.",
+                            path, kind.files, kind.name, fmt::join(search.looked_at, ", "), kind.build_package,
+                            kind.name, kind.run_package));
+}
+
 Soup read_unscaled(std::string bytes, const std::string& path, const CadOptions& options, Walls walls) {
     const FileHash file_hash = digest_of(bytes);
     std::string content = decompress(std::move(bytes), path);
@@ -62,8 +69,7 @@ Soup read_unscaled(std::string bytes, const std::string& path, const CadOptions&
     }
     if (is_threemf(content)) {
         constexpr double timeout_seconds = 600;
-        const std::string program = find_program(threemf_program);
-        return std::move(read_cad(path, file_hash, options, program, timeout_seconds, threemf_program).soup);
+        return std::move(read_cad(path, file_hash, options, "", timeout_seconds, threemf_program).soup);
     }
     for (const auto& [name, is_given] : {std::pair("solid", options.solid > 0), std::pair("unite", options.unite),
                                          std::pair("cad-deflection", options.deflection > 0)})
@@ -76,22 +82,9 @@ Soup read_unscaled(std::string bytes, const std::string& path, const CadOptions&
 
 }  // namespace
 
-std::string find_program(const ImportProgram& kind) {
-    if (const char* named = std::getenv(kind.variable)) return named;
-    const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
-    std::error_code ignored;
-    for (const fs::path& place : {folder / kind.name, folder / "../libexec/kerf" / kind.name})
-        if (fs::exists(place, ignored)) return place.string();
-    return "";
-}
-
 CadBody read_cad(const std::string& path, const FileHash& file_hash, const CadOptions& options,
-                 const std::string& program, double timeout_seconds, const ImportProgram& kind) {
-    if (program.empty())
-        throw Error(ErrorCode::usage,
-                    fmt::format("{}: {} are read by the program {}, which is not here. Install {}, build {} and put it "
-                                "beside kerf (to run, it needs {}), or export the file as STL, OBJ or PLY.",
-                                path, kind.files, kind.name, kind.build_package, kind.name, kind.run_package));
+                 const std::string& named, double timeout_seconds, const ImportProgram& kind) {
+    const std::string program = named.empty() ? find_import_program(kind, path) : named;
     const ChildResult result = run_import_program(program, path, options, timeout_seconds);
     CadAnswer answer = answer_of(result, path, program, kind);
     if (!answer.defect.empty()) throw SolidDefect(answer.defect, answer.message, answer.elements);

@@ -9,8 +9,7 @@ namespace kerf {
 
 /// A program that reads files for kerf, since its library is optional, slow to load, or may crash.
 struct ImportProgram {
-    const char* name;           ///< beside kerf
-    const char* variable;       ///< of the environment: another path
+    const char* name;           ///< for look_for_program()
     const char* files;          ///< that it reads
     const char* library;        ///< which it needs, ...
     const char* build_package;  ///< ... to be built, ...
@@ -18,24 +17,20 @@ struct ImportProgram {
     const char* origin;         ///< what has written the files
 };
 inline constexpr ImportProgram cad_program = {
-    "kerf-cad",       "KERF_CAD", "CAD files", "OpenCASCADE", "libocct-data-exchange-dev", "libocct-data-exchange-7.6",
+    "kerf-cad",       "CAD files", "OpenCASCADE", "libocct-data-exchange-dev", "libocct-data-exchange-7.6",
     "the CAD program"};
-inline constexpr ImportProgram threemf_program = {
-    "kerf-3mf", "KERF_3MF", "3MF files", "lib3mf", "lib3mf-dev", "lib3mf1", "the program that has written it"};
-
-/// Path of the program: what its environment variable names, else beside this program, else in ../libexec/kerf beside
-/// that; empty: nowhere.
-std::string find_program(const ImportProgram& kind);
+inline constexpr ImportProgram threemf_program = {"kerf-3mf",   "3MF files", "lib3mf",
+                                                  "lib3mf-dev", "lib3mf1",   "the program that has written it"};
 
 /// What the program `program`, one of the kind `kind`, makes of the file `path`, in a child process that is stopped
-/// after `timeout_seconds`. `file_hash`: of the bytes that the file must have.
+/// after `timeout_seconds`. Empty: as look_for_program() finds it. `file_hash`: of the bytes that the file must have.
 ///
 /// Throws Error with the code and sentence of the program for a file that it refuses, as SolidDefect where the file was
 /// read well; Error(io) for a program that cannot be started or a file that has changed; Error(input) if the program
-/// crashes or takes too long, since other programs can export the file as triangles; Error(usage), naming the package,
-/// if `program` is empty.
+/// crashes or takes too long, since other programs can export the file as triangles; Error(usage), naming the package
+/// and the places, if the program is nowhere.
 CadBody read_cad(const std::string& path, const FileHash& file_hash, const CadOptions& options,
-                 const std::string& program = find_program(cad_program), double timeout_seconds = 600,
+                 const std::string& program = "", double timeout_seconds = 600,
                  const ImportProgram& kind = cad_program);
 
 /// read_surface() that knows CAD files and 3MF, too, obeys InputOptions::cad and multiplies all coordinates by

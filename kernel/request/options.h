@@ -22,7 +22,7 @@ struct RunOptions {
     std::string input_hash;  ///< of the bytes that the input must have, as a run that is continued has read them;
                              ///< empty: any
     std::string output;
-    std::string worker_program;  ///< path of kerf-worker
+    std::string worker_program;  ///< path of kerf-worker; empty: as find_kerf_program() finds it
     DecomposeOptions decompose = {
         .parts = 0, .facets = FacetPolicy::split, .cut = {}};  ///< parts 0: see choose_parts()
     MesherOptions mesher;

@@ -7,6 +7,7 @@
 
 #include "core/host_name.h"
 #include "export/patch_types.h"
+#include "io/program_finder.h"
 #include "io/run_manifest.h"
 #include "prepare/remeshing.h"
 #include "prepare/size_reader.h"
@@ -77,7 +78,9 @@ RunPlan plan_run(const RunOptions& request, int cores_of_rank, Communicator& ran
     RunPlan plan;
     const RunOptions wanted = in_agreement(ranks, [&] {
         RunOptions options = resolved(request, cores_of_rank);
-        if (options.volume && !options.dry_run) plan.worker_hash = describe_file("", options.worker_program).hash;
+        const bool meshes = options.volume && !options.dry_run;
+        if (meshes && options.worker_program.empty()) options.worker_program = find_kerf_program("kerf-worker");
+        if (meshes) plan.worker_hash = describe_file("", options.worker_program).hash;
         if (listener) listener->on_progress("read", 0, 1);
         input = read_input(options.input, options.input_options);
         refuse_changed_input(options, input.file_hash);

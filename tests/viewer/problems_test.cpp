@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "io/cad_body.h"
+#include "io/program_finder.h"
 #include "io/surface_reader.h"
 #include "support/assets.h"
 #include "support/shapes.h"
@@ -133,13 +134,13 @@ class RefusingCad {
         body.file_hash = digest_of(step);
         write("united", {0, "", body});
         write("refused", {3, "two.step: they touch. Join what touches by --unite, or choose one by --solid N.", {}});
-        const std::string program = folder_.file("cad");
+        const std::string program = folder_.file("kerf-cad");
         std::ofstream(program) << "#!/bin/sh\ncase \"$*\" in *--unite*) a=united;; *) a=refused;; esac\ncat '"
                                << folder_.file("") << "'$a\n";
         std::filesystem::permissions(program, std::filesystem::perms::owner_all);
-        setenv("KERF_CAD", program.c_str(), 1);
+        setenv(programs_variable, folder_.file("").c_str(), 1);
     }
-    ~RefusingCad() { unsetenv("KERF_CAD"); }
+    ~RefusingCad() { unsetenv(programs_variable); }
     std::string file() const { return folder_.file("two.step"); }
 
  private:

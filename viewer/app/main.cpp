@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "io/program_finder.h"
 #include "io/standard_streams.h"
 #include "viewer/app/interruption.h"
 #include "viewer/app/screenshot.h"
@@ -18,7 +19,7 @@ namespace {
 AppOptions options_beside_this_program() {
     const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
     AppOptions options;
-    options.kerf_program = (folder / "kerf").string();
+    options.kerf_program = look_for_program("kerf").path;
     options.shader_folder = (folder / "shaders").string();
     if (!std::filesystem::exists(options.shader_folder))
         options.shader_folder = (folder.parent_path() / "share" / "kerf" / "shaders").string();

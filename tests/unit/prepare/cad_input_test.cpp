@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "io/cad_body.h"
+#include "io/program_finder.h"
 #include "io/surface_reader.h"
 #include "prepare/cad_input.h"
 #include "support/assets.h"
@@ -123,7 +124,6 @@ TEST(CadFormats, AreKnownByTheirFirstBytes) {
 TEST_F(CadInput, ThreemfHasAProgramOfItsOwn) {
     const std::string threemf = std::string("PK\3\4") + " _rels/.rels 3D/3dmodel.model";
     write("part.3mf", threemf);
-    setenv("KERF_3MF", "", 1);
     try {
         read_surface_or_cad(folder_.file("part.3mf"));
         ADD_FAILURE() << "read without a program";
@@ -134,9 +134,10 @@ TEST_F(CadInput, ThreemfHasAProgramOfItsOwn) {
     }
     CadBody body = triangle();
     body.file_hash = digest_of(threemf);
-    setenv("KERF_3MF", answering({0, "", body}).c_str(), 1);
+    std::filesystem::rename(answering({0, "", body}), folder_.file("kerf-3mf"));
+    setenv(programs_variable, folder_.file("").c_str(), 1);
     EXPECT_EQ(read_surface_or_cad(folder_.file("part.3mf")).facets, body.soup.facets);
-    unsetenv("KERF_3MF");
+    unsetenv(programs_variable);
 }
 
 TEST(CadFormats, AreRefusedWhereOnlyTrianglesAreRead) { EXPECT_THROW(read_surface_bytes(step, "part.step"), Error); }
