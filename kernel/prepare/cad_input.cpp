@@ -101,9 +101,7 @@ Soup read_surface_or_cad(const std::string& path, const InputOptions& options) {
 Soup read_surface_or_cad(std::string bytes, const std::string& path, const InputOptions& options) {
     const Walls walls = options.keep_largest ? Walls::kept : Walls::refused;
     Soup soup = read_unscaled(std::move(bytes), path, options.cad, walls);
-    if (options.scale != 1)
-        for (std::vector<Vec3>* points : {&soup.vertices, &soup.holes})
-            for (Vec3& p : *points) p *= options.scale;
+    scale(soup, options.scale);
     return soup;
 }
 

@@ -1,12 +1,15 @@
 #include "prepare/input.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
+#include <span>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "io/file_bytes.h"
 #include "io/run_manifest.h"
 #include "prepare/cad_input.h"
@@ -69,6 +72,105 @@ void optimise(Soup& soup, std::int32_t sweeps, Input& input) {
     soup.vertices = std::move(moved);
 }
 
+// Of a surface that was read or given. `advice`: what else to do where it cannot be meshed.
+Input to_input(CheckedSoup checked, const std::string& path, const InputOptions& options, const char* advice) {
+    Input input;
+    input.path = path;
+    Soup& soup = checked.soup;
+    if (!checked.diagnosis.clean())
+        throw Error(ErrorCode::input, fmt::format("{}: {}{}", path, checked.diagnosis.summary(soup), advice),
+                    checked.diagnosis.elements(soup));
+    input.orientation = apply_repairs(checked);
+    input.repairs = checked.repairs;
+    input.weld_tolerance = checked.weld_tolerance;
+    input.notes = soup.notes;
+    if (options.feature_angle_deg > 0 && soup.patch_names.size() == 1)
+        make_feature_patches(soup, options.feature_angle_deg);
+    if (options.optimisation_sweeps > 0) optimise(soup, options.optimisation_sweeps, input);
+    input.patch_names = soup.patch_names;
+    input.is_cad = soup.is_of_model;
+    for (const ModelEdge& edge : soup.model_edges)
+        if (edge.sharp != 0) input.creases.push_back(edge.vertices);
+    if (soup.patch_colours.size() == soup.patch_names.size()) input.patch_colours = soup.patch_colours;
+    input.diagonal = diagonal_of(soup);
+    input.surface = Surface(with_input_keys(std::move(soup)));
+    measure_input(input);
+    return input;
+}
+
+// Rows of an array that are refused, all in the elements, the first in words.
+class RefusedRows {
+ public:
+    RefusedRows(const char* array, ElementKind kind) : array_(array), elements_{kind, {}, {}, {}} {}
+
+    void add(std::size_t row) { elements_.ids.push_back(static_cast<std::int64_t>(row)); }
+    /// `describe`: what the row with this number is, and why that is wrong.
+    template <class Describe>
+    void throw_if_any(Describe describe) const {
+        if (elements_.ids.empty()) return;
+        const auto first = static_cast<std::size_t>(elements_.ids.front());
+        const std::size_t more = elements_.ids.size() - 1;
+        throw Error(ErrorCode::input,
+                    fmt::format("{}[{}] {}.{}", array_, first, describe(first),
+                                more > 0 ? fmt::format(" {} more rows are wrong alike.", more) : ""),
+                    {elements_});
+    }
+
+ private:
+    const char* array_;
+    ErrorElements elements_;
+};
+
+void check_sizes(const Soup& soup) {
+    constexpr std::size_t most_vertices = std::numeric_limits<std::int32_t>::max();
+    if (soup.vertices.size() > most_vertices || soup.facets.size() > static_cast<std::size_t>(most_facets))
+        throw Error(ErrorCode::usage,
+                    fmt::format("A surface has at most {} vertices and {} facets, but these are {} and "
+                                "{}. Split it.",
+                                most_vertices, most_facets, soup.vertices.size(), soup.facets.size()));
+    if (soup.patch.size() != soup.facets.size())
+        throw Error(ErrorCode::usage,
+                    fmt::format("There are {} facets, but patch has {} rows. Give one for each facet, "
+                                "or none.",
+                                soup.facets.size(), soup.patch.size()));
+}
+
+void check_rows(const Soup& soup) {
+    const auto vertex_count = static_cast<std::int32_t>(soup.vertices.size());
+    const auto patch_count = static_cast<std::int32_t>(soup.patch_names.size());
+    RefusedRows infinite("vertices", ElementKind::vertex), beyond("facets", ElementKind::facet),
+        repeated("facets", ElementKind::facet), unnamed("patch", ElementKind::facet);
+    for (std::size_t v = 0; v < soup.vertices.size(); ++v)
+        if (!soup.vertices[v].allFinite()) infinite.add(v);
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        const auto& [a, b, c] = soup.facets[f];
+        if (std::min({a, b, c}) < 0 || std::max({a, b, c}) >= vertex_count) beyond.add(f);
+        if (a == b || b == c || c == a) repeated.add(f);
+        if (soup.patch[f] < 0 || soup.patch[f] >= patch_count) unnamed.add(f);
+    }
+    infinite.throw_if_any(
+        [&](std::size_t v) { return fmt::format("is ({}), which is not finite", fmt::join(soup.vertices[v], ", ")); });
+    beyond.throw_if_any([&](std::size_t f) {
+        return fmt::format("is ({}), but the {} vertices are numbered from 0", fmt::join(soup.facets[f], ", "),
+                           vertex_count);
+    });
+    repeated.throw_if_any([&](std::size_t f) {
+        return fmt::format("is ({}), but the corners of a facet differ", fmt::join(soup.facets[f], ", "));
+    });
+    unnamed.throw_if_any([&](std::size_t f) {
+        return fmt::format("is {}, but the {} patches are numbered from 0", soup.patch[f], patch_count);
+    });
+}
+
+std::string hash_of(const Soup& soup) {
+    Hasher hasher;
+    hasher.add(std::span<const Vec3>(soup.vertices));
+    hasher.add(std::span<const Triangle>(soup.facets));
+    hasher.add(std::span<const std::int32_t>(soup.patch));
+    for (const std::string& name : soup.patch_names) hasher.add(std::span<const char>(name));
+    return hash_text(hasher.digest());
+}
+
 }  // namespace
 
 CheckedSoup check_input(const std::string& path, const InputOptions& options, double needle_angle_deg) {
@@ -104,30 +206,31 @@ OrientationReport apply_repairs(CheckedSoup& checked) {
 }
 
 Input read_input(const std::string& path, const InputOptions& options) {
-    Input input;
-    input.path = path;
     std::string bytes = read_file(path);
-    input.file_hash = hash_text(digest_of(bytes));
-    CheckedSoup checked = check_soup(read_surface_or_cad(std::move(bytes), path, options), options);
-    Soup& soup = checked.soup;
-    if (!checked.diagnosis.clean())
-        throw Error(ErrorCode::input,
-                    fmt::format("{}: {} Run kerf check on it for all defects.", path, checked.diagnosis.summary(soup)));
-    input.orientation = apply_repairs(checked);
-    input.repairs = checked.repairs;
-    input.weld_tolerance = checked.weld_tolerance;
-    input.notes = soup.notes;
-    if (options.feature_angle_deg > 0 && soup.patch_names.size() == 1)
-        make_feature_patches(soup, options.feature_angle_deg);
-    if (options.optimisation_sweeps > 0) optimise(soup, options.optimisation_sweeps, input);
-    input.patch_names = soup.patch_names;
-    input.is_cad = soup.is_of_model;
-    for (const ModelEdge& edge : soup.model_edges)
-        if (edge.sharp != 0) input.creases.push_back(edge.vertices);
-    if (soup.patch_colours.size() == soup.patch_names.size()) input.patch_colours = soup.patch_colours;
-    input.diagonal = diagonal_of(soup);
-    input.surface = Surface(with_input_keys(std::move(soup)));
-    measure_input(input);
+    const std::string hash = hash_text(digest_of(bytes));
+    Input input = to_input(check_soup(read_surface_or_cad(std::move(bytes), path, options), options), path, options,
+                           " Run kerf check on it for all defects.");
+    input.file_hash = hash;
+    return input;
+}
+
+Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::vector<std::int32_t> patch,
+                 std::vector<std::string> patch_names, const InputOptions& options) {
+    Soup soup{std::move(vertices), std::move(facets), std::move(patch), std::move(patch_names)};
+    if (soup.patch.empty()) soup.patch.assign(soup.facets.size(), 0);
+    check_sizes(soup);
+    if (soup.patch_names.empty()) {
+        const auto largest = std::max_element(soup.patch.begin(), soup.patch.end());
+        const std::size_t count = largest == soup.patch.end() ? 1 : static_cast<std::size_t>(std::max(0, *largest)) + 1;
+        for (std::size_t p = 0; p < std::min(count, soup.facets.size()); ++p)
+            soup.patch_names.push_back(fmt::format("patch_{}", p));
+    }
+    check_rows(soup);
+    const std::string hash = hash_of(soup);
+    scale(soup, options.scale);
+    Input input = to_input(check_soup(std::move(soup), options), name_of_arrays, options, "");
+    input.file_hash = hash;
+    input.is_ready = true;
     return input;
 }
 

@@ -46,7 +46,7 @@ struct InputRemeshing {
 /// A surface ready to be cut, and what was learnt about it.
 struct Input {
     std::string path;
-    std::string file_hash;  ///< of the file's bytes, see hash_text()
+    std::string file_hash;  ///< of the file's bytes, or of the arrays, see hash_text()
     std::int64_t vertices = 0;
     std::int64_t facets = 0;
     std::int64_t components = 0;
@@ -66,6 +66,7 @@ struct Input {
     std::vector<std::array<std::uint8_t, 4>> patch_colours;  ///< as Soup has them; empty: none
     std::vector<std::string> notes;                          ///< what the reader passed over
     bool is_cad = false;                                     ///< a file of curved faces, not of triangles
+    bool is_ready = false;                                   ///< run() takes it as it is, and reads no file
     /// Of a CAD file: edges of the surface as it was read that are creases of the model, flat as they may be.
     std::vector<UndirectedEdge> creases;
     Surface surface;
@@ -83,9 +84,23 @@ OrientationReport apply_repairs(CheckedSoup& checked);
 /// Fills the counts, volume, area and genus from the surface.
 void measure_input(Input& input);
 
+/// What stands for the path of a surface that no file has.
+inline constexpr const char* name_of_arrays = "surface in memory";
+
+/// The input that read_input() makes of a file, of arrays. `patch`: a number from 0 for each facet, or empty: one
+/// patch. `patch_names`: a name for each number, or empty: "patch_0", "patch_1", ... Vertices of equal coordinates are
+/// one.
+///
+/// All is checked, in every build. Throws Error(usage) for sizes that do not fit, and Error(input) for a coordinate
+/// that is not finite, a corner that is no vertex, a facet with a repeated corner, a patch without a name, and for all
+/// that read_input() refuses: the message names the first row, Error::elements() all of them. O(#F log #F).
+Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::vector<std::int32_t> patch = {},
+                 std::vector<std::string> patch_names = {}, const InputOptions& options = {});
+
 /// check_input() and apply_repairs(), then builds the surface. Throws Error(input), naming the file, the
-/// first offenders and what to do, if the surface has errors. Throws Error(usage) if the sweeps of the optimisation
-/// would make it intersect itself; else that surface takes the place of the file's in all that follows.
+/// first offenders and what to do, if the surface has errors; Error::elements() has all. Throws Error(usage) if the
+/// sweeps of the optimisation would make it intersect itself; else that surface takes the place of the file's in all
+/// that follows.
 Input read_input(const std::string& path, const InputOptions& options = {});
 
 }  // namespace kerf

@@ -15,7 +15,8 @@ namespace kerf {
 /// does not exist, but what is finished waits beside it for the next run into it (io/run_folder.h), which has only the
 /// other parts to do.
 /// With request.dry_run it ends after on_parts() of the listener, and nothing is written but the trace.
-/// `input` receives the surface that the report refers to.
+/// `input` receives the surface that the report refers to. One that is there already (Input::is_ready) is taken instead
+/// of a file.
 RunReport run(const RunOptions& request, int cores_of_rank, Communicator& ranks, Input& input,
               RunListener* listener = nullptr);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -77,12 +78,14 @@ RunPlan plan_run(const RunOptions& request, int cores_of_rank, Communicator& ran
     const int ranks_here = ranks_of_this_host(ranks);
     RunPlan plan;
     const RunOptions wanted = in_agreement(ranks, [&] {
-        RunOptions options = resolved(request, cores_of_rank);
+        RunOptions options = request;
+        if (input.is_ready) options.input = input.path;
+        options = resolved(std::move(options), cores_of_rank);
         const bool meshes = options.volume && !options.dry_run;
         if (meshes && options.worker_program.empty()) options.worker_program = find_kerf_program("kerf-worker");
         if (meshes) plan.worker_hash = describe_file("", options.worker_program).hash;
         if (listener) listener->on_progress("read", 0, 1);
-        input = read_input(options.input, options.input_options);
+        if (!std::exchange(input.is_ready, false)) input = read_input(options.input, options.input_options);
         refuse_changed_input(options, input.file_hash);
         options.input_options.weld_tolerance = input.weld_tolerance;
         options = with_lengths(std::move(options), input.diagonal);

@@ -16,9 +16,9 @@ struct RunPlan {
     std::string worker_hash;  ///< of the program that meshes the parts; empty if there is nothing for it to do
 };
 
-/// Reads the surface into `input`, remeshes it where that is asked for, and resolves the request. Collective; the same
-/// plan on every rank. Throws Error on every rank alike, for what cannot end well (check_budget()) before the surface
-/// is remeshed or cut.
+/// Reads the surface into `input`, unless it is there already (Input::is_ready), remeshes it where that is asked for,
+/// and resolves the request. Collective; the same plan on every rank. Throws Error on every rank alike, for what cannot
+/// end well (check_budget()) before the surface is remeshed or cut.
 RunPlan plan_run(const RunOptions& request, int cores_of_rank, Communicator& ranks, Input& input,
                  StageListener* listener);
 

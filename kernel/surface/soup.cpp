@@ -149,6 +149,12 @@ std::int64_t weld_within(Soup& soup, double tolerance) {
     return renumber(soup, std::move(representative));
 }
 
+void scale(Soup& soup, double factor) {
+    if (factor == 1) return;
+    for (std::vector<Vec3>* points : {&soup.vertices, &soup.holes})
+        for (Vec3& p : *points) p *= factor;
+}
+
 void drop_facets(Soup& soup, const std::vector<char>& drop) {
     KERF_CHECK(drop.size() == soup.facets.size() && soup.patch.size() == soup.facets.size());
     if (std::none_of(drop.begin(), drop.end(), [](char d) { return d; })) return;

@@ -56,6 +56,9 @@ std::int64_t weld_exactly(Soup& soup);
 /// may become degenerate. Changes the geometry. Returns the number of vertices removed. Expected O(#V), deterministic.
 std::int64_t weld_within(Soup& soup, double tolerance);
 
+/// Multiplies all coordinates.
+void scale(Soup& soup, double factor);
+
 /// Removes facets; the others keep their order and their numbers in the file. `drop`: #F.
 void drop_facets(Soup& soup, const std::vector<char>& drop);
 
