@@ -1,0 +1,198 @@
+#include "kerf/kerf.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/version.h"
+#include "export/whole_mesh.h"
+#include "io/program_finder.h"
+#include "parallel/processors.h"
+#include "part/solution_parts.h"
+#include "prepare/remeshing.h"
+#include "report/file_diagnosis.h"
+#include "run/pipeline.h"
+
+namespace kerf {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::array<double, 3> to_array(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+
+InputOptions input_options(const NamedOptions& options) {
+    InputOptions result;
+    const std::vector<OptionField> fields = input_option_fields(result);
+    for (const auto& [name, value] : options) {
+        const auto field = std::find_if(fields.begin(), fields.end(), [&](const auto& f) { return f.name == name; });
+        if (field == fields.end()) throw Error(ErrorCode::usage, fmt::format("--{} is no option of a surface.", name));
+        field->set_text(value);
+    }
+    result.check();
+    return result;
+}
+
+RunOptions run_options(const Input& input, const MeshOptions& options, const std::string& folder) {
+    RunOptions run;
+    const std::vector<OptionField> of_surface = input_option_fields(run.input_options);
+    std::vector<OptionText> texts;
+    for (const auto& [name, value] : options.others) {
+        if (std::any_of(of_surface.begin(), of_surface.end(), [&](const auto& f) { return f.name == name; }))
+            throw Error(ErrorCode::usage,
+                        fmt::format("--{} is an option of the surface: give it where that is made.", name));
+        texts.push_back({name, value});
+    }
+    run.sizes.size = options.size;
+    run.decompose.parts = options.parts;
+    run.workers = options.workers;
+    set_options(run, texts, "MeshOptions::others");
+    run.output = folder;
+    run.input = input.path;
+    run.worker_program = find_kerf_program("kerf-worker", options.programs);
+    return run;
+}
+
+class ProgressListener : public RunListener {
+ public:
+    explicit ProgressListener(const Progress& progress) : progress_(progress) {}
+    void on_progress(const char* stage, std::size_t done, std::size_t total) override {
+        if (progress_) is_cancelled_ = is_cancelled_ || !progress_(stage, done, total);
+    }
+    bool cancelled() const override { return is_cancelled_; }
+
+ private:
+    const Progress& progress_;
+    bool is_cancelled_ = false;
+};
+
+// What keeps a run from being a result.
+void require_success(const RunReport& report) {
+    if (report.exit_code == 0) return;
+    const auto failed = std::find_if(report.parts.begin(), report.parts.end(),
+                                     [](const PartReport& part) { return part.result.code != 0; });
+    throw Error(static_cast<ErrorCode>(report.exit_code),
+                failed == report.parts.end()
+                    ? "A law of the mesh does not hold."
+                    : fmt::format("Part {} could not be meshed: {}", failed->id, failed->result.message));
+}
+
+class TemporaryFolder {
+ public:
+    TemporaryFolder() : path_((fs::temp_directory_path() / "kerf.XXXXXX").string()) {
+        if (::mkdtemp(path_.data())) return;
+        const std::string reason = std::generic_category().message(errno);
+        throw Error(ErrorCode::io, fmt::format("Cannot make the folder {}: {}. Set TMPDIR.", path_, reason));
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    const std::string& path() const { return path_; }
+
+ private:
+    std::string path_;
+};
+
+// Corners and patches of a part's triangles on the user's surface.
+void add_boundary(const Part& part, MeshArrays& mesh) {
+    for (std::size_t f = 0; f < part.facets.size(); ++f) {
+        if (part.is_interface(f)) continue;
+        mesh.triangles.push_back(global_corners(part, part.facets[f]));
+        mesh.patch.push_back(part.patch[f]);
+    }
+}
+
+}  // namespace
+
+const char* library_version() { return version; }
+
+std::int64_t ClosedSurface::vertex_count() const { return input_->vertices; }
+std::int64_t ClosedSurface::facet_count() const { return input_->facets; }
+double ClosedSurface::volume() const { return input_->volume; }
+double ClosedSurface::area() const { return input_->area; }
+const std::vector<std::string>& ClosedSurface::patch_names() const { return input_->patch_names; }
+
+std::vector<std::array<double, 3>> ClosedSurface::vertices() const {
+    std::vector<std::array<double, 3>> points;
+    for (const Vec3& p : input_->surface.arrays().vertices) points.push_back(to_array(p));
+    return points;
+}
+
+std::vector<std::array<std::int32_t, 3>> ClosedSurface::facets() const { return input_->surface.arrays().facets; }
+std::vector<std::int32_t> ClosedSurface::patches() const { return input_->surface.arrays().patch; }
+
+ClosedSurface surface_from_arrays(std::span<const std::array<double, 3>> vertices,
+                                  std::span<const std::array<std::int32_t, 3>> facets,
+                                  std::span<const std::int32_t> patches, std::vector<std::string> patch_names,
+                                  const NamedOptions& options) {
+    std::vector<Vec3> points;
+    points.reserve(vertices.size());
+    for (const auto& [x, y, z] : vertices) points.emplace_back(x, y, z);
+    return ClosedSurface(std::make_shared<const Input>(make_input(std::move(points), {facets.begin(), facets.end()},
+                                                                  {patches.begin(), patches.end()},
+                                                                  std::move(patch_names), input_options(options))));
+}
+
+ClosedSurface surface_from_file(const std::string& path, const NamedOptions& options) {
+    return ClosedSurface(std::make_shared<const Input>(read_input(path, input_options(options))));
+}
+
+FileCheck check_file(const std::string& path, const NamedOptions& options) {
+    const FileDiagnosis found = diagnose_file(path, input_options(options));
+    return {found.can_be_meshed(), to_text(found), to_json(found)};
+}
+
+ClosedSurface remeshed(const ClosedSurface& surface, double deviation, double size, const Progress& progress) {
+    RunOptions options;
+    options.remeshing = Remeshing::always;
+    options.deviation = deviation;
+    options.sizes.size = size;
+    options.sizes.check();
+    ProgressListener listener(progress);
+    const Input result = remesh_where_asked(surface.input(), options, &listener);
+    SurfaceArrays arrays = result.surface.arrays();
+    return ClosedSurface(std::make_shared<const Input>(
+        make_input(std::move(arrays.vertices), std::move(arrays.facets), std::move(arrays.patch), result.patch_names)));
+}
+
+void mesh_to_folder(const ClosedSurface& surface, const MeshOptions& options, const std::string& folder) {
+    Input input = surface.input();
+    input.is_ready = true;
+    const auto processors = static_cast<int>(std::max<std::size_t>(1, allowed_processors().size()));
+    ProgressListener listener(options.progress);
+    SingleRank alone;
+    require_success(run(run_options(input, options, folder), processors, alone, input, &listener));
+}
+
+MeshArrays mesh_to_arrays(const ClosedSurface& surface, const MeshOptions& options) {
+    const TemporaryFolder folder;
+    mesh_to_folder(surface, options, folder.path() + "/run");
+    return arrays_of_run(folder.path() + "/run");
+}
+
+MeshArrays arrays_of_run(const std::string& folder) {
+    const std::unique_ptr<PartSource> parts = open_parts(folder);
+    const MeshOutline& outline = parts->outline();
+    MeshArrays mesh;
+    mesh.patch_names = outline.patch_names;
+    mesh.vertices.reserve(static_cast<std::size_t>(outline.vertices));
+    mesh.tets.reserve(static_cast<std::size_t>(outline.tets()));
+    for_each_vertex(*parts, [&](std::int64_t, std::span<const Vec3> points) {
+        for (const Vec3& p : points) mesh.vertices.push_back(to_array(p));
+    });
+    for_each_part(*parts, [&](std::int32_t, const Part& part) {
+        for (const Tetrahedron& tet : part.mesh.tets) mesh.tets.push_back(global_corners(part, tet));
+        mesh.part.insert(mesh.part.end(), part.mesh.tets.size(), part.id);
+        add_boundary(part, mesh);
+    });
+    return mesh;
+}
+
+}  // namespace kerf

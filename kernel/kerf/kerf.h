@@ -1,0 +1,115 @@
+// Kerf for other programs: a closed surface goes in, tetrahedra come out, as arrays or as a run folder.
+//
+// This header is what an installed Kerf promises; all that it needs is the standard library. What cannot be done throws
+// kerf::Error: its code is an exit code of docs/output.md, its message a sentence for people, its elements() the
+// numbers and places of what is wrong. Calls may come from any thread, one after another; results depend on the surface
+// and the options alone.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+
+// The folder of kerf-worker, which the package of CMake defines.
+#ifndef KERF_PROGRAMS_FOLDER
+#define KERF_PROGRAMS_FOLDER ""
+#endif
+
+namespace kerf {
+
+/// major.minor.patch of the library.
+const char* library_version();
+
+/// Options by their names and values on the command line: {{"radius-edge", "1.2"}, {"voids", "parity"}}.
+using NamedOptions = std::vector<std::pair<std::string, std::string>>;
+
+struct Input;
+
+/// A closed surface that can be meshed. Copies share their data, which never changes.
+class ClosedSurface {
+ public:
+    std::int64_t vertex_count() const;
+    std::int64_t facet_count() const;
+    double volume() const;  ///< enclosed, in cubed units of the input
+    double area() const;
+    std::vector<std::array<double, 3>> vertices() const;
+    std::vector<std::array<std::int32_t, 3>> facets() const;  ///< corners counter-clockwise, seen from outside
+    std::vector<std::int32_t> patches() const;                ///< of each facet: an index into patch_names()
+    const std::vector<std::string>& patch_names() const;
+
+    explicit ClosedSurface(std::shared_ptr<const Input> input) : input_(std::move(input)) {}
+    const Input& input() const { return *input_; }  ///< for Kerf itself
+
+ private:
+    std::shared_ptr<const Input> input_;
+};
+
+/// The surface of arrays. `facets`: corners as numbers of vertices, counted from 0; turned, where they are turned
+/// against each other. `patches`: a number from 0 for each facet, or empty: one patch. `patch_names`: a name for each
+/// number, or empty. `options`: those of the surface, as "weld", "voids", "fill-holes" (docs/options.md).
+///
+/// Everything is checked. Throws Error(usage) for sizes that do not fit, Error(input) for a row that is wrong and for a
+/// surface that is not closed or intersects itself: elements() has the numbers of vertices and facets.
+ClosedSurface surface_from_arrays(std::span<const std::array<double, 3>> vertices,
+                                  std::span<const std::array<std::int32_t, 3>> facets,
+                                  std::span<const std::int32_t> patches = {}, std::vector<std::string> patch_names = {},
+                                  const NamedOptions& options = {});
+
+/// The surface of a file of any format that `kerf mesh` reads. Throws Error(io) and as surface_from_arrays() does.
+ClosedSurface surface_from_file(const std::string& path, const NamedOptions& options = {});
+
+/// What `kerf check` says of a file.
+struct FileCheck {
+    bool can_be_meshed = false;
+    std::string text;  ///< lines for people
+    std::string json;  ///< every defect
+};
+FileCheck check_file(const std::string& path, const NamedOptions& options = {});
+
+/// Is told of the stages of a call, with steps that are done of all, 0 if nobody knows how many; ends it with
+/// Error(cancelled) by returning false. Must not throw.
+using Progress = std::function<bool(const char* stage, std::size_t done, std::size_t total)>;
+
+/// A surface with triangles worth meshing, nowhere farther than `deviation` from the given one. `size`: wanted edge
+/// length, 0: as long as the deviation allows. Both in units of the surface. Patches stay.
+ClosedSurface remeshed(const ClosedSurface& surface, double deviation, double size = 0, const Progress& progress = {});
+
+struct MeshOptions {
+    double size = 0;                              ///< wanted edge length, in units of the surface; 0: none
+    std::int32_t parts = 0;                       ///< into which the surface is cut; 0: as many as are of use here
+    std::int32_t workers = 0;                     ///< processes that mesh parts; 0: one for each processor
+    NamedOptions others = {};                     ///< of `kerf mesh` (docs/options.md), but none of the surface
+    std::string programs = KERF_PROGRAMS_FOLDER;  ///< folder of kerf-worker, looked at first
+    Progress progress = {};
+};
+
+/// One mesh of all parts.
+struct MeshArrays {
+    std::vector<std::array<double, 3>> vertices;
+    std::vector<std::array<std::int64_t, 4>> tets;       ///< corners a, b, c, d with det[b-a, c-a, d-a] > 0
+    std::vector<std::int32_t> part;                      ///< #tets; number of its part in the tree of cuts
+    std::vector<std::array<std::int64_t, 3>> triangles;  ///< of the boundary, counter-clockwise seen from outside
+    std::vector<std::int32_t> patch;                     ///< #triangles; an index into patch_names
+    std::vector<std::string> patch_names;
+};
+
+/// Meshes in memory, but for files of the parts in a temporary folder (TMPDIR). Every law of the mesh is verified.
+/// Throws Error(subdomain) if a part could not be meshed, and as mesh_to_folder() does.
+MeshArrays mesh_to_arrays(const ClosedSurface& surface, const MeshOptions& options = {});
+
+/// The same as a run folder (docs/output.md), which replaces an older run there. Throws Error(usage) for an option out
+/// of range, Error(io) for a folder that cannot be written or holds anything else, Error(subdomain) if parts could not
+/// be meshed: the others are in the folder then.
+void mesh_to_folder(const ClosedSurface& surface, const MeshOptions& options, const std::string& folder);
+
+/// The mesh of a finished run. Throws Error(io).
+MeshArrays arrays_of_run(const std::string& folder);
+
+}  // namespace kerf

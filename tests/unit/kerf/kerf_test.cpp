@@ -1,0 +1,120 @@
+// The facade: arrays to meshes in memory and in folders, by nothing but its header.
+#include "kerf/kerf.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "support/assets.h"
+#include "support/temporary_folder.h"
+
+namespace kerf {
+namespace {
+
+using Points = std::vector<std::array<double, 3>>;
+using Facets = std::vector<std::array<std::int32_t, 3>>;
+
+const Points corners = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+const Facets cube_facets = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
+                            {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
+const std::vector<std::int32_t> cube_patches = {0, 0, 1, 1, 2, 2, 2, 2, 2, 2, 2, 2};
+
+ClosedSurface cube() { return surface_from_arrays(corners, cube_facets, cube_patches, {"bottom", "top", "sides"}); }
+
+MeshOptions two_parts() {
+    return {
+        .size = 0.25, .parts = 2, .workers = 1, .programs = std::filesystem::path(KERF_WORKER).parent_path().string()};
+}
+
+double six_volumes(const MeshArrays& mesh, const std::array<std::int64_t, 4>& tet) {
+    std::array<std::array<double, 3>, 3> e;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+            e[i][k] = mesh.vertices[static_cast<std::size_t>(tet[i + 1])][k] -
+                      mesh.vertices[static_cast<std::size_t>(tet[0])][k];
+    return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+           e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+}
+
+TEST(Facade, MeshesArraysInMemory) {
+    const MeshArrays mesh = mesh_to_arrays(cube(), two_parts());
+    double sum = 0;
+    for (const auto& tet : mesh.tets) {
+        EXPECT_GT(six_volumes(mesh, tet), 0);
+        sum += six_volumes(mesh, tet) / 6;
+    }
+    EXPECT_NEAR(sum, 1, 1e-12);
+    EXPECT_EQ(mesh.part.size(), mesh.tets.size());
+    for (const std::int32_t part : {2, 3})
+        EXPECT_NE(std::find(mesh.part.begin(), mesh.part.end(), part), mesh.part.end()) << part;
+    EXPECT_EQ(mesh.patch_names, (std::vector<std::string>{"bottom", "top", "sides"}));
+    ASSERT_EQ(mesh.patch.size(), mesh.triangles.size());
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+        for (const std::int64_t v : mesh.triangles[i]) {
+            const double z = mesh.vertices[static_cast<std::size_t>(v)][2];
+            if (mesh.patch[i] < 2) {
+                EXPECT_EQ(z, mesh.patch[i]);
+            }
+        }
+}
+
+TEST(Facade, AFolderHasTheSameMesh) {
+    const test::TemporaryFolder folder;
+    mesh_to_folder(cube(), two_parts(), folder.file("run"));
+    const MeshArrays of_run = arrays_of_run(folder.file("run")), in_memory = mesh_to_arrays(cube(), two_parts());
+    EXPECT_EQ(of_run.vertices, in_memory.vertices);
+    EXPECT_EQ(of_run.tets, in_memory.tets);
+    EXPECT_EQ(of_run.triangles, in_memory.triangles);
+}
+
+TEST(Facade, AFileIsTheSurfaceOfItsArrays) {
+    const ClosedSurface read = surface_from_file(test::asset_path("cube"));
+    const ClosedSurface made = surface_from_arrays(read.vertices(), read.facets(), read.patches(), read.patch_names());
+    EXPECT_EQ(made.vertices(), read.vertices());
+    EXPECT_EQ(made.facets(), read.facets());
+    EXPECT_EQ(made.volume(), read.volume());
+    EXPECT_TRUE(check_file(test::asset_path("cube")).can_be_meshed);
+}
+
+TEST(Facade, RemeshedSurfacesKeepPatchesAndVolume) {
+    const ClosedSurface fine = remeshed(cube(), 1e-3, 0.2);
+    EXPECT_GT(fine.facet_count(), 100);
+    EXPECT_NEAR(fine.volume(), 1, 1e-9);
+    EXPECT_EQ(fine.patch_names(), cube().patch_names());
+}
+
+TEST(Facade, ErrorsHaveCodesAndElements) {
+    Facets facets = cube_facets;
+    facets[7][2] = 99;
+    try {
+        surface_from_arrays(corners, facets);
+        ADD_FAILURE() << "a corner that is no vertex";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::input);
+        EXPECT_EQ(error.elements().front().ids, std::vector<std::int64_t>{7});
+    }
+    const auto code_of = [](const MeshOptions& options) {
+        try {
+            mesh_to_arrays(cube(), options);
+        } catch (const Error& error) {
+            return error.code();
+        }
+        return ErrorCode::internal;
+    };
+    MeshOptions options = two_parts();
+    options.others = {{"voids", "parity"}};
+    EXPECT_EQ(code_of(options), ErrorCode::usage) << "an option of the surface";
+    options.others = {{"radius-edge", "-1"}};
+    EXPECT_EQ(code_of(options), ErrorCode::usage) << "out of range";
+    options = two_parts();
+    options.progress = [](const char*, std::size_t, std::size_t) { return false; };
+    EXPECT_EQ(code_of(options), ErrorCode::cancelled);
+    options = two_parts();
+    options.programs = "/nowhere";
+    EXPECT_EQ(code_of(options), ErrorCode::io) << "no worker";
+}
+
+}  // namespace
+}  // namespace kerf
