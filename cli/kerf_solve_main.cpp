@@ -7,7 +7,6 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <mpi.h>
 #include <CLI/CLI.hpp>
 
 #include "cli/failed_parts.h"
@@ -137,7 +136,7 @@ int wanted_ranks(const SolveLine& line) {
     return std::clamp(processors / std::max(1, line.request.mesh.workers), 1, std::max(1, useful));
 }
 
-int solve_on_ranks(const SolveLine& line, Communicator& ranks) {
+int solve_on_ranks(const SolveLine& line, MpiRanks& ranks) {
     const bool root = ranks.rank() == 0;
     const SolveRequest& request = line.request.solve;
     if (line.list_patches) {
@@ -160,7 +159,7 @@ int mesh_and_solve_on_ranks(const SolveLine& line, const Ranks& ranks) {
     MeshAndSolveReport report;
     {
         ProgressLine progress(line.quiet || !root, nullptr);
-        report = mesh_and_solve(request, ranks.cores_of_rank, *ranks.communicator, &progress,
+        report = mesh_and_solve(request, ranks.cores_of_rank, *ranks.mpi, &progress,
                                 [&](std::size_t number, const MeshAndSolveStep& step) {
                                     if (root && !line.quiet && request.steps > 0) progress.say(to_text(number, step));
                                 });
@@ -187,12 +186,12 @@ int run_solver(int argc, char** argv) {
     const Ranks ranks = join_ranks(MpiUse::always);
     const auto end_all = [&](ErrorCode code, const std::string& message) {
         tell(fmt::format("kerf: {}\n", message));
-        if (ranks.communicator->size() > 1) MPI_Abort(MPI_COMM_WORLD, static_cast<int>(code));
+        if (ranks.mpi->size() > 1) ranks.mpi->end_all(static_cast<int>(code));
         return static_cast<int>(code);
     };
     try {
         require_own_ranks(ranks.communicator->size());
-        return line.meshes ? mesh_and_solve_on_ranks(line, ranks) : solve_on_ranks(line, *ranks.communicator);
+        return line.meshes ? mesh_and_solve_on_ranks(line, ranks) : solve_on_ranks(line, *ranks.mpi);
     } catch (const PetscFailure& e) {
         return end_all(e.code(), e.what());
     } catch (const Error& e) {
@@ -211,6 +210,7 @@ int run_solver(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     kerf::prepare_standard_streams();
+    ::unsetenv("PETSC_OPTIONS");  // the case says what PETSc is told
     try {
         return kerf::run_solver(argc, argv);
     } catch (const kerf::Error& e) {

@@ -1,4 +1,4 @@
-// The ranks of an MPI job. The only place that knows MPI.
+// The ranks of a program, as a launcher has started them.
 #pragma once
 
 #include <memory>
@@ -8,13 +8,16 @@
 
 namespace kerf {
 
+class MpiRanks;
+
 /// The ranks that mpirun has started, or this process alone. MPI is initialised only where a launcher's environment is
 /// found, because that takes 0.3 s.
 struct Ranks {
     std::unique_ptr<Communicator> communicator;
-    int cores_of_rank = 1;  ///< processors that it may use, divided by the ranks of this host that share them
-    int bound_to = 1;       ///< processors that the rank with the fewest of all ranks may use
-    int unbound_share = 1;  ///< what cores_of_rank would be if the launcher had bound no rank
+    MpiRanks* mpi = nullptr;  ///< the same, for who calls MPI itself; null for a process without MPI
+    int cores_of_rank = 1;    ///< processors that it may use, divided by the ranks of this host that share them
+    int bound_to = 1;         ///< processors that the rank with the fewest of all ranks may use
+    int unbound_share = 1;    ///< what cores_of_rank would be if the launcher had bound no rank
     bool launched = false;
 };
 enum class MpiUse {

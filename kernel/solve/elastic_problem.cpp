@@ -67,7 +67,7 @@ std::vector<char> ProblemMaker::bodies_at(const std::vector<std::string>& patche
     for (const SurfaceFacet& facet : selector_.facets(where, who))
         found[static_cast<std::size_t>(
             bodies_.of_node[static_cast<std::size_t>(space_.nodes_of_facet(facet.part, facet.facet)[0])])] = 1;
-    MPI_Allreduce(MPI_IN_PLACE, found.data(), static_cast<int>(found.size()), MPI_INT32_T, MPI_MAX, space_.comm());
+    space_.ranks().all_reduce(std::span(found), Reduction::largest);
     return {found.begin(), found.end()};
 }
 
@@ -94,7 +94,7 @@ void ProblemMaker::choose_materials() {
             if (of_tet.back() == no_material) ++without;
         }
     }
-    MPI_Allreduce(MPI_IN_PLACE, &without, 1, MPI_INT64_T, MPI_SUM, space_.comm());
+    without = space_.ranks().all_reduce(without, Reduction::sum);
     if (without > 0)
         throw Error(ErrorCode::usage,
                     fmt::format("{} tetrahedra have no material. Add one without parts and patch: it is for the rest.",
@@ -171,7 +171,7 @@ void ProblemMaker::add_surface_load(const Load& load, std::vector<double>& force
     const std::vector<SurfaceFacet> facets = selector_.facets(load.where, who);
     double area = 0;
     for (const SurfaceFacet& facet : facets) area += facet.area;
-    MPI_Allreduce(MPI_IN_PLACE, &area, 1, MPI_DOUBLE, MPI_SUM, space_.comm());
+    area = space_.ranks().all_reduce(area, Reduction::sum);
     for (const SurfaceFacet& facet : facets) {
         const Vec3 traction = load.pressure   ? Vec3(-*load.pressure * facet.normal)
                               : load.traction ? *load.traction
@@ -253,16 +253,13 @@ ElasticProblem make_problem(const NodeSpace& space, const MeshOutline& outline, 
 void require_supported(const ElasticProblem& problem, const NodeBodies& bodies) {
     const NodeSpace& space = *problem.space;
     const auto count = static_cast<std::size_t>(bodies.count);
-    const auto reduce = [&](std::vector<double>& sums, MPI_Op operation) {
-        MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, operation, space.comm());
-    };
     std::vector<double> middles(4 * count, 0), scales(count, 0), products(36 * count, 0);
     for (std::size_t n = 0; n < space.owned_count(); ++n) {
         double* sum = &middles[4 * static_cast<std::size_t>(bodies.of_node[n])];
         for (int c = 0; c < 3; ++c) sum[c] += space.points()[n][c];
         sum[3] += 1;
     }
-    reduce(middles, MPI_SUM);
+    space.ranks().all_reduce(std::span(middles), Reduction::sum);
     const auto middle_of = [&](std::size_t b) -> Vec3 {
         return Vec3(middles[4 * b], middles[4 * b + 1], middles[4 * b + 2]) / middles[4 * b + 3];
     };
@@ -270,7 +267,7 @@ void require_supported(const ElasticProblem& problem, const NodeBodies& bodies) 
         const auto b = static_cast<std::size_t>(bodies.of_node[n]);
         scales[b] = std::max(scales[b], (space.points()[n] - middle_of(b)).norm());
     }
-    reduce(scales, MPI_MAX);
+    space.ranks().all_reduce(std::span(scales), Reduction::largest);
     for (std::size_t n = 0; n < space.owned_count(); ++n)
         for (int c = 0; c < 3; ++c) {
             if (!problem.is_held(3 * n + static_cast<std::size_t>(c))) continue;
@@ -280,7 +277,7 @@ void require_supported(const ElasticProblem& problem, const NodeBodies& bodies) 
             held << axis, arm.cross(axis);  // component c of the motion of the node
             Eigen::Map<MotionMatrix>(&products[36 * b]) += held * held.transpose();
         }
-    reduce(products, MPI_SUM);
+    space.ranks().all_reduce(std::span(products), Reduction::sum);
     for (std::size_t b = 0; b < count; ++b) {
         const MotionMatrix product = Eigen::Map<const MotionMatrix>(&products[36 * b]);
         const Eigen::SelfAdjointEigenSolver<MotionMatrix> solver(product);

@@ -102,8 +102,8 @@ RoomForRows room_for(const NodeSpace& space, const BlockRows& rows) {
 
 }  // namespace
 
-PetscSession::PetscSession(const std::string& options) {
-    ::unsetenv("PETSC_OPTIONS");
+PetscSession::PetscSession(const MpiRanks& ranks, const std::string& options) {
+    PETSC_COMM_WORLD = ranks.handle();
     std::array<char*, 3> arguments = {const_cast<char*>("kerf-solve"), const_cast<char*>("-skip_petscrc"), nullptr};
     int count = 2;
     char** list = arguments.data();
@@ -173,10 +173,8 @@ struct LinearSystem::Impl {
 void LinearSystem::Impl::create_matrix(const BlockRows& rows) {
     const NodeSpace& space = *problem.space;
     const auto own = static_cast<PetscInt>(3 * space.owned_count());
-    int ranks = 1;
-    MPI_Comm_size(space.comm(), &ranks);
     is_symmetric_half = options.preconditioner == "icc";  // multigrid wants all of it
-    check(MatCreate(space.comm(), &matrix));
+    check(MatCreate(space.ranks().handle(), &matrix));
     check(MatSetSizes(matrix, own, own, PETSC_DETERMINE, PETSC_DETERMINE));
     check(MatSetBlockSize(matrix, 3));
     check(MatSetType(matrix, is_symmetric_half ? MATSBAIJ : MATAIJ));
@@ -196,7 +194,7 @@ double LinearSystem::Impl::mean_diagonal(const BlockRows& rows) const {
                 const double* block = &rows.values[9 * static_cast<std::size_t>(i)];
                 sum[0] += block[0] + block[4] + block[8];
             }
-    MPI_Allreduce(MPI_IN_PLACE, sum.data(), 2, MPI_DOUBLE, MPI_SUM, problem.space->comm());
+    problem.space->ranks().all_reduce(std::span<double>(sum), Reduction::sum);
     return sum[0] / sum[1];
 }
 
@@ -280,7 +278,7 @@ PetscErrorCode LinearSystem::Impl::tell_iteration(KSP, PetscInt iteration, Petsc
 
 void LinearSystem::Impl::prepare_solver() {
     PC preconditioner = nullptr;
-    check(KSPCreate(problem.space->comm(), &ksp));
+    check(KSPCreate(problem.space->ranks().handle(), &ksp));
     check(KSPSetOperators(ksp, matrix, matrix));
     check(KSPSetType(ksp, KSPCG));
     check(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED));

@@ -36,11 +36,12 @@ struct AssemblySeconds {
     double insert = 0;    ///< into PETSc's matrix
 };
 
-/// Initialises PETSc after MPI; finalises it at the end. Neither .petscrc nor PETSC_OPTIONS nor the program's arguments
-/// are read. Throws Error(usage) for `options` that PETSc does not take.
+/// Initialises PETSc on the communicator of the ranks; finalises it at the end. Neither .petscrc nor the program's
+/// arguments are read; programs that want that of PETSC_OPTIONS, too, take it out of their environment. Throws
+/// Error(usage) for `options` that PETSc does not take.
 class PetscSession {
  public:
-    explicit PetscSession(const std::string& options = "");
+    explicit PetscSession(const MpiRanks& ranks, const std::string& options = "");
     ~PetscSession();
     PetscSession(const PetscSession&) = delete;
     PetscSession& operator=(const PetscSession&) = delete;

@@ -116,7 +116,7 @@ MeshAndSolveStep summary_of(const RunReport& mesh, const SolveReport& solution) 
 
 }  // namespace
 
-MeshAndSolveReport mesh_and_solve(const MeshAndSolveRequest& request, int cores_of_rank, Communicator& ranks,
+MeshAndSolveReport mesh_and_solve(const MeshAndSolveRequest& request, int cores_of_rank, MpiRanks& ranks,
                                   RunListener* listener, const StepDone& step_done) {
     const StepFolders folders(request);
     in_agreement(ranks, [&] {

@@ -50,21 +50,14 @@ NodeBodies find_bodies(const NodeSpace& space) {
         for (std::int32_t n = 0; n < nodes; ++n)
             least[static_cast<std::size_t>(n)] = least[static_cast<std::size_t>(sets.root(n))];
         space.exchange().share_smallest(std::span(least), 1);
-        changed = least == before ? 0 : 1;
-        MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, space.comm());
+        changed = space.ranks().all_reduce(least == before ? 0 : 1, Reduction::largest);
     }
     std::vector<std::int64_t> labels;
     for (std::size_t n = 0; n < space.owned_count(); ++n)
         if (least[n] == space.row_of(static_cast<std::int32_t>(n))) labels.push_back(least[n]);
-    int ranks = 1;
-    MPI_Comm_size(space.comm(), &ranks);
-    std::vector<int> counts(static_cast<std::size_t>(ranks)), offsets(static_cast<std::size_t>(ranks));
-    const int own = static_cast<int>(labels.size());
-    MPI_Allgather(&own, 1, MPI_INT, counts.data(), 1, MPI_INT, space.comm());
-    std::exclusive_scan(counts.begin(), counts.end(), offsets.begin(), 0);
-    std::vector<std::int64_t> all(static_cast<std::size_t>(offsets.back() + counts.back()));
-    MPI_Allgatherv(labels.data(), own, MPI_INT64_T, all.data(), counts.data(), offsets.data(), MPI_INT64_T,
-                   space.comm());
+    std::vector<std::int64_t> all;
+    for (const std::vector<std::int64_t>& of_rank : all_gather(space.ranks(), labels))
+        all.insert(all.end(), of_rank.begin(), of_rank.end());
     std::sort(all.begin(), all.end());
     NodeBodies bodies{static_cast<std::int32_t>(all.size()), std::vector<std::int32_t>(space.node_count())};
     for (std::size_t n = 0; n < least.size(); ++n)

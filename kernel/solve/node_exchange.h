@@ -6,24 +6,9 @@
 #include <span>
 #include <vector>
 
-#include <mpi.h>
+#include "mpi/mpi_ranks.h"
 
 namespace kerf {
-
-template <class T>
-MPI_Datatype mpi_type();
-template <>
-inline MPI_Datatype mpi_type<double>() {
-    return MPI_DOUBLE;
-}
-template <>
-inline MPI_Datatype mpi_type<std::int32_t>() {
-    return MPI_INT32_T;
-}
-template <>
-inline MPI_Datatype mpi_type<std::int64_t>() {
-    return MPI_INT64_T;
-}
 
 /// Who has which nodes of whom. A node belongs to one rank; ghosts are the copies of other ranks.
 class NodeExchange {
@@ -36,8 +21,8 @@ class NodeExchange {
 
     NodeExchange() = default;
     /// `owned`: nodes of this rank of which others have ghosts; `ghosts`: those of others here. Both ascending by rank.
-    NodeExchange(MPI_Comm comm, std::vector<Neighbour> owned, std::vector<Neighbour> ghosts)
-        : comm_(comm), owned_(std::move(owned)), ghosts_(std::move(ghosts)) {}
+    NodeExchange(const MpiRanks& ranks, std::vector<Neighbour> owned, std::vector<Neighbour> ghosts)
+        : ranks_(&ranks), owned_(std::move(owned)), ghosts_(std::move(ghosts)) {}
 
     /// Ghosts become what their owners have. Collective; `values` has a block of so many for each local node.
     template <class T>
@@ -62,30 +47,26 @@ class NodeExchange {
     template <class T, class Take>
     void transfer(const std::vector<Neighbour>& from, const std::vector<Neighbour>& to, std::span<T> values,
                   std::size_t block, Take take) const {
-        std::vector<std::vector<T>> out(from.size()), in(to.size());
-        std::vector<MPI_Request> requests;
-        for (std::size_t n = 0; n < to.size(); ++n) {
-            in[n].resize(to[n].nodes.size() * block);
-            MPI_Irecv(in[n].data(), static_cast<int>(in[n].size()), mpi_type<T>(), to[n].rank, 0, comm_,
-                      &requests.emplace_back());
-        }
-        for (std::size_t n = 0; n < from.size(); ++n) {
-            out[n].reserve(from[n].nodes.size() * block);
-            for (const std::int32_t node : from[n].nodes) {
+        std::vector<RankValues<T>> out, in;
+        for (const Neighbour& neighbour : to)
+            in.push_back({neighbour.rank, std::vector<T>(neighbour.nodes.size() * block)});
+        for (const Neighbour& neighbour : from) {
+            std::vector<T> of_nodes;
+            of_nodes.reserve(neighbour.nodes.size() * block);
+            for (const std::int32_t node : neighbour.nodes) {
                 const auto values_of_node = values.subspan(static_cast<std::size_t>(node) * block, block);
-                out[n].insert(out[n].end(), values_of_node.begin(), values_of_node.end());
+                of_nodes.insert(of_nodes.end(), values_of_node.begin(), values_of_node.end());
             }
-            MPI_Isend(out[n].data(), static_cast<int>(out[n].size()), mpi_type<T>(), from[n].rank, 0, comm_,
-                      &requests.emplace_back());
+            out.push_back({neighbour.rank, std::move(of_nodes)});
         }
-        MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+        ranks_->exchange(out, in);
         for (std::size_t n = 0; n < to.size(); ++n)
             for (std::size_t i = 0; i < to[n].nodes.size(); ++i)
                 for (std::size_t c = 0; c < block; ++c)
-                    take(values[static_cast<std::size_t>(to[n].nodes[i]) * block + c], in[n][i * block + c]);
+                    take(values[static_cast<std::size_t>(to[n].nodes[i]) * block + c], in[n].values[i * block + c]);
     }
 
-    MPI_Comm comm_ = MPI_COMM_SELF;
+    const MpiRanks* ranks_ = nullptr;
     std::vector<Neighbour> owned_, ghosts_;
 };
 

@@ -32,7 +32,7 @@ using PairedNodes = std::map<std::array<std::int32_t, 2>, std::vector<std::int32
 
 class NodeNumbering {
  public:
-    NodeNumbering(MPI_Comm comm, const MeshOutline& outline, const std::vector<std::int32_t>& first_parts,
+    NodeNumbering(const MpiRanks& ranks, const MeshOutline& outline, const std::vector<std::int32_t>& first_parts,
                   const std::vector<Part>& parts, int order);
 
     // Nodes of this rank's parts with their rows. Collective.
@@ -61,19 +61,18 @@ class NodeNumbering {
     // By the rank of the other part of each pair, without this one.
     std::map<int, std::vector<PairedNodes::const_iterator>> by_rank(const PairedNodes& pairs, bool of_holder) const;
 
-    MPI_Comm comm_;
+    const MpiRanks& ranks_;
     const std::vector<std::int32_t>& first_parts_;
     const std::vector<Part>& parts_;
-    int order_, rank_ = 0;
+    int order_, rank_;
     std::map<NodeId, std::int32_t> places_;
     PairedNodes owned_, held_;  // of this rank's parts as owners, and as holders
     std::vector<std::int64_t> part_rows_;
 };
 
-NodeNumbering::NodeNumbering(MPI_Comm comm, const MeshOutline& outline, const std::vector<std::int32_t>& first_parts,
-                             const std::vector<Part>& parts, int order)
-    : comm_(comm), first_parts_(first_parts), parts_(parts), order_(order) {
-    MPI_Comm_rank(comm, &rank_);
+NodeNumbering::NodeNumbering(const MpiRanks& ranks, const MeshOutline& outline,
+                             const std::vector<std::int32_t>& first_parts, const std::vector<Part>& parts, int order)
+    : ranks_(ranks), first_parts_(first_parts), parts_(parts), order_(order), rank_(ranks.rank()) {
     for (std::size_t i = 0; i < outline.parts.size(); ++i) places_[outline.parts[i].id] = static_cast<std::int32_t>(i);
     part_rows_.resize(outline.parts.size() + 1);
 }
@@ -125,10 +124,10 @@ std::vector<NumberedPart> NodeNumbering::number() {
 }
 
 void NodeNumbering::count_rows(const std::vector<NumberedPart>& numbered) {
-    std::vector<std::int64_t> counts(part_rows_.size());
     for (const NumberedPart& part : numbered)
-        counts[static_cast<std::size_t>(part.place) + 1] = std::count(part.owner.begin(), part.owner.end(), part.place);
-    MPI_Allreduce(counts.data(), part_rows_.data(), static_cast<int>(counts.size()), MPI_INT64_T, MPI_SUM, comm_);
+        part_rows_[static_cast<std::size_t>(part.place) + 1] =
+            std::count(part.owner.begin(), part.owner.end(), part.place);
+    ranks_.all_reduce(std::span(part_rows_), Reduction::sum);
     std::partial_sum(part_rows_.begin(), part_rows_.end(), part_rows_.begin());
     if (3 * part_rows_.back() > std::numeric_limits<std::int32_t>::max())
         throw Error(ErrorCode::usage,
@@ -157,25 +156,23 @@ void NodeNumbering::tell_holders(std::vector<NumberedPart>& numbered) const {
         for (std::size_t i = 0; i < nodes.size(); ++i) row_at(pair[1], nodes[i]) = row_at(pair[0], of_owner[i]);
     }
     const auto sent = by_rank(owned_, true), awaited = by_rank(held_, false);
-    std::vector<MPI_Request> requests;
-    std::map<int, std::vector<std::int64_t>> out, in;
+    std::vector<RankValues<std::int64_t>> out, in;
     for (const auto& [rank, pairs] : awaited) {
         std::size_t count = 0;
         for (const auto& pair : pairs) count += pair->second.size();
-        in[rank].resize(count);
-        MPI_Irecv(in[rank].data(), static_cast<int>(count), MPI_INT64_T, rank, 0, comm_, &requests.emplace_back());
+        in.push_back({rank, std::vector<std::int64_t>(count)});
     }
     for (const auto& [rank, pairs] : sent) {
+        std::vector<std::int64_t>& rows = out.emplace_back(RankValues<std::int64_t>{rank, {}}).values;
         for (const auto& pair : pairs)
-            for (const std::int32_t n : pair->second) out[rank].push_back(row_at(pair->first[0], n));
-        MPI_Isend(out[rank].data(), static_cast<int>(out[rank].size()), MPI_INT64_T, rank, 0, comm_,
-                  &requests.emplace_back());
+            for (const std::int32_t n : pair->second) rows.push_back(row_at(pair->first[0], n));
     }
-    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+    ranks_.exchange(out, in);
+    auto told = in.begin();
     for (const auto& [rank, pairs] : awaited) {
-        std::size_t i = 0;
+        auto row = told++->values.begin();
         for (const auto& pair : pairs)
-            for (const std::int32_t n : pair->second) row_at(pair->first[1], n) = in[rank][i++];
+            for (const std::int32_t n : pair->second) row_at(pair->first[1], n) = *row++;
     }
 }
 
@@ -200,7 +197,7 @@ NodeExchange NodeNumbering::exchange(const std::vector<NumberedPart>& numbered, 
         if (of_ghosts.empty() || of_ghosts.back().rank != rank) of_ghosts.emplace_back().rank = rank;
         of_ghosts.back().nodes.push_back(static_cast<std::int32_t>(owned + g));
     }
-    return {comm_, std::move(of_own), std::move(of_ghosts)};
+    return {ranks_, std::move(of_own), std::move(of_ghosts)};
 }
 
 UndirectedEdge edge_of(const Tetrahedron& tet, std::size_t e) {
@@ -241,18 +238,17 @@ std::vector<std::int32_t> first_parts_of_ranks(const MeshOutline& outline, int r
     return first;
 }
 
-NodeSpace::NodeSpace(MPI_Comm comm, const MeshOutline& outline, const std::vector<std::int32_t>& first_parts,
+NodeSpace::NodeSpace(MpiRanks& ranks, const MeshOutline& outline, const std::vector<std::int32_t>& first_parts,
                      std::vector<Part> parts, int order)
-    : comm_(comm), order_(order), parts_(std::move(parts)), nodes_(parts_.size()) {
-    NodeNumbering numbering(comm, outline, first_parts, parts_, order);
+    : ranks_(&ranks), order_(order), parts_(std::move(parts)), nodes_(parts_.size()) {
+    NodeNumbering numbering(ranks, outline, first_parts, parts_, order);
     std::vector<NumberedPart> numbered = numbering.number();
 
     for (const std::int32_t first : first_parts)
         rank_rows_.push_back(numbering.part_rows()[static_cast<std::size_t>(first)]);
-    int rank = 0;
-    MPI_Comm_rank(comm, &rank);
-    first_row_ = rank_rows_[static_cast<std::size_t>(rank)];
-    owned_ = static_cast<std::size_t>(rank_rows_[static_cast<std::size_t>(rank) + 1] - first_row_);
+    const auto rank = static_cast<std::size_t>(ranks.rank());
+    first_row_ = rank_rows_[rank];
+    owned_ = static_cast<std::size_t>(rank_rows_[rank + 1] - first_row_);
     total_rows_ = rank_rows_.back();
 
     const auto is_owned = [&](std::int64_t row) {

@@ -5,8 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <mpi.h>
-
+#include "mpi/mpi_ranks.h"
 #include "part/part.h"
 #include "solve/node_exchange.h"
 #include "solve/tet_element.h"
@@ -31,10 +30,10 @@ class NodeSpace {
     /// Numbers the nodes of `parts`, this rank's, which are `first_part` and the following of the outline. Collective.
     /// O(n log n) in the nodes on interfaces, and in the edges for order 2. Throws Error(usage) for more rows than
     /// 32 bits number.
-    NodeSpace(MPI_Comm comm, const MeshOutline& outline, const std::vector<std::int32_t>& first_parts,
+    NodeSpace(MpiRanks& ranks, const MeshOutline& outline, const std::vector<std::int32_t>& first_parts,
               std::vector<Part> parts, int order);
 
-    MPI_Comm comm() const { return comm_; }
+    MpiRanks& ranks() const { return *ranks_; }
     int order() const { return order_; }
     const std::vector<Part>& parts() const { return parts_; }
     const std::vector<PartNodes>& nodes_of_parts() const { return nodes_; }
@@ -59,7 +58,7 @@ class NodeSpace {
     TetElement element(std::size_t p, std::size_t tet) const;
 
  private:
-    MPI_Comm comm_;
+    MpiRanks* ranks_;
     int order_;
     std::vector<Part> parts_;
     std::vector<PartNodes> nodes_;

@@ -1,5 +1,6 @@
 #include "solve/solve_run.h"
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -15,6 +16,7 @@
 #include "io/text_file.h"
 #include "parallel/process_memory.h"
 #include "part/run_parts.h"
+#include "run/shared_folder.h"
 #include "solve/elastic_problem.h"
 #include "solve/error_sizes.h"
 #include "solve/result_files.h"
@@ -48,7 +50,7 @@ std::string way_out(const SolverOptions& solver) {
 
 class SolveStages {
  public:
-    SolveStages(const SolveRequest& request, Communicator& ranks, RunListener* listener)
+    SolveStages(const SolveRequest& request, MpiRanks& ranks, RunListener* listener)
         : ranks_(ranks), listener_(listener) {
         report_.request = request;
         report_.ranks = ranks.size();
@@ -81,7 +83,7 @@ class SolveStages {
     void write_sizes_of_next();
     void finish();
 
-    Communicator& ranks_;
+    MpiRanks& ranks_;
     RunListener* listener_;
     SolveReport report_;
     SolveStopwatch whole_, stage_;
@@ -119,8 +121,7 @@ void SolveStages::read_request() {
 // Nothing but an older solution is replaced.
 void SolveStages::open_folder() {
     const std::string& output = report_.request.output;
-    in_agreement(ranks_, [&] {
-        if (!is_root()) return;
+    folder_.emplace(open_together(ranks_, [&] {
         std::error_code ignored;
         if (const std::string saved = RunFolder::saved_run_file(output); std::filesystem::exists(saved, ignored))
             throw Error(ErrorCode::io,
@@ -135,12 +136,8 @@ void SolveStages::open_folder() {
                                                        "another folder.",
                                                        output));
         }
-        folder_.emplace(RunFolder::create(output));
-    });
-    const std::string partial = all_gather(ranks_, folder_ ? folder_->partial_path() : std::string()).front();
-    in_agreement(ranks_, [&] {
-        if (!folder_) folder_.emplace(RunFolder::join(partial));
-    });
+        return RunFolder::create(output);
+    }));
 }
 
 NodeSpace SolveStages::make_space() {
@@ -157,27 +154,23 @@ NodeSpace SolveStages::make_space() {
     });
     report_.seconds.read = stage_.lap();
     progress("number", 0, 0);
-    NodeSpace space(MPI_COMM_WORLD, outline, first, std::move(own), report_.wanted.solver.order);
+    NodeSpace space(ranks_, outline, first, std::move(own), report_.wanted.solver.order);
     report_.seconds.number = stage_.lap();
     return space;
 }
 
 Extreme SolveStages::largest(double value, const Vec3& place) const {
-    struct {
-        double value;
-        int rank;
-    } best{value, ranks_.rank()};
-    MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE_INT, MPI_MAXLOC, MPI_COMM_WORLD);
-    Vec3 where = place;
-    MPI_Bcast(where.data(), 3, MPI_DOUBLE, best.rank, MPI_COMM_WORLD);
-    return {best.value, where};
+    std::array<double, 4> most{value, place.x(), place.y(), place.z()};
+    for (const std::array<double, 4>& of_rank : all_gather(ranks_, most))
+        if (of_rank[0] > most[0]) most = of_rank;
+    return {most[0], Vec3(most[1], most[2], most[3])};
 }
 
 void SolveStages::report_case(const std::vector<double>& forces, CaseReport& of_case) {
     const CaseSolution& solution = solutions_.back();
     for (std::size_t dof = 0; dof < forces.size(); ++dof)
         of_case.load[static_cast<Eigen::Index>(dof % 3)] += forces[dof];
-    MPI_Allreduce(MPI_IN_PLACE, of_case.load.data(), 3, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    ranks_.all_reduce(std::span(of_case.load.data(), 3), Reduction::sum);
     of_case.reactions = reactions(problem_, solution.displacement, forces);
     Vec3 sum = of_case.load;
     double scale = of_case.load.norm();
@@ -280,7 +273,7 @@ void SolveStages::finish() {
     std::array<double*, 8> seconds = {&report_.seconds.read,     &report_.seconds.number, &report_.seconds.conditions,
                                       &report_.seconds.assemble, &report_.seconds.setup,  &report_.seconds.solve,
                                       &report_.seconds.recover,  &report_.seconds.write};
-    for (double* value : seconds) MPI_Allreduce(MPI_IN_PLACE, value, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    for (double* value : seconds) *value = ranks_.all_reduce(*value, Reduction::largest);
     for (const std::int64_t bytes : all_gather(ranks_, own_peak_rss_bytes())) report_.peak_rss_bytes += bytes;
     report_.seconds.wall = whole_.lap();
     if (!is_root()) folder_.reset();
@@ -299,12 +292,12 @@ SolveReport SolveStages::run() {
     report_.nodes = space_->total_rows();
     report_.supports = problem_.supports;
     for (std::size_t dof = 0; dof < 3 * space_->owned_count(); ++dof) report_.held += problem_.is_held(dof) ? 1 : 0;
-    MPI_Allreduce(MPI_IN_PLACE, &report_.held, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+    report_.held = ranks_.all_reduce(report_.held, Reduction::sum);
     open_folder();
     report_.seconds.conditions = stage_.lap();
     progress("assemble", 0, 0);
     {
-        const PetscSession petsc(report_.wanted.solver.petsc);
+        const PetscSession petsc(ranks_, report_.wanted.solver.petsc);
         LinearSystem system(problem_, report_.wanted.solver);
         report_.seconds.assemble = stage_.lap();
         for (std::size_t i = 0; i < problem_.cases.size(); ++i) {
@@ -326,11 +319,11 @@ double SolveReport::relative_error() const {
     return largest;
 }
 
-SolveReport solve_run(const SolveRequest& request, Communicator& ranks, RunListener* listener) {
+SolveReport solve_run(const SolveRequest& request, MpiRanks& ranks, RunListener* listener) {
     return SolveStages(request, ranks, listener).run();
 }
 
-std::vector<PatchSummary> list_patches(const std::string& folder, Communicator& ranks) {
+std::vector<PatchSummary> list_patches(const std::string& folder, MpiRanks& ranks) {
     std::unique_ptr<RunParts> parts;
     std::vector<std::int32_t> first;
     std::vector<Part> own = in_agreement(ranks, [&] {
@@ -342,7 +335,7 @@ std::vector<PatchSummary> list_patches(const std::string& folder, Communicator& 
             surfaces.push_back(parts->load_only(p, PartContent::surface));
         return surfaces;
     });
-    const NodeSpace space(MPI_COMM_WORLD, parts->outline(), first, std::move(own), 1);
+    const NodeSpace space(ranks, parts->outline(), first, std::move(own), 1);
     return SurfaceSelector(space, parts->outline().patch_names).summaries();
 }
 

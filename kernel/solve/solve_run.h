@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "parallel/communicator.h"
+#include "mpi/mpi_ranks.h"
 #include "report/listener.h"
 #include "solve/elastic_case.h"
 #include "solve/linear_system.h"
@@ -70,10 +70,10 @@ inline constexpr const char* size_field_file = "size_field.vtu";
 /// Solves and writes the result folder: parts with Displacement, Stress, VonMises and ErrorIndicator, mesh.pvtu and
 /// report.json, which appears as a whole or not at all (io/run_folder.h). Collective. Throws Error on all ranks alike;
 /// Error(convergence) if the tolerance is not reached, and nothing is written then.
-SolveReport solve_run(const SolveRequest& request, Communicator& ranks, RunListener* listener);
+SolveReport solve_run(const SolveRequest& request, MpiRanks& ranks, RunListener* listener);
 
 /// The patches of a finished run. Collective.
-std::vector<PatchSummary> list_patches(const std::string& folder, Communicator& ranks);
+std::vector<PatchSummary> list_patches(const std::string& folder, MpiRanks& ranks);
 
 /// report.json, sealed (io/run_manifest.h).
 std::string to_json(const SolveReport& report);

@@ -63,7 +63,7 @@ class StressRecovery {
             compare(m);
         }
         std::array<double, 2> squares = {field_.norms.solution, field_.norms.error};
-        MPI_Allreduce(MPI_IN_PLACE, squares.data(), 2, MPI_DOUBLE, MPI_SUM, space_.comm());
+        space_.ranks().all_reduce(std::span<double>(squares), Reduction::sum);
         field_.norms = {std::sqrt(squares[0]), std::sqrt(squares[1])};
         return std::move(field_);
     }
@@ -169,7 +169,7 @@ std::vector<Vec3> reactions(const ElasticProblem& problem, const std::vector<dou
     for (std::size_t dof = 0; dof < internal.size(); ++dof)  // shares of ghosts belong to the same support
         if (problem.is_held(dof))
             sums[3 * static_cast<std::size_t>(problem.support_of[dof]) + dof % 3] += internal[dof];
-    MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, space.comm());
+    space.ranks().all_reduce(std::span(sums), Reduction::sum);
     std::vector<Vec3> result;
     for (std::size_t s = 0; s < problem.supports.size(); ++s) result.emplace_back(Eigen::Map<const Vec3>(&sums[3 * s]));
     return result;

@@ -63,7 +63,7 @@ SurfaceSelector::SurfaceSelector(const NodeSpace& space, std::vector<std::string
             surface_.push_back({p, f, 0.5 * doubled.norm(), doubled.normalized()});
         }
     }
-    MPI_Allreduce(MPI_IN_PLACE, low.data(), 6, MPI_DOUBLE, MPI_MIN, space.comm());
+    space.ranks().all_reduce(std::span<double>(low), Reduction::smallest);
     diagonal_ = std::hypot(low[0] + low[3], low[1] + low[4], low[2] + low[5]);
 }
 
@@ -102,8 +102,8 @@ std::vector<SurfaceFacet> SurfaceSelector::facets(const SurfaceSelection& where,
     std::vector<SurfaceFacet> selected;
     for (const SurfaceFacet& facet : surface_)
         if (selects(where, patches, facet)) selected.push_back(facet);
-    auto count = static_cast<std::int64_t>(selected.size());
-    MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_INT64_T, MPI_SUM, space_.comm());
+    const auto own = static_cast<std::int64_t>(selected.size());
+    const std::int64_t count = space_.ranks().all_reduce(own, Reduction::sum);
     if (count == 0)
         throw Error(ErrorCode::usage,
                     fmt::format("{} selects no triangle of the surface{}. kerf solve DIR --list-patches says where "
@@ -128,11 +128,9 @@ std::int64_t SurfaceSelector::nearest_vertex(const Vec3& point) const {
                 row = candidate;
             }
         }
-    double least = nearest;
-    MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, space_.comm());
+    const double least = space_.ranks().all_reduce(nearest, Reduction::smallest);
     if (nearest > least) row = std::numeric_limits<std::int64_t>::max();
-    MPI_Allreduce(MPI_IN_PLACE, &row, 1, MPI_INT64_T, MPI_MIN, space_.comm());
-    return row;
+    return space_.ranks().all_reduce(row, Reduction::smallest);
 }
 
 std::vector<PatchSummary> SurfaceSelector::summaries() const {
@@ -148,7 +146,7 @@ std::vector<PatchSummary> SurfaceSelector::summaries() const {
         for (const double sum : {static_cast<double>(own.triangles), own.area, own.centroid.x(), own.centroid.y(),
                                  own.centroid.z(), own.normal.x(), own.normal.y(), own.normal.z()})
             sums.push_back(sum);
-    MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, space_.comm());
+    space_.ranks().all_reduce(std::span(sums), Reduction::sum);
     for (std::size_t i = 0; i < patches.size(); ++i) {
         const double* sum = &sums[8 * i];
         patches[i] = {names_[i], static_cast<std::int64_t>(sum[0]), sum[1], Vec3(sum[2], sum[3], sum[4]),

@@ -66,3 +66,14 @@ function(kerf_test_properties variable label seconds)
   endif()
   set(${variable} LABELS ${label} TIMEOUT ${seconds} SKIP_RETURN_CODE 77 PARENT_SCOPE)
 endfunction()
+
+# kerf_add_ranks_test(<program> <label> <number of ranks>...): the program's tests, all of them under mpirun.
+function(kerf_add_ranks_test program label)
+  foreach(ranks ${ARGN})
+    add_test(NAME ${program}.${ranks} COMMAND ${MPIEXEC_EXECUTABLE} --oversubscribe -n ${ranks}
+      $<TARGET_FILE:${program}> --gtest_brief=1)
+    kerf_test_properties(properties ${label} 120)
+    set_tests_properties(${program}.${ranks} PROPERTIES ${properties} PROCESSORS ${ranks}
+      ENVIRONMENT "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;ASAN_OPTIONS=detect_leaks=0")
+  endforeach()
+endfunction()

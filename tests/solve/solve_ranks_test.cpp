@@ -63,16 +63,14 @@ class CubeOfParts : public testing::Environment {
 };
 
 // The space of the parts of a communicator's rank.
-std::unique_ptr<NodeSpace> space_on(MPI_Comm comm, int order) {
-    int own = 0, size = 1;
-    MPI_Comm_rank(comm, &own);
-    MPI_Comm_size(comm, &size);
+std::unique_ptr<NodeSpace> space_on(MpiRanks& of_space, int order) {
+    const int own = of_space.rank(), size = of_space.size();
     const MeshOutline& outline = CubeOfParts::parts->outline();
     const std::vector<std::int32_t> first = first_parts_of_ranks(outline, size);
     std::vector<Part> parts;
     for (std::int32_t p = first[static_cast<std::size_t>(own)]; p < first[static_cast<std::size_t>(own) + 1]; ++p)
         parts.push_back(CubeOfParts::parts->load(p));
-    return std::make_unique<NodeSpace>(comm, outline, first, std::move(parts), order);
+    return std::make_unique<NodeSpace>(of_space, outline, first, std::move(parts), order);
 }
 
 double largest(double value) {
@@ -82,7 +80,7 @@ double largest(double value) {
 
 class Solution : public testing::TestWithParam<int> {
  protected:
-    void SetUp() override { space_ = space_on(MPI_COMM_WORLD, GetParam()); }
+    void SetUp() override { space_ = space_on(*ranks_of_program->mpi, GetParam()); }
 
     // Holds the surface where `held` says so: all three components, or one.
     template <class Displacement>
@@ -170,7 +168,8 @@ TEST_P(SolutionOfOrderTwo, HasQuadraticFieldsExactly) {
 
 // Rows follow from the parts alone: one rank with all parts numbers as many ranks do.
 TEST_P(Solution, RowsAreTheSameForAnyRanks) {
-    const std::unique_ptr<NodeSpace> alone = space_on(MPI_COMM_SELF, GetParam());
+    MpiRanks self(MPI_COMM_SELF);
+    const std::unique_ptr<NodeSpace> alone = space_on(self, GetParam());
     EXPECT_EQ(space_->total_rows(), alone->total_rows());
     EXPECT_EQ(static_cast<std::int64_t>(alone->owned_count()), alone->total_rows());
     const auto first = static_cast<std::size_t>(
@@ -210,7 +209,8 @@ double edge_sum(const SizedMesh& sizes) {
 // Equal errors of all cells need all edges shorter by the same share; where there is no error, cells may be larger; and
 // what is wanted does not depend on the ranks.
 TEST_P(Solution, SizesFollowErrors) {
-    const std::unique_ptr<NodeSpace> alone = space_on(MPI_COMM_SELF, GetParam());
+    MpiRanks self(MPI_COMM_SELF);
+    const std::unique_ptr<NodeSpace> alone = space_on(self, GetParam());
     SingleRank single;
     const auto sizes_of = [&](const NodeSpace& space, Communicator& of_space, double aim, double from_x) {
         StressField field;
@@ -243,12 +243,12 @@ TEST_P(Solution, SizesFollowErrors) {
 }
 
 TEST(Bodies, ACubeIsOne) {
-    const auto space = space_on(MPI_COMM_WORLD, 1);
+    const auto space = space_on(*ranks_of_program->mpi, 1);
     EXPECT_EQ(find_bodies(*space).count, 1);
 }
 
 TEST(Supports, ThatLeaveMotionsAreRefusedWithTheirNames) {
-    const auto space = space_on(MPI_COMM_WORLD, 1);
+    const auto space = space_on(*ranks_of_program->mpi, 1);
     const NodeBodies bodies = find_bodies(*space);
     const auto refusal = [&](auto holds) -> std::string {
         ElasticProblem problem = make_free_problem(*space, {"steel", 1, 0.3, 0});
@@ -301,7 +301,7 @@ int main(int argc, char** argv) {
     testing::InitGoogleTest(&argc, argv);
     const kerf::Ranks ranks = kerf::join_ranks(kerf::MpiUse::always);
     kerf::ranks_of_program = &ranks;
-    const kerf::PetscSession petsc;
+    const kerf::PetscSession petsc(*ranks.mpi);
     testing::AddGlobalTestEnvironment(new kerf::CubeOfParts);
     return RUN_ALL_TESTS();
 }

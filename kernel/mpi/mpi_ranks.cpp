@@ -1,0 +1,185 @@
+#include "mpi/mpi_ranks.h"
+
+#include <algorithm>
+#include <array>
+#include <new>
+
+#include <fmt/format.h>
+
+namespace kerf {
+
+namespace {
+
+constexpr std::uint64_t has_left = ~std::uint64_t{0};
+
+// Whether that was to be done. Only the first thread calls MPI, but cuts are made on others meanwhile.
+bool initialise_mpi() {
+    int is_initialised = 0, provided = MPI_THREAD_SINGLE;
+    check_mpi(MPI_Initialized(&is_initialised), "MPI_Initialized");
+    if (is_initialised)
+        check_mpi(MPI_Query_thread(&provided), "MPI_Query_thread");
+    else
+        check_mpi(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
+    if (provided >= MPI_THREAD_FUNNELED) return !is_initialised;
+    if (!is_initialised) MPI_Finalize();
+    throw Error(ErrorCode::internal,
+                "The MPI library supports no program with threads (MPI_THREAD_FUNNELED). Use one that was built "
+                "with threads, or run kerf without mpirun.");
+}
+
+}  // namespace
+
+void check_mpi(int result, const char* call) {
+    if (result == MPI_SUCCESS) return;
+    std::array<char, MPI_MAX_ERROR_STRING> text{};
+    int length = 0;
+    MPI_Error_string(result, text.data(), &length);
+    throw Error(ErrorCode::internal,
+                fmt::format("{} has failed: {}. Check the hosts and their network.", call, text.data()));
+}
+
+// What a rank that leaves says to the others: of a size that needs no memory where there may be none.
+struct MpiRanks::LastWords {
+    std::int32_t code = 0;
+    std::array<char, 1020> message{};
+};
+
+MpiRanks::MpiRanks(MPI_Comm comm) : has_initialised_(initialise_mpi()) {
+    check_mpi(MPI_Comm_dup(comm, &comm_), "MPI_Comm_dup");
+    check_mpi(MPI_Comm_set_errhandler(comm_, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+    check_mpi(MPI_Comm_rank(comm_, &rank_), "MPI_Comm_rank");
+    check_mpi(MPI_Comm_size(comm_, &size_), "MPI_Comm_size");
+    sent_to_.assign(static_cast<std::size_t>(size_), 0);
+    sizes_.resize(sent_to_.size());
+}
+
+MpiRanks::~MpiRanks() {
+    MPI_Comm_free(&comm_);
+    if (has_initialised_) MPI_Finalize();
+}
+
+MPI_Op MpiRanks::operation_of(Reduction reduction) {
+    if (reduction == Reduction::sum) return MPI_SUM;
+    return reduction == Reduction::smallest ? MPI_MIN : MPI_MAX;
+}
+
+// Every collective begins with a number of each rank: how much it brings, or that it has left.
+void MpiRanks::begin_collective(std::uint64_t own_size) {
+    check_mpi(MPI_Allgather(&own_size, 1, MPI_UINT64_T, sizes_.data(), 1, MPI_UINT64_T, comm_), "MPI_Allgather");
+    if (std::find(sizes_.begin(), sizes_.end(), has_left) == sizes_.end()) return;
+    LastWords words;
+    end_together(words);
+    throw Error(static_cast<ErrorCode>(words.code), words.message.data());
+}
+
+// The words of the first rank that has left, on all ranks; no message stays under way.
+void MpiRanks::end_together(LastWords& words) {
+    is_over_ = true;
+    const auto speaker = std::find(sizes_.begin(), sizes_.end(), has_left) - sizes_.begin();
+    check_mpi(MPI_Bcast(&words, sizeof words, MPI_BYTE, static_cast<int>(speaker), comm_), "MPI_Bcast");
+    try {
+        take_messages();
+    } catch (const std::bad_alloc&) {
+        MPI_Abort(comm_, words.code);
+    }
+}
+
+void MpiRanks::leave(const StageStatus& why) {
+    if (is_over_) return;
+    LastWords words{why.code, {}};
+    why.message.copy(words.message.data(), words.message.size() - 1);
+    check_mpi(MPI_Allgather(&has_left, 1, MPI_UINT64_T, sizes_.data(), 1, MPI_UINT64_T, comm_), "MPI_Allgather");
+    end_together(words);
+}
+
+// One broadcast per rank, once all of them have room for everything.
+std::vector<Bytes> MpiRanks::all_gather(const Bytes& contribution) {
+    begin_collective(contribution.size());
+    std::vector<Bytes> all;
+    std::int32_t has_room = 1;
+    try {
+        for (const std::uint64_t size : sizes_) all.emplace_back(size);
+        all[static_cast<std::size_t>(rank_)] = contribution;
+    } catch (const std::bad_alloc&) {
+        has_room = 0;
+        all.clear();
+    }
+    if (!all_reduce(has_room, Reduction::smallest)) throw std::bad_alloc();
+    for (std::size_t r = 0; r < all.size(); ++r) broadcast(all[r], static_cast<int>(r));
+    return all;
+}
+
+// In pieces, because MPI counts are 32-bit.
+void MpiRanks::broadcast(std::span<char> bytes, int root) const {
+    constexpr std::size_t piece = std::size_t{1} << 30;
+    for (; !bytes.empty(); bytes = bytes.subspan(std::min(piece, bytes.size())))
+        check_mpi(MPI_Bcast(bytes.data(), static_cast<int>(std::min(piece, bytes.size())), MPI_BYTE, root, comm_),
+                  "MPI_Bcast");
+}
+
+void MpiRanks::post(int rank, const Bytes& message) {
+    posted_.remove_if([](Posted& posted) {
+        int left = 0;
+        check_mpi(MPI_Test(&posted.request, &left, MPI_STATUS_IGNORE), "MPI_Test");
+        return left != 0;
+    });
+    Posted& posted = posted_.emplace_back(Posted{message});
+    check_mpi(MPI_Isend(posted.message.data(), static_cast<int>(message.size()), MPI_BYTE, rank, post_tag, comm_,
+                        &posted.request),
+              "MPI_Isend");
+    ++sent_to_[static_cast<std::size_t>(rank)];
+}
+
+Bytes MpiRanks::receive(const MPI_Status& announced) const {
+    int size = 0;
+    check_mpi(MPI_Get_count(&announced, MPI_BYTE, &size), "MPI_Get_count");
+    Bytes message(static_cast<std::size_t>(size));
+    check_mpi(MPI_Recv(message.data(), size, MPI_BYTE, announced.MPI_SOURCE, post_tag, comm_, MPI_STATUS_IGNORE),
+              "MPI_Recv");
+    return message;
+}
+
+std::optional<Bytes> MpiRanks::poll() {
+    int arrived = 0;
+    MPI_Status status;
+    check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, post_tag, comm_, &arrived, &status), "MPI_Iprobe");
+    if (!arrived) return {};
+    ++received_;
+    return receive(status);
+}
+
+void MpiRanks::drop_messages() {
+    if (is_over_) return;
+    begin_collective(0);
+    take_messages();
+}
+
+void MpiRanks::take_messages() {
+    int expected = 0;
+    check_mpi(MPI_Reduce_scatter_block(sent_to_.data(), &expected, 1, MPI_INT, MPI_SUM, comm_),
+              "MPI_Reduce_scatter_block");
+    for (; received_ < expected; ++received_) {
+        MPI_Status status;
+        check_mpi(MPI_Probe(MPI_ANY_SOURCE, post_tag, comm_, &status), "MPI_Probe");
+        receive(status);
+    }
+    for (Posted& posted : posted_) check_mpi(MPI_Wait(&posted.request, MPI_STATUS_IGNORE), "MPI_Wait");
+    posted_.clear();
+    sent_to_.assign(sent_to_.size(), 0);
+    received_ = 0;
+}
+
+std::vector<Bytes> MpiRanks::gather_on_host(const Bytes& contribution, std::size_t& own) const {
+    MPI_Comm host = MPI_COMM_NULL;
+    check_mpi(MPI_Comm_split_type(comm_, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &host), "MPI_Comm_split_type");
+    std::vector<Bytes> all;
+    {
+        MpiRanks on_host(host);
+        own = static_cast<std::size_t>(on_host.rank());
+        all = on_host.all_gather(contribution);
+    }
+    check_mpi(MPI_Comm_free(&host), "MPI_Comm_free");
+    return all;
+}
+
+}  // namespace kerf

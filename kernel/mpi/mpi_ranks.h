@@ -1,0 +1,126 @@
+// The ranks of an MPI job, and what values that are distributed over them need. The only place that knows MPI.
+#pragma once
+
+#include <cstdint>
+#include <list>
+#include <span>
+#include <vector>
+
+#include <mpi.h>
+
+#include "parallel/communicator.h"
+
+namespace kerf {
+
+/// Throws Error(internal), naming the call and what MPI says of it, for a result that is no success.
+void check_mpi(int result, const char* call);
+
+template <class T>
+MPI_Datatype mpi_type();
+template <>
+inline MPI_Datatype mpi_type<double>() {
+    return MPI_DOUBLE;
+}
+template <>
+inline MPI_Datatype mpi_type<std::int32_t>() {
+    return MPI_INT32_T;
+}
+template <>
+inline MPI_Datatype mpi_type<std::int64_t>() {
+    return MPI_INT64_T;
+}
+
+enum class Reduction { sum, smallest, largest };
+
+/// Values for another rank, or from it.
+template <class T>
+struct RankValues {
+    int rank = 0;
+    std::vector<T> values;
+};
+
+/// The ranks of a communicator of MPI, of which a duplicate is used, so that no message of the program is taken for one
+/// of these. Only the thread that makes it may call it.
+class MpiRanks : public Communicator {
+ public:
+    /// Collective. Without an argument: all processes that a launcher has started, or this one alone. Where the program
+    /// has not initialised MPI, that is done here, and undone by the destructor. Throws Error(internal) if MPI does not
+    /// allow the threads that a rank has beside its first.
+    explicit MpiRanks(MPI_Comm comm = MPI_COMM_WORLD);
+    /// Collective.
+    ~MpiRanks() override;
+    MpiRanks(const MpiRanks&) = delete;
+    MpiRanks& operator=(const MpiRanks&) = delete;
+
+    int rank() const override { return rank_; }
+    int size() const override { return size_; }
+    std::vector<Bytes> all_gather(const Bytes& contribution) override;
+    void post(int rank, const Bytes& message) override;
+    std::optional<Bytes> poll() override;
+    void drop_messages() override;
+    void leave(const StageStatus& why) override;
+
+    /// Collective: what the ranks of this host contribute, and which of them this one is.
+    std::vector<Bytes> gather_on_host(const Bytes& contribution, std::size_t& own) const;
+
+    /// Collective, with as many values on every rank: each becomes its sum, least or largest over the ranks.
+    template <class T>
+    void all_reduce(std::span<T> values, Reduction reduction) const {
+        check_mpi(MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), mpi_type<T>(),
+                                operation_of(reduction), comm_),
+                  "MPI_Allreduce");
+    }
+    template <class T>
+    T all_reduce(T value, Reduction reduction) const {
+        all_reduce(std::span(&value, 1), reduction);
+        return value;
+    }
+
+    /// Sends values to other ranks, and receives those that `in` names the senders of and has room for; each message
+    /// must have both. O(values).
+    template <class T>
+    void exchange(const std::vector<RankValues<T>>& out, std::vector<RankValues<T>>& in) const {
+        std::vector<MPI_Request> requests;
+        for (RankValues<T>& from : in)
+            check_mpi(MPI_Irecv(from.values.data(), static_cast<int>(from.values.size()), mpi_type<T>(), from.rank,
+                                exchange_tag, comm_, &requests.emplace_back()),
+                      "MPI_Irecv");
+        for (const RankValues<T>& to : out)
+            check_mpi(MPI_Isend(to.values.data(), static_cast<int>(to.values.size()), mpi_type<T>(), to.rank,
+                                exchange_tag, comm_, &requests.emplace_back()),
+                      "MPI_Isend");
+        check_mpi(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
+    }
+
+    /// Ends all ranks without their consent. Does not return.
+    void end_all(int exit_code) const { MPI_Abort(comm_, exit_code); }
+
+    /// For libraries that call MPI themselves.
+    MPI_Comm handle() const { return comm_; }
+
+ private:
+    static constexpr int post_tag = 0, exchange_tag = 1;
+    static MPI_Op operation_of(Reduction reduction);
+    Bytes receive(const MPI_Status& announced) const;
+    void broadcast(std::span<char> bytes, int root) const;
+    void begin_collective(std::uint64_t own_size);
+    struct LastWords;
+    void end_together(LastWords& words);
+    void take_messages();
+
+    // A message on its way, which MPI reads until it has left.
+    struct Posted {
+        Bytes message;
+        MPI_Request request = MPI_REQUEST_NULL;
+    };
+    bool has_initialised_ = false;  // MPI
+    MPI_Comm comm_ = MPI_COMM_NULL;
+    int rank_ = 0, size_ = 1;
+    std::list<Posted> posted_;
+    std::vector<int> sent_to_;  // messages to each rank since drop_messages()
+    int received_ = 0;
+    std::vector<std::uint64_t> sizes_;  // of what the ranks bring to a collective
+    bool is_over_ = false;              // a rank has left
+};
+
+}  // namespace kerf

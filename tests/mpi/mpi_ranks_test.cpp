@@ -1,0 +1,102 @@
+// What ranks do with each other, on a communicator of a program that has initialised MPI itself. It runs under mpirun,
+// every test on all ranks together.
+#include <gtest/gtest.h>
+
+#include "mpi/mpi_ranks.h"
+
+namespace kerf {
+namespace {
+
+TEST(MpiRanks, ReduceValuesOfAllTypes) {
+    const MpiRanks ranks;
+    const int size = ranks.size();
+    std::vector<double> values = {1, ranks.rank() + 0.5};
+    ranks.all_reduce(std::span(values), Reduction::sum);
+    EXPECT_EQ(values, (std::vector<double>{1.0 * size, 0.5 * size * size}));
+    EXPECT_EQ(ranks.all_reduce(std::int32_t{ranks.rank()}, Reduction::largest), size - 1);
+    EXPECT_EQ(ranks.all_reduce(std::int64_t{5} << 40 | ranks.rank(), Reduction::smallest), std::int64_t{5} << 40);
+}
+
+// Each tells the next one as many numbers as its own rank says.
+TEST(MpiRanks, ExchangeWithNeighbours) {
+    const MpiRanks ranks;
+    const int size = ranks.size(), next = (ranks.rank() + 1) % size, before = (ranks.rank() + size - 1) % size;
+    const auto values_of = [](int rank) { return std::vector<std::int64_t>(static_cast<std::size_t>(rank), rank); };
+    const std::vector<RankValues<std::int64_t>> out = {{next, values_of(ranks.rank())}};
+    std::vector<RankValues<std::int64_t>> in = {{before, std::vector<std::int64_t>(static_cast<std::size_t>(before))}};
+    ranks.exchange(out, in);
+    EXPECT_EQ(in[0].values, values_of(before));
+}
+
+TEST(MpiRanks, GatherOnTheHost) {
+    const MpiRanks ranks;
+    std::size_t own = 0;
+    const std::vector<Bytes> all = ranks.gather_on_host(to_bytes(ranks.rank()), own);
+    ASSERT_EQ(all.size(), static_cast<std::size_t>(ranks.size())) << "all of them run here";
+    EXPECT_EQ(from_bytes<int>(all[own]), ranks.rank());
+}
+
+TEST(MpiRanks, AreThoseOfTheCommunicatorThatIsGiven) {
+    MpiRanks all;
+    MPI_Comm half = MPI_COMM_NULL;
+    MPI_Comm_split(MPI_COMM_WORLD, all.rank() % 2, -all.rank(), &half);
+    {
+        MpiRanks ranks(half);
+        EXPECT_EQ(ranks.size(), (all.size() + 1 - all.rank() % 2) / 2);
+        const std::vector<int> gathered = all_gather(ranks, all.rank());
+        EXPECT_EQ(gathered[static_cast<std::size_t>(ranks.rank())], all.rank());
+        EXPECT_TRUE(std::is_sorted(gathered.rbegin(), gathered.rend())) << "in the order of that communicator";
+    }
+    MPI_Comm_free(&half);
+    EXPECT_EQ(all.all_reduce(1, Reduction::sum), all.size()) << "the others go on";
+}
+
+// The program's own message must not be taken for one of ours, nor the other way round.
+TEST(MpiRanks, LeaveTheMessagesOfTheProgramAlone) {
+    MpiRanks ranks;
+    const int other = ranks.rank() ^ 1;
+    const bool has_other = other < ranks.size();
+    int sent = ranks.rank(), received = -1;
+    MPI_Request request = MPI_REQUEST_NULL;
+    if (has_other) {
+        MPI_Isend(&sent, 1, MPI_INT, other, 0, MPI_COMM_WORLD, &request);
+        ranks.post(other, to_bytes(100 + ranks.rank()));
+        std::optional<Bytes> polled;
+        while (!polled) polled = ranks.poll();
+        EXPECT_EQ(from_bytes<int>(*polled), 100 + other);
+        MPI_Recv(&received, 1, MPI_INT, other, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+        EXPECT_EQ(received, other);
+        MPI_Wait(&request, MPI_STATUS_IGNORE);
+    }
+    ranks.drop_messages();
+}
+
+TEST(MpiRanks, AFailedCallIsAnErrorThatNamesIt) {
+    MpiRanks ranks;
+    try {
+        ranks.post(ranks.size(), to_bytes(1));
+        ADD_FAILURE() << "there is no such rank";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::internal);
+        EXPECT_NE(std::string(error.what()).find("MPI_Isend has failed"), std::string::npos) << error.what();
+    }
+}
+
+TEST(MpiRanks, DoNotEndTheMpiOfTheProgram) {
+    { const MpiRanks ranks; }
+    int is_finalised = 1;
+    MPI_Finalized(&is_finalised);
+    EXPECT_FALSE(is_finalised);
+}
+
+}  // namespace
+}  // namespace kerf
+
+int main(int argc, char** argv) {
+    testing::InitGoogleTest(&argc, argv);
+    int provided = 0;
+    MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+    const int failed = RUN_ALL_TESTS();
+    MPI_Finalize();
+    return failed;
+}
