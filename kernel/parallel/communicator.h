@@ -1,7 +1,9 @@
 // The ranks of one run, without MPI: the kernel sees messages only.
 #pragma once
 
+#include <algorithm>
 #include <exception>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -70,6 +72,15 @@ std::vector<T> all_gather(Communicator& ranks, const T& value) {
     std::vector<T> values;
     for (const Bytes& bytes : ranks.all_gather(to_bytes(value))) values.push_back(from_bytes<T>(bytes));
     return values;
+}
+
+/// Gathers the items of every rank into one list, in the order of ranks.
+template <class T>
+std::vector<T> gather_items(Communicator& ranks, const std::vector<T>& own) {
+    std::vector<T> all;
+    for (std::vector<T>& of_rank : all_gather(ranks, own))
+        std::move(of_rank.begin(), of_rank.end(), std::back_inserter(all));
+    return all;
 }
 
 /// Throws the error of the first rank that has one, on every rank. That a rank was stopped counts only where there is

@@ -31,8 +31,7 @@ std::vector<Piece> gather_pieces(Communicator& ranks, const std::vector<char>& d
             const std::vector<Vec3>& p = leaf.surface.vertices;
             own.push_back({key_index(key), {p[t[0]], p[t[1]], p[t[2]]}});
         }
-    std::vector<Piece> all;
-    for (const auto& of_rank : all_gather(ranks, own)) all.insert(all.end(), of_rank.begin(), of_rank.end());
+    std::vector<Piece> all = gather_items(ranks, own);
     std::stable_sort(all.begin(), all.end(), [](const Piece& a, const Piece& b) { return a.facet < b.facet; });
     return all;
 }

@@ -30,8 +30,7 @@ InterfaceTable::InterfaceTable(Communicator& ranks, const std::vector<Leaf>& lea
         for (std::size_t f = 0; f < leaf.surface.facets.size(); ++f)
             if (!is_of_input(leaf.surface.facet_key[f]))
                 own.push_back({leaf.surface.facet_key[f], corner_keys(leaf.surface, f), leaf.id});
-    for (const std::vector<InterfaceSide>& sides : all_gather(ranks, own))
-        sides_.insert(sides_.end(), sides.begin(), sides.end());
+    sides_ = gather_items(ranks, own);
     std::sort(sides_.begin(), sides_.end(), [](const InterfaceSide& a, const InterfaceSide& b) {
         return std::tuple_cat(name_of(a), std::tuple(a.leaf)) < std::tuple_cat(name_of(b), std::tuple(b.leaf));
     });

@@ -1,7 +1,6 @@
 #include "run/cut_stage.h"
 
 #include <algorithm>
-#include <iterator>
 #include <optional>
 
 #include "core/host_name.h"
@@ -23,8 +22,7 @@ Decomposition divide_unfinished(Communicator& ranks, Decomposition own, const De
     if (std::none_of(any_of_rank.begin(), any_of_rank.end(), [](char any) { return any; })) return own;
     Decomposition whole;
     whole.nodes = gather_nodes(ranks, own.nodes, host_name());
-    for (std::vector<Leaf>& leaves : all_gather(ranks, own.leaves))
-        std::move(leaves.begin(), leaves.end(), std::back_inserter(whole.leaves));
+    whole.leaves = gather_items(ranks, own.leaves);
     return in_agreement(
         ranks, [&] { return divide_straight(std::move(whole), options, range_of_rank(options.parts, ranks), cuts); });
 }

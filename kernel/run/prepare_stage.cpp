@@ -45,17 +45,10 @@ PartReport describe_part(const PartJob& job, double volume, int rank, const CutO
     return part;
 }
 
-template <class T>
-std::vector<T> gather_in_order(Communicator& ranks, const std::vector<T>& own) {
-    std::vector<T> all;
-    for (const std::vector<T>& of_rank : all_gather(ranks, own)) all.insert(all.end(), of_rank.begin(), of_rank.end());
-    return all;
-}
-
 std::vector<NodeId> gather_leaves(Communicator& ranks, const std::vector<Leaf>& own) {
     std::vector<NodeId> ids;
     for (const Leaf& leaf : own) ids.push_back(leaf.id);
-    return gather_in_order(ranks, ids);
+    return gather_items(ranks, ids);
 }
 
 std::int32_t rank_of_leaf(const std::vector<NodeId>& leaves, NodeId leaf) {
@@ -68,7 +61,7 @@ void find_shared_edges(Communicator& ranks, const std::vector<NodeId>& leaves, s
         const std::vector<SharedEdges::Held> by_part = SharedEdges::told_by(part_of_job(part.job));
         told.insert(told.end(), by_part.begin(), by_part.end());
     }
-    const SharedEdges shared(gather_in_order(ranks, told), leaves);
+    const SharedEdges shared(gather_items(ranks, told), leaves);
     for (OwnPart& part : own) part.job.shared_edges = shared.groups_of(part_of_job(part.job));
 }
 
@@ -103,7 +96,7 @@ PreparedParts prepare_parts(Communicator& ranks, const Input& input, const std::
 std::vector<PartReport> gather_reports(Communicator& ranks, const std::vector<OwnPart>& own) {
     std::vector<PartReport> reports;
     for (const OwnPart& part : own) reports.push_back(part.report);
-    return gather_in_order(ranks, reports);
+    return gather_items(ranks, reports);
 }
 
 }  // namespace kerf

@@ -57,7 +57,8 @@ std::vector<RunFile> list_run_files(Communicator& ranks, const RunFolder& folder
         }
         return described;
     });
-    for (const auto& of_rank : all_gather(ranks, own)) written.insert(written.end(), of_rank.begin(), of_rank.end());
+    const std::vector<RunFile> others = gather_items(ranks, own);
+    written.insert(written.end(), others.begin(), others.end());
     sort_files(written);
     return written;
 }

@@ -164,8 +164,7 @@ std::vector<RunFile> write_parts(Communicator& ranks, const PartSource& parts, s
             }
         return list_files_of(opened, target.folder);
     });
-    std::vector<RunFile> all;
-    for (const auto& of_rank : all_gather(ranks, own)) all.insert(all.end(), of_rank.begin(), of_rank.end());
+    std::vector<RunFile> all = gather_items(ranks, own);
     sort_files(all);
     in_agreement(ranks, [&] {
         if (ranks.rank() != 0) return;

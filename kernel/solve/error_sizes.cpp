@@ -120,10 +120,7 @@ std::vector<CubeSum> sum_errors(const NodeSpace& space, const std::vector<const 
         of_part = merged(std::move(of_part));
         std::move(of_part.begin(), of_part.end(), std::back_inserter(sums));
     }
-    std::vector<CubeSum> all;
-    for (std::vector<CubeSum>& own : all_gather(ranks, merged(std::move(sums))))
-        std::move(own.begin(), own.end(), std::back_inserter(all));
-    return merged(std::move(all));
+    return merged(gather_items(ranks, merged(std::move(sums))));
 }
 
 // What a field asks for, as a share of the present length of each cube.

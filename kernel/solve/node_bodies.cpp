@@ -55,9 +55,7 @@ NodeBodies find_bodies(const NodeSpace& space) {
     std::vector<std::int64_t> labels;
     for (std::size_t n = 0; n < space.owned_count(); ++n)
         if (least[n] == space.row_of(static_cast<std::int32_t>(n))) labels.push_back(least[n]);
-    std::vector<std::int64_t> all;
-    for (const std::vector<std::int64_t>& of_rank : all_gather(space.ranks(), labels))
-        all.insert(all.end(), of_rank.begin(), of_rank.end());
+    std::vector<std::int64_t> all = gather_items(space.ranks(), labels);
     std::sort(all.begin(), all.end());
     NodeBodies bodies{static_cast<std::int32_t>(all.size()), std::vector<std::int32_t>(space.node_count())};
     for (std::size_t n = 0; n < least.size(); ++n)

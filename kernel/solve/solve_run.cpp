@@ -240,8 +240,7 @@ void SolveStages::write() {
         }
         return files;
     });
-    for (const std::vector<RunFile>& files : all_gather(ranks_, own))
-        report_.files.insert(report_.files.end(), files.begin(), files.end());
+    report_.files = gather_items(ranks_, own);
     in_agreement(ranks_, [&] {
         if (!is_root()) return;
         std::vector<std::string> pieces;

@@ -1,156 +1,21 @@
-// What the ranks agree on: errors, interfaces, numbers. Ranks are threads here.
+// What the ranks agree on: the tree, interfaces, numbers. Ranks are threads here.
 #include <algorithm>
-#include <condition_variable>
 #include <functional>
 #include <map>
-#include <mutex>
 #include <set>
-#include <thread>
 
 #include <gtest/gtest.h>
 
-#include "parallel/communicator.h"
 #include "prepare/gathered_nodes.h"
 #include "prepare/input_cover.h"
 #include "prepare/interface_match.h"
 #include "prepare/numbering.h"
 #include "support/assets.h"
 #include "support/decomposition_laws.h"
+#include "support/thread_ranks.h"
 
 namespace kerf {
 namespace {
-
-// Where the contributions of all ranks meet.
-class MeetingPoint {
- public:
-    explicit MeetingPoint(int size) : size_(size), given_(size) {}
-    std::vector<Bytes> meet(int rank, const Bytes& contribution) {
-        std::unique_lock lock(mutex_);
-        given_[rank] = contribution;
-        const int round = round_;
-        if (++arrived_ == size_) {
-            result_ = given_;
-            arrived_ = 0;
-            ++round_;
-            all_here_.notify_all();
-        }
-        all_here_.wait(lock, [&] { return round_ != round; });
-        return result_;
-    }
-    int size() const { return size_; }
-
- private:
-    int size_, arrived_ = 0, round_ = 0;
-    std::vector<Bytes> given_, result_;
-    std::mutex mutex_;
-    std::condition_variable all_here_;
-};
-
-class ThreadRank : public Communicator {
- public:
-    ThreadRank(MeetingPoint& meeting, int rank) : meeting_(meeting), rank_(rank) {}
-    int rank() const override { return rank_; }
-    int size() const override { return meeting_.size(); }
-    std::vector<Bytes> all_gather(const Bytes& contribution) override { return meeting_.meet(rank_, contribution); }
-    void post(int, const Bytes&) override { FAIL() << "no stage under test posts messages"; }
-    std::optional<Bytes> poll() override { return {}; }
-    void drop_messages() override {}
-    void leave(const StageStatus&) override { FAIL() << "no stage under test ends on one rank alone"; }
-
- private:
-    MeetingPoint& meeting_;
-    int rank_;
-};
-
-template <class Body>
-void run_ranks(int size, Body body) {
-    MeetingPoint meeting(size);
-    std::vector<std::thread> threads;
-    for (int rank = 0; rank < size; ++rank)
-        threads.emplace_back([&, rank] {
-            ThreadRank communicator(meeting, rank);
-            body(communicator);
-        });
-    for (std::thread& thread : threads) thread.join();
-}
-
-// The message of the error that a stage ends with on every rank, per rank.
-template <class Stage>
-std::vector<std::string> errors_of(int size, Stage stage, ErrorCode expected) {
-    std::vector<std::string> errors(size);
-    run_ranks(size, [&](Communicator& ranks) {
-        try {
-            in_agreement(ranks, [&] { stage(ranks.rank()); });
-        } catch (const Error& error) {
-            errors[ranks.rank()] = error.what();
-            EXPECT_EQ(error.code(), expected);
-        }
-        EXPECT_EQ(all_gather(ranks, ranks.rank()).back(), size - 1) << "the ranks are still in step";
-    });
-    return errors;
-}
-
-TEST(InAgreement, ReturnsEachRanksValue) {
-    run_ranks(3, [](Communicator& ranks) {
-        EXPECT_EQ(in_agreement(ranks, [&] { return 10 * ranks.rank(); }), 10 * ranks.rank());
-        EXPECT_EQ(all_gather(ranks, std::to_string(ranks.rank())), (std::vector<std::string>{"0", "1", "2"}));
-    });
-}
-
-TEST(InAgreement, ErrorOfOneRankIsThrownOnAll) {
-    const auto on_rank_1 = [](int rank) {
-        if (rank == 1) throw Error(ErrorCode::io, "The disk of rank 1 is full.");
-    };
-    const std::string message = "The disk of rank 1 is full.";
-    EXPECT_EQ(errors_of(2, on_rank_1, ErrorCode::io), (std::vector<std::string>{message, message}));
-}
-
-TEST(InAgreement, ElementsOfAnErrorReachAllRanks) {
-    run_ranks(2, [](Communicator& ranks) {
-        try {
-            in_agreement(ranks, [&] {
-                if (ranks.rank() == 1)
-                    throw Error(ErrorCode::input, "Facet 7.", {{ElementKind::facet, {7}, {{1, 2, 3}}, {"inlet"}}});
-            });
-            ADD_FAILURE() << "nothing was thrown";
-        } catch (const Error& error) {
-            ASSERT_EQ(error.elements().size(), 1u);
-            const ErrorElements& facet = error.elements()[0];
-            EXPECT_EQ(facet.kind, ElementKind::facet);
-            EXPECT_EQ(facet.ids, std::vector<std::int64_t>{7});
-            EXPECT_EQ(facet.points[0], (std::array<double, 3>{1, 2, 3}));
-            EXPECT_EQ(facet.names, std::vector<std::string>{"inlet"});
-        }
-    });
-}
-
-TEST(InAgreement, FirstRankWins) {
-    const auto on_all = [](int rank) {
-        throw Error(rank ? ErrorCode::io : ErrorCode::input, "rank " + std::to_string(rank));
-    };
-    EXPECT_EQ(errors_of(3, on_all, ErrorCode::input), std::vector<std::string>(3, "rank 0"));
-}
-
-// The rank that was stopped because of another's error must not hide it.
-TEST(InAgreement, BeingStoppedGivesWayToErrors) {
-    const auto rank_1_fails = [](int rank) {
-        throw Error(rank == 1 ? ErrorCode::io : ErrorCode::cancelled, "rank " + std::to_string(rank));
-    };
-    const auto all_stop = [](int rank) { throw Error(ErrorCode::cancelled, "rank " + std::to_string(rank)); };
-    EXPECT_EQ(errors_of(3, rank_1_fails, ErrorCode::io), std::vector<std::string>(3, "rank 1"));
-    EXPECT_EQ(errors_of(2, all_stop, ErrorCode::cancelled), std::vector<std::string>(2, "rank 0"));
-}
-
-TEST(InAgreement, OtherExceptionsGetTheirCodes) {
-    const auto memory = [](int rank) {
-        if (rank == 1) throw std::bad_alloc();
-    };
-    const auto bug = [](int rank) {
-        if (rank == 0) throw std::logic_error("a bug");
-    };
-    EXPECT_NE(errors_of(2, memory, ErrorCode::memory)[0].find("Out of memory"), std::string::npos);
-    EXPECT_EQ(errors_of(2, bug, ErrorCode::internal), (std::vector<std::string>{"a bug", "a bug"}));
-}
 
 Decomposition five_parts() {
     DecomposeOptions options;
@@ -185,7 +50,7 @@ std::string host_of(int rank) { return "host_" + std::to_string(rank / 2); }
 std::string error_of_gathering(const std::vector<std::vector<TreeNode>>& nodes) {
     const int size = static_cast<int>(nodes.size());
     std::vector<std::string> errors(size);
-    run_ranks(size, [&](Communicator& ranks) {
+    test::run_ranks(size, [&](Communicator& ranks) {
         try {
             gather_nodes(ranks, nodes[ranks.rank()], host_of(ranks.rank()));
         } catch (const Error& error) {
@@ -202,7 +67,7 @@ TEST(GatherNodes, GivesTheTreeOfOneRankWhereAllAgree) {
     const auto expected = hashes_of(by_number(nodes_of_ranks(1, 7).front()));
     for (const int size : {1, 2, 3, 7}) {
         const auto nodes = nodes_of_ranks(size, 7);
-        run_ranks(size, [&](Communicator& ranks) {
+        test::run_ranks(size, [&](Communicator& ranks) {
             EXPECT_EQ(hashes_of(gather_nodes(ranks, nodes[ranks.rank()], "host")), expected);
         });
     }
@@ -281,7 +146,7 @@ TEST(InterfaceTable, IsTheSameForLeavesOnSeveralRanks) {
     const Decomposition five = five_parts();
     SingleRank alone;
     const InterfaceTable whole(alone, five.leaves);
-    run_ranks(2, [&](Communicator& ranks) {
+    test::run_ranks(2, [&](Communicator& ranks) {
         const auto middle = five.leaves.begin() + 2;
         const std::vector<Leaf> own(ranks.rank() ? middle : five.leaves.begin(),
                                     ranks.rank() ? five.leaves.end() : middle);
@@ -310,7 +175,7 @@ TEST(InterfaceTable, CountsWhatDoesNotMatch) {
 // Half of the leaves on each of two ranks, after a damage to one of them.
 std::int64_t missing_after(const std::function<void(SurfaceArrays&)>& damage) {
     std::int64_t missing = -1;
-    run_ranks(2, [&](Communicator& ranks) {
+    test::run_ranks(2, [&](Communicator& ranks) {
         Decomposition own = five_parts();
         damage(own.leaves[1].surface);
         const std::int64_t facets = own.nodes.front().facets;

@@ -1,0 +1,97 @@
+// What ranks gather, and how they agree on errors.
+#include "parallel/communicator.h"
+
+#include <gtest/gtest.h>
+
+#include "support/thread_ranks.h"
+
+namespace kerf {
+namespace {
+
+// The message of the error that a stage ends with on every rank, per rank.
+template <class Stage>
+std::vector<std::string> errors_of(int size, Stage stage, ErrorCode expected) {
+    std::vector<std::string> errors(size);
+    test::run_ranks(size, [&](Communicator& ranks) {
+        try {
+            in_agreement(ranks, [&] { stage(ranks.rank()); });
+        } catch (const Error& error) {
+            errors[ranks.rank()] = error.what();
+            EXPECT_EQ(error.code(), expected);
+        }
+        EXPECT_EQ(all_gather(ranks, ranks.rank()).back(), size - 1) << "the ranks are still in step";
+    });
+    return errors;
+}
+
+TEST(InAgreement, ReturnsEachRanksValue) {
+    test::run_ranks(3, [](Communicator& ranks) {
+        EXPECT_EQ(in_agreement(ranks, [&] { return 10 * ranks.rank(); }), 10 * ranks.rank());
+        EXPECT_EQ(all_gather(ranks, std::to_string(ranks.rank())), (std::vector<std::string>{"0", "1", "2"}));
+    });
+}
+
+TEST(InAgreement, ErrorOfOneRankIsThrownOnAll) {
+    const auto on_rank_1 = [](int rank) {
+        if (rank == 1) throw Error(ErrorCode::io, "The disk of rank 1 is full.");
+    };
+    const std::string message = "The disk of rank 1 is full.";
+    EXPECT_EQ(errors_of(2, on_rank_1, ErrorCode::io), (std::vector<std::string>{message, message}));
+}
+
+TEST(InAgreement, ElementsOfAnErrorReachAllRanks) {
+    run_ranks(2, [](Communicator& ranks) {
+        try {
+            in_agreement(ranks, [&] {
+                if (ranks.rank() == 1)
+                    throw Error(ErrorCode::input, "Facet 7.", {{ElementKind::facet, {7}, {{1, 2, 3}}, {"inlet"}}});
+            });
+            ADD_FAILURE() << "nothing was thrown";
+        } catch (const Error& error) {
+            ASSERT_EQ(error.elements().size(), 1u);
+            const ErrorElements& facet = error.elements()[0];
+            EXPECT_EQ(facet.kind, ElementKind::facet);
+            EXPECT_EQ(facet.ids, std::vector<std::int64_t>{7});
+            EXPECT_EQ(facet.points[0], (std::array<double, 3>{1, 2, 3}));
+            EXPECT_EQ(facet.names, std::vector<std::string>{"inlet"});
+        }
+    });
+}
+
+TEST(InAgreement, FirstRankWins) {
+    const auto on_all = [](int rank) {
+        throw Error(rank ? ErrorCode::io : ErrorCode::input, "rank " + std::to_string(rank));
+    };
+    EXPECT_EQ(errors_of(3, on_all, ErrorCode::input), std::vector<std::string>(3, "rank 0"));
+}
+
+// The rank that was stopped because of another's error must not hide it.
+TEST(InAgreement, BeingStoppedGivesWayToErrors) {
+    const auto rank_1_fails = [](int rank) {
+        throw Error(rank == 1 ? ErrorCode::io : ErrorCode::cancelled, "rank " + std::to_string(rank));
+    };
+    const auto all_stop = [](int rank) { throw Error(ErrorCode::cancelled, "rank " + std::to_string(rank)); };
+    EXPECT_EQ(errors_of(3, rank_1_fails, ErrorCode::io), std::vector<std::string>(3, "rank 1"));
+    EXPECT_EQ(errors_of(2, all_stop, ErrorCode::cancelled), std::vector<std::string>(2, "rank 0"));
+}
+
+TEST(InAgreement, OtherExceptionsGetTheirCodes) {
+    const auto memory = [](int rank) {
+        if (rank == 1) throw std::bad_alloc();
+    };
+    const auto bug = [](int rank) {
+        if (rank == 0) throw std::logic_error("a bug");
+    };
+    EXPECT_NE(errors_of(2, memory, ErrorCode::memory)[0].find("Out of memory"), std::string::npos);
+    EXPECT_EQ(errors_of(2, bug, ErrorCode::internal), (std::vector<std::string>{"a bug", "a bug"}));
+}
+
+TEST(Gathering, ListsTheItemsOfAllRanksInTheirOrder) {
+    test::run_ranks(3, [](Communicator& ranks) {
+        const std::vector<int> own(static_cast<std::size_t>(ranks.rank()), ranks.rank());
+        EXPECT_EQ(gather_items(ranks, own), (std::vector<int>{1, 2, 2}));
+    });
+}
+
+}  // namespace
+}  // namespace kerf
