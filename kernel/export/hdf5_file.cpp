@@ -30,13 +30,19 @@ class Hdf5Turn {
         // At the end of the program the library would close once more what it could not close on a full disk, and
         // crash.
         static const herr_t left_open = H5dont_atexit();
-        static const herr_t silent = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what fails is an exception
-        (void)left_open, (void)silent;
+        (void)left_open;
+        H5Eget_auto2(H5E_DEFAULT, &print_, &print_data_);
+        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what fails is an exception
     }
+    Hdf5Turn(const Hdf5Turn&) = delete;
+    Hdf5Turn& operator=(const Hdf5Turn&) = delete;
+    ~Hdf5Turn() { H5Eset_auto2(H5E_DEFAULT, print_, print_data_); }
 
  private:
     static inline std::mutex mutex;
     std::lock_guard<std::mutex> lock_;
+    H5E_auto2_t print_ = nullptr;  // what the program has chosen for errors
+    void* print_data_ = nullptr;
 };
 
 [[noreturn]] void fail_hdf5(const std::string& path, const char* action, int error) {

@@ -68,13 +68,14 @@ void write_in_place(const std::string& path, std::span<const char> bytes) {
 
 // Opens a new file beside the target, which is nobody else's, and says its name; -1 with errno if there can be none.
 int open_beside(const std::string& target, std::string& name) {
-    name = target + ".XXXXXX";
-    const int fd = ::mkostemp(name.data(), O_CLOEXEC);
-    if (fd < 0) return fd;
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
+    int fd = -1;
+    for (int n = 0; fd < 0; ++n) {
+        name = fmt::format("{}.{}-{}", target, ::getpid(), n);
+        fd = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (fd < 0 && errno != EEXIST) return fd;
+    }
     struct stat older;
-    ::fchmod(fd, ::stat(target.c_str(), &older) == 0 ? older.st_mode & 07777 : 0666 & ~mask);
+    if (::stat(target.c_str(), &older) == 0) ::fchmod(fd, older.st_mode & 07777);
     return fd;
 }
 
