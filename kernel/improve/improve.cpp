@@ -7,8 +7,6 @@
 #include "core/check.h"
 #include "core/error.h"
 #include "improve/edge_removal.h"
-#include "improve/edited_mesh.h"
-#include "improve/smoothing.h"
 #include "improve/vertex_insertion.h"
 
 namespace kerf {
@@ -118,7 +116,7 @@ class Improver {
                 for (const std::int32_t at : ring_.cells) limit = std::max(limit, mesh_.badness(at));
                 if (!edge_.find(mesh_, ring_, std::min(limit, best))) continue;
                 best = edge_.badness();
-                best_ring_ = ring_.cells;
+                best_ring_.swap(ring_.cells);
                 best_cells_ = edge_.cells();
             }
         if (best == std::numeric_limits<double>::infinity()) return false;
@@ -131,15 +129,29 @@ class Improver {
         for (int i = 0; i < 4; ++i) {
             const std::int32_t vertex = mesh_.corners(cell)[i];
             if (is_settled_[vertex] || !mesh_.find_star(cell, i, star_)) continue;
-            if (!smoothing_.move(mesh_, vertex, star_, least_gain_of_a_move)) {
-                is_settled_[vertex] = 1;
-                continue;
+            if (move_to_best_place(vertex)) {
+                take_up(star_);
+                ++result_->moved_vertices;
+                return true;
             }
-            take_up(star_);
-            ++result_->moved_vertices;
-            return true;
+            is_settled_[vertex] = 1;
         }
         return false;
+    }
+
+    // Among the cells around it, star_, where that makes the worst of them better by a share.
+    bool move_to_best_place(std::int32_t vertex) {
+        places_.clear();
+        double worst = -std::numeric_limits<double>::infinity();
+        for (const std::int32_t cell : star_) {
+            const Triangle face = mesh_.face(cell, index_of(mesh_.corners(cell), vertex));
+            places_.add({mesh_.point(face[0]), mesh_.point(face[1]), mesh_.point(face[2])});
+            worst = std::max(worst, mesh_.badness(cell));
+        }
+        const BestPlace::Place best =
+            places_.search(mesh_, {mesh_.point(vertex), worst}, mesh_.most_excess(star_), vertex);
+        return best.badness < worst - least_gain_of_a_move * (1 + std::abs(worst)) &&
+               mesh_.move(vertex, best.at, star_);
     }
 
     bool insert_a_vertex(std::int32_t cell) {
@@ -169,7 +181,7 @@ class Improver {
     std::priority_queue<Entry> queue_;
     std::vector<std::int32_t> waiting_;  // bad cells that are not in the queue; ascending between rounds
     EdgeRemoval edge_;
-    Smoothing smoothing_;
+    BestPlace places_;
     VertexInsertion insertion_;
     EdgeRing ring_;
     std::vector<std::int32_t> best_ring_, star_;

@@ -1,12 +1,13 @@
 #include "mesh/editable_tets.h"
 
 #include <algorithm>
+#include <functional>
 
 #include <fmt/format.h>
 
 #include "core/check.h"
 #include "core/error.h"
-#include "mesh/faces.h"
+#include "mesh/adjacency.h"
 
 namespace kerf {
 
@@ -29,35 +30,34 @@ EditableTets::EditableTets(TetMesh mesh, std::int32_t most)
     : cell_at_vertex_(mesh.vertices.size(), none), most_(most), keeps_numbers_(true) {
     KERF_CHECK(most <= most_cells);
     require_room(mesh.tets.size());
+    if (mesh.neighbours.empty()) connect_tets(mesh);
     cells_.reserve(mesh.tets.size());
-    for (const Tetrahedron& tet : mesh.tets) {
-        for (const std::int32_t v : tet) cell_at_vertex_[v] = cell_count();
-        cells_.push_back({tet, {none, none, none, none}});
-    }
-    const auto side = [](FaceSide face) { return cell_face(face.tet(), static_cast<int>(face.corner())); };
-    const auto join = [&](FaceSide a, FaceSide b) {
-        link(side(a)) = side(b);
-        link(side(b)) = side(a);
-    };
-    if (mesh.neighbours.empty()) match_faces(mesh, join, [](FaceSide) {});
-    for (std::size_t cell = 0; cell < mesh.neighbours.size(); ++cell)
-        for (int i = 0; i < 4; ++i)
+    for (std::int32_t cell = 0; cell < static_cast<std::int32_t>(mesh.tets.size()); ++cell) {
+        Cell& made = cells_.emplace_back(Cell{mesh.tets[cell], {none, none, none, none}});
+        for (int i = 0; i < 4; ++i) {
+            cell_at_vertex_[made.vertex[i]] = cell;
             if (const std::int32_t other = mesh.neighbours[cell][i]; other >= 0)
-                cells_[cell].link[i] =
-                    cell_face(other, index_of(mesh.neighbours[other], static_cast<std::int32_t>(cell)));
+                made.link[i] = cell_face(other, index_of(mesh.neighbours[other], cell));
+        }
+    }
     points_ = std::move(mesh.vertices);
 }
 
-TetMesh EditableTets::take_mesh(const std::function<bool(std::int32_t)>& keeps, bool with_neighbours) {
+TetMesh EditableTets::take_mesh(std::uint8_t region, bool with_neighbours) {
     TetMesh mesh;
+    const auto is_taken = [&](std::int32_t cell) {
+        return cells_[cell].vertex[0] >= 0 && this->region(cell) == region;
+    };
     std::size_t count = 0;
-    for (std::int32_t cell = 0; cell < cell_count(); ++cell) count += keeps(cell);
+    for (std::int32_t cell = 0; cell < cell_count(); ++cell) count += is_taken(cell);
     mesh.tets.reserve(count);
-    for (std::int32_t cell = 0; cell < cell_count(); ++cell) {
-        const bool is_kept = keeps(cell);
-        if (is_kept) mesh.tets.push_back(cells_[cell].vertex);
-        cells_[cell].vertex[0] = is_kept ? static_cast<std::int32_t>(mesh.tets.size()) - 1 : none;  // its new number
-    }
+    for (std::int32_t cell = 0; cell < cell_count(); ++cell)
+        if (is_taken(cell)) {
+            mesh.tets.push_back(cells_[cell].vertex);
+            cells_[cell].vertex[0] = static_cast<std::int32_t>(mesh.tets.size()) - 1;  // its new number
+        } else {
+            cells_[cell].vertex[0] = none;
+        }
     if (with_neighbours) mesh.neighbours.reserve(count);
     for (std::int32_t cell = 0; with_neighbours && cell < cell_count(); ++cell) {
         if (cells_[cell].vertex[0] == none) continue;

@@ -10,7 +10,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -58,9 +57,10 @@ class EditableTets {
     /// The cells of a mesh. Finds their neighbours where the mesh has none. Error (memory) if there are more than
     /// `most`. Linear.
     EditableTets(TetMesh mesh, std::int32_t most);
-    /// The cells for which `keeps` holds, in order, and all points; with neighbours if they are asked for, none across
-    /// constrained faces. Afterwards there are no cells. boundary_vertex_count is left to the caller. Linear.
-    TetMesh take_mesh(const std::function<bool(std::int32_t)>& keeps, bool with_neighbours);
+    /// The cells of a region, which has no ghosts, in order, and all points; with neighbours if they are asked for,
+    /// none across constrained faces. Afterwards there are no cells. boundary_vertex_count is left to the caller.
+    /// Linear.
+    TetMesh take_mesh(std::uint8_t region, bool with_neighbours);
 
     // --- what there is ---
 

@@ -19,9 +19,9 @@ void for_each_sample(const std::vector<Vec3>& vertices, const Triangle& t, Visit
 }
 
 /// Compares a result with the input: facets that meet, and points too far from the other surface. Says for each facet
-/// of the input whether the result is refused there, and puts the distances into the report. `tree` is of the facets of
-/// `input`. O(#F log #F).
-std::vector<char> inspect(const SurfaceArrays& input, const TriangleTree& tree, const RemeshOptions& options,
+/// of the input whether the result is refused there, and puts the distances into the report. `input_tree` is of the
+/// facets of `input`. O(#F log #F).
+std::vector<char> inspect(const SurfaceArrays& input, const TriangleTree& input_tree, const RemeshOptions& options,
                           const SurfaceArrays& result, RemeshReport& report);
 
 }  // namespace kerf

@@ -7,6 +7,7 @@
 
 #include "delaunay/predicates.h"
 #include "improve/cell_shape.h"
+#include "improve/polygon_triangulation.h"
 
 namespace kerf {
 
@@ -64,58 +65,29 @@ Tetrahedron with_ghost_last(Tetrahedron v) {
     return v;
 }
 
-// Triangles of a polygon of the ring's vertices, and the cells that they make.
-class PolygonCells {
- public:
-    PolygonCells(const Triangulation& t, const EdgeRing& ring) : t_(&t), ring_(&ring) {}
+// Of the two cells of a triangle in the ring. With the ghost they lie outside, and the edge in the plane of the other
+// two.
+double badness_of_pair(const Triangulation& t, const EdgeRing& ring, std::int32_t p, std::int32_t q, std::int32_t r) {
+    const Tetrahedron below = {ring.a, p, q, r}, above = {p, q, r, ring.b};
+    if (std::min({p, q, r}) >= 0) return std::max(badness_of(t, below), badness_of(t, above));
+    const std::int32_t u = p < 0 ? q : p, v = r < 0 ? q : r;
+    return orientation_of(t, {ring.a, ring.b, u, v}) == 0 ? 0 : impossible;
+}
 
-    // Appends the cells of the polygon of these vertices. False if there are none that are positive.
-    bool append(const std::vector<std::int32_t>& polygon, std::vector<Tetrahedron>& cells) {
-        const std::size_t n = polygon.size();
-        if (n < 3) return true;
-        best_.assign(n * n, 0);
-        middle_.assign(n * n, 0);
-        for (std::size_t width = 2; width < n; ++width)
-            for (std::size_t i = 0, k = width; k < n; ++i, ++k) {
-                double best = impossible;
-                for (std::size_t j = i + 1; j < k; ++j) {
-                    double worst = std::max(best_[i * n + j], best_[j * n + k]);
-                    if (worst < best) worst = std::max(worst, badness(polygon[i], polygon[j], polygon[k]));
-                    if (worst >= best) continue;
-                    best = worst;
-                    middle_[i * n + k] = j;
-                }
-                best_[i * n + k] = best;
-            }
-        if (best_[n - 1] == impossible) return false;
-        append_between(polygon, 0, n - 1, cells);
-        return true;
-    }
-
- private:
-    // Of the two cells of a triangle. With the ghost they lie outside, and the edge in the plane of the other two.
-    double badness(std::int32_t p, std::int32_t q, std::int32_t r) const {
-        const Tetrahedron below = {ring_->a, p, q, r}, above = {p, q, r, ring_->b};
-        if (std::min({p, q, r}) >= 0) return std::max(badness_of(*t_, below), badness_of(*t_, above));
-        const std::int32_t u = p < 0 ? q : p, v = r < 0 ? q : r;
-        return orientation_of(*t_, {ring_->a, ring_->b, u, v}) == 0 ? 0 : impossible;
-    }
-
-    void append_between(const std::vector<std::int32_t>& polygon, std::size_t i, std::size_t k,
-                        std::vector<Tetrahedron>& cells) const {
-        if (k - i < 2) return;
-        const std::size_t j = middle_[i * polygon.size() + k];
-        cells.push_back(with_ghost_last({ring_->a, polygon[i], polygon[j], polygon[k]}));
-        cells.push_back(with_ghost_last({polygon[i], polygon[j], polygon[k], ring_->b}));
-        append_between(polygon, i, j, cells);
-        append_between(polygon, j, k, cells);
-    }
-
-    const Triangulation* t_;
-    const EdgeRing* ring_;
-    std::vector<double> best_;
-    std::vector<std::size_t> middle_;
-};
+// Appends the cells of a polygon of the ring's vertices. False if there are none that are positive.
+bool append_polygon(const Triangulation& t, const EdgeRing& ring, const std::vector<std::int32_t>& polygon,
+                    std::vector<Tetrahedron>& cells) {
+    PolygonTriangulation<most_cells_of_a_ring> triangles;
+    const auto badness = [&](std::size_t i, std::size_t j, std::size_t k, double) {
+        return badness_of_pair(t, ring, polygon[i], polygon[j], polygon[k]);
+    };
+    if (!triangles.find(polygon.size(), impossible, badness)) return false;
+    triangles.for_each_triangle([&](std::size_t i, std::size_t j, std::size_t k) {
+        cells.push_back(with_ghost_last({ring.a, polygon[i], polygon[j], polygon[k]}));
+        cells.push_back(with_ghost_last({polygon[i], polygon[j], polygon[k], ring.b}));
+    });
+    return true;
+}
 
 // Appends the cells between the polygon of a ring's vertices, its two ends, and a new vertex, which is added. It comes
 // to lie next to the closing edge, from where the ring's own edge, which is near, sees all of these cells' outer faces.
@@ -161,7 +133,7 @@ std::vector<std::int32_t> polygon_between(const EdgeRing& ring, std::size_t from
 
 bool append_cells(Triangulation& t, const EdgeRing& ring, const std::vector<std::int32_t>& polygon,
                   NewVertices new_vertices, std::vector<Tetrahedron>& cells) {
-    if (PolygonCells(t, ring).append(polygon, cells)) return true;
+    if (append_polygon(t, ring, polygon, cells)) return true;
     return new_vertices == NewVertices::allowed && append_star(t, ring, polygon, cells);
 }
 
@@ -204,8 +176,8 @@ bool remove_ring_edge(Triangulation& triangulation, const EdgeRing& ring, std::s
         if (is_spoke_constrained(triangulation, ring, k)) return false;
     std::vector<Tetrahedron> made;
     if (corners.size() == 3 &&
-        !PolygonCells(triangulation, ring)
-             .append({ring.ring[corners[0]], ring.ring[corners[1]], ring.ring[corners[2]]}, made))
+        !append_polygon(triangulation, ring, {ring.ring[corners[0]], ring.ring[corners[1]], ring.ring[corners[2]]},
+                        made))
         return false;
     const std::size_t vertices = triangulation.points().size();
     for (std::size_t k = 0; k < corners.size(); ++k) {

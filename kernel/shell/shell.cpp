@@ -84,8 +84,7 @@ FilledShell fill_shell(const SurfaceArrays& surface, ShellCore core, const Refin
     mark_shell(triangulation, found.faces);
     shell.refining_points = refine(triangulation, shell_region, bounds);
     if (!bounds.size.is_constant()) merge_close_vertices(triangulation, shell_region, bounds.size);
-    shell.mesh =
-        triangulation.take_mesh([&](std::int32_t cell) { return triangulation.region(cell) == shell_region; }, true);
+    shell.mesh = triangulation.take_mesh(shell_region, true);
     shell.mesh.boundary_vertex_count = static_cast<std::int32_t>(boundary_vertices);
     drop_unused_vertices(shell.mesh);
     return shell;

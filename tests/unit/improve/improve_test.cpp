@@ -12,7 +12,6 @@
 #include "core/error.h"
 #include "improve/edge_removal.h"
 #include "improve/edited_mesh.h"
-#include "improve/smoothing.h"
 #include "mesh/adjacency.h"
 #include "mesh/verification.h"
 #include "support/shapes.h"

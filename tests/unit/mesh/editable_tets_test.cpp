@@ -22,9 +22,7 @@ TetMesh four_cells() {
     return mesh;
 }
 
-TetMesh all_of(EditableTets tets) {
-    return tets.take_mesh([&](std::int32_t cell) { return tets.vertices(cell)[0] >= 0; }, true);
-}
+TetMesh all_of(EditableTets tets) { return tets.take_mesh(0, true); }
 
 void expect_links_agree(const EditableTets& tets) {
     for (std::int32_t cell = 0; cell < tets.cell_count(); ++cell) {
@@ -124,7 +122,10 @@ TEST(EditableTets, FillsGapsBeforeItGrows) {
     EXPECT_EQ(std::vector(filled.begin(), filled.end()), (std::vector{1, 0, 4, 5}));
     EXPECT_EQ(tets.region(5), 7);
     expect_links_agree(tets);
-    EXPECT_EQ(all_of(tets).tets.size(), 6u);
+    const TetMesh inside = tets.take_mesh(7, true);
+    EXPECT_EQ(inside.tets.size(), 5u);
+    EXPECT_EQ(inside.neighbours, find_neighbours(inside));
+    EXPECT_EQ(tets.cell_count(), 0);
 }
 
 }  // namespace
