@@ -6,7 +6,7 @@
 
 #include "core/check.h"
 #include "core/error.h"
-#include "delaunay/predicates.h"
+#include "geometry/predicates.h"
 
 namespace kerf {
 

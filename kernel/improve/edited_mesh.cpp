@@ -4,7 +4,7 @@
 
 #include "core/check.h"
 #include "core/error.h"
-#include "delaunay/predicates.h"
+#include "geometry/predicates.h"
 #include "mesh/faces.h"
 
 namespace kerf {

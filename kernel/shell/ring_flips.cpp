@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/check.h"
-#include "delaunay/predicates.h"
+#include "geometry/predicates.h"
 #include "improve/cell_shape.h"
 
 namespace kerf {

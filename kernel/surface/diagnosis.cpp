@@ -13,6 +13,7 @@
 
 #include "core/check.h"
 #include "core/elements.h"
+#include "geometry/predicates.h"
 #include "surface/intersections.h"
 #include "surface/open_loops.h"
 #include "surface/orientation.h"
@@ -141,9 +142,9 @@ void Examination::find_flat() {
     const auto last = p.end();
     const auto a = p.begin();
     const auto b = std::find_if(a, last, [&](const Vec3& x) { return x != *a; });
-    const auto c = b == last ? last : std::find_if(b, last, [&](const Vec3& x) { return !collinear(*a, *b, x); });
+    const auto c = b == last ? last : std::find_if(b, last, [&](const Vec3& x) { return !are_collinear(*a, *b, x); });
     const bool has_volume =
-        c != last && std::any_of(c, last, [&](const Vec3& x) { return orientation_sign(*a, *b, *c, x) != 0; });
+        c != last && std::any_of(c, last, [&](const Vec3& x) { return orientation(*a, *b, *c, x) != 0; });
     if (!has_volume) add_at_facet(DefectKind::flat, Severity::error, {0});
 }
 
@@ -173,7 +174,7 @@ void Examination::find_degenerate() {
         const Triangle& t = soup_.facets[f];
         if (unbounded_[t[0]] || unbounded_[t[1]] || unbounded_[t[2]]) {
             no_area_[f] = 1;
-        } else if (!ignored_[f] && collinear(soup_.vertices[t[0]], soup_.vertices[t[1]], soup_.vertices[t[2]])) {
+        } else if (!ignored_[f] && are_collinear(soup_.vertices[t[0]], soup_.vertices[t[1]], soup_.vertices[t[2]])) {
             no_area_[f] = 1;
             add_at_facet(DefectKind::degenerate_facet, Severity::error, {static_cast<std::int32_t>(f)});
         }

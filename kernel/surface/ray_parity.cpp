@@ -9,7 +9,7 @@
 
 #include "core/check.h"
 #include "core/elements.h"
-#include "surface/intersections.h"
+#include "geometry/predicates.h"
 
 namespace kerf {
 
@@ -21,10 +21,9 @@ enum class Crossing { none, proper, touching };
 
 // How the segment st, t outside of the convex hull of the shell, crosses the triangle abc.
 Crossing crossing(const Vec3& s, const Vec3& t, const Vec3& a, const Vec3& b, const Vec3& c) {
-    const int side_s = orientation_sign(a, b, c, s), side_t = orientation_sign(a, b, c, t);
+    const int side_s = orientation(a, b, c, s), side_t = orientation(a, b, c, t);
     if (side_s * side_t > 0) return Crossing::none;
-    std::array<int, 3> pass = {orientation_sign(s, t, a, b), orientation_sign(s, t, b, c),
-                               orientation_sign(s, t, c, a)};
+    std::array<int, 3> pass = {orientation(s, t, a, b), orientation(s, t, b, c), orientation(s, t, c, a)};
     std::sort(pass.begin(), pass.end());
     if (pass[0] < 0 && pass[2] > 0) return Crossing::none;
     return side_s * side_t == 0 || pass[0] == 0 || pass[2] == 0 || pass[1] == 0 ? Crossing::touching : Crossing::proper;
