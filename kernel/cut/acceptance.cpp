@@ -13,7 +13,7 @@
 #include "core/check.h"
 #include "cut/angles.h"
 #include "cut/planar_grid.h"
-#include "surface/closest_point.h"
+#include "geometry/closest_point.h"
 #include "surface/intersections.h"
 #include "surface/mass_properties.h"
 #include "surface/ray_parity.h"

@@ -5,8 +5,8 @@
 
 #include <Eigen/Geometry>
 
+#include "geometry/closest_point.h"
 #include "geometry/predicates.h"
-#include "surface/closest_point.h"
 
 namespace kerf {
 

@@ -8,7 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include "surface/closest_point.h"
+#include "geometry/closest_point.h"
 
 namespace kerf {
 

@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "core/check.h"
-#include "surface/box_tree.h"
+#include "geometry/box_tree.h"
 #include "surface/mass_properties.h"
 
 namespace kerf {

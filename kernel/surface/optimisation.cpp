@@ -21,7 +21,7 @@
 
 #include "core/check.h"
 #include "core/elements.h"
-#include "surface/closest_point.h"
+#include "geometry/closest_point.h"
 #include "surface/edge_corners.h"
 
 namespace kerf {

@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "core/types.h"
-#include "surface/box_tree.h"
+#include "geometry/box_tree.h"
 
 namespace kerf {
 
