@@ -11,8 +11,8 @@
 #include <Eigen/Geometry>
 
 #include "core/check.h"
-#include "cut/angles.h"
 #include "cut/planar_grid.h"
+#include "geometry/angles.h"
 #include "geometry/closest_point.h"
 #include "surface/intersections.h"
 #include "surface/mass_properties.h"
@@ -181,7 +181,7 @@ void InterfaceJudge::measure_dihedrals(double threshold, InterfaceQuality& quali
             const Vec3 inward = towards_apex(a, b, interface_.points[t[(i + 2) % 3]]);
             for (std::int32_t side : {h, Surface::opposite(h)}) {
                 const Vec3 along = towards_apex(a, b, surface_.point(surface_.to_vertex(surface_.next(side))));
-                const double angle = acos_degrees(inward.dot(along));
+                const double angle = degrees_of_cosine(inward.dot(along));
                 quality.dihedral_deg = std::min(quality.dihedral_deg, angle);
                 if (angle < threshold) soft.insert(soft.end(), {from, to});
             }

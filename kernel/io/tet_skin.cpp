@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
+#include "geometry/tetrahedron.h"
 #include "mesh/faces.h"
 
 namespace kerf {
@@ -22,10 +23,7 @@ Triangle face_of(const TetMesh& mesh, const FaceSide& side) {
 }
 
 bool is_negative(const TetMesh& mesh, std::int32_t tet) {
-    const auto& [a, b, c, d] = mesh.tets[static_cast<std::size_t>(tet)];
-    const Vec3& origin = mesh.vertices[a];
-    const Vec3 u = mesh.vertices[b] - origin, v = mesh.vertices[c] - origin, w = mesh.vertices[d] - origin;
-    return u.cross(v).dot(w) < 0;
+    return six_volumes_of(mesh.vertices, mesh.tets[static_cast<std::size_t>(tet)]) < 0;
 }
 
 Triangle sorted(Triangle t) {

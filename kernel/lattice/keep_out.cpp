@@ -7,6 +7,7 @@
 
 #include "geometry/closest_point.h"
 #include "geometry/predicates.h"
+#include "geometry/triangle.h"
 
 namespace kerf {
 
@@ -28,7 +29,7 @@ struct Obstacle {
         for (int i = 0; i < 3; ++i) corners[i] = surface.vertices[facet[i]];
         std::sort(corners.begin(), corners.end(), lexicographically_less);
         a = corners[0], b = corners[1], c = corners[2];
-        normal = (b - a).cross(c - a).normalized();
+        normal = doubled_area_vector(a, b, c).normalized();
         distance = keep_out_distance(((b - a).norm() + (c - b).norm() + (a - c).norm()) / 3, lattice_edge);
     }
 

@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "geometry/angles.h"
 #include "geometry/closest_point.h"
 
 namespace kerf {
@@ -30,7 +31,7 @@ double height_over(const EditMesh& mesh, EditedSurface::HalfEdge h) {
 double chord_over(const EditedSurface& surface, EditedSurface::Edge e) {
     const EditMesh& mesh = surface.mesh();
     if (mesh.data(e).is_feature) return 0;
-    const double angle = surface.is_flat(e) ? 0 : std::acos(std::clamp(surface.fold_cosine(e), -1.0, 1.0));
+    const double angle = surface.is_flat(e) ? 0 : angle_of_cosine(surface.fold_cosine(e));
     if (angle == 0) return infinite;
     const auto h = mesh.halfedge_handle(e, 0), back = mesh.halfedge_handle(e, 1);
     const double width = (height_over(mesh, h) + height_over(mesh, back)) / 2;

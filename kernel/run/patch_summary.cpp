@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "export/format.h"
+#include "geometry/triangle.h"
 
 namespace kerf {
 
@@ -16,7 +17,7 @@ std::vector<PatchSummary> summarize_patches(const Soup& soup) {
         const auto& [a, b, c] = soup.facets[f];
         const Vec3 &p = soup.vertices[static_cast<std::size_t>(a)], &q = soup.vertices[static_cast<std::size_t>(b)],
                    &r = soup.vertices[static_cast<std::size_t>(c)];
-        const Vec3 normal = (q - p).cross(r - p) / 2;
+        const Vec3 normal = area_vector(p, q, r);
         PatchSummary& patch = patches[static_cast<std::size_t>(soup.patch[f])];
         ++patch.triangles;
         patch.area += normal.norm();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/triangle.h"
 #include "part/shared_edges.h"
 #include "run/input_cover.h"
 #include "run/interface_match.h"
@@ -30,7 +31,7 @@ PartReport describe_part(const PartJob& job, double volume, int rank, const CutO
         ++part.interface_facets;
         const Triangle& t = job.surface.facets[f];
         const std::vector<Vec3>& p = job.surface.vertices;
-        const double area = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / 2;
+        const double area = triangle_area(p, t);
         const double edge = cut.max_interface_edge((p[t[0]] + p[t[1]] + p[t[2]]) / 3);
         part.interface_area += area;
         part.interface_in_squared_edges += area / (edge * edge);

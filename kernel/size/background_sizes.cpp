@@ -4,6 +4,7 @@
 
 #include "core/check.h"
 #include "core/elements.h"
+#include "geometry/tetrahedron.h"
 
 namespace kerf {
 
@@ -15,11 +16,10 @@ double smallest_coordinate_of(const std::array<double, 4>& t) { return std::min(
 
 // Barycentric coordinates; all -1 for a cell without volume.
 std::array<double, 4> barycentric(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    const Vec3 ab = b - a, ac = c - a, ad = d - a, ap = p - a;
-    const double volume = ab.cross(ac).dot(ad);
+    const double volume = six_volumes_of(a, b, c, d);
     if (volume == 0) return {-1, -1, -1, -1};
-    const double tb = ap.cross(ac).dot(ad) / volume, tc = ab.cross(ap).dot(ad) / volume,
-                 td = ab.cross(ac).dot(ap) / volume;
+    const double tb = six_volumes_of(a, p, c, d) / volume, tc = six_volumes_of(a, b, p, d) / volume,
+                 td = six_volumes_of(a, b, c, p) / volume;
     return {1 - tb - tc - td, tb, tc, td};
 }
 

@@ -13,6 +13,7 @@
 
 #include "core/check.h"
 #include "core/elements.h"
+#include "geometry/angles.h"
 #include "geometry/predicates.h"
 #include "surface/intersections.h"
 #include "surface/open_loops.h"
@@ -29,18 +30,6 @@ constexpr double least_extent = 1e-50;
 constexpr double rounding_limit = 64;  // an edge of so many units in the last place of its coordinates is short
 constexpr std::size_t intersection_limit = 10'000;
 constexpr std::size_t warning_limit = 1000;
-
-// The smallest angle by the largest cosine.
-double smallest_angle_deg(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const std::array<Vec3, 3> side = {b - a, c - b, a - c};
-    double smallest = 180;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3 back = -side[(i + 2) % 3];
-        const double angle = std::atan2(side[i].cross(back).norm(), side[i].dot(back));
-        smallest = std::min(smallest, angle * 180 / std::numbers::pi);
-    }
-    return smallest;
-}
 
 class Examination {
  public:
@@ -297,7 +286,7 @@ void Examination::find_needles() {
     for (std::size_t i = 0; i < facets_.size(); ++i) {
         if (no_area_[number_[i]]) continue;
         const Triangle& t = facets_[i];
-        const double angle = smallest_angle_deg(soup_.vertices[t[0]], soup_.vertices[t[1]], soup_.vertices[t[2]]);
+        const double angle = smallest_angle_degrees({soup_.vertices[t[0]], soup_.vertices[t[1]], soup_.vertices[t[2]]});
         if (angle < options_.needle_angle_deg)
             found.push_back({DefectKind::needle,
                              Severity::warning,

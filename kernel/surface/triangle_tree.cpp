@@ -8,6 +8,7 @@
 #include "core/check.h"
 #include "core/elements.h"
 #include "geometry/closest_point.h"
+#include "geometry/triangle.h"
 
 namespace kerf {
 
@@ -30,7 +31,7 @@ struct Pieces {
 
     void add(const std::array<Vec3, 3>& t, int halvings) {
         const Box box = box_around(t);
-        const double area = (t[1] - t[0]).cross(t[2] - t[0]).norm() / 2;
+        const double area = triangle_area(t);
         if (halvings > 0 && area > 0 && area_of(box) > fat * area) {
             int longest = 0;
             for (int i = 1; i < 3; ++i)
