@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "geometry/box.h"
 #include "geometry/triangle.h"
 #include "surface/edge_corners.h"
 
@@ -36,9 +37,7 @@ InputShape::InputShape(const SurfaceArrays& surface, const TriangleTree& tree, s
         for (const std::int32_t v : surface_.facets[f])
             vertex_tolerance_[v] = std::min(vertex_tolerance_[v], tolerance_[f]);
     largest_tolerance_ = *std::max_element(tolerance_.begin(), tolerance_.end());
-    Eigen::AlignedBox3d box;
-    for (const Vec3& p : surface_.vertices) box.extend(p);
-    noise_ = rounding_of_files * box.diagonal().norm();
+    noise_ = rounding_of_files * box_around(surface_.vertices).diagonal().norm();
     find_features(feature_angle_deg, creases);
 }
 

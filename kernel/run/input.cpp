@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "core/error.h"
+#include "geometry/box.h"
 #include "io/file_bytes.h"
 #include "io/run_manifest.h"
 #include "run/cad_input.h"
@@ -33,9 +34,7 @@ SurfaceArrays with_input_keys(Soup soup) {
 }
 
 double diagonal_of(const Soup& soup) {
-    Eigen::AlignedBox3d box;
-    for (const Vec3& p : soup.vertices)
-        if (p.allFinite()) box.extend(p);
+    const Box box = box_around_finite(soup.vertices);
     return box.isEmpty() ? 0 : box.diagonal().norm();
 }
 

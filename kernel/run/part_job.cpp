@@ -91,12 +91,6 @@ ImprovedAngles::ImprovedAngles(const Improvement& improvement, const PartQuality
     p1_after_deg = is.percentile(0.01);
 }
 
-Eigen::AlignedBox3d box_of(const PartJob& job) {
-    Eigen::AlignedBox3d box;
-    for (const Vec3& p : job.surface.vertices) box.extend(p);
-    return box;
-}
-
 Part part_of_job(const PartJob& job) {
     TetMesh boundary;
     boundary.vertices = job.surface.vertices;

@@ -32,9 +32,6 @@ struct PartJob {
     }
 };
 
-/// Around its surface.
-Eigen::AlignedBox3d box_of(const PartJob& job);
-
 /// The part as it is before it is meshed: its boundary alone.
 Part part_of_job(const PartJob& job);
 /// The same with its cells, of which the boundary is the job's surface. Interior vertices have no global numbers yet:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/box.h"
 #include "geometry/triangle.h"
 #include "part/shared_edges.h"
 #include "run/input_cover.h"
@@ -21,7 +22,7 @@ PartReport describe_part(const PartJob& job, double volume, int rank, const CutO
     part.rank = rank;
     part.surface_volume = volume;
     part.surface_volume_error = bounded_volume(job.surface.vertices, job.surface.facets).error;
-    const Eigen::AlignedBox3d box = box_of(job);
+    const Box box = box_around(job.surface.vertices);
     part.box_low = box.min();
     part.box_high = box.max();
     part.surface_vertices = static_cast<std::int64_t>(job.surface.vertices.size());

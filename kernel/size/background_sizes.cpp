@@ -61,10 +61,7 @@ BackgroundSizes::BackgroundSizes(SizedMesh mesh, double growth) : mesh_(std::mov
 }
 
 void BackgroundSizes::index() {
-    std::vector<Eigen::AlignedBox3d> boxes(mesh_.tets.size());
-    for (std::size_t t = 0; t < boxes.size(); ++t)
-        for (const std::int32_t v : mesh_.tets[t]) boxes[t].extend(mesh_.vertices[v]);
-    cells_ = std::make_shared<const BoxTree>(std::move(boxes));
+    cells_ = std::make_shared<const BoxTree>(boxes_around(mesh_.vertices, mesh_.tets));
     std::vector<SizedTriangle> border;
     const auto& size = mesh_.size;
     for (const auto& [a, b, c] : border_faces(mesh_.tets))
@@ -75,7 +72,7 @@ void BackgroundSizes::index() {
 
 double BackgroundSizes::size_at(const Vec3& p, double growth, double bound) const {
     bool is_inside = false;
-    cells_->for_each_meeting(Eigen::AlignedBox3d(p, p), [&](std::int32_t cell) {
+    cells_->for_each_meeting(Box(p, p), [&](std::int32_t cell) {
         const auto& [a, b, c, d] = mesh_.tets[cell];
         const auto& x = mesh_.vertices;
         const std::array<double, 4> t = barycentric(p, x[a], x[b], x[c], x[d]);

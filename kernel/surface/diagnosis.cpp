@@ -14,6 +14,7 @@
 #include "core/check.h"
 #include "core/elements.h"
 #include "geometry/angles.h"
+#include "geometry/box.h"
 #include "geometry/predicates.h"
 #include "surface/intersections.h"
 #include "surface/open_loops.h"
@@ -227,16 +228,7 @@ void Examination::find_misplaced_shells() {
 
 // The middle of what the bounding boxes of two facets have in common.
 Vec3 common_place(const Soup& soup, const Triangle& s, const Triangle& t) {
-    const auto corner = [&](const Triangle& facet, int i) -> const Vec3& { return soup.vertices[facet[i]]; };
-    const Vec3 low = corner(s, 0)
-                         .cwiseMin(corner(s, 1))
-                         .cwiseMin(corner(s, 2))
-                         .cwiseMax(corner(t, 0).cwiseMin(corner(t, 1)).cwiseMin(corner(t, 2)));
-    const Vec3 high = corner(s, 0)
-                          .cwiseMax(corner(s, 1))
-                          .cwiseMax(corner(s, 2))
-                          .cwiseMin(corner(t, 0).cwiseMax(corner(t, 1)).cwiseMax(corner(t, 2)));
-    return (low + high) / 2;
+    return box_around(soup.vertices, s).intersection(box_around(soup.vertices, t)).center();
 }
 
 // Those around each shell are asked first: where they tell that all is apart, most pairs need not be looked at.

@@ -22,6 +22,7 @@
 
 #include "core/check.h"
 #include "core/elements.h"
+#include "geometry/box.h"
 #include "geometry/predicates.h"
 
 namespace kerf {
@@ -182,8 +183,8 @@ std::vector<FacetBox> facet_boxes(const std::vector<Vec3>& vertices, const std::
     std::vector<FacetBox> boxes;
     boxes.reserve(facets.size());
     for (const Triangle& t : facets) {
-        const Vec3 &a = vertices[t[0]], &b = vertices[t[1]], &c = vertices[t[2]];
-        const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+        const Box box = box_around(vertices, t);
+        const Vec3 &low = box.min(), &high = box.max();
         boxes.emplace_back(CGAL::Bbox_3(low.x(), low.y(), low.z(), high.x(), high.y(), high.z()), &t);
     }
     return boxes;

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "geometry/box.h"
 #include "geometry/triangle.h"
 
 namespace kerf {
@@ -18,12 +19,7 @@ constexpr double shortest_piece = 1e-3;  // length of a polygon over the limit, 
 
 template <class Corners>
 Vec3 extent(const Corners& corners, int count) {
-    Vec3 least = corners[0], most = corners[0];
-    for (int i = 1; i < count; ++i) {
-        least = least.cwiseMin(corners[i]);
-        most = most.cwiseMax(corners[i]);
-    }
-    return most - least;
+    return box_around(std::span(corners.data(), static_cast<std::size_t>(count))).sizes();
 }
 
 // From one corner of a polygon to another that is as far away as any, or nearly.
