@@ -1,12 +1,11 @@
 #include "run/part_job.h"
 
-#include <chrono>
-
 #include <fmt/format.h>
 
 #include "core/elements.h"
 #include "core/error.h"
 #include "core/record.h"
+#include "core/stopwatch.h"
 #include "io/checked_file.h"
 #include "io/file_bytes.h"
 #include "part/vtu_reader.h"
@@ -17,18 +16,14 @@ namespace kerf {
 
 namespace {
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 // Runs a stage and adds its wall clock to `seconds`.
 template <class Stage>
 auto timed(double& seconds, Stage stage) {
-    struct Stopwatch {
+    struct AddAtEnd {
         double& seconds;
-        std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-        ~Stopwatch() { seconds += seconds_since(start); }
-    } stopwatch{seconds};
+        Stopwatch stopwatch = {};
+        ~AddAtEnd() { seconds += stopwatch.seconds(); }
+    } timer{seconds};
     return stage();
 }
 

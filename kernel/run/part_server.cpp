@@ -6,11 +6,11 @@
 
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 
 #include "core/bytes.h"
 #include "core/error.h"
+#include "core/stopwatch.h"
 #include "run/part_job.h"
 #include "run/process_memory.h"
 
@@ -57,12 +57,12 @@ int serve_part_job(std::int64_t memory_mb, std::int64_t parent) {
     if (answer < 0 || dup2(STDERR_FILENO, STDOUT_FILENO) < 0) return static_cast<int>(ErrorCode::io);
     PartResult result;
     try {
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch loading;
         const auto attempt = from_bytes<PartAttempt>(read_all(STDIN_FILENO));
         const PartJob job = read_job(attempt.job_file);
-        const std::chrono::duration<double> load_time = std::chrono::steady_clock::now() - start;
+        const double load_seconds = loading.seconds();
         result = run_part_job(job, attempt.call, attempt.part_file);
-        result.load_seconds = load_time.count();
+        result.load_seconds = load_seconds;
     } catch (const Error& e) {
         result.code = static_cast<int>(e.code());
         result.message = e.what();

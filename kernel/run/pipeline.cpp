@@ -4,7 +4,6 @@
 #include "run/pipeline.h"
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -13,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/host_name.h"
+#include "core/stopwatch.h"
 #include "decompose/straight_division.h"
 #include "io/output_file.h"
 #include "io/run_folder.h"
@@ -39,14 +39,6 @@
 namespace kerf {
 
 namespace {
-
-class Stopwatch {
- public:
-    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 // Wall clock of a stage, the longest over the ranks.
 double longest(Communicator& ranks, double seconds) {
