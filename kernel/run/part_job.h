@@ -58,6 +58,11 @@ struct ImprovedAngles {
     ImprovedAngles() = default;
     ImprovedAngles(const Improvement& improvement, const PartQuality& after);
     bool known() const { return min_after_deg > 0; }
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(min_before_deg, p1_before_deg, min_after_deg, p1_after_deg);
+    }
 };
 
 /// What the parent keeps of a part; the mesh itself goes from the worker to its file.

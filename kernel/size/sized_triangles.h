@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/bytes.h"
+#include "core/padding.h"
 #include "geometry/box_hierarchy.h"
 
 namespace kerf {
@@ -38,6 +39,8 @@ struct SizedTriangle {
     double hit(const Vec3& origin, const Vec3& direction) const;
 };
 static_assert(std::is_trivially_copyable_v<SizedTriangle>);
+template <>
+struct HasNoPadding<SizedTriangle> : std::bool_constant<sizeof(SizedTriangle) == 13 * sizeof(double)> {};
 
 /// Many of them, in a tree of boxes, those of one reach below one node or a few. Built in O(n log n).
 class SizedTriangles {
