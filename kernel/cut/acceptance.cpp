@@ -134,7 +134,7 @@ std::vector<std::int32_t> InterfaceJudge::intersections(const Poll& poll, std::v
     };
     for (const NearFacet& f : slab_) {
         const Triangle t = surface_.vertices(f.facet);
-        grid_.for_each_overlap(f.box.grown(rounding_), [&](std::int32_t i) {
+        grid_.for_each_overlap(grown(f.box, rounding_), [&](std::int32_t i) {
             if (low_[i] > f.high + rounding_ || high_[i] < f.low - rounding_) return;
             const Triangle& s = interface_.triangles[i];
             if (!triangles_intersect(corners(s), ids(s), facet_corners(t), t)) return;
@@ -145,7 +145,7 @@ std::vector<std::int32_t> InterfaceJudge::intersections(const Poll& poll, std::v
     }
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
         poll.at(i);
-        grid_.for_each_overlap(boxes_[i].grown(rounding_), [&](std::int32_t j) {
+        grid_.for_each_overlap(grown(boxes_[i], rounding_), [&](std::int32_t j) {
             if (static_cast<std::size_t>(j) <= i) return;
             const Triangle &s = interface_.triangles[i], &t = interface_.triangles[j];
             if (!triangles_intersect(corners(s), ids(s), corners(t), ids(t))) return;
@@ -200,8 +200,8 @@ void InterfaceJudge::measure_gaps(double threshold, InterfaceQuality& quality, s
     for (const NearFacet& f : slab_) {
         const Triangle t = surface_.vertices(f.facet);
         const auto facet = facet_corners(t);
-        const double margin = threshold * (f.box.high - f.box.low).norm();
-        grid_.for_each_overlap(f.box.grown(margin), [&](std::int32_t i) {
+        const double margin = threshold * f.box.diagonal().norm();
+        grid_.for_each_overlap(grown(f.box, margin), [&](std::int32_t i) {
             const double reach = threshold * size[i];
             if (low_[i] > f.high + reach || high_[i] < f.low - reach) return;
             const Triangle& s = interface_.triangles[i];
