@@ -85,11 +85,11 @@ void ProgressLine::on_progress(const char* stage, std::size_t done, std::size_t 
     const bool shows_stage = !quiet_ && terminal_;
     if (stage_ != stage) {
         stage_ = stage;
-        stage_start_ = std::chrono::steady_clock::now();
+        of_stage_ = {};
         last_seconds_ = 0;
         if (shows_stage) print(stage_);
-    } else if (shows_stage && total != 1 && seconds_of_stage() > last_seconds_ + seconds_between_lines) {
-        last_seconds_ = seconds_of_stage();
+    } else if (shows_stage && total != 1 && of_stage_.seconds() > last_seconds_ + seconds_between_lines) {
+        last_seconds_ = of_stage_.seconds();
         print(total == 0 ? fmt::format("{}  {:.1f} s", stage_, last_seconds_)
                          : fmt::format("{}  {}/{}", stage_, done, total));
     }
@@ -101,16 +101,12 @@ void ProgressLine::on_iteration(int iteration, double residual, double wanted) {
     const double done = std::clamp(std::log(residual) / std::log(wanted), 0.0, 1.0);
     const int tenth = static_cast<int>(10 * done + 1e-9);
     if (iteration == 0) last_tenth_ = 0;
-    const bool is_new = terminal_ ? seconds_of_stage() > last_seconds_ + seconds_between_lines : tenth > last_tenth_;
+    const bool is_new = terminal_ ? of_stage_.seconds() > last_seconds_ + seconds_between_lines : tenth > last_tenth_;
     if (iteration == 0 || !is_new) return;
     last_tenth_ = tenth;
-    last_seconds_ = seconds_of_stage();
+    last_seconds_ = of_stage_.seconds();
     print(fmt::format("solve  {} iterations  {:.0f} %  residual {:.1e} of {:.1e}  ETA {}", iteration, 100 * done,
                       residual, wanted, time_left(done > 0 ? last_seconds_ * (1 - done) / done : -1)));
-}
-
-double ProgressLine::seconds_of_stage() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - stage_start_).count();
 }
 
 void ProgressLine::on_parts(const std::vector<PartReport>& parts, const std::string& plan) {
@@ -125,7 +121,7 @@ void ProgressLine::on_part(const PartEvent& event) {
     const int tenth = static_cast<int>(10 * event.load_done + 1e-9);
     if (quiet_ || event.part->resumed || (!terminal_ && tenth == last_tenth_)) return;
     last_tenth_ = tenth;
-    const double elapsed = seconds_of_stage();
+    const double elapsed = of_stage_.seconds();
     const auto tets = static_cast<double>(event.tets);
     const double rate = elapsed > 0 ? (tets - static_cast<double>(tets_at_start_)) / elapsed : 0;
     const std::string text = fmt::format(

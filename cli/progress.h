@@ -1,9 +1,9 @@
 // Progress on a terminal or in a log.
 #pragma once
 
-#include <chrono>
 #include <string>
 
+#include "core/stopwatch.h"
 #include "report/event_log.h"
 
 namespace kerf {
@@ -24,7 +24,6 @@ class ProgressLine : public RunListener {
     void say(const std::string& text);
 
  private:
-    double seconds_of_stage() const;
     void print(const std::string& text);
     void clear();
 
@@ -34,7 +33,7 @@ class ProgressLine : public RunListener {
     double last_seconds_ = 0;  // of the stage, that were printed
     int last_tenth_ = 0;
     std::int64_t tets_at_start_ = 0;  // made by an interrupted run
-    std::chrono::steady_clock::time_point stage_start_;
+    Stopwatch of_stage_;
 };
 
 }  // namespace kerf

@@ -7,13 +7,13 @@
 
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 
 #include "core/bytes.h"
 #include "core/error.h"
+#include "core/stopwatch.h"
 #include "parallel/process_memory.h"
 #include "work/part_job.h"
 
@@ -72,12 +72,12 @@ int main(int argc, char** argv) {
     if (answer < 0 || dup2(STDERR_FILENO, STDOUT_FILENO) < 0) return static_cast<int>(ErrorCode::io);
     PartResult result;
     try {
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch loading;
         const auto attempt = from_bytes<PartAttempt>(read_all(STDIN_FILENO));
         const PartJob job = read_job(attempt.job_file);
-        const std::chrono::duration<double> load_time = std::chrono::steady_clock::now() - start;
+        const double load_seconds = loading.seconds();
         result = run_part_job(job, attempt.call, attempt.part_file);
-        result.load_seconds = load_time.count();
+        result.load_seconds = load_seconds;
     } catch (const Error& e) {
         result.code = static_cast<int>(e.code());
         result.message = e.what();

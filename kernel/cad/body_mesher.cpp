@@ -17,6 +17,7 @@
 
 #include "cad/healing.h"
 #include "cad/volume_balance.h"
+#include "geometry/predicates.h"
 #include "surface/intersections.h"
 
 namespace kerf::cad {
@@ -99,7 +100,7 @@ class BodyMesher {
     std::string crossing_of(const Tessellation& mesh) const {
         for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
             const auto& [a, b, c] = mesh.facets[f];
-            if (collinear(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]))
+            if (are_collinear(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]))
                 return fmt::format(
                     "face {} of solid '{}' has a triangle without area at {}. Repair it in the CAD "
                     "program.",

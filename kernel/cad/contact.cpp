@@ -13,6 +13,7 @@
 
 #include "cad/healing.h"
 #include "cad/tessellation.h"
+#include "geometry/triangle.h"
 #include "surface/intersections.h"
 
 namespace kerf::cad {
@@ -72,7 +73,7 @@ class PointsInBodies {
 std::vector<Vec3> meeting_points(const Corners& one, const Corners& other) {
     std::vector<Vec3> points;
     const auto add_edges_through_plane = [&](const Corners& edges, const Corners& plane) {
-        const Vec3 normal = (plane[1] - plane[0]).cross(plane[2] - plane[0]);
+        const Vec3 normal = doubled_area_vector(plane);
         for (std::size_t i = 0; i < 3; ++i) {
             const Vec3 &a = edges[i], &b = edges[(i + 1) % 3];
             const double above = normal.dot(a - plane[0]), below = normal.dot(b - plane[0]);

@@ -36,6 +36,8 @@
 #include <gp_Vec.hxx>
 #include <gp_XY.hxx>
 
+#include "geometry/triangle.h"
+
 namespace kerf::cad {
 
 namespace {
@@ -63,7 +65,7 @@ class FaceHeights {
     /// is that of the triangle where the face is of second order.
     double mean_over(const std::array<int, 3>& nodes, const std::array<Vec3, 3>& corners) const {
         if (surface_.GetType() == GeomAbs_Plane || !triangles_->HasUVNodes()) return 0;
-        const Vec3 cross = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+        const Vec3 cross = doubled_area_vector(corners);
         double longest = 0, sum = 0;
         for (std::size_t i = 0; i < 3; ++i) longest = std::max(longest, (corners[(i + 1) % 3] - corners[i]).norm());
         if (!(cross.norm() > least_height * longest * longest)) return 0;

@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "geometry/triangle.h"
+
 namespace kerf::cad {
 
 namespace {
@@ -39,9 +41,7 @@ std::vector<Corner> sorted_corners(const Tessellation& mesh) {
 }
 
 Vec3 area_vector(const Tessellation& mesh, std::int32_t facet) {
-    const auto& [a, b, c] = mesh.facets[facet];
-    const std::vector<Vec3>& p = mesh.vertices;
-    return (p[b] - p[a]).cross(p[c] - p[a]) / 2;
+    return kerf::area_vector(mesh.vertices, mesh.facets[facet]);
 }
 
 // What the faces around a vertex ask of it.

@@ -11,15 +11,23 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/padding.h"
 #include "core/types.h"
 
 namespace kerf {
 
 using Bytes = std::vector<char>;
 
+class ByteWriter;
+
 namespace detail {
 template <class T>
-inline constexpr bool is_plain = std::is_trivially_copyable_v<T> || std::is_same_v<T, Vec2> || std::is_same_v<T, Vec3>;
+inline constexpr bool has_fields = requires(T& t, ByteWriter& w) {
+    t.archive(w);
+};
+template <class T>
+inline constexpr bool is_plain =
+    (std::is_trivially_copyable_v<T> && !has_fields<T>) || std::is_same_v<T, Vec2> || std::is_same_v<T, Vec3>;
 }  // namespace detail
 
 /// Appends values to a byte buffer.
@@ -39,10 +47,10 @@ class ByteWriter {
     }
     template <class T>
     void write(const T& value) {
-        if constexpr (requires(T & t, ByteWriter & w) { t.archive(w); })
+        if constexpr (detail::has_fields<T>)
             const_cast<T&>(value).archive(*this);  // archive() of a writer only reads
         else {
-            static_assert(detail::is_plain<T>);
+            static_assert(detail::is_plain<T> && HasNoPadding<T>::value);
             raw(&value, sizeof value);
         }
     }
@@ -53,10 +61,12 @@ class ByteWriter {
     template <class T>
     void write(const std::vector<T>& items) {
         write(static_cast<std::uint64_t>(items.size()));
-        if constexpr (detail::is_plain<T>)
+        if constexpr (detail::is_plain<T>) {
+            static_assert(HasNoPadding<T>::value);
             raw(items.data(), items.size() * sizeof(T));
-        else
+        } else {
             for (const T& item : items) write(item);
+        }
     }
 
     Bytes& bytes_;
@@ -88,7 +98,7 @@ class ByteReader {
     }
     template <class T>
     void read(T& value) {
-        if constexpr (requires(T & t, ByteReader & r) { t.archive(r); })
+        if constexpr (detail::has_fields<T>)
             value.archive(*this);
         else {
             static_assert(detail::is_plain<T>);

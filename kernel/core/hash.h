@@ -9,6 +9,8 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "core/padding.h"
+
 namespace kerf {
 
 /// 128 bits of Hasher::digest().
@@ -23,6 +25,7 @@ class Hasher {
     /// The number of items, then their bytes.
     template <class T>
     void add(std::span<const T> items) {
+        static_assert(HasNoPadding<T>::value);
         const std::uint64_t count = items.size();
         add_bytes(&count, sizeof count);
         add_bytes(items.data(), items.size_bytes());

@@ -11,9 +11,9 @@
 #include <Eigen/Geometry>
 
 #include "core/check.h"
-#include "cut/angles.h"
 #include "cut/planar_grid.h"
-#include "surface/closest_point.h"
+#include "geometry/angles.h"
+#include "geometry/closest_point.h"
 #include "surface/intersections.h"
 #include "surface/mass_properties.h"
 #include "surface/ray_parity.h"
@@ -134,7 +134,7 @@ std::vector<std::int32_t> InterfaceJudge::intersections(const Poll& poll, std::v
     };
     for (const NearFacet& f : slab_) {
         const Triangle t = surface_.vertices(f.facet);
-        grid_.for_each_overlap(f.box.grown(rounding_), [&](std::int32_t i) {
+        grid_.for_each_overlap(grown(f.box, rounding_), [&](std::int32_t i) {
             if (low_[i] > f.high + rounding_ || high_[i] < f.low - rounding_) return;
             const Triangle& s = interface_.triangles[i];
             if (!triangles_intersect(corners(s), ids(s), facet_corners(t), t)) return;
@@ -145,7 +145,7 @@ std::vector<std::int32_t> InterfaceJudge::intersections(const Poll& poll, std::v
     }
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
         poll.at(i);
-        grid_.for_each_overlap(boxes_[i].grown(rounding_), [&](std::int32_t j) {
+        grid_.for_each_overlap(grown(boxes_[i], rounding_), [&](std::int32_t j) {
             if (static_cast<std::size_t>(j) <= i) return;
             const Triangle &s = interface_.triangles[i], &t = interface_.triangles[j];
             if (!triangles_intersect(corners(s), ids(s), corners(t), ids(t))) return;
@@ -181,7 +181,7 @@ void InterfaceJudge::measure_dihedrals(double threshold, InterfaceQuality& quali
             const Vec3 inward = towards_apex(a, b, interface_.points[t[(i + 2) % 3]]);
             for (std::int32_t side : {h, Surface::opposite(h)}) {
                 const Vec3 along = towards_apex(a, b, surface_.point(surface_.to_vertex(surface_.next(side))));
-                const double angle = acos_degrees(inward.dot(along));
+                const double angle = degrees_of_cosine(inward.dot(along));
                 quality.dihedral_deg = std::min(quality.dihedral_deg, angle);
                 if (angle < threshold) soft.insert(soft.end(), {from, to});
             }
@@ -200,8 +200,8 @@ void InterfaceJudge::measure_gaps(double threshold, InterfaceQuality& quality, s
     for (const NearFacet& f : slab_) {
         const Triangle t = surface_.vertices(f.facet);
         const auto facet = facet_corners(t);
-        const double margin = threshold * (f.box.high - f.box.low).norm();
-        grid_.for_each_overlap(f.box.grown(margin), [&](std::int32_t i) {
+        const double margin = threshold * f.box.diagonal().norm();
+        grid_.for_each_overlap(grown(f.box, margin), [&](std::int32_t i) {
             const double reach = threshold * size[i];
             if (low_[i] > f.high + reach || high_[i] < f.low - reach) return;
             const Triangle& s = interface_.triangles[i];

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <functional>
 #include <memory>
 
 #include <Eigen/Geometry>
 
 #include "core/check.h"
+#include "core/stopwatch.h"
 #include "cut/acceptance.h"
 #include "cut/contour.h"
 #include "cut/interface.h"
@@ -364,7 +364,7 @@ Bisection bisect(const Surface& surface, const MassProperties& mass, NodeId node
                  const CutOptions& options, bool record) {
     KERF_CHECK(surface.facet_count() > 0 && node >= 1);
     KERF_CHECK(place.fraction > 0 && place.fraction < 1);
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     Bisection result;
     Cut& cut = result.cut;
     cut.node = node;
@@ -387,7 +387,7 @@ Bisection bisect(const Surface& surface, const MassProperties& mass, NodeId node
         }
         result.halves = std::move(accepted->halves);
     }
-    cut.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    cut.seconds = stopwatch.seconds();
     return result;
 }
 

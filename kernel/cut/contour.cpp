@@ -9,6 +9,7 @@
 
 #include "core/check.h"
 #include "core/elements.h"
+#include "geometry/triangle.h"
 
 namespace kerf {
 
@@ -62,8 +63,7 @@ class LabelCleaner {
 
 double LabelCleaner::turning_cost(std::int32_t facet) const {
     const Triangle t = surface_.vertices(facet);
-    const double area =
-        (surface_.point(t[1]) - surface_.point(t[0])).cross(surface_.point(t[2]) - surface_.point(t[0])).norm() / 2;
+    const double area = triangle_area(surface_.point(t[0]), surface_.point(t[1]), surface_.point(t[2]));
     const double d = band_.facet_distance(surface_, facet);
     return side_[facet] == Side::below ? -area * d : area * d;
 }

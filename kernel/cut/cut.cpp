@@ -1,5 +1,7 @@
 #include "cut/cut.h"
 
+#include <array>
+
 #include <Eigen/Geometry>
 
 #include "core/check.h"
@@ -27,65 +29,23 @@ Plane Plane::shifted(double distance) const {
 }
 
 const char* name(ContourMethod method) {
-    switch (method) {
-        case ContourMethod::min_cut:
-            return "min-cut";
-        case ContourMethod::edges:
-            return "edges";
-        case ContourMethod::straight:
-            return "straight";
-    }
-    return "";
+    constexpr std::array names = {"min-cut", "edges", "straight"};
+    static_assert(names.size() == static_cast<std::size_t>(ContourMethod::straight) + 1);
+    return names[static_cast<std::size_t>(method)];
 }
 
 const char* name(Rung rung) {
-    switch (rung) {
-        case Rung::first_try:
-            return "first-try";
-        case Rung::local_repair:
-            return "local-repair";
-        case Rung::plane_step:
-            return "plane-step";
-        case Rung::other_axis:
-            return "other-axis";
-        case Rung::soft:
-            return "soft";
-        case Rung::straight:
-            return "straight";
-        case Rung::whole:
-            return "whole";
-    }
-    return "";
+    constexpr std::array names = {"first-try", "local-repair", "plane-step", "other-axis", "soft", "straight", "whole"};
+    static_assert(names.size() == static_cast<std::size_t>(Rung::whole) + 1);
+    return names[static_cast<std::size_t>(rung)];
 }
 
 const char* name(Refusal refusal) {
-    switch (refusal) {
-        case Refusal::none:
-            return "none";
-        case Refusal::empty_side:
-            return "empty-side";
-        case Refusal::flow_limit:
-            return "flow-limit";
-        case Refusal::pinched_contour:
-            return "pinched-contour";
-        case Refusal::crossing_projection:
-            return "crossing-projection";
-        case Refusal::nesting:
-            return "nesting";
-        case Refusal::chord:
-            return "chord";
-        case Refusal::intersection:
-            return "intersection";
-        case Refusal::not_manifold:
-            return "not-manifold";
-        case Refusal::misplaced_shell:
-            return "misplaced-shell";
-        case Refusal::coincident_vertices:
-            return "coincident-vertices";
-        case Refusal::soft:
-            return "soft";
-    }
-    return "";
+    constexpr std::array names = {
+        "none",  "empty-side",   "flow-limit",   "pinched-contour", "crossing-projection", "nesting",
+        "chord", "intersection", "not-manifold", "misplaced-shell", "coincident-vertices", "soft"};
+    static_assert(names.size() == static_cast<std::size_t>(Refusal::soft) + 1);
+    return names[static_cast<std::size_t>(refusal)];
 }
 
 CutSummary summary_of(const Cut& cut) {

@@ -10,7 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "core/check.h"
-#include "cut/angles.h"
+#include "geometry/angles.h"
 
 namespace kerf {
 

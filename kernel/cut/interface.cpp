@@ -13,6 +13,7 @@
 #include "cut/dihedral_ranges.h"
 #include "cut/lift.h"
 #include "cut/triangulation.h"
+#include "geometry/triangle.h"
 
 namespace kerf {
 
@@ -139,11 +140,7 @@ InterfaceAttempt build_interface(const Surface& surface, const Band& band, const
 
 double interface_area(const Interface& interface) {
     double area = 0;
-    for (const Triangle& t : interface.triangles)
-        area += (interface.points[t[1]] - interface.points[t[0]])
-                    .cross(interface.points[t[2]] - interface.points[t[0]])
-                    .norm() /
-                2;
+    for (const Triangle& t : interface.triangles) area += triangle_area(interface.points, t);
     return area;
 }
 

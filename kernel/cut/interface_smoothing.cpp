@@ -8,7 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include "cut/angles.h"
+#include "geometry/angles.h"
 
 namespace kerf {
 

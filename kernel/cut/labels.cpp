@@ -9,6 +9,7 @@
 
 #include "core/check.h"
 #include "cut/max_flow.h"
+#include "geometry/triangle.h"
 
 namespace kerf {
 
@@ -24,7 +25,7 @@ struct FacetTerms {
 
 FacetTerms facet_terms(const Surface& surface, const Band& band, std::int32_t facet) {
     const Triangle t = surface.vertices(facet);
-    const Vec3 cross = (surface.point(t[1]) - surface.point(t[0])).cross(surface.point(t[2]) - surface.point(t[0]));
+    const Vec3 cross = doubled_area_vector(surface.point(t[0]), surface.point(t[1]), surface.point(t[2]));
     const double norm = cross.norm();
     const double n_z = norm > 0 ? cross.dot(band.plane.normal) / norm : 1;
     return {norm / 2, n_z * n_z * n_z * n_z, band.facet_distance(surface, facet)};

@@ -100,10 +100,10 @@ void solve_harmonic(const WeightedGraph& graph, std::size_t contour_count, const
 void add_obstacles(const std::vector<Vec2>& places, std::size_t contour_count, const std::vector<Obstacle>& obstacles,
                    std::vector<HeightRange>& bounds) {
     std::vector<PlanarBox> boxes;
-    for (std::size_t v = contour_count; v < places.size(); ++v) boxes.push_back({places[v], places[v]});
+    for (std::size_t v = contour_count; v < places.size(); ++v) boxes.emplace_back(places[v]);
     PlanarGrid grid(std::move(boxes));
     for (const Obstacle& o : obstacles)
-        grid.for_each_overlap(PlanarBox{o.position, o.position}.grown(reach * o.size), [&](std::int32_t i) {
+        grid.for_each_overlap(grown(PlanarBox(o.position), reach * o.size), [&](std::int32_t i) {
             const std::size_t v = contour_count + static_cast<std::size_t>(i);
             const double lead = o.clearance * o.size - fall_off * (places[v] - o.position).norm();
             if (o.side == Side::below)

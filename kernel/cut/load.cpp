@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include "core/check.h"
+#include "geometry/triangle.h"
 
 namespace kerf {
 
@@ -64,8 +65,7 @@ LoadProfile::LoadProfile(const Surface& surface, const Plane& plane, const LoadM
         items_.reserve(surface.facet_count());
         for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
             const Triangle t = surface.vertices(f);
-            const Vec3& a = surface.point(t[0]);
-            const Vec3 normal_area = (surface.point(t[1]) - a).cross(surface.point(t[2]) - a) / 2;
+            const Vec3 normal_area = area_vector(surface.point(t[0]), surface.point(t[1]), surface.point(t[2]));
             std::array<double, 3> z = {height[t[0]], height[t[1]], height[t[2]]};
             std::sort(z.begin(), z.end());
             items_.push_back({z[0], z[1], z[2], normal_area.dot(plane.normal), (z[0] + z[1] + z[2]) / 3,

@@ -10,6 +10,7 @@
 
 #include "core/check.h"
 #include "cut/plane.h"
+#include "geometry/triangle.h"
 
 namespace kerf {
 
@@ -46,7 +47,7 @@ SectionProfile section_profile(const Surface& surface, const Vec3& direction, co
         const double height = direction.dot(a + b + c) / 3 - low;
         const auto bin = std::min(bins - 1, static_cast<std::size_t>(std::max(0.0, height / bin_height)));
         count[bin] += 1;
-        area_z[bin] += (b - a).cross(c - a).dot(direction) / 2;
+        area_z[bin] += doubled_area_vector(a, b, c).dot(direction) / 2;
     }
     std::array<double, bins> sampled{};  // volume, where that is not the area's integral
     if (model.depends_on_place())

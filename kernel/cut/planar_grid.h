@@ -6,23 +6,18 @@
 #include <cstdint>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "core/types.h"
 
 namespace kerf {
 
-struct PlanarBox {
-    Vec2 low = Vec2::Constant(INFINITY);
-    Vec2 high = Vec2::Constant(-INFINITY);
+using PlanarBox = Eigen::AlignedBox2d;
 
-    void extend(const Vec2& p) {
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
-    }
-    PlanarBox grown(double margin) const { return {low - Vec2::Constant(margin), high + Vec2::Constant(margin)}; }
-    bool overlaps(const PlanarBox& o) const {
-        return (low.array() <= o.high.array()).all() && (o.low.array() <= high.array()).all();
-    }
-};
+/// The box with all that is as near to it as `margin` along both axes.
+inline PlanarBox grown(const PlanarBox& box, double margin) {
+    return {box.min() - Vec2::Constant(margin), box.max() + Vec2::Constant(margin)};
+}
 
 /// Boxes in a uniform grid whose cells are about as large as the mean box. Built in O(n).
 class PlanarGrid {
@@ -30,13 +25,12 @@ class PlanarGrid {
     explicit PlanarGrid(std::vector<PlanarBox> boxes) : boxes_(std::move(boxes)), seen_(boxes_.size(), 0) {
         Vec2 extent = Vec2::Zero();
         for (const PlanarBox& box : boxes_) {
-            bounds_.extend(box.low);
-            bounds_.extend(box.high);
-            extent += box.high - box.low;
+            bounds_.extend(box);
+            extent += box.sizes();
         }
         if (boxes_.empty()) return;
         const double n = static_cast<double>(boxes_.size());
-        const Vec2 size = bounds_.high - bounds_.low;
+        const Vec2 size = bounds_.sizes();
         for (int i = 0; i < 2; ++i) {
             const double cells = std::min(std::floor(size[i] / (extent[i] / n)), std::sqrt(4 * n) + 1);
             count_[i] = cells >= 1 ? static_cast<std::int32_t>(cells) : 1;  // one cell as well where the extent is zero
@@ -48,28 +42,28 @@ class PlanarGrid {
     /// Calls visit(index) once for every box that overlaps `box`, ascending within a cell. Not thread-safe.
     template <class Visit>
     void for_each_overlap(const PlanarBox& box, Visit visit) {
-        if (boxes_.empty() || !bounds_.overlaps(box)) return;
+        if (boxes_.empty() || !bounds_.intersects(box)) return;
         ++query_;
         for_each_cell(box, [&](std::size_t cell) {
             for (std::int32_t i = first_[cell]; i < first_[cell + 1]; ++i) {
                 const std::int32_t item = items_[i];
                 if (seen_[item] == query_) continue;
                 seen_[item] = query_;
-                if (boxes_[item].overlaps(box)) visit(item);
+                if (boxes_[item].intersects(box)) visit(item);
             }
         });
     }
 
  private:
     std::int32_t cell_coordinate(double x, int axis) const {
-        const double cell = (x - bounds_.low[axis]) * scale_[axis];
+        const double cell = (x - bounds_.min()[axis]) * scale_[axis];
         return static_cast<std::int32_t>(std::clamp(cell, 0.0, static_cast<double>(count_[axis] - 1)));
     }
     template <class Visit>
     void for_each_cell(const PlanarBox& box, Visit visit) const {
-        const std::int32_t x1 = cell_coordinate(box.high.x(), 0), y1 = cell_coordinate(box.high.y(), 1);
-        for (std::int32_t y = cell_coordinate(box.low.y(), 1); y <= y1; ++y)
-            for (std::int32_t x = cell_coordinate(box.low.x(), 0); x <= x1; ++x)
+        const std::int32_t x1 = cell_coordinate(box.max().x(), 0), y1 = cell_coordinate(box.max().y(), 1);
+        for (std::int32_t y = cell_coordinate(box.min().y(), 1); y <= y1; ++y)
+            for (std::int32_t x = cell_coordinate(box.min().x(), 0); x <= x1; ++x)
                 visit(static_cast<std::size_t>(y) * count_[0] + x);
     }
     void fill() {

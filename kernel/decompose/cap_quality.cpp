@@ -5,7 +5,7 @@
 #include <limits>
 #include <tuple>
 
-#include "cut/angles.h"
+#include "geometry/angles.h"
 
 namespace kerf {
 

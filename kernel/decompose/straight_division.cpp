@@ -3,11 +3,11 @@
 #include "decompose/straight_division.h"
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 
 #include "core/check.h"
 #include "core/error.h"
+#include "core/stopwatch.h"
 #include "decompose/cap_quality.h"
 #include "decompose/cap_triangulation.h"
 #include "decompose/face_complex.h"
@@ -53,7 +53,7 @@ void StraightDivision::add_child(NodeId id, std::int32_t first_leaf, std::int32_
 }
 
 bool StraightDivision::cut(TreeNode& node) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     const FaceComplex::Part part = complex_.part(node.id);
     std::vector<CutTry> tries;
     const Surface surface(part.arrays);
@@ -66,7 +66,7 @@ bool StraightDivision::cut(TreeNode& node) {
     }
     complex_.divide(node.id, part, *made);
     made->cut.tries = std::move(tries);
-    made->cut.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    made->cut.seconds = stopwatch.seconds();
     const std::int32_t tries_by_edges = node.tries;
     const double seconds_by_edges = node.seconds;
     describe_cut(made->cut, node);

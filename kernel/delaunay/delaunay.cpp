@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "delaunay/predicates.h"
 #include "delaunay/spatial_order.h"
+#include "geometry/predicates.h"
 
 namespace kerf {
 

@@ -8,6 +8,8 @@
 
 #include <Eigen/Geometry>
 
+#include "geometry/box.h"
+
 namespace kerf {
 
 namespace {
@@ -66,8 +68,7 @@ std::uint64_t hilbert_code(std::array<std::uint32_t, 3> cell, int bits) {
 
 std::vector<std::int32_t> insertion_order(const std::vector<Vec3>& points) {
     constexpr int bits = 19;
-    Eigen::AlignedBox3d box;
-    for (const Vec3& p : points) box.extend(p);
+    const Box box = box_around(points);
     const double longest = points.empty() ? 0 : box.sizes().maxCoeff();
     const double scale = longest > 0 ? ((1 << bits) - 1) / longest : 0;
     struct Place {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/check.h"
-#include "delaunay/predicates.h"
+#include "geometry/predicates.h"
 
 namespace kerf {
 

@@ -1,6 +1,6 @@
 #include "improve/edited_mesh.h"
 
-#include "delaunay/predicates.h"
+#include "geometry/predicates.h"
 
 namespace kerf {
 

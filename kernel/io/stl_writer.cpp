@@ -8,6 +8,7 @@
 
 #include "core/check.h"
 #include "core/elements.h"
+#include "geometry/triangle.h"
 #include "io/checked_file.h"
 #include "io/stl_format.h"
 
@@ -35,9 +36,9 @@ void write_stl(const std::string& path, const std::vector<Vec3>& vertices, const
     bytes.reserve(stl_header_size + stl_facet_size * facets.size());
     bytes.resize(stl_header_size - sizeof(std::uint32_t), ' ');
     append(bytes, static_cast<std::uint32_t>(facets.size()));
-    for (const auto& [a, b, c] : facets) {
-        append_point(bytes, (vertices[b] - vertices[a]).cross(vertices[c] - vertices[a]).stableNormalized());
-        for (const std::int32_t v : {a, b, c}) append_point(bytes, vertices[v]);
+    for (const Triangle& t : facets) {
+        append_point(bytes, doubled_area_vector(vertices, t).stableNormalized());
+        for (const std::int32_t v : t) append_point(bytes, vertices[v]);
         append(bytes, std::uint16_t{0});
     }
     CheckedFile file(path, "wb");

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "core/error.h"
+#include "geometry/tetrahedron.h"
 #include "io/compressed.h"
 #include "io/file_bytes.h"
 #include "io/mesh_scanners.h"
@@ -56,9 +57,7 @@ void check_extent(const std::vector<Vec3>& vertices, const std::string& path) {
 std::int64_t turn_negative_tets(TetMesh& mesh) {
     std::int64_t turned = 0;
     for (Tetrahedron& tet : mesh.tets) {
-        const Vec3& origin = mesh.vertices[tet[0]];
-        const Vec3 u = mesh.vertices[tet[1]] - origin, v = mesh.vertices[tet[2]] - origin;
-        if (u.cross(v).dot(mesh.vertices[tet[3]] - origin) >= 0) continue;
+        if (six_volumes_of(mesh.vertices, tet) >= 0) continue;
         std::swap(tet[2], tet[3]);
         ++turned;
     }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
+#include "geometry/tetrahedron.h"
 #include "mesh/faces.h"
 
 namespace kerf {
@@ -22,10 +23,7 @@ Triangle face_of(const std::vector<Tetrahedron>& tets, const FaceSide& side) {
 }
 
 bool is_negative(const std::vector<Vec3>& vertices, const Tetrahedron& tet) {
-    const auto& [a, b, c, d] = tet;
-    const Vec3& origin = vertices[a];
-    const Vec3 u = vertices[b] - origin, v = vertices[c] - origin, w = vertices[d] - origin;
-    return u.cross(v).dot(w) < 0;
+    return six_volumes_of(vertices, tet) < 0;
 }
 
 Triangle sorted(Triangle t) {

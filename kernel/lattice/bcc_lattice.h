@@ -13,6 +13,7 @@
 #include <cstdint>
 
 #include "core/check.h"
+#include "core/mixed_bits.h"
 #include "core/types.h"
 
 namespace kerf {
@@ -61,13 +62,10 @@ class BccLattice {
     // Of site 0, in half edges: a place that surfaces in regular position hardly share.
     static constexpr std::array<double, 3> origin = {0.8191725134, 0.6710436067, 0.5497004779};
 
-    // 64 bits in which every bit of the site has a say (the finaliser of splitmix64).
+    // 64 bits in which every bit of the site has a say.
     static constexpr std::uint64_t hash(const LatticeSite& site) {
         const auto word = [&](int axis) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(site[axis])); };
-        std::uint64_t h = word(0) * 0x9e3779b97f4a7c15 ^ word(1) * 0xc2b2ae3d27d4eb4f ^ word(2) * 0x165667b19e3779f9;
-        h = (h ^ h >> 30) * 0xbf58476d1ce4e5b9;
-        h = (h ^ h >> 27) * 0x94d049bb133111eb;
-        return h ^ h >> 31;
+        return mixed_bits(word(0) * 0x9e3779b97f4a7c15 ^ word(1) * 0xc2b2ae3d27d4eb4f ^ word(2) * 0x165667b19e3779f9);
     }
 
     double edge_, half_edge_;

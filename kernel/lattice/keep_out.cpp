@@ -5,7 +5,9 @@
 
 #include <Eigen/Geometry>
 
-#include "surface/closest_point.h"
+#include "geometry/closest_point.h"
+#include "geometry/predicates.h"
+#include "geometry/triangle.h"
 
 namespace kerf {
 
@@ -25,11 +27,9 @@ struct Obstacle {
     Obstacle(const SurfaceArrays& surface, const Triangle& facet, double lattice_edge) {
         std::array<Vec3, 3> corners;
         for (int i = 0; i < 3; ++i) corners[i] = surface.vertices[facet[i]];
-        std::sort(corners.begin(), corners.end(), [](const Vec3& p, const Vec3& q) {
-            return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
-        });
+        std::sort(corners.begin(), corners.end(), lexicographically_less);
         a = corners[0], b = corners[1], c = corners[2];
-        normal = (b - a).cross(c - a).normalized();
+        normal = doubled_area_vector(a, b, c).normalized();
         distance = keep_out_distance(((b - a).norm() + (c - b).norm() + (a - c).norm()) / 3, lattice_edge);
     }
 

@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include "core/error.h"
+#include "geometry/box.h"
 
 namespace kerf {
 
@@ -83,8 +84,7 @@ std::int32_t block_of(std::int32_t half_edges) { return half_edges >> 4; }
 
 // The index, still without blocks. No block holds sites outside of the bounding box.
 BlockIndex index_for(const std::vector<Vec3>& coordinates) {
-    Eigen::AlignedBox3d box;
-    for (const Vec3& p : coordinates) box.extend(p);
+    const Box box = box_around(coordinates);
     if (box.isEmpty()) return {};
     constexpr double furthest = BccLattice::most_half_edges - 2.0 * half_edges_per_block;
     constexpr double largest = static_cast<double>(half_edges_per_block) * (BlockIndex::most_blocks - 2);

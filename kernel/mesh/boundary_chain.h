@@ -13,6 +13,7 @@
 
 #include <cstdint>
 
+#include "core/mixed_bits.h"
 #include "core/types.h"
 
 namespace kerf {
@@ -50,12 +51,9 @@ class BoundaryChain {
     }
     // Of two numbers of vertices; below 2^62.
     static constexpr std::uint64_t difference(std::uint64_t x, std::uint64_t y) { return x + (prime - y); }
-    // Of a vertex, at most the prime (the finaliser of splitmix64).
+    // Of a vertex, at most the prime.
     static constexpr std::uint64_t number(std::int32_t vertex) {
-        std::uint64_t h = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(vertex)) + 1) * 0x9e3779b97f4a7c15;
-        h = (h ^ h >> 30) * 0xbf58476d1ce4e5b9;
-        h = (h ^ h >> 27) * 0x94d049bb133111eb;
-        return (h ^ h >> 31) >> 3;
+        return random_bits(static_cast<std::uint32_t>(vertex)) >> 3;
     }
 
     std::uint64_t sum_ = 0;

@@ -16,10 +16,9 @@
 #include <cmath>
 #include <limits>
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-
 #include "core/check.h"
 #include "core/elements.h"
+#include "geometry/predicates.h"
 #include "mesh/boundary_chain.h"
 #include "mesh/faces.h"
 #include "surface/mass_properties.h"
@@ -147,13 +146,6 @@ Faces faces_as_found(const TetMesh& mesh) {
     return faces;
 }
 
-// Exact, and slow.
-bool is_positive_exactly(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-    const auto exact = [](const Vec3& p) { return Kernel::Point_3(p.x(), p.y(), p.z()); };
-    return CGAL::orientation(exact(a), exact(b), exact(c), exact(d)) == CGAL::POSITIVE;
-}
-
 std::int64_t count_moved_vertices(const TetMesh& mesh, const SurfaceArrays& surface) {
     const auto counted = static_cast<std::size_t>(std::max(mesh.boundary_vertex_count, 0));
     const std::size_t common = std::min({counted, mesh.vertices.size(), surface.vertices.size()});
@@ -196,7 +188,7 @@ Cells sum_cells(const TetMesh& mesh) {
         const Vec3 u = b - a, v = c - a, w = d - a;
         const double det = u.cross(v).dot(w);
         const double largest = u.cwiseAbs().maxCoeff() * v.cwiseAbs().maxCoeff() * w.cwiseAbs().maxCoeff();
-        if (!(det > doubt * largest + underflow)) cells.inverted += !is_positive_exactly(a, b, c, d);
+        if (!(det > doubt * largest + underflow)) cells.inverted += orientation(a, b, c, d) <= 0;
         volume.add(det);
         sum_of_largest += largest;
         cells.boundary.add(tet);

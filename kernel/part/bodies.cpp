@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "surface/union_find.h"
+#include "geometry/union_find.h"
 
 namespace kerf {
 

@@ -19,6 +19,11 @@ class SharedEdges {
     struct Held {
         std::array<std::int64_t, 2> edge;  ///< global numbers of its ends, the smaller one first
         NodeId part;
+
+        template <class Archive>
+        void archive(Archive& a) {
+            a(edge, part);
+        }
     };
 
     /// What the others have to know of a part: the edges where it meets several, with all that it meets there and

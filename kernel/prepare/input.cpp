@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "geometry/box.h"
 #include "io/file_bytes.h"
 #include "io/run_manifest.h"
 #include "prepare/cad_input.h"
@@ -36,9 +37,7 @@ SurfaceArrays with_input_keys(Soup soup) {
 }
 
 double diagonal_of(const Soup& soup) {
-    Eigen::AlignedBox3d box;
-    for (const Vec3& p : soup.vertices)
-        if (p.allFinite()) box.extend(p);
+    const Box box = box_around_finite(soup.vertices);
     return box.isEmpty() ? 0 : box.diagonal().norm();
 }
 

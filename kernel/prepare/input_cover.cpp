@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/check.h"
+#include "core/mixed_bits.h"
 #include "surface/facet_cover.h"
 
 namespace kerf {
@@ -55,7 +56,7 @@ struct SumOfNumbers {
 
     void add(std::int32_t number) {
         for (std::size_t i = 0; i < words.size(); ++i)
-            words[i] += random_word(2 * static_cast<std::uint64_t>(number) + i);
+            words[i] += random_bits(2 * static_cast<std::uint64_t>(number) + i);
     }
     void add(const SumOfNumbers& other) {
         for (std::size_t i = 0; i < words.size(); ++i) words[i] += other.words[i];
@@ -65,15 +66,6 @@ struct SumOfNumbers {
     template <class Archive>
     void archive(Archive& a) {
         a(words[0], words[1]);
-    }
-
- private:
-    // The finaliser of splitmix64.
-    static std::uint64_t random_word(std::uint64_t number) {
-        std::uint64_t h = (number + 1) * 0x9e3779b97f4a7c15;
-        h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9;
-        h = (h ^ (h >> 27)) * 0x94d049bb133111eb;
-        return h ^ (h >> 31);
     }
 };
 

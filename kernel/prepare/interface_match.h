@@ -17,6 +17,11 @@ struct InterfaceSide {
     Key facet;
     NamedTriangle vertices;  ///< rotated so that the smallest comes first
     NodeId leaf;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(facet, vertices, leaf);
+    }
 };
 
 /// The interface facets of all leaves, sorted by facet key.

@@ -6,15 +6,12 @@
 #include <Eigen/Geometry>
 
 #include "core/error.h"
+#include "geometry/box.h"
 #include "mesh/adjacency.h"
 
 namespace kerf {
 
 namespace {
-
-void extend(Eigen::AlignedBox3d& box, const std::vector<Vec3>& vertices) {
-    for (const Vec3& p : vertices) box.extend(p);
-}
 
 std::vector<char> vertices_of(const std::vector<Triangle>& facets, const std::vector<char>& is_interface,
                               std::size_t vertex_count) {
@@ -61,17 +58,15 @@ void MeasurableMesh::open_file() {
         file_.facets = hull_of(file_.mesh);
         file_.is_interface.assign(file_.facets.size(), 0);
     }
-    Eigen::AlignedBox3d box;
-    extend(box, file_.mesh.vertices);
-    diagonal_ = box.diagonal().norm();
+    diagonal_ = box_around(file_.mesh.vertices).diagonal().norm();
 }
 
 void MeasurableMesh::open_run() {
     run_ = std::make_unique<RunParts>(path_);
-    Eigen::AlignedBox3d box;
+    Box box;
     const auto parts = static_cast<std::int32_t>(run_->outline().parts.size());
     for (std::int32_t rank = 0; rank < parts; ++rank)
-        extend(box, run_->load_only(rank, PartContent::surface).mesh.vertices);
+        box.extend(box_around(run_->load_only(rank, PartContent::surface).mesh.vertices));
     diagonal_ = box.diagonal().norm();
 }
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "geometry/triangle.h"
 #include "surface/edge_corners.h"
 
 namespace kerf {
@@ -18,8 +19,7 @@ class RegionGrowth {
     RegionGrowth(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                  const FlatRegionOptions& options)
         : vertices_(vertices), facets_(facets), options_(options), partner_(edge_partners(facets)) {
-        for (const Triangle& t : facets)
-            twice_area_.push_back((vertices[t[1]] - vertices[t[0]]).cross(vertices[t[2]] - vertices[t[0]]));
+        for (const Triangle& t : facets) twice_area_.push_back(doubled_area_vector(vertices, t));
     }
 
     FlatRegions run() {

@@ -8,7 +8,8 @@
 
 #include <Eigen/Geometry>
 
-#include "surface/closest_point.h"
+#include "geometry/angles.h"
+#include "geometry/closest_point.h"
 
 namespace kerf {
 
@@ -29,7 +30,7 @@ double height_over(const EditMesh& mesh, EditedSurface::HalfEdge h) {
 // tolerance. Infinite where nothing is folded, 0 at features.
 double chord_over(const EditMesh& mesh, EditedSurface::Edge e) {
     if (mesh.data(e).is_feature) return 0;
-    const double angle = mesh.is_flat(e) ? 0 : std::acos(std::clamp(mesh.fold_cosine(e), -1.0, 1.0));
+    const double angle = mesh.is_flat(e) ? 0 : angle_of_cosine(mesh.fold_cosine(e));
     if (angle == 0) return infinite;
     const auto h = mesh.halfedge_handle(e, 0), back = mesh.halfedge_handle(e, 1);
     const double width = (height_over(mesh, h) + height_over(mesh, back)) / 2;

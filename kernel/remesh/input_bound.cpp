@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "surface/closest_point.h"
+#include "geometry/closest_point.h"
 
 namespace kerf {
 

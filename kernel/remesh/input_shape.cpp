@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "geometry/box.h"
+#include "geometry/triangle.h"
 #include "surface/edge_corners.h"
 
 namespace kerf {
@@ -17,11 +19,6 @@ constexpr double flat_share = 0.1;          // of the tolerance: what counts as 
 constexpr double gap_share = 1. / 3;        // of a gap that each of its sheets may use
 constexpr double rounding_of_files = 6e-8;  // of coordinates in single precision: lower facets have any normal
 constexpr double least_share = 1. / 8;      // of the deviation: beside sharp edges gaps end in nothing
-
-Vec3 twice_area(const SurfaceArrays& surface, const Triangle& t) {
-    const Vec3& a = surface.vertices[t[0]];
-    return (surface.vertices[t[1]] - a).cross(surface.vertices[t[2]] - a);
-}
 
 bool share_a_vertex(const Triangle& s, const Triangle& t) {
     return std::any_of(s.begin(), s.end(), [&](std::int32_t v) { return v == t[0] || v == t[1] || v == t[2]; });
@@ -40,9 +37,7 @@ InputShape::InputShape(const SurfaceArrays& surface, const TriangleTree& tree, s
         for (const std::int32_t v : surface_.facets[f])
             vertex_tolerance_[v] = std::min(vertex_tolerance_[v], tolerance_[f]);
     largest_tolerance_ = *std::max_element(tolerance_.begin(), tolerance_.end());
-    Eigen::AlignedBox3d box;
-    for (const Vec3& p : surface_.vertices) box.extend(p);
-    noise_ = rounding_of_files * box.diagonal().norm();
+    noise_ = rounding_of_files * box_around(surface_.vertices).diagonal().norm();
     find_features(feature_angle_deg, creases);
 }
 
@@ -67,7 +62,7 @@ void InputShape::find_features(double feature_angle_deg, std::vector<UndirectedE
 std::vector<double> tolerances_of_gaps(const SurfaceArrays& surface, const TriangleTree& tree, double deviation) {
     std::vector<double> tolerance(surface.facets.size(), deviation);
     std::vector<Vec3> normal;
-    for (const Triangle& t : surface.facets) normal.push_back(twice_area(surface, t).normalized());
+    for (const Triangle& t : surface.facets) normal.push_back(doubled_area_vector(surface.vertices, t).normalized());
     for (std::size_t f = 0; f < surface.facets.size(); ++f) {
         const Triangle& t = surface.facets[f];
         const Vec3 &a = surface.vertices[t[0]], &b = surface.vertices[t[1]], &c = surface.vertices[t[2]];

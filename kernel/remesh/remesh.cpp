@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "geometry/triangle.h"
 #include "remesh/edited_surface.h"
 #include "remesh/fold_sizes.h"
 #include "remesh/inspection.h"
@@ -323,7 +324,7 @@ double forecast_facets(const SurfaceArrays& surface, const RemeshOptions& option
             density += 1 / (edge * edge);
             ++samples;
         });
-        const double area = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / 2;
+        const double area = triangle_area(p, t);
         facets += area / area_per_squared_length * density / samples;
     }
     return facets;

@@ -26,8 +26,7 @@ EventLog::~EventLog() = default;
 
 template <class Object>
 void EventLog::write(Object json) {
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
-    json["seconds"] = seconds.count();
+    json["seconds"] = stopwatch_.seconds();
     if (!file_) return;
     try {
         file_->write(json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");

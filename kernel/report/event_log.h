@@ -1,10 +1,10 @@
 // The progress of a run for other programs: one JSON object per line.
 #pragma once
 
-#include <chrono>
 #include <memory>
 #include <string>
 
+#include "core/stopwatch.h"
 #include "report/listener.h"
 
 namespace kerf {
@@ -47,7 +47,7 @@ class EventLog : public RunListener {
 
     std::unique_ptr<CheckedFile> file_;  // none when the reader has left
     std::string stage_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    Stopwatch stopwatch_;
 };
 
 }  // namespace kerf

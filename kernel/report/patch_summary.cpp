@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "export/format.h"
+#include "geometry/triangle.h"
 
 namespace kerf {
 

@@ -4,7 +4,6 @@
 #include "run/pipeline.h"
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -12,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/host_name.h"
+#include "core/stopwatch.h"
 #include "io/output_file.h"
 #include "io/stl_writer.h"
 #include "io/text_file.h"
@@ -35,14 +35,6 @@
 namespace kerf {
 
 namespace {
-
-class Stopwatch {
- public:
-    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 // Wall clock of a stage, the longest over the ranks.
 double longest(Communicator& ranks, const Stopwatch& stopwatch) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/box.h"
+#include "geometry/triangle.h"
 #include "part/shared_edges.h"
 #include "prepare/input_cover.h"
 #include "prepare/interface_match.h"
@@ -20,7 +22,7 @@ PartReport describe_part(const PartJob& job, double volume, int rank, const CutO
     part.rank = rank;
     part.surface_volume = volume;
     part.surface_volume_error = bounded_volume(job.surface.vertices, job.surface.facets).error;
-    const Eigen::AlignedBox3d box = box_of(job);
+    const Box box = box_around(job.surface.vertices);
     part.box_low = box.min();
     part.box_high = box.max();
     part.surface_vertices = static_cast<std::int64_t>(job.surface.vertices.size());
@@ -30,7 +32,7 @@ PartReport describe_part(const PartJob& job, double volume, int rank, const CutO
         ++part.interface_facets;
         const Triangle& t = job.surface.facets[f];
         const std::vector<Vec3>& p = job.surface.vertices;
-        const double area = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / 2;
+        const double area = triangle_area(p, t);
         const double edge = cut.max_interface_edge((p[t[0]] + p[t[1]] + p[t[2]]) / 3);
         part.interface_area += area;
         part.interface_in_squared_edges += area / (edge * edge);

@@ -1,7 +1,6 @@
 #include "run/volume_stage.h"
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -9,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/stopwatch.h"
 #include "io/checked_file.h"
 #include "run/forecast.h"
 #include "work/failed_part.h"
@@ -110,9 +110,8 @@ class VolumeStage::Tally {
         tets_ += part.result.tets;
         forecast_.add(part);
         if (!listener_) return;
-        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
         listener_->on_part({&part, done_, total_, load_ > 0 ? std::min(1.0, load_done_ / load_) : 1, tets_,
-                            forecast_.tets(), forecast_.seconds_left(elapsed.count())});
+                            forecast_.tets(), forecast_.seconds_left(stopwatch_.seconds())});
         listener_->on_progress("volume", done_, total_);
     }
     bool all_done() const { return done_ == total_; }
@@ -120,7 +119,7 @@ class VolumeStage::Tally {
  private:
     RunListener* listener_;
     RunningForecast forecast_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    Stopwatch stopwatch_;
     std::size_t done_ = 0, total_ = 0;
     double load_ = 0, load_done_ = 0;
     std::int64_t tets_ = 0;

@@ -11,7 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "delaunay/faces.h"
-#include "delaunay/predicates.h"
+#include "geometry/predicates.h"
 #include "shell/ring_flips.h"
 
 namespace kerf {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "delaunay/predicates.h"
+#include "geometry/predicates.h"
 #include "improve/cell_shape.h"
 #include "improve/polygon_triangulation.h"
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "delaunay/predicates.h"
+#include "geometry/predicates.h"
 #include "improve/cell_shape.h"
 
 namespace kerf {

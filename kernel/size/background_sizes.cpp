@@ -4,6 +4,7 @@
 
 #include "core/check.h"
 #include "core/elements.h"
+#include "geometry/tetrahedron.h"
 
 namespace kerf {
 
@@ -15,11 +16,10 @@ double smallest_coordinate_of(const std::array<double, 4>& t) { return std::min(
 
 // Barycentric coordinates; all -1 for a cell without volume.
 std::array<double, 4> barycentric(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    const Vec3 ab = b - a, ac = c - a, ad = d - a, ap = p - a;
-    const double volume = ab.cross(ac).dot(ad);
+    const double volume = six_volumes_of(a, b, c, d);
     if (volume == 0) return {-1, -1, -1, -1};
-    const double tb = ap.cross(ac).dot(ad) / volume, tc = ab.cross(ap).dot(ad) / volume,
-                 td = ab.cross(ac).dot(ap) / volume;
+    const double tb = six_volumes_of(a, p, c, d) / volume, tc = six_volumes_of(a, b, p, d) / volume,
+                 td = six_volumes_of(a, b, c, p) / volume;
     return {1 - tb - tc - td, tb, tc, td};
 }
 
@@ -61,10 +61,7 @@ BackgroundSizes::BackgroundSizes(SizedMesh mesh, double growth) : mesh_(std::mov
 }
 
 void BackgroundSizes::index() {
-    std::vector<Eigen::AlignedBox3d> boxes(mesh_.tets.size());
-    for (std::size_t t = 0; t < boxes.size(); ++t)
-        for (const std::int32_t v : mesh_.tets[t]) boxes[t].extend(mesh_.vertices[v]);
-    cells_ = std::make_shared<const BoxTree>(std::move(boxes));
+    cells_ = std::make_shared<const BoxTree>(boxes_around(mesh_.vertices, mesh_.tets));
     std::vector<SizedTriangle> border;
     const auto& size = mesh_.size;
     for (const auto& [a, b, c] : border_faces(mesh_.tets))
@@ -75,7 +72,7 @@ void BackgroundSizes::index() {
 
 double BackgroundSizes::size_at(const Vec3& p, double growth, double bound) const {
     bool is_inside = false;
-    cells_->for_each_meeting(Eigen::AlignedBox3d(p, p), [&](std::int32_t cell) {
+    cells_->for_each_meeting(Box(p, p), [&](std::int32_t cell) {
         const auto& [a, b, c, d] = mesh_.tets[cell];
         const auto& x = mesh_.vertices;
         const std::array<double, 4> t = barycentric(p, x[a], x[b], x[c], x[d]);

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include "geometry/box_tree.h"
 #include "size/sized_triangles.h"
-#include "surface/box_tree.h"
 
 namespace kerf {
 

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/regular_tet.h"
+#include "geometry/box.h"
 #include "size/surface_sizes.h"
 
 namespace kerf {
@@ -132,9 +133,7 @@ std::vector<SizedTriangle> no_smaller_than(double least, std::vector<SizedTriang
 
 std::vector<SizedTriangle> sizes_of_surface(const SizeOptions& options, const SurfaceArrays& surface,
                                             const std::vector<std::string>& patch_names) {
-    Eigen::AlignedBox3d box;
-    for (const Vec3& p : surface.vertices) box.extend(p);
-    const double least = least_told_rel * box.diagonal().norm();
+    const double least = least_told_rel * box_around(surface.vertices).diagonal().norm();
     std::vector<SizedTriangle> all;
     const auto add_patch = [&](const char* option, const PatchSize& wanted) {
         const std::int32_t patch = find_patch(option, wanted.name, patch_names);

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "surface/closest_point.h"
+#include "geometry/closest_point.h"
+#include "geometry/ray.h"
 
 namespace kerf {
 
 namespace {
 
-constexpr std::int32_t triangles_of_leaf = 4;
 constexpr double more = 1 + 1e-9;  // what is as good to so much stays, however it is computed
 constexpr double cells_per_side = 8;
 constexpr double less = 1 - 1e-12;  // boxes promise a little less than they hold, so that rounding hides nothing
@@ -37,25 +37,27 @@ double SizedTriangle::size_at(const Vec3& p, double growth) const {
     return here + growth * std::max(0.0, distance - reach);
 }
 
-// Moeller and Trumbore 1997.
 double SizedTriangle::hit(const Vec3& origin, const Vec3& direction) const {
-    const Vec3 a = corner(0), ab = corner(1) - a, ac = corner(2) - a;
-    const Vec3 across = direction.cross(ac);
-    const double volume = ab.dot(across);
-    if (volume == 0) return std::numeric_limits<double>::infinity();
-    const Vec3 from_a = origin - a;
-    const double u = from_a.dot(across) / volume;
-    const Vec3 turned = from_a.cross(ab);
-    const double v = direction.dot(turned) / volume, distance = ac.dot(turned) / volume;
-    const bool is_inside = u >= 0 && v >= 0 && u + v <= 1 && distance >= 0;
-    return is_inside ? distance : std::numeric_limits<double>::infinity();
+    const double distance = line_triangle_distance(origin, direction, corner(0), corner(1), corner(2));
+    return distance >= 0 ? distance : std::numeric_limits<double>::infinity();
+}
+
+SizedTriangles::Node::Node(const SizedTriangle& triangle)
+    : size(triangle.smallest()), reach(triangle.reach), floor(floor_of(triangle)) {
+    for (int c = 0; c < 3; ++c) box.extend(triangle.corner(c));
+}
+
+void SizedTriangles::Node::add(const Node& other) {
+    BoxNode::add(other);
+    size = std::min(size, other.size);
+    reach = std::max(reach, other.reach);
+    floor = std::min(floor, other.floor);
 }
 
 SizedTriangles::SizedTriangles(std::vector<SizedTriangle> triangles) : triangles_(std::move(triangles)) {
     std::stable_sort(triangles_.begin(), triangles_.end(),
                      [](const SizedTriangle& s, const SizedTriangle& t) { return s.reach < t.reach; });
-    order(0, static_cast<std::int32_t>(triangles_.size()));
-    build_nodes();
+    build_tree(Order::to_be_made);
 }
 
 // Where a node is divided: in halves or, as one far reach would hide that others are short, between two reaches.
@@ -71,59 +73,16 @@ std::int32_t SizedTriangles::middle(std::int32_t first, std::int32_t last) const
 }
 
 // Halves of one reach are made along the longest side of the box around the centres.
-void SizedTriangles::order(std::int32_t first, std::int32_t last) {
-    if (last - first <= triangles_of_leaf) return;
-    const std::int32_t half = middle(first, last);
-    if (triangles_[first].reach != triangles_[last - 1].reach) {
-        order(first, half);
-        order(half, last);
-        return;
-    }
-    const auto centre = [](const SizedTriangle& t) { return Vec3(t.corner(0) + t.corner(1) + t.corner(2)); };
-    Eigen::AlignedBox3d centres;
-    for (std::int32_t i = first; i < last; ++i) centres.extend(centre(triangles_[i]));
-    Eigen::Index axis = 0;
-    centres.sizes().maxCoeff(&axis);
-    const auto begin = triangles_.begin();
-    std::nth_element(begin + first, begin + half, begin + last, [&](const SizedTriangle& s, const SizedTriangle& t) {
-        return std::pair(centre(s)[axis], s.coordinates) < std::pair(centre(t)[axis], t.coordinates);
-    });
-    order(first, half);
-    order(half, last);
-}
-
-void SizedTriangles::build_nodes() {
-    nodes_.clear();
-    if (!triangles_.empty()) add_node(0, static_cast<std::int32_t>(triangles_.size()));
-}
-
-std::int32_t SizedTriangles::add_node(std::int32_t first, std::int32_t last) {
-    const auto number = static_cast<std::int32_t>(nodes_.size());
-    Node node;
-    node.first = first;
-    node.last = last;
-    nodes_.push_back(node);
-    const auto take = [&](const Eigen::AlignedBox3d& box, double size, double reach, double floor) {
-        node.box.extend(box);
-        node.size = std::min(node.size, size);
-        node.reach = std::max(node.reach, reach);
-        node.floor = std::min(node.floor, floor);
+void SizedTriangles::build_tree(Order order) {
+    const auto centre_of = [](const SizedTriangle& t) { return Vec3(t.corner(0) + t.corner(1) + t.corner(2)); };
+    const auto coordinates_of = [](const SizedTriangle& t) -> const auto& { return t.coordinates; };
+    const auto halve = [&](std::int32_t first, std::int32_t last) {
+        const auto begin = triangles_.begin();
+        if (order == Order::to_be_made && triangles_[first].reach == triangles_[last - 1].reach)
+            halve_by_centre(begin + first, begin + last, centre_of, coordinates_of);
+        return middle(first, last);
     };
-    if (last - first <= triangles_of_leaf) {
-        for (std::int32_t i = first; i < last; ++i) {
-            Eigen::AlignedBox3d box;
-            const SizedTriangle& t = triangles_[i];
-            for (int c = 0; c < 3; ++c) box.extend(t.corner(c));
-            take(box, t.smallest(), t.reach, floor_of(t));
-        }
-    } else {
-        const std::int32_t half = middle(first, last), left = add_node(first, half);
-        node.right = add_node(half, last);
-        for (const std::int32_t child : {left, node.right})
-            take(nodes_[child].box, nodes_[child].size, nodes_[child].reach, nodes_[child].floor);
-    }
-    nodes_[number] = node;
-    return number;
+    tree_ = {triangles_.size(), halve, [&](std::int32_t i) { return Node(triangles_[i]); }};
 }
 
 double SizedTriangles::size_at(const Vec3& p, double growth, double bound, std::int64_t* asked) const {
@@ -140,7 +99,7 @@ double SizedTriangles::size_at(const Vec3& p, double growth, double bound, std::
 }
 
 // Not more than the bound, either.
-SizedTriangles::Ceiling SizedTriangles::largest_in(const Eigen::AlignedBox3d& cell, double growth, double bound) const {
+SizedTriangles::Ceiling SizedTriangles::largest_in(const Box& cell, double growth, double bound) const {
     const Vec3 centre = cell.center();
     const double radius = cell.diagonal().norm() / 2;
     const double rounding = 1e-12 * cell.min().cwiseAbs().cwiseMax(cell.max().cwiseAbs()).maxCoeff();  // of distances
@@ -165,25 +124,23 @@ SizedTriangles::Ceiling SizedTriangles::largest_in(const Eigen::AlignedBox3d& ce
 
 // Marks those below a node that may have less than the ceiling in the cell, or as much where no single triangle has
 // that; returns whether all are marked.
-bool SizedTriangles::mark(std::int32_t number, const Eigen::AlignedBox3d& cell, double growth, const Ceiling& ceiling,
+bool SizedTriangles::mark(std::int32_t number, const Box& cell, double growth, const Ceiling& ceiling,
                           std::vector<char>& node_is_kept, std::vector<char>& is_kept) const {
     if (node_is_kept[number] != 0) return true;
-    const Node& node = nodes_[number];
-    const auto may_ask = [&](double size, double floor, const Eigen::AlignedBox3d& box, double reach) {
-        if (ceiling.triangle != none && floor >= ceiling.size) return false;
-        return less * (size + growth * std::max(0.0, box.exteriorDistance(cell) - reach)) <= more * ceiling.size;
+    const Node& node = tree_.nodes()[number];
+    const auto may_ask = [&](const Node& below) {
+        if (ceiling.triangle != none && below.floor >= ceiling.size) return false;
+        const double distance = std::max(0.0, below.box.exteriorDistance(cell) - below.reach);
+        return less * (below.size + growth * distance) <= more * ceiling.size;
     };
-    if (!may_ask(node.size, node.floor, node.box, node.reach)) return false;
+    if (!may_ask(node)) return false;
     bool all = true;
-    if (node.right > 0) {
-        for (const std::int32_t child : {number + 1, node.right})
+    if (node.left > 0) {
+        for (const std::int32_t child : {node.left, node.left + 1})
             all = mark(child, cell, growth, ceiling, node_is_kept, is_kept) && all;
     } else {
         for (std::int32_t i = node.first; i < node.last; ++i) {
-            const SizedTriangle& t = triangles_[i];
-            Eigen::AlignedBox3d box;
-            for (int c = 0; c < 3; ++c) box.extend(t.corner(c));
-            if (may_ask(t.smallest(), floor_of(t), box, t.reach)) is_kept[i] = 1;
+            if (may_ask(Node(triangles_[i]))) is_kept[i] = 1;
             all = all && is_kept[i] != 0;
         }
     }
@@ -191,10 +148,10 @@ bool SizedTriangles::mark(std::int32_t number, const Eigen::AlignedBox3d& cell, 
     return all;
 }
 
-SizedTriangles SizedTriangles::within(const Eigen::AlignedBox3d& box, double growth,
-                                      const std::function<double(const Eigen::AlignedBox3d&)>& bound) const {
+SizedTriangles SizedTriangles::within(const Box& box, double growth,
+                                      const std::function<double(const Box&)>& bound) const {
     if (empty()) return {};
-    std::vector<char> node_is_kept(nodes_.size(), 0), is_kept(triangles_.size(), 0);
+    std::vector<char> node_is_kept(tree_.nodes().size(), 0), is_kept(triangles_.size(), 0);
     const double side = box.sizes().maxCoeff() / cells_per_side;
     std::array<int, 3> count = {1, 1, 1};
     for (int axis = 0; axis < 3; ++axis)
@@ -204,7 +161,7 @@ SizedTriangles SizedTriangles::within(const Eigen::AlignedBox3d& box, double gro
         for (int j = 0; j < count[1]; ++j)
             for (int k = 0; k < count[2]; ++k) {
                 const Vec3 low = box.min() + step.cwiseProduct(Vec3(i, j, k));
-                const Eigen::AlignedBox3d cell(low, low + step);
+                const Box cell(low, low + step);
                 const Ceiling ceiling = largest_in(cell, growth, bound(cell));
                 if (ceiling.triangle != none) is_kept[ceiling.triangle] = 1;
                 mark(0, cell, growth, ceiling, node_is_kept, is_kept);
@@ -217,19 +174,9 @@ SizedTriangles SizedTriangles::within(const Eigen::AlignedBox3d& box, double gro
 }
 
 // Where the ray enters the box, 0 if it begins inside, infinity if it misses it.
-double SizedTriangles::entry(const Eigen::AlignedBox3d& box, const Vec3& origin, const Vec3& direction) {
-    double low = 0, high = infinity;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (direction[axis] == 0) {
-            if (origin[axis] < box.min()[axis] || origin[axis] > box.max()[axis]) return infinity;
-            continue;
-        }
-        const double first = (box.min()[axis] - origin[axis]) / direction[axis];
-        const double second = (box.max()[axis] - origin[axis]) / direction[axis];
-        low = std::max(low, std::min(first, second));
-        high = std::min(high, std::max(first, second));
-    }
-    return low * less <= high ? low * less : infinity;
+double SizedTriangles::entry(const Box& box, const Vec3& origin, const Vec3& direction) {
+    const RayPiece piece = piece_in_box(box, origin, direction, {});
+    return piece.from * less <= piece.to ? piece.from * less : infinity;
 }
 
 }  // namespace kerf

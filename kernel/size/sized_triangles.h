@@ -9,10 +9,9 @@
 #include <type_traits>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 #include "core/bytes.h"
-#include "core/types.h"
+#include "core/padding.h"
+#include "geometry/box_hierarchy.h"
 
 namespace kerf {
 
@@ -40,6 +39,8 @@ struct SizedTriangle {
     double hit(const Vec3& origin, const Vec3& direction) const;
 };
 static_assert(std::is_trivially_copyable_v<SizedTriangle>);
+template <>
+struct HasNoPadding<SizedTriangle> : std::bool_constant<sizeof(SizedTriangle) == 13 * sizeof(double)> {};
 
 /// Many of them, in a tree of boxes, those of one reach below one node or a few. Built in O(n log n).
 class SizedTriangles {
@@ -49,7 +50,7 @@ class SizedTriangles {
 
     bool empty() const { return triangles_.empty(); }
     std::span<const SizedTriangle> all() const { return triangles_; }  ///< in the order of the tree
-    double smallest() const { return nodes_.empty() ? infinity : nodes_.front().size; }
+    double smallest() const { return empty() ? infinity : tree_.nodes().front().size; }
 
     /// The least SizedTriangle::size_at(), or `bound` if none is less. O(log n) where few are close, and where many
     /// reach as far as p: the first that has the least size that any of them can have ends the search. `asked`, if
@@ -59,8 +60,7 @@ class SizedTriangles {
     /// it is given: size_at() of both is the same there if it is not more than that. At least one. Looks at the box in
     /// cells of an eighth of its longest side, and keeps one triangle for a cell that lies in its reach, where nothing
     /// is smaller. Deterministic. O(n) at most, and O(log n) for each cell.
-    SizedTriangles within(const Eigen::AlignedBox3d& box, double growth,
-                          const std::function<double(const Eigen::AlignedBox3d&)>& bound) const;
+    SizedTriangles within(const Box& box, double growth, const std::function<double(const Box&)>& bound) const;
     /// The nearest triangle that the ray hits and for which is_wanted(triangle) holds: its distance, else infinity.
     template <class IsWanted>
     double first_hit(const Vec3& origin, const Vec3& direction, const IsWanted& is_wanted) const {
@@ -72,16 +72,17 @@ class SizedTriangles {
     template <class Archive>
     void archive(Archive& a) {
         a(triangles_);
-        if constexpr (std::is_same_v<Archive, ByteReader>) build_nodes();
+        if constexpr (std::is_same_v<Archive, ByteReader>) build_tree(Order::as_they_are);
     }
 
  private:
-    struct Node {
-        Eigen::AlignedBox3d box;
+    struct Node : BoxNode {
         double size = infinity, reach = 0;  // the least and the largest below
         double floor = infinity;            // no size_at() of a triangle below is less, as it is computed
-        std::int32_t first = 0, last = 0;   // of triangles_
-        std::int32_t right = 0;             // 0: a leaf; the left child follows its parent
+
+        Node() = default;
+        explicit Node(const SizedTriangle& triangle);
+        void add(const Node& other);
     };
     // No point of a cell has more from all triangles together.
     struct Ceiling {
@@ -89,45 +90,25 @@ class SizedTriangles {
         std::int32_t triangle = none;  // has exactly this size in all of the cell; none: no single one has
     };
     std::int32_t middle(std::int32_t first, std::int32_t last) const;
-    static double entry(const Eigen::AlignedBox3d& box, const Vec3& origin, const Vec3& direction);
-    Ceiling largest_in(const Eigen::AlignedBox3d& cell, double growth, double bound) const;
-    bool mark(std::int32_t node, const Eigen::AlignedBox3d& cell, double growth, const Ceiling& ceiling,
+    static double entry(const Box& box, const Vec3& origin, const Vec3& direction);
+    Ceiling largest_in(const Box& cell, double growth, double bound) const;
+    bool mark(std::int32_t node, const Box& cell, double growth, const Ceiling& ceiling,
               std::vector<char>& node_is_kept, std::vector<char>& is_kept) const;
-    void order(std::int32_t first, std::int32_t last);
-    void build_nodes();
-    std::int32_t add_node(std::int32_t first, std::int32_t last);
+    enum class Order { as_they_are, to_be_made };
+    void build_tree(Order order);
 
     // The least of of_triangle() and `bound`. No triangle below a node has less than of_node() says.
     template <class OfNode, class OfTriangle>
     double least(double bound, const OfNode& of_node, const OfTriangle& of_triangle) const {
-        struct Open {
-            std::int32_t node;
-            double low;
-        };
-        std::array<Open, 128> open;  // one sibling a level, and two levels halve what is below
-        std::size_t count = 0;
-        const auto push = [&](std::int32_t node) { open[count++] = {node, of_node(nodes_[node])}; };
-        if (!nodes_.empty()) push(0);
-        while (count > 0) {
-            const Open next = open[--count];
-            if (next.low >= bound) continue;
-            const Node& node = nodes_[next.node];
-            if (node.right > 0) {
-                push(next.node + 1);
-                push(node.right);
-                if (open[count - 2].low < open[count - 1].low) std::swap(open[count - 2], open[count - 1]);
-                continue;
-            }
-            for (std::int32_t i = node.first; i < node.last; ++i) bound = std::min(bound, of_triangle(triangles_[i]));
-        }
-        return bound;
+        return tree_.least<FirstOfEqual::right>(bound, of_node,
+                                                [&](std::int32_t i) { return of_triangle(triangles_[i]); });
     }
 
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     static constexpr std::int32_t none = -1;
 
     std::vector<SizedTriangle> triangles_;
-    std::vector<Node> nodes_;
+    BoxHierarchy<Node> tree_;
 };
 
 }  // namespace kerf

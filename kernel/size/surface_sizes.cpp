@@ -2,9 +2,12 @@
 
 #include <cmath>
 #include <numbers>
-#include <tuple>
 
 #include <Eigen/Geometry>
+
+#include "geometry/angles.h"
+#include "geometry/triangle.h"
+#include "surface/edge_corners.h"
 
 namespace kerf {
 
@@ -17,28 +20,6 @@ constexpr double facing_cosine = -0.5;  // of the normals of both sides of a wal
 SizedTriangle sized_facet(const SurfaceArrays& surface, const Triangle& t, double size, double reach = 0) {
     const auto& p = surface.vertices;
     return {p[t[0]], p[t[1]], p[t[2]], {size, size, size}, reach};
-}
-
-Vec3 area_vector(const SurfaceArrays& surface, const Triangle& t) {
-    const auto& p = surface.vertices;
-    return (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]) / 2;
-}
-
-struct EdgeOfFacet {
-    std::int32_t low, high, facet;
-    bool operator<(const EdgeOfFacet& o) const { return std::tie(low, high, facet) < std::tie(o.low, o.high, o.facet); }
-    bool is_beside(const EdgeOfFacet& o) const { return low == o.low && high == o.high; }
-};
-
-std::vector<EdgeOfFacet> edges_of_facets(const std::vector<Triangle>& facets) {
-    std::vector<EdgeOfFacet> edges;
-    for (std::size_t f = 0; f < facets.size(); ++f)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const auto [low, high] = std::minmax(facets[f][i], facets[f][(i + 1) % 3]);
-            edges.push_back({low, high, static_cast<std::int32_t>(f)});
-        }
-    std::sort(edges.begin(), edges.end());
-    return edges;
 }
 
 // Integrals around the vertices.
@@ -56,33 +37,31 @@ struct VertexCurvature {
 
 void add_facets(const SurfaceArrays& surface, std::vector<VertexCurvature>& at) {
     for (const Triangle& t : surface.facets) {
-        const double area = area_vector(surface, t).norm();
+        const double area = area_vector(surface.vertices, t).norm();
         for (std::size_t i = 0; i < 3; ++i) {
             const Vec3& p = surface.vertices[t[i]];
             const Vec3 u = surface.vertices[t[(i + 1) % 3]] - p, v = surface.vertices[t[(i + 2) % 3]] - p;
             at[t[i]].area += area / 3;
-            at[t[i]].angle += std::atan2(u.cross(v).norm(), u.dot(v));
+            at[t[i]].angle += angle_between(u, v);
         }
     }
 }
 
 // Each edge gives half of its turn, and of that each end half.
 void add_edges(const SurfaceArrays& surface, std::vector<VertexCurvature>& at) {
-    const std::vector<EdgeOfFacet> edges = edges_of_facets(surface.facets);
-    for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
-        const EdgeOfFacet &e = edges[i], &other = edges[i + 1];
-        if (!e.is_beside(other)) continue;
-        const Vec3 m = area_vector(surface, surface.facets[e.facet]),
-                   n = area_vector(surface, surface.facets[other.facet]);
-        const double turn = std::atan2(m.cross(n).norm(), m.dot(n));
-        const double length = (surface.vertices[e.high] - surface.vertices[e.low]).norm();
-        for (const std::int32_t v : {e.low, e.high}) {
-            if (turn > feature_turn)
-                at[v].at_feature = true;
-            else if (turn > flat)
-                at[v].mean += turn * length / 4;
+    EdgeCorners(surface.facets).for_each_edge([&](std::int32_t low, std::span<const EdgeCorners::Corner> corners) {
+        for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+            const double turn = angle_between(area_vector(surface.vertices, surface.facets[corners[i].corner / 3]),
+                                              area_vector(surface.vertices, surface.facets[corners[i + 1].corner / 3]));
+            const double length = (surface.vertices[corners[i].high] - surface.vertices[low]).norm();
+            for (const std::int32_t v : {low, corners[i].high}) {
+                if (turn > feature_turn)
+                    at[v].at_feature = true;
+                else if (turn > flat)
+                    at[v].mean += turn * length / 4;
+            }
         }
-    }
+    });
 }
 
 double size_of(double curvature, const CurvatureSizes& wanted) {
@@ -127,12 +106,12 @@ std::vector<SizedTriangle> sizes_of_thickness(const SurfaceArrays& surface, doub
     const SizedTriangles walls(sizes_of_edges(surface));
     std::vector<SizedTriangle> sized;
     for (const Triangle& t : surface.facets) {
-        const Vec3 area = area_vector(surface, t);
+        const Vec3 area = area_vector(surface.vertices, t);
         const Vec3 inwards = -area.normalized();
         if (inwards == Vec3::Zero()) continue;
         const Vec3 centroid = (surface.vertices[t[0]] + surface.vertices[t[1]] + surface.vertices[t[2]]) / 3;
         const double depth = walls.first_hit(centroid, inwards, [&](const SizedTriangle& wall) {
-            const Vec3 normal = (wall.corner(1) - wall.corner(0)).cross(wall.corner(2) - wall.corner(0));
+            const Vec3 normal = doubled_area_vector(wall.corner(0), wall.corner(1), wall.corner(2));
             return normal.dot(-inwards) < facing_cosine * normal.norm();
         });
         if (depth > 0 && std::isfinite(depth)) sized.push_back(sized_facet(surface, t, depth / cells_across));

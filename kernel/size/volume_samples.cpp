@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "core/check.h"
-#include "surface/box_tree.h"
+#include "geometry/box_tree.h"
 #include "surface/mass_properties.h"
 
 namespace kerf {
@@ -34,7 +34,7 @@ bool wants_less(const OctreeCell& a, const OctreeCell& b) {
 
 class Octree {
  public:
-    Octree(const SizeField& field, const Eigen::AlignedBox3d& box) : field_(field) {
+    Octree(const SizeField& field, const Box& box) : field_(field) {
         const double edge = std::max(std::cbrt(box.volume() / first_cells), box.sizes().maxCoeff() / most_first_splits);
         std::array<int, 3> count{};
         for (int axis = 0; axis < 3; ++axis)
@@ -79,24 +79,17 @@ class Octree {
 class InsideTest {
  public:
     InsideTest(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets)
-        : vertices_(vertices), facets_(facets), tree_(boxes(vertices, facets)) {}
+        : vertices_(vertices), facets_(facets), tree_(boxes_around(vertices, facets)) {}
 
     bool operator()(const Vec3& p) const {
         Vec3 top = p;
         top.z() = std::numeric_limits<double>::max();
         int turns = 0;
-        tree_.for_each_meeting(Eigen::AlignedBox3d(p, top), [&](std::int32_t f) { turns += turns_above(p, f); });
+        tree_.for_each_meeting(Box(p, top), [&](std::int32_t f) { turns += turns_above(p, f); });
         return turns != 0;
     }
 
  private:
-    static std::vector<Eigen::AlignedBox3d> boxes(const std::vector<Vec3>& vertices,
-                                                  const std::vector<Triangle>& facets) {
-        std::vector<Eigen::AlignedBox3d> boxes(facets.size());
-        for (std::size_t f = 0; f < facets.size(); ++f)
-            for (const std::int32_t v : facets[f]) boxes[f].extend(vertices[v]);
-        return boxes;
-    }
     // Twice the area of the projection of the triangle p, a, b.
     static double area(const Vec3& p, const Vec3& a, const Vec3& b) {
         return (a.x() - p.x()) * (b.y() - p.y()) - (a.y() - p.y()) * (b.x() - p.x());
@@ -128,7 +121,7 @@ class InsideTest {
 std::vector<VolumeSample> sample_volume(const SizeField& field, const std::vector<Vec3>& vertices,
                                         const std::vector<Triangle>& facets) {
     KERF_CHECK(!field.is_constant() && !facets.empty());
-    Eigen::AlignedBox3d box;
+    Box box;
     Vec3 mean = Vec3::Zero();
     for (const Triangle& t : facets)
         for (const std::int32_t v : t) {

@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include "core/regular_tet.h"
+#include "geometry/box.h"
 
 namespace kerf {
 
@@ -78,8 +79,7 @@ class Cubes {
 };
 
 Cubes cubes_of(const NodeSpace& space, Communicator& ranks) {
-    Eigen::AlignedBox3d box;
-    for (const Vec3& p : space.points()) box.extend(p);
+    Box box = box_around(space.points());
     for (const Vec3& low : all_gather(ranks, Vec3(box.min()))) box.min() = box.min().cwiseMin(low);
     for (const Vec3& high : all_gather(ranks, Vec3(box.max()))) box.max() = box.max().cwiseMax(high);
     return {box.min(), box.sizes().maxCoeff()};

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
@@ -12,15 +11,12 @@
 #include <petscksp.h>
 
 #include "core/error.h"
+#include "core/stopwatch.h"
 #include "solve/block_rows.h"
 
 namespace kerf {
 
 namespace {
-
-double seconds_now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 // What PETSc has said first of a failure, which its codes on the way up no longer tell.
 struct FirstFailure {
@@ -238,16 +234,16 @@ void LinearSystem::Impl::insert(const BlockRows& rows) {
 }
 
 void LinearSystem::Impl::assemble() {
-    const double start = seconds_now();
+    Stopwatch stopwatch;
     const BlockRows rows = stiffness_of_rank(problem);
-    seconds.elements = seconds_now() - start;
+    seconds.elements = stopwatch.lap();
     diagonal = mean_diagonal(rows);
     create_matrix(rows);
     insert(rows);
     check(MatNorm(matrix, NORM_INFINITY, &norm));
     check(MatCreateVecs(matrix, &solution, &right));
     check(VecDuplicate(right, &residual));
-    seconds.insert = seconds_now() - start - seconds.elements;
+    seconds.insert = stopwatch.lap();
 }
 
 void LinearSystem::Impl::give_rigid_motions() {
@@ -324,15 +320,15 @@ SolveOutcome LinearSystem::solve(const std::vector<double>& forces, std::vector<
         values[dof] = problem.is_held(dof) ? impl_->diagonal * problem.prescribed[dof] : right[dof];
     check(VecRestoreArray(impl_->right, &values));
 
-    const double start = seconds_now();
+    Stopwatch stopwatch;
     const PetscErrorCode prepared = KSPSetUp(impl_->ksp);  // preconditioners of blocks read their options here
     if (prepared == PETSC_ERR_ARG_UNKNOWN_TYPE) check_options(prepared, impl_->options.petsc);
     check(prepared);
     refuse_unknown_options();
-    outcome.setup_seconds = seconds_now() - start;
+    outcome.setup_seconds = stopwatch.lap();
     check(VecZeroEntries(impl_->solution));
     check(KSPSolve(impl_->ksp, impl_->right, impl_->solution));
-    outcome.solve_seconds = seconds_now() - start - outcome.setup_seconds;
+    outcome.solve_seconds = stopwatch.lap();
 
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
     check(KSPGetConvergedReason(impl_->ksp, &reason));

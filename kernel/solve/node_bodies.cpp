@@ -3,36 +3,12 @@
 #include <algorithm>
 #include <numeric>
 
+#include "geometry/union_find.h"
+
 namespace kerf {
 
-namespace {
-
-// Disjoint sets of the local nodes, each known by its smallest member.
-class NodeSets {
- public:
-    explicit NodeSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-    std::int32_t root(std::int32_t node) {
-        while (parent_[static_cast<std::size_t>(node)] != node) {
-            std::int32_t& up = parent_[static_cast<std::size_t>(node)];
-            up = parent_[static_cast<std::size_t>(up)];
-            node = up;
-        }
-        return node;
-    }
-    void join(std::int32_t a, std::int32_t b) {
-        a = root(a);
-        b = root(b);
-        parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-    }
-
- private:
-    std::vector<std::int32_t> parent_;
-};
-
-}  // namespace
-
 NodeBodies find_bodies(const NodeSpace& space) {
-    NodeSets sets(space.node_count());
+    UnionFind sets(space.node_count());
     for_all_tets(space, [&](std::size_t p, std::size_t t) {
         const auto nodes = space.nodes_of(p, t);
         for (int i = 1; i < element_nodes(space.order()); ++i) sets.join(nodes[0], nodes[static_cast<std::size_t>(i)]);

@@ -1,7 +1,6 @@
 #include "solve/solve_run.h"
 
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -10,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/stopwatch.h"
 #include "io/file_bytes.h"
 #include "io/output_file.h"
 #include "io/run_folder.h"
@@ -24,18 +24,6 @@
 namespace kerf {
 
 namespace {
-
-class SolveStopwatch {
- public:
-    /// Since the last call.
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
-    }
-
- private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 std::string way_out(const SolverOptions& solver) {
     return fmt::format(
@@ -86,7 +74,7 @@ class SolveStages {
     MpiRanks& ranks_;
     RunListener* listener_;
     SolveReport report_;
-    SolveStopwatch whole_, stage_;
+    Stopwatch whole_, stage_;
     std::unique_ptr<RunParts> parts_;
     std::optional<RunFolder> folder_;
     std::optional<NodeSpace> space_;

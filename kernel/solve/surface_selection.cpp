@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "core/error.h"
+#include "geometry/triangle.h"
 
 namespace kerf {
 
@@ -59,7 +60,7 @@ SurfaceSelector::SurfaceSelector(const NodeSpace& space, std::vector<std::string
                         std::min(low[static_cast<std::size_t>(c) + 3], -corners[i][c]);
                 }
             }
-            const Vec3 doubled = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+            const Vec3 doubled = doubled_area_vector(corners);
             surface_.push_back({p, f, 0.5 * doubled.norm(), doubled.normalized()});
         }
     }

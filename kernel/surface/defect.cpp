@@ -1,6 +1,7 @@
 #include "surface/defect.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -16,6 +17,42 @@ std::string list(const char* one, const char* many, const std::vector<std::int32
     return fmt::format("{} {}{}", many, fmt::join(numbers.begin(), end, ", "), numbers.size() > limit ? ", ..." : "");
 }
 
+struct KindTexts {
+    const char* name;
+    const char* remedy;
+    const char* when_repaired = nullptr;  // the other remedy, where there is one
+};
+
+constexpr std::array<KindTexts, defect_kind_count> texts_of_kinds = {{
+    {"empty surface", "export the surface again"},
+    {"non-finite vertex", "correct the coordinates or export the surface again"},
+    {"absurd magnitude", "choose another unit of length, so that coordinates lie between 1e-50 and 1e50"},
+    {"unfit polygon", "export the surface as triangles: the faces are not planar or not convex"},
+    {"flat surface", "give the boundary of a body, not a sheet"},
+    {"degenerate facet", "collapse or remove the facets where the surface was made",
+     "nothing needs to be done, they are left out"},
+    {"duplicate facet", "remove the copies", "nothing needs to be done, the copies are left out"},
+    {"coincident shell", "remove all copies of the body but one"},
+    {"open edge loop",
+     "close the holes, merge vertices that are nearly equal with --weld, fill small holes with --fill-holes, or "
+     "drop loose pieces with --keep-largest"},
+    {"non-manifold edge", "unite the bodies that touch there, or move them apart"},
+    {"non-manifold vertex", "unite the bodies that touch there, or move them apart"},
+    {"inconsistent orientation", "nothing needs to be done, they are turned"},
+    {"one-sided shell", "model the surface again, it bounds no body"},
+    {"inverted shell", "nothing needs to be done, it is turned"},
+    {"ambiguous shell",
+     "make it a void with --voids parity, turn it, or leave all out but the largest with --keep-largest",
+     "nothing needs to be done, it is made a void"},
+    {"touching shell", "unite the bodies, move them apart, or leave all out but the largest with --keep-largest"},
+    {"self-intersection", "unite the parts that overlap where the surface was made"},
+    {"needle", "remesh the surface with --surface remesh where good cells are needed"},
+    {"short edge", "move the part closer to the origin or collapse the edges"},
+}};
+static_assert(texts_of_kinds.back().name != nullptr);
+
+const KindTexts& texts_of(DefectKind kind) { return texts_of_kinds[static_cast<std::size_t>(kind)]; }
+
 // The corners of a facet say nothing that its number does not say.
 bool are_vertices_told(const Defect& defect) {
     return !defect.vertices.empty() && (defect.facets.empty() || defect.vertices.size() < 3);
@@ -27,108 +64,17 @@ ErrorElements elements_at(const Defect& defect, ElementKind kind, const std::vec
 
 }  // namespace
 
-const char* name(DefectKind kind) {
-    switch (kind) {
-        case DefectKind::empty:
-            return "empty surface";
-        case DefectKind::non_finite:
-            return "non-finite vertex";
-        case DefectKind::absurd_magnitude:
-            return "absurd magnitude";
-        case DefectKind::unfit_polygon:
-            return "unfit polygon";
-        case DefectKind::flat:
-            return "flat surface";
-        case DefectKind::degenerate_facet:
-            return "degenerate facet";
-        case DefectKind::duplicate_facet:
-            return "duplicate facet";
-        case DefectKind::coincident_shell:
-            return "coincident shell";
-        case DefectKind::open_edge:
-            return "open edge loop";
-        case DefectKind::non_manifold_edge:
-            return "non-manifold edge";
-        case DefectKind::non_manifold_vertex:
-            return "non-manifold vertex";
-        case DefectKind::inconsistent_orientation:
-            return "inconsistent orientation";
-        case DefectKind::one_sided:
-            return "one-sided shell";
-        case DefectKind::inverted_shell:
-            return "inverted shell";
-        case DefectKind::ambiguous_shell:
-            return "ambiguous shell";
-        case DefectKind::touching_shells:
-            return "touching shell";
-        case DefectKind::self_intersection:
-            return "self-intersection";
-        case DefectKind::needle:
-            return "needle";
-        case DefectKind::short_edge:
-            return "short edge";
-    }
-    return "";
-}
+const char* name(DefectKind kind) { return texts_of(kind).name; }
 
 const char* name(Severity severity) {
-    switch (severity) {
-        case Severity::error:
-            return "error";
-        case Severity::repaired:
-            return "repaired";
-        case Severity::warning:
-            return "warning";
-    }
-    return "";
+    constexpr std::array names = {"error", "repaired", "warning"};
+    static_assert(names.size() == static_cast<std::size_t>(Severity::warning) + 1);
+    return names[static_cast<std::size_t>(severity)];
 }
 
 const char* remedy(const Defect& defect) {
-    const bool repaired = defect.severity == Severity::repaired;
-    switch (defect.kind) {
-        case DefectKind::empty:
-            return "export the surface again";
-        case DefectKind::non_finite:
-            return "correct the coordinates or export the surface again";
-        case DefectKind::absurd_magnitude:
-            return "choose another unit of length, so that coordinates lie between 1e-50 and 1e50";
-        case DefectKind::unfit_polygon:
-            return "export the surface as triangles: the faces are not planar or not convex";
-        case DefectKind::flat:
-            return "give the boundary of a body, not a sheet";
-        case DefectKind::degenerate_facet:
-            return repaired ? "nothing needs to be done, they are left out"
-                            : "collapse or remove the facets where the surface was made";
-        case DefectKind::duplicate_facet:
-            return repaired ? "nothing needs to be done, the copies are left out" : "remove the copies";
-        case DefectKind::coincident_shell:
-            return "remove all copies of the body but one";
-        case DefectKind::open_edge:
-            return "close the holes, merge vertices that are nearly equal with --weld, fill small holes with "
-                   "--fill-holes, or drop loose pieces with --keep-largest";
-        case DefectKind::non_manifold_edge:
-        case DefectKind::non_manifold_vertex:
-            return "unite the bodies that touch there, or move them apart";
-        case DefectKind::inconsistent_orientation:
-            return "nothing needs to be done, they are turned";
-        case DefectKind::one_sided:
-            return "model the surface again, it bounds no body";
-        case DefectKind::inverted_shell:
-            return "nothing needs to be done, it is turned";
-        case DefectKind::ambiguous_shell:
-            return repaired ? "nothing needs to be done, it is made a void"
-                            : "make it a void with --voids parity, turn it, or leave all out but the largest with "
-                              "--keep-largest";
-        case DefectKind::touching_shells:
-            return "unite the bodies, move them apart, or leave all out but the largest with --keep-largest";
-        case DefectKind::self_intersection:
-            return "unite the parts that overlap where the surface was made";
-        case DefectKind::needle:
-            return "remesh the surface with --surface remesh where good cells are needed";
-        case DefectKind::short_edge:
-            return "move the part closer to the origin or collapse the edges";
-    }
-    return "";
+    const KindTexts& texts = texts_of(defect.kind);
+    return defect.severity == Severity::repaired && texts.when_repaired ? texts.when_repaired : texts.remedy;
 }
 
 std::string counted(std::int64_t n, DefectKind kind) {

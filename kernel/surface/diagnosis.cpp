@@ -13,6 +13,9 @@
 
 #include "core/check.h"
 #include "core/elements.h"
+#include "geometry/angles.h"
+#include "geometry/box.h"
+#include "geometry/predicates.h"
 #include "surface/intersections.h"
 #include "surface/open_loops.h"
 #include "surface/orientation.h"
@@ -28,18 +31,6 @@ constexpr double least_extent = 1e-50;
 constexpr double rounding_limit = 64;  // an edge of so many units in the last place of its coordinates is short
 constexpr std::size_t intersection_limit = 10'000;
 constexpr std::size_t warning_limit = 1000;
-
-// The smallest angle by the largest cosine.
-double smallest_angle_deg(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const std::array<Vec3, 3> side = {b - a, c - b, a - c};
-    double smallest = 180;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3 back = -side[(i + 2) % 3];
-        const double angle = std::atan2(side[i].cross(back).norm(), side[i].dot(back));
-        smallest = std::min(smallest, angle * 180 / std::numbers::pi);
-    }
-    return smallest;
-}
 
 class Examination {
  public:
@@ -141,9 +132,9 @@ void Examination::find_flat() {
     const auto last = p.end();
     const auto a = p.begin();
     const auto b = std::find_if(a, last, [&](const Vec3& x) { return x != *a; });
-    const auto c = b == last ? last : std::find_if(b, last, [&](const Vec3& x) { return !collinear(*a, *b, x); });
+    const auto c = b == last ? last : std::find_if(b, last, [&](const Vec3& x) { return !are_collinear(*a, *b, x); });
     const bool has_volume =
-        c != last && std::any_of(c, last, [&](const Vec3& x) { return orientation_sign(*a, *b, *c, x) != 0; });
+        c != last && std::any_of(c, last, [&](const Vec3& x) { return orientation(*a, *b, *c, x) != 0; });
     if (!has_volume) add_at_facet(DefectKind::flat, Severity::error, {0});
 }
 
@@ -173,7 +164,7 @@ void Examination::find_degenerate() {
         const Triangle& t = soup_.facets[f];
         if (unbounded_[t[0]] || unbounded_[t[1]] || unbounded_[t[2]]) {
             no_area_[f] = 1;
-        } else if (!ignored_[f] && collinear(soup_.vertices[t[0]], soup_.vertices[t[1]], soup_.vertices[t[2]])) {
+        } else if (!ignored_[f] && are_collinear(soup_.vertices[t[0]], soup_.vertices[t[1]], soup_.vertices[t[2]])) {
             no_area_[f] = 1;
             add_at_facet(DefectKind::degenerate_facet, Severity::error, {static_cast<std::int32_t>(f)});
         }
@@ -237,16 +228,7 @@ void Examination::find_misplaced_shells() {
 
 // The middle of what the bounding boxes of two facets have in common.
 Vec3 common_place(const Soup& soup, const Triangle& s, const Triangle& t) {
-    const auto corner = [&](const Triangle& facet, int i) -> const Vec3& { return soup.vertices[facet[i]]; };
-    const Vec3 low = corner(s, 0)
-                         .cwiseMin(corner(s, 1))
-                         .cwiseMin(corner(s, 2))
-                         .cwiseMax(corner(t, 0).cwiseMin(corner(t, 1)).cwiseMin(corner(t, 2)));
-    const Vec3 high = corner(s, 0)
-                          .cwiseMax(corner(s, 1))
-                          .cwiseMax(corner(s, 2))
-                          .cwiseMin(corner(t, 0).cwiseMax(corner(t, 1)).cwiseMax(corner(t, 2)));
-    return (low + high) / 2;
+    return box_around(soup.vertices, s).intersection(box_around(soup.vertices, t)).center();
 }
 
 // Those around each shell are asked first: where they tell that all is apart, most pairs need not be looked at.
@@ -296,7 +278,7 @@ void Examination::find_needles() {
     for (std::size_t i = 0; i < facets_.size(); ++i) {
         if (no_area_[number_[i]]) continue;
         const Triangle& t = facets_[i];
-        const double angle = smallest_angle_deg(soup_.vertices[t[0]], soup_.vertices[t[1]], soup_.vertices[t[2]]);
+        const double angle = smallest_angle_degrees({soup_.vertices[t[0]], soup_.vertices[t[1]], soup_.vertices[t[2]]});
         if (angle < options_.needle_angle_deg)
             found.push_back({DefectKind::needle,
                              Severity::warning,

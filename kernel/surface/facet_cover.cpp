@@ -11,15 +11,14 @@
 
 #include <Eigen/Geometry>
 
-#include "surface/closest_point.h"
+#include "geometry/closest_point.h"
+#include "geometry/triangle.h"
 
 namespace kerf {
 
 namespace {
 
 constexpr double spacings = 16;
-
-Vec3 area_vector(const std::array<Vec3, 3>& t) { return (t[1] - t[0]).cross(t[2] - t[0]) / 2; }
 
 // Of a point from a facet with this unit normal, which is zero if the facet has no area.
 double distance_from(const std::array<Vec3, 3>& facet, const Vec3& normal, const Vec3& p) {

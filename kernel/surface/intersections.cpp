@@ -22,6 +22,8 @@
 
 #include "core/check.h"
 #include "core/elements.h"
+#include "geometry/box.h"
+#include "geometry/predicates.h"
 
 namespace kerf {
 
@@ -33,8 +35,6 @@ using Corners = std::array<Vec3, 3>;
 // Generous bound of the relative rounding error of the short sums of products of differences below. It holds as long as
 // the products do not underflow: for differences that are zero or above 1e-70.
 constexpr double rounding = 1e-14;
-
-Kernel::Point_3 point(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
 // Orientation of the projections along an axis.
 int projected_sign(int axis, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -76,7 +76,7 @@ bool coplanar_segment_meets(const Vec3& s, const Vec3& t, const Corners& q) {
 bool segment_meets(const Vec3& s, const Vec3& t, int side_s, int side_t, const Corners& q) {
     if (side_s * side_t > 0) return false;
     std::array<int, 3> pass;
-    for (int i = 0; i < 3; ++i) pass[i] = orientation_sign(s, t, q[i], q[(i + 1) % 3]);
+    for (int i = 0; i < 3; ++i) pass[i] = orientation(s, t, q[i], q[(i + 1) % 3]);
     const auto [low, high] = std::minmax_element(pass.begin(), pass.end());
     if (*low < 0 && *high > 0) return false;
     // Where q is only a segment, all sides are zero; lines that are skew have passed its edges on both sides already.
@@ -85,7 +85,7 @@ bool segment_meets(const Vec3& s, const Vec3& t, int side_s, int side_t, const C
 
 std::array<int, 3> sides(const Corners& of, const Corners& plane) {
     std::array<int, 3> sign;
-    for (int i = 0; i < 3; ++i) sign[i] = orientation_sign(plane[0], plane[1], plane[2], of[i]);
+    for (int i = 0; i < 3; ++i) sign[i] = orientation(plane[0], plane[1], plane[2], of[i]);
     return sign;
 }
 
@@ -148,7 +148,7 @@ bool meet_beyond_edge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d
     const Vec3 e = b - a, f = c - a, g = d - a;
     const double scale = e.squaredNorm() * f.norm() * g.norm();
     if (e.cross(f).dot(e.cross(g)) < -rounding * scale) return false;  // unfolded by more than a right angle
-    if (orientation_sign(a, b, c, d) != 0) return false;
+    if (orientation(a, b, c, d) != 0) return false;
     for (int axis = 0; axis < 3; ++axis)
         if (projected_sign(axis, a, b, c) * projected_sign(axis, a, b, d) > 0) return true;
     return false;
@@ -183,8 +183,8 @@ std::vector<FacetBox> facet_boxes(const std::vector<Vec3>& vertices, const std::
     std::vector<FacetBox> boxes;
     boxes.reserve(facets.size());
     for (const Triangle& t : facets) {
-        const Vec3 &a = vertices[t[0]], &b = vertices[t[1]], &c = vertices[t[2]];
-        const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+        const Box box = box_around(vertices, t);
+        const Vec3 &low = box.min(), &high = box.max();
         boxes.emplace_back(CGAL::Bbox_3(low.x(), low.y(), low.z(), high.x(), high.y(), high.z()), &t);
     }
     return boxes;
@@ -229,12 +229,6 @@ class PairSearch {
 };
 
 }  // namespace
-
-int orientation_sign(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    return CGAL::orientation(point(a), point(b), point(c), point(d));
-}
-
-bool collinear(const Vec3& a, const Vec3& b, const Vec3& c) { return CGAL::collinear(point(a), point(b), point(c)); }
 
 bool triangles_intersect(const std::array<Vec3, 3>& p, const Triangle& p_id, const std::array<Vec3, 3>& q,
                          const Triangle& q_id) {

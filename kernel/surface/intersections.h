@@ -1,4 +1,4 @@
-// Exact predicates, and the exact intersection of triangles that may share vertices.
+// The exact intersection of triangles that may share vertices.
 #pragma once
 
 #include <array>
@@ -8,12 +8,6 @@
 #include "core/types.h"
 
 namespace kerf {
-
-/// Sign of det[b-a, c-a, d-a]: 1, 0 or -1. Exact.
-int orientation_sign(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
-
-/// True if the three points lie on one line. Exact.
-bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// True if the two triangles meet anywhere but in the vertices and edges that they share by number.
 ///

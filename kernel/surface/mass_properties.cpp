@@ -11,6 +11,7 @@
 
 #include "core/check.h"
 #include "core/elements.h"
+#include "geometry/triangle.h"
 
 namespace kerf {
 
@@ -151,7 +152,7 @@ MassProperties mass_properties(const Surface& surface) {
     for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
         const Triangle t = surface.vertices(f);
         const Vec3 &a = surface.point(t[0]), &b = surface.point(t[1]), &c = surface.point(t[2]);
-        m.area += (b - a).cross(c - a).norm() / 2;
+        m.area += triangle_area(a, b, c);
         volume.add(a - base, b - base, c - base);
         error.add(a - base, b - base, c - base);
     }

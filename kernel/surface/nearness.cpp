@@ -5,6 +5,9 @@
 
 #include <Eigen/Geometry>
 
+#include "geometry/box.h"
+#include "geometry/triangle.h"
+
 namespace kerf {
 
 namespace {
@@ -16,12 +19,7 @@ constexpr double shortest_piece = 1e-3;  // length of a polygon over the limit, 
 
 template <class Corners>
 Vec3 extent(const Corners& corners, int count) {
-    Vec3 least = corners[0], most = corners[0];
-    for (int i = 1; i < count; ++i) {
-        least = least.cwiseMin(corners[i]);
-        most = most.cwiseMax(corners[i]);
-    }
-    return most - least;
+    return box_around(std::span(corners.data(), static_cast<std::size_t>(count))).sizes();
 }
 
 // From one corner of a polygon to another that is as far away as any, or nearly.
@@ -52,7 +50,7 @@ std::int32_t Nearness::facet_below(const Vec3& p, std::int32_t start) const {
     std::int32_t facet = start, came_from = -1;
     for (int step = 0; facet >= 0 && step < longest_walk; ++step) {
         const std::array<Vec3, 3>& t = surface_.corners(facet);
-        const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
+        const Vec3 normal = doubled_area_vector(t);
         std::int32_t across = -1;
         for (int i = 0; i < 3 && across < 0; ++i)
             if (3 * facet + i != came_from && (t[(i + 1) % 3] - t[i]).cross(normal).dot(p - t[i]) > 0)
@@ -109,7 +107,7 @@ bool Nearness::halve(const Polygon& p, double limit) {
 bool Nearness::divide(const Polygon& p, std::int32_t facet, double limit) {
     const std::array<Vec3, 3>& t = surface_.corners(facet);
     if (extent(p.corners, p.count).squaredNorm() > much_longer * much_longer * extent(t, 3).squaredNorm()) return false;
-    const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
+    const Vec3 normal = doubled_area_vector(t);
     Polygon inside = p, below, above;
     const std::size_t before = open_.size();
     for (int i = 0; i < 3; ++i) {

@@ -21,7 +21,8 @@
 
 #include "core/check.h"
 #include "core/elements.h"
-#include "surface/closest_point.h"
+#include "geometry/closest_point.h"
+#include "geometry/triangle.h"
 #include "surface/edge_corners.h"
 
 namespace kerf {
@@ -62,7 +63,7 @@ std::vector<std::int32_t> corner_vertices(const std::vector<Triangle>& facets) {
 
 // Zero for a facet without area.
 Vec3 unit_normal(const std::vector<Vec3>& points, const Triangle& t) {
-    return (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]).normalized();
+    return doubled_area_vector(points, t).normalized();
 }
 
 std::vector<Vec3> unit_normals(const std::vector<Vec3>& points, const std::vector<Triangle>& facets) {

@@ -9,7 +9,7 @@
 
 #include "core/check.h"
 #include "core/elements.h"
-#include "surface/intersections.h"
+#include "geometry/predicates.h"
 
 namespace kerf {
 
@@ -21,17 +21,16 @@ enum class Crossing { none, proper, touching };
 
 // How the segment st, t outside of the convex hull of the shell, crosses the triangle abc.
 Crossing crossing(const Vec3& s, const Vec3& t, const Vec3& a, const Vec3& b, const Vec3& c) {
-    const int side_s = orientation_sign(a, b, c, s), side_t = orientation_sign(a, b, c, t);
+    const int side_s = orientation(a, b, c, s), side_t = orientation(a, b, c, t);
     if (side_s * side_t > 0) return Crossing::none;
-    std::array<int, 3> pass = {orientation_sign(s, t, a, b), orientation_sign(s, t, b, c),
-                               orientation_sign(s, t, c, a)};
+    std::array<int, 3> pass = {orientation(s, t, a, b), orientation(s, t, b, c), orientation(s, t, c, a)};
     std::sort(pass.begin(), pass.end());
     if (pass[0] < 0 && pass[2] > 0) return Crossing::none;
     return side_s * side_t == 0 || pass[0] == 0 || pass[2] == 0 || pass[1] == 0 ? Crossing::touching : Crossing::proper;
 }
 
 // A point beyond the box, each attempt through another side and with another slant.
-Vec3 point_beyond(const Eigen::AlignedBox3d& box, const Vec3& point, int attempt) {
+Vec3 point_beyond(const Box& box, const Vec3& point, int attempt) {
     const int axis = attempt % 3;
     const bool upper = attempt / 3 % 2 == 0;
     const double size = box.diagonal().norm();
@@ -45,7 +44,7 @@ Vec3 point_beyond(const Eigen::AlignedBox3d& box, const Vec3& point, int attempt
 
 // Calls visit(facet) for the facets whose boxes meet the box, and perhaps for others.
 template <class Visit>
-void for_each_facet_near(const Shell& shell, const Eigen::AlignedBox3d& box, Visit visit) {
+void for_each_facet_near(const Shell& shell, const Box& box, Visit visit) {
     if (shell.tree)
         shell.tree->for_each_meeting(box, [&](std::int32_t f) { visit(shell.facets[f]); });
     else
@@ -56,7 +55,7 @@ std::optional<bool> crosses_odd_times(const std::vector<Vec3>& vertices, const S
                                       const Vec3& t) {
     const Vec3 low = s.cwiseMin(t), high = s.cwiseMax(t);
     bool odd = false, touches = false;
-    for_each_facet_near(shell, Eigen::AlignedBox3d(low, high), [&](const Triangle& facet) {
+    for_each_facet_near(shell, Box(low, high), [&](const Triangle& facet) {
         const Vec3 &a = vertices[facet[0]], &b = vertices[facet[1]], &c = vertices[facet[2]];
         bool apart = touches;
         for (int x = 0; x < 3; ++x)
@@ -75,10 +74,7 @@ void prepare_for_questions(const std::vector<Vec3>& vertices, const Shell& shell
     constexpr std::int32_t few = 32;
     constexpr std::size_t small = 64;
     if (shell.tree || shell.facets.size() < small || ++shell.questions <= few) return;
-    std::vector<Eigen::AlignedBox3d> boxes(shell.facets.size());
-    for (std::size_t f = 0; f < boxes.size(); ++f)
-        for (const std::int32_t v : shell.facets[f]) boxes[f].extend(vertices[v]);
-    shell.tree = std::make_shared<const BoxTree>(std::move(boxes));
+    shell.tree = std::make_shared<const BoxTree>(boxes_around(vertices, shell.facets));
 }
 
 }  // namespace
@@ -92,13 +88,13 @@ std::vector<Shell> collect_shells(const std::vector<Vec3>& vertices, const std::
         KERF_CHECK(shell_of_facet[f] >= 0 && shell_of_facet[f] < count);
         Shell& shell = shells[shell_of_facet[f]];
         shell.facets.push_back(facets[f]);
-        for (std::int32_t v : facets[f]) shell.box.extend(vertices[v]);
+        shell.box.extend(box_around(vertices, facets[f]));
     }
     return shells;
 }
 
 BoxTree boxes_of(const std::vector<Shell>& shells) {
-    std::vector<Eigen::AlignedBox3d> boxes;
+    std::vector<Box> boxes;
     for (const Shell& shell : shells) boxes.push_back(shell.box);
     return BoxTree(std::move(boxes));
 }

@@ -9,14 +9,14 @@
 #include <Eigen/Geometry>
 
 #include "core/types.h"
-#include "surface/box_tree.h"
+#include "geometry/box_tree.h"
 
 namespace kerf {
 
 /// A closed set of facets over shared vertices, with its bounding box.
 struct Shell {
     std::vector<Triangle> facets;
-    Eigen::AlignedBox3d box;
+    Box box;
 
     // What encloses() remembers: one that is asked often gets a tree of its facets. Not for several threads.
     mutable std::int32_t questions = 0;

@@ -7,27 +7,20 @@
 
 #include <Eigen/Geometry>
 
+#include "geometry/angles.h"
+#include "geometry/triangle.h"
+#include "geometry/union_find.h"
 #include "surface/edge_corners.h"
-#include "surface/union_find.h"
 
 namespace kerf {
 
-namespace {
-
-Vec3 area_vector(const Soup& soup, const Triangle& t) {
-    const Vec3& a = soup.vertices[t[0]];
-    return (soup.vertices[t[1]] - a).cross(soup.vertices[t[2]] - a) / 2;
-}
-
-double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
-
-}  // namespace
+namespace {}  // namespace
 
 std::int32_t make_feature_patches(Soup& soup, double angle_deg) {
     const std::vector<std::int32_t> partner = edge_partners(soup.facets);
     std::vector<Vec3> normal;
     normal.reserve(soup.facets.size());
-    for (const Triangle& t : soup.facets) normal.push_back(area_vector(soup, t).normalized());
+    for (const Triangle& t : soup.facets) normal.push_back(area_vector(soup.vertices, t).normalized());
     const double limit = angle_deg * std::numbers::pi / 180;
     UnionFind facets(soup.facets.size());
     for (std::size_t corner = 0; corner < partner.size(); ++corner) {
@@ -48,7 +41,7 @@ std::int64_t keep_largest_component(Soup& soup) {
         for (const std::int32_t v : t) vertices.join(t[0], v);
     std::vector<double> area(soup.vertices.size(), 0);
     for (const Triangle& t : soup.facets) {
-        const double own = area_vector(soup, t).norm();
+        const double own = area_vector(soup.vertices, t).norm();
         if (std::isfinite(own)) area[vertices.root(t[0])] += own;
     }
     const auto largest = static_cast<std::int32_t>(std::max_element(area.begin(), area.end()) - area.begin());

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "core/elements.h"
+#include "geometry/union_find.h"
 #include "surface/edge_corners.h"
-#include "surface/union_find.h"
 
 namespace kerf {
 

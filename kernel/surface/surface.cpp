@@ -56,27 +56,22 @@ void find_vertex_defects(const std::vector<Triangle>& facets, const std::vector<
 // the surface is pinched here. Fans with a gap may be parts of one fan with several gaps. `around`: the vertex's
 // facets.
 bool is_pinched(const std::vector<Triangle>& facets, std::int32_t vertex, std::span<const std::int32_t> around) {
-    std::vector<std::pair<std::int32_t, std::size_t>> spokes;  // far end, place in `around`
+    std::vector<std::pair<std::int32_t, std::int32_t>> spokes;  // far end, place in `around`
     for (std::size_t i = 0; i < around.size(); ++i)
         for (std::int32_t v : facets[around[i]])
-            if (v != vertex) spokes.emplace_back(v, i);
+            if (v != vertex) spokes.emplace_back(v, static_cast<std::int32_t>(i));
     std::sort(spokes.begin(), spokes.end());
-    std::vector<std::size_t> fan(around.size());  // a facet of the same fan, itself for one of each
-    std::iota(fan.begin(), fan.end(), std::size_t{0});
-    const auto first_of = [&](std::size_t i) {
-        while (fan[i] != i) i = fan[i] = fan[fan[i]];
-        return i;
-    };
-    std::vector<std::size_t> at_gap;
+    UnionFind fans(around.size());
+    std::vector<std::int32_t> at_gap;
     for (std::size_t i = 0, j = 0; i < spokes.size(); i = j) {
-        while (j < spokes.size() && spokes[j].first == spokes[i].first)
-            fan[first_of(spokes[j++].second)] = first_of(spokes[i].second);
+        while (j < spokes.size() && spokes[j].first == spokes[i].first) fans.join(spokes[j++].second, spokes[i].second);
         if (j == i + 1) at_gap.push_back(spokes[i].second);
     }
     std::vector<char> has_gap(around.size(), 0);
-    for (const std::size_t i : at_gap) has_gap[first_of(i)] = 1;
+    for (const std::int32_t i : at_gap) has_gap[fans.root(i)] = 1;
     std::size_t whole = 0;
-    for (std::size_t i = 0; i < fan.size(); ++i) whole += first_of(i) == i && !has_gap[i];
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(around.size()); ++i)
+        whole += fans.root(i) == i && !has_gap[i];
     return whole + (at_gap.empty() ? 0 : 1) > 1;
 }
 
@@ -133,17 +128,9 @@ Pairing pair_corners(std::size_t vertex_count, const std::vector<Triangle>& face
 }
 
 const char* name(ManifoldDefect::Kind kind) {
-    switch (kind) {
-        case ManifoldDefect::Kind::open_edge:
-            return "an open edge";
-        case ManifoldDefect::Kind::edge_orientation:
-            return "an edge with facets of opposite orientation";
-        case ManifoldDefect::Kind::non_manifold_edge:
-            return "a non-manifold edge";
-        case ManifoldDefect::Kind::non_manifold_vertex:
-            return "a non-manifold vertex";
-    }
-    return "";
+    constexpr std::array names = {"an open edge", "an edge with facets of opposite orientation", "a non-manifold edge",
+                                  "a non-manifold vertex"};
+    return names[static_cast<std::size_t>(kind)];
 }
 
 // OpenMesh's own add_face searches for existing edges; with the partners known the connectivity is written directly.

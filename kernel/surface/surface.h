@@ -12,7 +12,7 @@
 
 #include "core/check.h"
 #include "core/types.h"
-#include "surface/union_find.h"
+#include "geometry/union_find.h"
 
 namespace kerf {
 

@@ -1,14 +1,14 @@
 // What of a set of triangles is near a point: a hierarchy of boxes over triangles.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
-#include <Eigen/Geometry>
-
-#include "core/types.h"
+#include "geometry/box_hierarchy.h"
+#include "geometry/ray.h"
 
 namespace kerf {
 
@@ -37,24 +37,12 @@ class TriangleTree {
     /// returns true. Returns whether it did.
     template <class Accept>
     bool any_within(const Vec3& p, double radius, Accept accept) const {
-        std::int32_t open[64];
-        int count = 0;
-        open[count++] = 0;
         const double limit = radius * radius;
-        while (count > 0) {
-            const Node& node = nodes_[open[--count]];
-            if (node.box.squaredExteriorDistance(p) > limit) continue;
-            if (node.left > 0) {
-                open[count++] = node.left + 1;
-                open[count++] = node.left;
-                continue;
-            }
-            for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-                const double squared = squared_distance(p, i);
-                if (squared <= limit && accept(order_[i], squared)) return true;
-            }
-        }
-        return false;
+        return hierarchy_.any([&](const BoxNode& node) { return !(node.box.squaredExteriorDistance(p) > limit); },
+                              [&](std::int32_t i) {
+                                  const double squared = squared_distance(p, i);
+                                  return squared <= limit && accept(order_[i], squared);
+                              });
     }
 
     /// Distance along the ray from `origin` in `direction` (any length, which is the unit of the distance) to the first
@@ -62,23 +50,17 @@ class TriangleTree {
     /// edges may pass.
     template <class Accept>
     double first_hit(const Vec3& origin, const Vec3& direction, double from, double to, Accept accept) const {
-        std::int32_t open[64];
-        int count = 0;
-        open[count++] = 0;
         double nearest = std::numeric_limits<double>::infinity();
-        while (count > 0) {
-            const Node& node = nodes_[open[--count]];
-            if (!ray_meets(node.box, origin, direction, from, std::min(to, nearest))) continue;
-            if (node.left > 0) {
-                open[count++] = node.left + 1;
-                open[count++] = node.left;
-                continue;
-            }
-            for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-                const double t = ray_distance(i, origin, direction);
-                if (t > from && t < to && t < nearest && accept(order_[i])) nearest = t;
-            }
-        }
+        const auto may_be_hit = [&](const BoxNode& node) {
+            const RayPiece piece = piece_in_box(node.box, origin, direction, {from, std::min(to, nearest)});
+            return piece.from <= piece.to;
+        };
+        hierarchy_.any(may_be_hit, [&](std::int32_t i) {
+            const auto& [a, b, c] = corners_[i];
+            const double t = line_triangle_distance(origin, direction, a, b, c);
+            if (t > from && t < to && t < nearest && accept(order_[i])) nearest = t;
+            return false;
+        });
         return nearest;
     }
 
@@ -86,21 +68,12 @@ class TriangleTree {
     const std::array<Vec3, 3>& corners(std::int32_t facet) const { return corners_[place_[facet]]; }
 
  private:
-    struct Node {
-        Eigen::AlignedBox3d box;    // of all below
-        std::int32_t first, count;  // of corners_
-        std::int32_t left = 0;      // 0: a leaf; the other child follows it
-    };
-    void split(std::size_t node, const std::vector<Eigen::AlignedBox3d>& boxes);
     double squared_distance(const Vec3& p, std::int32_t place) const;
-    double ray_distance(std::int32_t place, const Vec3& origin, const Vec3& direction) const;
-    static bool ray_meets(const Eigen::AlignedBox3d& box, const Vec3& origin, const Vec3& direction, double from,
-                          double to);
 
     std::vector<std::array<Vec3, 3>> corners_;  // in the order of the leaves; several times where pieces have boxes
     std::vector<std::int32_t> order_;           // their facets
     std::vector<std::int32_t> place_;           // of each facet, somewhere in order_
-    std::vector<Node> nodes_;
+    BoxHierarchy<> hierarchy_;
 };
 
 }  // namespace kerf

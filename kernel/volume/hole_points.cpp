@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "core/error.h"
+#include "geometry/triangle.h"
 #include "surface/mass_properties.h"
 #include "surface/ray_parity.h"
 #include "volume/mesher.h"
@@ -55,10 +56,7 @@ int winding_number(const NestedShells& nested, const std::vector<std::int32_t>& 
 }
 
 // Twice the area vector of a facet; it points out of the material.
-Vec3 normal(const SurfaceArrays& surface, const Triangle& t) {
-    const Vec3& a = surface.vertices[t[0]];
-    return (surface.vertices[t[1]] - a).cross(surface.vertices[t[2]] - a);
-}
+Vec3 normal(const SurfaceArrays& surface, const Triangle& t) { return doubled_area_vector(surface.vertices, t); }
 
 std::vector<Triangle> largest_facets(const SurfaceArrays& surface, const Shell& shell, std::size_t count) {
     std::vector<double> area_sq(shell.facets.size());

@@ -9,6 +9,7 @@
 
 #include "core/cube_root.h"
 #include "core/error.h"
+#include "geometry/triangle.h"
 #include "lattice/lattice_core.h"
 #include "shell/shell.h"
 #include "volume/meshers.h"
@@ -46,9 +47,7 @@ double angle_to_improve_deg(const SurfaceArrays& surface, const MesherOptions& o
     const double usual_deg = ImproveOptions().threshold_deg;
     if (options.size.is_empty() || !options.size.is_constant()) return usual_deg;
     std::vector<double> areas;
-    for (const auto& [a, b, c] : surface.facets)
-        areas.push_back(
-            (surface.vertices[b] - surface.vertices[a]).cross(surface.vertices[c] - surface.vertices[a]).norm() / 2);
+    for (const Triangle& t : surface.facets) areas.push_back(triangle_area(surface.vertices, t));
     const auto median = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 2);
     std::nth_element(areas.begin(), median, areas.end());
     const double height = 3 * options.size.reference_volume() / *median;

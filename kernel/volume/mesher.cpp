@@ -1,10 +1,9 @@
 // Checks the options and hands the surface to the mesher that they name.
 #include "volume/mesher.h"
 
-#include <chrono>
-
 #include "core/check.h"
 #include "core/error.h"
+#include "core/stopwatch.h"
 #include "volume/meshers.h"
 
 namespace kerf {
@@ -16,12 +15,12 @@ void check_mesher_options(const MesherOptions& options) {
 
 void improve_filling(Filling& filling, const MesherOptions& options, double threshold_deg) {
     if (!options.improve || !options.tetgen.switches.empty()) return;
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     filling.improvement.add(
         improve(filling.mesh, {.threshold_deg = threshold_deg,
                                .max_size = options.size,
                                .adds_vertices = options.radius_edge > 0 || !options.size.is_empty()}));
-    filling.improve_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    filling.improve_seconds += stopwatch.seconds();
 }
 
 Filling mesh_volume(const SurfaceArrays& surface, const MesherOptions& options) {

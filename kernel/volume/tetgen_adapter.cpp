@@ -19,6 +19,7 @@
 #include <Eigen/Geometry>
 
 #include "core/error.h"
+#include "geometry/box.h"
 
 // The packaged terminatetetgen() frees memory that is freed again while its exception unwinds. It is a weak symbol, and
 // the definition below takes its place also inside the library.
@@ -40,8 +41,7 @@ struct Normalisation {
     int exponent;  // h = 2^exponent
 
     explicit Normalisation(const std::vector<Vec3>& vertices) {
-        Eigen::AlignedBox3d box;
-        for (const Vec3& p : vertices) box.extend(p);
+        const Box box = box_around(vertices);
         std::frexp(box.sizes().maxCoeff(), &exponent);
         const double unit = std::ldexp(1.0, exponent);
         centre = (box.center() / unit).unaryExpr([](double x) { return std::trunc(x); }) * unit;

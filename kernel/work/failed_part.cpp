@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "core/error.h"
+#include "geometry/box.h"
 #include "io/text_file.h"
 #include "volume/meshers.h"
 
@@ -15,8 +16,7 @@ namespace {
 
 // The bounding box.
 std::string place_of(const SurfaceArrays& surface) {
-    Eigen::AlignedBox3d box;
-    for (const Vec3& p : surface.vertices) box.extend(p);
+    const Box box = box_around(surface.vertices);
     return fmt::format("between ({:.6g}, {:.6g}, {:.6g}) and ({:.6g}, {:.6g}, {:.6g})", box.min().x(), box.min().y(),
                        box.min().z(), box.max().x(), box.max().y(), box.max().z());
 }

@@ -1,12 +1,11 @@
 #include "work/part_job.h"
 
-#include <chrono>
-
 #include <fmt/format.h>
 
 #include "core/elements.h"
 #include "core/error.h"
 #include "core/record.h"
+#include "core/stopwatch.h"
 #include "io/checked_file.h"
 #include "io/file_bytes.h"
 #include "part/vtu_reader.h"
@@ -17,18 +16,14 @@ namespace kerf {
 
 namespace {
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 // Runs a stage and adds its wall clock to `seconds`.
 template <class Stage>
 auto timed(double& seconds, Stage stage) {
-    struct Stopwatch {
+    struct AddAtEnd {
         double& seconds;
-        std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-        ~Stopwatch() { seconds += seconds_since(start); }
-    } stopwatch{seconds};
+        Stopwatch stopwatch = {};
+        ~AddAtEnd() { seconds += stopwatch.seconds(); }
+    } timer{seconds};
     return stage();
 }
 
@@ -63,12 +58,6 @@ ImprovedAngles::ImprovedAngles(const Improvement& improvement, const PartQuality
     p1_before_deg = was.percentile(0.01);
     min_after_deg = is.min();
     p1_after_deg = is.percentile(0.01);
-}
-
-Eigen::AlignedBox3d box_of(const PartJob& job) {
-    Eigen::AlignedBox3d box;
-    for (const Vec3& p : job.surface.vertices) box.extend(p);
-    return box;
 }
 
 Part part_of_job(const PartJob& job) {

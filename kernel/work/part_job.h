@@ -32,9 +32,6 @@ struct PartJob {
     }
 };
 
-/// Around its surface.
-Eigen::AlignedBox3d box_of(const PartJob& job);
-
 /// The part as it is before it is meshed: its boundary alone.
 Part part_of_job(const PartJob& job);
 /// The same with its cells, of which the boundary is the job's surface. Interior vertices have no global numbers yet:
@@ -61,6 +58,11 @@ struct ImprovedAngles {
     ImprovedAngles() = default;
     ImprovedAngles(const Improvement& improvement, const PartQuality& after);
     bool known() const { return min_after_deg > 0; }
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(min_before_deg, p1_before_deg, min_after_deg, p1_after_deg);
+    }
 };
 
 /// What the parent keeps of a part; the mesh itself goes from the worker to its file.

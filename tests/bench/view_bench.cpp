@@ -1,7 +1,6 @@
 // How fast the viewer is without a graphics card: medians of whole frames (panels, scene, picking nothing) at 1280x800,
 // the change from one step to another, and the first picture of a surface.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -9,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/stopwatch.h"
 #include "support/assets.h"
 #include "support/write_off.h"
 #include "viewer/driver.h"
@@ -17,16 +17,6 @@ namespace kerf::test {
 namespace {
 
 using namespace view;
-
-class Stopwatch {
- public:
-    double milliseconds() const {
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-    }
-
- private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 double median(std::vector<double> values) {
     std::nth_element(values.begin(), values.begin() + std::ssize(values) / 2, values.end());
@@ -60,7 +50,7 @@ double frame_time(Driver& driver, int frames) {
         driver.state().camera = camera;
         const Stopwatch stopwatch;
         driver.frame();
-        times.push_back(stopwatch.milliseconds());
+        times.push_back(1000 * stopwatch.seconds());
     }
     return median(times);
 }
@@ -75,7 +65,7 @@ void time_first_picture() {
             driver.app().wait(0.01);
             driver.frame();
         }
-        times.push_back(stopwatch.milliseconds());
+        times.push_back(1000 * stopwatch.seconds());
     }
     report("first picture, bearing cap, 52 k facets", median(times), 1000);
 }
@@ -92,7 +82,7 @@ void time_steps() {
             driver.state().step = step;
             const Stopwatch stopwatch;
             driver.frame();
-            times.push_back(stopwatch.milliseconds());
+            times.push_back(1000 * stopwatch.seconds());
             driver.settle();
         }
         report(first ? "step change, for the first time, median" : "step change, again, median", median(times), 50);

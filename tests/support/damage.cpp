@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
+#include "geometry/predicates.h"
 #include "support/shapes.h"
 #include "surface/intersections.h"
 
@@ -34,7 +35,7 @@ void add_facet(Soup& soup, const Triangle& facet) {
 // A tetrahedron of vertices that are there; normals point out of it.
 void add_tetrahedron(Soup& soup, std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
     const auto& p = soup.vertices;
-    if (orientation_sign(p[a], p[b], p[c], p[d]) < 0) std::swap(c, d);
+    if (orientation(p[a], p[b], p[c], p[d]) < 0) std::swap(c, d);
     for (const Triangle& t : {Triangle{a, c, b}, Triangle{a, b, d}, Triangle{a, d, c}, Triangle{b, c, d}})
         add_facet(soup, t);
 }

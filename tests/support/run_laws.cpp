@@ -8,9 +8,9 @@
 
 #include <Eigen/Geometry>
 
+#include "geometry/predicates.h"
 #include "support/face.h"
 #include "surface/facet_cover.h"
-#include "surface/intersections.h"
 #include "surface/mass_properties.h"
 
 namespace kerf::test {
@@ -98,7 +98,7 @@ void RunLaws::check_tetrahedra(const Part& part) {
     std::vector<Face> faces, facets;
     for (const Tetrahedron& t : part.mesh.tets) {
         const std::vector<Vec3>& p = part.mesh.vertices;
-        inverted += orientation_sign(p[t[0]], p[t[1]], p[t[2]], p[t[3]]) <= 0;
+        inverted += orientation(p[t[0]], p[t[1]], p[t[2]], p[t[3]]) <= 0;
         for (const auto& [i, j, k] : tet_faces) faces.push_back(rotated({t[i], t[j], t[k]}));
     }
     for (const Triangle& t : part.facets) facets.push_back(rotated({t[0], t[1], t[2]}));

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "core/error.h"
+#include "geometry/box.h"
 
 namespace kerf::view {
 
@@ -48,9 +49,7 @@ std::string twice(const std::string& number) {
 }
 
 double diagonal_of_soup(const Soup& soup) {
-    Eigen::AlignedBox3d box;
-    for (const Vec3& p : soup.vertices)
-        if (p.allFinite()) box.extend(p);
+    const Box box = box_around_finite(soup.vertices);
     return box.isEmpty() ? 0 : box.diagonal().norm();
 }
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "cut/angles.h"
+#include "geometry/angles.h"
 
 namespace kerf::view {
 

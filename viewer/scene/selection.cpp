@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
+#include "geometry/angles.h"
 #include "mesh/quality.h"
 #include "mesh/tet_mesh.h"
 #include "viewer/model/line_of_sight.h"
@@ -26,15 +27,6 @@ std::int32_t nearest_vertex(const std::vector<Vec3>& vertices, const Indices& co
         return (vertices[static_cast<std::size_t>(a)] - point).squaredNorm() <
                (vertices[static_cast<std::size_t>(b)] - point).squaredNorm();
     });
-}
-
-double smallest_angle_deg(const std::array<Vec3, 3>& p) {
-    double smallest = 180;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3 a = p[(i + 1) % 3] - p[i], b = p[(i + 2) % 3] - p[i];
-        smallest = std::min(smallest, std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / M_PI);
-    }
-    return smallest;
 }
 
 // Facets that share two vertices with one.
@@ -87,7 +79,7 @@ std::string describe_facet(Session& session, const NodeSurface& surface, NodeId 
                         surface.vertex_number.empty() ? static_cast<std::int64_t>(v) : surface.vertex_number[v], p[k]);
     }
     text += fmt::format("area {:.6g}, smallest angle {:.2f} deg\n", (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2,
-                        smallest_angle_deg(p));
+                        smallest_angle_degrees(p));
     return text + fmt::format("neighbours {}\n", fmt::join(neighbours_of(surface, facet), ", "));
 }
 

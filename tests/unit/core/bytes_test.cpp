@@ -53,6 +53,26 @@ PartJob job() {
     return job;
 }
 
+// Four bytes of it, or of each in an array, would be whatever was in memory.
+struct Padded {
+    std::int32_t number = 0;
+    double value = 0;
+    template <class Archive>
+    void archive(Archive& a) {
+        a(number, value);
+    }
+    bool operator==(const Padded&) const = default;
+};
+static_assert(!HasNoPadding<Padded>::value && !HasNoPadding<std::array<Padded, 2>>::value);
+static_assert(HasNoPadding<Vec3>::value && HasNoPadding<std::array<Triangle, 2>>::value && HasNoPadding<bool>::value);
+
+TEST(Bytes, HaveNoPadding) {
+    const std::vector<Padded> values = {{1, 0.5}, {-2, 1e300}};
+    const Bytes bytes = to_bytes(values);
+    EXPECT_EQ(bytes.size(), sizeof(std::uint64_t) + 2 * (sizeof(std::int32_t) + sizeof(double)));
+    EXPECT_EQ(from_bytes<std::vector<Padded>>(bytes), values);
+}
+
 TEST(Bytes, RoundTrip) {
     EXPECT_EQ(from_bytes<Outer>(to_bytes(sample())), sample());
     EXPECT_EQ(from_bytes<Outer>(to_bytes(Outer())), Outer());

@@ -16,7 +16,7 @@ void expect_same_as_brute_force(const std::vector<PlanarBox>& boxes, std::mt1993
         const PlanarBox query{low, low + Vec2(size(random), size(random)) * (q % 3)};
         std::vector<int> visits(boxes.size(), 0), expected(boxes.size(), 0);
         grid.for_each_overlap(query, [&](std::int32_t i) { ++visits[i]; });
-        for (std::size_t i = 0; i < boxes.size(); ++i) expected[i] = boxes[i].overlaps(query);
+        for (std::size_t i = 0; i < boxes.size(); ++i) expected[i] = boxes[i].intersects(query);
         ASSERT_EQ(visits, expected) << "query " << q;
     }
 }

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "geometry/triangle.h"
 #include "support/shapes.h"
 #include "surface/facet_cover.h"
 
@@ -18,7 +19,6 @@ namespace {
 using Corners = std::array<Vec3, 3>;
 
 Corners corners_of(const Triangle& t, const std::vector<Vec3>& p) { return {p[t[0]], p[t[1]], p[t[2]]}; }
-Vec3 area_vector(const Corners& t) { return (t[1] - t[0]).cross(t[2] - t[0]) / 2; }
 
 Triangle rotated(Triangle t) {
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "delaunay/delaunay.h"
-#include "delaunay/predicates.h"
+#include "geometry/predicates.h"
 #include "support/point_sets.h"
 
 namespace kerf {

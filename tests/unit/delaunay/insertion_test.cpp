@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 #include "delaunay/delaunay.h"
-#include "delaunay/predicates.h"
+#include "geometry/predicates.h"
 #include "support/point_sets.h"
 
 namespace kerf {

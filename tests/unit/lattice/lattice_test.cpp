@@ -11,10 +11,10 @@
 #include <Eigen/Geometry>
 
 #include "core/error.h"
+#include "geometry/closest_point.h"
 #include "lattice/lattice_core.h"
 #include "support/face.h"
 #include "support/shapes.h"
-#include "surface/closest_point.h"
 
 namespace kerf {
 namespace {

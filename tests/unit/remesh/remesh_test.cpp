@@ -11,10 +11,10 @@
 #include <Eigen/Geometry>
 
 #include "core/error.h"
+#include "geometry/closest_point.h"
 #include "prepare/remeshing.h"
 #include "support/shapes.h"
 #include "support/slice.h"
-#include "surface/closest_point.h"
 #include "surface/intersections.h"
 #include "surface/mass_properties.h"
 #include "surface/triangle_tree.h"

@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "delaunay/delaunay.h"
 #include "delaunay/faces.h"
-#include "delaunay/predicates.h"
+#include "geometry/predicates.h"
 #include "lattice/lattice_core.h"
 #include "mesh/verification.h"
 #include "shell/face_recovery.h"

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "geometry/predicates.h"
 #include "support/shapes.h"
 #include "surface/orientation.h"
 
@@ -195,7 +196,7 @@ TEST(FindSelfIntersections, AgreesWithAllPairs) {
         while (facets.size() < 80) {
             const auto pick = [&] { return static_cast<std::int32_t>(choice() % vertices.size()); };
             const Triangle t = {pick(), pick(), pick()};
-            if (!collinear(vertices[t[0]], vertices[t[1]], vertices[t[2]])) facets.push_back(t);
+            if (!are_collinear(vertices[t[0]], vertices[t[1]], vertices[t[2]])) facets.push_back(t);
         }
         const auto corners = [&](const Triangle& t) { return Corners{vertices[t[0]], vertices[t[1]], vertices[t[2]]}; };
         std::vector<std::pair<std::int32_t, std::int32_t>> expected;
@@ -287,9 +288,10 @@ TEST(ExactPredicates, FollowTheSignOfTheDeterminant) {
         const Lattice a = random.point(), b = random.point(), c = random.point(), d = random.point();
         const std::int64_t det = (b - a).dot((c - a).cross(d - a));
         const int sign = (det > 0) - (det < 0);
-        ASSERT_EQ(orientation_sign(a.cast<double>(), b.cast<double>(), c.cast<double>(), d.cast<double>()), sign)
+        ASSERT_EQ(orientation(a.cast<double>(), b.cast<double>(), c.cast<double>(), d.cast<double>()), sign)
             << "seed 23, " << i;
-        ASSERT_EQ(collinear(a.cast<double>(), b.cast<double>(), c.cast<double>()), RandomTriangles::is_flat({a, b, c}))
+        ASSERT_EQ(are_collinear(a.cast<double>(), b.cast<double>(), c.cast<double>()),
+                  RandomTriangles::is_flat({a, b, c}))
             << "seed 23, " << i;
     }
 }

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "geometry/closest_point.h"
 #include "support/shapes.h"
-#include "surface/closest_point.h"
 #include "surface/mass_properties.h"
 
 namespace kerf {

@@ -1,5 +1,6 @@
-#include "surface/box_tree.h"
+#include "geometry/box_tree.h"
 
+#include <numeric>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -38,6 +39,34 @@ TEST(BoxTree, FindsTheBoxesAroundEachBoxAndThoseThatMeetIt) {
         for (std::size_t i = 0; i < count; ++i) {
             const std::vector<std::int32_t> around = tree.around(boxes[i]);
             EXPECT_TRUE(std::binary_search(around.begin(), around.end(), static_cast<std::int32_t>(i)));
+        }
+    }
+}
+
+// By the distances of the boxes, all of them and in the tree, whichever of equal ones is looked at first.
+TEST(BoxHierarchy, FindsTheLeastAndStopsWhereItIsTold) {
+    std::mt19937 random(2);
+    for (const std::size_t count : {0, 1, 5, 300}) {
+        const std::vector<Box> boxes = some_boxes(random, count);
+        std::vector<std::int32_t> order(count);
+        std::iota(order.begin(), order.end(), 0);
+        const BoxHierarchy<> hierarchy = make_hierarchy(boxes, order);
+        for (const Box& from : some_boxes(random, 50)) {
+            const Vec3 p = from.min() + Vec3::Constant(0.5);
+            double expected = 7;
+            for (const Box& box : boxes) expected = std::min(expected, box.exteriorDistance(p));
+            const auto of_node = [&](const BoxNode& node) { return node.box.exteriorDistance(p); };
+            const auto of_item = [&](std::int32_t item) { return boxes[order[item]].exteriorDistance(p); };
+            EXPECT_EQ(hierarchy.least(7, of_node, of_item), expected);
+            EXPECT_EQ(hierarchy.least<FirstOfEqual::right>(7, of_node, of_item), expected);
+            const auto is_within = [&](const BoxNode& node) { return of_node(node) <= expected; };
+            EXPECT_EQ(hierarchy.any(is_within, [&](std::int32_t item) { return of_item(item) == expected; }),
+                      expected < 7 || (count > 0 && of_node(hierarchy.nodes()[0]) == 7));
+            std::vector<std::int32_t> seen;
+            const auto all = [](const BoxNode&) { return true; };
+            EXPECT_FALSE(hierarchy.any(all, [&](std::int32_t item) { return seen.push_back(item), false; }));
+            EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+            EXPECT_EQ(seen.size(), count);
         }
     }
 }

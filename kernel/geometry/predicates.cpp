@@ -1,14 +1,14 @@
 // Coordinates that have few bits between their highest and their lowest one are integers, in a unit that fits; so are
 // those of most points in regular position, among which ties are frequent. CGAL's predicates serve the others: they try
 // interval arithmetic before they go to numbers of any length.
-#include "delaunay/predicates.h"
+#include "geometry/predicates.h"
 
 #include <bit>
 #include <optional>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
-#include "delaunay/wide_integer.h"
+#include "geometry/wide_integer.h"
 
 namespace kerf {
 

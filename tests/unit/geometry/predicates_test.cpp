@@ -1,11 +1,11 @@
-#include "delaunay/predicates.h"
+#include "geometry/predicates.h"
 
 #include <random>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <gtest/gtest.h>
 
-#include "delaunay/wide_integer.h"
+#include "geometry/wide_integer.h"
 #include "support/point_sets.h"
 
 namespace kerf {
@@ -59,6 +59,19 @@ TEST(Predicates, OrientationIsThatOfCgal) {
         ++seen[sign + 1];
     });
     for (const int count : seen) EXPECT_GT(count, 1000) << "seed " << predicate_seed;
+}
+
+TEST(Predicates, OrientationChangesWithTheOrderAlone) {
+    for_many_points([&](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3&) {
+        const int sign = orientation(a, b, c, d);
+        ASSERT_EQ(orientation(b, a, c, d), -sign);
+        ASSERT_EQ(orientation(a, b, d, c), -sign);
+        ASSERT_EQ(orientation(b, c, a, d), sign);
+        ASSERT_EQ(orientation(d, c, b, a), sign);
+        if (are_collinear(a, b, c)) {
+            ASSERT_EQ(sign, 0);
+        }
+    });
 }
 
 TEST(Predicates, InSphereIsThatOfCgalWhereThereIsNoTie) {

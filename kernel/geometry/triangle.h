@@ -1,0 +1,33 @@
+// Areas and normals of triangles.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "core/types.h"
+
+namespace kerf {
+
+/// (b - a) x (c - a): normal to the triangle, counter-clockwise seen from where it points to, twice its area long.
+inline Vec3 doubled_area_vector(const Vec3& a, const Vec3& b, const Vec3& c) { return (b - a).cross(c - a); }
+inline Vec3 doubled_area_vector(const std::array<Vec3, 3>& corners) {
+    return doubled_area_vector(corners[0], corners[1], corners[2]);
+}
+inline Vec3 doubled_area_vector(const std::vector<Vec3>& vertices, const Triangle& t) {
+    return doubled_area_vector(vertices[t[0]], vertices[t[1]], vertices[t[2]]);
+}
+
+/// The normal as long as the area. `triangle`: whatever doubled_area_vector() takes.
+template <class... Corners>
+Vec3 area_vector(const Corners&... triangle) {
+    return doubled_area_vector(triangle...) / 2;
+}
+
+template <class... Corners>
+double triangle_area(const Corners&... triangle) {
+    return doubled_area_vector(triangle...).norm() / 2;
+}
+
+}  // namespace kerf
