@@ -110,7 +110,7 @@ SolveLine parse_solve_line(int argc, const char* const* argv) {
     RunOptions& mesh = line.request.mesh;
     add_run_options(*solve, mesh);
     put_help_last(*solve, option_group::running);
-    if (const auto answer = document(app, argc, argv, version)) {
+    if (const auto answer = answer_before_parsing(app, argc, argv, version)) {
         finish(line, *answer);
         return line;
     }

@@ -29,6 +29,21 @@ std::string section(const std::string& name, const std::vector<OptionHelp>& opti
 
 }  // namespace
 
+std::string short_help_text(CommandHelp command, const std::vector<std::string>& common) {
+    OptionGroup chosen = {"Options", {}};
+    std::vector<std::string> wanted = common;
+    wanted.insert(wanted.end(), {"h", "help"});
+    std::size_t all = 0;
+    for (const OptionGroup& group : command.groups) all += group.options.size();
+    for (const std::string& name : wanted)
+        for (const OptionGroup& group : command.groups)
+            for (const OptionHelp& option : group.options)
+                if (option.names.back() == (name.size() == 1 ? "-" : "--") + name) chosen.options.push_back(option);
+    command.groups.assign(1, std::move(chosen));
+    command.footer = fmt::format("{} --help lists all {} options.", command.name, all);
+    return help_text(command);
+}
+
 std::string help_text(const CommandHelp& command) {
     std::string text = "Usage: " + wrapped(usage_of(command), 7) + "\n" + wrapped(command.text, 0) + "\n";
     if (!command.positionals.empty()) text += section("Arguments", command.positionals);

@@ -15,9 +15,6 @@ namespace kerf {
 
 namespace {
 
-constexpr const char* help_names = "-h,--help";
-constexpr const char* help_of_help = "Print this help and end.";
-
 Answer man_page_of(const CLI::App& app, const std::string& name, const std::string& version) {
     const CLI::App* command = name == app.get_name() ? &app : find_command(app, name);
     if (!command) return {static_cast<int>(ErrorCode::usage), fmt::format("kerf: '{}' is not a command.\n", name)};
@@ -38,13 +35,21 @@ Answer completion_of(const CLI::App& app, const std::string& shell, const OtherC
 }  // namespace
 
 void use_help_text(CLI::App& app) {
-    app.set_help_flag(help_names, help_of_help);
+    app.set_help_flag("-h,--help", "Print this help and end.");
     app.formatter_fn(
         [](const CLI::App* command, const std::string&, CLI::AppFormatMode) { return help_text(describe(*command)); });
 }
 
-void put_help_last(CLI::App& command, const std::string& group) {
-    command.set_help_flag(help_names, help_of_help)->group(group);
+void put_help_last(CLI::App& command, const std::string& group, const std::vector<std::string>& common) {
+    if (common.empty()) {
+        command.set_help_flag("-h,--help", "Print this help and end.")->group(group);
+        return;
+    }
+    command.set_help_flag("-h", "Print the options that most people need and end.")->group(group);
+    command.set_help_all_flag("--help", "Print all options and end.")->group(group);
+    command.formatter_fn([common](const CLI::App* app, const std::string&, CLI::AppFormatMode mode) {
+        return mode == CLI::AppFormatMode::All ? help_text(describe(*app)) : short_help_text(describe(*app), common);
+    });
 }
 
 Answer answer_to(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv) {
@@ -53,12 +58,11 @@ Answer answer_to(const CLI::App& app, const CLI::ParseError& error, int argc, co
     return {static_cast<int>(ErrorCode::usage), "kerf: " + usage_error(app, error, argc, argv) + "\n"};
 }
 
-std::optional<Answer> document(const CLI::App& app, int argc, const char* const* argv, const std::string& version,
-                               const OtherCompletions& others) {
-    if (argc != 3) return std::nullopt;
-    const std::string asked = argv[1], about = argv[2];
-    if (asked == "--man") return man_page_of(app, about, version);
-    if (asked == "--completion") return completion_of(app, about, others);
+std::optional<Answer> answer_before_parsing(const CLI::App& app, int argc, const char* const* argv,
+                                            const std::string& version, const OtherCompletions& others) {
+    const std::string asked = argc == 3 ? argv[1] : "";
+    if (asked == "--man") return man_page_of(app, argv[2], version);
+    if (asked == "--completion") return completion_of(app, argv[2], others);
     return std::nullopt;
 }
 

@@ -44,22 +44,56 @@ std::vector<std::string> option_names(const CLI::App& app) {
     return names;
 }
 
-// The first argument that looks like an option, but is neither one of `app` nor the value of one; or empty.
-std::string unknown_option(const CLI::App& app, int first, int argc, const char* const* argv) {
+// The option of an argument with one dash that takes the rest of it, or the next ones, as its value: that of -qn4 or
+// -qn. Of flags alone it is the last one. None if a letter is no option.
+const CLI::Option* last_of_letters(const CLI::App& app, const std::string& argument) {
+    const CLI::Option* option = nullptr;
+    for (std::size_t i = 1; i < argument.size(); ++i) {
+        option = app.get_option_no_throw(std::string("-") + argument[i]);
+        if (!option || option->get_items_expected_max() > 0) break;
+    }
+    return option;
+}
+
+bool is_option_like(const std::string& argument) {
+    return argument.size() > 1 && argument[0] == '-' &&
+           (argument[1] == '-' || std::isalpha(static_cast<unsigned char>(argument[1])));
+}
+
+struct WrittenOption {
+    std::string name;                     // with its dashes
+    std::string value;                    // the first one
+    const CLI::Option* option = nullptr;  // of the command; null: it has none of this name
+};
+
+// What looks like an option and is not the value of one.
+std::vector<WrittenOption> written_options(const CLI::App& command, int first, int argc, const char* const* argv) {
+    std::vector<WrittenOption> written;
     for (int i = first; i < argc; ++i) {
         const std::string argument = argv[i], name = argument.substr(0, argument.find('='));
         if (name == "--") break;
-        if (!name.starts_with('-')) continue;
-        if (const CLI::Option* option = app.get_option_no_throw(name))
-            i += name == argument ? option->get_items_expected_min() : 0;
-        else if (name.starts_with("--"))
-            return name;
+        if (!is_option_like(argument)) continue;
+        const bool is_long = name.starts_with("--");
+        const CLI::Option* option = is_long ? command.get_option_no_throw(name) : last_of_letters(command, argument);
+        const bool has_value =
+            is_long ? name != argument : option && !option->check_sname(argument.substr(argument.size() - 1));
+        const std::string behind = i + 1 < argc ? argv[i + 1] : "";
+        written.push_back({name, has_value && is_long ? argument.substr(name.size() + 1) : behind, option});
+        if (option && !has_value) i += option->get_items_expected_min();
     }
-    return "";
+    return written;
 }
 
-// A file or a folder in place of a command.
-std::string meant_with(const std::string& word, const CLI::App& app) {
+// The first one that is no option; or empty.
+std::string unknown_option(const std::vector<WrittenOption>& written) {
+    const auto unknown =
+        std::find_if(written.begin(), written.end(), [](const WrittenOption& one) { return !one.option; });
+    return unknown == written.end() ? "" : unknown->name;
+}
+
+}  // namespace
+
+std::string unknown_command(const CLI::App& app, const std::string& word) {
     std::error_code ignored;
     if (std::filesystem::is_directory(word, ignored))
         return fmt::format(
@@ -75,6 +109,8 @@ std::string meant_with(const std::string& word, const CLI::App& app) {
     return fmt::format("'{}' is not a command.{} Run kerf --help for the commands.", word,
                        did_you_mean(word, command_names(app)));
 }
+
+namespace {
 
 // What stands before the first of these words.
 std::string before(const std::string& text, std::initializer_list<const char*> words) {
@@ -93,6 +129,12 @@ std::string word_for(const CLI::Option& option, const CLI::App& command) {
     return option.get_name();
 }
 
+// A positional is called what the usage line calls it.
+std::string name_for(const std::string& name, const CLI::App& command) {
+    const CLI::Option* option = command.get_option_no_throw(name);
+    return option && option->get_positional() ? option->get_type_name() : name;
+}
+
 std::string lacking(const std::string& name, const CLI::App& command, const std::string& full_name) {
     const CLI::Option* option = command.get_option_no_throw(name);
     if (!option) return fmt::format("{} needs {}.", full_name, name);
@@ -107,8 +149,8 @@ std::string sentence(const CLI::ParseError& error, const CLI::App& command, cons
         return fmt::format("Which command? There are {}.", fmt::join(command_names(command), ", "));
     if (kind == "RequiredError") return lacking(name, command, full_name);
     if (kind == "ExcludesError")
-        return fmt::format("{} and {} do not go together. Leave one of them out.", name,
-                           text.substr(text.rfind(' ') + 1));
+        return fmt::format("{} and {} do not go together. Leave one of them out.", name_for(name, command),
+                           name_for(text.substr(text.rfind(' ') + 1), command));
     if (text.starts_with("The following argument"))  // its kind is the name of the command
         return fmt::format("{} takes no further arguments, but there is {}.", full_name,
                            text.substr(text.find(": ") + 2));
@@ -140,10 +182,10 @@ const CLI::App* find_command(const CLI::App& app, const std::string& name) {
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv) {
     const std::string word = argc > 1 ? argv[1] : "";
     const CLI::App* command = find_command(app, word);
-    if (!command && !word.empty() && !word.starts_with('-')) return meant_with(word, app);
+    if (!command && !word.empty() && !word.starts_with('-')) return unknown_command(app, word);
     const std::string name = command ? "kerf " + word : "kerf";
     const CLI::App& asked = command ? *command : app;
-    const std::string option = unknown_option(asked, command ? 2 : 1, argc, argv);
+    const std::string option = unknown_option(written_options(asked, command ? 2 : 1, argc, argv));
     if (option.empty()) return sentence(error, asked, name) + "\n" + way_on(asked, name);
     return fmt::format("'{}' is not an option of {}.{} Run {} --help for its options.", option, name,
                        did_you_mean(option, option_names(asked)), name);

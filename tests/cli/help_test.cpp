@@ -76,7 +76,7 @@ std::vector<HelpPage> help_pages() {
         EXPECT_EQ(help.exit_code, 0) << command << ": " << help.log;
         pages.push_back({command, test::lines_of(test::output_of(help))});
     }
-    constexpr std::size_t always = 9;  // kerf itself, mesh, decompose, check, verify, export, merge, quality, remesh
+    constexpr std::size_t always = 10;  // kerf, mesh, decompose, check, verify, export, merge, quality, remesh, help
     EXPECT_EQ(pages.size(), always + (KERF_HAS_VIEWER ? 2 : 0) + (KERF_HAS_SOLVER ? 1 : 0));
     return pages;
 }
@@ -240,6 +240,30 @@ TEST(Suggestion, IsTheNearestWord) {
     expect_suggestion({"merge", "out", "--outptu", "a.msh"}, "--output");
     expect_suggestion({"mesh", cube, "--qwertz"}, "");
     expect_suggestion({"mesh", "--tetgen", "--sizes"}, "");  // its value
+    expect_suggestion({"mesh", cube, "-size", "3"}, "--size");
+    expect_suggestion({"help", "mehs"}, "mesh");
+}
+
+TEST(Suggestion, NamesAnUnknownOptionOfOneDash) {
+    const std::string cube = test::asset_path("cube");
+    const auto expect = [](const std::vector<std::string>& arguments, const std::string& option) {
+        const ChildResult result = test::run_kerf(arguments);
+        EXPECT_EQ(result.exit_code, 2);
+        EXPECT_NE(result.log.find("'" + option + "' is not an option of kerf"), std::string::npos) << result.log;
+    };
+    expect({"mesh", cube, "-x"}, "-x");
+    expect({"mesh", cube, "-n4", "-qx", "-o", "out"}, "-qx");
+    expect({"verify", "-x", "out"}, "-x");
+    expect({"-x"}, "-x");
+    EXPECT_EQ(test::run_kerf({"mesh", cube, "-qn4", "--print-config"}).exit_code, 0);
+}
+
+TEST(HelpCommand, PrintsTheHelpOfACommand) {
+    EXPECT_EQ(printed({"help"}), printed({"--help"}));
+    for (const HelpPage& page : help_pages()) {
+        if (page.command.empty()) continue;
+        EXPECT_EQ(printed({"help", page.command}), printed({page.command, "--help"}));
+    }
 }
 
 // In Kerf's words, with the command that would be right.
@@ -254,7 +278,9 @@ TEST(UsageErrors, SayWhatIsMissingOrTooMuch) {
     expect({"mesh", cube, "--size"}, "--size needs a value: --size H. Wanted edge length");
     expect({"mesh", cube, "-o", "a", "-o", "b"}, "--output is given more than once. Choose one.");
     expect({"mesh", cube, cube}, "kerf mesh takes no further arguments, but there is " + cube);
-    expect({"mesh", cube, "--resume", "out"}, "do not go together");
+    expect({"mesh", cube, "--resume", "out"}, "INPUT and --resume do not go together");
+    expect({"mesh"}, "kerf mesh needs INPUT: Closed surface");
+    expect({"verify"}, "kerf verify needs DIR: Folder of the run");
     expect({"merge", "out"}, "kerf merge needs --output FILE: File, whose ending");
     expect({"merge", "out", "-o", "a.msh", "--msh-version", "5"},
            "--msh-version is '5', but it must be one of 4.1, 2.2.");

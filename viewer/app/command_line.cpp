@@ -343,7 +343,7 @@ ViewCommand parse_view_command(int argc, const char* const* argv) {
         command.print = given.text;
         return command;
     };
-    if (const auto document_text = document(app, argc, argv, version)) return answer(*document_text);
+    if (const auto document_text = answer_before_parsing(app, argc, argv, version)) return answer(*document_text);
     try {
         app.parse(argc, argv);
         command.screenshot = screenshot->parsed();

@@ -1,0 +1,75 @@
+// kerf check: what is wrong with a surface.
+#include <memory>
+
+#include "cli/answer.h"
+#include "cli/commands.h"
+#include "cli/option_flags.h"
+#include "help/program_help.h"
+#include "io/offenders_writer.h"
+#include "io/output_file.h"
+#include "io/standard_streams.h"
+#include "report/file_diagnosis.h"
+
+namespace kerf {
+
+namespace {
+
+struct CheckRequest {
+    std::string path;
+    InputOptions options;
+    double needle_angle_deg = 1;
+    bool json = false;
+    bool list_patches = false;   // in place of the diagnosis
+    std::string offenders_file;  // empty: none
+};
+
+int print_patches(FileDiagnosis found, const InputOptions& options) {
+    const std::vector<PatchSummary> patches = patches_of_run(std::move(found), options);
+    std::vector<std::string> names;
+    for (const PatchSummary& patch : patches) names.push_back(patch.name);
+    const std::string spellings = spellings_text(names);
+    print_data(to_text(patches) + (spellings.empty() ? "" : "\n" + spellings));
+    return 0;
+}
+
+int check_surface(const CheckRequest& request) {
+    refuse_to_overwrite(request.path, "--offenders", request.offenders_file);
+    require_writable("--offenders", request.offenders_file);
+    FileDiagnosis found = diagnose_file(request.path, request.options, request.needle_angle_deg);
+    if (request.list_patches && !found.refused) return print_patches(std::move(found), request.options);
+    const Diagnosis& diagnosis = found.checked.diagnosis;
+    if (!request.offenders_file.empty() && !found.refused)
+        write_offenders(request.offenders_file, found.checked.soup, diagnosis);
+    if (request.json)
+        print_data(to_json(found));
+    else if (diagnosis.defects.size() > 1)
+        print_data(to_text(found) + "--json lists all, --offenders FILE.vtu shows them in ParaView.\n");
+    else
+        print_data(to_text(found));
+    return found.exit_code();
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& kerf, int& exit_code) {
+    const auto request = std::make_shared<CheckRequest>();
+    CLI::App* command = kerf.add_subcommand("check", "Diagnose a surface without meshing it.");
+    command->add_option("input", request->path, "Surface file.")->required()->type_name("INPUT");
+    add_input_options(*command, request->options);
+    command->option_defaults()->group(option_group::output);
+    command->add_flag("--json", request->json, "Print every defect as JSON.");
+    command->add_flag(
+        "--list-patches", request->list_patches,
+        "Print name, area, centroid and normal of each patch, and how formats spell its name; no diagnosis.");
+    command->add_option("--offenders", request->offenders_file, "Write the offending facets, edges and places as VTU.")
+        ->type_name("FILE");
+    for (const char* name : {"--json", "--offenders"})
+        command->get_option("--list-patches")->excludes(command->get_option(name));
+    add_option_field(*command, {"needle-angle", "", option_group::output, "DEG",
+                                "Degrees below which a facet is a needle. Default 1.", &request->needle_angle_deg, true,
+                                needle_angle_range});
+    put_help_last(*command, option_group::output);
+    command->callback([=, &exit_code] { exit_code = run_on_first_rank([&] { return check_surface(*request); }); });
+}
+
+}  // namespace kerf

@@ -1,0 +1,130 @@
+#include "cli/mesh_request.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "export/format.h"
+#include "export/merged_file.h"
+#include "help/nearest.h"
+#include "request/config_file.h"
+#include "request/saved_run.h"
+
+namespace kerf {
+
+namespace {
+
+// What a config file may say.
+std::vector<OptionField> config_fields(MeshRequest& request) {
+    std::vector<OptionField> fields = option_fields(request.options);
+    for (OptionField& field : program_fields(request)) fields.push_back(std::move(field));
+    return fields;
+}
+
+bool is_given(const CLI::App& command, const std::string& option) {
+    return command.get_option("--" + option)->count() > 0;
+}
+
+// Sets what the command line has not given.
+void apply_config(const CLI::App& command, MeshRequest& request) {
+    const std::vector<OptionField> fields = config_fields(request);
+    std::vector<std::string> names;
+    for (const OptionField& field : fields) names.push_back(field.name);
+    for (const ConfigEntry& entry : read_config(request.config_file)) {
+        if (std::find(names.begin(), names.end(), entry.name) == names.end())
+            throw Error(ErrorCode::usage,
+                        fmt::format("{}: '{}' is not an option.{} kerf mesh --print-config lists them.", entry.place,
+                                    entry.name, did_you_mean(entry.name, names)));
+        if (!is_given(command, entry.name)) set_option(fields, entry);
+    }
+}
+
+// part-mesh for parts/part.stl.gz. Cuts have another name, so that they do not replace a mesh.
+std::string usual_output(const RunOptions& options) {
+    std::filesystem::path name = std::filesystem::path(options.input).filename();
+    if (name.extension() == ".gz" || name.extension() == ".zst") name = name.stem();
+    return name.stem().string() + (options.volume ? "-mesh" : "-cut");
+}
+
+// What a run folder has beside the mesh would be lost with it.
+void refuse_what_no_file_holds(const RunOptions& options, const std::string& file, const Format& format) {
+    const auto refuse = [&](const std::string& why) {
+        throw Error(ErrorCode::usage,
+                    fmt::format("--output is {}, a file of one mesh, but {}. Name a folder instead: -o {}.", file, why,
+                                std::filesystem::path(file).stem().string()));
+    };
+    if (!options.volume) refuse("kerf decompose writes the surface of every part");
+    if (options.stl) refuse("--stl writes the surface of every part");
+    if (options.reference) refuse("--reference writes a comparison, too");
+    if (!options.fields.empty()) refuse("--fields are those of the files of parts");
+    if (!options.patch_types.empty()) refuse("--patch-type is for a case of OpenFOAM");
+    if (!options.formats.empty() && options.formats != format.name)
+        refuse(fmt::format("--format {} asks for other files", options.formats));
+}
+
+// A mesh in one file is that of a run in a folder beside it.
+void settle_output(MeshRequest& request) {
+    RunOptions& options = request.options;
+    if (options.dry_run) return;
+    request.has_usual_output = options.output.empty();
+    if (request.has_usual_output) options.output = usual_output(options);
+    const Format* format = find_merged_format(options.output);
+    if (!format) return;
+    refuse_what_no_file_holds(options, options.output, *format);
+    options.formats.clear();
+    request.merged_file = options.output;
+    options.output = run_folder_beside(request.merged_file);
+}
+
+// The interrupted run's options, and those of this command line that change nothing of the result.
+void resume_run(const CLI::App& command, MeshRequest& request) {
+    std::error_code ignored;
+    if (find_merged_format(request.resume) && !std::filesystem::is_directory(request.resume, ignored))
+        request.resume = run_folder_beside(request.resume);
+    RunOptions options = load_interrupted_run(request.resume);
+    const std::vector<OptionField> saved = option_fields(options), given = option_fields(request.options);
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        if (!is_given(command, given[i].name)) continue;
+        if (given[i].shapes_parts)
+            throw Error(ErrorCode::usage,
+                        fmt::format("--{} would change the parts that are finished. Leave it out with --resume, or "
+                                    "start anew: kerf mesh {} -o {}.",
+                                    given[i].name, options.input, options.output));
+        saved[i].set_text(given[i].text());
+    }
+    options.dry_run = request.options.dry_run;
+    request.merged_file = merged_file_of(options.output);
+    if (const Format* format = find_merged_format(request.merged_file))
+        refuse_what_no_file_holds(request.options, request.merged_file, *format);
+    request.options = options;
+}
+
+}  // namespace
+
+std::vector<OptionField> program_fields(MeshRequest& request) {
+    return {
+        {"output", "o", option_group::output, "DIR|FILE",
+         "Folder of the result; an older run there is replaced. Of kerf mesh a file, too, whose ending is that of a "
+         "format of kerf merge: one mesh. Default: named like the input, in this folder.",
+         &request.options.output},
+        {"quiet", "q", option_group::output, "", "Print nothing but errors.", &request.quiet},
+        {"verbose", "v", option_group::output, "",
+         "Print all that is known of the result, and the tree of cuts with every node of it.", &request.verbose}};
+}
+
+std::string config_text(MeshRequest& request) { return to_config(config_fields(request)); }
+
+void settle_request(const CLI::App& command, MeshRequest& request) {
+    if (!request.config_file.empty()) apply_config(command, request);
+    const bool is_new = request.resume.empty();
+    if (is_new && !request.print_config && request.options.input.empty()) throw CLI::RequiredError("input");
+    if (!is_new) resume_run(command, request);
+    const std::int32_t parts = request.options.decompose.parts;
+    if (is_given(command, "parts") && parts < 1)
+        throw Error(ErrorCode::usage, fmt::format("--parts is {}, but a mesh has 1 or more parts.", parts));
+    if (is_new && !request.print_config) settle_output(request);
+}
+
+}  // namespace kerf

@@ -1,0 +1,42 @@
+// kerf verify: a finished run, checked again from its files.
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/answer.h"
+#include "cli/commands.h"
+#include "io/standard_streams.h"
+#include "run/verify_folder.h"
+
+namespace kerf {
+
+namespace {
+
+struct VerifyRequest {
+    std::string folder;
+    VerifyOptions options;
+};
+
+int verify_run(const VerifyRequest& request) {
+    const FolderVerification found = verify_folder(request.folder, request.options);
+    print_data(to_text(found, request.folder, request.options));
+    return found.exit_code();
+}
+
+}  // namespace
+
+void add_verify_command(CLI::App& kerf, int& exit_code) {
+    const auto request = std::make_shared<VerifyRequest>();
+    CLI::App* command = kerf.add_subcommand("verify", "Check every law of a finished run again, from its files.");
+    command->add_option("folder", request->folder, "Folder of the run.")->required()->type_name("DIR");
+    command
+        ->add_option("--input", request->options.input, "Where the surface is now. Default: where the run has read it.")
+        ->type_name("FILE");
+    command
+        ->add_flag("--without-input", request->options.without_input,
+                   "The laws of the mesh are enough: the surface is not there any more.")
+        ->excludes("--input");
+    command->callback([=, &exit_code] { exit_code = run_on_first_rank([&] { return verify_run(*request); }); });
+}
+
+}  // namespace kerf
