@@ -15,11 +15,16 @@ namespace {
 struct VerifyRequest {
     std::string folder;
     VerifyOptions options;
+    bool json = false;
+    bool quiet = false;  // nothing where every law holds
 };
 
 int verify_run(const VerifyRequest& request) {
     const FolderVerification found = verify_folder(request.folder, request.options);
-    print_data(to_text(found, request.folder, request.options));
+    if (request.json)
+        print_data(to_json(found, request.folder, request.options));
+    else if (!request.quiet || found.exit_code() != 0)
+        print_data(to_text(found, request.folder, request.options));
     return found.exit_code();
 }
 
@@ -36,6 +41,8 @@ void add_verify_command(CLI::App& kerf, int& exit_code) {
         ->add_flag("--without-input", request->options.without_input,
                    "The laws of the mesh are enough: the surface is not there any more.")
         ->excludes("--input");
+    command->add_flag("--json", request->json, "Print what was found as JSON.");
+    command->add_flag("-q,--quiet", request->quiet, "Print nothing but laws that do not hold.");
     command->callback([=, &exit_code] { exit_code = run_on_first_rank([&] { return verify_run(*request); }); });
 }
 

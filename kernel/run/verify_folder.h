@@ -39,4 +39,7 @@ FolderVerification verify_folder(const std::string& folder, const VerifyOptions&
 /// Lines for people: counts, a line for each law that does not hold, the verdict.
 std::string to_text(const FolderVerification& found, const std::string& folder, const VerifyOptions& options);
 
+/// An object with every count, the differences, and whether the laws of the mesh hold ("passed").
+std::string to_json(const FolderVerification& found, const std::string& folder, const VerifyOptions& options);
+
 }  // namespace kerf

@@ -1,7 +1,9 @@
-// What kerf verify found, for people.
+// What kerf verify found, for people and for programs.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "io/path_text.h"
 #include "run/verify_folder.h"
 
 namespace kerf {
@@ -41,6 +43,30 @@ std::string to_text(const FolderVerification& found, const std::string& folder, 
             "If it lies elsewhere now, name it: --input FILE. --without-input does without.\n",
             found.not_compared);
     return text;
+}
+
+std::string to_json(const FolderVerification& found, const std::string& folder, const VerifyOptions& options) {
+    using Json = nlohmann::ordered_json;
+    const RunVerification& laws = found.laws;
+    const Json json = {{"path", path_text(folder)},
+                       {"passed", laws.passed},
+                       {"compared_with_input", !options.without_input && found.not_compared.empty()},
+                       {"parts", found.parts},
+                       {"tets", found.tets},
+                       {"vertices", found.vertices},
+                       {"volume_rel_error", laws.volume_rel_error},
+                       {"volume_rel_bound", laws.volume_rel_bound},
+                       {"input_faces_missing", laws.input_faces_missing},
+                       {"extra_boundary_faces", laws.extra_boundary_faces},
+                       {"unmatched_interface_faces", laws.unmatched_interface_faces},
+                       {"wrong_neighbours", found.wrong_neighbours},
+                       {"inverted_tets", laws.inverted_tets},
+                       {"tets_zero_parts", laws.tets_zero_parts},
+                       {"moved_vertices", found.moved_vertices},
+                       {"misnumbered", found.misnumbered},
+                       {"differences", found.differences},
+                       {"not_compared", found.not_compared}};
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace kerf

@@ -55,6 +55,40 @@ class Verify : public testing::Test {
     test::TemporaryFolder folder_;
 };
 
+TEST_F(Verify, PrintsJsonOrNothing) {
+    const std::vector<std::string> json = {"verify", folder_.file("out"), "--json"};
+    const std::vector<std::string> quiet = {"verify", folder_.file("out"), "-q"};
+    auto found = nlohmann::json::parse(test::output_of(test::run_kerf(json)));
+    EXPECT_EQ(found.at("path"), folder_.file("out"));
+    EXPECT_TRUE(found.at("passed").get<bool>() && found.at("compared_with_input").get<bool>());
+    EXPECT_EQ(found.at("parts"), 2);
+    EXPECT_GT(found.at("tets"), 0);
+    EXPECT_EQ(found.at("differences").size(), 0u);
+    const ChildResult silent = test::run_kerf(quiet);
+    EXPECT_EQ(silent.exit_code, 0);
+    EXPECT_EQ(test::output_of(silent) + silent.log, "");
+
+    overwrite<double>("Points", 0, 100);
+    const ChildResult broken = test::run_kerf(json);
+    EXPECT_EQ(broken.exit_code, 8);
+    found = nlohmann::json::parse(test::output_of(broken));
+    EXPECT_FALSE(found.at("passed").get<bool>());
+    EXPECT_GT(found.at("differences").size(), 0u);
+    EXPECT_NE(test::output_of(test::run_kerf(quiet)).find("NOT valid"), std::string::npos);
+
+    restore();
+    const std::string merged = folder_.file("mesh.msh");
+    const ChildResult written = test::run_kerf({"merge", folder_.file("out"), "-o", merged, "--json"});
+    const auto file = nlohmann::json::parse(test::output_of(written));
+    EXPECT_EQ(file.at("output"), merged);
+    EXPECT_EQ(file.at("bytes"), std::filesystem::file_size(merged));
+    EXPECT_GT(file.at("tets"), 0);
+    EXPECT_EQ(written.log, "");
+    const ChildResult none = test::run_kerf({"merge", folder_.file("out"), "-o", merged, "-q"});
+    EXPECT_EQ(none.exit_code, 0);
+    EXPECT_EQ(test::output_of(none) + none.log, "");
+}
+
 TEST_F(Verify, GoodRunHolds) {
     const ChildResult result = test::run_kerf({"verify", folder_.file("out")});
     EXPECT_EQ(result.exit_code, 0) << result.log;
