@@ -68,7 +68,8 @@ void add_check_command(CLI::App& kerf, int& exit_code) {
     add_option_field(*command, {"needle-angle", "", option_group::output, "DEG",
                                 "Degrees below which a facet is a needle. Default 1.", &request->needle_angle_deg, true,
                                 needle_angle_range});
-    put_help_last(*command, option_group::output);
+    put_help_last(*command, option_group::output,
+                  {"json", "list-patches", "offenders", "weld", "fill-holes", "keep-largest", "feature-angle"});
     command->callback([=, &exit_code] { exit_code = run_on_first_rank([&] { return check_surface(*request); }); });
 }
 

@@ -86,7 +86,7 @@ void add_options(CLI::App& command, ExportLine& line) {
     add_number(command, "--into", request.into, {"a whole number, 1 or more", 1},
                "Join the parts along the tree into so many pieces.")
         ->type_name("N");
-    add_number(command, "--workers", request.threads, {"a whole number, 1 to 4096", 1, 4096},
+    add_number(command, "-j,--workers", request.threads, {"a whole number, 1 to 4096", 1, 4096},
                "Parts that each rank writes at once. Default: its processors.")
         ->type_name("W");
     command.add_flag("-q,--quiet", line.quiet, "Print nothing but errors.");

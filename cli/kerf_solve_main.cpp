@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "cli/answer.h"
 #include "cli/failed_parts.h"
 #include "cli/option_flags.h"
 #include "cli/other_programs.h"
@@ -35,9 +36,6 @@ struct SolveLine {
     MeshAndSolveRequest request;
     bool list_patches = false, quiet = false;
     int ranks = 0;  // processes; 0: as many as are of use
-    bool finished = false;
-    int exit_code = 0;
-    std::string output;
 };
 
 // Facets stay as they are unless they are remeshed, and cells beside them are as coarse.
@@ -64,14 +62,44 @@ void check_mesh_options(const CLI::App& solve, SolveLine& line) {
                             name, line.input));
 }
 
-void finish(SolveLine& line, const Answer& answer) {
-    line.finished = true;
-    line.exit_code = answer.exit_code;
-    line.output = answer.text;
+void add_options(CLI::App& command, SolveLine& line) {
+    SolveRequest& request = line.request.solve;
+    command.option_defaults()->group("Solution");
+    command
+        .add_option("input", line.input, "Folder of a finished run, or a surface or CAD file, which is meshed first.")
+        ->required()
+        ->type_name("DIR|INPUT");
+    CLI::Option* case_file =
+        command.add_option("--case", request.case_file, "Materials, supports and loads, as TOML.")->type_name("FILE");
+    CLI::Option* output = command
+                              .add_option("-o,--output", request.output,
+                                          "Folder for the solution. Of a surface, for its mesh, too: OUT/mesh, "
+                                          "OUT/solution.")
+                              ->type_name("OUT");
+    add_number(command, "--adapt", line.request.steps, {"a whole number of steps, 0 to 50", 0, 50},
+               "Mesh and solve again, finer where the estimated error is large, up to N times: OUT/step_1, ...")
+        ->type_name("N");
+    add_number(command, "--target-error", request.target_error, {"a share from 1e-6 to 1, such as 0.05", 1e-6, 1},
+               "Estimated error in the energy norm beside that of the solution, as 0.05, that is good enough. Above it "
+               "the solution has size_field.vtu for the next mesh.")
+        ->type_name("E");
+    command
+        .add_flag("--list-patches", line.list_patches, "Print name, area, centroid and normal of each patch, and end.")
+        ->excludes(case_file)
+        ->excludes(output);
+    add_number(command, "--ranks", line.ranks, {"a whole number, 1 to 4096", 1, 4096},
+               "Processes that solve, each on parts of its own, where mpirun has started none. Default: a processor "
+               "each, as far as parts and cells are enough for them; 1: this one alone.")
+        ->type_name("P");
+    command.add_flag("-q,--quiet", line.quiet, "Print errors alone.");
+    add_run_options(command, line.request.mesh);
+    put_help_last(command, option_group::running,
+                  {"case", "output", "adapt", "target-error", "list-patches", "ranks", "parts", "size", "surface",
+                   "feature-angle", "workers", "quiet"});
 }
 
-SolveLine parse_solve_line(int argc, const char* const* argv) {
-    SolveLine line;
+// Fills the line, or has an answer that takes the place of a run.
+std::optional<Answer> parse_solve_line(int argc, const char* const* argv, SolveLine& line) {
     CLI::App app(
         "Kerf: linear elasticity on a surface or on the parts of a finished run.\n"
         "mpirun -n P kerf solve ... shares the parts out among P ranks.",
@@ -79,52 +107,20 @@ SolveLine parse_solve_line(int argc, const char* const* argv) {
     use_help_text(app);
     CLI::App* solve = app.add_subcommand("solve", "Displacements and stresses of a body under loads (docs/solve.md).");
     app.require_subcommand(1);
+    add_options(*solve, line);
+    if (const auto answer = answer_before_parsing(app, argc, argv, version)) return answer;
     SolveRequest& request = line.request.solve;
-    solve->option_defaults()->group("Solution");
-    solve->add_option("input", line.input, "Folder of a finished run, or a surface or CAD file, which is meshed first.")
-        ->required()
-        ->type_name("DIR|INPUT");
-    CLI::Option* case_file =
-        solve->add_option("--case", request.case_file, "Materials, supports and loads, as TOML.")->type_name("FILE");
-    CLI::Option* output = solve
-                              ->add_option("-o,--output", request.output,
-                                           "Folder for the solution. Of a surface, for its mesh, too: OUT/mesh, "
-                                           "OUT/solution.")
-                              ->type_name("OUT");
-    add_number(*solve, "--adapt", line.request.steps, {"a whole number of steps, 0 to 50", 0, 50},
-               "Mesh and solve again, finer where the estimated error is large, up to N times: OUT/step_1, ...")
-        ->type_name("N");
-    add_number(*solve, "--target-error", request.target_error, {"a share from 1e-6 to 1, such as 0.05", 1e-6, 1},
-               "Estimated error in the energy norm beside that of the solution, as 0.05, that is good enough. Above it "
-               "the solution has size_field.vtu for the next mesh.")
-        ->type_name("E");
-    solve
-        ->add_flag("--list-patches", line.list_patches, "Print name, area, centroid and normal of each patch, and end.")
-        ->excludes(case_file)
-        ->excludes(output);
-    add_number(*solve, "--ranks", line.ranks, {"a whole number, 1 to 4096", 1, 4096},
-               "Processes that solve, each on parts of its own, where mpirun has started none. Default: a processor "
-               "each, as far as parts and cells are enough for them; 1: this one alone.")
-        ->type_name("P");
-    solve->add_flag("-q,--quiet", line.quiet, "Print errors alone.");
-    RunOptions& mesh = line.request.mesh;
-    add_run_options(*solve, mesh);
-    put_help_last(*solve, option_group::running);
-    if (const auto answer = answer_before_parsing(app, argc, argv, version)) {
-        finish(line, *answer);
-        return line;
-    }
     try {
         app.parse(argc, argv);
         if (!line.list_patches && (request.case_file.empty() || request.output.empty()))
-            throw CLI::RequiredError("--case FILE and --output DIR, or --list-patches");
+            throw CLI::RequiredError("--case FILE and --output OUT, or --list-patches");
         line.meshes = !std::filesystem::is_directory(line.input);
-        (line.meshes ? mesh.input : request.folder) = line.input;
+        (line.meshes ? line.request.mesh.input : request.folder) = line.input;
         check_mesh_options(*solve, line);
     } catch (const CLI::ParseError& e) {
-        finish(line, answer_to(app, e, argc, argv));
+        return answer_to(app, e, argc, argv);
     }
-    return line;
+    return std::nullopt;
 }
 
 // As many as there are processors, if they are of use. What lists patches does no work.
@@ -176,11 +172,8 @@ int mesh_and_solve_on_ranks(const SolveLine& line, const Ranks& ranks) {
 // An error that all ranks meet ends them alike. What only one of them meets, in the middle of what they do together,
 // has to end the others.
 int run_solver(int argc, char** argv) {
-    const SolveLine line = parse_solve_line(argc, argv);
-    if (line.finished) {
-        if (is_first_rank()) (line.exit_code == 0 ? print_data : tell)(line.output);
-        return line.exit_code;
-    }
+    SolveLine line;
+    if (const auto answer = parse_solve_line(argc, argv, line)) return tell_answer(*answer);
     if (const int wanted = is_launched() ? 1 : wanted_ranks(line); wanted > 1)
         if (const std::optional<int> code = run_as_ranks(wanted, argv)) return *code;
     const Ranks ranks = join_ranks(MpiUse::always);

@@ -36,7 +36,7 @@ int run_program(int argc, char** argv) {
     CLI::App app(description, "kerf");
     app.footer(exit_codes);
     use_help_text(app);
-    app.set_version_flag("--version", std::string("kerf ") + version, "Print the version and end.");
+    app.set_version_flag("-V,--version", std::string("kerf ") + version, "Print the version and end.");
     app.require_subcommand(1);
     int exit_code = 0;
     for (AddCommand* add : own_commands) add(app, exit_code);

@@ -57,7 +57,9 @@ void add_mesh_command(CLI::App& kerf, int& exit_code) {
     for (const char* name : {"input", "--output", "--config"}) resume->excludes(command->get_option(name));
     command->add_flag("--dry-run", request->options.dry_run,
                       "Cut, print what every part will take, and end; write nothing.");
-    put_help_last(*command, option_group::running);
+    put_help_last(*command, option_group::running,
+                  {"output", "parts", "size", "size-on", "surface", "feature-angle", "format", "workers", "memory",
+                   "resume", "dry-run", "config", "quiet", "verbose"});
 }
 
 void add_decompose_command(CLI::App& kerf, int& exit_code) {
@@ -65,7 +67,9 @@ void add_decompose_command(CLI::App& kerf, int& exit_code) {
     request->options.volume = false;
     CLI::App* command = add_command(
         kerf, "decompose", "The same, up to the closed surfaces of the parts; print the tree.", request, exit_code);
-    put_help_last(*command, option_group::running);
+    put_help_last(*command, option_group::running,
+                  {"output", "parts", "size", "surface", "feature-angle", "stl", "workers", "trace", "config", "quiet",
+                   "verbose"});
 }
 
 }  // namespace kerf

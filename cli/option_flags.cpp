@@ -53,12 +53,11 @@ void add_run_options(CLI::App& app, RunOptions& options) {
     heed_unit(app, options.input_options);
     app.get_option("--format")->check(suggest_formats());
     app.get_option("--fields")->check(suggest_cell_fields());
-    // At once, so that all that asks whether --surface was given finds it given.
-    app.add_flag_callback(
-           "--remesh", [surface = app.get_option("--surface")] { surface->add_result("remesh"); },
-           "Short for --surface remesh.")
+    // Another name, which the help does not list. At once, so that who asks for the option finds it given.
+    app.add_option_function<std::string>("--tetgen", [switches = app.get_option("--tetgen-switches")](
+                                                         const std::string& text) { switches->add_result(text); })
         ->trigger_on_parse()
-        ->group(option_group::input);
+        ->group("");
 }
 
 CLI::Validator suggest_formats() {

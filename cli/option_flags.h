@@ -17,7 +17,7 @@ void add_input_options(CLI::App& app, InputOptions& options);
 /// Has `options` learn whether --unit, which the command has by now, is given.
 void heed_unit(CLI::App& app, InputOptions& options);
 
-/// Adds all that shapes a mesh and how it is made (option_fields()), and --remesh, short for --surface remesh.
+/// Adds all that shapes a mesh and how it is made (option_fields()), and --tetgen, another name of --tetgen-switches.
 void add_run_options(CLI::App& app, RunOptions& options);
 
 /// Names of all formats, and of the qualities that vtu files may have, as values that are suggested.

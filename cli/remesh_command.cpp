@@ -60,7 +60,8 @@ void add_remesh_command(CLI::App& kerf, int& exit_code) {
         if (shapes_surface(field.name)) add_option_field(*command, field);
     heed_unit(*command, request->options.input_options);
     command->add_flag("-q,--quiet", request->quiet, "Print nothing but errors.");
-    put_help_last(*command, option_group::output);
+    put_help_last(*command, option_group::output,
+                  {"output", "size", "deviation", "size-on", "chord-error", "feature-angle", "quiet"});
     command->callback([=, &exit_code] { exit_code = run_on_first_rank([&] { return remesh_and_tell(*request); }); });
 }
 

@@ -63,6 +63,8 @@ std::optional<Answer> answer_before_parsing(const CLI::App& app, int argc, const
     const std::string asked = argc == 3 ? argv[1] : "";
     if (asked == "--man") return man_page_of(app, argv[2], version);
     if (asked == "--completion") return completion_of(app, argv[2], others);
+    if (const std::string answer = old_spelling(app, argc, argv); !answer.empty())
+        return Answer{static_cast<int>(ErrorCode::usage), "kerf: " + answer + "\n"};
     return std::nullopt;
 }
 

@@ -11,6 +11,7 @@
 
 #include "help/command_help.h"
 #include "help/nearest.h"
+#include "help/old_spellings.h"
 
 namespace kerf {
 
@@ -89,6 +90,11 @@ std::string unknown_option(const std::vector<WrittenOption>& written) {
     const auto unknown =
         std::find_if(written.begin(), written.end(), [](const WrittenOption& one) { return !one.option; });
     return unknown == written.end() ? "" : unknown->name;
+}
+
+bool has_word(std::string_view words, const std::string& word) {
+    const std::vector<std::string> all = CLI::detail::split(std::string(words), ' ');
+    return std::find(all.begin(), all.end(), word) != all.end();
 }
 
 }  // namespace
@@ -189,6 +195,19 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int a
     if (option.empty()) return sentence(error, asked, name) + "\n" + way_on(asked, name);
     return fmt::format("'{}' is not an option of {}.{} Run {} --help for its options.", option, name,
                        did_you_mean(option, option_names(asked)), name);
+}
+
+std::string old_spelling(const CLI::App& app, int argc, const char* const* argv) {
+    const CLI::App* command = argc > 1 ? find_command(app, argv[1]) : nullptr;
+    if (!command) return "";
+    for (const WrittenOption& written : written_options(*command, 2, argc, argv))
+        for (const OldSpelling& old : old_spellings) {
+            const bool is_meant = has_word(old.commands, argv[1]) && written.name == old.option;
+            if (is_meant && (old.value.empty() || written.value == old.value))
+                return fmt::format("{}{}{} of kerf {} is {} now. Run kerf {} --help for its options.", old.option,
+                                   old.value.empty() ? "" : " ", old.value, argv[1], old.now, argv[1]);
+        }
+    return "";
 }
 
 CLI::Validator one_of(const std::string& choices) {

@@ -17,6 +17,9 @@ std::string unknown_command(const CLI::App& app, const std::string& word);
 /// where to read on; without a line end.
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv);
 
+/// What to say where an option is spelled as it was once (help/old_spellings.h); else empty.
+std::string old_spelling(const CLI::App& app, int argc, const char* const* argv);
+
 /// Choices as suggest() has them; others are refused.
 CLI::Validator one_of(const std::string& choices);
 

@@ -35,12 +35,12 @@ draw() {
 draw_cap() {
     "$kerf" mesh assets/bearing_cap_14k.stl -o "$work/cap" -n 8 --trace "$work/cap.trace" -q
     draw bearing_cap.png "$work/cap" --stage tetrahedra --explode 0.2 --clip y=0.62 \
-        --camera assets/cameras/bearing_cap.json --no-legend --antialias 2 --size 1200x420
-    draw interface.png "$work/cap.trace" --stage interface --antialias 2 --size 640x420
+        --camera assets/cameras/bearing_cap.json --no-legend --antialias 2 --resolution 1200x420
+    draw interface.png "$work/cap.trace" --stage interface --antialias 2 --resolution 640x420
 }
 
 draw_pipe() {
-    draw viewer.png assets/pipe_with_holes.stl -n 8 --node 3 --stage contour --state "$untimed" --ui --size 1280x800
+    draw viewer.png assets/pipe_with_holes.stl -n 8 --node 3 --stage contour --state "$untimed" --ui --resolution 1280x800
 }
 
 # Each stage of the first cut.
@@ -54,18 +54,18 @@ draw_stages() {
         if [[ $stage = tetrahedra ]]; then opened=$work/halves; fi
         if [[ $stage = split || $stage = tetrahedra ]]; then apart=(--explode 0.3); fi
         draw "stages/$stage.png" "$opened" --stage "$stage" "${apart[@]}" --camera assets/cameras/first_cut.json \
-            --no-legend --antialias 2 --size 320x240
+            --no-legend --antialias 2 --resolution 320x240
     done
 }
 
 draw_packing() {
     draw quality.png assets/sinter_packing.stl -n 8 --stage tetrahedra --clip -y=0.45 --color min-dihedral \
-        --antialias 2 --size 640x420
+        --antialias 2 --resolution 640x420
 }
 
 draw_lattice() {
     "$kerf" mesh assets/bearing_cap_52k.stl -o "$work/lattice" -n 4 --max-volume 0.5 -q
-    draw lattice.png "$work/lattice" --stage tetrahedra --clip z=0.35 --color origin --antialias 2 --size 900x520
+    draw lattice.png "$work/lattice" --stage tetrahedra --clip z=0.35 --color origin --antialias 2 --resolution 900x520
 }
 
 draw_reference() {
@@ -85,7 +85,7 @@ draw_stress() {
     "$kerf" solve assets/bearing_cap_52k.stl --feature-angle 40 --case assets/bearing_cap_case.toml -o "$work/stress" \
         -n 8 -q
     draw stress.png "$work/stress" --color von-mises --range 0 300 --isolines --deform auto --no-edges --antialias 2 \
-        --size 1000x560
+        --resolution 1000x560
 }
 
 draw_bracket() {
@@ -94,7 +94,7 @@ draw_bracket() {
     local step
     for step in 1 2 3 4; do
         draw "bracket_$step.png" "$work/bracket/step_$step/solution" --color error --range 0 0.15 --no-legend \
-            --antialias 2 --size 420x400
+            --antialias 2 --resolution 420x400
     done
 }
 
@@ -108,7 +108,7 @@ before_and_after() {
     echo '{"axes": false}' >"$work/no_axes.json"
     for end in stl:before obj:after; do
         draw "cad_${name}_${end#*:}.png" "$work/cad_$name.${end%:*}" --stage input --state "$work/no_axes.json" \
-            --no-legend --antialias 2 --size 480x360
+            --no-legend --antialias 2 --resolution 480x360
     done
 }
 

@@ -1,6 +1,8 @@
 #include "request/option_field.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -10,10 +12,25 @@ namespace kerf {
 
 namespace {
 
+// Megabytes of 2^20 bytes in "2G", "500M" or "1.5GiB", rounded up, or in a number of them alone.
+std::optional<std::int64_t> megabytes_in(std::string_view text) {
+    if (const auto megabytes = number_in<std::int64_t>(text)) return megabytes;
+    for (const std::string_view ending : {"B", "i"})
+        if (text.ends_with(ending)) text.remove_suffix(1);
+    constexpr std::string_view units = "KMGT";
+    const std::size_t unit = text.empty() ? units.npos : units.find(text.back());
+    if (unit == units.npos) return std::nullopt;
+    const auto number = number_in<double>(text.substr(0, text.size() - 1));
+    const double megabytes = number ? std::ceil(std::ldexp(*number, 10 * (static_cast<int>(unit) - 1))) : -1;
+    if (!(megabytes >= 0 && megabytes < 0x1p62)) return std::nullopt;
+    return static_cast<std::int64_t>(megabytes);
+}
+
 template <class T>
 std::string text_of(const T* value) {
     return fmt::format("{}", *value);
 }
+std::string text_of(const OptionField::Memory& memory) { return fmt::format("{}", *memory); }
 std::string text_of(const Length* length) { return length->text(); }
 std::string text_of(const OptionField::List items) { return join_items(*items); }
 std::string text_of(const OptionField::Choice& choice) { return choice.names[static_cast<std::size_t>(choice.get())]; }
@@ -22,6 +39,12 @@ std::string text_of(const OptionField::Choice& choice) { return choice.names[sta
 template <class Number>
 void assign(Number* value, const std::string& text, const OptionField& field) {
     *value = parse_number<Number>(field.name, text, field.range);
+}
+void assign(const OptionField::Memory& memory, const std::string& text, const OptionField& field) {
+    const std::optional<std::int64_t> megabytes = megabytes_in(text);
+    if (!megabytes || !field.range.contains(static_cast<double>(*megabytes)))
+        refuse_number(field.name, text, field.range.words);
+    *memory = *megabytes;
 }
 void assign(Length* value, const std::string& text, const OptionField& field) {
     *value = parse_length(field.name, text, field.range);
@@ -82,14 +105,14 @@ void OptionField::check() const {
         if constexpr (std::is_same_v<Place, Length*>)
             require_in(range, name, place->number());
         else if constexpr (std::is_same_v<Place, double*> || std::is_same_v<Place, std::int32_t*> ||
-                           std::is_same_v<Place, std::int64_t*>)
+                           std::is_same_v<Place, Memory>)
             require_in(range, name, static_cast<double>(*place));
     };
     std::visit(check_value, value);
 }
 
 bool OptionField::is_number() const {
-    return std::holds_alternative<std::int32_t*>(value) || std::holds_alternative<std::int64_t*>(value) ||
+    return std::holds_alternative<std::int32_t*>(value) || std::holds_alternative<Memory>(value) ||
            std::holds_alternative<double*>(value) || std::holds_alternative<Length*>(value);
 }
 

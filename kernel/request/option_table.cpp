@@ -63,7 +63,7 @@ OptionField::Choice surface_choice(RunOptions& o) {
                       : value == 4 ? Remeshing::of_cad_files
                                    : Remeshing::never;
     };
-    return {{"keep", "split", "remesh", "auto", "by-file"}, get, set};
+    return {{"keep", "split", "remesh", "auto", "remesh-cad"}, get, set};
 }
 
 constexpr OptionRow<InputOptions> input_rows[] = {
@@ -204,20 +204,20 @@ constexpr OptionRow<RunOptions> meshing_rows[] = {
      }},
     {"surface", "", option_group::input, "",
      "keep every facet; split some where no contour of edges exists; remesh all within --deviation; auto: remesh "
-     "where slivers would spoil the cells; by-file: remesh CAD files, split others. Default by-file.",
+     "where slivers would spoil the cells; remesh-cad: remesh CAD files, split others. Default remesh-cad.",
      [](RunOptions& o) -> OptionField::Value { return surface_choice(o); }},
     {"deviation", "", option_group::input, "D",
      "Largest distance of a remeshed surface from the input, in its units, or with % of its diagonal. Default "
      "0.002%.",
      place<&RunOptions::deviation>, true, deviation_range},
     {"mesher", "", option_group::meshing, "",
-     "What fills the parts: auto, the default, takes lattice, unless --tetgen is given.",
+     "What fills the parts: auto, the default, takes lattice, unless --tetgen-switches is given.",
      [](RunOptions& o) -> OptionField::Value { return mesher_choice(o.mesher.name); }},
     {"improve", "", option_group::meshing, "",
-     "Better cells in place of the worst; not with --tetgen. Default true: --no-improve keeps them.",
+     "Better cells in place of the worst; not with --tetgen-switches. Default true: --no-improve keeps them.",
      place<&RunOptions::mesher, &MesherOptions::improve>},
     {"workers",
-     "",
+     "j",
      option_group::running,
      "W",
      "Mesher processes of each rank. Default: its share of the processors that it may use.",
@@ -235,11 +235,11 @@ constexpr OptionRow<RunOptions> meshing_rows[] = {
     {"memory",
      "",
      option_group::running,
-     "MB",
-     "Memory of one worker in MB, by which K is chosen, too; 0: unlimited. Default 0.",
-     place<&RunOptions::memory_mb>,
+     "SIZE",
+     "Memory of one worker, as 2G or 500M, or a number of MB, by which K is chosen, too; 0: unlimited. Default 0.",
+     [](RunOptions& o) -> OptionField::Value { return OptionField::Memory{&o.memory_mb}; },
      false,
-     {"a whole number, 0 (unlimited) to 1099511627776 MB", 0, 0x1p40}},
+     {"a size such as 2G or 500M, or a whole number of MB, 0 (unlimited) to 1099511627776", 0, 0x1p40}},
     {"attempts",
      "",
      option_group::expert,
@@ -248,7 +248,8 @@ constexpr OptionRow<RunOptions> meshing_rows[] = {
      place<&RunOptions::attempts>,
      true,
      {"a whole number, 1 or more", 1}},
-    {"tetgen", "", option_group::expert, "SWITCHES", "Expert: TetGen switches instead of q and a (p, Y are always on).",
+    {"tetgen-switches", "", option_group::expert, "SWITCHES",
+     "Expert: TetGen switches instead of q and a (p, Y are always on).",
      [](RunOptions& o) -> OptionField::Value { return &o.mesher.tetgen.switches; }},
 };
 

@@ -34,7 +34,7 @@ MesherOptions for_tetgen(MesherOptions options) {
 void check_lattice_options(const MesherOptions& options) {
     if (!options.tetgen.switches.empty())
         throw Error(ErrorCode::usage,
-                    fmt::format("--tetgen is \"{}\", but --mesher lattice has no such switches. Leave "
+                    fmt::format("--tetgen-switches is \"{}\", but --mesher lattice has no such switches. Leave "
                                 "one of them out.",
                                 options.tetgen.switches));
 }

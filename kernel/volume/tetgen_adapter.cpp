@@ -126,9 +126,10 @@ constexpr std::string_view expert_letters = "qaSTODMCVX";
 [[noreturn]] void refuse_switches(const std::string& switches) {
     throw Error(
         ErrorCode::usage,
-        fmt::format("--tetgen is \"{}\", which cannot be used. Of TetGen's switches those of a linear mesh inside "
-                    "of the surface are left to choose: {}, each with its numbers. See TetGen's manual.",
-                    switches, expert_letters));
+        fmt::format(
+            "--tetgen-switches is \"{}\", which cannot be used. Of TetGen's switches those of a linear mesh inside "
+            "of the surface are left to choose: {}, each with its numbers. See TetGen's manual.",
+            switches, expert_letters));
 }
 
 // p: fill a surface, Y: keep it, J: keep all vertices, Q: quiet. Bounds are set as numbers, because the switches know

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "help/old_spellings.h"
 #include "request/options.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
@@ -285,6 +286,76 @@ TEST(UsageErrors, SayWhatIsMissingOrTooMuch) {
     expect({"merge", "out", "-o", "a.msh", "--msh-version", "5"},
            "--msh-version is '5', but it must be one of 4.1, 2.2.");
     expect({"quality"}, "kerf quality needs DIR|FILE: Folder of a run");
+}
+
+TEST(OldSpellings, AnswerWithTheNewOnes) {
+    const std::vector<HelpPage> pages = help_pages();
+    for (const OldSpelling& old : old_spellings) {
+        std::istringstream commands{std::string(old.commands)};
+        for (std::string command; commands >> command;) {
+            const auto page =
+                std::find_if(pages.begin(), pages.end(), [&](const HelpPage& one) { return one.command == command; });
+            if (page == pages.end()) continue;  // its program was not built
+            SCOPED_TRACE("kerf " + command + " " + std::string(old.option));
+            const std::string value = old.value.empty() ? "3" : std::string(old.value);
+            const ChildResult result = test::run_kerf({command, "a.stl", std::string(old.option), value});
+            EXPECT_EQ(result.exit_code, 2);
+            EXPECT_NE(result.log.find(" is " + std::string(old.now) + " now."), std::string::npos) << result.log;
+            EXPECT_EQ(test::run_kerf({command, "a.stl", std::string(old.option) + "=" + value}).log, result.log);
+            const std::string option(old.now.substr(0, old.now.find(' ')));
+            EXPECT_TRUE(page->long_options().contains(option)) << option;
+            EXPECT_EQ(page->long_options().contains(std::string(old.option)), !old.value.empty());
+        }
+    }
+    // The value of another option is no old spelling.
+    const ChildResult value = test::run_kerf({"mesh", "none.stl", "-o", "--remesh"});
+    EXPECT_EQ(value.log.find(" now."), std::string::npos) << value.log;
+}
+
+// What is printed as a config file with these options; without its comments.
+std::set<std::string> config_with(std::vector<std::string> options) {
+    options.insert(options.begin(), {"mesh", "--print-config"});
+    std::set<std::string> values;
+    for (const std::string& line : test::lines_of(printed(options)))
+        if (!line.starts_with('#')) values.insert(line);
+    return values;
+}
+
+TEST(Spellings, OfOptionsMeanTheSame) {
+    EXPECT_EQ(printed({"-V"}), printed({"--version"}));
+    EXPECT_EQ(config_with({"-j", "3"}), config_with({"--workers", "3"}));
+    EXPECT_EQ(config_with({"--tetgen", "q1.2"}), config_with({"--tetgen-switches", "q1.2"}));
+    EXPECT_TRUE(config_with({"--tetgen", "q1.2"}).contains("tetgen-switches = \"q1.2\""));
+    EXPECT_EQ(config_with({"--surface", "remesh-cad"}), config_with({}));
+    const std::vector<std::pair<const char*, int>> megabytes = {
+        {"500", 500},     {"500M", 500}, {"2G", 2048},    {"2GB", 2048}, {"2GiB", 2048},
+        {"1.5GiB", 1536}, {"0", 0},      {"1T", 1048576}, {"1024K", 1},  {"1K", 1}};
+    for (const auto& [text, value] : megabytes)
+        EXPECT_TRUE(config_with({"--memory", text}).contains("memory = " + std::to_string(value))) << text;
+    for (const char* text : {"2X", "G", "-1G", "1.5", "1e30T", "2G ", "GiB", "nanG"}) {
+        const ChildResult result = test::run_kerf({"mesh", "--print-config", "--memory", text});
+        EXPECT_EQ(result.exit_code, 2) << text;
+        EXPECT_NE(result.log.find("--memory is "), std::string::npos) << result.log;
+        EXPECT_NE(result.log.find("2G"), std::string::npos) << result.log;
+    }
+}
+
+TEST(Help, IsShortForOneLetter) {
+    for (const HelpPage& page : help_pages()) {
+        if (page.command.empty()) continue;
+        const HelpPage brief = {page.command, test::lines_of(printed({page.command, "-h"}))};
+        SCOPED_TRACE("kerf " + page.command);
+        EXPECT_EQ(brief.lines.front(), page.lines.front());
+        if (page.groups().size() == 1) {
+            EXPECT_EQ(brief.lines, page.lines);
+            continue;
+        }
+        const std::set<std::string> all = page.long_options(), some = brief.long_options();
+        EXPECT_TRUE(std::includes(all.begin(), all.end(), some.begin(), some.end()));
+        EXPECT_LE(some.size(), 15u);
+        EXPECT_GE(some.size(), 7u);
+        EXPECT_NE(brief.lines.back().find("--help lists all "), std::string::npos) << brief.lines.back();
+    }
 }
 
 TEST(Suggestion, OfAChoiceAreAllOfThem) {

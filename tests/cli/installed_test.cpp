@@ -54,7 +54,7 @@ TEST_F(Installed, FindsItsWorker) {
 
 #if KERF_HAS_VIEWER
 TEST_F(Installed, FindsItsViewerAndShaders) {
-    const ChildResult drawn = kerf_elsewhere("screenshot cube.stl --size 64x64 -o cube.png");
+    const ChildResult drawn = kerf_elsewhere("screenshot cube.stl --resolution 64x64 -o cube.png");
     EXPECT_EQ(drawn.exit_code, 0) << drawn.log;
     EXPECT_TRUE(fs::exists(file("elsewhere/cube.png")));
 }

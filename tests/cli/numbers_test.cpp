@@ -41,7 +41,7 @@ std::vector<std::pair<std::string, int>> numeric_options(const std::string& comm
         const bool is_number = !value.empty() && value.size() <= 3 &&
                                value.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ") == value.npos && value != "DIR" &&
                                value != "OUT";
-        if (is_number || value == "LOW") options.emplace_back(name, value == "LOW" ? 2 : 1);
+        if (is_number || value == "LOW" || value == "SIZE") options.emplace_back(name, value == "LOW" ? 2 : 1);
     }
     return options;
 }

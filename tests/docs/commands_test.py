@@ -44,8 +44,8 @@ SHORTENED = {
     "docs/solvers.md": [("gmsh part.msh", "gmsh part.msh -0 -o read.geo_unrolled")],
     # Interrupted when the first of many parts is done.
     "docs/options.md": [(
-        "kerf mesh part.stl -o big --size 0.5 --memory 2000 --events progress.jsonl",
-        "kerf mesh part.stl -o big --size 0.05 -n 24 --workers 1 --memory 2000 --events progress.jsonl & "
+        "kerf mesh part.stl -o big --size 0.5 --memory 2G --events progress.jsonl",
+        "kerf mesh part.stl -o big --size 0.05 -n 24 -j 1 --memory 2G --events progress.jsonl & "
         "until grep -q '\"done\"' progress.jsonl; do sleep 0.02; done; kill $!; wait $! || test $? = 130")],
 }
 

@@ -152,7 +152,7 @@ Words Trial::make_options() {
                                               {"--feature-angle", {"0", "40"}, {"180"}},
                                               {"--optimise-surface", {"0", "2"}, {"1.5"}},
                                               {"--keep-largest", {}, {}},
-                                              {"--tetgen", {"q1.5", "q1.4a0.01"}, {"r", "h"}},
+                                              {"--tetgen-switches", {"q1.5", "q1.4a0.01"}, {"r", "h"}},
                                               {"--stl", {}, {}},
                                               {"--memory", {"0", "2000", "150"}, {"20"}},
                                               {"--timeout", {"0", "100"}, {"-1"}}};

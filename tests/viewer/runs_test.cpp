@@ -341,7 +341,7 @@ TEST(Runs, AViewKnowsWhatItWasMadeOf) {
     EXPECT_EQ(same.height, 480);
     EXPECT_EQ(same.run.decompose.parts, 3);
     const ViewCommand other =
-        parse({"screenshot", "other.stl", "--state", state.c_str(), "--size", "800x600", "-o", "a.png"});
+        parse({"screenshot", "other.stl", "--state", state.c_str(), "--resolution", "800x600", "-o", "a.png"});
     EXPECT_EQ(other.input, "other.stl");
     EXPECT_EQ(other.width, 800);
     EXPECT_EQ(parse({"screenshot", "-o", "a.png"}).exit_code, 2);

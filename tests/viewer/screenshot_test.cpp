@@ -25,7 +25,7 @@ const TemporaryFolder& folder() {
 
 ChildResult screenshot(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "screenshot");
-    for (const char* more : {"-o", "--size"})
+    for (const char* more : {"-o", "--resolution"})
         arguments.emplace_back(more), arguments.emplace_back(more[1] == 'o' ? folder().file("a.png") : "320x240");
     std::filesystem::remove(folder().file("a.png"));
     return run_kerf(arguments);
@@ -51,6 +51,22 @@ TEST(Screenshot, OfASurfaceARunAndATraceShowTheSameCut) {
                           "min-dihedral", "--ui"})
                   .exit_code,
               0);
+}
+
+TEST(Screenshot, ShowsTheSideThatIsAskedFor) {
+    const auto picture = [](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = {asset_path("hollow_box"), "--surface", "split"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ChildResult result = screenshot(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.log;
+        return read_png(folder().file("a.png")).rgb;
+    };
+    const auto usual = picture({}), front = picture({"--view", "front"});
+    EXPECT_EQ(picture({"--view", "iso"}), usual);
+    EXPECT_EQ(picture({"--up", "z"}), usual);
+    EXPECT_NE(front, usual);
+    EXPECT_NE(picture({"--view", "top"}), front);
+    EXPECT_NE(picture({"--view", "iso", "--up", "y"}), usual);
 }
 
 // A folder of kerf decompose has no cells: its parts are shown, coloured and pulled apart unless somebody wants

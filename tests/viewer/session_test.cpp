@@ -928,7 +928,7 @@ TEST(CommandLine, HoldsWhatDiffersFromTheDefaults) {
     options.mesher.tetgen.switches = "q1.2";
     EXPECT_EQ(command_line_of(options, false),
               (std::vector<std::string>{"decompose", "/a b.stl", "--output=/out", "--quiet", "--parts=8", "--size=0.1",
-                                        "--axis=z", "--no-improve", "--workers=3", "--tetgen=q1.2", "--stl"}));
+                                        "--axis=z", "--no-improve", "--workers=3", "--tetgen-switches=q1.2", "--stl"}));
 }
 
 TEST(TreeTest, FindsAndOrders) {

@@ -202,6 +202,22 @@ TEST(Camera, ReadsWhatPeopleWrite) {
     EXPECT_EQ(camera.height, 3);
 }
 
+TEST(Camera, LooksFromASideWithAnAxisUp) {
+    const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
+    const auto expect = [](Direction direction, int up_axis, const Vec3& right, const Vec3& up) {
+        Camera camera;
+        look_from(camera, direction, up_axis);
+        EXPECT_LT((camera.right() - right).norm() + (camera.up() - up).norm(), 1e-12);
+        EXPECT_LT((camera.back() - right.cross(up)).norm(), 1e-12);
+    };
+    expect(Direction::front, 2, x, z);
+    expect(Direction::front, 1, x, y);
+    expect(Direction::front, 0, y, x);
+    expect(Direction::right, 1, -z, y);
+    expect(Direction::top, 1, x, -z);
+    expect(Direction::top, 0, y, z);
+}
+
 const Eigen::AlignedBox3d box(Vec3(10, 20, 30), Vec3(14, 22, 31));
 
 TEST(Camera, FitsTheWholeBoxWhateverTheDirection) {
@@ -326,8 +342,8 @@ TEST(ViewCommandLine, RefusesNonsenseWithCodeTwo) {
         return parse_view_command(static_cast<int>(arguments.size()), arguments.data());
     };
     EXPECT_EQ(parse({"screenshot", "a.stl"}).exit_code, 2);
-    EXPECT_EQ(parse({"screenshot", "a.stl", "-o", "b.png", "--size", "10"}).exit_code, 2);
-    EXPECT_EQ(parse({"screenshot", "a.stl", "-o", "b.png", "--size", "1x1"}).exit_code, 2);
+    EXPECT_EQ(parse({"screenshot", "a.stl", "-o", "b.png", "--resolution", "10"}).exit_code, 2);
+    EXPECT_EQ(parse({"screenshot", "a.stl", "-o", "b.png", "--resolution", "1x1"}).exit_code, 2);
     EXPECT_EQ(parse({"screenshot", "a.stl", "-o", "b.png", "--stage", "sawing"}).exit_code, 2);
     EXPECT_EQ(parse({"screenshot", "a.stl", "-o", "b.png", "--clip", "q=1"}).exit_code, 2);
     EXPECT_EQ(parse({"screenshot", "a.stl", "-o", "b.png", "--color", "green"}).exit_code, 2);
@@ -336,12 +352,23 @@ TEST(ViewCommandLine, RefusesNonsenseWithCodeTwo) {
     for (const char* scale : {"0", "-1", "nan", "mm"})
         EXPECT_EQ(parse({"screenshot", "a.stl", "-o", "b.png", "--scale", scale}).exit_code, 2) << scale;
     EXPECT_EQ(parse({"view", "a.stl", "--scale", "0.001"}).run.input_options.scale, 0.001);
+    EXPECT_EQ(parse({"view", "a.stl", "--view", "above"}).exit_code, 2);
+    EXPECT_EQ(parse({"view", "a.stl", "--up", "w"}).exit_code, 2);
+    EXPECT_EQ(parse({"view", "a.stl", "--view", "top", "--camera", "a.json"}).exit_code, 2);
+    EXPECT_FALSE(parse({"view", "a.stl"}).chosen.turn);
+    Camera wanted;
+    look_from(wanted, Direction::left, 1);
+    const ViewCommand turned = parse({"screenshot", "a.stl", "-o", "b.png", "--view", "left", "--up", "y"});
+    ASSERT_TRUE(turned.chosen.turn) << turned.print;
+    EXPECT_EQ(turned.chosen.turn->coeffs(), wanted.turn.coeffs());
+    look_from(wanted, Direction::corner, 0);
+    EXPECT_EQ(parse({"view", "a.stl", "--up", "x"}).chosen.turn->coeffs(), wanted.turn.coeffs());
     const ViewCommand help = parse({"screenshot", "--help"});
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_NE(help.print.find("--explode"), std::string::npos);
     const ViewCommand good =
         parse({"screenshot", "a.stl", "-o", "b.png", "--node", "5", "--stage", "contour", "--clip", "x=0.3",
-               "--explode", "0.4", "--color", "min-dihedral", "--size", "1600x1000", "--ui"});
+               "--explode", "0.4", "--color", "min-dihedral", "--resolution", "1600x1000", "--ui"});
     EXPECT_EQ(good.print, "");
     EXPECT_TRUE(good.screenshot && good.panels);
     EXPECT_EQ(good.width, 1600);

@@ -108,7 +108,7 @@ def main():
             assert stepped["stage"] == "plane", stepped
 
             assert size_of_png(picture) == (1240, 900), size_of_png(picture)
-            subprocess.run([kerf, "screenshot", run, "--state", folder / "kerf-001.json", "--size", "1240x900", "-o",
+            subprocess.run([kerf, "screenshot", run, "--state", folder / "kerf-001.json", "--resolution", "1240x900", "-o",
                             folder / "offscreen.png"], check=True, timeout=PATIENCE)
             assert picture.read_bytes() == (folder / "offscreen.png").read_bytes(), "window and screenshot differ"
 

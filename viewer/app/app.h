@@ -35,6 +35,7 @@ struct AppOptions {
 struct ChosenView {
     bool color = false, stage = false, explode = false;
     bool faces_clip = false;  ///< without a camera the clip plane is looked at, and what it leaves fits
+    std::optional<Eigen::Quaterniond> turn = {};  ///< of a camera without a place: it is where all fits
 };
 
 class App : private Actions {

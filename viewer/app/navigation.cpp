@@ -87,13 +87,14 @@ void App::update_camera() {
     }
     camera_ = {};
     const Clip& clip = state_.clip;
-    if (chosen_.faces_clip && clip.on && !built_.left.isEmpty()) {
+    const bool fits_rest = chosen_.faces_clip && clip.on && !built_.left.isEmpty();
+    if (chosen_.turn)
+        camera_.turn = *chosen_.turn;
+    else if (fits_rest)
         look_from(camera_, clip.flipped ? Vec3(-clip.normal) : clip.normal);
-        fit_body(camera_, built_.left);
-        return;
-    }
-    look_from(camera_, Direction::corner);
-    fit_body(camera_, built_.box);
+    else
+        look_from(camera_, Direction::corner);
+    fit_body(camera_, fits_rest ? built_.left : built_.box);
 }
 
 void App::project_scene() {

@@ -46,7 +46,7 @@ Frame Frame::around(const Eigen::AlignedBox3d& box) {
     return frame;
 }
 
-void look_from(Camera& camera, Direction direction) {
+void look_from(Camera& camera, Direction direction, int up) {
     const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
     switch (direction) {
         case Direction::front:
@@ -71,6 +71,8 @@ void look_from(Camera& camera, Direction direction) {
             look_from(camera, Vec3(0.5, -0.8, 0.5).normalized());
             break;
     }
+    if (up == 1) camera.turn = turn_of(x, -z) * camera.turn;
+    if (up == 0) camera.turn = turn_of(y, z) * camera.turn;
 }
 
 void look_from(Camera& camera, const Vec3& back) {

@@ -55,7 +55,8 @@ struct Projection {
 
 /// Named directions as in Blender; the z axis is up.
 enum class Direction { front, back, right, left, top, bottom, corner };
-void look_from(Camera& camera, Direction direction);
+/// `up`: another axis (0 to 2) that points up instead. Then the front has x to the right where y is up, y where x is.
+void look_from(Camera& camera, Direction direction, int up = 2);
 /// `back`: from the target to the eye, of length 1. The z axis is up where it can be.
 void look_from(Camera& camera, const Vec3& back);
 

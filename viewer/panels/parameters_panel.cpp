@@ -25,7 +25,7 @@ struct Editor {
         constexpr std::int64_t limit = std::numeric_limits<std::int32_t>::max();
         if (widgets.input_number(label, &wide)) *value = static_cast<std::int32_t>(std::clamp(wide, -limit, limit));
     }
-    void operator()(std::int64_t* value) const { widgets.input_number(label, value); }
+    void operator()(const OptionField::Memory& memory) const { widgets.input_number(label, memory.megabytes); }
     void operator()(double* value) const { widgets.input_number(label, value); }
     void operator()(Length* value) const {
         if (value->is_percent()) {

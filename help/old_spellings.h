@@ -1,0 +1,22 @@
+// Options that had other names before, which are answered with the new ones.
+#pragma once
+
+#include <string_view>
+
+namespace kerf {
+
+struct OldSpelling {
+    std::string_view commands;  ///< that had it, with spaces between
+    std::string_view option;    ///< with its dashes
+    std::string_view value;     ///< that alone is spelled otherwise now; empty: the option itself is
+    std::string_view now;       ///< option and value that mean the same
+};
+
+inline constexpr OldSpelling old_spellings[] = {
+    {"screenshot", "--size", "", "--resolution WxH"},
+    {"view screenshot", "--case", "", "--load-case NAME"},
+    {"mesh decompose solve", "--remesh", "", "--surface remesh"},
+    {"mesh decompose solve view screenshot", "--surface", "by-file", "--surface remesh-cad"},
+};
+
+}  // namespace kerf

@@ -1,0 +1,252 @@
+#include "viewer/app/scene_options.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "help/command_help.h"
+#include "help/number_option.h"
+#include "help/usage_error.h"
+#include "io/file_bytes.h"
+#include "viewer/model/camera.h"
+
+namespace kerf::view {
+
+namespace {
+
+constexpr NumberRange node_range = {"the number of a node, 1 or more", 1};
+
+void parse_resolution(const std::string& text, ViewCommand& command) {
+    const std::size_t x = text.find('x');
+    const auto width = number_in<int>(text.substr(0, x));
+    const auto height = number_in<int>(x == text.npos ? "" : text.substr(x + 1));
+    const auto is_good = [](std::optional<int> pixels) { return pixels && *pixels >= 16 && *pixels <= 16384; };
+    if (!is_good(width) || !is_good(height))
+        throw Error(ErrorCode::usage,
+                    fmt::format("--resolution is '{}', but it must be WIDTHxHEIGHT in pixels, 16 to 16384.", text));
+    command.width = *width;
+    command.height = *height;
+}
+
+// In the order of Direction.
+constexpr std::array<const char*, 7> view_names = {"front", "back", "right", "left", "top", "bottom", "iso"};
+
+std::string names_of_views() { return fmt::format("{}", fmt::join(view_names, ",")); }
+
+std::string names_of_colors() {
+    std::string names;
+    for (std::size_t i = 0; i < color_by_count; ++i)
+        names += fmt::format("{}{}", i == 0 ? "" : ",", name(static_cast<ColorBy>(i)));
+    return names;
+}
+
+void add_view_options(CLI::App& app, SceneOptions& options) {
+    app.option_defaults()->group("Scene");
+    app.add_option("--state", options.state_file, "Read the whole view from a JSON file; other options win.")
+        ->type_name("FILE");
+    add_number(app, "--node", options.node, node_range,
+               "Node of the tree: the root is 1, the children of i are 2i and 2i+1.")
+        ->type_name("N");
+    app.add_option("--stage", options.stage,
+                   fmt::format("{}, or try:0 for the first refused try. Default: input, or tetrahedra where they are "
+                               "coloured, moved or cut open; of a folder of kerf decompose parts, pulled apart.",
+                               names_of_stages()))
+        ->type_name("STAGE")
+        ->check(suggest(names_of_stages()));
+    add_numbers(app, "--hide", options.hidden, 1, node_range, "Nodes that are not shown, with commas between.")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->delimiter(',')
+        ->type_name("LIST");
+    add_number(app, "--isolate", options.isolated, node_range, "Only what lies below this node.")->type_name("N");
+    app.add_option("--camera", options.camera_file, "JSON file with the camera, as the viewer copies it.")
+        ->type_name("FILE");
+    app.add_option("--view", options.view, "Side from which all is looked at; iso, the default: from a corner.")
+        ->type_name("")
+        ->check(one_of(names_of_views()))
+        ->excludes("--camera");
+    app.add_option("--up", options.up, "Axis that points up in the picture. Default z.")
+        ->type_name("")
+        ->check(one_of("x,y,z"))
+        ->excludes("--camera");
+}
+
+void add_look_options(CLI::App& app, SceneOptions& options) {
+    app.option_defaults()->group("Scene");
+    app.add_flag("--features", options.features, "With sharp edges and the borders of patches as lines.");
+    app.add_flag("--smooth", options.smooth, "Smooth shading instead of flat facets.");
+    app.add_flag("--no-edges", options.no_edges, "Without the edges of triangles.");
+    app.add_flag("--no-context", options.no_context, "Without the rest of the body.");
+    app.add_flag("--no-legend", options.no_legend, "Without the legend.");
+    app.add_flag("--no-numbers", options.no_numbers, "Without the numbers of patches on the faces coloured by them.");
+    app.add_option("--theme", options.theme, "Colours of the background and of all around.")
+        ->type_name("")
+        ->check(one_of("light,dark"));
+}
+
+void add_color_options(CLI::App& app, ViewCommand& command, SceneOptions& options) {
+    app.option_defaults()->group("Colours");
+    app.add_option(
+           "--color", options.color,
+           "part, rank, level, patch, deviation, size, kind, origin (core, shell or other mesher), min-dihedral, "
+           "radius-edge, aspect, shape, volume or edge-length; of a solution error, displacement, von-mises, "
+           "stress-xx, stress-yy, stress-zz, stress-xy, stress-yz or stress-xz.")
+        ->type_name("NAME")
+        ->check(suggest(names_of_colors()));
+    add_numbers(app, "--range", options.range, 2, {},
+                "Values of the ends of the colours. Default: those shown; of stresses see --percentile.")
+        ->type_name("LOW HIGH");
+    add_number(app, "--percentile", options.percentile, {"60 to 100", least_percentile, 100},
+               "Colours of stresses span so many per cent of the values shown. Default 99; 100: all.")
+        ->type_name("P");
+    app.add_flag("--isolines", options.isolines, "With lines where displacements or stresses are alike.");
+    app.add_option("--deform", options.deform, "Draw the displacements of a solution so many times as long, or auto.")
+        ->type_name("FACTOR|auto");
+    app.add_option("--load-case", command.load_case, "Name of the load case of a solution. Default: the first one.")
+        ->type_name("NAME");
+    add_numbers(app, "--filter", options.filter, 2, {}, "Only cells whose value of --color lies in this range.")
+        ->type_name("LOW HIGH");
+}
+
+void add_clip_options(CLI::App& app, ViewCommand& command, SceneOptions& options) {
+    app.option_defaults()->group("Clipping and moving");
+    app.add_option("--clip", command.clip,
+                   "Clip plane: x=0.3, -y=0.5 (other side), 1,1,0=0.4 (normal), node=5 (at its cut). Without a camera "
+                   "it is looked at.")
+        ->type_name("PLANE");
+    app.add_option("--clip-style", options.clip_style, "cells (whole ones, default), smooth, or layer (at the plane).")
+        ->type_name("")
+        ->check(suggest("cells,smooth,layer"));
+    add_number(app, "--explode", options.explode, {"0 to 1e6; 1 is much", 0, 1e6},
+               "Pull the parts apart along the tree; 0 to 1.")
+        ->type_name("X");
+    add_number(app, "--shrink", options.shrink, {"0 to 1", 0, 1}, "Shrink cells about their centres; 0 to 1.")
+        ->type_name("X");
+}
+
+void add_run_options(CLI::App& app, ViewCommand& command, SceneOptions& options) {
+    app.option_defaults()->group("Run");
+    add_number(app, "-n,--parts", command.run.decompose.parts, {"a whole number, 1 or more, at most 2147483647", 1},
+               "Number of parts, if INPUT is a surface.")
+        ->type_name("K");
+    app.add_option("--surface", options.surface, "Of that run, as of kerf mesh.")
+        ->type_name("")
+        ->check(suggest("keep,split,remesh,auto,remesh-cad"));
+    app.add_option("--scale", options.input_scale, "Multiply all coordinates of a surface by this. Default 1.")
+        ->type_name("F");
+    app.add_option("--config", options.config, "Other options of that run: a file of kerf mesh --print-config.")
+        ->type_name("FILE");
+}
+
+bool is_seen_on_surfaces(const std::string& color) {
+    return color == "patch" || (!color.empty() && is_of_surface(color_by_from_name(color)));
+}
+
+// What the command line says itself wins; options of a run are of use for its own input only.
+void take_origin(ViewCommand& command) {
+    const ViewOrigin& origin = command.origin;
+    if (command.input.empty()) {
+        command.input = origin.input;
+        const std::int32_t parts = command.run.decompose.parts;
+        const bool is_given = parts != RunOptions().decompose.parts;
+        set_options(command.run, origin.run, "The state");
+        if (is_given) command.run.decompose.parts = parts;
+    }
+    if (origin.width == 0) return;
+    command.width = origin.width;
+    command.height = origin.height;
+    command.scale = static_cast<float>(origin.scale);
+}
+
+// A side that is named turns the camera, whose place follows from what is shown.
+void apply_view(const SceneOptions& options, ViewCommand& command) {
+    if (options.view.empty() && options.up.empty()) return;
+    const auto* name = std::find(view_names.begin(), view_names.end(), options.view.empty() ? "iso" : options.view);
+    Camera camera;
+    look_from(camera, static_cast<Direction>(name - view_names.begin()), options.up.empty() ? 2 : options.up[0] - 'x');
+    command.chosen.turn = camera.turn;
+    command.state.camera.reset();
+}
+
+void apply_colors(const SceneOptions& options, ViewCommand& command) {
+    ViewState& state = command.state;
+    if (!options.filter.empty()) {
+        state.filter = ValueRange{options.filter[0], options.filter[1]};
+        if (!(state.filter->low <= state.filter->high) || !is_measure(state.color))
+            throw Error(ErrorCode::usage,
+                        "--filter needs LOW <= HIGH and a --color with values, such as min-dihedral.");
+    }
+    if (!options.range.empty()) {
+        state.color_range = ValueRange{options.range[0], options.range[1]};
+        if (!(options.range[0] < options.range[1])) throw Error(ErrorCode::usage, "--range needs LOW < HIGH.");
+    }
+    if (options.percentile >= 0) state.percentile = options.percentile;
+    if (options.isolines) state.isolines = true;
+    command.good_deformation = options.deform == "auto";
+    if (options.deform.empty() || command.good_deformation) return;
+    const std::optional<double> factor = number_in<double>(options.deform);
+    if (!factor)
+        throw Error(ErrorCode::usage,
+                    fmt::format("--deform is '{}', but it must be a number or auto.", options.deform));
+    state.deform = *factor;
+}
+
+}  // namespace
+
+void add_scene_options(CLI::App& app, ViewCommand& command, SceneOptions& options) {
+    add_view_options(app, options);
+    add_look_options(app, options);
+    add_color_options(app, command, options);
+    add_clip_options(app, command, options);
+    add_run_options(app, command, options);
+}
+
+void apply(const SceneOptions& options, ViewCommand& command) {
+    ViewState& state = command.state;
+    if (!options.state_file.empty()) {
+        state = state_from_json(read_file(options.state_file), options.state_file, &command.origin);
+        take_origin(command);
+    }
+    if (!options.camera_file.empty())
+        state.camera = camera_from_json(read_file(options.camera_file), options.camera_file);
+    apply_view(options, command);
+    if (options.node > 0) state.node = options.node;
+    // What only cells have is not to be asked for in vain.
+    const bool is_of_cells = !options.color.empty() || options.explode > 0 || options.shrink > 0 ||
+                             !options.filter.empty() || !options.deform.empty();
+    if (!options.stage.empty())
+        state.step = step_from_name(options.stage);
+    else if (is_of_cells && options.state_file.empty() && !is_seen_on_surfaces(options.color))
+        state.step.stage = Stage::tetrahedra;
+    if (!options.color.empty()) state.color = color_by_from_name(options.color);
+    const bool is_whole = !options.state_file.empty();
+    command.chosen.color = is_whole || !options.color.empty();
+    command.chosen.stage = is_whole || !options.stage.empty();
+    command.chosen.explode = is_whole || options.explode >= 0;
+    command.chosen.faces_clip = !command.clip.empty();
+    if (!options.clip_style.empty()) state.clip.style = clip_style_from_name(options.clip_style);
+    apply_colors(options, command);
+    if (options.explode >= 0) state.explode = options.explode;
+    if (options.shrink >= 0) state.shrink = options.shrink;
+    for (const NodeId node : options.hidden) state.set_hidden(node, true);
+    if (options.isolated > 0) state.isolated = options.isolated;
+    if (options.features) state.features = true;
+    if (options.smooth) state.shading = Shading::smooth;
+    if (options.no_edges) state.edges = false;
+    if (options.no_context) state.context = false;
+    if (options.no_legend) state.legend = false;
+    if (options.no_numbers) state.numbers = false;
+    if (!options.state_file.empty()) command.theme = state.theme;
+    if (!options.theme.empty()) command.theme = options.theme == "dark" ? Theme::dark : Theme::light;
+    state.theme = command.theme.value_or(state.theme);
+    if (!options.resolution.empty()) {
+        parse_resolution(options.resolution, command);
+        command.scale = 1;
+    }
+    if (!command.clip.empty() && !command.clip.starts_with("node="))
+        state.clip = clip_from_text(command.clip, state.clip, {});
+}
+
+}  // namespace kerf::view

@@ -1,0 +1,32 @@
+// The options of `kerf view` and `kerf screenshot` that say what is shown and how.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "viewer/app/command_line.h"
+
+namespace kerf::view {
+
+/// Options as they are given, in the order in which they are applied.
+struct SceneOptions {
+    std::string state_file, camera_file, view, up, stage, color, clip_style, resolution, theme, surface, input_scale,
+        config, deform;
+    std::vector<NodeId> hidden;
+    NodeId node = 0, isolated = 0;
+    double explode = -1, shrink = -1, percentile = -1;
+    bool features = false, smooth = false, no_edges = false, no_context = false, no_legend = false;
+    bool no_numbers = false;
+    bool isolines = false;
+    std::vector<double> filter, range;
+};
+
+/// Adds them. Values go into `options` and `command`, which have to live as long as the parser.
+void add_scene_options(CLI::App& app, ViewCommand& command, SceneOptions& options);
+
+/// Sets what they say, after parsing. Reads the files that they name. Throws Error(usage) for values that are none.
+void apply(const SceneOptions& options, ViewCommand& command);
+
+}  // namespace kerf::view
