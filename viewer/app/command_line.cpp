@@ -69,6 +69,50 @@ void read_run_config(const std::string& path, RunOptions& run) {
     if (parts > 0) run.decompose.parts = parts;
 }
 
+void add_screenshot_options(CLI::App& app, ViewCommand& command, SceneOptions& options) {
+    app.add_option("input", command.input, "What to open. Default: what --state was made of.")->type_name("INPUT");
+    app.option_defaults()->group("Picture");
+    app.add_option("-o,--output", command.output, "PNG file.")->type_name("FILE")->required();
+    app.add_option("--resolution", options.resolution, "Pixels of the picture. Default 1280x800.")->type_name("WxH");
+    add_number(app, "--antialias", command.antialias, {"a whole number, 1 to 4", 1, 4},
+               "Draw 2 to 4 times as large and average. Default 1.")
+        ->type_name("N");
+    app.add_option_function<std::string>(
+           "--context",
+           [&command](const std::string& library) { command.context = offscreen_library_from_name(library); },
+           fmt::format("Library that makes the OpenGL context: osmesa or egl. The picture is the same. Default {}.",
+                       name(offscreen_libraries().front())))
+        ->type_name("NAME");
+    app.add_flag("--ui", command.panels, "With all panels, as in the window.");
+    add_number(app, "--timeout", command.timeout_seconds, {"0.001 to 1e9 seconds", 1e-3, 1e9},
+               "Seconds after which to give up. Default 600.")
+        ->type_name("S");
+    add_scene_options(app, command, options);
+    std::vector<std::string> common = {"output", "resolution", "antialias"};
+    common.insert(common.end(), common_options.begin(), common_options.end());
+    put_help_last(app, "Run", common);
+}
+
+void add_view_options(CLI::App& app, ViewCommand& command, SceneOptions& options) {
+    app.add_option("input", command.input, "What to open.")->type_name("INPUT");
+    add_scene_options(app, command, options);
+    app.add_flag_callback(
+           "--no-run", [&command] { command.auto_run = false; }, "Only show a surface: it is cut and meshed else.")
+        ->group("Run");
+    put_help_last(app, "Run", common_options);
+}
+
+// Sets what the options say of the scene, and of a run for it. Throws Error.
+void apply_options(const SceneOptions& options, ViewCommand& command) {
+    apply(options, command);
+    if (command.screenshot && command.input.empty())
+        throw Error(ErrorCode::usage, "Say what to draw: an INPUT, or a --state that knows what it was made of.");
+    read_run_config(options.config, command.run);
+    if (!options.surface.empty()) set_options(command.run, {{"surface", options.surface}}, "The command line");
+    if (!options.input_scale.empty()) set_options(command.run, {{"scale", options.input_scale}}, "The command line");
+    command.run.input_options.check();
+}
+
 }  // namespace
 
 bool depends_on_document(const ViewCommand& command) {
@@ -130,58 +174,23 @@ ViewCommand parse_view_command(int argc, const char* const* argv) {
     app.footer(footer);
     use_help_text(app);
     app.require_subcommand(1);
-    CLI::App* view = app.add_subcommand("view", "Open the viewer.");
-    view->add_option("input", command.input, "What to open.")->type_name("INPUT");
+    add_view_options(*app.add_subcommand("view", "Open the viewer."), command, options);
     CLI::App* screenshot = app.add_subcommand("screenshot", "Draw a picture without a display.");
-    screenshot->add_option("input", command.input, "What to open. Default: what --state was made of.")
-        ->type_name("INPUT");
-    screenshot->option_defaults()->group("Picture");
-    screenshot->add_option("-o,--output", command.output, "PNG file.")->type_name("FILE")->required();
-    screenshot->add_option("--resolution", options.resolution, "Pixels of the picture. Default 1280x800.")
-        ->type_name("WxH");
-    add_number(*screenshot, "--antialias", command.antialias, {"a whole number, 1 to 4", 1, 4},
-               "Draw 2 to 4 times as large and average. Default 1.")
-        ->type_name("N");
-    screenshot
-        ->add_option_function<std::string>(
-            "--context", [&](const std::string& library) { command.context = offscreen_library_from_name(library); },
-            fmt::format("Library that makes the OpenGL context: osmesa or egl. The picture is the same. Default {}.",
-                        name(offscreen_libraries().front())))
-        ->type_name("NAME");
-    screenshot->add_flag("--ui", command.panels, "With all panels, as in the window.");
-    add_number(*screenshot, "--timeout", command.timeout_seconds, {"0.001 to 1e9 seconds", 1e-3, 1e9},
-               "Seconds after which to give up. Default 600.")
-        ->type_name("S");
-    for (CLI::App* each : {view, screenshot}) add_scene_options(*each, command, options);
-    bool no_run = false;
-    view->add_flag("--no-run", no_run, "Only show a surface: it is cut and meshed else.")->group("Run");
-    put_help_last(*view, "Run", common_options);
-    std::vector<std::string> of_pictures = {"output", "resolution", "antialias"};
-    of_pictures.insert(of_pictures.end(), common_options.begin(), common_options.end());
-    put_help_last(*screenshot, "Run", of_pictures);
+    add_screenshot_options(*screenshot, command, options);
     const auto answer = [&](const Answer& given) {
         command.exit_code = given.exit_code;
         command.print = given.text;
         return command;
     };
-    if (const auto document_text = answer_before_parsing(app, argc, argv, version)) return answer(*document_text);
+    if (const auto at_once = answer_before_parsing(app, argc, argv, version)) return answer(*at_once);
     try {
         app.parse(argc, argv);
         command.screenshot = screenshot->parsed();
-        command.auto_run = !no_run;
-        apply(options, command);
-        if (command.screenshot && command.input.empty())
-            throw Error(ErrorCode::usage, "Say what to draw: an INPUT, or a --state that knows what it was made of.");
-        read_run_config(options.config, command.run);
-        if (!options.surface.empty()) set_options(command.run, {{"surface", options.surface}}, "The command line");
-        if (!options.input_scale.empty())
-            set_options(command.run, {{"scale", options.input_scale}}, "The command line");
-        command.run.input_options.check();
+        apply_options(options, command);
     } catch (const CLI::ParseError& e) {
         return answer(answer_to(app, e, argc, argv));
     } catch (const Error& error) {
-        command.exit_code = static_cast<int>(error.code());
-        command.print = fmt::format("kerf: {}\n", error.what());
+        return answer({static_cast<int>(error.code()), fmt::format("kerf: {}\n", error.what())});
     }
     return command;
 }

@@ -43,7 +43,7 @@ std::string names_of_colors() {
     return names;
 }
 
-void add_view_options(CLI::App& app, SceneOptions& options) {
+void add_side_options(CLI::App& app, SceneOptions& options) {
     app.option_defaults()->group("Scene");
     app.add_option("--state", options.state_file, "Read the whole view from a JSON file; other options win.")
         ->type_name("FILE");
@@ -196,7 +196,7 @@ void apply_colors(const SceneOptions& options, ViewCommand& command) {
 }  // namespace
 
 void add_scene_options(CLI::App& app, ViewCommand& command, SceneOptions& options) {
-    add_view_options(app, options);
+    add_side_options(app, options);
     add_look_options(app, options);
     add_color_options(app, command, options);
     add_clip_options(app, command, options);
