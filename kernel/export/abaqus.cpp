@@ -49,7 +49,7 @@ std::int32_t face_of(const Tetrahedron& tet, const Triangle& triangle) {
         return std::find(triangle.begin(), triangle.end(), v) != triangle.end();
     };
     const auto opposite = std::find_if_not(tet.begin(), tet.end(), is_of_triangle) - tet.begin();
-    return face_opposite_to[static_cast<std::size_t>(opposite)];
+    return face_opposite_to[opposite];
 }
 
 // As exact as a field can hold it.
@@ -78,8 +78,8 @@ void write_nodes(const PartSource& parts, ExportFile& file) {
 
 void write_elements(const PartSource& parts, ExportFile& file) {
     std::int64_t element = 0;
-    for_each_part(parts, [&](std::int32_t rank, const Part& part) {
-        file.write(fmt::format("** part {}\n*ELEMENT, TYPE=C3D4, ELSET=SUBDOMAIN_{}\n", part.id, rank + 1));
+    for_each_part(parts, [&](PartIndex index, const Part& part) {
+        file.write(fmt::format("** part {}\n*ELEMENT, TYPE=C3D4, ELSET=SUBDOMAIN_{}\n", part.id, index.value() + 1));
         for (const Tetrahedron& tet : part.mesh.tets) {
             const auto [a, b, c, d] = global_corners(part, tet);
             write_row(file, {++element, a + 1, b + 1, c + 1, d + 1}, ",");
@@ -108,9 +108,9 @@ void write_body_sets(const PartSource& parts, ExportFile& file) {
     if (bodies.count() == 1)
         return file.write(fmt::format("*ELSET, ELSET=BODY_1, GENERATE\n1,{},1\n", parts.outline().tets()));
     const auto visit = [&](const auto& add) {
-        for_each_part(parts, [&](std::int32_t rank, const Part& part) {
-            std::int64_t element = parts.outline().first_tet(rank);
-            for (const std::int32_t body : bodies.of_tets(rank, part)) add({body, ++element});
+        for_each_part(parts, [&](PartIndex index, const Part& part) {
+            std::int64_t element = parts.outline().first_tet(index);
+            for (const std::int32_t body : bodies.of_tets(index, part)) add({body, ++element});
         });
     };
     std::int32_t current = -1;
@@ -130,7 +130,6 @@ void write_node_sets(const PartSource& parts, const Names& names, ExportFile& fi
     std::vector<std::int64_t> nodes;
     std::int32_t current = -1;
     for_each_patch_triangle(parts, names.sizes, [&](std::int32_t patch, std::span<const PatchTriangle> triangles) {
-        const auto p = static_cast<std::size_t>(patch);
         nodes.clear();
         for (const PatchTriangle& triangle : triangles)
             for (const std::int64_t corner : triangle.corners) nodes.push_back(corner + 1);
@@ -138,14 +137,14 @@ void write_node_sets(const PartSource& parts, const Names& names, ExportFile& fi
         nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
         if (patch != current) {
             file.write(fmt::format("** patch {}: {}\n*NSET, NSET={}\n", patch + 1,
-                                   comment_text(parts.outline().patch_names[p]), names.words[p]));
+                                   comment_text(parts.outline().patch_names[patch]), names.words[patch]));
             is_written.clear();
         } else {
-            std::erase_if(nodes, [&](std::int64_t node) { return is_written[static_cast<std::size_t>(node)]; });
+            std::erase_if(nodes, [&](std::int64_t node) { return is_written[node]; });
         }
-        if (names.sizes[p] > static_cast<std::int64_t>(triangles.size())) {
-            is_written.resize(static_cast<std::size_t>(parts.outline().vertices + 1));
-            for (const std::int64_t node : nodes) is_written[static_cast<std::size_t>(node)] = true;
+        if (names.sizes[patch] > std::ssize(triangles)) {
+            is_written.resize(parts.outline().vertices + 1);
+            for (const std::int64_t node : nodes) is_written[node] = true;
         }
         current = patch;
         if (!nodes.empty()) write_list(file, nodes);
@@ -155,12 +154,12 @@ void write_node_sets(const PartSource& parts, const Names& names, ExportFile& fi
 // Sets that are named again are continued.
 void write_face_sets(const PartSource& parts, const Names& names, ExportFile& file, std::vector<unsigned>& faces_of) {
     const auto visit = [&](const auto& add) {
-        for_each_part(parts, [&](std::int32_t rank, const Part& part) {
-            const std::int64_t first = parts.outline().first_tet(rank) + 1;
+        for_each_part(parts, [&](PartIndex index, const Part& part) {
+            const std::int64_t first = parts.outline().first_tet(index) + 1;
             for (std::size_t f = 0; f < part.facets.size(); ++f) {
-                if (part.is_interface(f)) continue;
+                if (!part.has_patch(f)) continue;
                 const std::int32_t t = part.tet_at_facet[f];
-                const Tetrahedron& tet = part.mesh.tets.at(static_cast<std::size_t>(t));
+                const Tetrahedron& tet = part.mesh.tets.at(t);
                 add({part.patch[f], face_of(tet, part.facets[f]), first + t});
             }
         });
@@ -173,9 +172,8 @@ void write_face_sets(const PartSource& parts, const Names& names, ExportFile& fi
                 if (each.face == face) elements.push_back(each.element);
             if (elements.empty()) continue;
             std::sort(elements.begin(), elements.end());
-            const auto p = static_cast<std::size_t>(patch);
-            faces_of[p] |= 1U << face;
-            file.write(fmt::format("*ELSET, ELSET={}_S{}\n", names.words[p], face));
+            faces_of[patch] |= 1U << face;
+            file.write(fmt::format("*ELSET, ELSET={}_S{}\n", names.words[patch], face));
             write_list(file, elements);
         }
     });

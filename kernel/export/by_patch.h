@@ -31,9 +31,9 @@ void for_each_by_patch(std::span<const std::int64_t> sizes, const Visit& visit, 
         for (last = first + 1; last < sizes.size() && together + sizes[last] <= items_at_once; ++last)
             together += sizes[last];
         visit([&](const Item& item) {
-            const auto patch = static_cast<std::size_t>(item.patch);
+            const std::size_t patch = item.patch;
             if (patch < first || patch >= last) return;
-            if (items.size() == static_cast<std::size_t>(items_at_once)) take_all();
+            if (std::ssize(items) == items_at_once) take_all();
             items.push_back(item);
         });
         take_all();

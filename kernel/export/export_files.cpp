@@ -28,7 +28,7 @@ ExportFile::ExportFile(ExportFiles& files, std::string name, const std::string& 
 
 void ExportFile::flush() {
     file_->write(buffer_.data(), used_);
-    written_ += static_cast<std::int64_t>(used_);
+    written_ += used_;
     used_ = 0;
 }
 
@@ -42,7 +42,7 @@ void ExportFile::write(const void* data, std::size_t size) {
     if (size >= buffer_.size()) {
         flush();
         file_->write(data, size);
-        written_ += static_cast<std::int64_t>(size);
+        written_ += size;
         return;
     }
     if (size == 0) return;  // no data may be a null pointer
@@ -52,12 +52,12 @@ void ExportFile::write(const void* data, std::size_t size) {
 
 void ExportFile::number(std::int64_t number) {
     char* begin = room(longest_number);
-    used_ += static_cast<std::size_t>(std::to_chars(begin, begin + longest_number, number).ptr - begin);
+    used_ += std::to_chars(begin, begin + longest_number, number).ptr - begin;
 }
 
 void ExportFile::number(double number) {
     char* begin = room(longest_number);
-    used_ += static_cast<std::size_t>(std::to_chars(begin, begin + longest_number, number).ptr - begin);
+    used_ += std::to_chars(begin, begin + longest_number, number).ptr - begin;
 }
 
 void ExportFile::point(const Vec3& p) {

@@ -30,7 +30,7 @@ struct Format {
     /// The files that belong to no part, or are written by several: called once, before any part.
     void (*write_whole)(const PartSource& parts, ExportFiles& files) = nullptr;
     /// The files of one part. Several parts may be written at once, by threads and processes that share a disk.
-    void (*write_part)(const PartSource& parts, std::int32_t rank, const Part& part, ExportFiles& files) = nullptr;
+    void (*write_part)(const PartSource& parts, PartIndex index, const Part& part, ExportFiles& files) = nullptr;
     /// All parts as one mesh, a part at a time, in the file `stem` + ending, or in several that begin with the stem.
     void (*write_merged)(const PartSource& parts, const MergeOptions& options, ExportFiles& files,
                          const std::string& stem) = nullptr;

@@ -51,11 +51,10 @@ void write_format(const Format& format, const PartSource& parts, ExportFiles& fi
     if (format.is_merged_only()) return format.write_merged(parts, {}, files, "mesh");
     if (format.write_whole) format.write_whole(parts, files);
     if (!format.write_part) return;
-    const auto count = static_cast<std::int32_t>(parts.outline().parts.size());
-    for (std::int32_t rank = 0; rank < count; ++rank) {
-        Part part = parts.load(rank);
+    for (const PartIndex index : parts.outline().parts.ids()) {
+        Part part = parts.load(index);
         if (format.needs_face_neighbours) connect_tets(part.mesh);
-        format.write_part(parts, rank, part, files);
+        format.write_part(parts, index, part, files);
     }
 }
 

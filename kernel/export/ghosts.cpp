@@ -8,17 +8,17 @@ namespace kerf {
 
 namespace {
 
-// Ranks of the parts that share a vertex with this one, ascending.
-std::vector<std::int32_t> neighbours_of(const MeshOutline& outline, const Part& part) {
+// The parts that share a vertex with this one, ascending.
+std::vector<PartIndex> neighbours_of(const MeshOutline& outline, const Part& part) {
     std::vector<NodeId> ids;
     for (const SharedGroup& group : part.shared) ids.insert(ids.end(), group.parts.begin(), group.parts.end());
     std::sort(ids.begin(), ids.end());
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-    std::vector<std::int32_t> ranks;
+    std::vector<PartIndex> indices;
     for (const NodeId id : ids)
-        if (id != part.id) ranks.push_back(outline.rank_of(id));
-    std::sort(ranks.begin(), ranks.end());
-    return ranks;
+        if (id != part.id) indices.push_back(outline.index_of(id));
+    std::sort(indices.begin(), indices.end());
+    return indices;
 }
 
 // Which vertices of the part another one has, too.
@@ -26,22 +26,20 @@ std::vector<bool> vertices_shared_with(NodeId id, const Part& part) {
     std::vector<bool> is_shared(part.mesh.vertices.size());
     for (const SharedGroup& group : part.shared)
         if (std::find(group.parts.begin(), group.parts.end(), id) != group.parts.end())
-            for (const std::int32_t v : group.vertices) is_shared[static_cast<std::size_t>(v)] = true;
+            for (const std::int32_t v : group.vertices) is_shared[v] = true;
     return is_shared;
 }
 
 // Adds what the part `id` needs of another one, whose cells are numbered from `first`.
-void add_ghosts(NodeId id, const Part& other, std::int32_t rank, std::int64_t first, Ghosts& ghosts) {
+void add_ghosts(NodeId id, const Part& other, PartIndex index, std::int64_t first, Ghosts& ghosts) {
     const std::vector<bool> shared = vertices_shared_with(id, other);
-    const auto is_shared = [&](std::int32_t v) { return shared[static_cast<std::size_t>(v)]; };
+    const auto is_shared = [&](std::int32_t v) { return shared[v]; };
     for (std::size_t t = 0; t < other.mesh.tets.size(); ++t) {
         const Tetrahedron& tet = other.mesh.tets[t];
         if (std::none_of(tet.begin(), tet.end(), is_shared)) continue;
-        ghosts.cells.push_back({first + static_cast<std::int64_t>(t), rank, global_corners(other, tet)});
+        ghosts.cells.push_back({first + std::int64_t(t), index, global_corners(other, tet)});
         for (const std::int32_t v : tet)
-            if (!is_shared(v))
-                ghosts.vertices.push_back(
-                    {other.global_id[static_cast<std::size_t>(v)], other.mesh.vertices[static_cast<std::size_t>(v)]});
+            if (!is_shared(v)) ghosts.vertices.push_back({other.global_id[v], other.mesh.vertices[v]});
     }
 }
 
@@ -50,8 +48,8 @@ void add_ghosts(NodeId id, const Part& other, std::int32_t rank, std::int64_t fi
 Ghosts ghosts_of(const PartSource& parts, const Part& part) {
     const MeshOutline& outline = parts.outline();
     Ghosts ghosts;
-    for (const std::int32_t rank : neighbours_of(outline, part))
-        add_ghosts(part.id, parts.load(rank), rank, outline.first_tet(rank), ghosts);
+    for (const PartIndex index : neighbours_of(outline, part))
+        add_ghosts(part.id, parts.load(index), index, outline.first_tet(index), ghosts);
     std::vector<GhostVertex>& vertices = ghosts.vertices;
     std::sort(vertices.begin(), vertices.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
     const auto end =

@@ -11,8 +11,8 @@ namespace kerf {
 
 /// A cell of another part that shares a vertex with the part.
 struct GhostCell {
-    std::int64_t number;                  ///< among the cells of all parts, from 0 (MeshOutline::first_tet())
-    std::int32_t rank;                    ///< of its part
+    std::int64_t number;  ///< among the cells of all parts, from 0 (MeshOutline::first_tet())
+    PartIndex part;
     std::array<std::int64_t, 4> corners;  ///< global numbers
 };
 

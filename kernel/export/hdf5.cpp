@@ -33,7 +33,7 @@ class Hdf5Rows {
     /// The next value is the first of this row.
     void go_to(std::int64_t row) {
         const std::int64_t wanted = begin_ + row * row_size_;
-        if (wanted == place_ + static_cast<std::int64_t>(values_.size() * sizeof(T))) return;
+        if (wanted == place_ + std::ssize(values_) * std::int64_t{sizeof(T)}) return;
         flush();
         place_ = wanted;
     }
@@ -43,7 +43,7 @@ class Hdf5Rows {
     }
     void flush() {
         file_.write(values_.data(), values_.size() * sizeof(T), place_);
-        place_ += static_cast<std::int64_t>(values_.size() * sizeof(T));
+        place_ += values_.size() * sizeof(T);
         values_.clear();
     }
 
@@ -56,23 +56,23 @@ class Hdf5Rows {
     std::vector<T> values_;
 };
 
-// Calls take(f) for the triangles on the user's surface.
+// Calls take(f) for the triangles on patches.
 template <class Take>
 void for_each_patch_facet(const Part& part, Take take) {
     for (std::size_t f = 0; f < part.facets.size(); ++f)
-        if (!part.is_interface(f)) take(f);
+        if (part.has_patch(f)) take(f);
 }
 
 // The rows of one part in all arrays.
 class Hdf5Piece {
  public:
-    Hdf5Piece(const Hdf5Bytes& file, const PartSource& parts, std::int32_t rank, const Part& part)
+    Hdf5Piece(const Hdf5Bytes& file, const PartSource& parts, PartIndex index, const Part& part)
         : file_(file),
           parts_(parts),
           outline_(parts.outline()),
-          rank_(rank),
+          index_(index),
           part_(part),
-          own_(rows_before(outline_, static_cast<std::size_t>(rank))) {}
+          own_(rows_before(outline_, index)) {}
 
     void write() const {
         write_piece_points();
@@ -98,11 +98,11 @@ class Hdf5Piece {
 
     void write_piece_points() const {
         PieceRows size;
-        size.add(outline_.parts[static_cast<std::size_t>(rank_)]);
+        size.add(outline_.parts[index_]);
         for (const auto& [name, count] : {std::pair{"VTKHDF/NumberOfPoints", size.points},
                                           {"VTKHDF/NumberOfCells", size.cells},
                                           {"VTKHDF/NumberOfConnectivityIds", size.corners}})
-            write_span(name, rank_, std::span<const std::int64_t>(&count, 1));
+            write_span(name, index_.value(), std::span<const std::int64_t>(&count, 1));
         write_span("VTKHDF/Points", own_.points, std::span<const Vec3>(part_.mesh.vertices));
         write_span("VTKHDF/PointData/GlobalVertexId", own_.points, std::span<const std::int64_t>(part_.global_id));
     }
@@ -128,7 +128,7 @@ class Hdf5Piece {
     }
 
     void write_piece_tags() const {
-        const PartExtent& extent = outline_.parts[static_cast<std::size_t>(rank_)];
+        const PartExtent& extent = outline_.parts[index_];
         Hdf5Rows<std::int32_t> part(file_, "VTKHDF/CellData/Part", own_.cells);
         Hdf5Rows<std::int32_t> patch(file_, "VTKHDF/CellData/Patch", own_.cells);
         for (std::int64_t cell = 0; cell < extent.tets + extent.patch_facets; ++cell) part.put(part_.id);
@@ -151,13 +151,13 @@ class Hdf5Piece {
 
     // Boundary triangles have the values of the tetrahedron behind them.
     void write_values(const PartValues& values) const {
-        const auto width = static_cast<std::size_t>(values.components);
+        const std::size_t width = values.components;
         const auto put = [&](Hdf5Rows<double>& rows, std::size_t i) {
             for (std::size_t c = 0; c < width; ++c) rows.put(values.number(width * i + c));
         };
         const bool of_points = values.of == PartValues::Of::points;
         Hdf5Rows<double> piece(file_, piece_array_of(values), of_points ? own_.points : own_.cells);
-        Hdf5Rows<double> whole(file_, whole_array_of(values), of_points ? 0 : outline_.first_tet(rank_));
+        Hdf5Rows<double> whole(file_, whole_array_of(values), of_points ? 0 : outline_.first_tet(index_));
         if (of_points) {
             for (std::size_t v = 0; v < part_.global_id.size(); ++v) put(piece, v);
             for (const std::size_t v : own_vertices()) {
@@ -171,8 +171,7 @@ class Hdf5Piece {
             }
             for_each_patch_facet(part_, [&](std::size_t f) {
                 const std::int32_t tet = part_.tet_at_facet[f];
-                for (std::size_t c = 0; c < width; ++c)
-                    piece.put(tet < 0 ? NAN : values.number(width * static_cast<std::size_t>(tet) + c));
+                for (std::size_t c = 0; c < width; ++c) piece.put(tet < 0 ? NAN : values.number(width * tet + c));
             });
         }
         piece.flush();
@@ -190,8 +189,8 @@ class Hdf5Piece {
 
     template <class Id>
     void write_cells() const {
-        Hdf5Rows<Id> cells(file_, "viz/topology/cells", outline_.first_tet(rank_));
-        Hdf5Rows<Id> facets(file_, "viz/topology/facets", outline_.first_patch_facet(rank_));
+        Hdf5Rows<Id> cells(file_, "viz/topology/cells", outline_.first_tet(index_));
+        Hdf5Rows<Id> facets(file_, "viz/topology/facets", outline_.first_patch_facet(index_));
         for (const Tetrahedron& tet : part_.mesh.tets)
             for (const std::int64_t id : global_corners(part_, tet)) cells.put(static_cast<Id>(id));
         for_each_patch_facet(part_, [&](std::size_t f) {
@@ -202,10 +201,10 @@ class Hdf5Piece {
     }
 
     void write_tags() const {
-        Hdf5Rows<std::int32_t> body(file_, "viz/body", outline_.first_tet(rank_));
-        Hdf5Rows<std::int32_t> part(file_, "viz/part", outline_.first_tet(rank_));
-        Hdf5Rows<std::int32_t> patch(file_, "viz/patch", outline_.first_patch_facet(rank_));
-        for (const std::int32_t of_tet : parts_.bodies().of_tets(rank_, part_)) body.put(of_tet + 1);
+        Hdf5Rows<std::int32_t> body(file_, "viz/body", outline_.first_tet(index_));
+        Hdf5Rows<std::int32_t> part(file_, "viz/part", outline_.first_tet(index_));
+        Hdf5Rows<std::int32_t> patch(file_, "viz/patch", outline_.first_patch_facet(index_));
+        for (const std::int32_t of_tet : parts_.bodies().of_tets(index_, part_)) body.put(of_tet + 1);
         for (std::int64_t tet = 0; tet < part_.tet_count(); ++tet) part.put(part_.id);
         for_each_patch_facet(part_, [&](std::size_t f) { patch.put(part_.patch[f] + 1); });
         body.flush();
@@ -216,7 +215,7 @@ class Hdf5Piece {
     const Hdf5Bytes& file_;
     const PartSource& parts_;
     const MeshOutline& outline_;
-    std::int32_t rank_;
+    PartIndex index_;
     const Part& part_;
     PieceRows own_;  // before those of this part
 };
@@ -241,10 +240,10 @@ void make_xdmf(const MeshOutline& outline, ExportFiles& files, const std::string
     file.close();
 }
 
-void write_hdf5_rows(const PartSource& parts, std::int32_t rank, const Part& part, ExportFiles& files,
+void write_hdf5_rows(const PartSource& parts, PartIndex index, const Part& part, ExportFiles& files,
                      const std::string& stem) {
     Hdf5Bytes file(files.path_of(stem + ".h5"), arrays_of(parts.outline()));
-    Hdf5Piece(file, parts, rank, part).write();
+    Hdf5Piece(file, parts, index, part).write();
     file.close();
     files.add(stem + ".h5");
 }
@@ -254,15 +253,15 @@ void write_hdf5_whole(const PartSource& parts, ExportFiles& files) {
     make_xdmf(parts.outline(), files, "mesh");
 }
 
-void write_hdf5_part(const PartSource& parts, std::int32_t rank, const Part& part, ExportFiles& files) {
-    write_hdf5_rows(parts, rank, part, files, "mesh");
+void write_hdf5_part(const PartSource& parts, PartIndex index, const Part& part, ExportFiles& files) {
+    write_hdf5_rows(parts, index, part, files, "mesh");
 }
 
 void write_hdf5_merged(const PartSource& parts, const MergeOptions&, ExportFiles& files, const std::string& stem) {
     make_hdf5(parts.outline(), files, stem);
     make_xdmf(parts.outline(), files, stem);
     for_each_whole_part(parts,
-                        [&](std::int32_t rank, const Part& part) { write_hdf5_rows(parts, rank, part, files, stem); });
+                        [&](PartIndex index, const Part& part) { write_hdf5_rows(parts, index, part, files, stem); });
 }
 
 }  // namespace

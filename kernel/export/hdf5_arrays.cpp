@@ -5,9 +5,9 @@
 
 namespace kerf {
 
-PieceRows rows_before(const MeshOutline& outline, std::size_t rank) {
+PieceRows rows_before(const MeshOutline& outline, PartIndex index) {
     PieceRows rows;
-    for (std::size_t r = 0; r < rank; ++r) rows.add(outline.parts[r]);
+    for (const PartIndex i : IdRange(PartIndex(), index)) rows.add(outline.parts[i]);
     return rows;
 }
 
@@ -45,7 +45,7 @@ std::string whole_array_of(const PartValues& values) {
 
 std::vector<Hdf5Array> arrays_of(const MeshOutline& outline) {
     const std::int64_t parts = std::ssize(outline.parts);
-    const PieceRows all = rows_before(outline, outline.parts.size());
+    const PieceRows all = rows_before(outline, PartIndex(outline.parts.size()));
     const std::int64_t tets = outline.tets(), facets = outline.patch_facets();
     std::vector<Hdf5Array> arrays = {
         {"VTKHDF/NumberOfPoints", Hdf5Type::int64, parts},

@@ -21,7 +21,7 @@ struct PieceRows {
     }
 };
 
-PieceRows rows_before(const MeshOutline& outline, std::size_t rank);
+PieceRows rows_before(const MeshOutline& outline, PartIndex index);
 
 /// The type of global numbers.
 Hdf5Type id_type(const MeshOutline& outline);

@@ -32,8 +32,8 @@ void write_vertices(const PartSource& parts, ExportFile& file) {
 
 void write_tetrahedra(const PartSource& parts, ExportFile& file) {
     file.write(fmt::format("Tetrahedra\n{}\n", parts.outline().tets()));
-    for_each_part(parts, [&](std::int32_t rank, const Part& part) {
-        const std::vector<std::int32_t> bodies = parts.bodies().of_tets(rank, part);
+    for_each_part(parts, [&](PartIndex index, const Part& part) {
+        const std::vector<std::int32_t> bodies = parts.bodies().of_tets(index, part);
         for (std::size_t t = 0; t < bodies.size(); ++t) {
             const auto [a, b, c, d] = global_corners(part, part.mesh.tets[t]);
             write_row(file, {a + 1, b + 1, c + 1, d + 1, bodies[t] + 1});
@@ -43,9 +43,9 @@ void write_tetrahedra(const PartSource& parts, ExportFile& file) {
 
 void write_triangles(const PartSource& parts, ExportFile& file) {
     file.write(fmt::format("Triangles\n{}\n", parts.outline().patch_facets()));
-    for_each_surface(parts, [&](std::int32_t, const Part& part) {
+    for_each_surface(parts, [&](PartIndex, const Part& part) {
         for (std::size_t f = 0; f < part.facets.size(); ++f) {
-            if (part.is_interface(f)) continue;
+            if (!part.has_patch(f)) continue;
             const auto [a, b, c] = global_corners(part, part.facets[f]);
             write_row(file, {a + 1, b + 1, c + 1, part.patch[f] + 1});
         }

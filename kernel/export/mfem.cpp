@@ -28,12 +28,12 @@ struct MfemGroup {
 
 class MfemFile {
  public:
-    MfemFile(const PartSource& parts, std::int32_t rank, const Part& part, ExportFiles& files)
+    MfemFile(const PartSource& parts, PartIndex index, const Part& part, ExportFiles& files)
         : parts_(parts),
           outline_(parts.outline()),
-          rank_(rank),
+          index_(index),
           part_(part),
-          file_(files.create(fmt::format("mesh.{:06}", rank))) {}
+          file_(files.create(fmt::format("mesh.{:06}", index.value()))) {}
 
     void write() {
         file_.write("MFEM mesh v1.2\n\ndimension\n3\n");
@@ -61,7 +61,7 @@ class MfemFile {
     void write_cells() {
         file_.write(fmt::format("\nelements\n{}\n", part_.mesh.tets.size()));
         const std::string tetrahedron = fmt::format(" {} ", mfem_tetrahedron);
-        const std::vector<std::int32_t> bodies = parts_.bodies().of_tets(rank_, part_);
+        const std::vector<std::int32_t> bodies = parts_.bodies().of_tets(index_, part_);
         for (std::size_t t = 0; t < bodies.size(); ++t) {
             file_.number(std::int64_t{bodies[t]} + 1);
             file_.write(tetrahedron);
@@ -69,9 +69,9 @@ class MfemFile {
         }
         file_.write("\n");
         write_names();
-        file_.write(fmt::format("boundary\n{}\n", outline_.parts[static_cast<std::size_t>(rank_)].patch_facets));
+        file_.write(fmt::format("boundary\n{}\n", outline_.parts[index_].patch_facets));
         for (std::size_t f = 0; f < part_.facets.size(); ++f) {
-            if (part_.is_interface(f)) continue;
+            if (!part_.has_patch(f)) continue;
             file_.write(fmt::format("{} {} ", part_.patch[f] + 1, mfem_triangle));
             write_numbers(part_.facets[f]);
         }
@@ -96,7 +96,7 @@ class MfemFile {
 
     MfemGroup& group_of(const std::vector<NodeId>& parts) {
         std::vector<std::int32_t> ranks;
-        for (const NodeId part : parts) ranks.push_back(outline_.rank_of(part));
+        for (const NodeId part : parts) ranks.push_back(outline_.index_of(part).value());
         std::sort(ranks.begin(), ranks.end());
         return groups_[ranks];
     }
@@ -116,15 +116,14 @@ class MfemFile {
     }
 
     Triangle by_global_id(Triangle face) const {
-        std::sort(face.begin(), face.end(), [this](std::int32_t a, std::int32_t b) {
-            return part_.global_id[static_cast<std::size_t>(a)] < part_.global_id[static_cast<std::size_t>(b)];
-        });
+        std::sort(face.begin(), face.end(),
+                  [this](std::int32_t a, std::int32_t b) { return part_.global_id[a] < part_.global_id[b]; });
         return face;
     }
 
     void write_groups() {
         write_entry("\ncommunication_groups\nnumber_of_groups", groups_.size() + 1);
-        file_.write(fmt::format("\n# number of ranks in each group, followed by the ranks\n1 {}\n", rank_));
+        file_.write(fmt::format("\n# number of ranks in each group, followed by the ranks\n1 {}\n", index_.value()));
         std::size_t vertices = 0, edges = 0, faces = 0;
         for (const auto& [ranks, group] : groups_) {
             file_.write(fmt::format("{} {}\n", ranks.size(), fmt::join(ranks, " ")));
@@ -154,14 +153,14 @@ class MfemFile {
 
     const PartSource& parts_;
     const MeshOutline& outline_;
-    std::int32_t rank_;
+    PartIndex index_;  // the rank that reads the part
     const Part& part_;
     ExportFile file_;
     std::map<std::vector<std::int32_t>, MfemGroup> groups_;  // by ranks
 };
 
-void write_mfem_part(const PartSource& parts, std::int32_t rank, const Part& part, ExportFiles& files) {
-    MfemFile(parts, rank, part, files).write();
+void write_mfem_part(const PartSource& parts, PartIndex index, const Part& part, ExportFiles& files) {
+    MfemFile(parts, index, part, files).write();
 }
 
 }  // namespace

@@ -41,13 +41,12 @@ struct Whole {
 Whole survey(const PartSource& parts, const Tags& tags) {
     Whole whole;
     whole.surfaces.resize(parts.outline().patch_names.size());
-    for_each_whole_part(parts, [&](std::int32_t rank, const Part& part) {
+    for_each_whole_part(parts, [&](PartIndex index, const Part& part) {
         const PatchPieces pieces = patch_pieces(part);
-        for (const PatchPiece& piece : pieces.on_patches)
-            whole.surfaces[static_cast<std::size_t>(piece.patch)].extend(piece.box);
+        for (const PatchPiece& piece : pieces.on_patches) whole.surfaces[piece.patch].extend(piece.box);
         whole.blocks += pieces.on_patches.size();
-        for (const BodyPiece& piece : body_pieces(parts, rank, part, {})) {
-            whole.volumes.push_back({tags.merged_volume(rank, piece.body), tags.physical_body(piece.body), piece.box});
+        for (const BodyPiece& piece : body_pieces(parts, index, part, {})) {
+            whole.volumes.push_back({tags.merged_volume(index, piece.body), tags.physical_body(piece.body), piece.box});
             ++whole.blocks;
         }
     });
@@ -55,14 +54,13 @@ Whole survey(const PartSource& parts, const Tags& tags) {
 }
 
 void write_merged_entities(Writer& writer, const Whole& whole) {
-    const auto used = static_cast<std::size_t>(
-        std::count_if(whole.surfaces.begin(), whole.surfaces.end(), [](const auto& box) { return !box.isEmpty(); }));
+    const std::int64_t used =
+        std::count_if(whole.surfaces.begin(), whole.surfaces.end(), [](const auto& box) { return !box.isEmpty(); });
     writer.begin("Entities");
     writer.counts_of_entities(used, whole.volumes.size());
-    for (std::size_t p = 0; p < whole.surfaces.size(); ++p) {
-        const auto patch = static_cast<std::int32_t>(p);
-        if (!whole.surfaces[p].isEmpty())
-            writer.entity(Tags::surface(patch), whole.surfaces[p], Tags::physical_patch(patch));
+    for (std::int32_t patch = 0; patch < std::ssize(whole.surfaces); ++patch) {
+        if (!whole.surfaces[patch].isEmpty())
+            writer.entity(Tags::surface(patch), whole.surfaces[patch], Tags::physical_patch(patch));
     }
     for (const MergedVolume& volume : whole.volumes) writer.entity(volume.entity, volume.box, volume.physical);
     writer.end("Entities");
@@ -76,24 +74,24 @@ void write_merged_4_1(const PartSource& parts, const Tags& tags, ExportFiles& fi
     write_merged_entities(writer, whole);
 
     writer.begin("Nodes");
-    writer.extent(whole.blocks, static_cast<std::size_t>(outline.vertices), {0, outline.vertices - 1});
-    for_each_whole_part(parts, [&](std::int32_t rank, const Part& part) {
+    writer.extent(whole.blocks, outline.vertices, {0, outline.vertices - 1});
+    for_each_whole_part(parts, [&](PartIndex index, const Part& part) {
         const PatchPieces pieces = owned_patch_pieces(part);
         for (const PatchPiece& piece : pieces.on_patches)
             writer.nodes(Tags::surface(piece.patch), part, piece.vertices);
-        for (const BodyPiece& piece : body_pieces(parts, rank, part, pieces.inside))
-            writer.nodes(tags.merged_volume(rank, piece.body), part, piece.inside);
+        for (const BodyPiece& piece : body_pieces(parts, index, part, pieces.inside))
+            writer.nodes(tags.merged_volume(index, piece.body), part, piece.inside);
     });
     writer.end("Nodes");
 
     const std::int64_t elements = element_count(outline);
     writer.begin("Elements");
-    writer.extent(whole.blocks, static_cast<std::size_t>(elements), {0, elements - 1});
-    for_each_whole_part(parts, [&](std::int32_t rank, const Part& part) {
+    writer.extent(whole.blocks, elements, {0, elements - 1});
+    for_each_whole_part(parts, [&](PartIndex index, const Part& part) {
         for (const PatchPiece& piece : patch_pieces(part).on_patches)
-            writer.triangles(Tags::surface(piece.patch), part, piece, first_triangle(outline, rank));
-        for (const BodyPiece& piece : body_pieces(parts, rank, part, {}))
-            writer.tets(tags.merged_volume(rank, piece.body), part, piece.tets, outline.first_tet(rank));
+            writer.triangles(Tags::surface(piece.patch), part, piece, first_triangle(outline, index));
+        for (const BodyPiece& piece : body_pieces(parts, index, part, {}))
+            writer.tets(tags.merged_volume(index, piece.body), part, piece.tets, outline.first_tet(index));
     });
     writer.end("Elements");
     write_merged_values(parts, writer);
@@ -112,14 +110,14 @@ class Elements22 {
     template <std::size_t n>
     void add(std::int64_t number, std::int32_t physical, const Entity& entity,
              const std::array<std::int64_t, n>& corners) {
-        writer_.number(static_cast<std::int32_t>(tag_of(number)));
+        writer_.number(tag_of(number));
         if (writer_.is_ascii()) {
             writer_.number(type_);
             writer_.number(tags);
         }
         writer_.number(physical);
         writer_.number(entity.tag);
-        for (const std::int64_t corner : corners) writer_.number(static_cast<std::int32_t>(tag_of(corner)));
+        for (const std::int64_t corner : corners) writer_.number(tag_of(corner));
         writer_.end_row();
     }
 
@@ -133,7 +131,7 @@ class Elements22 {
 void write_triangles_2_2(Writer& writer, const Part& part, const PartExtent& extent, std::int64_t number) {
     Elements22 elements(writer, triangle_type, extent.patch_facets);
     for (std::size_t f = 0; f < part.facets.size(); ++f)
-        if (part.patch[f] >= 0)
+        if (part.has_patch(f))
             elements.add(number++, Tags::physical_patch(part.patch[f]), Tags::surface(part.patch[f]),
                          global_corners(part, part.facets[f]));
 }
@@ -151,7 +149,7 @@ void write_merged_2_2(const PartSource& parts, const Tags& tags, ExportFiles& fi
     writer.file().write(fmt::format("$Nodes\n{}\n", outline.vertices));
     for_each_vertex(parts, [&](std::int64_t first, std::span<const Vec3> points) {
         for (const Vec3& point : points) {
-            writer.number(static_cast<std::int32_t>(tag_of(first++)));
+            writer.number(tag_of(first++));
             writer.point(point);
             writer.end_row();
         }
@@ -159,13 +157,13 @@ void write_merged_2_2(const PartSource& parts, const Tags& tags, ExportFiles& fi
     writer.end("Nodes");
 
     writer.file().write(fmt::format("$Elements\n{}\n", element_count(outline)));
-    for_each_part(parts, [&](std::int32_t rank, const Part& part) {
-        write_triangles_2_2(writer, part, outline.parts[static_cast<std::size_t>(rank)], first_triangle(outline, rank));
+    for_each_part(parts, [&](PartIndex index, const Part& part) {
+        write_triangles_2_2(writer, part, outline.parts[index], first_triangle(outline, index));
         Elements22 elements(writer, tet_type, part.tet_count());
-        std::int64_t number = outline.first_tet(rank);
-        const std::vector<std::int32_t> bodies = parts.bodies().of_tets(rank, part);
+        std::int64_t number = outline.first_tet(index);
+        const std::vector<std::int32_t> bodies = parts.bodies().of_tets(index, part);
         for (std::size_t t = 0; t < bodies.size(); ++t)
-            elements.add(number++, tags.physical_body(bodies[t]), tags.merged_volume(rank, bodies[t]),
+            elements.add(number++, tags.physical_body(bodies[t]), tags.merged_volume(index, bodies[t]),
                          global_corners(part, part.mesh.tets[t]));
     });
     writer.end("Elements");

@@ -12,15 +12,15 @@ namespace {
 
 class PartFile {
  public:
-    PartFile(const PartSource& parts, std::int32_t rank, const Part& part)
+    PartFile(const PartSource& parts, PartIndex index, const Part& part)
         : outline_(parts.outline()),
-          rank_(rank),
+          index_(index),
           part_(part),
           tags_(parts),
           pieces_(patch_pieces(part)),
-          bodies_(body_pieces(parts, rank, part, pieces_.inside)),
+          bodies_(body_pieces(parts, index, part, pieces_.inside)),
           ghosts_(ghosts_of(parts, part)),
-          ghost_volume_(tags_.ghosts_of_part(rank)) {}
+          ghost_volume_(tags_.ghosts_of_part(index)) {}
 
     void write(Writer writer) const {
         write_names(writer.file(), tags_, part_.patch_names);
@@ -29,7 +29,7 @@ class PartFile {
         write_nodes(writer);
         write_elements(writer);
         if (has_ghosts()) write_ghosts(writer);
-        write_part_values(outline_, rank_, part_, writer);
+        write_part_values(outline_, index_, part_, writer);
         writer.file().close();
     }
 
@@ -53,13 +53,13 @@ class PartFile {
         writer.end_row();
         writer.size(has_ghosts());
         writer.end_row();
-        if (has_ghosts()) writer.row(std::array{ghost_volume_.tag, rank_ + 1});
+        if (has_ghosts()) writer.row(std::array{ghost_volume_.tag, index_.value() + 1});
         writer.counts_of_entities(pieces_.on_patches.size(), bodies_.size());
         for (const PatchPiece& piece : pieces_.on_patches)
-            writer.entity_of_part(surface_of(piece), Tags::surface(piece.patch), rank_, piece.box,
+            writer.entity_of_part(surface_of(piece), Tags::surface(piece.patch), index_, piece.box,
                                   Tags::physical_patch(piece.patch));
         for (const BodyPiece& piece : bodies_)
-            writer.entity_of_part(volume_of(piece), Tags::whole(piece.body), rank_, piece.box,
+            writer.entity_of_part(volume_of(piece), Tags::whole(piece.body), index_, piece.box,
                                   tags_.physical_body(piece.body));
         writer.end("PartitionedEntities");
     }
@@ -79,14 +79,13 @@ class PartFile {
     }
 
     void write_elements(Writer& writer) const {
-        const std::int64_t tet = outline_.first_tet(rank_), triangle = first_triangle(outline_, rank_);
-        const std::int64_t triangles = outline_.parts[static_cast<std::size_t>(rank_)].patch_facets;
+        const std::int64_t tet = outline_.first_tet(index_), triangle = first_triangle(outline_, index_);
+        const std::int64_t triangles = outline_.parts[index_].patch_facets;
         Numbers numbers{tet, tet + part_.tet_count() - 1};
         if (triangles > 0) numbers.add(triangle + triangles - 1);
         for (const GhostCell& cell : ghosts_.cells) numbers.add(cell.number);
         writer.begin("Elements");
-        writer.extent(block_count(),
-                      part_.mesh.tets.size() + static_cast<std::size_t>(triangles) + ghosts_.cells.size(), numbers);
+        writer.extent(block_count(), part_.mesh.tets.size() + triangles + ghosts_.cells.size(), numbers);
         for (const PatchPiece& piece : pieces_.on_patches) writer.triangles(surface_of(piece), part_, piece, triangle);
         for (const BodyPiece& piece : bodies_) writer.tets(volume_of(piece), part_, piece.tets, tet);
         if (has_ghosts()) writer.tets(ghost_volume_, ghosts_.cells);
@@ -95,23 +94,23 @@ class PartFile {
 
     void write_ghosts(Writer& writer) const {
         writer.begin("GhostElements");
-        writer.size(static_cast<std::int64_t>(ghosts_.cells.size()));
+        writer.size(std::ssize(ghosts_.cells));
         writer.end_row();
         for (const GhostCell& cell : ghosts_.cells) {
             writer.size(tag_of(cell.number));
-            writer.number(cell.rank + 1);
+            writer.number(cell.part.value() + 1);
             writer.size(1);
-            writer.number(rank_ + 1);
+            writer.number(index_.value() + 1);
             writer.end_row();
         }
         writer.end("GhostElements");
     }
 
-    Entity surface_of(const PatchPiece& piece) const { return tags_.surface_of_part(rank_, piece.patch); }
-    Entity volume_of(const BodyPiece& piece) const { return tags_.volume_of_part(rank_, piece.body); }
+    Entity surface_of(const PatchPiece& piece) const { return tags_.surface_of_part(index_, piece.patch); }
+    Entity volume_of(const BodyPiece& piece) const { return tags_.volume_of_part(index_, piece.body); }
 
     const MeshOutline& outline_;
-    std::int32_t rank_;
+    PartIndex index_;
     const Part& part_;
     Tags tags_;
     PatchPieces pieces_;
@@ -121,17 +120,17 @@ class PartFile {
 };
 
 // As Gmsh calls them: a mesh in one piece has no number.
-std::string file_name(std::size_t parts, std::int32_t rank) {
-    return parts == 1 ? "mesh.msh" : fmt::format("mesh_{}.msh", rank + 1);
+std::string file_name(std::size_t parts, PartIndex index) {
+    return parts == 1 ? "mesh.msh" : fmt::format("mesh_{}.msh", index.value() + 1);
 }
 
 }  // namespace
 
-void write_part(const PartSource& parts, std::int32_t rank, const Part& part, ExportFiles& files) {
+void write_part(const PartSource& parts, PartIndex index, const Part& part, ExportFiles& files) {
     require_tags_fit(parts.outline());
-    const PartFile content(parts, rank, part);
+    const PartFile content(parts, index, part);
     content.write(
-        Writer(files.create(file_name(parts.outline().parts.size(), rank)), "4.1", files.options().msh_ascii));
+        Writer(files.create(file_name(parts.outline().parts.size(), index)), "4.1", files.options().msh_ascii));
 }
 
 }  // namespace kerf::msh

@@ -8,6 +8,6 @@
 
 namespace kerf::msh {
 
-void write_part(const PartSource& parts, std::int32_t rank, const Part& part, ExportFiles& files);
+void write_part(const PartSource& parts, PartIndex index, const Part& part, ExportFiles& files);
 
 }  // namespace kerf::msh

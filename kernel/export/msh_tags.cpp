@@ -12,8 +12,8 @@
 namespace kerf::msh {
 
 Tags::Tags(const PartSource& source)
-    : parts_(static_cast<std::int32_t>(source.outline().parts.size())),
-      patches_(static_cast<std::int32_t>(source.outline().patch_names.size())),
+    : parts_(source.outline().parts.size()),
+      patches_(source.outline().patch_names.size()),
       bodies_(source.bodies().count()) {
     const std::int64_t volumes = (std::int64_t{parts_} + 1) * bodies_ + parts_;
     const std::int64_t surfaces = (std::int64_t{parts_} + 1) * patches_;
@@ -24,12 +24,12 @@ Tags::Tags(const PartSource& source)
                                 patches_, parts_, bodies_));
 }
 
-std::int64_t first_triangle(const MeshOutline& outline, std::int32_t rank) {
-    return outline.tets() + outline.first_patch_facet(rank);
+std::int64_t first_triangle(const MeshOutline& outline, PartIndex index) {
+    return outline.tets() + outline.first_patch_facet(index);
 }
 
 std::int64_t element_count(const MeshOutline& outline) {
-    return first_triangle(outline, static_cast<std::int32_t>(outline.parts.size()));
+    return first_triangle(outline, PartIndex(outline.parts.size()));
 }
 
 std::string readable(std::string name, std::size_t most) {
@@ -57,18 +57,18 @@ std::vector<std::string> names_of_patches(const std::vector<std::string>& patch_
     return names;
 }
 
-std::vector<BodyPiece> body_pieces(const PartSource& parts, std::int32_t rank, const Part& part,
+std::vector<BodyPiece> body_pieces(const PartSource& parts, PartIndex index, const Part& part,
                                    const std::vector<std::int32_t>& inside) {
-    const std::vector<std::int32_t> of_tets = parts.bodies().of_tets(rank, part);
+    const std::vector<std::int32_t> of_tets = parts.bodies().of_tets(index, part);
     std::map<std::int32_t, BodyPiece> pieces;
     std::vector<std::int32_t> of_vertices(part.mesh.vertices.size(), -1);
     for (std::size_t t = 0; t < of_tets.size(); ++t) {
-        pieces[of_tets[t]].tets.push_back(static_cast<std::int32_t>(t));
-        for (const std::int32_t v : part.mesh.tets[t]) of_vertices[static_cast<std::size_t>(v)] = of_tets[t];
+        pieces[of_tets[t]].tets.push_back(t);
+        for (const std::int32_t v : part.mesh.tets[t]) of_vertices[v] = of_tets[t];
     }
     for (std::size_t v = 0; v < of_vertices.size(); ++v)
         if (of_vertices[v] >= 0) pieces[of_vertices[v]].box.extend(part.mesh.vertices[v]);
-    for (const std::int32_t v : inside) pieces[of_vertices[static_cast<std::size_t>(v)]].inside.push_back(v);
+    for (const std::int32_t v : inside) pieces[of_vertices[v]].inside.push_back(v);
     std::vector<BodyPiece> ordered;
     for (auto& [body, piece] : pieces) {
         piece.body = body;

@@ -29,13 +29,15 @@ class Tags {
 
     static Entity surface(std::int32_t patch) { return {2, patch + 1}; }
     static Entity whole(std::int32_t body) { return {3, body + 1}; }
-    Entity surface_of_part(std::int32_t rank, std::int32_t patch) const {
-        return {2, (rank + 1) * patches_ + patch + 1};
+    Entity surface_of_part(PartIndex index, std::int32_t patch) const {
+        return {2, (index.value() + 1) * patches_ + patch + 1};
     }
-    Entity volume_of_part(std::int32_t rank, std::int32_t body) const { return {3, (rank + 1) * bodies_ + body + 1}; }
-    Entity ghosts_of_part(std::int32_t rank) const { return {3, (parts_ + 1) * bodies_ + rank + 1}; }
+    Entity volume_of_part(PartIndex index, std::int32_t body) const {
+        return {3, (index.value() + 1) * bodies_ + body + 1};
+    }
+    Entity ghosts_of_part(PartIndex index) const { return {3, (parts_ + 1) * bodies_ + index.value() + 1}; }
     /// Merged, the parts are the volumes, for each body that they have something of.
-    Entity merged_volume(std::int32_t rank, std::int32_t body) const { return {3, rank * bodies_ + body + 1}; }
+    Entity merged_volume(PartIndex index, std::int32_t body) const { return {3, index.value() * bodies_ + body + 1}; }
 
     /// Physical tags are different in all dimensions, as Gmsh chooses them itself, and GetDP needs them.
     static std::int32_t physical_patch(std::int32_t patch) { return patch + 1; }
@@ -51,7 +53,7 @@ class Tags {
 constexpr std::int64_t tag_of(std::int64_t number) { return number + 1; }
 
 /// The number of a part's first triangle among all elements.
-std::int64_t first_triangle(const MeshOutline& outline, std::int32_t rank);
+std::int64_t first_triangle(const MeshOutline& outline, PartIndex index);
 std::int64_t element_count(const MeshOutline& outline);
 
 /// The name without what ends a name or a line, and not ending inside of a character that takes several bytes.
@@ -69,7 +71,7 @@ struct BodyPiece {
 };
 
 /// Ascending by body. `inside`: those vertices that are asked for.
-std::vector<BodyPiece> body_pieces(const PartSource& parts, std::int32_t rank, const Part& part,
+std::vector<BodyPiece> body_pieces(const PartSource& parts, PartIndex index, const Part& part,
                                    const std::vector<std::int32_t>& inside);
 
 }  // namespace kerf::msh

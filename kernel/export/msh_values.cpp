@@ -20,7 +20,7 @@ class ValueSection {
     ValueSection& operator=(const ValueSection&) = delete;
 
     void row(std::int64_t number, const PartValues& values, std::size_t i) {
-        writer_.number(static_cast<std::int32_t>(tag_of(number)));
+        writer_.number(tag_of(number));
         const auto at = [&](std::size_t c) { return values.number(values.components * i + c); };
         if (values.components == 6)
             for (const std::size_t c : {0, 3, 5, 3, 1, 4, 5, 4, 2}) writer_.real(at(c));  // of XX YY ZZ XY YZ XZ
@@ -54,11 +54,11 @@ void require_tags_fit(const MeshOutline& outline) {
     if (!outline.values.empty()) require_numbers_fit(outline, "values in MSH", most_int32 - 1);
 }
 
-void write_part_values(const MeshOutline& outline, std::int32_t rank, const Part& part, Writer& writer) {
+void write_part_values(const MeshOutline& outline, PartIndex index, const Part& part, Writer& writer) {
     for (std::size_t k = 0; k < part.values.size(); ++k) {
         const bool of_points = part.values[k].of == PartValues::Of::points;
         ValueSection section(writer, part.values[k], of_points ? part.vertex_count() : part.tet_count());
-        write_rows_of_part(section, part, k, outline.first_tet(rank), [](std::size_t) { return true; });
+        write_rows_of_part(section, part, k, outline.first_tet(index), [](std::size_t) { return true; });
         section.end();
     }
 }
@@ -68,9 +68,9 @@ void write_merged_values(const PartSource& parts, Writer& writer) {
     for (std::size_t k = 0; k < outline.values.size(); ++k) {
         const bool of_points = outline.values[k].of == PartValues::Of::points;
         ValueSection section(writer, outline.values[k], of_points ? outline.vertices : outline.tets());
-        for_each_whole_part(parts, [&](std::int32_t rank, const Part& part) {
+        for_each_whole_part(parts, [&](PartIndex index, const Part& part) {
             const std::vector<NodeId> owners = owners_of_vertices(part);
-            write_rows_of_part(section, part, k, outline.first_tet(rank),
+            write_rows_of_part(section, part, k, outline.first_tet(index),
                                [&](std::size_t v) { return owners[v] == part.id; });
         });
         section.end();

@@ -5,7 +5,7 @@
 namespace kerf::msh {
 
 void write_names(ExportFile& file, const Tags& tags, const std::vector<std::string>& patch_names) {
-    file.write(fmt::format("$PhysicalNames\n{}\n", static_cast<std::int32_t>(patch_names.size()) + tags.bodies()));
+    file.write(fmt::format("$PhysicalNames\n{}\n", patch_names.size() + tags.bodies()));
     std::int32_t patch = 0;
     for (const std::string& name : names_of_patches(patch_names))
         file.write(fmt::format("2 {} \"{}\"\n", Tags::physical_patch(patch++), name));

@@ -65,29 +65,28 @@ class Writer {
         number(entity.tag);
         box_and_physical(box, physical);
     }
-    void entity_of_part(const Entity& entity, const Entity& of, std::int32_t rank, const Eigen::AlignedBox3d& box,
+    void entity_of_part(const Entity& entity, const Entity& of, PartIndex index, const Eigen::AlignedBox3d& box,
                         std::int32_t physical) {
         number(entity.tag);
         number(of.dimension);
         number(of.tag);
         size(1);
-        number(rank + 1);
+        number(index.value() + 1);
         box_and_physical(box, physical);
     }
-    void counts_of_entities(std::size_t surfaces, std::size_t volumes) {
-        row(std::array<std::int64_t, 4>{0, 0, static_cast<std::int64_t>(surfaces), static_cast<std::int64_t>(volumes)});
+    void counts_of_entities(std::int64_t surfaces, std::int64_t volumes) {
+        row(std::array<std::int64_t, 4>{0, 0, surfaces, volumes});
     }
 
     /// What $Nodes and $Elements begin with.
-    void extent(std::size_t blocks, std::size_t count, const Numbers& numbers) {
-        row(std::array<std::int64_t, 4>{static_cast<std::int64_t>(blocks), static_cast<std::int64_t>(count),
-                                        tag_of(numbers.first), tag_of(numbers.last)});
+    void extent(std::int64_t blocks, std::int64_t count, const Numbers& numbers) {
+        row(std::array<std::int64_t, 4>{blocks, count, tag_of(numbers.first), tag_of(numbers.last)});
     }
 
     void nodes(const Entity& entity, const Part& part, const std::vector<std::int32_t>& vertices) {
         block(entity, 0, vertices.size());
-        for (const std::int32_t v : vertices) size_row(tag_of(part.global_id[static_cast<std::size_t>(v)]));
-        for (const std::int32_t v : vertices) point_row(part.mesh.vertices[static_cast<std::size_t>(v)]);
+        for (const std::int32_t v : vertices) size_row(tag_of(part.global_id[v]));
+        for (const std::int32_t v : vertices) point_row(part.mesh.vertices[v]);
     }
     void nodes(const Entity& entity, const std::vector<GhostVertex>& vertices) {
         block(entity, 0, vertices.size());
@@ -97,13 +96,11 @@ class Writer {
     void triangles(const Entity& entity, const Part& part, const PatchPiece& piece, std::int64_t first) {
         block(entity, triangle_type, piece.facets.size());
         for (std::size_t i = 0; i < piece.facets.size(); ++i)
-            element(first + piece.places[i],
-                    global_corners(part, part.facets[static_cast<std::size_t>(piece.facets[i])]));
+            element(first + piece.places[i], global_corners(part, part.facets[piece.facets[i]]));
     }
     void tets(const Entity& entity, const Part& part, const std::vector<std::int32_t>& tets, std::int64_t first) {
         block(entity, tet_type, tets.size());
-        for (const std::int32_t t : tets)
-            element(first + t, global_corners(part, part.mesh.tets[static_cast<std::size_t>(t)]));
+        for (const std::int32_t t : tets) element(first + t, global_corners(part, part.mesh.tets[t]));
     }
     void tets(const Entity& entity, const std::vector<GhostCell>& cells) {
         block(entity, tet_type, cells.size());
@@ -141,7 +138,7 @@ class Writer {
         number(entity.dimension);
         number(entity.tag);
         number(kind);
-        size(static_cast<std::int64_t>(count));
+        size(count);
         end_row();
     }
     template <std::size_t n>

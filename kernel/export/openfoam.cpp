@@ -67,14 +67,14 @@ Labels patches_of_facets(const Part& part, const MeshOutline& outline) {
     std::vector<NodeId> others = part.neighbour;
     std::sort(others.begin(), others.end());
     others.erase(std::unique(others.begin(), others.end()), others.end());
-    Labels ranks;
-    for (const NodeId other : others) ranks.push_back(other < 0 ? -1 : outline.rank_of(other));
-    const auto first = static_cast<std::int32_t>(part.patch_names.size());
+    Labels processors;
+    for (const NodeId other : others) processors.push_back(other < 0 ? -1 : outline.index_of(other).value());
+    const std::int32_t first = std::ssize(part.patch_names);
     Labels patches = part.patch;
     for (std::size_t f = 0; f < patches.size(); ++f) {
         if (!part.is_interface(f)) continue;
         const auto found = std::lower_bound(others.begin(), others.end(), part.neighbour[f]);
-        patches[f] = first + ranks[static_cast<std::size_t>(found - others.begin())];
+        patches[f] = first + processors[found - others.begin()];
     }
     return patches;
 }
@@ -93,8 +93,7 @@ std::vector<PlacedFacet> place_facets(const Part& part, const MeshOutline& outli
     for (std::size_t f = 0; f < placed.size(); ++f) {
         placed[f] = {patches[f], {}, static_cast<std::int32_t>(f)};
         if (!part.is_interface(f)) continue;
-        for (std::size_t i = 0; i < 3; ++i)
-            placed[f].ids[i] = part.global_id[static_cast<std::size_t>(part.facets[f][i])];
+        for (std::size_t i = 0; i < 3; ++i) placed[f].ids[i] = part.global_id[part.facets[f][i]];
         std::sort(placed[f].ids.begin(), placed[f].ids.end());
     }
     std::sort(placed.begin(), placed.end());
@@ -103,7 +102,7 @@ std::vector<PlacedFacet> place_facets(const Part& part, const MeshOutline& outli
 
 Triangle starting_at_smallest_id(Triangle triangle, const Part& part) {
     const auto smallest = std::min_element(triangle.begin(), triangle.end(), [&](std::int32_t a, std::int32_t b) {
-        return part.global_id[static_cast<std::size_t>(a)] < part.global_id[static_cast<std::size_t>(b)];
+        return part.global_id[a] < part.global_id[b];
     });
     std::rotate(triangle.begin(), smallest, triangle.end());
     return triangle;
@@ -122,30 +121,30 @@ std::vector<Patch> patches_of_surface(const std::vector<std::string>& names, std
     return patches;
 }
 
-Patch between(std::int32_t rank, std::int32_t other) {
+Patch between(std::int32_t processor, std::int32_t other) {
     Patch patch;
-    patch.name = fmt::format("procBoundary{}to{}", rank, other);
+    patch.name = fmt::format("procBoundary{}to{}", processor, other);
     patch.other = other;
     return patch;
 }
 
-Boundary boundary_faces_of(const Part& part, const MeshOutline& outline, std::int32_t rank,
+Boundary boundary_faces_of(const Part& part, const MeshOutline& outline, std::int32_t processor,
                            std::span<const PatchType> types) {
     Boundary boundary;
     boundary.patches = patches_of_surface(part.patch_names, types);
-    const auto of_surface = static_cast<std::int32_t>(part.patch_names.size());
+    const std::int32_t of_surface = std::ssize(part.patch_names);
     for (const PlacedFacet& placed : place_facets(part, outline)) {
-        const auto f = static_cast<std::size_t>(placed.facet);
+        const std::int32_t f = placed.facet;
         const bool is_of_surface = placed.patch < of_surface;
         const std::int32_t other = placed.patch - of_surface;
-        if (!is_of_surface && boundary.patches.back().other != other) boundary.patches.push_back(between(rank, other));
-        Patch& patch =
-            is_of_surface ? boundary.patches[static_cast<std::size_t>(placed.patch)] : boundary.patches.back();
+        if (!is_of_surface && boundary.patches.back().other != other)
+            boundary.patches.push_back(between(processor, other));
+        Patch& patch = is_of_surface ? boundary.patches[placed.patch] : boundary.patches.back();
         ++patch.faces;
         boundary.faces.push_back(is_of_surface ? part.facets[f] : starting_at_smallest_id(part.facets[f], part));
         boundary.owner.push_back(part.tet_at_facet[f]);
     }
-    std::int64_t start = static_cast<std::int64_t>(4 * part.mesh.tets.size() - part.facets.size()) / 2;
+    std::int64_t start = (4 * std::ssize(part.mesh.tets) - std::ssize(part.facets)) / 2;
     for (Patch& patch : boundary.patches) {
         patch.start = start;
         start += patch.faces;
@@ -178,8 +177,8 @@ class ListFile {
     ExportFile file_;
 };
 
-std::string mesh_folder(std::size_t parts, std::int32_t rank) {
-    return (parts == 1 ? "" : fmt::format("processor{}/", rank)) + "constant/polyMesh/";
+std::string mesh_folder(std::size_t parts, std::int32_t processor) {
+    return (parts == 1 ? "" : fmt::format("processor{}/", processor)) + "constant/polyMesh/";
 }
 
 void write_points(const Part& part, ExportFiles& files, const std::string& folder) {
@@ -202,7 +201,7 @@ void begin_corners(ListFile& faces, std::int64_t count) {
 Triangle face_of(const TetMesh& mesh, std::size_t t, std::size_t opposite) {
     const auto& [a, b, c] = tet_faces[opposite];
     const Tetrahedron& tet = mesh.tets[t];
-    return {tet[static_cast<std::size_t>(a)], tet[static_cast<std::size_t>(b)], tet[static_cast<std::size_t>(c)]};
+    return {tet[a], tet[b], tet[c]};
 }
 
 // Faces between cells, upper-triangular.
@@ -222,7 +221,7 @@ void write_inner_faces(const TetMesh& mesh, ListFile& faces, ListFile& owner, Li
 }
 
 void write_faces(const Part& part, const Boundary& boundary, ExportFiles& files, const std::string& folder) {
-    const auto outer = static_cast<std::int64_t>(boundary.faces.size());
+    const auto outer = std::ssize(boundary.faces);
     const std::int64_t count = face_count(part.tet_count(), outer), inner = count - outer;
     const std::string note = fmt::format("nPoints:{}  nCells:{}  nFaces:{}  nInternalFaces:{}", part.vertex_count(),
                                          part.tet_count(), count, inner);
@@ -241,7 +240,7 @@ void write_faces(const Part& part, const Boundary& boundary, ExportFiles& files,
     }
 }
 
-void write_boundary(const std::vector<Patch>& patches, std::int32_t rank, ExportFiles& files,
+void write_boundary(const std::vector<Patch>& patches, std::int32_t processor, ExportFiles& files,
                     const std::string& folder) {
     ExportFile file = files.create(folder + "boundary");
     file.write(header("polyBoundaryMesh", "boundary", false));
@@ -253,22 +252,23 @@ void write_boundary(const std::vector<Patch>& patches, std::int32_t rank, Export
         if (patch.type == "wall") file.write("        inGroups        1(wall);\n");
         file.write(fmt::format("        nFaces          {};\n        startFace       {};\n", patch.faces, patch.start));
         if (is_between)
-            file.write(fmt::format("        myProcNo        {};\n        neighbProcNo    {};\n", rank, patch.other));
+            file.write(
+                fmt::format("        myProcNo        {};\n        neighbProcNo    {};\n", processor, patch.other));
         file.write("    }\n");
     }
     file.write(")\n");
     file.close();
 }
 
-void write_part(const PartSource& parts, std::int32_t rank, const Part& part, ExportFiles& files) {
+void write_part(const PartSource& parts, PartIndex index, const Part& part, ExportFiles& files) {
     KERF_CHECK(part.mesh.neighbours.size() == part.mesh.tets.size());
     KERF_CHECK(part.tet_at_facet.size() == part.facets.size());
     const MeshOutline& outline = parts.outline();
-    const std::string folder = mesh_folder(outline.parts.size(), rank);
-    const Boundary boundary = boundary_faces_of(part, outline, rank, files.options().patch_types);
+    const std::string folder = mesh_folder(outline.parts.size(), index.value());
+    const Boundary boundary = boundary_faces_of(part, outline, index.value(), files.options().patch_types);
     write_points(part, files, folder);
     write_faces(part, boundary, files, folder);
-    write_boundary(boundary.patches, rank, files, folder);
+    write_boundary(boundary.patches, index.value(), files, folder);
 }
 
 // ---- The case around the meshes

@@ -11,9 +11,9 @@ std::vector<PatchPiece> facets_by_patch(const Part& part) {
     std::int32_t place = 0;
     for (std::size_t f = 0; f < part.facets.size(); ++f) {
         if (part.patch[f] < 0) continue;
-        PatchPiece& piece = pieces[static_cast<std::size_t>(part.patch[f])];
+        PatchPiece& piece = pieces[part.patch[f]];
         piece.patch = part.patch[f];
-        piece.facets.push_back(static_cast<std::int32_t>(f));
+        piece.facets.push_back(f);
         piece.places.push_back(place++);
     }
     std::erase_if(pieces, [](const PatchPiece& piece) { return piece.facets.empty(); });
@@ -26,14 +26,14 @@ PatchPieces pieces_with(const Part& part, const std::vector<bool>& is_wanted) {
     std::vector<bool> is_left = is_wanted;
     for (PatchPiece& piece : pieces.on_patches)
         for (const std::int32_t f : piece.facets)
-            for (const std::int32_t v : part.facets[static_cast<std::size_t>(f)]) {
-                piece.box.extend(part.mesh.vertices[static_cast<std::size_t>(v)]);
-                if (is_left[static_cast<std::size_t>(v)]) piece.vertices.push_back(v);
-                is_left[static_cast<std::size_t>(v)] = false;
+            for (const std::int32_t v : part.facets[f]) {
+                piece.box.extend(part.mesh.vertices[v]);
+                if (is_left[v]) piece.vertices.push_back(v);
+                is_left[v] = false;
             }
     for (std::size_t v = 0; v < is_left.size(); ++v) {
         pieces.box.extend(part.mesh.vertices[v]);
-        if (is_left[v]) pieces.inside.push_back(static_cast<std::int32_t>(v));
+        if (is_left[v]) pieces.inside.push_back(v);
     }
     return pieces;
 }

@@ -18,7 +18,7 @@ namespace su2 {
 void write_elements(const PartSource& parts, ExportFile& file) {
     file.write(fmt::format("NDIME= 3\nNELEM= {}\n", parts.outline().tets()));
     std::int64_t number = 0;
-    for_each_part(parts, [&](std::int32_t, const Part& part) {
+    for_each_part(parts, [&](PartIndex, const Part& part) {
         for (const Tetrahedron& tet : part.mesh.tets) {
             const auto [a, b, c, d] = global_corners(part, tet);
             write_row(file, {vtk_tetra, a, b, c, d, number++});
@@ -55,10 +55,9 @@ void write_markers(const PartSource& parts, ExportFile& file) {
         fmt::format("NMARK= {}\n", std::count_if(sizes.begin(), sizes.end(), [](std::int64_t n) { return n > 0; })));
     std::int32_t current = -1;
     for_each_patch_triangle(parts, sizes, [&](std::int32_t patch, std::span<const PatchTriangle> triangles) {
-        const auto p = static_cast<std::size_t>(patch);
         if (patch != current)
-            file.write(
-                fmt::format("% {}\nMARKER_TAG= {}\nMARKER_ELEMS= {}\n", marker_comment(names[p]), words[p], sizes[p]));
+            file.write(fmt::format("% {}\nMARKER_TAG= {}\nMARKER_ELEMS= {}\n", marker_comment(names[patch]),
+                                   words[patch], sizes[patch]));
         current = patch;
         for (const auto& [of, corners] : triangles) write_row(file, {vtk_triangle, corners[0], corners[1], corners[2]});
     });

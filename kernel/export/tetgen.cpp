@@ -28,8 +28,8 @@ void write_nodes(const PartSource& parts, ExportFile file) {
 void write_elements(const PartSource& parts, ExportFile file) {
     file.write(fmt::format("{} 4 1\n", parts.outline().tets()));
     std::int64_t number = 0;
-    for_each_part(parts, [&](std::int32_t rank, const Part& part) {
-        const std::vector<std::int32_t> bodies = parts.bodies().of_tets(rank, part);
+    for_each_part(parts, [&](PartIndex index, const Part& part) {
+        const std::vector<std::int32_t> bodies = parts.bodies().of_tets(index, part);
         for (std::size_t t = 0; t < bodies.size(); ++t) {
             const auto [a, b, c, d] = global_corners(part, part.mesh.tets[t]);
             write_row(file, {number++, a, b, c, d, bodies[t] + 1});
@@ -44,9 +44,9 @@ void write_faces(const PartSource& parts, ExportFile file) {
         file.write(fmt::format("# marker {}: {}\n", patch + 1, comment_text(outline.patch_names[patch])));
     file.write(fmt::format("{} 1\n", outline.patch_facets()));
     std::int64_t number = 0;
-    for_each_surface(parts, [&](std::int32_t, const Part& part) {
+    for_each_surface(parts, [&](PartIndex, const Part& part) {
         for (std::size_t f = 0; f < part.facets.size(); ++f) {
-            if (part.is_interface(f)) continue;
+            if (!part.has_patch(f)) continue;
             const auto [a, b, c] = global_corners(part, part.facets[f]);
             write_row(file, {number++, a, b, c, part.patch[f] + 1});
         }

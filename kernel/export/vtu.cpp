@@ -28,14 +28,14 @@ void write_joining_file(const PartSource& parts, ExportFiles& files) {
     file.close();
 }
 
-void write_piece(const PartSource& parts, std::int32_t, const Part& part, ExportFiles& files) {
+void write_piece(const PartSource& parts, PartIndex, const Part& part, ExportFiles& files) {
     const std::string name = file_of_part(part.id), path = files.path_of(name);
     const FileHash hash = write_part(path, part, layout_for(parts.outline(), files.options().fields), part.values);
-    files.add({name, static_cast<std::int64_t>(std::filesystem::file_size(path)), hash_text(hash)});
+    files.add({name, std::int64_t(std::filesystem::file_size(path)), hash_text(hash)});
 }
 
 using Grid = VtuGrid<ExportFile>;
-using Array = VtuArray<ExportFile>;
+using GridArray = VtuArray<ExportFile>;
 
 void write_names(const MeshOutline& outline, ExportFile& file) {
     for (const std::string& name : outline.patch_names) file.write(name.c_str(), name.size() + 1);
@@ -54,25 +54,25 @@ void write_parts(const MeshOutline& outline, ExportFile& file) {
 // -1 for tetrahedra, then the values of the triangles on patches.
 void write_of_facets(const PartSource& parts, std::vector<std::int32_t> Part::*values, ExportFile& file) {
     write_computed<std::int32_t>(file, parts.outline().tets(), [](std::int64_t) { return -1; });
-    for_each_surface(parts, [&](std::int32_t, const Part& part) {
+    for_each_surface(parts, [&](PartIndex, const Part& part) {
         for (std::size_t f = 0; f < part.facets.size(); ++f)
-            if (!part.is_interface(f)) file.value((part.*values)[f]);
+            if (part.has_patch(f)) file.value((part.*values)[f]);
     });
 }
 
 template <class Id>
-Array connectivity(const PartSource& parts) {
+GridArray connectivity(const PartSource& parts) {
     const std::int64_t corners = 4 * parts.outline().tets() + 3 * parts.outline().patch_facets();
-    return Array::of<Id>("Cells", "connectivity", 1, corners, [&parts](ExportFile& file) {
+    return GridArray::of<Id>("Cells", "connectivity", 1, corners, [&parts](ExportFile& file) {
         const auto write_cell = [&](const Part& part, const auto& cell) {
             for (const std::int64_t id : global_corners(part, cell)) file.value(static_cast<Id>(id));
         };
-        for_each_part(parts, [&](std::int32_t, const Part& part) {
+        for_each_part(parts, [&](PartIndex, const Part& part) {
             for (const Tetrahedron& tet : part.mesh.tets) write_cell(part, tet);
         });
-        for_each_surface(parts, [&](std::int32_t, const Part& part) {
+        for_each_surface(parts, [&](PartIndex, const Part& part) {
             for (std::size_t f = 0; f < part.facets.size(); ++f)
-                if (!part.is_interface(f)) write_cell(part, part.facets[f]);
+                if (part.has_patch(f)) write_cell(part, part.facets[f]);
         });
     });
 }
@@ -84,12 +84,12 @@ void write_cell_values(const PartSource& parts, std::size_t k, ExportFile& file)
         for (int i = 0; i < values.components; ++i)
             file.value(static_cast<T>(tet < 0 ? NAN : values.number(std::int64_t{values.components} * tet + i)));
     };
-    for_each_whole_part(parts, [&](std::int32_t, const Part& part) {
+    for_each_whole_part(parts, [&](PartIndex, const Part& part) {
         for (std::int32_t tet = 0; tet < part.tet_count(); ++tet) write_row(part.values[k], tet);
     });
-    for_each_whole_part(parts, [&](std::int32_t, const Part& part) {
+    for_each_whole_part(parts, [&](PartIndex, const Part& part) {
         for (std::size_t f = 0; f < part.facets.size(); ++f)
-            if (!part.is_interface(f)) write_row(part.values[k], part.tet_at_facet[f]);
+            if (part.has_patch(f)) write_row(part.values[k], part.tet_at_facet[f]);
     });
 }
 
@@ -97,9 +97,9 @@ template <class T>
 void add_values_of(const PartSource& parts, std::size_t k, Grid& grid) {
     const PartValues& values = parts.outline().values[k];
     if (values.of == PartValues::Of::tets)
-        return grid.add(Array::of<T>("CellData", values.name, values.components, grid.cells,
-                                     [&parts, k](ExportFile& file) { write_cell_values<T>(parts, k, file); }));
-    grid.add(Array::of<T>("PointData", values.name, values.components, grid.points, [&parts, k](ExportFile& file) {
+        return grid.add(GridArray::of<T>("CellData", values.name, values.components, grid.cells,
+                                         [&parts, k](ExportFile& file) { write_cell_values<T>(parts, k, file); }));
+    grid.add(GridArray::of<T>("PointData", values.name, values.components, grid.points, [&parts, k](ExportFile& file) {
         for_each_vertex_value(parts, k, [&](std::int64_t, std::span<const double> rows) {
             for (const double number : rows) file.value(static_cast<T>(number));
         });
@@ -114,32 +114,32 @@ Grid grid_of(const PartSource& parts) {
     std::int64_t name_bytes = 0;
     for (const std::string& name : outline.patch_names) name_bytes += name.size() + 1;
     const auto of_cells = [&](const char* name, std::vector<std::int32_t> Part::*of_facets) {
-        return Array::of<std::int32_t>("CellData", name, 1, grid.cells, [&parts, of_facets](ExportFile& file) {
+        return GridArray::of<std::int32_t>("CellData", name, 1, grid.cells, [&parts, of_facets](ExportFile& file) {
             write_of_facets(parts, of_facets, file);
         });
     };
     grid.arrays = {
-        Array::of<std::uint8_t>("FieldData", "PatchNames", 1, name_bytes,
-                                [&](ExportFile& file) { write_names(outline, file); }),
-        Array::of<std::int64_t>("PointData", "GlobalVertexId", 1, outline.vertices,
-                                [&](ExportFile& file) {
-                                    write_computed<std::int64_t>(file, outline.vertices,
-                                                                 [](std::int64_t v) { return v; });
-                                }),
-        Array::of<std::int32_t>("CellData", "Part", 1, grid.cells,
-                                [&](ExportFile& file) { write_parts(outline, file); }),
+        GridArray::of<std::uint8_t>("FieldData", "PatchNames", 1, name_bytes,
+                                    [&](ExportFile& file) { write_names(outline, file); }),
+        GridArray::of<std::int64_t>("PointData", "GlobalVertexId", 1, outline.vertices,
+                                    [&](ExportFile& file) {
+                                        write_computed<std::int64_t>(file, outline.vertices,
+                                                                     [](std::int64_t v) { return v; });
+                                    }),
+        GridArray::of<std::int32_t>("CellData", "Part", 1, grid.cells,
+                                    [&](ExportFile& file) { write_parts(outline, file); }),
         of_cells("Patch", &Part::patch),
         of_cells("Facet", &Part::facet),
-        Array::of<double>("Points", "Points", 3, outline.vertices,
-                          [&](ExportFile& file) { write_points(parts, file); }),
+        GridArray::of<double>("Points", "Points", 3, outline.vertices,
+                              [&](ExportFile& file) { write_points(parts, file); }),
         outline.vertices <= most_of_32_bits ? connectivity<std::int32_t>(parts) : connectivity<std::int64_t>(parts),
-        Array::of<std::int64_t>("Cells", "offsets", 1, grid.cells,
-                                [=](ExportFile& file) {
-                                    write_computed<std::int64_t>(file, tets + facets, [=](std::int64_t c) {
-                                        return 4 * (c + 1) - std::max<std::int64_t>(0, c + 1 - tets);
-                                    });
-                                }),
-        Array::of<std::uint8_t>("Cells", "types", 1, grid.cells, [=](ExportFile& file) {
+        GridArray::of<std::int64_t>("Cells", "offsets", 1, grid.cells,
+                                    [=](ExportFile& file) {
+                                        write_computed<std::int64_t>(file, tets + facets, [=](std::int64_t c) {
+                                            return 4 * (c + 1) - std::max<std::int64_t>(0, c + 1 - tets);
+                                        });
+                                    }),
+        GridArray::of<std::uint8_t>("Cells", "types", 1, grid.cells, [=](ExportFile& file) {
             write_computed<std::uint8_t>(file, tets + facets,
                                          [=](std::int64_t c) { return c < tets ? vtk_tetra : vtk_triangle; });
         })};

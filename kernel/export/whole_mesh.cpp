@@ -29,16 +29,15 @@ struct IdRanges {
 
 IdRanges ranges_of(const Part& part) {
     IdRanges ranges;
-    const auto boundary = static_cast<std::size_t>(part.mesh.boundary_vertex_count);
+    const std::size_t boundary = part.mesh.boundary_vertex_count;
     for (std::size_t v = 0; v < part.global_id.size(); ++v)
         (v < boundary ? ranges.boundary : ranges.interior).add(part.global_id[v]);
     return ranges;
 }
 
 void for_each_content(const PartSource& parts, PartContent content,
-                      const std::function<void(std::int32_t rank, const Part& part)>& take) {
-    const auto count = static_cast<std::int32_t>(parts.outline().parts.size());
-    for (std::int32_t rank = 0; rank < count; ++rank) take(rank, parts.load_only(rank, content));
+                      const std::function<void(PartIndex index, const Part& part)>& take) {
+    for (const PartIndex index : parts.outline().parts.ids()) take(index, parts.load_only(index, content));
 }
 
 // Rows of the vertices of the whole mesh in the order of their global numbers, a piece at a time; row(part, v) has
@@ -47,21 +46,20 @@ template <class Row, class RowOf>
 void for_each_row(const PartSource& parts, PartContent content, const RowOf& row,
                   const std::function<void(std::int64_t first, std::span<const Row> rows)>& take) {
     const std::int64_t count = parts.outline().vertices;
-    std::vector<IdRanges> ranges;  // known after the first piece
-    std::vector<Row> rows(static_cast<std::size_t>(std::min(count, vertices_at_once)));
+    Array<PartIndex, IdRanges> ranges;  // known after the first piece
+    std::vector<Row> rows(std::min(count, vertices_at_once));
     for (std::int64_t begin = 0; begin < count; begin += vertices_at_once) {
         const std::int64_t end = std::min(count, begin + vertices_at_once);
         const bool is_first = begin == 0;
-        for (std::size_t rank = 0; rank < parts.outline().parts.size(); ++rank) {
-            if (!is_first && !ranges[rank].boundary.meets(begin, end) && !ranges[rank].interior.meets(begin, end))
+        for (const PartIndex index : parts.outline().parts.ids()) {
+            if (!is_first && !ranges[index].boundary.meets(begin, end) && !ranges[index].interior.meets(begin, end))
                 continue;
-            const Part part = parts.load_only(static_cast<std::int32_t>(rank), content);
+            const Part part = parts.load_only(index, content);
             if (is_first) ranges.push_back(ranges_of(part));
             for (std::size_t v = 0; v < part.global_id.size(); ++v)
-                if (const std::int64_t id = part.global_id[v]; id >= begin && id < end)
-                    rows[static_cast<std::size_t>(id - begin)] = row(part, v);
+                if (const std::int64_t id = part.global_id[v]; id >= begin && id < end) rows[id - begin] = row(part, v);
         }
-        take(begin, std::span<const Row>(rows).first(static_cast<std::size_t>(end - begin)));
+        take(begin, std::span<const Row>(rows).first(end - begin));
     }
 }
 
@@ -100,24 +98,23 @@ void for_each_vertex_value(const PartSource& parts, std::size_t k,
     }
 }
 
-void for_each_part(const PartSource& parts, const std::function<void(std::int32_t rank, const Part& part)>& take) {
+void for_each_part(const PartSource& parts, const std::function<void(PartIndex index, const Part& part)>& take) {
     for_each_content(parts, PartContent::cells, take);
 }
 
-void for_each_whole_part(const PartSource& parts,
-                         const std::function<void(std::int32_t rank, const Part& part)>& take) {
+void for_each_whole_part(const PartSource& parts, const std::function<void(PartIndex index, const Part& part)>& take) {
     for_each_content(parts, PartContent::all, take);
 }
 
-void for_each_surface(const PartSource& parts, const std::function<void(std::int32_t rank, const Part& part)>& take) {
+void for_each_surface(const PartSource& parts, const std::function<void(PartIndex index, const Part& part)>& take) {
     for_each_content(parts, PartContent::surface, take);
 }
 
 std::vector<std::int64_t> patch_sizes(const PartSource& parts) {
     std::vector<std::int64_t> sizes(parts.outline().patch_names.size(), 0);
-    for_each_surface(parts, [&](std::int32_t, const Part& part) {
+    for_each_surface(parts, [&](PartIndex, const Part& part) {
         for (const std::int32_t patch : part.patch)
-            if (patch >= 0) ++sizes.at(static_cast<std::size_t>(patch));
+            if (patch >= 0) ++sizes.at(patch);
     });
     return sizes;
 }
@@ -128,9 +125,9 @@ void for_each_patch_triangle(
     for_each_by_patch<PatchTriangle>(
         sizes,
         [&](const auto& add) {
-            for_each_surface(parts, [&](std::int32_t, const Part& part) {
+            for_each_surface(parts, [&](PartIndex, const Part& part) {
                 for (std::size_t f = 0; f < part.facets.size(); ++f)
-                    if (!part.is_interface(f)) add({part.patch[f], global_corners(part, part.facets[f])});
+                    if (part.has_patch(f)) add({part.patch[f], global_corners(part, part.facets[f])});
             });
         },
         take);

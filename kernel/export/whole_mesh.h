@@ -26,14 +26,14 @@ void for_each_vertex(const PartSource& parts,
 void for_each_vertex_value(const PartSource& parts, std::size_t k,
                            const std::function<void(std::int64_t first, std::span<const double> rows)>& take);
 
-/// Calls take(rank, part) with every part, in the order of the tree: PartContent::cells, so without coordinates.
-void for_each_part(const PartSource& parts, const std::function<void(std::int32_t rank, const Part& part)>& take);
+/// Calls take(index, part) with every part, in the order of the tree: PartContent::cells, so without coordinates.
+void for_each_part(const PartSource& parts, const std::function<void(PartIndex index, const Part& part)>& take);
 
 /// The same with all that parts have.
-void for_each_whole_part(const PartSource& parts, const std::function<void(std::int32_t rank, const Part& part)>& take);
+void for_each_whole_part(const PartSource& parts, const std::function<void(PartIndex index, const Part& part)>& take);
 
 /// The same with PartContent::surface.
-void for_each_surface(const PartSource& parts, const std::function<void(std::int32_t rank, const Part& part)>& take);
+void for_each_surface(const PartSource& parts, const std::function<void(PartIndex index, const Part& part)>& take);
 
 /// For every patch how many triangles all parts have on it.
 std::vector<std::int64_t> patch_sizes(const PartSource& parts);
@@ -59,7 +59,7 @@ inline constexpr std::int64_t most_of_32_bits = std::numeric_limits<std::int32_t
 template <std::size_t n>
 std::array<std::int64_t, n> global_corners(const Part& part, const std::array<std::int32_t, n>& cell) {
     std::array<std::int64_t, n> ids;
-    for (std::size_t i = 0; i < n; ++i) ids[i] = part.global_id[static_cast<std::size_t>(cell[i])];
+    for (std::size_t i = 0; i < n; ++i) ids[i] = part.global_id[cell[i]];
     return ids;
 }
 

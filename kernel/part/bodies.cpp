@@ -19,30 +19,28 @@ Components pieces_of(std::size_t count, const std::vector<Cell>& cells) {
     return sets.take();
 }
 
-std::int32_t piece_at(const Components& pieces, std::int32_t vertex) {
-    return pieces.of[static_cast<std::size_t>(vertex)];
-}
+std::int32_t piece_at(const Components& pieces, std::int32_t vertex) { return pieces.of[vertex]; }
 
 // The pieces of all parts, which interfaces join to bodies.
 class AllPieces {
  public:
     /// The pieces of the next part, and how many tetrahedra each has.
     void add(const Part& part, const Components& pieces, const std::vector<std::int64_t>& tets) {
-        const auto first = static_cast<std::int32_t>(tets_.size());
+        const std::int32_t first = std::ssize(tets_);
         tets_.insert(tets_.end(), tets.begin(), tets.end());
         first_facets_.resize(tets_.size(), std::numeric_limits<std::int32_t>::max());
-        std::vector<bool> is_held(static_cast<std::size_t>(part.mesh.boundary_vertex_count), false);
+        std::vector<bool> is_held(part.mesh.boundary_vertex_count, false);
         for (std::size_t f = 0; f < part.facets.size(); ++f) {
             const std::int32_t piece = first + piece_at(pieces, part.facets[f][0]);
-            if (!part.is_interface(f)) {
-                std::int32_t& of_piece = first_facets_[static_cast<std::size_t>(piece)];
+            if (part.is_of_input(f)) {
+                std::int32_t& of_piece = first_facets_[piece];
                 of_piece = std::min(of_piece, part.facet[f]);
-                continue;
             }
+            if (!part.is_interface(f)) continue;
             for (const std::int32_t v : part.facets[f]) {
-                if (is_held[static_cast<std::size_t>(v)]) continue;
-                is_held[static_cast<std::size_t>(v)] = true;
-                held_.emplace_back(part.global_id[static_cast<std::size_t>(v)], piece);
+                if (is_held[v]) continue;
+                is_held[v] = true;
+                held_.emplace_back(part.global_id[v], piece);
             }
         }
     }
@@ -54,23 +52,21 @@ class AllPieces {
         for (std::size_t i = 1; i < held_.size(); ++i)
             if (held_[i].first == held_[i - 1].first) sets.join(held_[i - 1].second, held_[i].second);
         const Components found = sets.take();
-        const auto count = static_cast<std::size_t>(found.count);
+        const std::int32_t count = found.count;
         std::vector<std::pair<std::int32_t, std::int32_t>> order(count);  // first facet, number as found
-        for (std::size_t b = 0; b < count; ++b)
-            order[b] = {std::numeric_limits<std::int32_t>::max(), static_cast<std::int32_t>(b)};
+        for (std::int32_t b = 0; b < count; ++b) order[b] = {std::numeric_limits<std::int32_t>::max(), b};
         for (std::size_t piece = 0; piece < tets_.size(); ++piece) {
-            std::int32_t& first = order[static_cast<std::size_t>(found.of[piece])].first;
+            std::int32_t& first = order[found.of[piece]].first;
             first = std::min(first, first_facets_[piece]);
         }
         std::sort(order.begin(), order.end());
         std::vector<std::int32_t> number(count);
-        for (std::size_t b = 0; b < count; ++b)
-            number[static_cast<std::size_t>(order[b].second)] = static_cast<std::int32_t>(b);
+        for (std::int32_t b = 0; b < count; ++b) number[order[b].second] = b;
         std::vector<std::int32_t> of_pieces(tets_.size());
         std::vector<std::int64_t> sizes(count, 0);
         for (std::size_t piece = 0; piece < tets_.size(); ++piece) {
-            of_pieces[piece] = number[static_cast<std::size_t>(found.of[piece])];
-            sizes[static_cast<std::size_t>(of_pieces[piece])] += tets_[piece];
+            of_pieces[piece] = number[found.of[piece]];
+            sizes[of_pieces[piece]] += tets_[piece];
         }
         return {std::move(of_pieces), std::move(sizes)};
     }
@@ -85,17 +81,16 @@ class AllPieces {
 
 Bodies::Bodies(const PartSource& parts) {
     AllPieces all;
-    const std::vector<PartExtent>& extents = parts.outline().parts;
-    for (std::size_t r = 0; r < extents.size(); ++r) {
-        const auto rank = static_cast<std::int32_t>(r);
-        Part part = parts.load_only(rank, PartContent::surface);
-        Components pieces = pieces_of(static_cast<std::size_t>(part.mesh.boundary_vertex_count), part.facets);
-        std::vector<std::int64_t> tets = {extents[r].tets};
+    const Array<PartIndex, PartExtent>& extents = parts.outline().parts;
+    for (const PartIndex index : extents.ids()) {
+        Part part = parts.load_only(index, PartContent::surface);
+        Components pieces = pieces_of(part.mesh.boundary_vertex_count, part.facets);
+        std::vector<std::int64_t> tets = {extents[index].tets};
         if (pieces.count > 1) {  // several bodies, or voids
-            part = parts.load_only(rank, PartContent::cells);
+            part = parts.load_only(index, PartContent::cells);
             pieces = pieces_of(part.global_id.size(), part.mesh.tets);
-            tets.assign(static_cast<std::size_t>(pieces.count), 0);
-            for (const Tetrahedron& tet : part.mesh.tets) ++tets[static_cast<std::size_t>(piece_at(pieces, tet[0]))];
+            tets.assign(pieces.count, 0);
+            for (const Tetrahedron& tet : part.mesh.tets) ++tets[piece_at(pieces, tet[0])];
         }
         all.add(part, pieces, tets);
         of_pieces_.emplace_back(tets.size());
@@ -107,14 +102,13 @@ Bodies::Bodies(const PartSource& parts) {
     sizes_ = std::move(sizes);
 }
 
-std::vector<std::int32_t> Bodies::of_tets(std::int32_t rank, const Part& part) const {
-    const std::vector<std::int32_t>& bodies = of_pieces_[static_cast<std::size_t>(rank)];
+std::vector<std::int32_t> Bodies::of_tets(PartIndex index, const Part& part) const {
+    const std::vector<std::int32_t>& bodies = of_pieces_[index];
     std::vector<std::int32_t> of_tets(part.mesh.tets.size(), bodies.front());
     if (std::all_of(bodies.begin(), bodies.end(), [&](std::int32_t body) { return body == bodies.front(); }))
         return of_tets;
     const Components pieces = pieces_of(part.global_id.size(), part.mesh.tets);
-    for (std::size_t t = 0; t < of_tets.size(); ++t)
-        of_tets[t] = bodies[static_cast<std::size_t>(piece_at(pieces, part.mesh.tets[t][0]))];
+    for (std::size_t t = 0; t < of_tets.size(); ++t) of_tets[t] = bodies[piece_at(pieces, part.mesh.tets[t][0])];
     return of_tets;
 }
 

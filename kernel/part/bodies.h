@@ -17,14 +17,14 @@ class Bodies {
     /// of them, and 16 bytes for each vertex that a part has on an interface. Throws Error(io).
     explicit Bodies(const PartSource& parts);
 
-    std::int32_t count() const { return static_cast<std::int32_t>(sizes_.size()); }
+    std::int32_t count() const { return std::ssize(sizes_); }
     /// Tetrahedra of each body.
     const std::vector<std::int64_t>& sizes() const { return sizes_; }
-    /// The body of each tetrahedron of the part of this rank, with PartContent::cells or all. O(#T).
-    std::vector<std::int32_t> of_tets(std::int32_t rank, const Part& part) const;
+    /// The body of each tetrahedron of a part, with PartContent::cells or all. O(#T).
+    std::vector<std::int32_t> of_tets(PartIndex index, const Part& part) const;
 
  private:
-    std::vector<std::vector<std::int32_t>> of_pieces_;  // by rank: the bodies of what hangs together in the part
+    Array<PartIndex, std::vector<std::int32_t>> of_pieces_;  // the bodies of what hangs together in the part
     std::vector<std::int64_t> sizes_;
 };
 

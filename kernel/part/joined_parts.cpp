@@ -24,8 +24,8 @@ void divide(const std::vector<NodeId>& leaves, PieceOfTree node, std::int32_t pi
     const std::int32_t count = node.last - node.first;
     const auto begin = leaves.begin() + node.first, end = leaves.begin() + node.last;
     const auto middle = std::partition_point(begin, end, [&](NodeId leaf) { return lies_below(leaf, 2 * node.id); });
-    const auto on_left = static_cast<std::int32_t>(middle - begin), on_right = count - on_left;
-    const auto fair = static_cast<std::int32_t>(std::lround(static_cast<double>(pieces) * on_left / count));
+    const std::int32_t on_left = middle - begin, on_right = count - on_left;
+    const std::int32_t fair = std::lround(static_cast<double>(pieces) * on_left / count);
     const std::int32_t left = std::clamp(fair, std::max(1, pieces - on_right), std::min(on_left, pieces - 1));
     divide(leaves, {2 * node.id, node.first, node.first + on_left}, left, divided);
     divide(leaves, {2 * node.id + 1, node.first + on_left, node.last}, pieces - left, divided);
@@ -38,8 +38,7 @@ class PieceVertices {
         for (std::size_t p = 0; p < parts.size(); ++p) {
             place_.emplace_back(parts[p].mesh.vertices.size(), -1);
             for (const SharedGroup& group : parts[p].shared)
-                for (const std::int32_t v : group.vertices)
-                    shared_.push_back({parts[p].global_id[static_cast<std::size_t>(v)], -1});
+                for (const std::int32_t v : group.vertices) shared_.push_back({parts[p].global_id[v], -1});
         }
         std::sort(shared_.begin(), shared_.end());
         shared_.erase(std::unique(shared_.begin(), shared_.end()), shared_.end());
@@ -48,13 +47,13 @@ class PieceVertices {
 
     /// The number of vertex v of part p in the piece, which it gets when it is first asked for.
     std::int32_t operator()(std::size_t p, std::int32_t v, Part& piece) {
-        const auto i = static_cast<std::size_t>(v);
+        const std::int32_t i = v;
         std::int32_t& place = place_[p][i];
         if (place >= 0) return place;
         const std::int64_t id = parts_[p].global_id[i];
         std::int32_t* const of_shared = is_shared_[p][i] ? &find(id)->second : nullptr;
         if (of_shared && *of_shared >= 0) return place = *of_shared;
-        place = static_cast<std::int32_t>(piece.mesh.vertices.size());
+        place = std::ssize(piece.mesh.vertices);
         if (of_shared) *of_shared = place;
         piece.mesh.vertices.push_back(parts_[p].mesh.vertices[i]);
         piece.global_id.push_back(id);
@@ -67,7 +66,7 @@ class PieceVertices {
     void mark_shared(const Part& part) {
         std::vector<char>& marks = is_shared_.emplace_back(part.mesh.vertices.size(), 0);
         for (const SharedGroup& group : part.shared)
-            for (const std::int32_t v : group.vertices) marks[static_cast<std::size_t>(v)] = 1;
+            for (const std::int32_t v : group.vertices) marks[v] = 1;
     }
     std::vector<Shared>::iterator find(std::int64_t id) {
         return std::lower_bound(shared_.begin(), shared_.end(), id,
@@ -94,7 +93,7 @@ std::vector<std::size_t> facets_of_piece(const Part& part, const std::vector<Nod
 template <class VertexInPiece>
 PartValues join_values(const std::vector<Part>& parts, std::size_t k, const VertexInPiece& vertex) {
     PartValues joined = parts.front().values[k];
-    const auto width = static_cast<std::size_t>(joined.components);
+    const std::size_t width = joined.components;
     std::visit(
         [&](auto& numbers) {
             using Numbers = std::decay_t<decltype(numbers)>;
@@ -106,7 +105,7 @@ PartValues join_values(const std::vector<Part>& parts, std::size_t k, const Vert
                     continue;
                 }
                 for (std::size_t v = 0; v < parts[p].mesh.vertices.size(); ++v) {
-                    const std::size_t to = width * vertex(p, static_cast<std::int32_t>(v));
+                    const std::size_t to = width * vertex(p, v);
                     if (numbers.size() < to + width) numbers.resize(to + width);
                     std::copy_n(own.begin() + static_cast<std::ptrdiff_t>(width * v), width,
                                 numbers.begin() + static_cast<std::ptrdiff_t>(to));
@@ -120,7 +119,7 @@ PartValues join_values(const std::vector<Part>& parts, std::size_t k, const Vert
 }  // namespace
 
 std::vector<PieceOfTree> divide_leaves(const std::vector<NodeId>& leaves, std::int32_t pieces) {
-    const auto count = static_cast<std::int32_t>(leaves.size());
+    const std::int32_t count = std::ssize(leaves);
     KERF_CHECK(pieces >= 1 && pieces <= count);
     std::vector<PieceOfTree> divided;
     divide(leaves, {1, 0, count}, pieces, divided);
@@ -129,7 +128,7 @@ std::vector<PieceOfTree> divide_leaves(const std::vector<NodeId>& leaves, std::i
 
 JoinedParts::JoinedParts(const PartSource& parts, std::int32_t pieces, std::int64_t most) : parts_(parts) {
     const MeshOutline& whole = parts.outline();
-    const auto count = static_cast<std::int32_t>(whole.parts.size());
+    const std::int32_t count = std::ssize(whole.parts);
     if (pieces < 1 || pieces > count)
         throw Error(ErrorCode::usage,
                     fmt::format("--into is {}, but {} parts can be joined into 1 to {} pieces.", pieces, count, count));
@@ -137,8 +136,7 @@ JoinedParts::JoinedParts(const PartSource& parts, std::int32_t pieces, std::int6
     for (const PartExtent& part : whole.parts) leaves.push_back(part.id);
     pieces_ = divide_leaves(leaves, pieces);
     for (const PieceOfTree& piece : pieces_)
-        for (std::int32_t r = piece.first; r < piece.last; ++r)
-            piece_of_leaf_.emplace_back(leaves[static_cast<std::size_t>(r)], piece.id);
+        for (std::int32_t r = piece.first; r < piece.last; ++r) piece_of_leaf_.emplace_back(leaves[r], piece.id);
     std::sort(piece_of_leaf_.begin(), piece_of_leaf_.end());
     const auto require_numbers = [&](const PieceOfTree& piece, std::int64_t number, const char* what) {
         if (number > most)
@@ -146,12 +144,11 @@ JoinedParts::JoinedParts(const PartSource& parts, std::int32_t pieces, std::int6
                 ErrorCode::usage,
                 fmt::format("--into {} makes a piece of {} {} of parts {} to {}, but a piece has {} at most. Ask "
                             "for more pieces.",
-                            pieces, number, what, leaves[static_cast<std::size_t>(piece.first)],
-                            leaves[static_cast<std::size_t>(piece.last) - 1], most));
+                            pieces, number, what, leaves[piece.first], leaves[piece.last - 1], most));
     };
     for (const PieceOfTree& piece : pieces_) {
         std::int64_t tets = 0;
-        for (std::int32_t r = piece.first; r < piece.last; ++r) tets += whole.parts[static_cast<std::size_t>(r)].tets;
+        for (std::int32_t r = piece.first; r < piece.last; ++r) tets += whole.parts[r].tets;
         require_numbers(piece, tets, "tetrahedra");
     }
     outline_.vertices = whole.vertices;
@@ -161,19 +158,18 @@ JoinedParts::JoinedParts(const PartSource& parts, std::int32_t pieces, std::int6
         PartExtent& extent = outline_.parts.emplace_back();
         extent.id = piece.id;
         for (std::int32_t r = piece.first; r < piece.last; ++r) {
-            const Part part = parts.load(r);
+            const Part part = parts.load(PartIndex(r));
             extent.tets += part.tet_count();
             extent.vertices += part.vertex_count();
             const std::vector<NodeId> beside = pieces_of(part.neighbour);
             for (std::size_t f = 0; f < part.facets.size(); ++f)
-                (part.is_interface(f) ? extent.interface_facets : extent.patch_facets) +=
+                (part.has_patch(f) ? extent.patch_facets : extent.interface_facets) +=
                     !part.is_interface(f) || beside[f] != piece.id;
             // A vertex counts in the first part of the piece that has it.
             for (const SharedGroup& group : part.shared) {
                 const std::vector<NodeId> held_by = pieces_of(group.parts);
                 const auto first = std::find(held_by.begin(), held_by.end(), piece.id) - held_by.begin();
-                if (group.parts[static_cast<std::size_t>(first)] != part.id)
-                    extent.vertices -= static_cast<std::int64_t>(group.vertices.size());
+                if (group.parts[first] != part.id) extent.vertices -= std::ssize(group.vertices);
             }
         }
         require_numbers(piece, extent.vertices, "vertices");
@@ -193,10 +189,10 @@ std::vector<NodeId> JoinedParts::pieces_of(const std::vector<NodeId>& leaves) co
     return pieces;
 }
 
-Part JoinedParts::load(std::int32_t rank) const {
-    const PieceOfTree& range = pieces_[static_cast<std::size_t>(rank)];
+Part JoinedParts::load(PartIndex index) const {
+    const PieceOfTree& range = pieces_[index.value()];
     std::vector<Part> parts;
-    for (std::int32_t r = range.first; r < range.last; ++r) parts.push_back(parts_.load(r));
+    for (std::int32_t r = range.first; r < range.last; ++r) parts.push_back(parts_.load(PartIndex(r)));
     Part piece;
     piece.id = range.id;
     piece.patch_names = outline_.patch_names;
@@ -213,76 +209,74 @@ Part JoinedParts::load(std::int32_t rank) const {
             piece.neighbour.push_back(beside[f]);
             piece.tet_at_facet.push_back(part.tet_at_facet[f] < 0 ? -1 : first_tet + part.tet_at_facet[f]);
         }
-        first_tet += static_cast<std::int32_t>(part.tet_count());
+        first_tet += part.tet_count();
     }
-    piece.mesh.boundary_vertex_count = static_cast<std::int32_t>(piece.mesh.vertices.size());
+    piece.mesh.boundary_vertex_count = std::ssize(piece.mesh.vertices);
     for (std::size_t p = 0; p < parts.size(); ++p)
         for (Tetrahedron tet : parts[p].mesh.tets) {
             for (std::int32_t& v : tet) v = vertex_in_piece(p, v, piece);
             piece.mesh.tets.push_back(tet);
         }
-    // The vertices of the piece that other pieces have, by the ranks of all that have them.
-    std::map<std::vector<std::int32_t>, std::vector<std::int32_t>> vertices_of;
+    // The vertices of the piece that other pieces have, by all that have them.
+    std::map<std::vector<PartIndex>, std::vector<std::int32_t>> vertices_of;
     for (std::size_t p = 0; p < parts.size(); ++p)
         for (const SharedGroup& group : parts[p].shared) {
-            const std::vector<std::int32_t> ranks = ranks_of(group.parts);
-            if (ranks.size() < 2) continue;
-            std::vector<std::int32_t>& vertices = vertices_of[ranks];
+            const std::vector<PartIndex> indices = indices_of(group.parts);
+            if (indices.size() < 2) continue;
+            std::vector<std::int32_t>& vertices = vertices_of[indices];
             for (const std::int32_t v : group.vertices) vertices.push_back(vertex_in_piece(p, v, piece));
         }
-    for (auto& [ranks, vertices] : vertices_of) piece.shared.push_back(group_of(ranks, std::move(vertices), piece));
+    for (auto& [indices, vertices] : vertices_of) piece.shared.push_back(group_of(indices, std::move(vertices), piece));
     // The same for edges.
-    std::map<std::vector<std::int32_t>, std::vector<UndirectedEdge>> edges_of;
+    std::map<std::vector<PartIndex>, std::vector<UndirectedEdge>> edges_of;
     for (std::size_t p = 0; p < parts.size(); ++p)
         for (const SharedEdgeGroup& group : parts[p].shared_edges) {
-            const std::vector<std::int32_t> ranks = ranks_of(group.parts);
-            if (ranks.size() < 2) continue;
-            std::vector<UndirectedEdge>& edges = edges_of[ranks];
+            const std::vector<PartIndex> indices = indices_of(group.parts);
+            if (indices.size() < 2) continue;
+            std::vector<UndirectedEdge>& edges = edges_of[indices];
             for (const auto& [a, b] : group.edges)
                 edges.push_back({vertex_in_piece(p, a, piece), vertex_in_piece(p, b, piece)});
         }
-    for (auto& [ranks, edges] : edges_of) piece.shared_edges.push_back(group_of(ranks, std::move(edges), piece));
+    for (auto& [indices, edges] : edges_of) piece.shared_edges.push_back(group_of(indices, std::move(edges), piece));
     for (std::size_t k = 0; k < outline_.values.size(); ++k)
-        piece.values.push_back(join_values(parts, k, [&](std::size_t p, std::int32_t v) {
-            return static_cast<std::size_t>(vertex_in_piece(p, v, piece));
-        }));
+        piece.values.push_back(
+            join_values(parts, k, [&](std::size_t p, std::int32_t v) { return vertex_in_piece(p, v, piece); }));
     return piece;
 }
 
 // Of the pieces that the leaves, in the order of the tree, lie in; each once.
-std::vector<std::int32_t> JoinedParts::ranks_of(const std::vector<NodeId>& leaves) const {
-    std::vector<std::int32_t> ranks;
-    for (const NodeId holder : pieces_of(leaves)) ranks.push_back(outline_.rank_of(holder));
-    ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
-    return ranks;
+std::vector<PartIndex> JoinedParts::indices_of(const std::vector<NodeId>& leaves) const {
+    std::vector<PartIndex> indices;
+    for (const NodeId holder : pieces_of(leaves)) indices.push_back(outline_.index_of(holder));
+    indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+    return indices;
 }
 
-std::vector<NodeId> JoinedParts::ids_of(const std::vector<std::int32_t>& ranks) const {
+std::vector<NodeId> JoinedParts::ids_of(const std::vector<PartIndex>& indices) const {
     std::vector<NodeId> ids;
-    for (const std::int32_t rank : ranks) ids.push_back(outline_.parts[static_cast<std::size_t>(rank)].id);
+    for (const PartIndex index : indices) ids.push_back(outline_.parts[index].id);
     return ids;
 }
 
 // `vertices`: of the piece; those that several of its parts have come several times.
-SharedGroup JoinedParts::group_of(const std::vector<std::int32_t>& ranks, std::vector<std::int32_t> vertices,
+SharedGroup JoinedParts::group_of(const std::vector<PartIndex>& indices, std::vector<std::int32_t> vertices,
                                   const Part& piece) const {
-    const auto id = [&](std::int32_t v) { return piece.global_id[static_cast<std::size_t>(v)]; };
+    const auto id = [&](std::int32_t v) { return piece.global_id[v]; };
     std::sort(vertices.begin(), vertices.end(), [&](std::int32_t a, std::int32_t b) { return id(a) < id(b); });
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    return {ids_of(ranks), std::move(vertices)};
+    return {ids_of(indices), std::move(vertices)};
 }
 
 // The same with edges.
-SharedEdgeGroup JoinedParts::group_of(const std::vector<std::int32_t>& ranks, std::vector<UndirectedEdge> edges,
+SharedEdgeGroup JoinedParts::group_of(const std::vector<PartIndex>& indices, std::vector<UndirectedEdge> edges,
                                       const Part& piece) const {
     const auto id = [&](const UndirectedEdge& edge) {
-        return std::pair(piece.global_id[static_cast<std::size_t>(edge[0])],
-                         piece.global_id[static_cast<std::size_t>(edge[1])]);
+        return std::pair(piece.global_id[edge[0]], piece.global_id[edge[1]]);
     };
     std::sort(edges.begin(), edges.end(),
               [&](const UndirectedEdge& a, const UndirectedEdge& b) { return id(a) < id(b); });
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    return {ids_of(ranks), std::move(edges)};
+    return {ids_of(indices), std::move(edges)};
 }
 
 }  // namespace kerf

@@ -32,15 +32,15 @@ class JoinedParts : public PartSource {
     JoinedParts(const PartSource& parts, std::int32_t pieces, std::int64_t most = most_of_piece);
 
     const MeshOutline& outline() const override { return outline_; }
-    Part load(std::int32_t rank) const override;
+    Part load(PartIndex index) const override;
 
  private:
     std::vector<NodeId> pieces_of(const std::vector<NodeId>& leaves) const;
-    std::vector<std::int32_t> ranks_of(const std::vector<NodeId>& leaves) const;
-    std::vector<NodeId> ids_of(const std::vector<std::int32_t>& ranks) const;
-    SharedGroup group_of(const std::vector<std::int32_t>& ranks, std::vector<std::int32_t> vertices,
+    std::vector<PartIndex> indices_of(const std::vector<NodeId>& leaves) const;
+    std::vector<NodeId> ids_of(const std::vector<PartIndex>& indices) const;
+    SharedGroup group_of(const std::vector<PartIndex>& indices, std::vector<std::int32_t> vertices,
                          const Part& piece) const;
-    SharedEdgeGroup group_of(const std::vector<std::int32_t>& ranks, std::vector<UndirectedEdge> edges,
+    SharedEdgeGroup group_of(const std::vector<PartIndex>& indices, std::vector<UndirectedEdge> edges,
                              const Part& piece) const;
 
     const PartSource& parts_;

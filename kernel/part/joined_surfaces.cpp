@@ -17,7 +17,7 @@ namespace kerf {
 namespace {
 
 using Grid = VtuGrid<CheckedFile>;
-using Array = VtuArray<CheckedFile>;
+using GridArray = VtuArray<CheckedFile>;
 
 constexpr std::int64_t bytes_at_once = std::int64_t{1} << 18;  // bytes; whole values of every type
 
@@ -60,19 +60,19 @@ class JoinedSurfaces {
     Grid grid() const {
         Grid grid{points_, cells_, boundary_count_field(vtk_type<std::int64_t>, points_)};
         const VtuHeader::Array* names = pieces_.empty() ? nullptr : pieces_.front().header.find("PatchNames");
-        grid.arrays = {Array::of<std::uint8_t>("FieldData", "PatchNames", 1, names ? names->tuples : 0,
-                                               [this](CheckedFile& file) {
-                                                   read_array(pieces_.front(), "PatchNames", 1,
-                                                              [&](const std::string& b) { file.write(b); });
-                                               }),
+        grid.arrays = {GridArray::of<std::uint8_t>("FieldData", "PatchNames", 1, names ? names->tuples : 0,
+                                                   [this](CheckedFile& file) {
+                                                       read_array(pieces_.front(), "PatchNames", 1,
+                                                                  [&](const std::string& b) { file.write(b); });
+                                                   }),
                        copied<std::int64_t>("PointData", "GlobalVertexId", 1, points_),
                        copied<std::int32_t>("CellData", "Part", 1, cells_),
                        copied<std::int32_t>("CellData", "Patch", 1, cells_),
                        copied<std::int32_t>("CellData", "Facet", 1, cells_),
                        copied<std::int32_t>("CellData", "Neighbour", 1, cells_),
                        copied<double>("Points", "Points", 3, points_),
-                       Array::of<std::int64_t>("Cells", "connectivity", 1, 3 * cells_,
-                                               [this](CheckedFile& file) { write_connectivity(file); }),
+                       GridArray::of<std::int64_t>("Cells", "connectivity", 1, 3 * cells_,
+                                                   [this](CheckedFile& file) { write_connectivity(file); }),
                        computed<std::int64_t>("offsets", [](std::int64_t cell) { return 3 * (cell + 1); }),
                        computed<std::uint8_t>("types", [](std::int64_t) { return vtk_triangle; })};
         return grid;
@@ -80,17 +80,17 @@ class JoinedSurfaces {
 
  private:
     template <class T>
-    Array copied(const char* section, const char* name, std::int64_t components, std::int64_t tuples) const {
-        return Array::of<T>(section, name, components, tuples, [this, name](CheckedFile& file) {
+    GridArray copied(const char* section, const char* name, std::int64_t components, std::int64_t tuples) const {
+        return GridArray::of<T>(section, name, components, tuples, [this, name](CheckedFile& file) {
             for (const Piece& piece : pieces_)
                 read_array(piece, name, sizeof(T), [&](const std::string& bytes) { file.write(bytes); });
         });
     }
 
     template <class T, class Value>
-    Array computed(const char* name, Value value) const {
-        return Array::of<T>("Cells", name, 1, cells_,
-                            [this, value](CheckedFile& file) { write_computed<T>(file, cells_, value); });
+    GridArray computed(const char* name, Value value) const {
+        return GridArray::of<T>("Cells", name, 1, cells_,
+                                [this, value](CheckedFile& file) { write_computed<T>(file, cells_, value); });
     }
 
     void write_connectivity(CheckedFile& file) const {

@@ -30,32 +30,36 @@ Part boundary_of(const Part& part) {
 std::vector<NodeId> owners_of_vertices(const Part& part) {
     std::vector<NodeId> owner(part.mesh.vertices.size(), part.id);
     for (const SharedGroup& group : part.shared)
-        for (const std::int32_t v : group.vertices) owner[static_cast<std::size_t>(v)] = group.parts.front();
+        for (const std::int32_t v : group.vertices) owner[v] = group.parts.front();
     return owner;
 }
 
-std::int32_t MeshOutline::rank_of(NodeId id) const {
+PartIndex MeshOutline::index_of(NodeId id) const {
     const auto found =
         std::find_if(parts.begin(), parts.end(), [id](const PartExtent& extent) { return extent.id == id; });
     if (found == parts.end()) throw Error(ErrorCode::internal, fmt::format("The mesh has no part {}.", id));
-    return static_cast<std::int32_t>(found - parts.begin());
+    return PartIndex(found - parts.begin());
 }
 
-std::int64_t MeshOutline::first_tet(std::int32_t rank) const {
-    std::int64_t first = 0;
-    for (std::int32_t r = 0; r < rank; ++r) first += parts[static_cast<std::size_t>(r)].tets;
-    return first;
+namespace {
+
+std::int64_t sum_before(PartIndex index, const Array<PartIndex, PartExtent>& parts, std::int64_t PartExtent::*count) {
+    std::int64_t sum = 0;
+    for (const PartIndex i : IdRange(PartIndex(), index)) sum += parts[i].*count;
+    return sum;
 }
 
-std::int64_t MeshOutline::tets() const { return first_tet(static_cast<std::int32_t>(parts.size())); }
+}  // namespace
 
-std::int64_t MeshOutline::first_patch_facet(std::int32_t rank) const {
-    std::int64_t first = 0;
-    for (std::int32_t r = 0; r < rank; ++r) first += parts[static_cast<std::size_t>(r)].patch_facets;
-    return first;
+std::int64_t MeshOutline::first_tet(PartIndex index) const { return sum_before(index, parts, &PartExtent::tets); }
+
+std::int64_t MeshOutline::tets() const { return first_tet(PartIndex(parts.size())); }
+
+std::int64_t MeshOutline::first_patch_facet(PartIndex index) const {
+    return sum_before(index, parts, &PartExtent::patch_facets);
 }
 
-std::int64_t MeshOutline::patch_facets() const { return first_patch_facet(static_cast<std::int32_t>(parts.size())); }
+std::int64_t MeshOutline::patch_facets() const { return first_patch_facet(PartIndex(parts.size())); }
 
 PartSource::PartSource() = default;
 PartSource::~PartSource() = default;

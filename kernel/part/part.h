@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/ids.h"
 #include "mesh/tet_mesh.h"
 
 namespace kerf {
@@ -69,9 +70,17 @@ struct Part {
 
     std::vector<PartValues> values = {};  ///< of a solution (part/solution_parts.h), else none
 
+    /// Four questions about a boundary triangle. Does another part lie on its other side?
     bool is_interface(std::size_t f) const { return neighbour[f] >= 0; }
-    std::int64_t tet_count() const { return static_cast<std::int64_t>(mesh.tets.size()); }
-    std::int64_t vertex_count() const { return static_cast<std::int64_t>(mesh.vertices.size()); }
+    /// Does nothing lie there?
+    bool is_on_outer_boundary(std::size_t f) const { return neighbour[f] < 0; }
+    /// Is it on a patch of the user's?
+    bool has_patch(std::size_t f) const { return patch[f] >= 0; }
+    /// Is it a facet of the input, or a piece of one?
+    bool is_of_input(std::size_t f) const { return facet[f] >= 0; }
+
+    std::int64_t tet_count() const { return std::ssize(mesh.tets); }
+    std::int64_t vertex_count() const { return std::ssize(mesh.vertices); }
 };
 
 /// What the part's surface file holds: the boundary without the cells.
@@ -90,19 +99,19 @@ struct PartExtent {
 
 /// The whole mesh without its cells.
 struct MeshOutline {
-    std::vector<PartExtent> parts;  ///< in the order of the tree; the place of a part here is its rank, from 0
-    std::int64_t vertices = 0;      ///< distinct ones
+    Array<PartIndex, PartExtent> parts;  ///< in the order of the tree
+    std::int64_t vertices = 0;           ///< distinct ones
     std::vector<std::string> patch_names;
     bool is_whole = true;                 ///< else others, which could not be meshed, may be neighbours of these parts
     std::vector<PartValues> values = {};  ///< those that all parts have, without their numbers
 
     /// Throws Error(internal) for a part that is none. O(K).
-    std::int32_t rank_of(NodeId id) const;
+    PartIndex index_of(NodeId id) const;
     std::int64_t tets() const;
-    /// Tetrahedra of all parts before the rank: the first of its own in a numbering of all.
-    std::int64_t first_tet(std::int32_t rank) const;
+    /// Tetrahedra of all parts before this one: the first of its own in a numbering of all.
+    std::int64_t first_tet(PartIndex index) const;
     /// The same for triangles on the user's surface.
-    std::int64_t first_patch_facet(std::int32_t rank) const;
+    std::int64_t first_patch_facet(PartIndex index) const;
     std::int64_t patch_facets() const;
 };
 
@@ -124,12 +133,12 @@ class PartSource {
     PartSource(const PartSource&) = delete;
     PartSource& operator=(const PartSource&) = delete;
     virtual const MeshOutline& outline() const = 0;
-    /// The part of this rank; the face neighbours of its mesh are for who asks to find them (mesh/adjacency.h). From
+    /// One part; the face neighbours of its mesh are for who asks to find them (mesh/adjacency.h). From
     /// any thread. Throws Error(io).
-    virtual Part load(std::int32_t rank) const = 0;
+    virtual Part load(PartIndex index) const = 0;
     /// The part without what is not asked for, where that spares time or memory; Part::shared and the neighbours of
     /// tetrahedra are asked for by PartContent::all alone. As load().
-    virtual Part load_only(std::int32_t rank, PartContent) const { return load(rank); }
+    virtual Part load_only(PartIndex index, PartContent) const { return load(index); }
     /// Which bodies the parts belong to (part/bodies.h): found when they are first asked for. From any thread. Throws
     /// Error(io).
     const Bodies& bodies() const;

@@ -44,8 +44,8 @@ struct Boundary {
 
 bool is_consistent(const Part& part, std::size_t ids, std::uint64_t vertices, std::uint64_t tets) {
     const std::size_t facets = part.facets.size();
-    const auto boundary = static_cast<std::size_t>(part.mesh.boundary_vertex_count);
-    const auto is_tet = [&](std::int32_t t) { return t >= -1 && t < static_cast<std::int64_t>(tets); };
+    const std::size_t boundary = part.mesh.boundary_vertex_count;
+    const auto is_tet = [&](std::int32_t t) { return t >= -1 && t < std::int64_t(tets); };
     bool holds = part.mesh.boundary_vertex_count >= 0 && boundary <= vertices && ids == boundary &&
                  part.patch.size() == facets && part.facet.size() == facets && part.neighbour.size() == facets &&
                  part.tet_at_facet.size() == facets && are_in_range(part.facets, boundary) &&
@@ -117,8 +117,7 @@ Part read_stored_part(const std::string& path, std::int64_t first_interior_id, P
     const std::uint64_t vertices = content == PartContent::surface ? boundary.ids.size() : head.vertices;
     if (vertices > head.vertices) fail_damaged(path);
     if (content != PartContent::cells) read_all(file, path, part.mesh.vertices, vertices);
-    if (content == PartContent::cells)
-        file.seek(static_cast<std::int64_t>(sizeof head + head.boundary_bytes + head.vertices * sizeof(Vec3)));
+    if (content == PartContent::cells) file.seek(sizeof head + head.boundary_bytes + head.vertices * sizeof(Vec3));
     if (content == PartContent::all || content == PartContent::cells) read_all(file, path, part.mesh.tets, head.tets);
     if (!is_consistent(part, boundary.ids.size(), vertices, head.tets)) fail_damaged(path);
     if (hash) *hash = hasher.digest();
@@ -126,24 +125,24 @@ Part read_stored_part(const std::string& path, std::int64_t first_interior_id, P
     return part;
 }
 
-Part StoredParts::load(std::int32_t rank) const {
-    const Place& place = places_[static_cast<std::size_t>(rank)];
+Part StoredParts::load(PartIndex index) const {
+    const Place& place = places_[index];
     FileHash hash;
     Part part = read_stored_part(place.path, place.first_interior_id, PartContent::all, &hash);
     if (hash != place.hash) fail_damaged(place.path);
     return part;
 }
 
-void StoredParts::remove(std::int32_t rank) const {
-    const std::string& path = places_[static_cast<std::size_t>(rank)].path;
+void StoredParts::remove(PartIndex index) const {
+    const std::string& path = places_[index].path;
     std::error_code error;
     std::filesystem::remove(path, error);
     if (error) throw Error(ErrorCode::io, fmt::format("Cannot remove {}: {}.", path, error.message()));
 }
 
-Part StoredParts::load_only(std::int32_t rank, PartContent content) const {
-    const Place& place = places_[static_cast<std::size_t>(rank)];
-    return content == PartContent::all ? load(rank) : read_stored_part(place.path, place.first_interior_id, content);
+Part StoredParts::load_only(PartIndex index, PartContent content) const {
+    const Place& place = places_[index];
+    return content == PartContent::all ? load(index) : read_stored_part(place.path, place.first_interior_id, content);
 }
 
 }  // namespace kerf

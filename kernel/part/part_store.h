@@ -28,21 +28,20 @@ class StoredParts : public PartSource {
         std::int64_t first_interior_id = 0;
         FileHash hash = {0, 0};
     };
-    /// `places`: by rank.
-    StoredParts(MeshOutline outline, std::vector<Place> places)
-        : outline_(std::move(outline)), places_(std::move(places)) {}
+    StoredParts(MeshOutline outline, const std::vector<Place>& places)
+        : outline_(std::move(outline)), places_(places.begin(), places.end()) {}
 
     const MeshOutline& outline() const override { return outline_; }
     /// Throws Error(io) naming the way out if the file is not as it was written.
-    Part load(std::int32_t rank) const override;
+    Part load(PartIndex index) const override;
     /// Only the whole part is compared with what was written.
-    Part load_only(std::int32_t rank, PartContent content) const override;
+    Part load_only(PartIndex index, PartContent content) const override;
     /// Takes the file of a part that is not needed any more from the disk. Throws Error(io).
-    void remove(std::int32_t rank) const;
+    void remove(PartIndex index) const;
 
  private:
     MeshOutline outline_;
-    std::vector<Place> places_;
+    Array<PartIndex, Place> places_;
 };
 
 }  // namespace kerf

@@ -58,43 +58,38 @@ RunParts::RunParts(std::string folder, std::string solution)
     std::vector<NodeId> ids;
     std::int64_t interior = 0;
     for (PartExtent& extent : outline_.parts) {
-        const auto rank = static_cast<std::int32_t>(ids.size());
+        const PartIndex index(ids.size());
         ids.push_back(extent.id);
         Part surface = read_part(folder_ + "/parts/" + part_surface_file_name(extent.id));
         for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+            ++(surface.has_patch(f) ? extent.patch_facets : extent.interface_facets);
             if (!surface.is_interface(f)) continue;
-            ++extent.interface_facets;
-            for (const std::int32_t v : surface.facets[f])
-                held.push_back({surface.global_id[static_cast<std::size_t>(v)], rank});
+            for (const std::int32_t v : surface.facets[f]) held.push_back({surface.global_id[v], index});
         }
         const std::vector<SharedEdges::Held> told_here = SharedEdges::told_by(surface);
         told.insert(told.end(), told_here.begin(), told_here.end());
-        extent.patch_facets = static_cast<std::int64_t>(surface.facets.size()) - extent.interface_facets;
         outline_.patch_names = std::move(surface.patch_names);
         first_interior_ids_.push_back(interior);
         interior += extent.vertices - surface.mesh.boundary_vertex_count;
     }
     for (std::int64_t& first : first_interior_ids_) first += outline_.vertices - interior;
     shared_edges_ = SharedEdges(std::move(told), ids);
-    shared_ = SharedVertices(std::move(held), std::move(ids));
+    shared_ = SharedVertices(std::move(held), ids);
 }
 
-Part RunParts::load(std::int32_t rank) const {
-    const auto r = static_cast<std::size_t>(rank);
-    Part part = load_part(folder_, outline_.parts[r].id, first_interior_ids_[r]);
-    part.shared = shared_.groups_of(
-        rank, std::span(part.global_id).first(static_cast<std::size_t>(part.mesh.boundary_vertex_count)));
+Part RunParts::load(PartIndex index) const {
+    Part part = load_part(folder_, outline_.parts[index].id, first_interior_ids_[index]);
+    part.shared = shared_.groups_of(index, std::span(part.global_id).first(part.mesh.boundary_vertex_count));
     part.shared_edges = shared_edges_.groups_of(part);
     if (!solution_.empty()) part.values = read_values(path_of_part(solution_, part.id));
     return part;
 }
 
-Part RunParts::load_only(std::int32_t rank, PartContent content) const {
-    if (content == PartContent::all) return load(rank);
-    const auto r = static_cast<std::size_t>(rank);
-    const NodeId id = outline_.parts[r].id;
+Part RunParts::load_only(PartIndex index, PartContent content) const {
+    if (content == PartContent::all) return load(index);
+    const NodeId id = outline_.parts[index].id;
     if (content == PartContent::surface) return read_part(folder_ + "/parts/" + part_surface_file_name(id), content);
-    return load_part(folder_, id, first_interior_ids_[r], content);
+    return load_part(folder_, id, first_interior_ids_[index], content);
 }
 
 std::string path_of_part(const std::string& folder, NodeId id) {

@@ -19,13 +19,13 @@ class RunParts : public PartSource {
     explicit RunParts(std::string folder, std::string solution = "");
 
     const MeshOutline& outline() const override { return outline_; }
-    Part load(std::int32_t rank) const override;
-    Part load_only(std::int32_t rank, PartContent content) const override;
+    Part load(PartIndex index) const override;
+    Part load_only(PartIndex index, PartContent content) const override;
 
  private:
     std::string folder_, solution_;
     MeshOutline outline_;
-    std::vector<std::int64_t> first_interior_ids_;  // by rank
+    Array<PartIndex, std::int64_t> first_interior_ids_;
     SharedVertices shared_;
     SharedEdges shared_edges_;
 };

@@ -19,7 +19,7 @@ struct InterfaceEdge {
 
 InterfaceEdge interface_edge(const Part& part, std::size_t f, std::size_t corner) {
     std::int32_t a = part.facets[f][corner], b = part.facets[f][(corner + 1) % 3];
-    std::int64_t id_a = part.global_id[static_cast<std::size_t>(a)], id_b = part.global_id[static_cast<std::size_t>(b)];
+    std::int64_t id_a = part.global_id[a], id_b = part.global_id[b];
     if (id_b < id_a) {
         std::swap(a, b);
         std::swap(id_a, id_b);
@@ -61,38 +61,39 @@ std::vector<SharedEdges::Held> SharedEdges::told_by(const Part& part) {
     return told;
 }
 
-SharedEdges::SharedEdges(std::vector<Held> told, const std::vector<NodeId>& ids) : told_(std::move(told)), ids_(ids) {
+SharedEdges::SharedEdges(std::vector<Held> told, const std::vector<NodeId>& ids)
+    : told_(std::move(told)), ids_(ids.begin(), ids.end()) {
     const auto key = [](const Held& held) { return std::tie(held.edge, held.part); };
     std::sort(told_.begin(), told_.end(), [&](const Held& a, const Held& b) { return key(a) < key(b); });
     told_.erase(std::unique(told_.begin(), told_.end(), [&](const Held& a, const Held& b) { return key(a) == key(b); }),
                 told_.end());
-    for (const NodeId id : ids_) ranks_.push_back({id, static_cast<std::int32_t>(ranks_.size())});
-    std::sort(ranks_.begin(), ranks_.end(), [](const Rank& a, const Rank& b) { return a.id < b.id; });
+    for (const PartIndex index : ids_.ids()) places_.push_back({ids_[index], index});
+    std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) { return a.id < b.id; });
 }
 
-std::int32_t SharedEdges::rank_of(NodeId id) const {
-    return std::lower_bound(ranks_.begin(), ranks_.end(), id,
-                            [](const Rank& r, NodeId wanted) { return r.id < wanted; })
-        ->rank;
+PartIndex SharedEdges::index_of(NodeId id) const {
+    return std::lower_bound(places_.begin(), places_.end(), id,
+                            [](const Place& place, NodeId wanted) { return place.id < wanted; })
+        ->index;
 }
 
 std::vector<SharedEdgeGroup> SharedEdges::groups_of(const Part& part) const {
-    std::map<std::vector<std::int32_t>, std::vector<UndirectedEdge>> edges_of;  // by the ranks that hold them
-    std::vector<std::int32_t> ranks;
+    std::map<std::vector<PartIndex>, std::vector<UndirectedEdge>> edges_of;  // by the parts that hold them
+    std::vector<PartIndex> holders;
     for_each_edge(interface_edges(part), [&](auto begin, auto end) {
-        ranks.assign(1, rank_of(part.id));
-        for (auto met = begin; met != end; ++met) ranks.push_back(rank_of(met->neighbour));
+        holders.assign(1, index_of(part.id));
+        for (auto met = begin; met != end; ++met) holders.push_back(index_of(met->neighbour));
         auto told = std::lower_bound(told_.begin(), told_.end(), begin->edge,
                                      [](const Held& held, const auto& wanted) { return held.edge < wanted; });
-        for (; told != told_.end() && told->edge == begin->edge; ++told) ranks.push_back(rank_of(told->part));
-        std::sort(ranks.begin(), ranks.end());
-        ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
-        edges_of[ranks].push_back(begin->corners);
+        for (; told != told_.end() && told->edge == begin->edge; ++told) holders.push_back(index_of(told->part));
+        std::sort(holders.begin(), holders.end());
+        holders.erase(std::unique(holders.begin(), holders.end()), holders.end());
+        edges_of[holders].push_back(begin->corners);
     });
     std::vector<SharedEdgeGroup> groups;
-    for (auto& [of_ranks, edges] : edges_of) {
+    for (auto& [parts, edges] : edges_of) {
         SharedEdgeGroup& group = groups.emplace_back();
-        for (const std::int32_t r : of_ranks) group.parts.push_back(ids_[static_cast<std::size_t>(r)]);
+        for (const PartIndex holder : parts) group.parts.push_back(ids_[holder]);
         group.edges = std::move(edges);
     }
     return groups;

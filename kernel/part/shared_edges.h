@@ -31,22 +31,22 @@ class SharedEdges {
     static std::vector<Held> told_by(const Part& part);
 
     SharedEdges() = default;
-    /// `told`: what all parts tell. `ids`: of the parts, by rank. O(n log n).
+    /// `told`: what all parts tell. `ids`: those of the parts. O(n log n).
     SharedEdges(std::vector<Held> told, const std::vector<NodeId>& ids);
 
     /// As Part::shared_edges. O(#F log #F).
     std::vector<SharedEdgeGroup> groups_of(const Part& part) const;
 
  private:
-    std::int32_t rank_of(NodeId id) const;
+    PartIndex index_of(NodeId id) const;
 
-    struct Rank {
+    struct Place {
         NodeId id;
-        std::int32_t rank;
+        PartIndex index;
     };
-    std::vector<Held> told_;   // ascending by edge, then part
-    std::vector<NodeId> ids_;  // by rank
-    std::vector<Rank> ranks_;  // ascending by id
+    std::vector<Held> told_;  // ascending by edge, then part
+    Array<PartIndex, NodeId> ids_;
+    std::vector<Place> places_;  // ascending by id
 };
 
 }  // namespace kerf

@@ -6,9 +6,9 @@
 
 namespace kerf {
 
-SharedVertices::SharedVertices(std::vector<Held> held, std::vector<NodeId> ids)
-    : held_(std::move(held)), ids_(std::move(ids)) {
-    const auto key = [](const Held& h) { return std::tie(h.vertex, h.rank); };
+SharedVertices::SharedVertices(std::vector<Held> held, const std::vector<NodeId>& ids)
+    : held_(std::move(held)), ids_(ids.begin(), ids.end()) {
+    const auto key = [](const Held& h) { return std::tie(h.vertex, h.part); };
     std::sort(held_.begin(), held_.end(), [&](const Held& a, const Held& b) { return key(a) < key(b); });
     held_.erase(std::unique(held_.begin(), held_.end(), [&](const Held& a, const Held& b) { return key(a) == key(b); }),
                 held_.end());
@@ -21,26 +21,23 @@ SharedVertices::SharedVertices(std::vector<Held> held, std::vector<NodeId> ids)
     held_.resize(kept);
 }
 
-std::vector<SharedGroup> SharedVertices::groups_of(std::int32_t rank,
-                                                   std::span<const std::int64_t> boundary_ids) const {
-    std::map<std::vector<std::int32_t>, std::vector<std::int32_t>> vertices_of;  // by the ranks that hold them
-    std::vector<std::int32_t> ranks;
+std::vector<SharedGroup> SharedVertices::groups_of(PartIndex index, std::span<const std::int64_t> boundary_ids) const {
+    std::map<std::vector<PartIndex>, std::vector<std::int32_t>> vertices_of;  // by the parts that hold them
+    std::vector<PartIndex> holders;
     for (std::size_t v = 0; v < boundary_ids.size(); ++v) {
         const std::int64_t id = boundary_ids[v];
         auto it = std::lower_bound(held_.begin(), held_.end(), id,
                                    [](const Held& h, std::int64_t wanted) { return h.vertex < wanted; });
-        ranks.clear();
-        for (; it != held_.end() && it->vertex == id; ++it) ranks.push_back(it->rank);
-        if (std::binary_search(ranks.begin(), ranks.end(), rank))
-            vertices_of[ranks].push_back(static_cast<std::int32_t>(v));
+        holders.clear();
+        for (; it != held_.end() && it->vertex == id; ++it) holders.push_back(it->part);
+        if (std::binary_search(holders.begin(), holders.end(), index)) vertices_of[holders].push_back(v);
     }
     std::vector<SharedGroup> groups;
-    for (auto& [of_ranks, vertices] : vertices_of) {
+    for (auto& [parts, vertices] : vertices_of) {
         SharedGroup& group = groups.emplace_back();
-        for (const std::int32_t r : of_ranks) group.parts.push_back(ids_[static_cast<std::size_t>(r)]);
-        std::sort(vertices.begin(), vertices.end(), [&](std::int32_t a, std::int32_t b) {
-            return boundary_ids[static_cast<std::size_t>(a)] < boundary_ids[static_cast<std::size_t>(b)];
-        });
+        for (const PartIndex holder : parts) group.parts.push_back(ids_[holder]);
+        std::sort(vertices.begin(), vertices.end(),
+                  [&](std::int32_t a, std::int32_t b) { return boundary_ids[a] < boundary_ids[b]; });
         group.vertices = std::move(vertices);
     }
     return groups;

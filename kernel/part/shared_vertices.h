@@ -13,22 +13,22 @@ namespace kerf {
 /// an interface of each of them, because a body that is cut at a vertex is cut through it.
 class SharedVertices {
  public:
-    /// A vertex of an interface and the rank of a part that has it there; may be named more than once.
+    /// A vertex of an interface and a part that has it there; may be named more than once.
     struct Held {
         std::int64_t vertex;  ///< global number
-        std::int32_t rank;
+        PartIndex part;
     };
 
     SharedVertices() = default;
-    /// `ids`: of the parts, by rank. O(n log n).
-    SharedVertices(std::vector<Held> held, std::vector<NodeId> ids);
+    /// `ids`: those of the parts. O(n log n).
+    SharedVertices(std::vector<Held> held, const std::vector<NodeId>& ids);
 
     /// As Part::shared. `boundary_ids`: global numbers of the part's boundary vertices.
-    std::vector<SharedGroup> groups_of(std::int32_t rank, std::span<const std::int64_t> boundary_ids) const;
+    std::vector<SharedGroup> groups_of(PartIndex index, std::span<const std::int64_t> boundary_ids) const;
 
  private:
-    std::vector<Held> held_;  // ascending by vertex, then rank; without vertices of one part alone
-    std::vector<NodeId> ids_;
+    std::vector<Held> held_;  // ascending by vertex, then part; without vertices of one part alone
+    Array<PartIndex, NodeId> ids_;
 };
 
 }  // namespace kerf

@@ -42,7 +42,7 @@ class PartArraysFile {
         std::uint64_t size = 0;
         const std::uint64_t position = std::min(size_, static_cast<std::uint64_t>(array->position));
         if (size_ - position < sizeof size) fail(fmt::format("it ends before the array {}", name));
-        file_.seek(static_cast<std::int64_t>(position));
+        file_.seek(position);
         read(&size, sizeof size);
         if (size > size_ - position - sizeof size) fail(fmt::format("it ends within the array {}", name));
         return size;
@@ -57,7 +57,7 @@ class PartArraysFile {
 
     template <class T>
     std::vector<T> take(std::int64_t count) {
-        std::vector<T> values(static_cast<std::size_t>(count));
+        std::vector<T> values(count);
         read(static_cast<void*>(values.data()), values.size() * sizeof(T));
         return values;
     }
@@ -166,7 +166,7 @@ std::int32_t common_part(PartArraysFile& file) {
 }
 
 std::vector<std::string> read_names(PartArraysFile& file) {
-    const auto bytes = file.take<char>(static_cast<std::int64_t>(file.open("PatchNames")));
+    const auto bytes = file.take<char>(file.open("PatchNames"));
     std::vector<std::string> names;
     std::string_view rest(bytes.data(), bytes.size());
     while (!rest.empty()) {
@@ -184,7 +184,7 @@ void read_vertices(PartArraysFile& file, Part& part) {
 }
 
 void read_global_ids(PartArraysFile& file, Part& part) {
-    part.mesh.boundary_vertex_count = static_cast<std::int32_t>(file.header().boundary_vertex_count);
+    part.mesh.boundary_vertex_count = file.header().boundary_vertex_count;
     file.open<std::int64_t>("GlobalVertexId", file.header().point_count);
     part.global_id = file.take<std::int64_t>(file.header().point_count);
 }
@@ -264,7 +264,7 @@ std::vector<float> read_cell_values(const std::string& path, const std::string& 
     if (first < 0 || count < 0 || first > header.cell_count - count)
         fail_damaged_vtu(path, fmt::format("it has {} cells, and not those from {} to {}", header.cell_count, first,
                                            first + count - 1));
-    std::vector<float> values(static_cast<std::size_t>(count));
+    std::vector<float> values(count);
     const std::string bytes =
         read_bytes(file, *array, first * std::int64_t{sizeof(float)}, values.size() * sizeof(float), path);
     if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
@@ -298,7 +298,7 @@ PartValues nameless_numbers(const VtuHeader::Array& array, PartValues::Of of) {
     PartValues values;
     values.name = array.name;
     values.of = of;
-    values.components = static_cast<int>(array.components);
+    values.components = array.components;
     if (array.type == "Float64") values.numbers = std::vector<double>();
     return values;
 }
@@ -329,7 +329,7 @@ std::vector<PartValues> read_values(const std::string& path) {
         std::visit(
             [&](auto& numbers) {
                 using Number = typename std::decay_t<decltype(numbers)>::value_type;
-                numbers.resize(static_cast<std::size_t>(tuples * array.components));
+                numbers.resize(tuples * array.components);
                 const std::string bytes = read_bytes(file, array, 0, numbers.size() * sizeof(Number), path);
                 if (!bytes.empty()) std::memcpy(numbers.data(), bytes.data(), bytes.size());
             },

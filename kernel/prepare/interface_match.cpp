@@ -51,12 +51,12 @@ std::vector<NodeId> InterfaceTable::neighbours(const Leaf& leaf) const {
 
 SharedVertices InterfaceTable::shared_vertices(const VertexNumbering& numbering,
                                                const std::vector<NodeId>& leaves) const {
-    std::map<NodeId, std::int32_t> rank_of;
-    for (const NodeId leaf : leaves) rank_of.emplace(leaf, static_cast<std::int32_t>(rank_of.size()));
+    std::map<NodeId, PartIndex> index_of;
+    for (const NodeId leaf : leaves) index_of.emplace(leaf, PartIndex(index_of.size()));
     std::vector<SharedVertices::Held> held;
     held.reserve(3 * sides_.size());
     for (const InterfaceSide& side : sides_)
-        for (const Key vertex : side.vertices) held.push_back({numbering.global_id(vertex), rank_of.at(side.leaf)});
+        for (const Key vertex : side.vertices) held.push_back({numbering.global_id(vertex), index_of.at(side.leaf)});
     return {std::move(held), leaves};
 }
 

@@ -64,9 +64,8 @@ void MeasurableMesh::open_file() {
 void MeasurableMesh::open_run() {
     run_ = std::make_unique<RunParts>(path_);
     Box box;
-    const auto parts = static_cast<std::int32_t>(run_->outline().parts.size());
-    for (std::int32_t rank = 0; rank < parts; ++rank)
-        box.extend(box_around(run_->load_only(rank, PartContent::surface).mesh.vertices));
+    for (const PartIndex part : run_->outline().parts.ids())
+        box.extend(box_around(run_->load_only(part, PartContent::surface).mesh.vertices));
     diagonal_ = box.diagonal().norm();
 }
 
@@ -84,13 +83,13 @@ MeshQuality MeasurableMesh::measure(double length_scale) const {
     quality.cells = PartQuality(length_scale);
     if (run_) {
         const MeshOutline& outline = run_->outline();
-        quality.parts = static_cast<std::int64_t>(outline.parts.size());
+        quality.parts = std::ssize(outline.parts);
         quality.vertices = outline.vertices;
-        for (std::int32_t rank = 0; rank < quality.parts; ++rank) add(run_->load(rank), length_scale, quality);
+        for (const PartIndex part : run_->outline().parts.ids()) add(run_->load(part), length_scale, quality);
         return quality;
     }
     const std::vector<Vec3>& vertices = file_.mesh.vertices;
-    quality.vertices = static_cast<std::int64_t>(vertices.size());
+    quality.vertices = std::ssize(vertices);
     quality.turned_tets = file_.turned_tets;
     quality.notes = file_.notes;
     quality.cells =

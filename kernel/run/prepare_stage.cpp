@@ -53,8 +53,8 @@ std::vector<NodeId> gather_leaves(Communicator& ranks, const std::vector<Leaf>& 
     return gather_items(ranks, ids);
 }
 
-std::int32_t rank_of_leaf(const std::vector<NodeId>& leaves, NodeId leaf) {
-    return static_cast<std::int32_t>(std::find(leaves.begin(), leaves.end(), leaf) - leaves.begin());
+PartIndex index_of_leaf(const std::vector<NodeId>& leaves, NodeId leaf) {
+    return PartIndex(std::find(leaves.begin(), leaves.end(), leaf) - leaves.begin());
 }
 
 void find_shared_edges(Communicator& ranks, const std::vector<NodeId>& leaves, std::vector<OwnPart>& own) {
@@ -84,7 +84,7 @@ PreparedParts prepare_parts(Communicator& ranks, const Input& input, const std::
         job.part = leaf.id;
         job.boundary_id = numbering.global_ids(leaf.surface.vertex_key);
         job.neighbour = table.neighbours(leaf);
-        job.shared = shared.groups_of(rank_of_leaf(leaves, leaf.id), job.boundary_id);
+        job.shared = shared.groups_of(index_of_leaf(leaves, leaf.id), job.boundary_id);
         job.patch_names = input.patch_names;
         job.length_scale = input.diagonal;
         job.surface = std::exchange(leaf.surface, {});

@@ -46,12 +46,12 @@ std::vector<FormatFiles> open_formats(std::span<const FormatPlace> formats, cons
     return opened;
 }
 
-void write_part(const PartSource& parts, std::int32_t rank, const std::vector<FormatFiles>& formats) {
-    Part part = parts.load(rank);
+void write_part(const PartSource& parts, PartIndex index, const std::vector<FormatFiles>& formats) {
+    Part part = parts.load(index);
     for (const auto& [format, files] : formats) {
         if (!format->write_part) continue;
         if (format->needs_face_neighbours && part.mesh.neighbours.empty()) connect_tets(part.mesh);
-        format->write_part(parts, rank, part, *files);
+        format->write_part(parts, index, part, *files);
     }
 }
 
@@ -90,11 +90,11 @@ class PartWriters {
     };
 
     void write_some() {
-        for (std::int32_t rank = next_++; rank < share_.last; rank = next_++) {
+        for (std::int32_t next = next_++; next < share_.last; next = next_++) {
             std::exception_ptr error;
             try {
-                write_part(parts_, rank, formats_);
-                if (part_written_) part_written_(rank);
+                write_part(parts_, PartIndex(next), formats_);
+                if (part_written_) part_written_(PartIndex(next));
             } catch (...) {
                 error = std::current_exception();
             }

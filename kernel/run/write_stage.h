@@ -32,7 +32,7 @@ struct WriteTarget {
 
 /// Told of each part that is written in all formats, by its rank in the outline: nobody loads it again, if its formats
 /// ask for no other part (Format::asks_for_one_part). From any thread; may throw Error.
-using PartWritten = std::function<void(std::int32_t)>;
+using PartWritten = std::function<void(PartIndex)>;
 
 /// Writes all parts in all formats below the folder of the target. Collective: every rank
 /// writes its share of the parts with so many `threads`, each of which holds one part at a time; what belongs to no

@@ -8,41 +8,38 @@ namespace kerf {
 namespace {
 
 // Which nodes share an element, without values. Corner by corner: first how often, then who, then each once.
-BlockRows pattern_of(const NodeSpace& space) {
-    const auto nodes_each = static_cast<std::size_t>(element_nodes(space.order()));
+BlockRows pattern_of(const FeSpace& space) {
+    const int nodes_each = element_nodes(space.order());
     BlockRows rows;
     std::vector<std::int64_t> first(space.node_count() + 1, 0);
     for_all_tets(space, [&](std::size_t p, std::size_t t) {
         const auto nodes = space.nodes_of(p, t);
-        for (std::size_t i = 0; i < nodes_each; ++i) ++first[static_cast<std::size_t>(nodes[i]) + 1];
+        for (int i = 0; i < nodes_each; ++i) ++first[nodes[i] + 1];
     });
     std::partial_sum(first.begin(), first.end(), first.begin());
     // The elements of each node, as number of the part and of the tetrahedron.
-    std::vector<std::int64_t> element_at(static_cast<std::size_t>(first.back()));
+    std::vector<std::int64_t> element_at(first.back());
     std::vector<std::int64_t> next(first.begin(), first.end() - 1);
     std::vector<std::int64_t> first_tet{0};
     for (const Part& part : space.parts()) first_tet.push_back(first_tet.back() + part.tet_count());
     for_all_tets(space, [&](std::size_t p, std::size_t t) {
         const auto nodes = space.nodes_of(p, t);
-        for (std::size_t i = 0; i < nodes_each; ++i)
-            element_at[static_cast<std::size_t>(next[static_cast<std::size_t>(nodes[i])]++)] =
-                first_tet[p] + static_cast<std::int64_t>(t);
+        for (int i = 0; i < nodes_each; ++i) element_at[next[nodes[i]]++] = first_tet[p] + t;
     });
     std::vector<std::int32_t> around;
     rows.first.push_back(0);
-    for (std::size_t n = 0; n < space.node_count(); ++n) {
+    for (std::int32_t n = 0; n < space.node_count(); ++n) {
         around.clear();
         for (std::int64_t i = first[n]; i < first[n + 1]; ++i) {
-            const std::int64_t element = element_at[static_cast<std::size_t>(i)];
-            const auto p = static_cast<std::size_t>(std::upper_bound(first_tet.begin(), first_tet.end(), element) -
-                                                    first_tet.begin() - 1);
-            const auto nodes = space.nodes_of(p, static_cast<std::size_t>(element - first_tet[p]));
-            around.insert(around.end(), nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(nodes_each));
+            const std::int64_t element = element_at[i];
+            const std::size_t p = std::upper_bound(first_tet.begin(), first_tet.end(), element) - first_tet.begin() - 1;
+            const auto nodes = space.nodes_of(p, element - first_tet[p]);
+            around.insert(around.end(), nodes.begin(), nodes.begin() + nodes_each);
         }
         std::sort(around.begin(), around.end());
         around.erase(std::unique(around.begin(), around.end()), around.end());
         rows.columns.insert(rows.columns.end(), around.begin(), around.end());
-        rows.first.push_back(static_cast<std::int64_t>(rows.columns.size()));
+        rows.first.push_back(std::ssize(rows.columns));
     }
     return rows;
 }
@@ -50,19 +47,19 @@ BlockRows pattern_of(const NodeSpace& space) {
 }  // namespace
 
 BlockRows stiffness_of_rank(const ElasticProblem& problem) {
-    const NodeSpace& space = *problem.space;
+    const FeSpace& space = *problem.space;
     BlockRows rows = pattern_of(space);
     rows.values.assign(9 * rows.columns.size(), 0);
-    const auto nodes_each = static_cast<std::size_t>(element_nodes(space.order()));
+    const int nodes_each = element_nodes(space.order());
     TetElement::Stiffness blocks;
     for_all_tets(space, [&](std::size_t p, std::size_t t) {
         space.element(p, t).stiffness(problem.material(p, t), blocks);
         const auto nodes = space.nodes_of(p, t);
-        for (std::size_t a = 0; a < nodes_each; ++a) {
-            const auto row = static_cast<std::size_t>(nodes[a]);
+        for (int a = 0; a < nodes_each; ++a) {
+            const std::int32_t row = nodes[a];
             const auto begin = rows.columns.begin() + rows.first[row], end = rows.columns.begin() + rows.first[row + 1];
-            for (std::size_t b = 0; b < nodes_each; ++b) {
-                const auto at = static_cast<std::size_t>(std::lower_bound(begin, end, nodes[b]) - rows.columns.begin());
+            for (int b = 0; b < nodes_each; ++b) {
+                const std::size_t at = std::lower_bound(begin, end, nodes[b]) - rows.columns.begin();
                 double* value = &rows.values[9 * at];
                 for (int i = 0; i < 3; ++i)
                     for (int j = 0; j < 3; ++j) value[3 * i + j] += blocks[a][b](i, j);

@@ -14,7 +14,7 @@ struct BlockRows {
     std::vector<std::int32_t> columns;
     std::vector<double> values;
 
-    std::size_t row_count() const { return first.size() - 1; }
+    std::int32_t row_count() const { return std::ssize(first) - 1; }
 };
 
 /// The stiffness of this rank's elements, before anything is held; ghosts have rows as well. O(n).

@@ -16,33 +16,28 @@ class EdgeTable {
     EdgeTable(const std::vector<Tetrahedron>& tets, std::size_t vertex_count) : first_(vertex_count + 1) {
         const auto for_edges = [&](auto visit) {
             for (const Tetrahedron& tet : tets)
-                for (const auto& [i, j] : tet_edges)
-                    visit(undirected(tet[static_cast<std::size_t>(i)], tet[static_cast<std::size_t>(j)]));
+                for (const auto& [i, j] : tet_edges) visit(undirected(tet[i], tet[j]));
         };
-        for_edges([&](const UndirectedEdge& edge) { ++first_[static_cast<std::size_t>(edge[0]) + 1]; });
+        for_edges([&](const UndirectedEdge& edge) { ++first_[edge[0] + 1]; });
         for (std::size_t v = 0; v < vertex_count; ++v) first_[v + 1] += first_[v];
         std::vector<std::int64_t> next(first_.begin(), first_.end() - 1);
-        upper_.resize(static_cast<std::size_t>(first_.back()));
-        for_edges([&](const UndirectedEdge& edge) {
-            upper_[static_cast<std::size_t>(next[static_cast<std::size_t>(edge[0])]++)] = edge[1];
-        });
+        upper_.resize(first_.back());
+        for_edges([&](const UndirectedEdge& edge) { upper_[next[edge[0]]++] = edge[1]; });
         keep_each_once();
     }
 
     std::size_t size() const { return upper_.size(); }
     /// The number of an edge of the mesh.
     std::int32_t find(const UndirectedEdge& edge) const {
-        const auto v = static_cast<std::size_t>(edge[0]);
+        const std::int32_t v = edge[0];
         const auto begin = upper_.begin() + first_[v], end = upper_.begin() + first_[v + 1];
-        return static_cast<std::int32_t>(std::lower_bound(begin, end, edge[1]) - upper_.begin());
+        return std::lower_bound(begin, end, edge[1]) - upper_.begin();
     }
     /// Calls visit(number, edge) for all edges in their order.
     template <class Visit>
     void for_all(Visit visit) const {
-        for (std::size_t v = 0; v + 1 < first_.size(); ++v)
-            for (std::int64_t e = first_[v]; e < first_[v + 1]; ++e)
-                visit(static_cast<std::int32_t>(e),
-                      UndirectedEdge{static_cast<std::int32_t>(v), upper_[static_cast<std::size_t>(e)]});
+        for (std::int32_t v = 0; v + 1 < std::ssize(first_); ++v)
+            for (std::int64_t e = first_[v]; e < first_[v + 1]; ++e) visit(e, UndirectedEdge{v, upper_[e]});
     }
 
  private:
@@ -53,10 +48,10 @@ class EdgeTable {
             std::sort(begin, end);
             const auto last = std::unique(begin, end);
             first_[v] = kept;
-            for (auto it = begin; it != last; ++it) upper_[static_cast<std::size_t>(kept++)] = *it;
+            for (auto it = begin; it != last; ++it) upper_[kept++] = *it;
         }
         first_.back() = kept;
-        upper_.resize(static_cast<std::size_t>(kept));
+        upper_.resize(kept);
         upper_.shrink_to_fit();
     }
 

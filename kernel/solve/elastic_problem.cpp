@@ -25,7 +25,7 @@ struct MaterialPlaces {
 
 class ProblemMaker {
  public:
-    ProblemMaker(const NodeSpace& space, const MeshOutline& outline, const ElasticCase& wanted)
+    ProblemMaker(const FeSpace& space, const MeshOutline& outline, const ElasticCase& wanted)
         : space_(space),
           outline_(outline),
           wanted_(wanted),
@@ -51,11 +51,11 @@ class ProblemMaker {
     void add_surface_load(const Load& load, std::vector<double>& forces) const;
     void add_weight(std::vector<double>& forces) const;
 
-    const NodeSpace& space_;
+    const FeSpace& space_;
     const MeshOutline& outline_;
     const ElasticCase& wanted_;
     SurfaceSelector selector_;
-    NodeBodies bodies_;
+    SpaceBodies bodies_;
     ElasticProblem problem_;
 };
 
@@ -63,10 +63,9 @@ class ProblemMaker {
 std::vector<char> ProblemMaker::bodies_at(const std::vector<std::string>& patches, const std::string& who) const {
     SurfaceSelection where;
     where.patches = patches;
-    std::vector<std::int32_t> found(static_cast<std::size_t>(bodies_.count), 0);
+    std::vector<std::int32_t> found(bodies_.count, 0);
     for (const SurfaceFacet& facet : selector_.facets(where, who))
-        found[static_cast<std::size_t>(
-            bodies_.of_node[static_cast<std::size_t>(space_.nodes_of_facet(facet.part, facet.facet)[0])])] = 1;
+        found[bodies_.of_node[space_.nodes_of_facet(facet.part, facet.facet)[0]]] = 1;
     space_.ranks().all_reduce(std::span(found), Reduction::largest);
     return {found.begin(), found.end()};
 }
@@ -132,18 +131,18 @@ void ProblemMaker::place_material(const MaterialUse& use, MaterialPlaces& places
 
 // A part may have a node of a patch without a triangle of it: all who have the node are told.
 void ProblemMaker::hold() {
-    for (std::size_t s = 0; s < wanted_.supports.size(); ++s) {
+    for (std::int32_t s = 0; s < std::ssize(wanted_.supports); ++s) {
         const Support& support = wanted_.supports[s];
         const auto hold_node = [&](std::int32_t node) {
             for (std::size_t c = 0; c < 3; ++c) {
-                std::int32_t& of = problem_.support_of[3 * static_cast<std::size_t>(node) + c];
-                if (support.displacement[c]) of = std::min(of, static_cast<std::int32_t>(s));
+                std::int32_t& of = problem_.support_of[3 * node + c];
+                if (support.displacement[c]) of = std::min(of, s);
             }
         };
         problem_.supports.push_back(support.name);
         if (support.where.point) {
             const std::int64_t row = selector_.nearest_vertex(*support.where.point);
-            for (std::int32_t n = 0; n < static_cast<std::int32_t>(space_.node_count()); ++n)
+            for (std::int32_t n = 0; n < space_.node_count(); ++n)
                 if (space_.row_of(n) == row) hold_node(n);
             continue;
         }
@@ -154,8 +153,7 @@ void ProblemMaker::hold() {
     space_.exchange().share_smallest(std::span(problem_.support_of), 3);
     for (std::size_t dof = 0; dof < problem_.support_of.size(); ++dof)
         if (problem_.is_held(dof))
-            problem_.prescribed[dof] =
-                *wanted_.supports[static_cast<std::size_t>(problem_.support_of[dof])].displacement[dof % 3];
+            problem_.prescribed[dof] = *wanted_.supports[problem_.support_of[dof]].displacement[dof % 3];
 }
 
 void ProblemMaker::add_surface_load(const Load& load, std::vector<double>& forces) const {
@@ -163,9 +161,8 @@ void ProblemMaker::add_surface_load(const Load& load, std::vector<double>& force
     if (load.where.point) {
         const std::int64_t row = selector_.nearest_vertex(*load.where.point);
         const std::int64_t own = row - space_.first_row();
-        if (own >= 0 && own < static_cast<std::int64_t>(space_.owned_count()))
-            for (std::size_t c = 0; c < 3; ++c)
-                forces[3 * static_cast<std::size_t>(own) + c] += (*load.force)[static_cast<Eigen::Index>(c)];
+        if (own >= 0 && own < space_.owned_count())
+            for (std::size_t c = 0; c < 3; ++c) forces[3 * own + c] += (*load.force)[c];
         return;
     }
     const std::vector<SurfaceFacet> facets = selector_.facets(load.where, who);
@@ -179,9 +176,7 @@ void ProblemMaker::add_surface_load(const Load& load, std::vector<double>& force
         const auto nodes = space_.nodes_of_facet(facet.part, facet.facet);
         const TriangleShares shares = node_areas(facet.area, space_.order());
         for (std::size_t i = 0; i < nodes.size(); ++i)
-            for (std::size_t c = 0; c < 3 && nodes[i] >= 0; ++c)
-                forces[3 * static_cast<std::size_t>(nodes[i]) + c] +=
-                    shares[i] * traction[static_cast<Eigen::Index>(c)];
+            for (std::size_t c = 0; c < 3 && nodes[i] >= 0; ++c) forces[3 * nodes[i] + c] += shares[i] * traction[c];
     }
 }
 
@@ -190,10 +185,8 @@ void ProblemMaker::add_weight(std::vector<double>& forces) const {
         const TetElement::Shapes volumes = space_.element(p, t).node_volumes();
         const auto nodes = space_.nodes_of(p, t);
         const Vec3 density = problem_.material(p, t).density * *wanted_.gravity;
-        for (std::size_t n = 0; n < static_cast<std::size_t>(element_nodes(space_.order())); ++n)
-            for (std::size_t c = 0; c < 3; ++c)
-                forces[3 * static_cast<std::size_t>(nodes[n]) + c] +=
-                    volumes[n] * density[static_cast<Eigen::Index>(c)];
+        for (int n = 0; n < element_nodes(space_.order()); ++n)
+            for (std::size_t c = 0; c < 3; ++c) forces[3 * nodes[n] + c] += volumes[n] * density[c];
     });
 }
 
@@ -237,7 +230,7 @@ std::string motions_text(const Eigen::MatrixXd& motions, const Vec3& middle, dou
 
 }  // namespace
 
-ElasticProblem make_free_problem(const NodeSpace& space, const Material& material) {
+ElasticProblem make_free_problem(const FeSpace& space, const Material& material) {
     ElasticProblem problem;
     problem.space = &space;
     problem.materials = {material};
@@ -246,39 +239,39 @@ ElasticProblem make_free_problem(const NodeSpace& space, const Material& materia
     return problem;
 }
 
-ElasticProblem make_problem(const NodeSpace& space, const MeshOutline& outline, const ElasticCase& wanted) {
+ElasticProblem make_problem(const FeSpace& space, const MeshOutline& outline, const ElasticCase& wanted) {
     return ProblemMaker(space, outline, wanted).make();
 }
 
-void require_supported(const ElasticProblem& problem, const NodeBodies& bodies) {
-    const NodeSpace& space = *problem.space;
-    const auto count = static_cast<std::size_t>(bodies.count);
+void require_supported(const ElasticProblem& problem, const SpaceBodies& bodies) {
+    const FeSpace& space = *problem.space;
+    const std::int32_t count = bodies.count;
     std::vector<double> middles(4 * count, 0), scales(count, 0), products(36 * count, 0);
-    for (std::size_t n = 0; n < space.owned_count(); ++n) {
-        double* sum = &middles[4 * static_cast<std::size_t>(bodies.of_node[n])];
+    for (std::int32_t n = 0; n < space.owned_count(); ++n) {
+        double* sum = &middles[4 * bodies.of_node[n]];
         for (int c = 0; c < 3; ++c) sum[c] += space.points()[n][c];
         sum[3] += 1;
     }
     space.ranks().all_reduce(std::span(middles), Reduction::sum);
-    const auto middle_of = [&](std::size_t b) -> Vec3 {
+    const auto middle_of = [&](std::int32_t b) -> Vec3 {
         return Vec3(middles[4 * b], middles[4 * b + 1], middles[4 * b + 2]) / middles[4 * b + 3];
     };
-    for (std::size_t n = 0; n < space.owned_count(); ++n) {
-        const auto b = static_cast<std::size_t>(bodies.of_node[n]);
+    for (std::int32_t n = 0; n < space.owned_count(); ++n) {
+        const std::int32_t b = bodies.of_node[n];
         scales[b] = std::max(scales[b], (space.points()[n] - middle_of(b)).norm());
     }
     space.ranks().all_reduce(std::span(scales), Reduction::largest);
-    for (std::size_t n = 0; n < space.owned_count(); ++n)
+    for (std::int32_t n = 0; n < space.owned_count(); ++n)
         for (int c = 0; c < 3; ++c) {
-            if (!problem.is_held(3 * n + static_cast<std::size_t>(c))) continue;
-            const auto b = static_cast<std::size_t>(bodies.of_node[n]);
+            if (!problem.is_held(3 * n + c)) continue;
+            const std::int32_t b = bodies.of_node[n];
             const Vec3 axis = Vec3::Unit(c), arm = (space.points()[n] - middle_of(b)) / scales[b];
             Motion held;
             held << axis, arm.cross(axis);  // component c of the motion of the node
             Eigen::Map<MotionMatrix>(&products[36 * b]) += held * held.transpose();
         }
     space.ranks().all_reduce(std::span(products), Reduction::sum);
-    for (std::size_t b = 0; b < count; ++b) {
+    for (std::int32_t b = 0; b < count; ++b) {
         const MotionMatrix product = Eigen::Map<const MotionMatrix>(&products[36 * b]);
         const Eigen::SelfAdjointEigenSolver<MotionMatrix> solver(product);
         const double largest = solver.eigenvalues()[5];

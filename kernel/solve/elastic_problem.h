@@ -6,15 +6,15 @@
 #include <vector>
 
 #include "solve/elastic_case.h"
-#include "solve/node_bodies.h"
-#include "solve/node_space.h"
+#include "solve/fe_space.h"
+#include "solve/space_bodies.h"
 #include "solve/surface_selection.h"
 
 namespace kerf {
 
 /// Degrees of freedom are 3 * node + component. Arrays over local nodes hold the same for a node on every rank.
 struct ElasticProblem {
-    const NodeSpace* space = nullptr;
+    const FeSpace* space = nullptr;
     std::vector<Material> materials;
     std::vector<std::vector<std::uint8_t>> material_of_tet;  ///< of each part of this rank; empty: the first material
     std::vector<std::string> supports;                       ///< names
@@ -32,12 +32,12 @@ struct ElasticProblem {
 
 /// Collective. Throws Error(usage) on all ranks alike: for what the mesh does not have, for a cell without a material
 /// or with two, and for a body that its supports leave free to move, naming the motion.
-ElasticProblem make_problem(const NodeSpace& space, const MeshOutline& outline, const ElasticCase& wanted);
+ElasticProblem make_problem(const FeSpace& space, const MeshOutline& outline, const ElasticCase& wanted);
 
 /// No displacements, no forces, one material: for who sets the rest.
-ElasticProblem make_free_problem(const NodeSpace& space, const Material& material);
+ElasticProblem make_free_problem(const FeSpace& space, const Material& material);
 
 /// Throws Error(usage) naming the rigid motions of bodies that the supports do not prevent. Collective.
-void require_supported(const ElasticProblem& problem, const NodeBodies& bodies);
+void require_supported(const ElasticProblem& problem, const SpaceBodies& bodies);
 
 }  // namespace kerf

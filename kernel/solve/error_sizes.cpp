@@ -63,9 +63,7 @@ class Cubes {
         Cube cube{static_cast<std::int32_t>(std::clamp(levels, 0.0, double{deepest})), {}};
         const auto count = static_cast<double>(1 << cube.level);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto i = static_cast<Eigen::Index>(axis);
-            cube.place[axis] =
-                static_cast<std::int32_t>(std::clamp(std::floor((p[i] - low_[i]) / width_ * count), 0.0, count - 1));
+            cube.place[axis] = std::clamp(std::floor((p[axis] - low_[axis]) / width_ * count), 0.0, count - 1);
         }
         return cube;
     }
@@ -78,7 +76,7 @@ class Cubes {
     double width_;
 };
 
-Cubes cubes_of(const NodeSpace& space, Communicator& ranks) {
+Cubes cubes_of(const FeSpace& space, Communicator& ranks) {
     Box box = box_around(space.points());
     for (const Vec3& low : all_gather(ranks, Vec3(box.min()))) box.min() = box.min().cwiseMin(low);
     for (const Vec3& high : all_gather(ranks, Vec3(box.max()))) box.max() = box.max().cwiseMax(high);
@@ -99,8 +97,8 @@ std::vector<CubeSum> merged(std::vector<CubeSum> sums) {
 }
 
 // The cubes of all ranks, ascending.
-std::vector<CubeSum> sum_errors(const NodeSpace& space, const std::vector<const StressField*>& fields,
-                                const Cubes& cubes, Communicator& ranks) {
+std::vector<CubeSum> sum_errors(const FeSpace& space, const std::vector<const StressField*>& fields, const Cubes& cubes,
+                                Communicator& ranks) {
     std::vector<CubeSum> sums;
     for (std::size_t p = 0; p < space.parts().size(); ++p) {
         const TetMesh& mesh = space.parts()[p].mesh;
@@ -108,8 +106,7 @@ std::vector<CubeSum> sum_errors(const NodeSpace& space, const std::vector<const 
         for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
             const double volume = space.element(p, t).volume();
             Vec3 centroid = Vec3::Zero();
-            for (const std::int32_t corner : mesh.tets[t])
-                centroid += mesh.vertices[static_cast<std::size_t>(corner)] / 4;
+            for (const std::int32_t corner : mesh.tets[t]) centroid += mesh.vertices[corner] / 4;
             CubeSum& sum = of_part.emplace_back();
             sum.cube = cubes.at(centroid, regular_tet_edge(volume));
             sum.volume = volume;
@@ -151,16 +148,14 @@ class CubeMesh {
         std::array<std::int32_t, 8> corners{};
         for (std::size_t i = 0; i < 8; ++i) {
             Corner place = cube.place;
-            for (std::size_t axis = 0; axis < 3; ++axis) place[axis] += static_cast<std::int32_t>(i >> axis & 1);
+            for (std::size_t axis = 0; axis < 3; ++axis) place[axis] += i >> axis & 1;
             corners[i] = number(cube.level, place);
-            logs_[static_cast<std::size_t>(corners[i])] += std::log2(length);
-            counts_[static_cast<std::size_t>(corners[i])] += 1;
+            logs_[corners[i]] += std::log2(length);
+            counts_[corners[i]] += 1;
         }
         // Along the diagonal from corner 0 to 7, one for each order of the axes.
         constexpr std::array<std::array<int, 2>, 6> ways = {{{1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}}};
-        for (const auto& [a, b] : ways)
-            mesh_.tets.push_back(
-                {corners[0], corners[static_cast<std::size_t>(a)], corners[static_cast<std::size_t>(b)], corners[7]});
+        for (const auto& [a, b] : ways) mesh_.tets.push_back({corners[0], corners[a], corners[b], corners[7]});
     }
     SizedMesh take() {
         for (std::size_t v = 0; v < logs_.size(); ++v) mesh_.size.push_back(std::exp2(logs_[v] / counts_[v]));
@@ -169,8 +164,7 @@ class CubeMesh {
 
  private:
     std::int32_t number(std::int32_t level, const Corner& place) {
-        const auto [found, is_new] =
-            numbers_.try_emplace(Cube{level, place}, static_cast<std::int32_t>(mesh_.vertices.size()));
+        const auto [found, is_new] = numbers_.try_emplace(Cube{level, place}, mesh_.vertices.size());
         if (is_new) {
             mesh_.vertices.push_back(cubes_.corner(level, place));
             logs_.push_back(0);
@@ -191,7 +185,7 @@ double error_of_next_mesh(double relative_error, double target, int order) {
     return std::max(below_target * target, relative_error * std::pow(more_cells, -order / 3.0));
 }
 
-SizedMesh sizes_for_error(const NodeSpace& space, const std::vector<const StressField*>& fields, double aim,
+SizedMesh sizes_for_error(const FeSpace& space, const std::vector<const StressField*>& fields, double aim,
                           Communicator& ranks) {
     const Cubes cubes = cubes_of(space, ranks);
     const std::vector<CubeSum> sums = sum_errors(space, fields, cubes, ranks);

@@ -5,7 +5,7 @@
 
 #include "parallel/communicator.h"
 #include "size/background_sizes.h"
-#include "solve/node_space.h"
+#include "solve/fe_space.h"
 #include "solve/stress.h"
 
 namespace kerf {
@@ -20,7 +20,7 @@ double error_of_next_mesh(double relative_error, double target, int order);
 /// are means over cubes one to two edges wide, which is what the mesh that is returned consists of: about 0.4
 /// tetrahedra for each of those that it stands for. Collective; the same on every rank. Rounded to steps of 4 percent,
 /// so that ranks in other numbers, whose solutions differ in the last digits, ask for the same lengths. O(n log n).
-SizedMesh sizes_for_error(const NodeSpace& space, const std::vector<const StressField*>& fields, double aim,
+SizedMesh sizes_for_error(const FeSpace& space, const std::vector<const StressField*>& fields, double aim,
                           Communicator& ranks);
 
 }  // namespace kerf

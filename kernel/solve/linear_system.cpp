@@ -57,8 +57,8 @@ void check_options(PetscErrorCode code, const std::string& options) {
                                                      options, text.substr(0, text.find('\n'))));
 }
 
-// Local to global numbers of PETSc's rows, which have 32 bits (NodeSpace sees to that).
-PetscInt row_of(const NodeSpace& space, std::int32_t node) { return static_cast<PetscInt>(space.row_of(node)); }
+// Local to global numbers of PETSc's rows, which have 32 bits (FeSpace sees to that).
+PetscInt row_of(const FeSpace& space, std::int32_t node) { return static_cast<PetscInt>(space.row_of(node)); }
 
 // Blocks of each row: in columns of this rank and of others, all and those from the diagonal on.
 struct RoomForRows {
@@ -66,15 +66,16 @@ struct RoomForRows {
 };
 
 // What other ranks add to a row is counted there: a few blocks at interfaces are counted twice.
-RoomForRows room_for(const NodeSpace& space, const BlockRows& rows) {
-    enum { own, others, own_upper, others_upper, kinds };
+RoomForRows room_for(const FeSpace& space, const BlockRows& rows) {
+    enum { own, others, own_upper, others_upper };
+    constexpr std::int64_t kinds = 4;
     std::vector<std::int32_t> counts(kinds * space.node_count(), 0);
     const std::vector<std::int64_t>& starts = space.rank_rows();
-    for (std::size_t n = 0; n < rows.row_count(); ++n) {
-        const std::int64_t row = space.row_of(static_cast<std::int32_t>(n));
+    for (std::int32_t n = 0; n < rows.row_count(); ++n) {
+        const std::int64_t row = space.row_of(n);
         const auto after = std::upper_bound(starts.begin(), starts.end(), row);
         for (std::int64_t i = rows.first[n]; i < rows.first[n + 1]; ++i) {
-            const std::int64_t column = space.row_of(rows.columns[static_cast<std::size_t>(i)]);
+            const std::int64_t column = space.row_of(rows.columns[i]);
             const bool is_own = column >= *(after - 1) && column < *after;
             ++counts[kinds * n + (is_own ? own : others)];
             if (column >= row) ++counts[kinds * n + (is_own ? own_upper : others_upper)];
@@ -82,11 +83,10 @@ RoomForRows room_for(const NodeSpace& space, const BlockRows& rows) {
     }
     space.exchange().add_to_owners(std::span(counts), kinds);
     RoomForRows room;
-    const auto all_own = static_cast<std::int64_t>(space.owned_count()), all_others = space.total_rows() - all_own;
-    for (std::size_t n = 0; n < space.owned_count(); ++n) {
-        const auto count = [&](int kind, std::int64_t most) {
-            return static_cast<PetscInt>(
-                std::min<std::int64_t>(counts[kinds * n + static_cast<std::size_t>(kind)], most));
+    const std::int64_t all_own = space.owned_count(), all_others = space.total_rows() - all_own;
+    for (std::int32_t n = 0; n < space.owned_count(); ++n) {
+        const auto count = [&](int kind, std::int64_t most) -> PetscInt {
+            return std::min<std::int64_t>(counts[kinds * n + kind], most);
         };
         room.own.push_back(count(own, all_own));
         room.others.push_back(count(others, all_others));
@@ -167,7 +167,7 @@ struct LinearSystem::Impl {
 };
 
 void LinearSystem::Impl::create_matrix(const BlockRows& rows) {
-    const NodeSpace& space = *problem.space;
+    const FeSpace& space = *problem.space;
     const auto own = static_cast<PetscInt>(3 * space.owned_count());
     is_symmetric_half = options.preconditioner == "icc";  // multigrid wants all of it
     check(MatCreate(space.ranks().handle(), &matrix));
@@ -184,10 +184,10 @@ void LinearSystem::Impl::create_matrix(const BlockRows& rows) {
 
 double LinearSystem::Impl::mean_diagonal(const BlockRows& rows) const {
     std::array<double, 2> sum = {0, static_cast<double>(3 * problem.space->owned_count())};
-    for (std::size_t n = 0; n < rows.row_count(); ++n)
+    for (std::int32_t n = 0; n < rows.row_count(); ++n)
         for (std::int64_t i = rows.first[n]; i < rows.first[n + 1]; ++i)
-            if (static_cast<std::size_t>(rows.columns[static_cast<std::size_t>(i)]) == n) {
-                const double* block = &rows.values[9 * static_cast<std::size_t>(i)];
+            if (rows.columns[i] == n) {
+                const double* block = &rows.values[9 * i];
                 sum[0] += block[0] + block[4] + block[8];
             }
     problem.space->ranks().all_reduce(std::span<double>(sum), Reduction::sum);
@@ -195,34 +195,32 @@ double LinearSystem::Impl::mean_diagonal(const BlockRows& rows) const {
 }
 
 void LinearSystem::Impl::insert(const BlockRows& rows) {
-    const NodeSpace& space = *problem.space;
+    const FeSpace& space = *problem.space;
     of_prescribed.assign(3 * space.node_count(), 0);
     std::vector<PetscInt> columns;
     std::vector<double> values;  // of one row of blocks: three rows of numbers
-    for (std::size_t n = 0; n < rows.row_count(); ++n) {
+    for (std::int32_t n = 0; n < rows.row_count(); ++n) {
         const std::int64_t begin = rows.first[n], end = rows.first[n + 1];
-        const auto width = static_cast<std::size_t>(3 * (end - begin));
+        const std::int64_t width = 3 * (end - begin);
         columns.clear();
         values.assign(3 * width, 0);
         for (std::int64_t i = begin; i < end; ++i) {
-            const auto at = static_cast<std::size_t>(i);
-            const auto column = static_cast<std::size_t>(rows.columns[at]);
-            columns.push_back(row_of(space, rows.columns[at]));
+            const std::int32_t column = rows.columns[i];
+            columns.push_back(row_of(space, column));
             for (std::size_t r = 0; r < 3; ++r)
                 for (std::size_t c = 0; c < 3; ++c) {
-                    const double value = rows.values[9 * at + 3 * r + c];
+                    const double value = rows.values[9 * i + 3 * r + c];
                     if (problem.is_held(3 * n + r)) continue;
                     if (problem.is_held(3 * column + c))
                         of_prescribed[3 * n + r] -= value * problem.prescribed[3 * column + c];
                     else
-                        values[r * width + 3 * static_cast<std::size_t>(i - begin) + c] = value;
+                        values[r * width + 3 * (i - begin) + c] = value;
                 }
             if (column == n && n < space.owned_count())
                 for (std::size_t r = 0; r < 3; ++r)
-                    if (problem.is_held(3 * n + r))
-                        values[r * width + 3 * static_cast<std::size_t>(i - begin) + r] = diagonal;
+                    if (problem.is_held(3 * n + r)) values[r * width + 3 * (i - begin) + r] = diagonal;
         }
-        const PetscInt row = row_of(space, static_cast<std::int32_t>(n));
+        const PetscInt row = row_of(space, n);
         check(MatSetValuesBlocked(matrix, 1, &row, static_cast<PetscInt>(columns.size()), columns.data(), values.data(),
                                   ADD_VALUES));
     }
@@ -230,7 +228,7 @@ void LinearSystem::Impl::insert(const BlockRows& rows) {
     check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
     MatInfo info;
     check(MatGetInfo(matrix, MAT_GLOBAL_SUM, &info));
-    unprepared = static_cast<std::int64_t>(info.mallocs);
+    unprepared = info.mallocs;
 }
 
 void LinearSystem::Impl::assemble() {
@@ -247,13 +245,13 @@ void LinearSystem::Impl::assemble() {
 }
 
 void LinearSystem::Impl::give_rigid_motions() {
-    const NodeSpace& space = *problem.space;
+    const FeSpace& space = *problem.space;
     Vec places = nullptr;
     check(MatCreateVecs(matrix, &places, nullptr));
     double* values = nullptr;
     check(VecGetArray(places, &values));
-    for (std::size_t n = 0; n < space.owned_count(); ++n)
-        for (std::size_t c = 0; c < 3; ++c) values[3 * n + c] = space.points()[n][static_cast<Eigen::Index>(c)];
+    for (std::int32_t n = 0; n < space.owned_count(); ++n)
+        for (int c = 0; c < 3; ++c) values[3 * n + c] = space.points()[n][c];
     check(VecRestoreArray(places, &values));
     check(VecSetBlockSize(places, 3));
     MatNullSpace motions = nullptr;
@@ -268,7 +266,7 @@ PetscErrorCode LinearSystem::Impl::tell_iteration(KSP, PetscInt iteration, Petsc
     Impl& impl = *static_cast<Impl*>(self);
     if (iteration == 0) impl.residual_at_start = residual;
     if (impl.after_iteration && impl.residual_at_start > 0)
-        impl.after_iteration(static_cast<int>(iteration), residual / impl.residual_at_start);
+        impl.after_iteration(iteration, residual / impl.residual_at_start);
     return 0;
 }
 
@@ -308,7 +306,7 @@ SolveOutcome LinearSystem::solve(const std::vector<double>& forces, std::vector<
                                  const AfterIteration& after_iteration) {
     impl_->after_iteration = after_iteration;
     const ElasticProblem& problem = impl_->problem;
-    const NodeSpace& space = *problem.space;
+    const FeSpace& space = *problem.space;
     SolveOutcome outcome;
     std::vector<double> right = forces;
     for (std::size_t dof = 0; dof < right.size(); ++dof)
@@ -316,7 +314,7 @@ SolveOutcome LinearSystem::solve(const std::vector<double>& forces, std::vector<
     space.exchange().add_to_owners(std::span(right), 3);
     double* values = nullptr;
     check(VecGetArray(impl_->right, &values));
-    for (std::size_t dof = 0; dof < 3 * space.owned_count(); ++dof)
+    for (std::int32_t dof = 0; dof < 3 * space.owned_count(); ++dof)
         values[dof] = problem.is_held(dof) ? impl_->diagonal * problem.prescribed[dof] : right[dof];
     check(VecRestoreArray(impl_->right, &values));
 
@@ -335,7 +333,7 @@ SolveOutcome LinearSystem::solve(const std::vector<double>& forces, std::vector<
     outcome.reason = KSPConvergedReasons[reason];
     PetscInt iterations = 0;
     check(KSPGetIterationNumber(impl_->ksp, &iterations));
-    outcome.iterations = static_cast<int>(iterations);
+    outcome.iterations = iterations;
     double norm = 0, of_right = 0, of_solution = 0;
     check(MatMult(impl_->matrix, impl_->solution, impl_->residual));
     check(VecAXPY(impl_->residual, -1, impl_->right));

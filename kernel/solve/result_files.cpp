@@ -29,8 +29,7 @@ std::vector<PartValues> values_of_part(const ElasticProblem& problem, const std:
         const std::string suffix = solutions.size() > 1 ? " " + solution.name : "";
         std::vector<double> displacement;
         for (const std::int32_t node : problem.space->nodes_of_parts()[p].of_vertex)
-            for (std::size_t c = 0; c < 3; ++c)
-                displacement.push_back(solution.displacement[3 * static_cast<std::size_t>(node) + c]);
+            for (std::size_t c = 0; c < 3; ++c) displacement.push_back(solution.displacement[3 * node + c]);
         values.push_back({"Displacement" + suffix, PartValues::Of::points, 3, std::move(displacement)});
         const PartStress& stress = solution.stress.parts[p];
         add_stresses(stress.at_vertex, PartValues::Of::points, suffix, values);

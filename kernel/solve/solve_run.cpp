@@ -63,7 +63,7 @@ class SolveStages {
     }
     void read_request();
     void open_folder();
-    NodeSpace make_space();
+    FeSpace make_space();
     void solve_case(LinearSystem& system, std::size_t number);
     void report_case(const std::vector<double>& forces, CaseReport& of_case);
     Extreme largest(double value, const Vec3& place) const;
@@ -77,7 +77,7 @@ class SolveStages {
     Stopwatch whole_, stage_;
     std::unique_ptr<RunParts> parts_;
     std::optional<RunFolder> folder_;
-    std::optional<NodeSpace> space_;
+    std::optional<FeSpace> space_;
     ElasticProblem problem_;
     std::vector<CaseSolution> solutions_;
 };
@@ -87,8 +87,8 @@ void SolveStages::read_request() {
         const SolveRequest& request = report_.request;
         report_.wanted = read_case(request.case_file);
         parts_ = std::make_unique<RunParts>(request.folder);
-        const std::size_t parts = parts_->outline().parts.size();
-        if (parts < static_cast<std::size_t>(ranks_.size()))
+        const std::int64_t parts = std::ssize(parts_->outline().parts);
+        if (parts < ranks_.size())
             throw Error(
                 ErrorCode::usage,
                 fmt::format("{} ranks are more than the {} parts of {}, of which each rank takes whole ones. Start "
@@ -101,7 +101,7 @@ void SolveStages::read_request() {
         refuse_to_overwrite(request.case_file, "--output", request.output);
     });
     const MeshOutline& outline = parts_->outline();
-    report_.parts = static_cast<std::int64_t>(outline.parts.size());
+    report_.parts = std::ssize(outline.parts);
     report_.tets = outline.tets();
     report_.vertices = outline.vertices;
 }
@@ -128,21 +128,21 @@ void SolveStages::open_folder() {
     }));
 }
 
-NodeSpace SolveStages::make_space() {
+FeSpace SolveStages::make_space() {
     const MeshOutline& outline = parts_->outline();
-    const std::vector<std::int32_t> first = first_parts_of_ranks(outline, ranks_.size());
-    const auto r = static_cast<std::size_t>(ranks_.rank());
+    const std::vector<PartIndex> first = first_parts_of_ranks(outline, ranks_.size());
+    const int r = ranks_.rank();
     std::vector<Part> own = in_agreement(ranks_, [&] {
         std::vector<Part> parts;
-        for (std::int32_t p = first[r]; p < first[r + 1]; ++p) {
-            tell_part("read", parts.size(), static_cast<std::size_t>(first[r + 1] - first[r]));
-            parts.push_back(parts_->load(p));
+        for (const PartIndex index : IdRange(first[r], first[r + 1])) {
+            tell_part("read", parts.size(), first[r + 1].value() - first[r].value());
+            parts.push_back(parts_->load(index));
         }
         return parts;
     });
     report_.seconds.read = stage_.lap();
     progress("number", 0, 0);
-    NodeSpace space(ranks_, outline, first, std::move(own), report_.wanted.solver.order);
+    FeSpace space(ranks_, outline, first, std::move(own), report_.wanted.solver.order);
     report_.seconds.number = stage_.lap();
     return space;
 }
@@ -157,7 +157,7 @@ Extreme SolveStages::largest(double value, const Vec3& place) const {
 void SolveStages::report_case(const std::vector<double>& forces, CaseReport& of_case) {
     const CaseSolution& solution = solutions_.back();
     for (std::size_t dof = 0; dof < forces.size(); ++dof)
-        of_case.load[static_cast<Eigen::Index>(dof % 3)] += forces[dof];
+        of_case.load[dof % 3] += forces[dof];
     ranks_.all_reduce(std::span(of_case.load.data(), 3), Reduction::sum);
     of_case.reactions = reactions(problem_, solution.displacement, forces);
     Vec3 sum = of_case.load;
@@ -170,7 +170,7 @@ void SolveStages::report_case(const std::vector<double>& forces, CaseReport& of_
     of_case.norms = solution.stress.norms;
     double most = -1, most_stress = -1;
     Vec3 place = Vec3::Zero(), place_of_stress = Vec3::Zero();
-    for (std::size_t n = 0; n < space_->owned_count(); ++n) {
+    for (std::int32_t n = 0; n < space_->owned_count(); ++n) {
         const double length = Eigen::Map<const Vec3>(&solution.displacement[3 * n]).norm();
         if (length > most) {
             most = length;
@@ -312,17 +312,17 @@ SolveReport solve_run(const SolveRequest& request, MpiRanks& ranks, RunListener*
 
 std::vector<PatchSummary> list_patches(const std::string& folder, MpiRanks& ranks) {
     std::unique_ptr<RunParts> parts;
-    std::vector<std::int32_t> first;
+    std::vector<PartIndex> first;
     std::vector<Part> own = in_agreement(ranks, [&] {
         parts = std::make_unique<RunParts>(folder);
         first = first_parts_of_ranks(parts->outline(), ranks.size());
         std::vector<Part> surfaces;
-        const auto r = static_cast<std::size_t>(ranks.rank());
-        for (std::int32_t p = first[r]; p < first[r + 1]; ++p)
-            surfaces.push_back(parts->load_only(p, PartContent::surface));
+        const int r = ranks.rank();
+        for (const PartIndex index : IdRange(first[r], first[r + 1]))
+            surfaces.push_back(parts->load_only(index, PartContent::surface));
         return surfaces;
     });
-    const NodeSpace space(ranks, parts->outline(), first, std::move(own), 1);
+    const FeSpace space(ranks, parts->outline(), first, std::move(own), 1);
     return SurfaceSelector(space, parts->outline().patch_names).summaries();
 }
 

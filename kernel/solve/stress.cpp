@@ -11,8 +11,7 @@ constexpr std::size_t stress_sums = 7;  // of a node: the sum of stresses times 
 std::array<Vec3, most_element_nodes> values_at(const std::array<std::int32_t, most_element_nodes>& nodes, int order,
                                                const std::vector<double>& of_nodes) {
     std::array<Vec3, most_element_nodes> values;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(element_nodes(order)); ++i)
-        values[i] = Eigen::Map<const Vec3>(&of_nodes[3 * static_cast<std::size_t>(nodes[i])]);
+    for (int i = 0; i < element_nodes(order); ++i) values[i] = Eigen::Map<const Vec3>(&of_nodes[3 * nodes[i]]);
     return values;
 }
 
@@ -22,8 +21,7 @@ Barycentric place_of_node(std::size_t i) {
     if (i < 4)
         place[i] = 1;
     else
-        place[static_cast<std::size_t>(tet_edges[i - 4][0])] = place[static_cast<std::size_t>(tet_edges[i - 4][1])] =
-            0.5;
+        place[tet_edges[i - 4][0]] = place[tet_edges[i - 4][1]] = 0.5;
     return place;
 }
 
@@ -81,25 +79,25 @@ class StressRecovery {
             const ElementStress element(problem_, displacement_, p, t);
             const auto nodes = space_.nodes_of(p, t);
             const double volume = element.element().volume();
-            for (std::size_t i = 0; i < static_cast<std::size_t>(element_nodes(space_.order())); ++i) {
-                double* sum = &sums_[stress_sums * static_cast<std::size_t>(nodes[i])];
+            for (int i = 0; i < element_nodes(space_.order()); ++i) {
+                double* sum = &sums_[stress_sums * nodes[i]];
                 Eigen::Map<SymmetricTensor>{sum} += volume * element.stress(place_of_node(i));
                 sum[stress_sums - 1] += volume;
             }
         });
         space_.exchange().add_to_owners(std::span(sums_), stress_sums);
         space_.exchange().to_ghosts(std::span(sums_), stress_sums);
-        for (std::size_t n = 0; n < space_.node_count(); ++n) {
+        for (std::int32_t n = 0; n < space_.node_count(); ++n) {
             double* sum = &sums_[stress_sums * n];
             if (sum[stress_sums - 1] > 0) Eigen::Map<SymmetricTensor>{sum} /= sum[stress_sums - 1];
         }
     }
     SymmetricTensor mean_at(std::int32_t node) const {
-        return Eigen::Map<const SymmetricTensor>(&sums_[stress_sums * static_cast<std::size_t>(node)]);
+        return Eigen::Map<const SymmetricTensor>(&sums_[stress_sums * node]);
     }
 
     void compare(std::size_t m) {
-        const auto nodes_each = static_cast<std::size_t>(element_nodes(space_.order()));
+        const int nodes_each = element_nodes(space_.order());
         for_all_tets(space_, [&](std::size_t p, std::size_t t) {
             if (!is_of(m, p, t)) return;
             const ElementStress element(problem_, displacement_, p, t);
@@ -111,7 +109,7 @@ class StressRecovery {
                 const SymmetricTensor strain = element.strain(point), stress = stress_of(element.material(), strain);
                 const TetElement::Shapes shapes = TetElement::shapes_at(space_.order(), point);
                 SymmetricTensor difference = -stress;
-                for (std::size_t i = 0; i < nodes_each; ++i) difference += shapes[i] * mean_at(nodes[i]);
+                for (int i = 0; i < nodes_each; ++i) difference += shapes[i] * mean_at(nodes[i]);
                 mean += stress / static_cast<double>(quadrature_points.size());
                 of_solution += weight * contracted(stress, strain);
                 of_error += weight * contracted(difference, strain_of_stress(element.material(), difference));
@@ -122,13 +120,12 @@ class StressRecovery {
             field_.norms.solution += of_solution;
             field_.norms.error += of_error;
             const Tetrahedron& corners = space_.parts()[p].mesh.tets[t];
-            for (std::size_t i = 0; i < 4; ++i)
-                of_part.at_vertex[static_cast<std::size_t>(corners[i])] = mean_at(nodes[i]);
+            for (std::size_t i = 0; i < 4; ++i) of_part.at_vertex[corners[i]] = mean_at(nodes[i]);
         });
     }
 
     const ElasticProblem& problem_;
-    const NodeSpace& space_;
+    const FeSpace& space_;
     const std::vector<double>& displacement_;
     std::vector<double> sums_;
     StressField field_;
@@ -147,10 +144,10 @@ StressField recover_stress(const ElasticProblem& problem, const std::vector<doub
 
 std::vector<Vec3> reactions(const ElasticProblem& problem, const std::vector<double>& displacement,
                             const std::vector<double>& forces) {
-    const NodeSpace& space = *problem.space;
+    const FeSpace& space = *problem.space;
     std::vector<double> internal(forces.size());
     for (std::size_t dof = 0; dof < forces.size(); ++dof) internal[dof] = -forces[dof];
-    const auto nodes_each = static_cast<std::size_t>(element_nodes(space.order()));
+    const int nodes_each = element_nodes(space.order());
     for_all_tets(space, [&](std::size_t p, std::size_t t) {
         const ElementStress element(problem, displacement, p, t);
         const auto nodes = space.nodes_of(p, t);
@@ -161,14 +158,13 @@ std::vector<Vec3> reactions(const ElasticProblem& problem, const std::vector<dou
             Eigen::Matrix3d stress;
             stress << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
             const TetElement::Gradients gradients = element.element().gradients_at(quadrature_points[q]);
-            for (std::size_t n = 0; n < nodes_each; ++n)
-                Eigen::Map<Vec3>(&internal[3 * static_cast<std::size_t>(nodes[n])]) += weight * stress * gradients[n];
+            for (int n = 0; n < nodes_each; ++n)
+                Eigen::Map<Vec3>(&internal[3 * nodes[n]]) += weight * stress * gradients[n];
         }
     });
     std::vector<double> sums(3 * problem.supports.size(), 0);
     for (std::size_t dof = 0; dof < internal.size(); ++dof)  // shares of ghosts belong to the same support
-        if (problem.is_held(dof))
-            sums[3 * static_cast<std::size_t>(problem.support_of[dof]) + dof % 3] += internal[dof];
+        if (problem.is_held(dof)) sums[3 * problem.support_of[dof] + dof % 3] += internal[dof];
     space.ranks().all_reduce(std::span(sums), Reduction::sum);
     std::vector<Vec3> result;
     for (std::size_t s = 0; s < problem.supports.size(); ++s) result.emplace_back(Eigen::Map<const Vec3>(&sums[3 * s]));

@@ -43,21 +43,20 @@ bool matches_pattern(const std::string& pattern, const std::string& text) {
     return matched.back() != 0;
 }
 
-SurfaceSelector::SurfaceSelector(const NodeSpace& space, std::vector<std::string> names)
+SurfaceSelector::SurfaceSelector(const FeSpace& space, std::vector<std::string> names)
     : space_(space), names_(std::move(names)) {
     std::array<double, 6> low;  // and the opposite of what is high
     low.fill(std::numeric_limits<double>::infinity());
     for (std::size_t p = 0; p < space.parts().size(); ++p) {
         const Part& part = space.parts()[p];
         for (std::size_t f = 0; f < part.facets.size(); ++f) {
-            if (part.is_interface(f)) continue;
+            if (!part.is_on_outer_boundary(f)) continue;
             std::array<Vec3, 3> corners;
             for (std::size_t i = 0; i < 3; ++i) {
-                corners[i] = part.mesh.vertices[static_cast<std::size_t>(part.facets[f][i])];
+                corners[i] = part.mesh.vertices[part.facets[f][i]];
                 for (int c = 0; c < 3; ++c) {
-                    low[static_cast<std::size_t>(c)] = std::min(low[static_cast<std::size_t>(c)], corners[i][c]);
-                    low[static_cast<std::size_t>(c) + 3] =
-                        std::min(low[static_cast<std::size_t>(c) + 3], -corners[i][c]);
+                    low[c] = std::min(low[c], corners[i][c]);
+                    low[c + 3] = std::min(low[c + 3], -corners[i][c]);
                 }
             }
             const Vec3 doubled = doubled_area_vector(corners);
@@ -87,11 +86,11 @@ bool SurfaceSelector::selects(const SurfaceSelection& where, const std::vector<c
     const Part& part = space_.parts()[facet.part];
     if (!where.patches.empty()) {
         const std::int32_t patch = part.patch[facet.facet];
-        return patch >= 0 && patches[static_cast<std::size_t>(patch)] != 0;
+        return patch >= 0 && patches[patch] != 0;
     }
     const Triangle& corners = part.facets[facet.facet];
     return std::all_of(corners.begin(), corners.end(), [&](std::int32_t v) {
-        const Vec3& p = part.mesh.vertices[static_cast<std::size_t>(v)];
+        const Vec3& p = part.mesh.vertices[v];
         if (where.box) return ((p - (*where.box)[0]).array() >= 0).all() && (((*where.box)[1] - p).array() >= 0).all();
         const Vec3 normal((*where.plane)[0], (*where.plane)[1], (*where.plane)[2]);
         return std::abs(normal.dot(p) - (*where.plane)[3]) <= on_plane * diagonal_ * normal.norm();
@@ -103,8 +102,7 @@ std::vector<SurfaceFacet> SurfaceSelector::facets(const SurfaceSelection& where,
     std::vector<SurfaceFacet> selected;
     for (const SurfaceFacet& facet : surface_)
         if (selects(where, patches, facet)) selected.push_back(facet);
-    const auto own = static_cast<std::int64_t>(selected.size());
-    const std::int64_t count = space_.ranks().all_reduce(own, Reduction::sum);
+    const std::int64_t count = space_.ranks().all_reduce(std::int64_t{std::ssize(selected)}, Reduction::sum);
     if (count == 0)
         throw Error(ErrorCode::usage,
                     fmt::format("{} selects no triangle of the surface{}. kerf solve DIR --list-patches says where "
@@ -121,9 +119,8 @@ std::int64_t SurfaceSelector::nearest_vertex(const Vec3& point) const {
     std::int64_t row = std::numeric_limits<std::int64_t>::max();
     for (const SurfaceFacet& facet : surface_)
         for (const std::int32_t v : space_.parts()[facet.part].facets[facet.facet]) {
-            const auto vertex = static_cast<std::size_t>(v);
-            const double distance = (space_.parts()[facet.part].mesh.vertices[vertex] - point).squaredNorm();
-            const std::int64_t candidate = space_.row_of(space_.nodes_of_parts()[facet.part].of_vertex[vertex]);
+            const double distance = (space_.parts()[facet.part].mesh.vertices[v] - point).squaredNorm();
+            const std::int64_t candidate = space_.row_of(space_.nodes_of_parts()[facet.part].of_vertex[v]);
             if (distance < nearest || (distance == nearest && candidate < row)) {
                 nearest = distance;
                 row = candidate;
@@ -140,7 +137,7 @@ std::vector<PatchSummary> SurfaceSelector::summaries() const {
         const Part& part = space_.parts()[facet.part];
         const auto& [a, b, c] = part.facets[facet.facet];
         const std::vector<Vec3>& points = part.mesh.vertices;
-        if (part.patch[facet.facet] >= 0) patches[part.patch[facet.facet]].add(points[a], points[b], points[c]);
+        if (part.has_patch(facet.facet)) patches[part.patch[facet.facet]].add(points[a], points[b], points[c]);
     }
     std::vector<double> sums;
     for (const PatchSummary& own : patches)

@@ -7,7 +7,7 @@
 
 #include "report/patch_summary.h"
 #include "solve/elastic_case.h"
-#include "solve/node_space.h"
+#include "solve/fe_space.h"
 
 namespace kerf {
 
@@ -23,7 +23,7 @@ struct SurfaceFacet {
 class SurfaceSelector {
  public:
     /// `names`: of the patches of the mesh. O(F).
-    SurfaceSelector(const NodeSpace& space, std::vector<std::string> names);
+    SurfaceSelector(const FeSpace& space, std::vector<std::string> names);
 
     /// Triangles that are selected, on this rank. `who` begins the message of Error(usage) that is thrown for a patch
     /// that the mesh does not have, or if nothing is selected on any rank. O(F).
@@ -39,7 +39,7 @@ class SurfaceSelector {
  private:
     bool selects(const SurfaceSelection& where, const std::vector<char>& patches, const SurfaceFacet& facet) const;
 
-    const NodeSpace& space_;
+    const FeSpace& space_;
     std::vector<std::string> names_;
     std::vector<SurfaceFacet> surface_;  // all on this rank
     double diagonal_ = 0;

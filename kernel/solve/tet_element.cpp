@@ -24,7 +24,7 @@ TetElement::Shapes TetElement::shapes_at(int order, const Barycentric& point) {
     for (std::size_t i = 0; i < 4; ++i) shapes[i] = point[i] * (2 * point[i] - 1);
     for (std::size_t e = 0; e < 6; ++e) {
         const auto [i, j] = tet_edges[e];
-        shapes[4 + e] = 4 * point[static_cast<std::size_t>(i)] * point[static_cast<std::size_t>(j)];
+        shapes[4 + e] = 4 * point[i] * point[j];
     }
     return shapes;
 }
@@ -37,7 +37,7 @@ TetElement::Gradients TetElement::gradients_at(const Barycentric& point) const {
     }
     for (std::size_t i = 0; i < 4; ++i) gradients[i] = (4 * point[i] - 1) * slopes_[i];
     for (std::size_t e = 0; e < 6; ++e) {
-        const auto i = static_cast<std::size_t>(tet_edges[e][0]), j = static_cast<std::size_t>(tet_edges[e][1]);
+        const auto [i, j] = tet_edges[e];
         gradients[4 + e] = 4 * (point[i] * slopes_[j] + point[j] * slopes_[i]);
     }
     return gradients;
@@ -53,8 +53,7 @@ Eigen::Matrix3d TetElement::gradient_of(const std::array<Vec3, most_element_node
                                         const Barycentric& point) const {
     const Gradients gradients = gradients_at(point);
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-    for (std::size_t n = 0; n < static_cast<std::size_t>(node_count()); ++n)
-        sum.noalias() += values[n] * gradients[n].transpose();
+    for (int n = 0; n < node_count(); ++n) sum.noalias() += values[n] * gradients[n].transpose();
     return sum;
 }
 
@@ -68,13 +67,13 @@ TetElement::Shapes TetElement::node_volumes() const {
 
 void TetElement::stiffness(const Material& material, Stiffness& blocks) const {
     const double lambda = material.lambda(), mu = material.mu();
-    const auto nodes = static_cast<std::size_t>(node_count());
+    const int nodes = node_count();
     const std::size_t points = order_ == 1 ? 1 : quadrature_points.size();
     const double weight = volume_ / static_cast<double>(points);
     for (std::size_t p = 0; p < points; ++p) {
         const Gradients gradients = gradients_at(quadrature_points[p]);
-        for (std::size_t a = 0; a < nodes; ++a)
-            for (std::size_t b = a; b < nodes; ++b) {
+        for (int a = 0; a < nodes; ++a)
+            for (int b = a; b < nodes; ++b) {
                 const Vec3 &ga = gradients[a], &gb = gradients[b];
                 Eigen::Matrix3d block = (weight * lambda) * ga * gb.transpose();
                 block.noalias() += (weight * mu) * gb * ga.transpose();
@@ -85,8 +84,8 @@ void TetElement::stiffness(const Material& material, Stiffness& blocks) const {
                     blocks[a][b] += block;
             }
     }
-    for (std::size_t a = 0; a < nodes; ++a)
-        for (std::size_t b = 0; b < a; ++b) blocks[a][b] = blocks[b][a].transpose();
+    for (int a = 0; a < nodes; ++a)
+        for (int b = 0; b < a; ++b) blocks[a][b] = blocks[b][a].transpose();
 }
 
 TriangleShares node_areas(double area, int order) {

@@ -120,10 +120,10 @@ std::vector<WeightedPoint> many_points() {
 
 void solve_and_print(const KnownField& field, const std::string& folder, int order) {
     const RunParts run(folder);
-    const std::vector<std::int32_t> first = {0, static_cast<std::int32_t>(run.outline().parts.size())};
+    const std::vector<PartIndex> first = {PartIndex(0), PartIndex(run.outline().parts.size())};
     std::vector<Part> parts;
-    for (std::int32_t p = 0; p < first.back(); ++p) parts.push_back(run.load(p));
-    const NodeSpace space(MPI_COMM_SELF, run.outline(), first, std::move(parts), order);
+    for (const PartIndex index : run.outline().parts.ids()) parts.push_back(run.load(index));
+    const FeSpace space(MPI_COMM_SELF, run.outline(), first, std::move(parts), order);
 
     ElasticProblem problem = make_free_problem(space, field.material);
     for (std::size_t p = 0; p < space.parts().size(); ++p)

@@ -19,8 +19,8 @@ std::vector<double> volumes_of_bodies(const PartSource& parts) {
     std::vector<double> volumes(static_cast<std::size_t>(parts.bodies().count()), 0);
     std::vector<std::int64_t> sizes(volumes.size(), 0);
     for (std::size_t r = 0; r < parts.outline().parts.size(); ++r) {
-        const Part part = parts.load(static_cast<std::int32_t>(r));
-        const std::vector<std::int32_t> bodies = parts.bodies().of_tets(static_cast<std::int32_t>(r), part);
+        const Part part = parts.load(PartIndex(r));
+        const std::vector<std::int32_t> bodies = parts.bodies().of_tets(PartIndex(r), part);
         for (std::size_t t = 0; t < bodies.size(); ++t) {
             const auto body = static_cast<std::size_t>(bodies[t]);
             volumes[body] += volume_of(part.mesh, part.mesh.tets[t]);
@@ -72,7 +72,7 @@ class TwoTets : public PartSource {
         outline_.parts = {{1, 8, 2, 8, 0}};
     }
     const MeshOutline& outline() const override { return outline_; }
-    Part load(std::int32_t) const override { return part_; }
+    Part load(PartIndex) const override { return part_; }
 
  private:
     Part part_;
@@ -81,7 +81,7 @@ class TwoTets : public PartSource {
 
 TEST(Bodies, AreNumberedAsTheirFacetsAre) {
     const TwoTets parts;
-    EXPECT_EQ(parts.bodies().of_tets(0, parts.load(0)), (std::vector<std::int32_t>{1, 0}));
+    EXPECT_EQ(parts.bodies().of_tets(PartIndex(0), parts.load(PartIndex(0))), (std::vector<std::int32_t>{1, 0}));
 }
 
 }  // namespace

@@ -32,8 +32,8 @@ std::vector<std::string> exported(const RunParts& run) {
     return bytes_of(folder.file(""));
 }
 
-void write_rank(const RunParts& run, std::int32_t rank, ExportFiles& files) {
-    hdf5().write_part(run, rank, run.load(rank), files);
+void write_part(const RunParts& run, PartIndex index, ExportFiles& files) {
+    hdf5().write_part(run, index, run.load(index), files);
 }
 
 TEST(Hdf5, TheOrderOfPartsIsNotInTheBytes) {
@@ -44,7 +44,7 @@ TEST(Hdf5, TheOrderOfPartsIsNotInTheBytes) {
         ExportFiles files(folder.file(""));
         hdf5().write_whole(run, files);
         for (auto rank = static_cast<std::int32_t>(run.outline().parts.size()); rank-- > 0;)
-            write_rank(run, rank, files);
+            write_part(run, PartIndex(rank), files);
         EXPECT_EQ(bytes_of(folder.file("")), exported(run));
     }
 }
@@ -60,7 +60,7 @@ TEST(Hdf5, ThreadsMayWriteItTogether) {
         std::vector<std::thread> threads;
         for (std::int32_t first = 0; first < 4; ++first)
             threads.emplace_back([&, first] {
-                for (std::int32_t rank = first; rank < count; rank += 4) write_rank(run, rank, files);
+                for (std::int32_t rank = first; rank < count; rank += 4) write_part(run, PartIndex(rank), files);
             });
         for (std::thread& thread : threads) thread.join();
         EXPECT_EQ(bytes_of(folder.file("")), exported(run));
@@ -126,7 +126,8 @@ TEST(Hdf5, AFullDiskIsAnError) {
     const std::string expected = "Cannot write " + files.path_of("mesh.h5");
     EXPECT_EQ(error_on_a_small_disk([&] { hdf5().write_whole(run, files); }).substr(0, expected.size()), expected);
     hdf5().write_whole(run, files);
-    EXPECT_EQ(error_on_a_small_disk([&] { write_rank(run, 0, files); }).substr(0, expected.size()), expected);
+    EXPECT_EQ(error_on_a_small_disk([&] { write_part(run, PartIndex(0), files); }).substr(0, expected.size()),
+              expected);
     write_format(hdf5(), run, files);  // the library is in order again
     EXPECT_EQ(bytes_of(folder.file("")), exported(run));
 }

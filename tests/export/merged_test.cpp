@@ -101,7 +101,7 @@ std::multiset<GlobalTriangle> boundary_of(const MergedMesh& mesh) {
 std::map<std::string, double> areas_of(const PartSource& parts, const std::vector<std::string>& names) {
     std::map<std::string, double> areas;
     for (std::size_t rank = 0; rank < parts.outline().parts.size(); ++rank) {
-        const Part part = parts.load(static_cast<std::int32_t>(rank));
+        const Part part = parts.load(PartIndex(rank));
         for (std::size_t f = 0; f < part.facets.size(); ++f) {
             const Triangle& corners = part.facets[f];
             if (part.patch[f] >= 0)
@@ -115,7 +115,7 @@ std::map<std::string, double> areas_of(const PartSource& parts, const std::vecto
 void check_vertices(const PartSource& parts, const MergedMesh& mesh) {
     ASSERT_EQ(static_cast<std::int64_t>(mesh.points.size()), parts.outline().vertices);
     for (std::size_t rank = 0; rank < parts.outline().parts.size(); ++rank) {
-        const Part part = parts.load(static_cast<std::int32_t>(rank));
+        const Part part = parts.load(PartIndex(rank));
         for (std::size_t v = 0; v < part.global_id.size(); ++v) {
             const Vec3 moved = mesh.points[static_cast<std::size_t>(part.global_id[v])] - part.mesh.vertices[v];
             EXPECT_LE(moved.norm(), 1e-13 * part.mesh.vertices[v].norm()) << "vertex " << part.global_id[v];
@@ -141,7 +141,8 @@ void check_tets(const PartSource& parts, const MergedFormat& format, const Merge
     std::vector<std::int64_t> bodies;  // in the order of the parts, as the tetrahedra are
     for (std::size_t r = 0; r < outline.parts.size() && format.has_bodies; ++r) {
         const auto rank = static_cast<std::int32_t>(r);
-        for (const std::int32_t body : parts.bodies().of_tets(rank, parts.load(rank))) bodies.push_back(body + 1);
+        for (const std::int32_t body : parts.bodies().of_tets(PartIndex(rank), parts.load(PartIndex(rank))))
+            bodies.push_back(body + 1);
     }
     EXPECT_EQ(mesh.body, bodies);
 }
@@ -188,7 +189,7 @@ TEST(Merged, IsTheMeshOfAllParts) {
 // Parts that are made up by the tests.
 class MadeParts : public PartSource {
  public:
-    explicit MadeParts(std::vector<Part> parts) : parts_(std::move(parts)) {
+    explicit MadeParts(const std::vector<Part>& parts) : parts_(parts.begin(), parts.end()) {
         for (const Part& part : parts_) {
             outline_.parts.push_back(
                 {part.id, part.vertex_count(), part.tet_count(), static_cast<std::int64_t>(part.facets.size())});
@@ -198,10 +199,10 @@ class MadeParts : public PartSource {
     }
     const MeshOutline& outline() const override { return outline_; }
     MeshOutline& outline() { return outline_; }
-    Part load(std::int32_t rank) const override { return parts_[static_cast<std::size_t>(rank)]; }
+    Part load(PartIndex index) const override { return parts_[index]; }
 
  private:
-    std::vector<Part> parts_;
+    Array<PartIndex, Part> parts_;
     MeshOutline outline_;
 };
 

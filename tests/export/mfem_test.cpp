@@ -161,8 +161,8 @@ MfemMesh export_and_read(const PartSource& run) {
     for (std::size_t r = 0; r < run.outline().parts.size(); ++r) {
         SCOPED_TRACE("rank " + std::to_string(r));
         mesh.ranks.push_back(MfemReader(folder.file(fmt::format("mfem/mesh.{:06}", r))).read());
-        mesh.parts.push_back(run.load(static_cast<std::int32_t>(r)));
-        mesh.bodies.push_back(run.bodies().of_tets(static_cast<std::int32_t>(r), mesh.parts.back()));
+        mesh.parts.push_back(run.load(PartIndex(r)));
+        mesh.bodies.push_back(run.bodies().of_tets(PartIndex(r), mesh.parts.back()));
     }
     return mesh;
 }

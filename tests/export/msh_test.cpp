@@ -148,9 +148,7 @@ std::map<std::int64_t, Vec3> points_of(const std::vector<MshContent>& files) {
     return points;
 }
 
-std::int64_t triangles_of(const MeshOutline& outline) {
-    return outline.first_patch_facet(static_cast<std::int32_t>(outline.parts.size()));
-}
+std::int64_t triangles_of(const MeshOutline& outline) { return outline.patch_facets(); }
 
 // Faces of tetrahedra that no other one has, and triangles, are the same.
 void expect_triangles_bound_tets(const MshElements& elements) {
@@ -199,10 +197,10 @@ TEST(Msh, TagsAreTheNumbersOfTheParts) {
         const MshParts& parts = parts_of(each);
         for (std::size_t rank = 0; rank < parts.files.size(); ++rank) {
             const MshContent& file = parts.files[rank];
-            const Part part = parts.run.load(static_cast<std::int32_t>(rank));
+            const Part part = parts.run.load(PartIndex(rank));
             for (std::size_t v = 0; v < part.global_id.size(); ++v)
                 EXPECT_EQ(file.nodes.at(part.global_id[v] + 1).point, part.mesh.vertices[v]);
-            std::int64_t tag = parts.run.outline().first_tet(static_cast<std::int32_t>(rank));
+            std::int64_t tag = parts.run.outline().first_tet(PartIndex(rank));
             for (const Tetrahedron& tet : part.mesh.tets) {
                 std::vector<std::int64_t> corners;
                 for (const std::int32_t v : tet) corners.push_back(part.global_id[static_cast<std::size_t>(v)] + 1);
@@ -374,8 +372,9 @@ TEST(Msh, BodiesAreGroups) {
         const MshContent merged = parts.merged("4.1"), old = parts.merged("2.2");
         for (std::size_t r = 0; r < parts.files.size(); ++r) {
             const auto rank = static_cast<std::int32_t>(r);
-            std::int64_t tag = parts.run.outline().first_tet(rank);
-            for (const std::int32_t body : parts.run.bodies().of_tets(rank, parts.run.load(rank))) {
+            std::int64_t tag = parts.run.outline().first_tet(PartIndex(rank));
+            for (const std::int32_t body :
+                 parts.run.bodies().of_tets(PartIndex(rank), parts.run.load(PartIndex(rank)))) {
                 ++tag;
                 for (const MshContent* file : {&parts.files[r], &merged, &old})
                     ASSERT_EQ(file->entities.at(file->elements.at(tag).entity).physicals,
@@ -429,7 +428,7 @@ class MadeUpParts : public PartSource {
     }
 
     const MeshOutline& outline() const override { return outline_made_up; }
-    Part load(std::int32_t) const override { return part_; }
+    Part load(PartIndex) const override { return part_; }
 
     MeshOutline outline_made_up;
 

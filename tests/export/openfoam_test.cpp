@@ -357,7 +357,7 @@ class MadeUpPart : public PartSource {
     }
 
     const MeshOutline& outline() const override { return outline_; }
-    Part load(std::int32_t) const override { return part_; }
+    Part load(PartIndex) const override { return part_; }
     MeshOutline& outline() { return outline_; }
 
  private:

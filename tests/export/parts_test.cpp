@@ -25,8 +25,7 @@ Holders holders_of_boundary(const std::vector<Part>& parts) {
 
 std::vector<Part> load_all(const PartSource& run) {
     std::vector<Part> parts;
-    for (std::size_t rank = 0; rank < run.outline().parts.size(); ++rank)
-        parts.push_back(run.load(static_cast<std::int32_t>(rank)));
+    for (std::size_t rank = 0; rank < run.outline().parts.size(); ++rank) parts.push_back(run.load(PartIndex(rank)));
     return parts;
 }
 
@@ -76,7 +75,7 @@ TEST(Parts, TheOutlineHasTheNumbersOfTheParts) {
         std::int64_t owned = 0;
         for (std::size_t rank = 0; rank < run.outline().parts.size(); ++rank) {
             const PartExtent& extent = run.outline().parts[rank];
-            const Part part = run.load(static_cast<std::int32_t>(rank));
+            const Part part = run.load(PartIndex(rank));
             std::int64_t interface_facets = 0;
             for (std::size_t f = 0; f < part.facets.size(); ++f) interface_facets += part.is_interface(f);
             EXPECT_EQ(part.id, extent.id);
@@ -135,8 +134,7 @@ TEST(Parts, TheCasesHaveWhatFormatsStumbleOver) {
     const RunParts run(test::run_of(find("inner_parts")));
     bool has_inner_part = false, touches_at_less_than_a_face = false;
     for (const Part& part : load_all(run)) {
-        has_inner_part |=
-            run.outline().parts[static_cast<std::size_t>(run.outline().rank_of(part.id))].patch_facets == 0;
+        has_inner_part |= run.outline().parts[run.outline().index_of(part.id)].patch_facets == 0;
         const std::set<NodeId> beside(part.neighbour.begin(), part.neighbour.end());
         for (const SharedGroup& group : part.shared)
             for (const NodeId other : group.parts)

@@ -53,12 +53,12 @@ TEST_F(SolutionExport, PartsAndPiecesOfThemHaveTheValues) {
     const auto parts = open_parts(folder_->file("out"));
     EXPECT_EQ(parts->outline().values.size(), 8u);
     for (std::int32_t rank = 0; rank < 4; ++rank) {
-        const Part part = parts->load(rank);
+        const Part part = parts->load(PartIndex(rank));
         expect_values(part, part.values);
     }
     const JoinedParts joined(*parts, 2);
     for (std::int32_t rank = 0; rank < 2; ++rank) {
-        const Part piece = joined.load(rank);
+        const Part piece = joined.load(PartIndex(rank));
         expect_values(piece, piece.values);
     }
     EXPECT_TRUE(open_parts(folder_->file("out/mesh"))->outline().values.empty());

@@ -63,14 +63,13 @@ class CubeOfParts : public testing::Environment {
 };
 
 // The space of the parts of a communicator's rank.
-std::unique_ptr<NodeSpace> space_on(MpiRanks& of_space, int order) {
+std::unique_ptr<FeSpace> space_on(MpiRanks& of_space, int order) {
     const int own = of_space.rank(), size = of_space.size();
     const MeshOutline& outline = CubeOfParts::parts->outline();
-    const std::vector<std::int32_t> first = first_parts_of_ranks(outline, size);
+    const std::vector<PartIndex> first = first_parts_of_ranks(outline, size);
     std::vector<Part> parts;
-    for (std::int32_t p = first[static_cast<std::size_t>(own)]; p < first[static_cast<std::size_t>(own) + 1]; ++p)
-        parts.push_back(CubeOfParts::parts->load(p));
-    return std::make_unique<NodeSpace>(of_space, outline, first, std::move(parts), order);
+    for (const PartIndex index : IdRange(first[own], first[own + 1])) parts.push_back(CubeOfParts::parts->load(index));
+    return std::make_unique<FeSpace>(of_space, outline, first, std::move(parts), order);
 }
 
 double largest(double value) {
@@ -111,7 +110,7 @@ class Solution : public testing::TestWithParam<int> {
         options.rtol = 1e-13;
         return options;
     }
-    std::unique_ptr<NodeSpace> space_;
+    std::unique_ptr<FeSpace> space_;
     const Material steel_{"steel", 210e3, 0.3, 7.8e-9};
 };
 
@@ -169,7 +168,7 @@ TEST_P(SolutionOfOrderTwo, HasQuadraticFieldsExactly) {
 // Rows follow from the parts alone: one rank with all parts numbers as many ranks do.
 TEST_P(Solution, RowsAreTheSameForAnyRanks) {
     MpiRanks self(MPI_COMM_SELF);
-    const std::unique_ptr<NodeSpace> alone = space_on(self, GetParam());
+    const std::unique_ptr<FeSpace> alone = space_on(self, GetParam());
     EXPECT_EQ(space_->total_rows(), alone->total_rows());
     EXPECT_EQ(static_cast<std::int64_t>(alone->owned_count()), alone->total_rows());
     const auto first = static_cast<std::size_t>(
@@ -210,9 +209,9 @@ double edge_sum(const SizedMesh& sizes) {
 // what is wanted does not depend on the ranks.
 TEST_P(Solution, SizesFollowErrors) {
     MpiRanks self(MPI_COMM_SELF);
-    const std::unique_ptr<NodeSpace> alone = space_on(self, GetParam());
+    const std::unique_ptr<FeSpace> alone = space_on(self, GetParam());
     SingleRank single;
-    const auto sizes_of = [&](const NodeSpace& space, Communicator& of_space, double aim, double from_x) {
+    const auto sizes_of = [&](const FeSpace& space, Communicator& of_space, double aim, double from_x) {
         StressField field;
         for (const Part& part : space.parts()) {
             PartStress& stress = field.parts.emplace_back();
@@ -249,7 +248,7 @@ TEST(Bodies, ACubeIsOne) {
 
 TEST(Supports, ThatLeaveMotionsAreRefusedWithTheirNames) {
     const auto space = space_on(*ranks_of_program->mpi, 1);
-    const NodeBodies bodies = find_bodies(*space);
+    const SpaceBodies bodies = find_bodies(*space);
     const auto refusal = [&](auto holds) -> std::string {
         ElasticProblem problem = make_free_problem(*space, {"steel", 1, 0.3, 0});
         for (std::size_t n = 0; n < space->node_count(); ++n)

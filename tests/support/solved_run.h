@@ -22,7 +22,7 @@ inline void write_solution(const std::string& run, const std::string& folder, co
     const RunParts parts(run);
     double largest = 0;
     for (std::size_t p = 0; p < parts.outline().parts.size(); ++p) {
-        const Part part = parts.load(static_cast<std::int32_t>(p));
+        const Part part = parts.load(PartIndex(p));
         std::vector<PartValues> values;
         for (std::size_t c = 0; c < cases.size(); ++c) {
             const std::string suffix = cases.size() > 1 ? " " + cases[c] : "";

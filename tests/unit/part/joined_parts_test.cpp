@@ -15,12 +15,13 @@ class FourParts : public PartSource {
         for (NodeId id = 4; id < 8; ++id) outline_.parts.push_back({id, 3, tets, 1, 0});
     }
     const MeshOutline& outline() const override { return outline_; }
-    Part load(std::int32_t rank) const override {
+    Part load(PartIndex index) const override {
         ++loaded;
         Part part;
-        part.id = outline_.parts[static_cast<std::size_t>(rank)].id;
+        part.id = outline_.parts[index].id;
         part.mesh.vertices = {Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY()};
         part.facets = {{0, 1, 2}};
+        part.patch = {0};
         part.neighbour = {-1};
         return part;
     }

@@ -89,21 +89,21 @@ TEST_F(PartStore, WhatIsNotAsItWasIsRefused) {
     const FileHash written = write_stored_part(file_, part);
     const std::string bytes = read_file(file_);
     const StoredParts parts({{{part.id}}, part.vertex_count(), {}}, {{file_, first_interior, written}});
-    EXPECT_EQ(parts.load(0).global_id, part.global_id);
+    EXPECT_EQ(parts.load(PartIndex(0)).global_id, part.global_id);
     const std::size_t step = 1 + bytes.size() / 150;  // behind its head; each place costs two files
     for (std::size_t at = 0; at < bytes.size(); at += at < 40 ? 1 : step) {
         SCOPED_TRACE(at);
         std::string damaged = bytes;
         damaged[at] = static_cast<char>(damaged[at] ^ 16);
         std::ofstream(file_, std::ios::binary) << damaged;
-        EXPECT_NE(test::io_error([&] { parts.load(0); }).find(file_), std::string::npos);
+        EXPECT_NE(test::io_error([&] { parts.load(PartIndex(0)); }).find(file_), std::string::npos);
         std::ofstream(file_, std::ios::binary) << bytes.substr(0, at);
-        EXPECT_NE(test::io_error([&] { parts.load(0); }).find(file_), std::string::npos);
+        EXPECT_NE(test::io_error([&] { parts.load(PartIndex(0)); }).find(file_), std::string::npos);
     }
     std::ofstream(file_, std::ios::binary) << bytes << 'x';
-    EXPECT_NE(test::io_error([&] { parts.load(0); }), "");
+    EXPECT_NE(test::io_error([&] { parts.load(PartIndex(0)); }), "");
     std::filesystem::remove(file_);
-    EXPECT_NE(test::io_error([&] { parts.load(0); }), "");
+    EXPECT_NE(test::io_error([&] { parts.load(PartIndex(0)); }), "");
 }
 
 // One bit of a head may ask for 50 GB, which would be filled with zeros.

@@ -1,4 +1,4 @@
-#include "solve/node_space.h"
+#include "solve/fe_space.h"
 
 #include <algorithm>
 #include <limits>
@@ -20,41 +20,40 @@ constexpr std::int32_t unset = -1;
 
 // Nodes of a part: its vertices, then its edges.
 struct NumberedPart {
-    std::int32_t place = 0;           // in the outline
-    std::optional<EdgeTable> edges;   // for order 2
-    std::vector<std::int32_t> owner;  // of each node, its part's place in the outline
-    std::vector<std::int64_t> row;    // of each node
+    PartIndex index;                 // in the outline
+    std::optional<EdgeTable> edges;  // for order 2
+    std::vector<PartIndex> owner;    // of each node
+    std::vector<std::int64_t> row;   // of each node
 };
 
-// By (owner, holder), places in the outline of two parts that share nodes: nodes of one of them, in an order that is
+// By (owner, holder), two parts of the outline that share nodes: nodes of one of them, in an order that is
 // the same for both.
-using PairedNodes = std::map<std::array<std::int32_t, 2>, std::vector<std::int32_t>>;
+using PairedNodes = std::map<std::array<PartIndex, 2>, std::vector<std::int32_t>>;
 
-class NodeNumbering {
+class FeNumbering {
  public:
-    NodeNumbering(const MpiRanks& ranks, const MeshOutline& outline, const std::vector<std::int32_t>& first_parts,
-                  const std::vector<Part>& parts, int order);
+    FeNumbering(const MpiRanks& ranks, const MeshOutline& outline, const std::vector<PartIndex>& first_parts,
+                const std::vector<Part>& parts, int order);
 
     // Nodes of this rank's parts with their rows. Collective.
     std::vector<NumberedPart> number();
     // Both sides list the rows that one of them owns and the other one has: ascending, each once.
-    NodeExchange exchange(const std::vector<NumberedPart>& numbered, std::int64_t first_row, std::size_t owned,
-                          const std::vector<std::int64_t>& ghost_rows,
-                          const std::vector<std::int64_t>& rank_rows) const;
+    GhostExchange exchange(const std::vector<NumberedPart>& numbered, std::int64_t first_row, std::int32_t owned,
+                           const std::vector<std::int64_t>& ghost_rows,
+                           const std::vector<std::int64_t>& rank_rows) const;
     // The first row of each part of the outline, and the number of all.
-    const std::vector<std::int64_t>& part_rows() const { return part_rows_; }
+    const Array<PartIndex, std::int64_t>& part_rows() const { return part_rows_; }
 
  private:
-    std::int32_t first_part() const { return first_parts_[static_cast<std::size_t>(rank_)]; }
-    int rank_of_part(std::int32_t place) const {
-        const auto after = std::upper_bound(first_parts_.begin(), first_parts_.end(), place);
-        return static_cast<int>(after - first_parts_.begin()) - 1;
+    PartIndex first_part() const { return first_parts_[rank_]; }
+    int rank_of_part(PartIndex index) const {
+        return std::upper_bound(first_parts_.begin(), first_parts_.end(), index) - first_parts_.begin() - 1;
     }
-    NumberedPart& part_at(std::vector<NumberedPart>& numbered, std::int32_t place) const {
-        return numbered[static_cast<std::size_t>(place - first_part())];
+    NumberedPart& part_at(std::vector<NumberedPart>& numbered, PartIndex index) const {
+        return numbered[index.value() - first_part().value()];
     }
     void find_shared_nodes(std::size_t p, NumberedPart& numbered);
-    void add_group(std::int32_t own, const std::vector<NodeId>& holders, const std::vector<std::int32_t>& nodes,
+    void add_group(PartIndex own, const std::vector<NodeId>& holders, const std::vector<std::int32_t>& nodes,
                    NumberedPart& numbered);
     void count_rows(const std::vector<NumberedPart>& numbered);
     void tell_holders(std::vector<NumberedPart>& numbered) const;
@@ -62,72 +61,71 @@ class NodeNumbering {
     std::map<int, std::vector<PairedNodes::const_iterator>> by_rank(const PairedNodes& pairs, bool of_holder) const;
 
     const MpiRanks& ranks_;
-    const std::vector<std::int32_t>& first_parts_;
+    const std::vector<PartIndex>& first_parts_;
     const std::vector<Part>& parts_;
     int order_, rank_;
-    std::map<NodeId, std::int32_t> places_;
+    std::map<NodeId, PartIndex> indices_;
     PairedNodes owned_, held_;  // of this rank's parts as owners, and as holders
-    std::vector<std::int64_t> part_rows_;
+    Array<PartIndex, std::int64_t> part_rows_;
 };
 
-NodeNumbering::NodeNumbering(const MpiRanks& ranks, const MeshOutline& outline,
-                             const std::vector<std::int32_t>& first_parts, const std::vector<Part>& parts, int order)
+FeNumbering::FeNumbering(const MpiRanks& ranks, const MeshOutline& outline, const std::vector<PartIndex>& first_parts,
+                         const std::vector<Part>& parts, int order)
     : ranks_(ranks), first_parts_(first_parts), parts_(parts), order_(order), rank_(ranks.rank()) {
-    for (std::size_t i = 0; i < outline.parts.size(); ++i) places_[outline.parts[i].id] = static_cast<std::int32_t>(i);
+    for (const PartIndex index : outline.parts.ids()) indices_[outline.parts[index].id] = index;
     part_rows_.resize(outline.parts.size() + 1);
 }
 
 // Nodes of the part `own` that all the holders have, of which the first one owns them.
-void NodeNumbering::add_group(std::int32_t own, const std::vector<NodeId>& holders,
-                              const std::vector<std::int32_t>& nodes, NumberedPart& numbered) {
-    const std::int32_t owner = places_.at(holders.front());
-    for (const std::int32_t n : nodes) numbered.owner[static_cast<std::size_t>(n)] = owner;
+void FeNumbering::add_group(PartIndex own, const std::vector<NodeId>& holders, const std::vector<std::int32_t>& nodes,
+                            NumberedPart& numbered) {
+    const PartIndex owner = indices_.at(holders.front());
+    for (const std::int32_t n : nodes) numbered.owner[n] = owner;
     for (const NodeId id : holders) {
-        const std::int32_t holder = places_.at(id);
+        const PartIndex holder = indices_.at(id);
         if (holder == owner || (own != owner && own != holder)) continue;
         std::vector<std::int32_t>& list = (own == owner ? owned_ : held_)[{owner, holder}];
         list.insert(list.end(), nodes.begin(), nodes.end());
     }
 }
 
-void NodeNumbering::find_shared_nodes(std::size_t p, NumberedPart& numbered) {
-    for (const SharedGroup& group : parts_[p].shared) add_group(numbered.place, group.parts, group.vertices, numbered);
+void FeNumbering::find_shared_nodes(std::size_t p, NumberedPart& numbered) {
+    for (const SharedGroup& group : parts_[p].shared) add_group(numbered.index, group.parts, group.vertices, numbered);
     if (order_ == 1) return;
-    const auto first_edge = static_cast<std::int32_t>(parts_[p].mesh.vertices.size());
+    const std::int32_t first_edge = std::ssize(parts_[p].mesh.vertices);
     for (const SharedEdgeGroup& group : parts_[p].shared_edges) {
         std::vector<std::int32_t> nodes;
         for (const UndirectedEdge& edge : group.edges)
             nodes.push_back(first_edge + numbered.edges->find(undirected(edge[0], edge[1])));
-        add_group(numbered.place, group.parts, nodes, numbered);
+        add_group(numbered.index, group.parts, nodes, numbered);
     }
 }
 
-std::vector<NumberedPart> NodeNumbering::number() {
+std::vector<NumberedPart> FeNumbering::number() {
     std::vector<NumberedPart> all(parts_.size());
     for (std::size_t p = 0; p < parts_.size(); ++p) {
         NumberedPart& numbered = all[p];
-        numbered.place = first_part() + static_cast<std::int32_t>(p);
+        numbered.index = PartIndex(first_part().value() + p);
         std::size_t nodes = parts_[p].mesh.vertices.size();
         if (order_ == 2) nodes += numbered.edges.emplace(parts_[p].mesh.tets, nodes).size();
-        numbered.owner.assign(nodes, numbered.place);
+        numbered.owner.assign(nodes, numbered.index);
         numbered.row.assign(nodes, unset);
         find_shared_nodes(p, numbered);
     }
     count_rows(all);
     for (NumberedPart& numbered : all) {
-        std::int64_t next = part_rows_[static_cast<std::size_t>(numbered.place)];
+        std::int64_t next = part_rows_[numbered.index];
         for (std::size_t n = 0; n < numbered.row.size(); ++n)
-            if (numbered.owner[n] == numbered.place) numbered.row[n] = next++;
+            if (numbered.owner[n] == numbered.index) numbered.row[n] = next++;
     }
     tell_holders(all);
     return all;
 }
 
-void NodeNumbering::count_rows(const std::vector<NumberedPart>& numbered) {
+void FeNumbering::count_rows(const std::vector<NumberedPart>& numbered) {
     for (const NumberedPart& part : numbered)
-        part_rows_[static_cast<std::size_t>(part.place) + 1] =
-            std::count(part.owner.begin(), part.owner.end(), part.place);
-    ranks_.all_reduce(std::span(part_rows_), Reduction::sum);
+        part_rows_[part.index.value() + 1] = std::count(part.owner.begin(), part.owner.end(), part.index);
+    ranks_.all_reduce(std::span(part_rows_.begin(), part_rows_.end()), Reduction::sum);
     std::partial_sum(part_rows_.begin(), part_rows_.end(), part_rows_.begin());
     if (3 * part_rows_.back() > std::numeric_limits<std::int32_t>::max())
         throw Error(ErrorCode::usage,
@@ -136,8 +134,8 @@ void NodeNumbering::count_rows(const std::vector<NumberedPart>& numbered) {
                                 grouped(part_rows_.back()), order_ == 2 ? ", or order 1" : ""));
 }
 
-std::map<int, std::vector<PairedNodes::const_iterator>> NodeNumbering::by_rank(const PairedNodes& pairs,
-                                                                               bool of_holder) const {
+std::map<int, std::vector<PairedNodes::const_iterator>> FeNumbering::by_rank(const PairedNodes& pairs,
+                                                                             bool of_holder) const {
     std::map<int, std::vector<PairedNodes::const_iterator>> grouped_pairs;
     for (auto it = pairs.begin(); it != pairs.end(); ++it)
         if (const int rank = rank_of_part(it->first[of_holder ? 1 : 0]); rank != rank_)
@@ -146,9 +144,9 @@ std::map<int, std::vector<PairedNodes::const_iterator>> NodeNumbering::by_rank(c
 }
 
 // Rows of what other parts own: those of this rank are looked up, the others are told by their ranks.
-void NodeNumbering::tell_holders(std::vector<NumberedPart>& numbered) const {
-    const auto row_at = [&](std::int32_t place, std::int32_t node) -> std::int64_t& {
-        return part_at(numbered, place).row[static_cast<std::size_t>(node)];
+void FeNumbering::tell_holders(std::vector<NumberedPart>& numbered) const {
+    const auto row_at = [&](PartIndex index, std::int32_t node) -> std::int64_t& {
+        return part_at(numbered, index).row[node];
     };
     for (const auto& [pair, nodes] : held_) {
         if (rank_of_part(pair[0]) != rank_) continue;
@@ -176,32 +174,31 @@ void NodeNumbering::tell_holders(std::vector<NumberedPart>& numbered) const {
     }
 }
 
-NodeExchange NodeNumbering::exchange(const std::vector<NumberedPart>& numbered, std::int64_t first_row,
-                                     std::size_t owned, const std::vector<std::int64_t>& ghost_rows,
-                                     const std::vector<std::int64_t>& rank_rows) const {
-    std::vector<NodeExchange::Neighbour> of_own, of_ghosts;
+GhostExchange FeNumbering::exchange(const std::vector<NumberedPart>& numbered, std::int64_t first_row,
+                                    std::int32_t owned, const std::vector<std::int64_t>& ghost_rows,
+                                    const std::vector<std::int64_t>& rank_rows) const {
+    std::vector<GhostExchange::Neighbour> of_own, of_ghosts;
     for (const auto& [rank, pairs] : by_rank(owned_, true)) {
-        NodeExchange::Neighbour& neighbour = of_own.emplace_back();
+        GhostExchange::Neighbour& neighbour = of_own.emplace_back();
         neighbour.rank = rank;
         for (const auto& pair : pairs) {
-            const NumberedPart& part = numbered[static_cast<std::size_t>(pair->first[0] - first_part())];
-            for (const std::int32_t n : pair->second)
-                neighbour.nodes.push_back(static_cast<std::int32_t>(part.row[static_cast<std::size_t>(n)] - first_row));
+            const NumberedPart& part = numbered[pair->first[0].value() - first_part().value()];
+            for (const std::int32_t n : pair->second) neighbour.nodes.push_back(part.row[n] - first_row);
         }
         std::sort(neighbour.nodes.begin(), neighbour.nodes.end());
         neighbour.nodes.erase(std::unique(neighbour.nodes.begin(), neighbour.nodes.end()), neighbour.nodes.end());
     }
     for (std::size_t g = 0; g < ghost_rows.size(); ++g) {
         const auto after = std::upper_bound(rank_rows.begin(), rank_rows.end(), ghost_rows[g]);
-        const int rank = static_cast<int>(after - rank_rows.begin()) - 1;
+        const int rank = after - rank_rows.begin() - 1;
         if (of_ghosts.empty() || of_ghosts.back().rank != rank) of_ghosts.emplace_back().rank = rank;
-        of_ghosts.back().nodes.push_back(static_cast<std::int32_t>(owned + g));
+        of_ghosts.back().nodes.push_back(owned + g);
     }
     return {ranks_, std::move(of_own), std::move(of_ghosts)};
 }
 
 UndirectedEdge edge_of(const Tetrahedron& tet, std::size_t e) {
-    return undirected(tet[static_cast<std::size_t>(tet_edges[e][0])], tet[static_cast<std::size_t>(tet_edges[e][1])]);
+    return undirected(tet[tet_edges[e][0]], tet[tet_edges[e][1]]);
 }
 
 // For each tetrahedron what its edges have, in the order of tet_edges.
@@ -209,51 +206,47 @@ std::vector<std::array<std::int32_t, 6>> numbers_at_edges(const std::vector<Tetr
                                                           const std::vector<std::int32_t>& of_edge) {
     std::vector<std::array<std::int32_t, 6>> numbers(tets.size());
     for (std::size_t t = 0; t < tets.size(); ++t)
-        for (std::size_t e = 0; e < 6; ++e)
-            numbers[t][e] = of_edge[static_cast<std::size_t>(edges.find(edge_of(tets[t], e)))];
+        for (std::size_t e = 0; e < 6; ++e) numbers[t][e] = of_edge[edges.find(edge_of(tets[t], e))];
     return numbers;
 }
 
 }  // namespace
 
-std::vector<std::int32_t> first_parts_of_ranks(const MeshOutline& outline, int ranks) {
-    std::vector<std::int32_t> first(static_cast<std::size_t>(ranks) + 1);
-    const auto parts = static_cast<std::int32_t>(outline.parts.size());
+std::vector<PartIndex> first_parts_of_ranks(const MeshOutline& outline, int ranks) {
+    std::vector<PartIndex> first(ranks + 1);
+    const std::int32_t parts = std::ssize(outline.parts);
     const auto total = static_cast<double>(outline.tets());
     std::int32_t next = 0;
     double before = 0;  // tetrahedra of the parts before `next`
     for (int r = 0; r < ranks; ++r) {
-        first[static_cast<std::size_t>(r)] = next;
+        first[r] = PartIndex(next);
         const std::int32_t others = ranks - 1 - r;  // each gets a part while there are some
         while (next < parts) {
-            const auto tets = static_cast<double>(outline.parts[static_cast<std::size_t>(next)].tets);
-            const bool is_first = next == first[static_cast<std::size_t>(r)];
+            const auto tets = static_cast<double>(outline.parts[next].tets);
+            const bool is_first = next == first[r].value();
             const bool fits = before + 0.5 * tets <= total * (r + 1) / ranks && parts - next > others;
             if (!is_first && others > 0 && !fits) break;
             before += tets;
             ++next;
         }
     }
-    first.back() = parts;
+    first.back() = PartIndex(parts);
     return first;
 }
 
-NodeSpace::NodeSpace(MpiRanks& ranks, const MeshOutline& outline, const std::vector<std::int32_t>& first_parts,
-                     std::vector<Part> parts, int order)
+FeSpace::FeSpace(MpiRanks& ranks, const MeshOutline& outline, const std::vector<PartIndex>& first_parts,
+                 std::vector<Part> parts, int order)
     : ranks_(&ranks), order_(order), parts_(std::move(parts)), nodes_(parts_.size()) {
-    NodeNumbering numbering(ranks, outline, first_parts, parts_, order);
+    FeNumbering numbering(ranks, outline, first_parts, parts_, order);
     std::vector<NumberedPart> numbered = numbering.number();
 
-    for (const std::int32_t first : first_parts)
-        rank_rows_.push_back(numbering.part_rows()[static_cast<std::size_t>(first)]);
-    const auto rank = static_cast<std::size_t>(ranks.rank());
+    for (const PartIndex first : first_parts) rank_rows_.push_back(numbering.part_rows()[first]);
+    const int rank = ranks.rank();
     first_row_ = rank_rows_[rank];
-    owned_ = static_cast<std::size_t>(rank_rows_[rank + 1] - first_row_);
+    owned_ = rank_rows_[rank + 1] - first_row_;
     total_rows_ = rank_rows_.back();
 
-    const auto is_owned = [&](std::int64_t row) {
-        return row >= first_row_ && row < first_row_ + static_cast<std::int64_t>(owned_);
-    };
+    const auto is_owned = [&](std::int64_t row) { return row >= first_row_ && row < first_row_ + owned_; };
     for (const NumberedPart& part : numbered)
         for (const std::int64_t row : part.row)
             if (!is_owned(row)) ghost_rows_.push_back(row);
@@ -262,26 +255,22 @@ NodeSpace::NodeSpace(MpiRanks& ranks, const MeshOutline& outline, const std::vec
     exchange_ = numbering.exchange(numbered, first_row_, owned_, ghost_rows_, rank_rows_);
 
     points_.assign(owned_ + ghost_rows_.size(), Vec3::Zero());
-    const auto local = [&](std::int64_t row) {
-        if (is_owned(row)) return static_cast<std::int32_t>(row - first_row_);
-        const auto at = std::lower_bound(ghost_rows_.begin(), ghost_rows_.end(), row) - ghost_rows_.begin();
-        return static_cast<std::int32_t>(owned_) + static_cast<std::int32_t>(at);
+    const auto local = [&](std::int64_t row) -> std::int32_t {
+        if (is_owned(row)) return row - first_row_;
+        return owned_ + (std::lower_bound(ghost_rows_.begin(), ghost_rows_.end(), row) - ghost_rows_.begin());
     };
     for (std::size_t p = 0; p < parts_.size(); ++p) {
         const TetMesh& mesh = parts_[p].mesh;
         NumberedPart& part = numbered[p];
         for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
             nodes_[p].of_vertex.push_back(local(part.row[v]));
-            points_[static_cast<std::size_t>(nodes_[p].of_vertex[v])] = mesh.vertices[v];
+            points_[nodes_[p].of_vertex[v]] = mesh.vertices[v];
         }
         if (order == 2) {
             std::vector<std::int32_t> of_edge(part.edges->size());
-            part.edges->for_all([&](std::int32_t number, const UndirectedEdge& edge) {
-                const auto e = static_cast<std::size_t>(number);
+            part.edges->for_all([&](std::int32_t e, const UndirectedEdge& edge) {
                 of_edge[e] = local(part.row[mesh.vertices.size() + e]);
-                points_[static_cast<std::size_t>(of_edge[e])] =
-                    0.5 * (mesh.vertices[static_cast<std::size_t>(edge[0])] +
-                           mesh.vertices[static_cast<std::size_t>(edge[1])]);
+                points_[of_edge[e]] = 0.5 * (mesh.vertices[edge[0]] + mesh.vertices[edge[1]]);
             });
             nodes_[p].of_edge_midpoint = numbers_at_edges(mesh.tets, *part.edges, of_edge);
         }
@@ -289,36 +278,34 @@ NodeSpace::NodeSpace(MpiRanks& ranks, const MeshOutline& outline, const std::vec
     }
 }
 
-std::array<std::int32_t, most_element_nodes> NodeSpace::nodes_of(std::size_t p, std::size_t tet) const {
+std::array<std::int32_t, most_element_nodes> FeSpace::nodes_of(std::size_t p, std::size_t tet) const {
     std::array<std::int32_t, most_element_nodes> nodes;
     nodes.fill(unset);
-    for (std::size_t i = 0; i < 4; ++i)
-        nodes[i] = nodes_[p].of_vertex[static_cast<std::size_t>(parts_[p].mesh.tets[tet][i])];
+    for (std::size_t i = 0; i < 4; ++i) nodes[i] = nodes_[p].of_vertex[parts_[p].mesh.tets[tet][i]];
     if (order_ == 2) std::copy_n(nodes_[p].of_edge_midpoint[tet].begin(), 6, nodes.begin() + 4);
     return nodes;
 }
 
-std::array<std::int32_t, 6> NodeSpace::nodes_of_facet(std::size_t p, std::size_t facet) const {
+std::array<std::int32_t, 6> FeSpace::nodes_of_facet(std::size_t p, std::size_t facet) const {
     std::array<std::int32_t, 6> nodes;
     nodes.fill(unset);
     const Triangle& triangle = parts_[p].facets[facet];
-    for (std::size_t i = 0; i < 3; ++i) nodes[i] = nodes_[p].of_vertex[static_cast<std::size_t>(triangle[i])];
+    for (std::size_t i = 0; i < 3; ++i) nodes[i] = nodes_[p].of_vertex[triangle[i]];
     if (order_ == 1) return nodes;
-    const auto tet = static_cast<std::size_t>(parts_[p].tet_at_facet[facet]);
+    const std::int32_t tet = parts_[p].tet_at_facet[facet];
     const Tetrahedron& corners = parts_[p].mesh.tets[tet];
     for (std::size_t e = 0; e < 3; ++e) {
-        const UndirectedEdge wanted = undirected(triangle[static_cast<std::size_t>(triangle_edges[e][0])],
-                                                 triangle[static_cast<std::size_t>(triangle_edges[e][1])]);
+        const UndirectedEdge wanted = undirected(triangle[triangle_edges[e][0]], triangle[triangle_edges[e][1]]);
         for (std::size_t i = 0; i < 6; ++i)
             if (edge_of(corners, i) == wanted) nodes[3 + e] = nodes_[p].of_edge_midpoint[tet][i];
     }
     return nodes;
 }
 
-TetElement NodeSpace::element(std::size_t p, std::size_t tet) const {
+TetElement FeSpace::element(std::size_t p, std::size_t tet) const {
     const TetMesh& mesh = parts_[p].mesh;
     std::array<Vec3, 4> corners;
-    for (std::size_t i = 0; i < 4; ++i) corners[i] = mesh.vertices[static_cast<std::size_t>(mesh.tets[tet][i])];
+    for (std::size_t i = 0; i < 4; ++i) corners[i] = mesh.vertices[mesh.tets[tet][i]];
     return {corners, order_};
 }
 

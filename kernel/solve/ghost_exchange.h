@@ -1,4 +1,4 @@
-// Values at nodes that several ranks hold.
+// Values at the nodes of finite elements that several ranks hold.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace kerf {
 
 /// Who has which nodes of whom. A node belongs to one rank; ghosts are the copies of other ranks.
-class NodeExchange {
+class GhostExchange {
  public:
     /// Nodes that a neighbouring rank has, too, in the same order on both sides.
     struct Neighbour {
@@ -19,9 +19,9 @@ class NodeExchange {
         std::vector<std::int32_t> nodes;  ///< local numbers
     };
 
-    NodeExchange() = default;
+    GhostExchange() = default;
     /// `owned`: nodes of this rank of which others have ghosts; `ghosts`: those of others here. Both ascending by rank.
-    NodeExchange(const MpiRanks& ranks, std::vector<Neighbour> owned, std::vector<Neighbour> ghosts)
+    GhostExchange(const MpiRanks& ranks, std::vector<Neighbour> owned, std::vector<Neighbour> ghosts)
         : ranks_(&ranks), owned_(std::move(owned)), ghosts_(std::move(ghosts)) {}
 
     /// Ghosts become what their owners have. Collective; `values` has a block of so many for each local node.
@@ -54,7 +54,7 @@ class NodeExchange {
             std::vector<T> of_nodes;
             of_nodes.reserve(neighbour.nodes.size() * block);
             for (const std::int32_t node : neighbour.nodes) {
-                const auto values_of_node = values.subspan(static_cast<std::size_t>(node) * block, block);
+                const auto values_of_node = values.subspan(node * block, block);
                 of_nodes.insert(of_nodes.end(), values_of_node.begin(), values_of_node.end());
             }
             out.push_back({neighbour.rank, std::move(of_nodes)});
@@ -63,7 +63,7 @@ class NodeExchange {
         for (std::size_t n = 0; n < to.size(); ++n)
             for (std::size_t i = 0; i < to[n].nodes.size(); ++i)
                 for (std::size_t c = 0; c < block; ++c)
-                    take(values[static_cast<std::size_t>(to[n].nodes[i]) * block + c], in[n].values[i * block + c]);
+                    take(values[to[n].nodes[i] * block + c], in[n].values[i * block + c]);
     }
 
     const MpiRanks* ranks_ = nullptr;

@@ -1,20 +1,20 @@
-// The connected pieces of a mesh.
+// The connected pieces of a mesh, by the nodes of its elements.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "solve/node_space.h"
+#include "solve/fe_space.h"
 
 namespace kerf {
 
 /// Bodies of all ranks, ascending by their smallest row.
-struct NodeBodies {
+struct SpaceBodies {
     std::int32_t count = 0;
     std::vector<std::int32_t> of_node;  ///< of each local node, ghosts too
 };
 
 /// Cells that share a vertex are of one body. Collective; O(n), times the number of ranks that one body winds through.
-NodeBodies find_bodies(const NodeSpace& space);
+SpaceBodies find_bodies(const FeSpace& space);
 
 }  // namespace kerf

@@ -1,4 +1,4 @@
-// The nodes of finite elements on the parts of a mesh, numbered over all ranks.
+// The nodes of finite elements on the parts of a mesh, numbered over all ranks. In this folder nodes are always these.
 #pragma once
 
 #include <array>
@@ -7,17 +7,17 @@
 
 #include "mpi/mpi_ranks.h"
 #include "part/part.h"
-#include "solve/node_exchange.h"
+#include "solve/ghost_exchange.h"
 #include "solve/tet_element.h"
 
 namespace kerf {
 
-/// Parts of rank r are those from first_parts[r] to first_parts[r + 1] - 1 of the outline: whole ones, about as many
+/// Parts of rank r are those from first_parts[r] to before first_parts[r + 1] of the outline: whole ones, about as many
 /// tetrahedra on each rank. With more ranks than parts some have none. O(K).
-std::vector<std::int32_t> first_parts_of_ranks(const MeshOutline& outline, int ranks);
+std::vector<PartIndex> first_parts_of_ranks(const MeshOutline& outline, int ranks);
 
 /// A part on its rank: which local nodes its elements have.
-struct PartNodes {
+struct PartFeNodes {
     std::vector<std::int32_t> of_vertex;                        ///< #V
     std::vector<std::array<std::int32_t, 6>> of_edge_midpoint;  ///< #T for order 2, in the order of tet_edges
 };
@@ -25,28 +25,27 @@ struct PartNodes {
 /// Rows of a system of equations are numbered part by part, in the order of the tree: the same for any number of ranks.
 /// A node belongs to the first part that holds it; a part's own ones are its vertices in their order, then for order 2
 /// its edges, ascending. Local numbers: the rows of this rank, then its ghosts, ascending by row.
-class NodeSpace {
+class FeSpace {
  public:
     /// Numbers the nodes of `parts`, this rank's, which are `first_part` and the following of the outline. Collective.
     /// O(n log n) in the nodes on interfaces, and in the edges for order 2. Throws Error(usage) for more rows than
     /// 32 bits number.
-    NodeSpace(MpiRanks& ranks, const MeshOutline& outline, const std::vector<std::int32_t>& first_parts,
-              std::vector<Part> parts, int order);
+    FeSpace(MpiRanks& ranks, const MeshOutline& outline, const std::vector<PartIndex>& first_parts,
+            std::vector<Part> parts, int order);
 
     MpiRanks& ranks() const { return *ranks_; }
     int order() const { return order_; }
     const std::vector<Part>& parts() const { return parts_; }
-    const std::vector<PartNodes>& nodes_of_parts() const { return nodes_; }
-    const NodeExchange& exchange() const { return exchange_; }
+    const std::vector<PartFeNodes>& nodes_of_parts() const { return nodes_; }
+    const GhostExchange& exchange() const { return exchange_; }
 
     std::int64_t first_row() const { return first_row_; }
     std::int64_t total_rows() const { return total_rows_; }  ///< nodes of all ranks
-    std::size_t owned_count() const { return owned_; }
-    std::size_t node_count() const { return points_.size(); }  ///< with ghosts
+    std::int32_t owned_count() const { return owned_; }
+    std::int32_t node_count() const { return std::ssize(points_); }  ///< with ghosts
     const std::vector<Vec3>& points() const { return points_; }
     std::int64_t row_of(std::int32_t node) const {
-        const auto n = static_cast<std::size_t>(node);
-        return n < owned_ ? first_row_ + node : ghost_rows_[n - owned_];
+        return node < owned_ ? first_row_ + node : ghost_rows_[node - owned_];
     }
     /// The rows of each rank are rank_rows()[r] to rank_rows()[r + 1] - 1.
     const std::vector<std::int64_t>& rank_rows() const { return rank_rows_; }
@@ -61,17 +60,17 @@ class NodeSpace {
     MpiRanks* ranks_;
     int order_;
     std::vector<Part> parts_;
-    std::vector<PartNodes> nodes_;
+    std::vector<PartFeNodes> nodes_;
     std::vector<Vec3> points_;
     std::vector<std::int64_t> ghost_rows_, rank_rows_;
     std::int64_t first_row_ = 0, total_rows_ = 0;
-    std::size_t owned_ = 0;
-    NodeExchange exchange_;
+    std::int32_t owned_ = 0;
+    GhostExchange exchange_;
 };
 
 /// Calls visit(p, tet) for all tetrahedra of the rank, part after part.
 template <class Visit>
-void for_all_tets(const NodeSpace& space, Visit visit) {
+void for_all_tets(const FeSpace& space, Visit visit) {
     for (std::size_t p = 0; p < space.parts().size(); ++p)
         for (std::size_t t = 0; t < space.parts()[p].mesh.tets.size(); ++t) visit(p, t);
 }
