@@ -11,6 +11,7 @@
 #include "core/version.h"
 #include "export/whole_mesh.h"
 #include "io/program_finder.h"
+#include "kerf/mesh_on_ranks.h"
 #include "parallel/processors.h"
 #include "part/solution_parts.h"
 #include "prepare/remeshing.h"
@@ -162,13 +163,19 @@ ClosedSurface remeshed(const ClosedSurface& surface, double deviation, double si
         make_input(std::move(arrays.vertices), std::move(arrays.facets), std::move(arrays.patch), result.patch_names)));
 }
 
-void mesh_to_folder(const ClosedSurface& surface, const MeshOptions& options, const std::string& folder) {
+void mesh_on_ranks(const ClosedSurface& surface, const MeshOptions& options, const std::string& folder,
+                   int cores_of_rank, Communicator& ranks) {
     Input input = surface.input();
     input.is_ready = true;
-    const auto processors = static_cast<int>(std::max<std::size_t>(1, allowed_processors().size()));
     ProgressListener listener(options.progress);
+    const RunOptions request = in_agreement(ranks, [&] { return run_options(input, options, folder); });
+    require_success(run(request, cores_of_rank, ranks, input, &listener));
+}
+
+void mesh_to_folder(const ClosedSurface& surface, const MeshOptions& options, const std::string& folder) {
     SingleRank alone;
-    require_success(run(run_options(input, options, folder), processors, alone, input, &listener));
+    const auto processors = static_cast<int>(std::max<std::size_t>(1, allowed_processors().size()));
+    mesh_on_ranks(surface, options, folder, processors, alone);
 }
 
 MeshArrays mesh_to_arrays(const ClosedSurface& surface, const MeshOptions& options) {

@@ -9,6 +9,9 @@
 
 #include "support/assets.h"
 #include "support/file_contents.h"
+#ifdef KERF_MPIRUN
+#include "support/mpirun.h"
+#endif
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -104,26 +107,42 @@ TEST_F(Installed, PackageNamesNoPlaceAndNoWarnings) {
             EXPECT_EQ(text.find(word), std::string::npos) << name << " has " << word;
 }
 
-// The program that docs/library.md shows, outside of the tree, as a release.
+// Builds a program of tests/install outside of the tree, as a release, and returns its path; empty if that fails.
+std::string build_consumer(const std::string& name, const std::string& tree, const std::string& folder) {
+    const ChildResult configured =
+        test::run_program(KERF_CMAKE, {"-S", KERF_SOURCE "/tests/install/" + name, "-B", folder, "-G", KERF_GENERATOR,
+                                       "-DCMAKE_PREFIX_PATH=" + tree, "-DCMAKE_CXX_COMPILER=" KERF_COMPILER,
+                                       "-DCMAKE_BUILD_TYPE=Release"});
+    const ChildResult built = test::run_program(KERF_CMAKE, {"--build", folder});
+    if (configured.exit_code == 0 && built.exit_code == 0) return folder + "/" + name;
+    ADD_FAILURE() << configured.log << test::output_of(built) << built.log;
+    return "";
+}
+
+// The program that docs/library.md shows.
 TEST_F(Installed, LibraryServesProgramsOfOthers) {
     EXPECT_NE(test::bytes_of_file(KERF_SOURCE "/docs/library.md")
                   .find(test::bytes_of_file(KERF_SOURCE "/tests/install/consumer/main.cpp")),
               std::string::npos);
-    const std::string build = file("consumer");
-    const ChildResult configured =
-        test::run_program(KERF_CMAKE, {"-S", KERF_SOURCE "/tests/install/consumer", "-B", build, "-G", KERF_GENERATOR,
-                                       "-DCMAKE_PREFIX_PATH=" + file("a copy"), "-DCMAKE_CXX_COMPILER=" KERF_COMPILER,
-                                       "-DCMAKE_BUILD_TYPE=Release"});
-    ASSERT_EQ(configured.exit_code, 0) << configured.log;
-    const ChildResult built = test::run_program(KERF_CMAKE, {"--build", build});
-    ASSERT_EQ(built.exit_code, 0) << test::output_of(built) << built.log;
-    const ChildResult run = test::run_program(build + "/consumer", {});
+    const ChildResult run = test::run_program(build_consumer("consumer", file("a copy"), file("consumer")), {});
     EXPECT_EQ(run.exit_code, 0) << run.log;
     const std::string output = test::output_of(run);
-    EXPECT_GT(std::atoi(output.c_str()), 500) << output;
+    EXPECT_GT(std::atoi(output.c_str()), 500) << output << run.log;
     for (const char* words : {" cells, volume 1\n", "facet 7: facets[7] is (1, 6, 99), but the 8 vertices"})
         EXPECT_NE(output.find(words), std::string::npos) << output;
 }
+
+#ifdef KERF_MPIRUN
+// Two ranks of three have a communicator of their own, the third meshes alone: the same parts.
+TEST_F(Installed, LibraryServesRanksOfOthers) {
+    const std::string program = build_consumer("mpi_consumer", file("a copy"), file("mpi consumer"));
+    fs::create_directory(file("runs"));
+    const ChildResult run = test::run_ranks(3, {program, file("elsewhere/cube.stl"), file("runs")});
+    EXPECT_EQ(run.exit_code, 0) << run.log;
+    EXPECT_GT(std::atoi(test::output_of(run).c_str()), 10) << test::output_of(run) << run.log;
+    EXPECT_TRUE(test::contents_below(file("runs/last/parts")) == test::contents_below(file("runs/others/parts")));
+}
+#endif
 
 }  // namespace
 }  // namespace kerf
