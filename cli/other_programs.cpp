@@ -45,7 +45,7 @@ void become(const OtherProgram& other, char** argv) {
     ::execv(program.c_str(), argv);
     const int reason = errno;
     throw Error(ErrorCode::usage,
-                fmt::format("{} could not be started: {}. {}", program, std::strerror(reason), other.remedy));
+                fmt::format("{} could not be started: {}. {}", program, std::strerror(reason), other.advice));
 }
 
 }  // namespace kerf

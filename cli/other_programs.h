@@ -10,7 +10,7 @@ struct OtherProgram {
     const char* command;  ///< of kerf
     const char* program;  ///< that lies beside it
     const char* help;     ///< for the list of commands
-    const char* remedy;   ///< where the program is missing: how to build it, and what to do without
+    const char* advice;   ///< where the program is missing: how to build it, and what to do without
 };
 
 /// The program of a command; null if it is kerf's own.
@@ -23,7 +23,7 @@ std::string output_of_other_programs(const std::vector<std::string>& arguments);
 /// not there. `argv` ends with a null pointer.
 [[noreturn]] void become(const OtherProgram& other, char** argv);
 
-inline constexpr const char* viewer_remedy =
+inline constexpr const char* viewer_advice =
     "The viewer is a program of its own beside kerf; build it with KERF_VIEWER=ON, which needs libglfw3-dev, "
     "libimgui-dev, libfontconfig-dev, and libosmesa6-dev or libegl-dev, or open the run folder's mesh.pvtu in "
     "ParaView.";
@@ -31,7 +31,7 @@ inline constexpr OtherProgram other_programs[] = {
     {"solve", "kerf-solve", "Linear elasticity on a surface or a finished run: displacements and stresses.",
      "The solver is a program of its own beside kerf; build it with KERF_SOLVE=ON, which needs libpetsc-real-dev, or "
      "export the mesh: kerf export --format abaqus for CalculiX."},
-    {"view", "kerf-view", "Open the viewer: every cut step by step, every cell.", viewer_remedy},
-    {"screenshot", "kerf-view", "The same as a picture, without a display.", viewer_remedy}};
+    {"view", "kerf-view", "Open the viewer: every cut step by step, every cell.", viewer_advice},
+    {"screenshot", "kerf-view", "The same as a picture, without a display.", viewer_advice}};
 
 }  // namespace kerf

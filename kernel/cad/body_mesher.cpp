@@ -65,7 +65,7 @@ class BodyMesher {
             }
             if (trouble_.empty()) trouble_ = crossing_of(mesh);
             if (trouble_.empty()) return {checked(std::move(mesh)), exact_volume_};
-            next_rung();
+            next_settings();
         }
         refuse(path_, trouble_);
     }
@@ -176,7 +176,7 @@ class BodyMesher {
         return remaining_ >= 2;
     }
 
-    void next_rung() { (rung_++ % 2 == 0 ? settings_.deflection : settings_.angle) *= 0.7; }
+    void next_settings() { (tries_++ % 2 == 0 ? settings_.deflection : settings_.angle) *= 0.7; }
 
     Tessellation checked(Tessellation mesh) const {
         if (std::abs(volume_error(mesh)) > hopeless_volume_error)
@@ -199,7 +199,7 @@ class BodyMesher {
     TessellationSettings settings_ = {};
     double exact_volume_ = 0;
     double last_error_ = 0, last_deflection_ = 0, last_facets_ = 0;
-    int remaining_ = 0, rung_ = 0;
+    int remaining_ = 0, tries_ = 0;
     bool is_divided_ = false;
     std::string trouble_;
 };

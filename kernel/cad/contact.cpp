@@ -24,7 +24,7 @@ constexpr double deflection = 1e-3;  // of the diagonal
 constexpr double angle = 0.35;
 constexpr std::size_t most_pairs = 20000;  // of facets that meet
 constexpr int most_pairs_of_faces = 4;     // of facets that are looked at
-constexpr int most_looks = 400;            // pairs of facets, each some ten points
+constexpr int most_comparisons = 400;      // pairs of facets, each some ten points
 
 using Corners = std::array<Vec3, 3>;
 
@@ -108,12 +108,12 @@ std::optional<Vec3> common_point(const CoarseFacets& all, std::int32_t f, std::i
 std::optional<Contact> contact_in(const std::vector<Body>& bodies) {
     const CoarseFacets all(bodies);
     PointsInBodies points(bodies);
-    std::map<std::pair<std::int32_t, std::int32_t>, int> looks_at_faces;
-    int looks = 0;
+    std::map<std::pair<std::int32_t, std::int32_t>, int> comparisons_of_faces;
+    int comparisons = 0;
     for (const auto& [f, g] : find_self_intersections(all.vertices, all.facets, most_pairs)) {
-        if (all.body[f] == all.body[g] || looks == most_looks) continue;
-        if (++looks_at_faces[{all.patch[f], all.patch[g]}] > most_pairs_of_faces) continue;
-        ++looks;
+        if (all.body[f] == all.body[g] || comparisons == most_comparisons) continue;
+        if (++comparisons_of_faces[{all.patch[f], all.patch[g]}] > most_pairs_of_faces) continue;
+        ++comparisons;
         if (const std::optional<Vec3> p = common_point(all, f, g, points))
             return Contact{{all.body[f], all.body[g]}, *p};
     }

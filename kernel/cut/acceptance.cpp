@@ -27,7 +27,8 @@ class InterfaceJudge {
     InterfaceJudge(const Surface& surface, const Band& band, const Interface& interface);
 
     std::vector<std::int32_t> chords() const;
-    std::vector<std::int32_t> intersections(const Poll& poll, std::vector<Collision>& collisions);
+    std::vector<std::int32_t> intersections(const CancellationCheck& check_cancelled,
+                                            std::vector<Collision>& collisions);
     // Quality, with the vertices below the thresholds of the options.
     InterfaceQuality measure(const CutOptions& options, std::vector<std::int32_t>& soft);
 
@@ -127,7 +128,8 @@ std::vector<std::int32_t> InterfaceJudge::chords() const {
     return vertices;
 }
 
-std::vector<std::int32_t> InterfaceJudge::intersections(const Poll& poll, std::vector<Collision>& collisions) {
+std::vector<std::int32_t> InterfaceJudge::intersections(const CancellationCheck& check_cancelled,
+                                                        std::vector<Collision>& collisions) {
     std::vector<std::int32_t> vertices;
     const auto keep = [&](const std::array<Vec3, 3>& first, const std::array<Vec3, 3>& second) {
         if (collisions.size() < max_collisions) collisions.push_back({first, second});
@@ -144,7 +146,7 @@ std::vector<std::int32_t> InterfaceJudge::intersections(const Poll& poll, std::v
         });
     }
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
-        poll.at(i);
+        check_cancelled.at(i);
         grid_.for_each_overlap(grown(boxes_[i], rounding_), [&](std::int32_t j) {
             if (static_cast<std::size_t>(j) <= i) return;
             const Triangle &s = interface_.triangles[i], &t = interface_.triangles[j];
@@ -241,20 +243,20 @@ Verdict judge_interface(const Surface& surface, const Band& band, const Interfac
     KERF_CHECK(interface.planar.size() == interface.points.size());
     Verdict verdict;
     InterfaceJudge judge(surface, band, interface);
-    options.poll();
+    options.check_cancelled();
     verdict.failed = judge.chords();
     if (!verdict.failed.empty()) {
         verdict.refusal = Refusal::chord;
         return verdict;
     }
-    options.poll();
-    verdict.failed = judge.intersections(options.poll, verdict.collisions);
+    options.check_cancelled();
+    verdict.failed = judge.intersections(options.check_cancelled, verdict.collisions);
     if (!verdict.collisions.empty()) {  // which may lie off the contour, and then at no vertex of the surface
         verdict.refusal = Refusal::intersection;
         return verdict;
     }
     verdict.quality = judge.measure(options, verdict.failed);
-    options.poll();
+    options.check_cancelled();
     if (!is_good(verdict.quality, options)) verdict.refusal = Refusal::soft;  // at a vertex of the surface or within
     return verdict;
 }

@@ -215,7 +215,7 @@ void PlaneTrial::complete(Attempt& attempt) const {
     };
     std::array<Half, 2> halves = split(surface_, attempt.side, attempt.interface, node_);
     for (std::size_t i = 0; i < halves.size() && attempt.valid(); ++i) {
-        options_.poll();
+        options_.check_cancelled();
         auto built = Surface::build(std::move(halves[i].arrays), std::move(halves[i].partner));
         if (const auto* defect = std::get_if<ManifoldDefect>(&built)) {
             refuse_half(Refusal::not_manifold, defect->where);
@@ -273,11 +273,11 @@ FileHash hash_of(const Attempt& attempt) {
     return hasher.digest();
 }
 
-Rung rung_of(const CutTry& record) {
-    if (record.refusal == Refusal::soft) return Rung::soft;
-    if (record.axis > 0) return Rung::other_axis;
-    if (record.step != 0) return Rung::plane_step;
-    return record.repair > 0 ? Rung::local_repair : Rung::first_try;
+CutStrategy strategy_of(const CutTry& record) {
+    if (record.refusal == Refusal::soft) return CutStrategy::soft;
+    if (record.axis > 0) return CutStrategy::other_axis;
+    if (record.step != 0) return CutStrategy::plane_step;
+    return record.repair > 0 ? CutStrategy::local_repair : CutStrategy::first_try;
 }
 
 // Walks the ladder and keeps the best soft cut on the way.
@@ -315,7 +315,7 @@ bool Ladder::try_plane(const PlaneCandidate& candidate, std::vector<CutTry>& tri
     PlaneTrial trial(surface_, candidate, node_, options_, record_, step_budget_);
     const std::int32_t rounds = options_.contour == ContourMethod::min_cut ? options_.repairs : 0;
     for (std::int32_t repair = 0, soft = 0; repair <= rounds && soft < soft_rounds; ++repair) {
-        options_.poll();
+        options_.check_cancelled();
         auto attempt = std::make_unique<Attempt>(trial.attempt(repair));
         const double value = attempt->valid() ? goodness(attempt->record.quality, options_) : 0;
         const bool wanted = attempt->record.refusal == Refusal::none || value > best_goodness_;
@@ -373,7 +373,7 @@ Bisection bisect(const Surface& surface, const MassProperties& mass, NodeId node
     const std::unique_ptr<Attempt> accepted = Ladder(surface, mass, node, place, options, record).climb(cut.tries);
     if (accepted) {
         cut.hash = hash_of(*accepted);
-        cut.rung = rung_of(accepted->record);
+        cut.strategy = strategy_of(accepted->record);
         cut.plane = accepted->record.plane;
         cut.quality = accepted->record.quality;
         cut.section_area = accepted->section_area;

@@ -34,10 +34,10 @@ const char* name(ContourMethod method) {
     return names[static_cast<std::size_t>(method)];
 }
 
-const char* name(Rung rung) {
+const char* name(CutStrategy strategy) {
     constexpr std::array names = {"first-try", "local-repair", "plane-step", "other-axis", "soft", "straight", "whole"};
-    static_assert(names.size() == static_cast<std::size_t>(Rung::whole) + 1);
-    return names[static_cast<std::size_t>(rung)];
+    static_assert(names.size() == static_cast<std::size_t>(CutStrategy::whole) + 1);
+    return names[static_cast<std::size_t>(strategy)];
 }
 
 const char* name(Refusal refusal) {
@@ -51,7 +51,7 @@ const char* name(Refusal refusal) {
 CutSummary summary_of(const Cut& cut) {
     return {cut.plane,
             cut.method,
-            cut.rung,
+            cut.strategy,
             static_cast<std::int32_t>(cut.tries.size()),
             static_cast<std::int32_t>(cut.loops.size()),
             cut.contour_edges,

@@ -46,8 +46,8 @@ enum class ContourMethod {
 
 const char* name(ContourMethod method);
 
-/// The remedy by which a cut was accepted, in the order in which they are tried.
-enum class Rung {
+/// The strategy by which a cut was accepted, in the order in which they are tried.
+enum class CutStrategy {
     first_try,     ///< first plane, first contour
     local_repair,  ///< first plane; the weights at the failed places were raised
     plane_step,    ///< the plane was moved along the first axis
@@ -56,7 +56,7 @@ enum class Rung {
     straight,      ///< the facets were split at a coordinate plane
     whole,         ///< no cut: the part stays whole
 };
-const char* name(Rung rung);
+const char* name(CutStrategy strategy);
 
 /// Why a try was refused.
 enum class Refusal {
@@ -165,7 +165,7 @@ struct CutPlace {
 /// One bisection.
 struct Cut {
     NodeId node = 1;
-    Rung rung = Rung::whole;
+    CutStrategy strategy = CutStrategy::whole;
     ContourMethod method = ContourMethod::min_cut;
     Plane plane;
     std::vector<CutTry> tries;                     ///< all, the accepted one included
@@ -184,11 +184,11 @@ struct Cut {
     double seconds = 0;         ///< wall clock; goes into the report only
     FileHash hash = {0, 0};     ///< of all that the halves follow from, bit for bit; {0, 0}: not made, or from a trace
 
-    bool made() const { return rung != Rung::whole; }
+    bool made() const { return strategy != CutStrategy::whole; }
     template <class Archive>
     void archive(Archive& a) {
-        a(node, rung, method, plane, tries, loops, side, stages, split_parent, place, interface, quality, contour_edges,
-          contour_length, max_deviation, section_area, interface_area, seconds);
+        a(node, strategy, method, plane, tries, loops, side, stages, split_parent, place, interface, quality,
+          contour_edges, contour_length, max_deviation, section_area, interface_area, seconds);
     }
 };
 
@@ -196,7 +196,7 @@ struct Cut {
 struct CutSummary {
     Plane plane;
     ContourMethod method = ContourMethod::min_cut;
-    Rung rung = Rung::whole;
+    CutStrategy strategy = CutStrategy::whole;
     std::int32_t tries = 0;
     std::int32_t loops = 0;
     std::int64_t contour_edges = 0;
@@ -208,10 +208,10 @@ struct CutSummary {
     InterfaceQuality quality;
     double seconds = 0;  ///< wall clock; goes into the report only
 
-    bool made() const { return rung != Rung::whole; }
+    bool made() const { return strategy != CutStrategy::whole; }
     template <class Archive>
     void archive(Archive& a) {
-        a(plane, method, rung, tries, loops, contour_edges, contour_length, max_deviation, place, section_area,
+        a(plane, method, strategy, tries, loops, contour_edges, contour_length, max_deviation, place, section_area,
           interface_area, interface_faces, quality, seconds);
     }
 };

@@ -106,7 +106,7 @@ InterfaceAttempt build_interface(const Surface& surface, const Band& band, const
     if (!options.size.is_empty())
         region.max_edge = [&](const Vec2& p) { return options.max_interface_edge(band.plane.lift(p, 0)); };
     region.max_points = options.max_interface_points;
-    region.poll = options.poll;
+    region.check_cancelled = options.check_cancelled;
     if (layout == ContourLayout::unfolded) region.sizes = sizes_in_space(surface, contour, planar_contour);
     region.contour = std::move(planar_contour.points);
     region.edges = std::move(planar_contour.edges);
@@ -119,17 +119,17 @@ InterfaceAttempt build_interface(const Surface& surface, const Band& band, const
     for (std::int32_t i : planar.failed) attempt.failed.push_back(contour[i]);
     if (attempt.refusal != Refusal::none) return attempt;
 
-    options.poll();
+    options.check_cancelled();
     std::vector<Vec2> places = planar.points;
     if (layout == ContourLayout::unfolded) {
-        const std::vector<Vec2> moved = harmonic_displacements(planar, displacement, options.poll);
+        const std::vector<Vec2> moved = harmonic_displacements(planar, displacement, options.check_cancelled);
         for (std::size_t i = 0; i < places.size(); ++i) places[i] += moved[i];
     }
     const std::vector<double> height =
         lift_heights(planar, places, contour_height, obstacles,
                      dihedral_ranges(surface, band, side, contour, planar.triangles, places,
                                      options.good_dihedral_deg + dihedral_margin),
-                     options.poll);
+                     options.check_cancelled);
     for (std::size_t i = 0; i < places.size(); ++i)
         attempt.interface.points.push_back(i < contour.size() ? surface.point(contour[i])
                                                               : band.plane.lift(places[i], height[i]));

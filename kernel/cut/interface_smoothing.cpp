@@ -120,7 +120,7 @@ bool InterfaceSmoother::sweep() {
     bool any = false;
     for (auto point = static_cast<std::int32_t>(interface_.contour.size());
          point < static_cast<std::int32_t>(interface_.points.size()); ++point) {
-        options_.poll.at(static_cast<std::size_t>(point));
+        options_.check_cancelled.at(static_cast<std::size_t>(point));
         any |= improve(point);
     }
     return any;

@@ -65,7 +65,7 @@ WeightedGraph cotangent_graph(const PlanarTriangulation& t) {
     return graph;
 }
 
-void solve_harmonic(const WeightedGraph& graph, std::size_t contour_count, const Poll& poll,
+void solve_harmonic(const WeightedGraph& graph, std::size_t contour_count, const CancellationCheck& check_cancelled,
                     std::vector<double>& height) {
     const auto interior = static_cast<Eigen::Index>(height.size() - contour_count);
     if (interior == 0) return;
@@ -86,12 +86,12 @@ void solve_harmonic(const WeightedGraph& graph, std::size_t contour_count, const
     }
     Eigen::SparseMatrix<double> laplacian(interior, interior);
     laplacian.setFromTriplets(entries.begin(), entries.end());
-    poll();
+    check_cancelled();
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
     solver.analyzePattern(laplacian);
-    poll();
+    check_cancelled();
     solver.factorize(laplacian);
-    poll();
+    check_cancelled();
     const Eigen::VectorXd solution = solver.solve(right);
     for (Eigen::Index i = 0; i < interior; ++i) height[contour_count + static_cast<std::size_t>(i)] = solution[i];
 }
@@ -129,13 +129,13 @@ void relax_within_bounds(const WeightedGraph& graph, std::size_t contour_count, 
 }  // namespace
 
 std::vector<Vec2> harmonic_displacements(const PlanarTriangulation& triangulation, const std::vector<Vec2>& of_contour,
-                                         const Poll& poll) {
+                                         const CancellationCheck& check_cancelled) {
     const WeightedGraph graph = cotangent_graph(triangulation);
     std::vector<Vec2> displacements(triangulation.points.size());
     for (int axis = 0; axis < 2; ++axis) {
         std::vector<double> values(displacements.size(), 0);
         for (std::size_t i = 0; i < of_contour.size(); ++i) values[i] = of_contour[i][axis];
-        solve_harmonic(graph, of_contour.size(), poll, values);
+        solve_harmonic(graph, of_contour.size(), check_cancelled, values);
         for (std::size_t i = 0; i < values.size(); ++i) displacements[i][axis] = values[i];
     }
     return displacements;
@@ -143,7 +143,7 @@ std::vector<Vec2> harmonic_displacements(const PlanarTriangulation& triangulatio
 
 std::vector<double> lift_heights(const PlanarTriangulation& triangulation, const std::vector<Vec2>& places,
                                  const std::vector<double>& contour_height, const std::vector<Obstacle>& obstacles,
-                                 std::vector<HeightRange> ranges, const Poll& poll) {
+                                 std::vector<HeightRange> ranges, const CancellationCheck& check_cancelled) {
     const std::size_t contour_count = contour_height.size();
     KERF_CHECK(contour_count <= triangulation.points.size());
     KERF_CHECK(ranges.empty() || ranges.size() == triangulation.points.size());
@@ -151,7 +151,7 @@ std::vector<double> lift_heights(const PlanarTriangulation& triangulation, const
     std::vector<double> height = contour_height;
     height.resize(triangulation.points.size(), 0);
     const WeightedGraph graph = cotangent_graph(triangulation);
-    solve_harmonic(graph, contour_count, poll, height);
+    solve_harmonic(graph, contour_count, check_cancelled, height);
     ranges.resize(height.size());
     add_obstacles(places, contour_count, obstacles, ranges);
     bool violated = false;

@@ -26,7 +26,7 @@ struct HeightRange {
 
 /// Harmonic extension of the displacements of the contour (#C) to all points; weights as in lift_heights().
 std::vector<Vec2> harmonic_displacements(const PlanarTriangulation& triangulation, const std::vector<Vec2>& of_contour,
-                                         const Poll& poll = {});
+                                         const CancellationCheck& check_cancelled = {});
 
 /// Harmonic heights with the contour's heights as boundary values, then bounded by `ranges` (one per point, or none)
 /// and by the obstacles, whose bound falls off with the distance at rate 0.3. Weights are cotangents, but positive
@@ -35,6 +35,6 @@ std::vector<Vec2> harmonic_displacements(const PlanarTriangulation& triangulatio
 /// height per point. O(n^1.5) for the factorisation.
 std::vector<double> lift_heights(const PlanarTriangulation& triangulation, const std::vector<Vec2>& places,
                                  const std::vector<double>& contour_height, const std::vector<Obstacle>& obstacles,
-                                 std::vector<HeightRange> ranges = {}, const Poll& poll = {});
+                                 std::vector<HeightRange> ranges = {}, const CancellationCheck& check_cancelled = {});
 
 }  // namespace kerf

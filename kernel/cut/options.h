@@ -1,7 +1,7 @@
 // What a user may choose about cuts.
 #pragma once
 
-#include "core/poll.h"
+#include "core/check_cancelled.h"
 #include "cut/cut.h"
 #include "cut/load.h"
 #include "size/size_field.h"
@@ -28,7 +28,7 @@ struct CutOptions {
     double good_angle_deg = 20;
     double good_gap_rel = 0.2;
     std::int64_t max_interface_points = 1 << 29;  ///< beyond them bisect() throws Error(memory)
-    Poll poll;                                    ///< of every cut
+    CancellationCheck check_cancelled;            ///< of every cut
 
     /// Longest wanted edge of an interface; infinity: any. A little more than that of the largest wanted tetrahedron
     /// where that is the same everywhere; sizes that differ by place are means, which a bound a little below them

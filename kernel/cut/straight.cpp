@@ -221,7 +221,7 @@ std::optional<StraightCut> cut_straight(const Surface& surface, NodeId node, dou
         record.step = step++;
         tries.push_back(record);
         if (record.refusal != Refusal::none) continue;
-        result.cut.rung = Rung::straight;
+        result.cut.strategy = CutStrategy::straight;
         result.cut.method = ContourMethod::straight;
         result.cut.hash = hash_of(result.split);
         describe_contour(result.parent, result.cut);

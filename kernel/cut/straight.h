@@ -1,5 +1,5 @@
-// The straight cut: facets are split where they cross a coordinate plane. The rung for surfaces without a contour of
-// edges, such as those of CAD programs whose triangles are as long as the part.
+// The straight cut: facets are split where they cross a coordinate plane. The strategy for surfaces without a contour
+// of edges, such as those of CAD programs whose triangles are as long as the part.
 #pragma once
 
 #include <optional>
@@ -26,7 +26,7 @@ std::vector<StraightPlane> straight_planes(const Surface& surface, double fracti
 struct StraightCut {
     PlaneSplit split;  ///< the parent with its facets split at the plane
     Surface parent;    ///< the same as a surface
-    Cut cut;           ///< vertices, facets and sides are those of `parent`; rung and tries are set
+    Cut cut;           ///< vertices, facets and sides are those of `parent`; strategy and tries are set
 };
 
 /// Cuts along the first of straight_planes() that gives simple closed contours with the section inside and children

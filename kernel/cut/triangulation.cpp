@@ -251,7 +251,7 @@ void Triangulator::insert_wanted() {
 void Triangulator::refine() {
     for (const Cdt::Face_handle face : cdt_.finite_face_handles()) consider(face);
     for (std::size_t i = 0; !queue_.empty(); ++i) {
-        region_.poll.at(i);
+        region_.check_cancelled.at(i);
         if (static_cast<std::int64_t>(vertices_.size()) >= region_.max_points)
             throw Error(ErrorCode::memory,
                         fmt::format("The triangles of an interface have more than {} vertices. Use a "
@@ -302,7 +302,7 @@ void smooth(const PlanarRegion& region, PlanarTriangulation& t) {
     };
     for (int sweep = 0; sweep < smoothing_sweeps; ++sweep)
         for (std::size_t v = region.contour.size(); v < t.points.size(); ++v) {
-            region.poll.at(v);
+            region.check_cancelled.at(v);
             Vec2 sum = Vec2::Zero();
             for (std::int32_t i : around[v])
                 for (std::int32_t c : t.triangles[i]) sum += t.points[c];
@@ -346,7 +346,7 @@ PlanarTriangulation triangulate(const PlanarRegion& region) {
         triangulator.insert_wanted();
         triangulator.refine();
     }
-    region.poll();
+    region.check_cancelled();
     result = triangulator.extract();
     smooth(region, result);
     return result;

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/poll.h"
+#include "core/check_cancelled.h"
 #include "cut/cut.h"
 
 namespace kerf {
@@ -26,7 +26,7 @@ struct PlanarRegion {
     double least_edge = 0;                        ///< shorter contour edges do not make the triangles small
     bool refined = true;                          ///< false: no interior points
     std::int64_t max_points = 1 << 29;            ///< beyond them triangulate() throws Error(memory)
-    Poll poll;                                    ///< as CutOptions::poll
+    CancellationCheck check_cancelled;            ///< as CutOptions::check_cancelled
 };
 
 /// A conforming triangulation of the region, or why there is none.

@@ -22,7 +22,7 @@ class Decomposer {
  public:
     Decomposer(const DecomposeOptions& options, LeafRange range, CutListener* listener)
         : options_(options), range_(range), listener_(listener), records_(listener && listener->wants_cuts()) {
-        options_.cut.poll = Poll([this] { end_if_cancelled(); });
+        options_.cut.check_cancelled = CancellationCheck([this] { end_if_cancelled(); });
     }
 
     Decomposition descend(Surface surface, const Branch& branch, std::int32_t threads);

@@ -1,4 +1,4 @@
-// The rung after all others: parts without a contour of edges are divided by straight cuts.
+// The strategy after all others: parts without a contour of edges are divided by straight cuts.
 #pragma once
 
 #include "decompose/decomposition.h"

@@ -73,7 +73,7 @@ double EditedMesh::most_excess(std::span<const std::int32_t> cells) const {
 
 double EditedMesh::badness_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double excess) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    ++looks_;
+    ++evaluations_;
     const CellShape shape_of_cell = cell_shape(a, b, c, d);
     if (shape_of_cell.sharpest > most_sharp_ || shape_of_cell.flattest > most_flat_) return infinity;
     if (shape_of_cell.six_volumes > least_bound_six_ && excess_of(a, b, c, d, shape_of_cell.six_volumes) > excess)

@@ -55,7 +55,7 @@ class EditedMesh {
     /// its bound of volume more.
     double badness_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double excess) const;
     /// How often badness_of() was asked: what it has cost so far, without a clock.
-    std::int64_t looks() const { return looks_; }
+    std::int64_t evaluations() const { return evaluations_; }
     bool is_positive(const Tetrahedron& corners) const;
 
     // --- changes ---
@@ -84,7 +84,7 @@ class EditedMesh {
     double most_sharp_ = 0, most_flat_ = 0;
     EditableTets tets_;
     std::vector<double> badness_;
-    mutable std::int64_t looks_ = 0;
+    mutable std::int64_t evaluations_ = 0;
     std::vector<char> is_fixed_;  // #V
 };
 

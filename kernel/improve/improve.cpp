@@ -13,19 +13,19 @@ namespace kerf {
 
 namespace {
 
-constexpr double least_gain_of_a_move = 0.1;         // of a move, in squared sines: a degree and a half at 25
-constexpr double angle_for_a_vertex_deg = 20;        // cells with a smaller one are worth a new vertex, ...
-constexpr double angle_where_sizes_differ_deg = 12;  // ... and here with this one, because vertices crowd
-constexpr double looks_for_vertices = 0.25;          // of all; more only for ...
-constexpr double angle_of_no_volume_deg = 0.01;      // ... cells with a smaller one, which no solver can use
-constexpr double least_share_of_a_round = 0.1;       // of the bad cells, or there is no other round
-constexpr std::int64_t looks_at_any_mesh = 1000;     // beside those for each of its cells
-constexpr int cells_between_questions = 1024;        // whether it is cancelled
+constexpr double least_gain_of_a_move = 0.1;            // of a move, in squared sines: a degree and a half at 25
+constexpr double angle_for_a_vertex_deg = 20;           // cells with a smaller one are worth a new vertex, ...
+constexpr double angle_where_sizes_differ_deg = 12;     // ... and here with this one, because vertices crowd
+constexpr double share_for_vertices = 0.25;             // of all; more only for ...
+constexpr double angle_of_no_volume_deg = 0.01;         // ... cells with a smaller one, which no solver can use
+constexpr double least_share_of_a_round = 0.1;          // of the bad cells, or there is no other round
+constexpr std::int64_t evaluations_of_any_mesh = 1000;  // beside those for each of its cells
+constexpr int cells_between_questions = 1024;           // whether it is cancelled
 
 class Improver {
  public:
     Improver(TetMesh& mesh, const ImproveOptions& options, Improvement& improvement)
-        : most_looks_(most_looks_of(mesh, options)),
+        : evaluation_budget_(evaluation_budget_of(mesh, options)),
           is_settled_(mesh.vertices.size(), 0),
           mesh_(std::move(mesh), options.frozen_cells, options.max_size,
                 [&](const CellShape& shape) { improvement.smallest_before.add(degrees_from_square(shape.sharpest)); }),
@@ -62,11 +62,12 @@ class Improver {
     static double worth_a_vertex_deg(const ImproveOptions& options) {
         return options.max_size.is_constant() ? angle_for_a_vertex_deg : angle_where_sizes_differ_deg;
     }
-    static std::int64_t most_looks_of(const TetMesh& mesh, const ImproveOptions& options) {
+    static std::int64_t evaluation_budget_of(const TetMesh& mesh, const ImproveOptions& options) {
         const auto cells = static_cast<std::int64_t>(mesh.tets.size()) - options.frozen_cells;
-        return looks_at_any_mesh + static_cast<std::int64_t>(options.most_looks * static_cast<double>(cells));
+        return evaluations_of_any_mesh +
+               static_cast<std::int64_t>(options.evaluation_budget * static_cast<double>(cells));
     }
-    bool is_spent() const { return mesh_.looks() >= most_looks_; }
+    bool is_spent() const { return mesh_.evaluations() >= evaluation_budget_; }
     bool is_bad(std::int32_t cell) const {
         return !mesh_.is_removed(cell) && !mesh_.is_frozen(cell) && mesh_.badness(cell) > bad_;
     }
@@ -157,12 +158,13 @@ class Improver {
     bool insert_a_vertex(std::int32_t cell) {
         const double badness = mesh_.badness(cell);
         if (!options_->adds_vertices || badness < bad_enough_for_a_vertex_) return false;
-        if (badness < without_volume_ && looks_at_vertices_ > looks_for_vertices * most_looks_) return false;
+        if (badness < without_volume_ && evaluations_for_vertices_ > share_for_vertices * evaluation_budget_)
+            return false;
         // Anything is better than a cell whose volume is lost in rounding.
         const double limit = std::isinf(badness) ? badness : badness - least_gain_of_a_move * (1 + badness);
-        looks_at_vertices_ -= mesh_.looks();
+        evaluations_for_vertices_ -= mesh_.evaluations();
         const std::span<const std::int32_t> cavity = insertion_.insert(mesh_, cell, limit);
-        looks_at_vertices_ += mesh_.looks();
+        evaluations_for_vertices_ += mesh_.evaluations();
         if (cavity.empty()) return false;
         is_settled_.push_back(0);
         take_up(mesh_.replace(cavity, insertion_.cells()));
@@ -170,13 +172,13 @@ class Improver {
         return true;
     }
 
-    std::int64_t most_looks_;
+    std::int64_t evaluation_budget_;
     std::vector<char> is_settled_;  // #V; whether the cells around it are those that no move has helped
     EditedMesh mesh_;
     const ImproveOptions* options_;
     Improvement* result_;
     double bad_, bad_enough_for_a_vertex_, without_volume_;
-    std::int64_t looks_at_vertices_ = 0;
+    std::int64_t evaluations_for_vertices_ = 0;
     bool is_cancelled_ = false;
     std::priority_queue<Entry> queue_;
     std::vector<std::int32_t> waiting_;  // bad cells that are not in the queue; ascending between rounds

@@ -17,7 +17,7 @@ struct ImproveOptions {
     int most_rounds = 3;            ///< how often all bad cells are looked at; it ends sooner where that gains little
     /// It ends when it has looked at so many new cells for each cell of the mesh, whether they are made or not. 5 to 8
     /// are enough on good surfaces; where the surface is what makes cells bad, hundreds would not help much.
-    double most_looks = 12;
+    double evaluation_budget = 12;
     bool adds_vertices = true;                ///< where nothing else helps
     std::function<bool()> is_cancelled = {};  ///< asked every few milliseconds; empty: never
 };
@@ -62,7 +62,7 @@ struct Improvement {
 /// or not afterwards. Deterministic; depends on the order of cells, but for the validity of what comes out. Error
 /// (cancelled), and the mesh is valid, but not finished. Error (memory), and nothing has changed, for more than 2^29
 /// cells. About 0.2 us a cell and 5 us a bad one, at most 1.3 us a cell where
-/// most_looks is 12. Memory: 33 bytes a cell beside the mesh.
+/// evaluation_budget is 12. Memory: 33 bytes a cell beside the mesh.
 Improvement improve(TetMesh& mesh, const ImproveOptions& options = {});
 
 }  // namespace kerf

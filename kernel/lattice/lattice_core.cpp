@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "lattice/keep_out.h"
+#include "lattice/clearance.h"
 #include "lattice/sites_inside.h"
 
 namespace kerf {

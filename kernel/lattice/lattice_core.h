@@ -8,7 +8,7 @@
 
 namespace kerf {
 
-/// The cells of a lattice that have a corner deep inside: sites are kept that are inside and keep_out_distance() from
+/// The cells of a lattice that have a corner deep inside: sites are kept that are inside and clearance() from
 /// every facet; a site is deep if its 14 neighbours are kept, too. A cell of the core has four kept corners and at
 /// least one deep one. So all cells at a deep site belong to the core, a face of its boundary is one that has a deep
 /// site on one side and none on the other or in itself, and kept sites without a deep neighbour belong to no cell.

@@ -53,8 +53,8 @@ MeshOutline read_outline(const std::string& folder) {
 RunParts::RunParts(std::string folder, std::string solution)
     : folder_(std::move(folder)), solution_(std::move(solution)), outline_(read_outline(folder_)) {
     if (!solution_.empty()) outline_.values = read_value_names(path_of_part(solution_, outline_.parts.front().id));
-    std::vector<SharedVertices::Held> held;
-    std::vector<SharedEdges::Held> told;
+    std::vector<SharedVertices::Incidence> held;
+    std::vector<SharedEdges::Incidence> told;
     std::vector<NodeId> ids;
     std::int64_t interior = 0;
     for (PartExtent& extent : outline_.parts) {
@@ -66,8 +66,8 @@ RunParts::RunParts(std::string folder, std::string solution)
             if (!surface.is_interface(f)) continue;
             for (const std::int32_t v : surface.facets[f]) held.push_back({surface.global_id[v], index});
         }
-        const std::vector<SharedEdges::Held> told_here = SharedEdges::told_by(surface);
-        told.insert(told.end(), told_here.begin(), told_here.end());
+        const std::vector<SharedEdges::Incidence> incidences_here = SharedEdges::incidences_of(surface);
+        told.insert(told.end(), incidences_here.begin(), incidences_here.end());
         outline_.patch_names = std::move(surface.patch_names);
         first_interior_ids_.push_back(interior);
         interior += extent.vertices - surface.mesh.boundary_vertex_count;

@@ -51,8 +51,8 @@ void for_each_edge(const std::vector<InterfaceEdge>& edges, Take take) {
 
 }  // namespace
 
-std::vector<SharedEdges::Held> SharedEdges::told_by(const Part& part) {
-    std::vector<Held> told;
+std::vector<SharedEdges::Incidence> SharedEdges::incidences_of(const Part& part) {
+    std::vector<Incidence> told;
     for_each_edge(interface_edges(part), [&](auto begin, auto end) {
         if (end - begin < 2) return;
         told.push_back({begin->edge, part.id});
@@ -61,12 +61,14 @@ std::vector<SharedEdges::Held> SharedEdges::told_by(const Part& part) {
     return told;
 }
 
-SharedEdges::SharedEdges(std::vector<Held> told, const std::vector<NodeId>& ids)
-    : told_(std::move(told)), ids_(ids.begin(), ids.end()) {
-    const auto key = [](const Held& held) { return std::tie(held.edge, held.part); };
-    std::sort(told_.begin(), told_.end(), [&](const Held& a, const Held& b) { return key(a) < key(b); });
-    told_.erase(std::unique(told_.begin(), told_.end(), [&](const Held& a, const Held& b) { return key(a) == key(b); }),
-                told_.end());
+SharedEdges::SharedEdges(std::vector<Incidence> told, const std::vector<NodeId>& ids)
+    : incidences_(std::move(told)), ids_(ids.begin(), ids.end()) {
+    const auto key = [](const Incidence& held) { return std::tie(held.edge, held.part); };
+    std::sort(incidences_.begin(), incidences_.end(),
+              [&](const Incidence& a, const Incidence& b) { return key(a) < key(b); });
+    incidences_.erase(std::unique(incidences_.begin(), incidences_.end(),
+                                  [&](const Incidence& a, const Incidence& b) { return key(a) == key(b); }),
+                      incidences_.end());
     for (const PartIndex index : ids_.ids()) places_.push_back({ids_[index], index});
     std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) { return a.id < b.id; });
 }
@@ -83,9 +85,9 @@ std::vector<SharedEdgeGroup> SharedEdges::groups_of(const Part& part) const {
     for_each_edge(interface_edges(part), [&](auto begin, auto end) {
         holders.assign(1, index_of(part.id));
         for (auto met = begin; met != end; ++met) holders.push_back(index_of(met->neighbour));
-        auto told = std::lower_bound(told_.begin(), told_.end(), begin->edge,
-                                     [](const Held& held, const auto& wanted) { return held.edge < wanted; });
-        for (; told != told_.end() && told->edge == begin->edge; ++told) holders.push_back(index_of(told->part));
+        auto told = std::lower_bound(incidences_.begin(), incidences_.end(), begin->edge,
+                                     [](const Incidence& held, const auto& wanted) { return held.edge < wanted; });
+        for (; told != incidences_.end() && told->edge == begin->edge; ++told) holders.push_back(index_of(told->part));
         std::sort(holders.begin(), holders.end());
         holders.erase(std::unique(holders.begin(), holders.end()), holders.end());
         edges_of[holders].push_back(begin->corners);

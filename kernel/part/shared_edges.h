@@ -16,7 +16,7 @@ namespace kerf {
 class SharedEdges {
  public:
     /// An edge and a part that holds it; may be named more than once.
-    struct Held {
+    struct Incidence {
         std::array<std::int64_t, 2> edge;  ///< global numbers of its ends, the smaller one first
         NodeId part;
 
@@ -28,11 +28,11 @@ class SharedEdges {
 
     /// What the others have to know of a part: the edges where it meets several, with all that it meets there and
     /// itself. Of a part or its surface. O(#F log #F).
-    static std::vector<Held> told_by(const Part& part);
+    static std::vector<Incidence> incidences_of(const Part& part);
 
     SharedEdges() = default;
     /// `told`: what all parts tell. `ids`: those of the parts. O(n log n).
-    SharedEdges(std::vector<Held> told, const std::vector<NodeId>& ids);
+    SharedEdges(std::vector<Incidence> told, const std::vector<NodeId>& ids);
 
     /// As Part::shared_edges. O(#F log #F).
     std::vector<SharedEdgeGroup> groups_of(const Part& part) const;
@@ -44,7 +44,7 @@ class SharedEdges {
         NodeId id;
         PartIndex index;
     };
-    std::vector<Held> told_;  // ascending by edge, then part
+    std::vector<Incidence> incidences_;  // ascending by edge, then part
     Array<PartIndex, NodeId> ids_;
     std::vector<Place> places_;  // ascending by id
 };

@@ -6,11 +6,12 @@
 
 namespace kerf {
 
-SharedVertices::SharedVertices(std::vector<Held> held, const std::vector<NodeId>& ids)
+SharedVertices::SharedVertices(std::vector<Incidence> held, const std::vector<NodeId>& ids)
     : held_(std::move(held)), ids_(ids.begin(), ids.end()) {
-    const auto key = [](const Held& h) { return std::tie(h.vertex, h.part); };
-    std::sort(held_.begin(), held_.end(), [&](const Held& a, const Held& b) { return key(a) < key(b); });
-    held_.erase(std::unique(held_.begin(), held_.end(), [&](const Held& a, const Held& b) { return key(a) == key(b); }),
+    const auto key = [](const Incidence& h) { return std::tie(h.vertex, h.part); };
+    std::sort(held_.begin(), held_.end(), [&](const Incidence& a, const Incidence& b) { return key(a) < key(b); });
+    held_.erase(std::unique(held_.begin(), held_.end(),
+                            [&](const Incidence& a, const Incidence& b) { return key(a) == key(b); }),
                 held_.end());
     std::size_t kept = 0;
     for (std::size_t i = 0, j = 0; i < held_.size(); i = j) {
@@ -27,7 +28,7 @@ std::vector<SharedGroup> SharedVertices::groups_of(PartIndex index, std::span<co
     for (std::size_t v = 0; v < boundary_ids.size(); ++v) {
         const std::int64_t id = boundary_ids[v];
         auto it = std::lower_bound(held_.begin(), held_.end(), id,
-                                   [](const Held& h, std::int64_t wanted) { return h.vertex < wanted; });
+                                   [](const Incidence& h, std::int64_t wanted) { return h.vertex < wanted; });
         holders.clear();
         for (; it != held_.end() && it->vertex == id; ++it) holders.push_back(it->part);
         if (std::binary_search(holders.begin(), holders.end(), index)) vertices_of[holders].push_back(v);

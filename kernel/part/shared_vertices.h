@@ -14,20 +14,20 @@ namespace kerf {
 class SharedVertices {
  public:
     /// A vertex of an interface and a part that has it there; may be named more than once.
-    struct Held {
+    struct Incidence {
         std::int64_t vertex;  ///< global number
         PartIndex part;
     };
 
     SharedVertices() = default;
     /// `ids`: those of the parts. O(n log n).
-    SharedVertices(std::vector<Held> held, const std::vector<NodeId>& ids);
+    SharedVertices(std::vector<Incidence> held, const std::vector<NodeId>& ids);
 
     /// As Part::shared. `boundary_ids`: global numbers of the part's boundary vertices.
     std::vector<SharedGroup> groups_of(PartIndex index, std::span<const std::int64_t> boundary_ids) const;
 
  private:
-    std::vector<Held> held_;  // ascending by vertex, then part; without vertices of one part alone
+    std::vector<Incidence> held_;  // ascending by vertex, then part; without vertices of one part alone
     Array<PartIndex, NodeId> ids_;
 };
 

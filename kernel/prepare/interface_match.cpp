@@ -53,7 +53,7 @@ SharedVertices InterfaceTable::shared_vertices(const VertexNumbering& numbering,
                                                const std::vector<NodeId>& leaves) const {
     std::map<NodeId, PartIndex> index_of;
     for (const NodeId leaf : leaves) index_of.emplace(leaf, PartIndex(index_of.size()));
-    std::vector<SharedVertices::Held> held;
+    std::vector<SharedVertices::Incidence> held;
     held.reserve(3 * sides_.size());
     for (const InterfaceSide& side : sides_)
         for (const Key vertex : side.vertices) held.push_back({numbering.global_id(vertex), index_of.at(side.leaf)});

@@ -48,7 +48,7 @@ nlohmann::ordered_json json_of_cut(const CutSummary& cut) {
     const Vec3 &p = cut.plane.origin, &n = cut.plane.normal;
     nlohmann::ordered_json json = {{"plane", {{"point", {p.x(), p.y(), p.z()}}, {"normal", {n.x(), n.y(), n.z()}}}},
                                    {"method", name(cut.method)},
-                                   {"rung", name(cut.rung)}};
+                                   {"rung", name(cut.strategy)}};
     for_each_number(cut, [&](const char* what, const auto& number) { json[what] = number; });
     return json;
 }
@@ -58,7 +58,7 @@ CutSummary cut_of_json(const nlohmann::json& json) {
     const nlohmann::json& plane = json.at("plane");
     cut.plane = Plane(vector_named(plane, "point"), vector_named(plane, "normal"));
     cut.method = value_named(json.at("method").get<std::string>(), ContourMethod::straight);
-    cut.rung = value_named(json.at("rung").get<std::string>(), Rung::whole);
+    cut.strategy = value_named(json.at("rung").get<std::string>(), CutStrategy::whole);
     for_each_number(cut, [&](const char* what, auto& number) {
         const auto found = json.find(what);
         const bool known = found != json.end() && found->is_number();

@@ -80,8 +80,8 @@ void EventLog::on_part(const PartEvent& event) {
                  {"load_done", event.load_done},
                  {"tets_done", event.tets}};
     if (part.result.code) json["message"] = part.result.message;
-    if (!part.remedy.empty()) json["remedy"] = part.remedy;
-    if (!part.result.way.empty()) json["way"] = part.result.way;
+    if (!part.fallback.empty()) json["remedy"] = part.fallback;
+    if (!part.result.strategy.empty()) json["way"] = part.result.strategy;
     if (part.result.core_tets) json["core_tets"] = part.result.core_tets;
     write(std::move(json));
 }

@@ -23,7 +23,7 @@ Json defect_json(const Defect& defect, const Soup& soup) {
                  {"facets", soup.file_facets(defect.facets)},
                  {"vertices", soup.file_vertices(defect.vertices)},
                  {"where", {defect.where.x(), defect.where.y(), defect.where.z()}},
-                 {"what_to_do", remedy(defect)}};
+                 {"what_to_do", advice(defect)}};
     if (defect.kind == DefectKind::needle) json["angle_deg"] = defect.measure;
     if (defect.kind == DefectKind::open_edge || defect.kind == DefectKind::short_edge) json["length"] = defect.measure;
     return json;
@@ -85,8 +85,8 @@ std::string group_text(const CheckedSoup& checked, std::vector<const Defect*> de
     const std::int64_t count =
         worst.severity == Severity::warning ? checked.diagnosis.count(worst.kind) : listed;  // not all are listed
     const std::string head = fmt::format("  {:<9} {}", name(worst.severity), counted(count, worst.kind));
-    if (count == 1) return fmt::format("{}: {}; {}.\n", head, place_and_measure(worst, checked.soup), remedy(worst));
-    std::string text = fmt::format("{}; {}:\n", head, remedy(worst));
+    if (count == 1) return fmt::format("{}: {}; {}.\n", head, place_and_measure(worst, checked.soup), advice(worst));
+    std::string text = fmt::format("{}; {}:\n", head, advice(worst));
     const std::size_t named = std::min(defects.size(), most_named);
     for (std::size_t i = 0; i < named; ++i)
         text += fmt::format("{:12}{}\n", "", place_and_measure(*defects[i], checked.soup));

@@ -18,17 +18,17 @@ bool RunVerification::all_hold() const {
 
 namespace {
 
-std::string rungs_text(const std::vector<TreeNode>& nodes) {
-    std::vector<int> counts(static_cast<std::size_t>(Rung::whole) + 1, 0);
+std::string strategies_text(const std::vector<TreeNode>& nodes) {
+    std::vector<int> counts(static_cast<std::size_t>(CutStrategy::whole) + 1, 0);
     int cuts = 0;
     for (const TreeNode& node : nodes)
         if (node.cut_tried) {
-            ++counts[static_cast<int>(node.rung)];
+            ++counts[static_cast<int>(node.strategy)];
             ++cuts;
         }
     std::string text = fmt::format("{} cut{}", cuts, cuts == 1 ? "" : "s");
     for (std::size_t i = 0; i < counts.size(); ++i)
-        if (counts[i]) text += fmt::format(", {} {}", counts[i], in_words(name(static_cast<Rung>(i))));
+        if (counts[i]) text += fmt::format(", {} {}", counts[i], in_words(name(static_cast<CutStrategy>(i))));
     return text;
 }
 
@@ -49,12 +49,12 @@ std::string repairs_text(const Input& input) {
 }
 
 // "part 13: tolerance 1e-06; part 14: another order of the vertices; and 2 more".
-std::string remedies_text(const RunReport& report) {
+std::string fallbacks_text(const RunReport& report) {
     constexpr std::size_t limit = 3;
     std::vector<std::string> all;
     for (const PartReport& part : report.parts)
-        if (part.result.code == 0 && !part.remedy.empty())
-            all.push_back(fmt::format("part {}: {}", part.id, part.remedy));
+        if (part.result.code == 0 && !part.fallback.empty())
+            all.push_back(fmt::format("part {}: {}", part.id, part.fallback));
     const auto end = all.begin() + static_cast<std::ptrdiff_t>(std::min(limit, all.size()));
     const std::string more = all.size() > limit ? fmt::format("; and {} more", all.size() - limit) : "";
     return fmt::format("{}{}", fmt::join(all.begin(), end, "; "), more);
@@ -156,7 +156,7 @@ void add_input(ReportLines& lines, const RunReport& report, bool all) {
 
 void add_cuts(ReportLines& lines, const RunReport& report) {
     lines.add("parts", fmt::format("{} of {} wanted; {}", report.parts.size(), report.options.decompose.parts,
-                                   rungs_text(report.nodes)));
+                                   strategies_text(report.nodes)));
     if (report.split_facets > 0)
         lines.add("split", fmt::format("{} facets, where no contour of edges exists (--surface keep forbids it)",
                                        grouped(report.split_facets)));
@@ -167,7 +167,7 @@ void add_cuts(ReportLines& lines, const RunReport& report) {
 }
 
 void add_way(ReportLines& lines, const RunReport& report) {
-    lines.add("retried", remedies_text(report));
+    lines.add("retried", fallbacks_text(report));
     lines.add("disturbed", disturbances_text(report));
     const auto resumed = std::count_if(report.parts.begin(), report.parts.end(), std::mem_fn(&PartReport::resumed));
     if (resumed > 0) lines.add("continued", fmt::format("{} parts were finished by an interrupted run", resumed));

@@ -137,8 +137,8 @@ Json part_json(const PartReport& part, const std::string& wanted_mesher) {
                  {"store_seconds", part.result.store_seconds},
                  {"peak_rss_bytes", part.result.peak_rss_bytes}};
     if (!part.failures.empty()) json["failures"] = part.failures;
-    if (!part.remedy.empty()) json["remedy"] = part.remedy;
-    if (!part.result.way.empty()) json["way"] = part.result.way;
+    if (!part.fallback.empty()) json["remedy"] = part.fallback;
+    if (!part.result.strategy.empty()) json["way"] = part.result.strategy;
     if (part.result.core_tets) json["core_tets"] = part.result.core_tets;
     if (part.result.angles.known())
         json["improvement"] =

@@ -35,7 +35,7 @@ std::string node_line(const TreeNode& node, double volume) {
     const std::string products = node.cut_made ? fmt::format("{} {}", 2 * node.id, 2 * node.id + 1) : "part";
     std::string line = fmt::format("{:>5} {:>6} {:>6} {:>9} {:>8} {:>8} {:>6}", level_of(node), node.id, source,
                                    products, node.facets, node.vertices, percent(node.mass.volume, volume));
-    if (node.cut_tried) line += fmt::format("  {:<12} {:>5}", in_words(name(node.rung)), node.tries);
+    if (node.cut_tried) line += fmt::format("  {:<12} {:>5}", in_words(name(node.strategy)), node.tries);
     if (node.cut_made)
         line += fmt::format(" {:>8.3g} {:>5.1f} {:>8.1f}", node.section_area, node.quality.angle_deg,
                             node.quality.dihedral_deg);
@@ -62,9 +62,9 @@ LevelSummary summarise(std::span<const TreeNode> nodes) {
         level.parts += !node.cut_made;
         if (!node.cut_tried) continue;
         level.cuts += node.cut_made;
-        level.first_tries += node.rung == Rung::first_try;
-        level.soft += node.rung == Rung::soft;
-        level.whole += node.rung == Rung::whole;
+        level.first_tries += node.strategy == CutStrategy::first_try;
+        level.soft += node.strategy == CutStrategy::soft;
+        level.whole += node.strategy == CutStrategy::whole;
         level.tries += node.tries;
         if (!node.cut_made) continue;
         level.quality.angle_deg = std::min(level.quality.angle_deg, node.quality.angle_deg);

@@ -58,9 +58,9 @@ PartIndex index_of_leaf(const std::vector<NodeId>& leaves, NodeId leaf) {
 }
 
 void find_shared_edges(Communicator& ranks, const std::vector<NodeId>& leaves, std::vector<OwnPart>& own) {
-    std::vector<SharedEdges::Held> told;
+    std::vector<SharedEdges::Incidence> told;
     for (const OwnPart& part : own) {
-        const std::vector<SharedEdges::Held> by_part = SharedEdges::told_by(part_of_job(part.job));
+        const std::vector<SharedEdges::Incidence> by_part = SharedEdges::incidences_of(part_of_job(part.job));
         told.insert(told.end(), by_part.begin(), by_part.end());
     }
     const SharedEdges shared(gather_items(ranks, told), leaves);

@@ -19,8 +19,8 @@ std::string list(const char* one, const char* many, const std::vector<std::int32
 
 struct KindTexts {
     const char* name;
-    const char* remedy;
-    const char* when_repaired = nullptr;  // the other remedy, where there is one
+    const char* advice;
+    const char* when_repaired = nullptr;  // the other advice, where there is one
 };
 
 constexpr std::array<KindTexts, defect_kind_count> texts_of_kinds = {{
@@ -72,9 +72,9 @@ const char* name(Severity severity) {
     return names[static_cast<std::size_t>(severity)];
 }
 
-const char* remedy(const Defect& defect) {
+const char* advice(const Defect& defect) {
     const KindTexts& texts = texts_of(defect.kind);
-    return defect.severity == Severity::repaired && texts.when_repaired ? texts.when_repaired : texts.remedy;
+    return defect.severity == Severity::repaired && texts.when_repaired ? texts.when_repaired : texts.advice;
 }
 
 std::string counted(std::int64_t n, DefectKind kind) {

@@ -52,7 +52,7 @@ const char* name(DefectKind kind);
 const char* name(Severity severity);
 
 /// What to do about it, in the imperative: "remove the copies"; or that repairs do it.
-const char* remedy(const Defect& defect);
+const char* advice(const Defect& defect);
 
 /// "3 open edge loops", "1 needle".
 std::string counted(std::int64_t n, DefectKind kind);

@@ -345,13 +345,13 @@ bool Diagnosis::clean() const { return std::none_of(defects.begin(), defects.end
 std::string Diagnosis::summary(const Soup& soup) const {
     const auto first = std::find_if(defects.begin(), defects.end(), is_error);
     if (first == defects.end()) return "The surface is closed, manifold and free of self-intersections.";
-    if (first->kind == DefectKind::empty) return fmt::format("The surface has no facets: {}.", remedy(*first));
+    if (first->kind == DefectKind::empty) return fmt::format("The surface has no facets: {}.", advice(*first));
     if (first->kind == DefectKind::flat)
-        return fmt::format("All vertices of the surface lie in one plane: {}.", remedy(*first));
+        return fmt::format("All vertices of the surface lie in one plane: {}.", advice(*first));
     const auto errors = std::count_if(defects.begin(), defects.end(),
                                       [&](const Defect& d) { return is_error(d) && d.kind == first->kind; });
     return fmt::format("The surface has {}, {}{}: {}.", counted(errors, first->kind),
-                       errors > 1 ? "the first at " : "at ", place(*first, soup), remedy(*first));
+                       errors > 1 ? "the first at " : "at ", place(*first, soup), advice(*first));
 }
 
 std::vector<ErrorElements> Diagnosis::elements(const Soup& soup) const {

@@ -83,7 +83,7 @@ Filling fill_around_core(const SurfaceArrays& surface, const MesherOptions& opti
         fill_shell_alone(surface, {core.boundary_points(), core.boundary_faces(), core.free_points()}, options);
     if (core.cell_count() == 0) return filling;
     filling.mesh = join(surface, core, std::move(filling.mesh));
-    filling.way = "core and shell";
+    filling.strategy = "core and shell";
     filling.core_tets = core.cell_count();
     if (!filling.improvement.is_empty()) filling.improvement.smallest_before.add(lattice_angle_deg, core.cell_count());
     return filling;
@@ -98,7 +98,7 @@ Filling fill_without_core(const SurfaceArrays& surface, const MesherOptions& opt
     } catch (const Error& error) {
         if (error.code() != ErrorCode::subdomain) throw;
         Filling filling = find_mesher("tetgen").fill(surface, for_tetgen(options));
-        filling.way = "TetGen: the shell has failed";
+        filling.strategy = "TetGen: the shell has failed";
         return filling;
     }
 }
@@ -115,9 +115,9 @@ Filling fill_with_lattice(const SurfaceArrays& surface, const MesherOptions& opt
 
 // TetGen, and what it has for failures.
 std::vector<MesherCall> lattice_calls(const MesherOptions& wanted) {
-    std::vector<MesherCall> calls = {{.remedy = "", .options = wanted}};
+    std::vector<MesherCall> calls = {{.fallback = "", .options = wanted}};
     for (MesherCall& call : find_mesher("tetgen").calls(for_tetgen(wanted))) {
-        call.remedy = call.remedy.empty() ? "TetGen" : "TetGen, " + call.remedy;
+        call.fallback = call.fallback.empty() ? "TetGen" : "TetGen, " + call.fallback;
         calls.push_back(std::move(call));
     }
     return calls;

@@ -31,8 +31,8 @@ struct MesherOptions {
 
 /// What a mesher returns.
 struct Filling {
-    TetMesh mesh;     ///< with its neighbours only if the mesher knows them anyway
-    std::string way;  ///< which of its ways the mesher went, in a few words for the report; empty if it has one
+    TetMesh mesh;          ///< with its neighbours only if the mesher knows them anyway
+    std::string strategy;  ///< which of its ways the mesher went, in a few words for the report; empty if it has one
     std::int64_t core_tets = 0;    ///< the first so many cells were stamped, the others are of the shell
     Improvement improvement = {};  ///< what was done to the cells; empty if nothing
     double improve_seconds = 0;    ///< that took, wall clock

@@ -11,7 +11,7 @@ namespace kerf {
 
 /// One call of a mesher, and in which way it departs from what was asked for.
 struct MesherCall {
-    std::string remedy;  ///< "another order of the vertices"; empty for the first call
+    std::string fallback;  ///< "another order of the vertices"; empty for the first call
     MesherOptions options;
     bool cut_first = false;  ///< fill both halves of a cut, and join them
     bool easier = false;     ///< gives the mesher less to do, so that it helps against time-outs

@@ -27,12 +27,12 @@ Filling fill_with_tetgen(const SurfaceArrays& surface, const MesherOptions& opti
 // Other orders of the vertices, other tolerances, a weaker bound of the shape, none, the part cut in two, eight times
 // the wanted volume. With the expert's switches only the order changes, and the part is cut in two.
 std::vector<MesherCall> tetgen_calls(const MesherOptions& wanted) {
-    std::vector<MesherCall> calls = {{.remedy = "", .options = wanted}};
-    const auto add = [&](const std::string& remedy) -> MesherOptions& {
-        return calls.emplace_back(MesherCall{.remedy = remedy, .options = wanted}).options;
+    std::vector<MesherCall> calls = {{.fallback = "", .options = wanted}};
+    const auto add = [&](const std::string& fallback) -> MesherOptions& {
+        return calls.emplace_back(MesherCall{.fallback = fallback, .options = wanted}).options;
     };
     const auto cut_in_two = [&] {
-        calls.push_back({.remedy = "cut in two and joined", .options = wanted, .cut_first = true, .easier = true});
+        calls.push_back({.fallback = "cut in two and joined", .options = wanted, .cut_first = true, .easier = true});
     };
     for (std::uint32_t seed = 1; seed <= other_orders; ++seed)
         add("another order of the vertices").tetgen.shuffle = seed;

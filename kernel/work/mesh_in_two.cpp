@@ -47,8 +47,8 @@ Filling mesh_in_two(const SurfaceArrays& surface, const MesherOptions& options) 
         filling.improvement.add(of_half.improvement);
         filling.improve_seconds += of_half.improve_seconds;
         const TetMesh& mesh = of_half.mesh;
-        if (filling.way.find(of_half.way) == std::string::npos)
-            filling.way += (filling.way.empty() ? "" : ", ") + of_half.way;
+        if (filling.strategy.find(of_half.strategy) == std::string::npos)
+            filling.strategy += (filling.strategy.empty() ? "" : ", ") + of_half.strategy;
         std::vector<std::int32_t> number(mesh.vertices.size());
         const auto place = [&](std::size_t vertex, std::int32_t at) {
             if (static_cast<std::size_t>(at) >= joined.vertices.size()) joined.vertices.resize(at + 1);

@@ -129,7 +129,7 @@ PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::s
             return call.cut_first ? mesh_in_two(job.surface, call.options) : mesh_volume(job.surface, call.options);
         });
         TetMesh& mesh = filling.mesh;
-        result.way = filling.way;
+        result.strategy = filling.strategy;
         result.improvement = filling.improvement;
         result.improve_seconds = filling.improve_seconds;
         mesh.neighbours = {};  // parts are stored without

@@ -46,7 +46,7 @@ struct PartAttempt {
 
     template <class Archive>
     void archive(Archive& a) {
-        a(job_file, part_file, call.remedy, call.options, call.cut_first);
+        a(job_file, part_file, call.fallback, call.options, call.cut_first);
     }
 };
 
@@ -67,15 +67,15 @@ struct ImprovedAngles {
 
 /// What the parent keeps of a part; the mesh itself goes from the worker to its file.
 struct PartResult {
-    int code = 0;         ///< value of ErrorCode, 0: the part is verified and written
-    std::string message;  ///< if code
-    std::string mesher;   ///< that has filled the part; empty if none was asked
-    std::string way;      ///< Filling::way
+    int code = 0;          ///< value of ErrorCode, 0: the part is verified and written
+    std::string message;   ///< if code
+    std::string mesher;    ///< that has filled the part; empty if none was asked
+    std::string strategy;  ///< Filling::strategy
     std::int64_t vertices = 0, interior_vertices = 0, tets = 0;
     std::int64_t core_tets = 0;  ///< Filling::core_tets
     MeshLaws laws;
     PartQuality quality;
-    SizeRatios sizes;                            ///< against the sizes of the call, which a remedy may have made larger
+    SizeRatios sizes;                            ///< against the sizes of the call, which a fallback may have made larger
     std::array<std::uint64_t, 2> hash = {0, 0};  ///< of hash_part()
     FileHash file_hash = {0, 0};                 ///< of the stored part
     Improvement improvement;                     ///< Filling::improvement
@@ -86,7 +86,7 @@ struct PartResult {
 
     template <class Archive>
     void archive(Archive& a) {
-        a(code, message, mesher, way, vertices, interior_vertices, tets, core_tets, laws, quality, sizes, hash,
+        a(code, message, mesher, strategy, vertices, interior_vertices, tets, core_tets, laws, quality, sizes, hash,
           file_hash, improvement, angles, improve_seconds, load_seconds, mesh_seconds, verify_seconds, store_seconds,
           peak_rss_bytes);
     }

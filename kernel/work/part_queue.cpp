@@ -67,7 +67,7 @@ std::optional<PartQueue::Finished> PartQueue::step(double wait_seconds) {
         idle_.pop_back();
         MesherCall call = calls_[progress_[part].call];
         call.options.size = call.options.size.within(parts_[part].box);
-        outcome.remedy = call.remedy;
+        outcome.fallback = call.fallback;
         ++outcome.attempts;
         pool_.start(static_cast<int>(part), options_.worker_program,
                     {"--memory", std::to_string(options_.memory_mb), "--parent", std::to_string(::getpid())},

@@ -25,13 +25,13 @@ struct PartOutcome {
     std::int32_t worker = 0;            ///< slot in [0, workers)
     double seconds = 0;                 ///< wall clock over all attempts, starting the processes included
     std::vector<std::string> failures;  ///< why earlier attempts failed
-    std::string remedy;                 ///< of the last attempt (volume/retries.h); empty: none was needed
+    std::string fallback;               ///< of the last attempt (volume/retries.h); empty: none was needed
     bool timed_out = false;             ///< an attempt has exceeded the limit of time
     std::string interruption;           ///< how a worker died whose call was repeated as it was; empty: none did
 
     template <class Archive>
     void archive(Archive& a) {
-        a(result, attempts, worker, seconds, failures, remedy, timed_out, interruption);
+        a(result, attempts, worker, seconds, failures, fallback, timed_out, interruption);
     }
 };
 

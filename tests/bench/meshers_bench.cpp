@@ -101,7 +101,7 @@ void fill(const std::string& mesher, const std::string& path, double bound, bool
     const Filling filling = mesh_volume(surface, options);
     const double seconds = user_seconds() - start, bytes = bench::memory_bytes("VmHWM");
     fmt::print(R"({{"tets": {}, "core_tets": {}, "way": "{}", "seconds": {}, "peak_bytes": {})",
-               filling.mesh.tets.size(), filling.core_tets, filling.way, seconds, bytes);
+               filling.mesh.tets.size(), filling.core_tets, filling.strategy, seconds, bytes);
     if (is_measured)
         fmt::print(R"(, "is_valid": {}, {})", verify_mesh(filling.mesh, surface).hold(),
                    quality_json(filling.mesh, bound));

@@ -23,7 +23,7 @@ class PlaneWitness : public RunListener {
     bool wants_cuts() const override { return true; }
     void on_cut(const Surface& parent, const Cut& cut) override {
         normals.push_back(cut.plane.normal);
-        if (cut.rung != Rung::first_try && cut.rung != Rung::local_repair) return;
+        if (cut.strategy != CutStrategy::first_try && cut.strategy != CutStrategy::local_repair) return;
         double low = 0, high = 0;
         for (std::int32_t v = 0; v < parent.vertex_count(); ++v) {
             low = std::min(low, cut.plane.distance(parent.point(v)));

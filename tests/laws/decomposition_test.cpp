@@ -76,12 +76,12 @@ TEST_F(Assets, ReachEveryNumberOfPartsWithoutAFailedCut) {
 
 TEST_F(Assets, NearlyAllCutsNeedOneTryOrNoOtherPlane) {
     const std::vector<TreeNode> cuts = all_cuts();
-    std::map<Rung, double> share;
-    for (const TreeNode& cut : cuts) share[cut.rung] += 1 / static_cast<double>(cuts.size());
-    EXPECT_GE(share[Rung::first_try], 0.65);
-    EXPECT_GE(share[Rung::first_try] + share[Rung::local_repair], 0.85);
-    EXPECT_LT(share[Rung::soft], 0.05);
-    EXPECT_EQ(share[Rung::straight], 0);
+    std::map<CutStrategy, double> share;
+    for (const TreeNode& cut : cuts) share[cut.strategy] += 1 / static_cast<double>(cuts.size());
+    EXPECT_GE(share[CutStrategy::first_try], 0.65);
+    EXPECT_GE(share[CutStrategy::first_try] + share[CutStrategy::local_repair], 0.85);
+    EXPECT_LT(share[CutStrategy::soft], 0.05);
+    EXPECT_EQ(share[CutStrategy::straight], 0);
 }
 
 TEST_F(Assets, InterfacesAreHardlyLargerThanPlaneSections) {

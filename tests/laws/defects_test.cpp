@@ -66,9 +66,9 @@ void expect_listed(const NamedSoup& base, const Damage& damage, unsigned seed) {
     EXPECT_EQ(lines(checked), lines(damaged.expected));
     EXPECT_EQ(checked.diagnosis.clean(), !any_error(damaged.expected));
     for (const Defect& defect : checked.diagnosis.defects)
-        EXPECT_EQ(std::string(remedy(defect)).starts_with("nothing needs to be done"),
+        EXPECT_EQ(std::string(advice(defect)).starts_with("nothing needs to be done"),
                   defect.severity == Severity::repaired)
-            << remedy(defect);
+            << advice(defect);
 }
 
 // Facets from their lowest vertex on, sorted.

@@ -30,7 +30,7 @@ TEST(Problems, EveryOptionThatARemedyNamesIsAdvised) {
     for (std::size_t kind = 0; kind < defect_kind_count; ++kind)
         for (const Severity severity : {Severity::error, Severity::repaired, Severity::warning}) {
             const std::string text =
-                remedy({.kind = static_cast<DefectKind>(kind), .severity = severity, .facets = {}, .vertices = {}});
+                advice({.kind = static_cast<DefectKind>(kind), .severity = severity, .facets = {}, .vertices = {}});
             std::set<std::string> named, advised;
             for (std::sregex_iterator i(text.begin(), text.end(), option), end; i != end; ++i) named.insert((*i)[1]);
             for (const OptionText& advice : advised_options(text)) {

@@ -155,14 +155,14 @@ TEST(Runs, AStraightCutMadeAgainIsThatOfARun) {
     driver.open(folder.file("run"));
     ASSERT_TRUE(driver.document().trace);
     const CutSummary of_run = *driver.document().tree.find(1)->cut;
-    ASSERT_EQ(of_run.rung, Rung::straight);
+    ASSERT_EQ(of_run.strategy, CutStrategy::straight);
     ASSERT_LT(of_run.quality.angle_deg, 60);
     driver.state().panels.parameters = true;
     driver.frame();
     driver.click("Re-run cut of node 1");
     driver.await("the cut", [&] { return !driver.app().session().busy(); });
     const CutSummary again = *driver.document().tree.find(1)->cut;
-    EXPECT_EQ(again.rung, Rung::straight);
+    EXPECT_EQ(again.strategy, CutStrategy::straight);
     EXPECT_EQ(again.interface_faces, of_run.interface_faces);
     EXPECT_NEAR(again.quality.angle_deg, of_run.quality.angle_deg, 1e-9);
     EXPECT_NEAR(again.quality.dihedral_deg, of_run.quality.dihedral_deg, 1e-9);

@@ -168,7 +168,7 @@ TEST(Explosion, SistersPartByTheirCut) {
         row.state = id < 4 ? NodeState::divided : NodeState::done;
         row.volume = 8;
         if (id >= 4) continue;
-        row.cut.emplace().rung = Rung::first_try;
+        row.cut.emplace().strategy = CutStrategy::first_try;
         row.cut->plane = Plane(Vec3::Zero(), id == 1 ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitY()));
     }
     EXPECT_EQ(explosion_offset(tree, 6, 1, 0, 1), Vec3::Zero());

@@ -399,7 +399,7 @@ TEST_F(Data, SurfacesOfTraceAndFolderAgree) {
         EXPECT_EQ(other->plane() != nullptr, row.plane() != nullptr);
         ASSERT_EQ(other->cut.has_value(), row.cut.has_value());
         if (row.cut) {
-            EXPECT_EQ(other->cut->rung, row.cut->rung);
+            EXPECT_EQ(other->cut->strategy, row.cut->strategy);
             EXPECT_EQ(other->cut->interface_faces, row.cut->interface_faces);
         }
         EXPECT_EQ(other->leaves, row.leaves);
@@ -420,7 +420,7 @@ TEST_F(SessionTest, SurfacesOfStraightCutsAreClosed) {
     ASSERT_TRUE(settle(session_));
     ASSERT_TRUE(document().trace) << document().progress.message;
     ASSERT_EQ(document().tree.parts_below(1).size(), 6u);
-    EXPECT_EQ(document().tree.find(1)->cut->rung, Rung::straight);
+    EXPECT_EQ(document().tree.find(1)->cut->strategy, CutStrategy::straight);
     Session folder{KERF_PROGRAM};
     folder.open(document().folder);
     ASSERT_TRUE(settle(folder));
@@ -679,7 +679,7 @@ TEST_F(Data, ACutMadeAgainWithOtherOptionsTakesItsPlace) {
     ASSERT_TRUE(settle(by_folder_));
     EXPECT_EQ(failures_of(by_folder_), "");
     ASSERT_TRUE(d.trace->find(4));
-    EXPECT_EQ(d.trace->find(4)->rung, Rung::straight);
+    EXPECT_EQ(d.trace->find(4)->strategy, CutStrategy::straight);
     const auto split = get(by_folder_, [&] { return by_folder_.surface(4); });
     EXPECT_EQ(split->facets, d.trace->find(4)->split_parent.facets);
     volume = 0;

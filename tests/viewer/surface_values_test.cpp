@@ -112,7 +112,7 @@ TEST(Advice, IsInWhatProblemsSay) {
     EXPECT_EQ(words_of(*of_slivers), "Remesh the surface");
     EXPECT_FALSE(is_set(RunOptions(), *of_slivers));
     const auto of_needle = advised_option(
-        remedy({.kind = DefectKind::needle, .severity = Severity::warning, .facets = {}, .vertices = {}}));
+        advice({.kind = DefectKind::needle, .severity = Severity::warning, .facets = {}, .vertices = {}}));
     ASSERT_TRUE(of_needle);
     EXPECT_EQ(words_of(*of_needle), "Remesh the surface");
 }

@@ -308,7 +308,7 @@ TEST(ClipText, NamesAxesNormalsAndNodes) {
     EXPECT_TRUE(clip_from_text("-z=0.5", {}, document).flipped);
     EXPECT_LT((clip_from_text("1,1,0=0.5", {}, document).normal - Vec3(1, 1, 0).normalized()).norm(), 1e-15);
     TreeRow& row = document.tree.at(1);
-    row.cut.emplace().rung = Rung::first_try;
+    row.cut.emplace().strategy = CutStrategy::first_try;
     row.cut->plane = Plane(Vec3(11, 21, 30.5), Vec3(0, 0.6, 0.8));
     const ShownSide side = shown_side(clip_from_text("node=1", {}, document), box);
     EXPECT_NEAR(side.distance(row.plane()->origin), 0, 1e-12);

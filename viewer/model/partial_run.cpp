@@ -73,7 +73,7 @@ PartialRun look_at_partial_run(const std::string& partial, const std::set<NodeId
         row.id = part;
         row.tets = entry->outcome.result.tets;
         row.core_tets = entry->outcome.result.core_tets;
-        row.filled_by = name_of_filler(entry->outcome.result.mesher, entry->outcome.result.way);
+        row.filled_by = name_of_filler(entry->outcome.result.mesher, entry->outcome.result.strategy);
         row.seconds = entry->outcome.seconds;
         run.outcomes.push_back(row);
     }

@@ -31,7 +31,8 @@ bool has_edges(const Cut& cut, Stage stage) {
 // The best soft try is used where nothing better was found.
 bool is_used(const Cut& cut, const CutTry& attempt) {
     if (attempt.refusal == Refusal::none) return true;
-    return cut.rung == Rung::soft && attempt.refusal == Refusal::soft && attempt.contour == cut.stages.smoothed;
+    return cut.strategy == CutStrategy::soft && attempt.refusal == Refusal::soft &&
+           attempt.contour == cut.stages.smoothed;
 }
 
 void add_cut(const Cut& cut, std::vector<Step>& steps) {
@@ -83,7 +84,7 @@ std::string describe_plane(const TreeRow& row) {
     const Vec3& n = row.plane()->normal;
     return fmt::format("Normal ({:.3f}, {:.3f}, {:.3f}) through ({:.4g}, {:.4g}, {:.4g}); {}.", n.x(), n.y(), n.z(),
                        row.plane()->origin.x(), row.plane()->origin.y(), row.plane()->origin.z(),
-                       in_words(name(row.cut->rung)));
+                       in_words(name(row.cut->strategy)));
 }
 
 std::string describe_edges(const Cut& cut, Stage stage) {

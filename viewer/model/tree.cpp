@@ -37,8 +37,8 @@ const char* name(NodeState state) {
     return "";
 }
 
-std::string name_of_filler(const std::string& mesher, const std::string& way) {
-    if (!way.empty()) return way;
+std::string name_of_filler(const std::string& mesher, const std::string& strategy) {
+    if (!strategy.empty()) return strategy;
     return mesher == "tetgen" ? "TetGen" : mesher;
 }
 

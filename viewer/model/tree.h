@@ -52,7 +52,7 @@ constexpr bool lies_below(NodeId node, NodeId ancestor) {
 }
 
 /// What has filled a part, in words: the way that its mesher went, or the mesher where it has one way.
-std::string name_of_filler(const std::string& mesher, const std::string& way);
+std::string name_of_filler(const std::string& mesher, const std::string& strategy);
 
 /// Rows ascending by number.
 struct Tree {

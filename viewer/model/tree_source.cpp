@@ -6,7 +6,8 @@ void describe_cut(const Cut& cut, TreeRow& row) {
     row.state = cut.made() ? NodeState::divided : NodeState::waiting;
     row.cut = summary_of(cut);
     // A run triangulates the interface of a straight cut, and measures it, after it has told of the cut.
-    const bool is_measured = cut.rung != Rung::straight || cut.quality.angle_deg < InterfaceQuality().angle_deg;
+    const bool is_measured =
+        cut.strategy != CutStrategy::straight || cut.quality.angle_deg < InterfaceQuality().angle_deg;
     if (!is_measured) row.cut->quality = {-1, -1, -1};
     if (cut.seconds > 0) row.seconds = cut.seconds;
 }

@@ -60,13 +60,13 @@ class Table {
 };
 
 bool is_same(const CutSummary& a, const CutSummary& b) {
-    return a.rung == b.rung && a.tries == b.tries && a.contour_edges == b.contour_edges &&
+    return a.strategy == b.strategy && a.tries == b.tries && a.contour_edges == b.contour_edges &&
            a.plane.origin == b.plane.origin && a.plane.normal == b.plane.normal && a.interface_area == b.interface_area;
 }
 
 void compare_cuts(NodeId node, const CutSummary& before, const CutSummary& now, const Palette& colors) {
     Table table(fmt::format("Cut of node {}", node).c_str(), colors);
-    table.add("cut by", in_words(name(before.rung)), in_words(name(now.rung)));
+    table.add("cut by", in_words(name(before.strategy)), in_words(name(now.strategy)));
     table.add("tries", before.tries, now.tries, Better::less);
     table.add("contour length", before.contour_length, now.contour_length, Better::less);
     table.add("contour edges", static_cast<double>(before.contour_edges), static_cast<double>(now.contour_edges));

@@ -130,23 +130,23 @@ class ProblemList {
         for (const auto& [key, group] : all) draw_group(key, group, all.size() <= 4 || memory_.defect_group == key);
     }
 
-    void draw_group(int key, const Group& group, bool with_remedy) {
+    void draw_group(int key, const Group& group, bool with_advice) {
         const Defect& first = *group.first;
         const bool chosen = memory_.defect_group == key;
         const std::string label = fmt::format("{} {}", name(first.severity), name(first.kind));
         if (ImGui::Selectable(("##" + label).c_str(), chosen)) memory_.defect_group = chosen ? -1 : key;
         context_.widgets.record(label);
-        explain(fmt::format("To do: {}.\n{}", remedy(first),
+        explain(fmt::format("To do: {}.\n{}", advice(first),
                             chosen ? "A click lists all again." : "A click lists only these."));
         ImGui::SameLine(0, 0);
         draw_dot(first.severity);
         show(kerf::counted(group.count, first.kind), colors_.text);
         ImGui::SameLine();
         show_right(name(first.severity), color_of(first.severity, colors_));
-        if (!with_remedy) return;
+        if (!with_advice) return;
         ImGui::Indent(1.1f * em());
-        show_wrapped(fmt::format("To do: {}.", remedy(first)), colors_.dim);
-        draw_advice(context_, memory_, remedy(first));
+        show_wrapped(fmt::format("To do: {}.", advice(first)), colors_.dim);
+        draw_advice(context_, memory_, advice(first));
         ImGui::Unindent(1.1f * em());
     }
 
@@ -192,7 +192,7 @@ class ProblemList {
         const ImVec2 end = ImGui::GetCursorPos();
         const std::string where = place(defect, checked_.soup);
         if (ImGui::IsItemHovered())
-            explain(fmt::format("{}: {}.\nTo do: {}.", name(defect.kind), where, remedy(defect)));
+            explain(fmt::format("{}: {}.\nTo do: {}.", name(defect.kind), where, advice(defect)));
         ImGui::SetCursorPos(start);
         draw_dot(defect.severity);
         show(name(defect.kind), colors_.text);
@@ -223,7 +223,7 @@ class ProblemList {
             const Defect& defect = checked_.diagnosis.defects[static_cast<std::size_t>(i)];
             const std::string measure = measure_of(defect);
             all += fmt::format("{} {}: {}{}{}; {}.\n", name(defect.severity), name(defect.kind),
-                               place(defect, checked_.soup), measure.empty() ? "" : ", ", measure, remedy(defect));
+                               place(defect, checked_.soup), measure.empty() ? "" : ", ", measure, advice(defect));
         }
         return all;
     }

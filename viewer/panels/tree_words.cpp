@@ -26,7 +26,7 @@ class Lines {
 };
 
 void add_cut(const CutSummary& cut, Lines& lines) {
-    lines.add("cut by", in_words(name(cut.rung)));
+    lines.add("cut by", in_words(name(cut.strategy)));
     if (cut.tries > 0) lines.add("tries", static_cast<std::int64_t>(cut.tries));
     if (!cut.made()) return;
     lines.add("contour length", cut.contour_length);
@@ -39,16 +39,17 @@ void add_cut(const CutSummary& cut, Lines& lines) {
     lines.add("smallest dihedral angle", cut.quality.dihedral_deg, " deg");
 }
 
-bool is_cut_by(const TreeRow& row, Rung rung) { return row.cut && row.cut->rung == rung; }
+bool is_cut_by(const TreeRow& row, CutStrategy strategy) { return row.cut && row.cut->strategy == strategy; }
 
 }  // namespace
 
 ImVec4 color_of(const TreeRow& row, const Palette& colors) {
     switch (row.state) {
         case NodeState::divided:
-            return is_cut_by(row, Rung::soft) || is_cut_by(row, Rung::straight) ? colors.warning : colors.dim;
+            return is_cut_by(row, CutStrategy::soft) || is_cut_by(row, CutStrategy::straight) ? colors.warning
+                                                                                              : colors.dim;
         case NodeState::waiting:
-            return is_cut_by(row, Rung::whole) ? colors.warning : colors.waiting;
+            return is_cut_by(row, CutStrategy::whole) ? colors.warning : colors.waiting;
         case NodeState::meshing:
             return colors.busy;
         case NodeState::done:
@@ -62,7 +63,7 @@ ImVec4 color_of(const TreeRow& row, const Palette& colors) {
 std::string word_of(const TreeRow& row, bool running) {
     if (row.state == NodeState::waiting && !running) return "not meshed";
     if (row.leaf()) return name(row.state);
-    return row.cut ? in_words(name(row.cut->rung)) : "cut";
+    return row.cut ? in_words(name(row.cut->strategy)) : "cut";
 }
 
 std::string details(const TreeRow& row) {

@@ -196,7 +196,7 @@ std::string describe_defect(const Document& document, const Selection& s) {
     const Defect* defect = defect_of(document, s);
     if (!defect) return "";
     return fmt::format("{} {}\n{}\nto do: {}\n", name(defect->severity), name(defect->kind),
-                       place(*defect, document.checked->soup), remedy(*defect));
+                       place(*defect, document.checked->soup), advice(*defect));
 }
 
 std::string describe_mesh(Session& session, const Selection& s) {

@@ -109,7 +109,8 @@ TEST(Bisect, GoesAgainstTheGrainOfEdges) {
         CutOptions across_z;
         across_z.axis = 2;
         const Cut cut = bisect(surface, mass_properties(surface), 1, {0.5}, across_z, false).cut;
-        EXPECT_TRUE(cut.rung == Rung::first_try || cut.rung == Rung::local_repair) << name(cut.rung);
+        EXPECT_TRUE(cut.strategy == CutStrategy::first_try || cut.strategy == CutStrategy::local_repair)
+            << name(cut.strategy);
         EXPECT_LE(cut.tries.size(), 3U);
         EXPECT_GE(cut.quality.dihedral_deg, across_z.good_dihedral_deg);
         EXPECT_GE(cut.quality.angle_deg, across_z.good_angle_deg);
@@ -165,7 +166,7 @@ TEST_P(Bisections, RecordChangesNothingElse) {
 TEST(Bisect, BodyThatCannotBeCutStaysWhole) {
     const Surface tetrahedron(test::to_arrays(test::tetrahedron()));
     const Bisection result = bisect(tetrahedron, mass_properties(tetrahedron), 1, {}, {}, false);
-    EXPECT_EQ(result.cut.rung, Rung::whole);
+    EXPECT_EQ(result.cut.strategy, CutStrategy::whole);
     EXPECT_FALSE(result.cut.tries.empty());
     for (const CutTry& attempt : result.cut.tries) EXPECT_NE(attempt.refusal, Refusal::none);
 }
@@ -178,7 +179,7 @@ TEST(Bisect, PlaneInAGapThatTouchesABodyParts) {
     options.criterion = Criterion::equidistant;
     options.axis = 0;
     const Bisection result = bisect(surface, mass_properties(surface), 1, {}, options, false);
-    EXPECT_EQ(result.cut.rung, Rung::first_try);
+    EXPECT_EQ(result.cut.strategy, CutStrategy::first_try);
     EXPECT_TRUE(result.cut.loops.empty());
     EXPECT_DOUBLE_EQ(enclosed_volume(result.halves[0]), 1);
     EXPECT_DOUBLE_EQ(enclosed_volume(result.halves[1]), 8);

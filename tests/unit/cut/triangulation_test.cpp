@@ -206,7 +206,7 @@ TEST(Triangulation, EndsAtItsLimitAndWhenItIsAskedTo) {
     EXPECT_THROW(triangulate(region), Error);
     region.max_points = points + 1;
     int polls = 0;
-    region.poll = Poll([&] {
+    region.check_cancelled = CancellationCheck([&] {
         if (++polls == 5) throw Error(ErrorCode::cancelled, "enough");
     });
     EXPECT_THROW(triangulate(region), Error);

@@ -161,7 +161,7 @@ TEST(Improve, MakesTheWorstBetter) {
         for (const double threshold_deg : {12.0, 25.0, 32.0}) {
             SCOPED_TRACE(named.name);
             TetMesh mesh = named.mesh;
-            const Improvement improvement = improve(mesh, {.threshold_deg = threshold_deg, .most_looks = 50});
+            const Improvement improvement = improve(mesh, {.threshold_deg = threshold_deg, .evaluation_budget = 50});
             expect_better(improvement, mesh, named.mesh);
             EXPECT_EQ(improvement.bad_cells_before, count_bad(named.mesh, threshold_deg));
             EXPECT_EQ(improvement.bad_cells_after, count_bad(mesh, threshold_deg));
@@ -197,9 +197,9 @@ TEST(Improve, EndsWhereItHasLookedAtEnoughCells) {
     const NamedMesh named = meshed("sphere", test::icosphere(3), SizeField(4e-5));
     double last_p1 = angles_of(named.mesh).smallest.percentile(0.01);
     std::int64_t last_operations = 0;
-    for (const double most_looks : {0.0, 2.0, 5.0, 1e3}) {
+    for (const double evaluation_budget : {0.0, 2.0, 5.0, 1e3}) {
         TetMesh mesh = named.mesh;
-        const Improvement improvement = improve(mesh, {.threshold_deg = 35, .most_looks = most_looks});
+        const Improvement improvement = improve(mesh, {.threshold_deg = 35, .evaluation_budget = evaluation_budget});
         EXPECT_TRUE(verify_mesh(mesh, named.surface).hold());
         EXPECT_EQ(improvement.bad_cells_after, count_bad(mesh, 35));
         const std::int64_t operations = improvement.removed_edges + improvement.moved_vertices;

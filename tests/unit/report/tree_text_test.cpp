@@ -33,7 +33,8 @@ TreeNode random_node(NodeId id, bool cut, std::mt19937& random) {
     node.mass.volume = id == 1 ? 1e6 : 1 + static_cast<double>(random() % 999999);
     node.cut_tried = cut || random() % 4 == 0;
     node.cut_made = cut;
-    node.rung = cut ? static_cast<Rung>(random() % static_cast<unsigned>(Rung::whole)) : Rung::whole;
+    node.strategy =
+        cut ? static_cast<CutStrategy>(random() % static_cast<unsigned>(CutStrategy::whole)) : CutStrategy::whole;
     node.tries = static_cast<std::int32_t>(1 + random() % 99);
     node.section_area = std::ldexp(1.0 + static_cast<double>(random() % 1000), static_cast<int>(random() % 80) - 40);
     node.quality.angle_deg = 1 + static_cast<double>(random() % 89);
@@ -73,7 +74,7 @@ TEST(TreeText, LinesNameSourceAndProducts) {
         EXPECT_EQ(found[2], node.id == 1 ? "-" : std::to_string(node.id / 2));
         EXPECT_EQ(found[3], node.cut_made ? std::to_string(2 * node.id) : "part");
         EXPECT_EQ(found[node.cut_made ? 7 : 6], "100.00") << "of the first node, which is the whole body";
-        const bool two_words = node.cut_tried && in_words(name(node.rung)).find(' ') != std::string::npos;
+        const bool two_words = node.cut_tried && in_words(name(node.strategy)).find(' ') != std::string::npos;
         EXPECT_EQ(found.size(), (node.cut_made ? 13u : node.cut_tried ? 9u : 7u) + (two_words ? 1 : 0));
     }
 }

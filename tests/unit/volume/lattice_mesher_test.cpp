@@ -91,7 +91,7 @@ Ending ending_of(const SurfaceArrays& surface, const MesherOptions& options) {
     try {
         const Filling filling = mesh_volume(surface, options);
         if (!verify_mesh(filling.mesh, surface).hold()) return laws_broken;
-        if ((filling.core_tets > 0) != (filling.way == "core and shell")) return laws_broken;
+        if ((filling.core_tets > 0) != (filling.strategy == "core and shell")) return laws_broken;
         return filling.core_tets > 0 ? core_and_shell : by_tetgen;
     } catch (const Error& error) {
         return error.code() == ErrorCode::subdomain ? refused : laws_broken;

@@ -31,7 +31,7 @@ std::vector<MesherOptions> options_to_try() {
 TEST(MesherCalls, BeginAsAskedForAndAllDiffer) {
     for (const MesherOptions& wanted : options_to_try()) {
         const std::vector<MesherCall> calls = mesher_calls(wanted);
-        EXPECT_TRUE(calls[0].remedy.empty());
+        EXPECT_TRUE(calls[0].fallback.empty());
         MesherOptions chosen = wanted;
         if (wanted.name == "auto") chosen.name = calls[0].options.name;
         EXPECT_EQ(to_bytes(calls[0].options), to_bytes(chosen));
@@ -40,7 +40,7 @@ TEST(MesherCalls, BeginAsAskedForAndAllDiffer) {
             different.emplace(call.options.name, call.options.radius_edge, call.options.size.reference_volume(),
                               call.options.tetgen.tolerance, call.options.tetgen.shuffle, call.cut_first);
             EXPECT_TRUE(call.options.size.reference_volume() == wanted.size.reference_volume() ||
-                        call.remedy == calls.back().remedy);
+                        call.fallback == calls.back().fallback);
             EXPECT_EQ(call.options.tetgen.switches, wanted.tetgen.switches);
             EXPECT_TRUE(call.options.radius_edge == 0 || call.options.radius_edge >= wanted.radius_edge);
         }

@@ -223,7 +223,7 @@ TEST(ReportOfParts, SaysWhichMesherFilledEachAndWhichWayItWent) {
     tetgen.options.name = "tetgen";
     report.parts[1].result = run_part_job(job_of(test::box()), tetgen, folder.file("part"));
     report.parts[2].result.mesher = "another";
-    report.parts[2].result.way = "by a detour";
+    report.parts[2].result.strategy = "by a detour";
     report.parts[2].result.core_tets = 5;
     const nlohmann::json parts = nlohmann::json::parse(to_json(report)).at("parts");
     EXPECT_EQ(parts[0].at("mesher"), report.options.mesher.name);
@@ -236,7 +236,7 @@ TEST(ReportOfParts, SaysWhichMesherFilledEachAndWhichWayItWent) {
     EXPECT_EQ(parts[2].at("way"), "by a detour");
     EXPECT_EQ(parts[2].at("core_tets"), 5);
     const PartResult copy = from_bytes<PartReport>(to_bytes(report.parts[2])).result;
-    EXPECT_EQ(copy.way, "by a detour");
+    EXPECT_EQ(copy.strategy, "by a detour");
     EXPECT_EQ(copy.core_tets, 5);
 }
 

@@ -1,4 +1,4 @@
-#include "lattice/keep_out.h"
+#include "lattice/clearance.h"
 
 #include <array>
 #include <cmath>
@@ -30,7 +30,7 @@ struct Obstacle {
         std::sort(corners.begin(), corners.end(), lexicographically_less);
         a = corners[0], b = corners[1], c = corners[2];
         normal = doubled_area_vector(a, b, c).normalized();
-        distance = keep_out_distance(((b - a).norm() + (c - b).norm() + (a - c).norm()) / 3, lattice_edge);
+        distance = clearance(((b - a).norm() + (c - b).norm() + (a - c).norm()) / 3, lattice_edge);
     }
 
     double distance_to_plane(const Vec3& p) const { return std::abs(normal.dot(p - a)); }

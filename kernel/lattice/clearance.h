@@ -10,7 +10,7 @@ namespace kerf {
 /// No site of a core is nearer to a facet: half the mean length of the facet's edges, and at least 0.8 edges of the
 /// lattice, so that the spheres around its cells, whose radius is 0.56 edges, are without vertices of the surface.
 /// Found by trial: with less, and with more, the cells between are worse.
-constexpr double keep_out_distance(double mean_edge, double lattice_edge) {
+constexpr double clearance(double mean_edge, double lattice_edge) {
     return std::max(0.5 * mean_edge, 0.8 * lattice_edge);
 }
 

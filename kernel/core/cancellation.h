@@ -9,10 +9,10 @@ namespace kerf {
 
 /// Called every few milliseconds of a long computation, which it ends by what it throws. Without a function it does
 /// nothing.
-class Poll {
+class CancellationCheck {
  public:
-    Poll() = default;
-    explicit Poll(std::function<void()> function) : function_(std::move(function)) {}
+    CancellationCheck() = default;
+    explicit CancellationCheck(std::function<void()> function) : function_(std::move(function)) {}
 
     void operator()() const {
         if (function_) function_();
