@@ -36,7 +36,7 @@ CLI::Option* add_number(CLI::App& app, const std::string& names, Value& value, c
         help);
 }
 
-/// The same for `count` numbers behind one another.
+/// Adds an option of `count` numbers behind one another.
 template <class Number>
 CLI::Option* add_numbers(CLI::App& app, const std::string& names, std::vector<Number>& values, int count,
                          const NumberRange& range, const std::string& help) {

@@ -29,7 +29,7 @@ bool divide_closed_faces(Body& body);
 /// One body of several that touch or overlap. Nothing if OpenCASCADE fails.
 std::optional<Body> unite(const std::vector<Body>& bodies);
 
-/// Of the bounding box of the true, curved shape, in millimetres; 0: empty.
+/// The diagonal of the bounding box of the true, curved shape, in millimetres; 0: empty.
 double diagonal_of(const TopoDS_Shape& shape);
 
 }  // namespace kerf::cad

@@ -17,7 +17,7 @@ class CancellationCheck {
     void operator()() const {
         if (function_) function_();
     }
-    /// In a loop whose steps take some microseconds: asks at every 1024th of them.
+    /// Asks at every 1024th step of a loop whose steps take some microseconds.
     void at(std::size_t step) const {
         if (step % 1024 == 0) (*this)();
     }

@@ -5,7 +5,8 @@
 
 namespace kerf {
 
-/// Of x >= 0, within 2^-52: of 8^k x, 2^k times as much to the last bit, which std::cbrt() leaves open.
+/// The cube root of x >= 0, within 2^-52. That of 8^k x is 2^k times as much to the last bit, which std::cbrt() leaves
+/// open.
 inline double cube_root(double x) {
     int exponent = 0;
     const double mantissa = std::frexp(x, &exponent);

@@ -30,7 +30,7 @@ class Hasher {
         add_bytes(&count, sizeof count);
         add_bytes(items.data(), items.size_bytes());
     }
-    /// Of all that was added so far: 128 bits, the higher ones first.
+    /// The hash of all that was added so far: 128 bits, the higher ones first.
     FileHash digest() const {
         const XXH128_hash_t hash = XXH3_128bits_digest(&state_);
         return {hash.high64, hash.low64};
@@ -40,7 +40,7 @@ class Hasher {
     XXH3_state_t state_;
 };
 
-/// Of bytes that are all at hand.
+/// The hash of bytes that are all at hand.
 inline FileHash digest_of(std::string_view bytes) {
     Hasher hasher;
     hasher.add_bytes(bytes.data(), bytes.size());

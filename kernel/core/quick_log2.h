@@ -9,8 +9,8 @@
 
 namespace kerf {
 
-/// Of base two, from a table over the leading bits of the mantissa and the first terms of the series: with
-/// t = m / c - 1, c in the middle of its interval, |t| <= 1/256, the error is below t^4 / 4 ln 2 < 1e-10.
+/// The logarithm of base two, from a table over the leading bits of the mantissa and the first terms of the series:
+/// with t = m / c - 1, c in the middle of its interval, |t| <= 1/256, the error is below t^4 / 4 ln 2 < 1e-10.
 class QuickLogarithm {
  public:
     QuickLogarithm() {
@@ -19,7 +19,7 @@ class QuickLogarithm {
             intervals_[i] = {std::log2(centre), 1 / centre};
         }
     }
-    /// Of a positive normal number. 2 ns.
+    /// The logarithm of a positive normal number. 2 ns.
     double operator()(double value) const {
         constexpr int mantissa_bits = 52, exponent_of_one = 1023;
         const auto bits = std::bit_cast<std::uint64_t>(value);

@@ -41,10 +41,10 @@ class Length {
     }
 
     bool is_percent() const { return is_percent_; }
-    /// As it is written: percent if it is_percent().
+    /// The number as it is written: percent if it is_percent().
     double number() const { return number_; }
     double of(double diagonal) const { return is_percent_ ? number_ / 100 * diagonal : number_; }
-    /// Only for what is no percentage, or has been replaced by of().
+    /// The length; only for what is no percentage, or has been replaced by of().
     operator double() const {  // NOLINT: so that it is used as the number that it is
         KERF_CHECK(!is_percent_);
         return number_;
@@ -67,7 +67,7 @@ std::optional<Number> number_in(std::string_view text) {
     return number;
 }
 
-/// The same for "0.5" or "2%".
+/// Reads a length, "0.5" or "2%".
 inline std::optional<Length> length_in(std::string_view text) {
     const bool is_percent = text.ends_with('%');
     const std::optional<double> number = number_in<double>(text.substr(0, text.size() - (is_percent ? 1 : 0)));
@@ -99,7 +99,7 @@ Number parse_number(std::string_view option, std::string_view text, const Number
     return *number;
 }
 
-/// The same for a length; the range is that of the number before its %.
+/// Parses a length; the range is that of the number before its %.
 inline Length parse_length(std::string_view option, std::string_view text, const NumberRange& range) {
     const std::optional<Length> length = length_in(text);
     if (!length || !range.contains(length->number())) refuse_number(option, text, range.words);

@@ -25,7 +25,7 @@ struct LoadModel {
     /// Samples of the body in question, if the work depends on the place; see of().
     std::shared_ptr<const std::vector<VolumeSample>> samples = {};
 
-    /// Of a whole body; `volume`: what volume_of() says of it.
+    /// The load of a whole body; `volume`: what volume_of() says of it.
     double load(double vertices, double facets, double volume) const;
     /// The volume of a body that counts; 0 where none does. `enclosed` is its volume.
     double volume_of(const SurfaceArrays& surface, double enclosed) const;
@@ -48,7 +48,8 @@ class LoadProfile {
 
     /// Fraction of the whole load below the given height. O(#V + #F).
     double fraction_below(double height) const;
-    /// The same for many heights. O(#V + #F + n m) with m facets between the lowest and the highest of n heights.
+    /// The fractions below many heights. O(#V + #F + n m) with m facets between the lowest and the highest of n
+    /// heights.
     std::vector<double> fractions_below(const std::vector<double>& heights) const;
     /// Height below which the given fraction, in [0, 1], of the load lies. Expected O(#V + #F).
     double bisect(double fraction) const;

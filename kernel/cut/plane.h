@@ -16,7 +16,7 @@ struct PlaneCandidate {
 };
 
 /// Directions of the normal for a criterion, best first: the principal axes, or the coordinate axes by falling extent.
-/// With a fixed axis there is only that one.
+/// The directions in which a cut may go; with a fixed axis there is only that one.
 std::vector<Vec3> cut_directions(const Surface& surface, const MassProperties& mass, const CutOptions& options);
 
 /// The planes across one direction: first the one that leaves `fraction` of the load (of the extent for equidistant

@@ -8,7 +8,7 @@ namespace kerf {
 struct Delaunay {
     /// Vertices have the numbers of their points. Without cells if all points lie in one plane.
     Triangulation triangulation;
-    /// Of each point: the smallest number of those that lie where it lies. The others have no cells.
+    /// For each point the smallest number of those that lie where it lies. The others have no cells.
     std::vector<std::int32_t> representative;
 };
 

@@ -26,7 +26,7 @@ struct Star {
 /// in space.
 class Triangulation : public EditableTets {
  public:
-    /// Without cells: where all points lie in one plane.
+    /// A triangulation without cells, as of points that all lie in one plane.
     Triangulation() = default;
     /// One tetrahedron, of vertices 0 to 3. Requires orientation() 1. Never has more than `most` cells, at most
     /// most_cells.
@@ -39,7 +39,7 @@ class Triangulation : public EditableTets {
     /// the point is strictly beyond, if it is outside. Walks from cell to cell towards it (devillers2002), starting at
     /// `hint`: about a dozen where the hint is near. Requires cells.
     std::int32_t locate(const Vec3& p, std::int32_t hint) const;
-    /// The same, but none where the walk meets a constrained face or the hull.
+    /// What locate() finds, but none where the walk meets a constrained face or the hull.
     std::int32_t locate_in_sight(const Vec3& p, std::int32_t hint) const;
     /// The number of the new vertex; that of the old one if there is one at the point.
     ///
@@ -50,7 +50,7 @@ class Triangulation : public EditableTets {
     /// the hint. Requires cells. Error (memory), and nothing has changed, if there might be too many: more than
     /// some 39 million vertices in space.
     std::int32_t insert(const Vec3& p, std::int32_t hint = none);
-    /// The same if `accepts` says so; none, and nothing has changed, if it does not.
+    /// Inserts the point if `accepts` says so; none, and nothing has changed, if it does not.
     std::int32_t insert_if(const Vec3& p, std::int32_t hint, const std::function<bool(const Star&)>& accepts);
 
     /// Gives vertex v the number number[v] in `points`, which has the same point there, and others that are no

@@ -41,7 +41,7 @@ struct Format {
 
 /// All of them, in the order of the help.
 std::span<const Format* const> formats();
-/// By name. Throws Error(usage) with the names that there are.
+/// Finds one by its name. Throws Error(usage) with the names that there are.
 const Format& find_format(std::string_view name);
 /// The formats of a list "vtu,msh", each once, in the order of formats(). Throws Error(usage), also for an empty list.
 std::vector<const Format*> parse_formats(std::string_view list);

@@ -28,7 +28,7 @@ struct PatchPieces {
 
 /// O(#V + #F + patches).
 PatchPieces patch_pieces(const Part& part);
-/// With those vertices alone that the part owns: the pieces of all parts list every vertex of the whole once.
+/// The pieces with those vertices alone that the part owns: those of all parts list every vertex of the whole once.
 PatchPieces owned_patch_pieces(const Part& part);
 
 }  // namespace kerf

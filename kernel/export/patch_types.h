@@ -11,14 +11,14 @@ struct PatchType {
     std::string patch, type;
 };
 
-/// Of texts NAME=TYPE, of which the last = counts. Throws Error(usage) for another form, and for a type that is none of
-/// those of OpenFOAM that need no entries of their own.
+/// Reads texts NAME=TYPE, of which the last = counts. Throws Error(usage) for another form, and for a type that is none
+/// of those of OpenFOAM that need no entries of their own.
 std::vector<PatchType> parse_patch_types(std::span<const std::string> texts);
 
 /// Throws Error(usage), with the names that there are, for a patch that the mesh does not have.
 void require_patches(std::span<const PatchType> types, std::span<const std::string> patch_names);
 
-/// That of the patch: the last one given, else `patch`.
+/// The type of the patch: the last one given, else `patch`.
 std::string type_of_patch(std::span<const PatchType> types, const std::string& patch);
 
 }  // namespace kerf

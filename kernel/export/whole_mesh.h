@@ -22,20 +22,20 @@ namespace kerf {
 void for_each_vertex(const PartSource& parts,
                      const std::function<void(std::int64_t first, std::span<const Vec3> points)>& take);
 
-/// The same with the numbers of Part::values[k], of points, a row for each vertex.
+/// Gives the numbers of Part::values[k], of points, a row for each vertex, in the same order.
 void for_each_vertex_value(const PartSource& parts, std::size_t k,
                            const std::function<void(std::int64_t first, std::span<const double> rows)>& take);
 
 /// Calls take(index, part) with every part, in the order of the tree: PartContent::cells, so without coordinates.
 void for_each_part(const PartSource& parts, const std::function<void(PartIndex index, const Part& part)>& take);
 
-/// The same with all that parts have.
+/// Gives every part with all that it has.
 void for_each_whole_part(const PartSource& parts, const std::function<void(PartIndex index, const Part& part)>& take);
 
-/// The same with PartContent::surface.
+/// Gives every part with PartContent::surface.
 void for_each_surface(const PartSource& parts, const std::function<void(PartIndex index, const Part& part)>& take);
 
-/// For every patch how many triangles all parts have on it.
+/// The number of triangles that all parts have on each patch.
 std::vector<std::int64_t> patch_sizes(const PartSource& parts);
 
 /// A boundary triangle on the user's surface.

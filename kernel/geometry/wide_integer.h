@@ -7,8 +7,8 @@
 
 namespace kerf {
 
-/// In two's complement, lowest limb first. A product has the limbs of both factors, so it is exact; sums and
-/// differences must fit into the limbs that their terms have.
+/// A whole number in two's complement, lowest limb first. A product has the limbs of both factors, so it is exact; sums
+/// and differences must fit into the limbs that their terms have.
 template <std::size_t limbs>
 struct WideInteger {
     std::array<std::uint64_t, limbs> limb;

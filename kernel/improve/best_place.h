@@ -18,15 +18,15 @@ class BestPlace {
 
     void clear() { faces_.clear(); }
     void add(const Face& face) { faces_.push_back(face); }
-    /// Of all faces: in an order of its own, once it has searched.
+    /// All faces, in an order of its own once it has searched.
     const std::vector<Face>& faces() const { return faces_; }
 
     struct Place {
         Vec3 at;
         double badness;  ///< of the worst cell
     };
-    /// From there to the best place that was found; badness counts from `start.badness` on. Cells may exceed their
-    /// bound of volume by `excess`.
+    /// Moves from there to the best place that was found; badness counts from `start.badness` on. Cells may exceed
+    /// their bound of volume by `excess`.
     Place search(const EditedMesh& mesh, Place start, double excess, std::int32_t seed);
 
  private:

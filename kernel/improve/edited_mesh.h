@@ -44,7 +44,7 @@ class EditedMesh {
     /// Those around the edge between corners i and j of a cell. False if it lies on the boundary, has a frozen cell, or
     /// more cells than most_cells_of_a_ring.
     bool find_ring(std::int32_t cell, int i, int j, EdgeRing& ring) const;
-    /// Those around the corner i of a cell. False if the corner must not move.
+    /// Finds the cells around the corner i of a cell. False if the corner must not move.
     bool find_star(std::int32_t cell, int i, std::vector<std::int32_t>& star);
 
     // --- what may be ---

@@ -30,7 +30,7 @@ struct Improvement {
     /// Smallest dihedral angles of all cells as they were, in degrees.
     Distribution smallest_before;
 
-    /// Of another mesh.
+    /// Adds what was done to another mesh.
     void add(const Improvement& other);
     /// Whether there was a mesh.
     bool is_empty() const { return smallest_before.count() == 0; }

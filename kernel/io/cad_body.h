@@ -34,7 +34,7 @@ struct CadOptions {
 
     static constexpr double volume_tolerance = 1e-4;  ///< of |volume of facets - volume of solid| / volume of solid
 
-    /// As arguments of kerf-cad.
+    /// The options as arguments of kerf-cad.
     std::vector<std::string> arguments() const;
     /// Throws Error(usage) for arguments that are no options.
     static CadOptions from_arguments(std::span<const std::string> arguments);
@@ -58,7 +58,7 @@ struct CadBody {
     }
 };
 
-/// Of a CAD file that was read well, but whose solids cannot be meshed as they are.
+/// The error of a CAD file that was read well, but whose solids cannot be meshed as they are.
 class SolidDefect : public Error {
  public:
     static constexpr const char* touching = "touching solids";  ///< or overlapping ones

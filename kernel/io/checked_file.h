@@ -49,7 +49,7 @@ class CheckedFile {
         data.resize(read_into(data.data(), size));
         return data;
     }
-    /// The same; returns how many bytes there were.
+    /// Reads at most `size` bytes; returns how many there were.
     std::size_t read_into(void* data, std::size_t size) {
         // No room may be a null pointer, which fread must not get.
         const std::size_t got = size == 0 ? 0 : std::fread(data, 1, size, file_.get());

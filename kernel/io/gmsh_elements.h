@@ -30,12 +30,12 @@ class Elements {
 
     /// Elements to come are of this type.
     void set_type(std::int64_t number);
-    /// So many of them follow.
+    /// Says that so many of them follow.
     void announce(std::int64_t count) const {
         if (is_face()) builder_.announce_facets(count);
     }
     void set_patch(std::int64_t group, std::int64_t entity);
-    /// The nodes of one element.
+    /// Reads the nodes of one element.
     template <class NextNode>
     void read(std::int64_t tag, const NextNode& next_node) {
         ++counts_[static_cast<std::size_t>(type_.shape)];
@@ -47,7 +47,7 @@ class Elements {
         }
         if (is_taken() && !repeats_last()) add_element();
     }
-    /// When all have been read.
+    /// Notes and refuses what is known when all have been read.
     void finish() const;
 
  private:

@@ -5,8 +5,8 @@
 
 namespace kerf {
 
-/// For the start of a program. Standard streams that are closed lead nowhere from now on, so that no file that is
-/// opened takes their number; pipes that nobody reads and files that may not grow are errors of writing instead of
+/// Makes the start of a program safe. Standard streams that are closed lead nowhere from now on, so that no file that
+/// is opened takes their number; pipes that nobody reads and files that may not grow are errors of writing instead of
 /// signals that end the process.
 void prepare_standard_streams();
 

@@ -24,7 +24,7 @@ enum class Walls { refused, kept };
 /// covers are in Soup::unfit_polygons. Facets of TetGen that have several polygons or holes, or that no fan covers, are
 /// triangulated, see triangulate_facet(). Volume elements, curves, points and regions are passed over; Soup::notes says
 /// so. Where a .msh or .vtu has tetrahedra and no triangles, the skin of the tetrahedra is the surface, see skin_of().
-/// Of a .msh, volumes between which there are triangles are refused unless `walls` are kept. TetGen's hole points
+/// Volumes of a .msh between which there are triangles are refused unless `walls` are kept. TetGen's hole points
 /// are in Soup::holes. Numbers beyond the doubles are read as the nearest, that is infinite or zero, and "nan" is NaN.
 ///
 /// Throws Error(io) for a file that cannot be opened or read, Error(input) for content that is empty, truncated, or
@@ -33,7 +33,7 @@ enum class Walls { refused, kept };
 /// the size of the content, whatever its header claims. `-` is refused.
 Soup read_surface(const std::string& path, Walls walls = Walls::refused);
 
-/// The same for the bytes of a file that is already in memory.
+/// Reads the bytes of a file that is already in memory.
 Soup read_surface_bytes(std::string file, const std::string& path, Walls walls = Walls::refused);
 
 /// The formats by themselves, on the bytes of a file without compression; `path` serves messages, and tells TetGen's

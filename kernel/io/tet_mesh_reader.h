@@ -28,10 +28,11 @@ struct TetFile {
 /// not finite or an extent that no double holds the cube of, each naming the file, the place and the way out.
 TetFile read_tet_file(const std::string& path);
 
-/// The same for the bytes of a file that is already in memory, but not for TetGen's.
+/// Reads the bytes of a file that is already in memory, but not TetGen's.
 TetFile read_tet_bytes(std::string file, const std::string& path);
 
-/// As read_tet_file(), with all scalars at the nodes that a .msh (each view of $NodeData) or .vtu (PointData) holds.
+/// Reads what read_tet_file() does, with all scalars at the nodes that a .msh (each view of $NodeData) or .vtu
+/// (PointData) holds.
 TetFile read_tets_with_scalars(const std::string& path);
 
 }  // namespace kerf

@@ -18,7 +18,7 @@
 
 namespace kerf {
 
-/// In half edges: all even or all odd.
+/// Coordinates of a site in half edges: all even or all odd.
 using LatticeSite = std::array<std::int32_t, 3>;
 
 constexpr LatticeSite operator+(const LatticeSite& a, const LatticeSite& b) {
@@ -42,7 +42,7 @@ class BccLattice {
     /// But for the jitter.
     double cell_volume() const { return edge_ * edge_ * edge_ / 12; }
 
-    /// Of a site. Coordinates below most_half_edges.
+    /// The point of a site. Coordinates below most_half_edges.
     Vec3 point(const LatticeSite& site) const {
         std::uint64_t bits = hash(site);
         Vec3 p;
@@ -53,7 +53,7 @@ class BccLattice {
         }
         return p;
     }
-    /// Those of a point in the units of sites, without jitter.
+    /// The coordinates of a point in the units of sites, without jitter.
     Vec3 coordinates(const Vec3& p) const {
         return {p[0] / half_edge_ - origin[0], p[1] / half_edge_ - origin[1], p[2] / half_edge_ - origin[2]};
     }
@@ -78,7 +78,7 @@ struct LatticeCell {
     LatticeSite mirrored;
 };
 
-/// From a site to its neighbours.
+/// The steps from a site to its neighbours.
 inline constexpr std::array<LatticeSite, 14> lattice_neighbours = {{{2, 0, 0},
                                                                     {-2, 0, 0},
                                                                     {0, 2, 0},

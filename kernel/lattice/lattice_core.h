@@ -27,7 +27,7 @@ class LatticeCore {
     LatticeCore(const SurfaceArrays& surface, double edge);
 
     const BccLattice& lattice() const { return lattice_; }
-    /// Of sites.
+    /// The number of blocks of sites.
     std::int32_t block_count() const { return blocks_.size(); }
     /// For the points and numbers that the core keeps itself.
     std::size_t bytes() const;

@@ -19,7 +19,7 @@ using SiteRows = std::array<std::uint8_t, rows_per_block>;
 
 constexpr int row_number(int parity, int y, int z) { return (parity * block_edge + z) * block_edge + y; }
 
-/// Of all blocks, along x, then y, then z.
+/// The place of a block among all, along x, then y, then z.
 using BlockCoordinates = std::array<std::int32_t, 3>;
 
 /// Which blocks there are. They are numbered in the order of z, then y, then x. 8 bytes a block.
@@ -67,7 +67,7 @@ class BlockSurroundings {
 
     /// In ascending order.
     void move_to(std::int32_t block);
-    /// Of the block at this distance, each of -1, 0 and 1.
+    /// The number of the block at this distance, each of -1, 0 and 1.
     std::int32_t at(int dx, int dy, int dz) const { return around_[(dz * 3 + dy) * 3 + dx + 13]; }
 
  private:
@@ -79,12 +79,12 @@ class BlockSurroundings {
 /// A set of sites: rows by block.
 using SiteBits = std::vector<SiteRows>;
 
-/// From a site to another one, in cubes.
+/// A step from a site to another one, in cubes.
 struct SiteStep {
     int parity;  ///< of the other one
     int dx, dy, dz;
 
-    /// From a site of this parity.
+    /// The step from a site of this parity.
     constexpr SiteStep(int from_parity, const LatticeSite& step)
         : parity((from_parity + step[0]) & 1), dx(0), dy(0), dz(0) {
         dx = (from_parity + step[0] - parity) / 2;
@@ -121,7 +121,7 @@ class SiteNumbers {
     std::size_t bytes() const {
         return first_.capacity() * sizeof first_[0] + before_row_.capacity() * sizeof before_row_[0];
     }
-    /// Of the first site in a row that is in the set.
+    /// The number of the first site in a row that is in the set.
     std::int32_t first_of_row(std::int32_t block, int row) const { return first_[block] + before_row_[block][row]; }
 
  private:

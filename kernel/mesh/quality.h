@@ -26,7 +26,7 @@ struct TetQuality {
 /// Angles, radius_edge and aspect are those of the unoriented tetrahedron; volume and shape carry the sign. A flat
 /// tetrahedron has angles 0 and 180, infinite radius_edge and aspect, shape 0. About 60 ns.
 TetQuality tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
-/// The same of many, over the points, to the last bit: quality[i] is that of cells[i]. 30 ns each.
+/// Measures many cells over the points, to the same last bit: quality[i] is that of cells[i]. 30 ns each.
 void measure_cells(const std::vector<Vec3>& points, std::span<const Tetrahedron> cells, std::span<TetQuality> quality);
 /// TetQuality::min_dihedral_deg alone, to the last bit. 15 ns each.
 void measure_min_dihedrals(const std::vector<Vec3>& points, std::span<const Tetrahedron> cells,
@@ -68,7 +68,7 @@ class Distribution {
     /// The counts gathered into `bins` equal (linear) or equal-ratio (logarithmic) intervals; `bins` must divide 1440,
     /// else throws Error(internal).
     Histogram histogram(int bins) const;
-    /// The same for a range: `groups` intervals of `group` bins each, from the bin `first` on. All must be bins.
+    /// The histogram of a range: `groups` intervals of `group` bins each, from the bin `first` on. All must be bins.
     Histogram histogram(int first, int group, int groups) const;
     /// The bin that counts this value, which must not be NaN.
     int bin_of(double value) const;

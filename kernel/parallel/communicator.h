@@ -29,7 +29,7 @@ struct StageStatus {
     }
 };
 
-/// Of the exception that is being handled.
+/// The status of the exception that is being handled.
 StageStatus status_of_exception();
 
 /// Ranks that run the same stages in the same order. Every collective throws Error(memory) on all ranks if one has no

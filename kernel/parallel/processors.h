@@ -11,7 +11,7 @@ namespace kerf {
 /// system or taskset has bound it. Those of this process without an argument; empty if the system does not tell.
 std::vector<int> allowed_processors(pid_t process = 0);
 
-/// Of all processors of the machine; at least 1.
+/// The number of all processors of the machine; at least 1.
 int machine_processors();
 
 /// How many processors one of several processes has for itself if each processor is shared evenly by those that may use

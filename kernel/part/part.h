@@ -110,7 +110,7 @@ struct MeshOutline {
     std::int64_t tets() const;
     /// Tetrahedra of all parts before this one: the first of its own in a numbering of all.
     std::int64_t first_tet(PartIndex index) const;
-    /// The same for triangles on the user's surface.
+    /// Triangles on the user's surface of all parts before: the first of the part's own in a numbering of all.
     std::int64_t first_patch_facet(PartIndex index) const;
     std::int64_t patch_facets() const;
 };

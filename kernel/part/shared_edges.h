@@ -34,7 +34,7 @@ class SharedEdges {
     /// `told`: what all parts tell. `ids`: those of the parts. O(n log n).
     SharedEdges(std::vector<Incidence> told, const std::vector<NodeId>& ids);
 
-    /// As Part::shared_edges. O(#F log #F).
+    /// The value of Part::shared_edges for this part. O(#F log #F).
     std::vector<SharedEdgeGroup> groups_of(const Part& part) const;
 
  private:

@@ -23,7 +23,7 @@ class SharedVertices {
     /// `ids`: those of the parts. O(n log n).
     SharedVertices(std::vector<Incidence> held, const std::vector<NodeId>& ids);
 
-    /// As Part::shared. `boundary_ids`: global numbers of the part's boundary vertices.
+    /// The value of Part::shared for a part. `boundary_ids`: global numbers of its boundary vertices.
     std::vector<SharedGroup> groups_of(PartIndex index, std::span<const std::int64_t> boundary_ids) const;
 
  private:

@@ -19,7 +19,7 @@ struct VtuHeader {
     std::vector<Array> arrays;  ///< in the order of the file
 
     const Array* find(std::string_view name) const;  ///< the first; nullptr if there is none
-    /// The same with a tuple for every cell: those of points, which come first, may have the same name.
+    /// An array with a tuple for every cell. Arrays of points, which come first, may have the same name.
     const Array* find_of_cells(std::string_view name) const;
 };
 

@@ -32,7 +32,7 @@ PartCellCounts read_cell_counts(const std::string& path);
 /// Whether a part file has an array of this name. Throws Error(io).
 bool has_cell_values(const std::string& path, const std::string& array);
 
-/// As the part file was written. Throws Error(io).
+/// The layout with which a part file was written. Throws Error(io).
 VtuLayout read_layout(const std::string& path);
 
 /// The values `first` to `first + count - 1` of a Float32 array over the cells of a part file, of which nothing else
@@ -43,7 +43,7 @@ std::vector<float> read_cell_values(const std::string& path, const std::string& 
 
 /// What write_part() was given as `values`; of cells those of the tetrahedra. Throws Error(io).
 std::vector<PartValues> read_values(const std::string& path);
-/// The same without numbers: reads the file's header alone.
+/// The names of the values without their numbers: reads the file's header alone.
 std::vector<PartValues> read_value_names(const std::string& path);
 
 }  // namespace kerf

@@ -18,7 +18,7 @@ struct VtuLayout {
     int tag_bytes = 4;  ///< of a value of Part, Patch and Neighbour: 1, 2 or 4
 };
 
-/// With the shortest tags that name all parts and patches.
+/// The layout with the shortest tags that name all parts and patches.
 VtuLayout layout_for(const MeshOutline& outline, CellFieldSet fields);
 
 /// Writes DIR/parts/part_XXXX.vtu: the tetrahedra, then the boundary triangles.
@@ -49,7 +49,7 @@ std::string pvtu_text(const std::vector<std::string>& pieces, const VtuLayout& l
 void write_pvtu(const std::string& path, const std::vector<std::string>& pieces, const VtuLayout& layout = {},
                 std::span<const PartValues> values = {});
 
-/// That of the part file with this header, if it is one.
+/// The layout of the part file with this header, if it is one.
 VtuLayout layout_of(const VtuHeader& header);
 
 }  // namespace kerf

@@ -37,9 +37,9 @@ CadBody read_cad(const std::string& path, const FileHash& file_hash, const CadOp
 /// InputOptions::scale. With InputOptions::keep_largest volumes may touch: see Walls.
 Soup read_surface_or_cad(const std::string& path, const InputOptions& options = {});
 
-/// The same for the bytes of the file at `path`. Throws Error(usage) for options of CAD files on another one, and for a
-/// unit that is asked of a file which has none; those of the unit and of one solid, which is a build item there, are
-/// for 3MF, too.
+/// Reads the bytes of the file at `path` in the same way. Throws Error(usage) for options of CAD files on another one,
+/// and for a unit that is asked of a file which has none; those of the unit and of one solid, which is a build item
+/// there, are for 3MF, too.
 Soup read_surface_or_cad(std::string bytes, const std::string& path, const InputOptions& options);
 
 }  // namespace kerf

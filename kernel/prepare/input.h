@@ -67,7 +67,7 @@ struct Input {
     std::vector<std::string> notes;                          ///< what the reader passed over
     bool is_cad = false;                                     ///< a file of curved faces, not of triangles
     bool is_ready = false;                                   ///< run() takes it as it is, and reads no file
-    /// Of a CAD file: edges of the surface as it was read that are creases of the model, flat as they may be.
+    /// Edges of the surface as it was read that are creases of a CAD model, flat as they may be.
     std::vector<UndirectedEdge> creases;
     Surface surface;
 };
@@ -75,7 +75,7 @@ struct Input {
 /// Reads (CAD files, too: prepare/cad_input.h), repairs, diagnoses. Throws Error only for a file that cannot be read.
 CheckedSoup check_input(const std::string& path, const InputOptions& options = {}, double needle_angle_deg = 1);
 
-/// The same for what a reader returned.
+/// Checks what a reader returned.
 CheckedSoup check_soup(Soup soup, const InputOptions& options = {}, double needle_angle_deg = 1);
 
 /// Drops the superfluous facets of a soup without errors, and orients it.

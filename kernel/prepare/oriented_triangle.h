@@ -9,7 +9,7 @@ namespace kerf {
 
 using NamedTriangle = std::array<std::int64_t, 3>;
 
-/// The same triangle with the same orientation, its smallest vertex first: equal triangles compare equal.
+/// The triangle with the same orientation, its smallest vertex first: equal triangles compare equal.
 inline NamedTriangle rotated_to_smallest(NamedTriangle t) {
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     return t;

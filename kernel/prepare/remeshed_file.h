@@ -15,9 +15,9 @@ struct RemeshedFile {
     InputRemeshing done;
 };
 
-/// Remeshes options.input within options.deviation to the wanted lengths (prepare/remeshing.h) and writes it to `output`,
-/// an .obj with patches or an .stl. `listener` may be null. Throws Error, before the work where the output cannot be
-/// written.
+/// Remeshes options.input within options.deviation to the wanted lengths (prepare/remeshing.h) and writes it to
+/// `output`, an .obj with patches or an .stl. `listener` may be null. Throws Error, before the work where the output
+/// cannot be written.
 RemeshedFile remesh_file(RunOptions options, const std::string& output, StageListener* listener = nullptr);
 
 }  // namespace kerf

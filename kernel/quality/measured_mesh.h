@@ -30,7 +30,8 @@ class MeasurableMesh {
     /// The folder of a finished run, or a file as read_tet_file() reads them. Throws Error(io) or Error(input).
     explicit MeasurableMesh(const std::string& path);
 
-    /// Of the bounding box. Distributions that are to be compared need one length scale: the larger diagonal.
+    /// The diagonal of the bounding box. Distributions that are to be compared need one length scale: the larger
+    /// diagonal.
     double diagonal() const { return diagonal_; }
 
     /// A file without triangles has as its boundary the faces that only one tetrahedron has.

@@ -11,7 +11,7 @@ namespace kerf {
 /// vertex on an interface and of the others. The bytes depend on the quality alone.
 std::string quality_sheet(const MeshQuality& quality);
 
-/// The same of all cells of two meshes. Both must have been measured with one length scale, else throws
+/// A picture that compares all cells of two meshes. Both must have been measured with one length scale, else throws
 /// Error(internal).
 std::string comparison_sheet(const MeshQuality& first, const MeshQuality& second);
 

@@ -42,7 +42,7 @@ class EditedSurface {
     bool collapse(HalfEdge h, const CollapseRules& rules);
     /// Turns the edge if the smallest angle of its two facets grows.
     bool flip(Edge e) { return take_flip(e, false); }
-    /// As flip(), only within a flat region, by the empty circle. Cheap.
+    /// Flips the edge as flip() does, only within a flat region, by the empty circle. Cheap.
     bool make_delaunay(Edge e) { return take_flip(e, true); }
     /// Puts a vertex on the edge at from + t (to - from), 0 < t < 1, of half-edge 0. Always possible.
     Vertex split(Edge e, double t);

@@ -27,10 +27,10 @@ class FoldSizes {
     /// reference. O(#V log #V) where few folds are near each other.
     FoldSizes(EditedSurface& surface, const FoldSizeOptions& options);
 
-    /// Of a vertex that has come onto an edge of that fold (-1: of none), given what has grown to there. Away from
-    /// folds nothing is asked but what grows from them.
+    /// The size at a vertex that has come onto an edge of that fold (-1: of none), given what has grown to there. Away
+    /// from folds nothing is asked but what grows from them.
     double of_new(EditedSurface::Vertex v, std::int32_t fold, double grown) const;
-    /// By the user at a point, at most the longest.
+    /// The size that the user asks for at a point, at most the longest.
     double asked(const Vec3& p) const {
         return options_.wanted ? std::min(options_.wanted(p), options_.longest) : options_.longest;
     }

@@ -23,7 +23,7 @@ class InputShape {
     const TriangleTree& tree() const { return tree_; }
     std::int32_t patch(std::int32_t facet) const { return surface_.patch[facet]; }
     double tolerance(std::int32_t facet) const { return tolerance_[facet]; }
-    /// Of the facets around a vertex, the smallest.
+    /// The smallest tolerance of the facets around a vertex.
     double vertex_tolerance(std::int32_t vertex) const { return vertex_tolerance_[vertex]; }
 
     /// Corner 3 f + i is the edge of facet f from its vertex i.

@@ -41,7 +41,7 @@ struct OptionField {
     std::string group;       ///< of option_group
     std::string value_name;  ///< stands for the value in the help, as FILE; empty for flags and choices
     std::string help;        ///< one sentence with unit and default
-    /// Of an option that may be given several times; as one text, with semicolons between (join_items()).
+    /// The value of an option that may be given several times; as one text, with semicolons between (join_items()).
     using List = std::vector<std::string>*;
     using Value = std::variant<std::int32_t*, Memory, double*, Length*, bool*, std::string*, List, Choice>;
     Value value;

@@ -63,7 +63,8 @@ RunOptions with_lengths(RunOptions options, double diagonal);
 /// places alike.
 RunOptions with_sizes(RunOptions options, const SizeField& field);
 
-/// Of RunOptions::deviation, of which remesh_where_asked() knows more: shares of the diagonal that are too much.
+/// The range of RunOptions::deviation, of which remesh_where_asked() knows more: shares of the diagonal that are too
+/// much.
 inline constexpr NumberRange deviation_range = {"a positive length in units of the input, or with % of its diagonal", 0,
                                                 std::numeric_limits<double>::infinity(), false, true};
 

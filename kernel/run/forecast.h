@@ -15,7 +15,7 @@ struct Forecast {
     double memory_bytes = 0;  ///< resident, of its worker
 };
 
-/// By what is known of the mesher that the options name (MesherForecast). V is the sized volume
+/// Forecasts by what is known of the mesher that the options name (MesherForecast). V is the sized volume
 /// (size/volume_samples.h), here and below, and a the reference volume of the field. The memory is that of a body with
 /// more tetrahedra for its facets than most.
 Forecast forecast(double facets, double volume, const MesherOptions& mesher);
@@ -51,7 +51,7 @@ class RunningForecast {
     /// The part has ended, well or not; each once, resumed ones too.
     void add(const PartReport& part);
 
-    /// Of the whole run.
+    /// The forecast of the whole run.
     double tets() const;
     /// Until the last part ends, if the first began so many seconds ago; negative if no part has told yet.
     double seconds_left(double elapsed) const;

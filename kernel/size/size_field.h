@@ -30,9 +30,9 @@ struct SizeSources {
     /// The least of all sources and `bound` at a point.
     double size_at(const Vec3& p, double bound) const;
 
-    /// The same of the boxes, spheres and cylinders alone.
+    /// The size that the boxes, spheres and cylinders alone ask for.
     double size_of_solids(const Vec3& p, double bound) const;
-    /// Without the triangles that have no say in the box, where size_at(p, bound) stays the same.
+    /// The sources without the triangles that have no say in the box, where size_at(p, bound) stays the same.
     SizeSources within(const Eigen::AlignedBox3d& box, double bound) const;
 
     template <class Archive>
@@ -48,7 +48,8 @@ class SizeField {
  public:
     /// Nothing is asked anywhere.
     SizeField() = default;
-    /// The same everywhere: tetrahedra of at most this volume, which is kept as it is. 0: nothing is asked.
+    /// A field that is the same everywhere: tetrahedra of at most this volume, which is kept as it is. 0: nothing is
+    /// asked.
     explicit SizeField(double max_volume);
     /// A constant, 0 for none, and what makes it smaller at places.
     SizeField(double max_volume, SizeSources sources);

@@ -56,10 +56,10 @@ class SizedTriangles {
     /// reach as far as p: the first that has the least size that any of them can have ends the search. `asked`, if
     /// given, is raised by the number of triangles that were looked at.
     double size_at(const Vec3& p, double growth, double bound, std::int64_t* asked = nullptr) const;
-    /// Those that may have a say in the box, where anything else asks for at most `bound(cell)` in each box `cell` that
-    /// it is given: size_at() of both is the same there if it is not more than that. At least one. Looks at the box in
-    /// cells of an eighth of its longest side, and keeps one triangle for a cell that lies in its reach, where nothing
-    /// is smaller. Deterministic. O(n) at most, and O(log n) for each cell.
+    /// Triangles that may have a say in the box, where anything else asks for at most `bound(cell)` in each box `cell`
+    /// that it is given: size_at() of both is the same there if it is not more than that. At least one. Looks at the
+    /// box in cells of an eighth of its longest side, and keeps one triangle for a cell that lies in its reach, where
+    /// nothing is smaller. Deterministic. O(n) at most, and O(log n) for each cell.
     SizedTriangles within(const Box& box, double growth, const std::function<double(const Box&)>& bound) const;
     /// The nearest triangle that the ray hits and for which is_wanted(triangle) holds: its distance, else infinity.
     template <class IsWanted>

@@ -10,7 +10,7 @@
 
 namespace kerf {
 
-/// Of the largest estimated error of the cases, what the next mesh shall leave: a little less than `target`, but no
+/// What the next mesh shall leave of the largest estimated error of the cases: a little less than `target`, but no
 /// less than a mesh with about four times the cells can have, since an estimate is not to be trusted further.
 double error_of_next_mesh(double relative_error, double target, int order);
 

@@ -52,7 +52,7 @@ class FeSpace {
 
     /// Local nodes of a tetrahedron of the part `p` of this rank.
     std::array<std::int32_t, most_element_nodes> nodes_of(std::size_t p, std::size_t tet) const;
-    /// Those of a boundary triangle: corners, and for order 2 the middles of triangle_edges, else -1.
+    /// The nodes of a boundary triangle: corners, and for order 2 the middles of triangle_edges, else -1.
     std::array<std::int32_t, 6> nodes_of_facet(std::size_t p, std::size_t facet) const;
     TetElement element(std::size_t p, std::size_t tet) const;
 

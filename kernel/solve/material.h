@@ -10,7 +10,7 @@ namespace kerf {
 /// Stress or strain in VTK's order: XX YY ZZ XY YZ XZ. Shear strains are halves of the engineering ones.
 using SymmetricTensor = Eigen::Matrix<double, 6, 1>;
 
-/// In any consistent units: young [force / length^2], density [mass / length^3].
+/// A linear elastic material in any consistent units: young [force / length^2], density [mass / length^3].
 struct Material {
     std::string name;
     double young = 1;    ///< > 0

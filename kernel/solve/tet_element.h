@@ -10,7 +10,7 @@ namespace kerf {
 
 /// The edges of a tetrahedron in the order of the nodes of a quadratic one, as VTK has them.
 inline constexpr std::array<std::array<int, 2>, 6> tet_edges = {{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
-/// Those of a triangle, in the same way.
+/// The edges of a triangle, in the same way.
 inline constexpr std::array<std::array<int, 2>, 3> triangle_edges = {{{0, 1}, {1, 2}, {0, 2}}};
 
 inline constexpr int most_element_nodes = 10;

@@ -6,10 +6,11 @@
 
 namespace kerf {
 
-/// Of a finished run: no more than it has parts, and so that each has some work; at least 1, also for what cannot be
-/// read. Reads the report alone.
+/// The useful number of ranks for a finished run: no more than it has parts, and so that each has some work; at least
+/// 1, also for what cannot be read. Reads the report alone.
 int useful_ranks_of_run(const std::string& folder);
-/// Of a surface that is to be meshed in `parts` (0: as it follows), told from the size of its file; at least 1.
+/// The useful number of ranks for a surface that is to be meshed in `parts` (0: as it follows), told from the size of
+/// its file; at least 1.
 int useful_ranks_of_surface(const std::string& file, std::int32_t parts);
 
 }  // namespace kerf

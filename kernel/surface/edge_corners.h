@@ -22,8 +22,8 @@ class EdgeCorners {
         std::int32_t corner;
     };
 
-    /// Of the corners c with partner[c] < 0 (3 #F) alone, or of all if `partner` is empty. Requires vertex numbers >=
-    /// 0. O(#V + #F) for bounded vertex degrees, where #V is one more than the largest number.
+    /// The edges of the corners c with partner[c] < 0 (3 #F) alone, or of all if `partner` is empty. Requires vertex
+    /// numbers >= 0. O(#V + #F) for bounded vertex degrees, where #V is one more than the largest number.
     explicit EdgeCorners(const std::vector<Triangle>& facets, const std::vector<std::int32_t>& partner = {});
 
     /// Calls visit(low, corners) for every edge, with its smaller end and its corners, ascending; edges ascend.

@@ -32,8 +32,8 @@ std::vector<std::pair<std::int32_t, std::int32_t>> find_self_intersections(const
 bool nested_shells_are_apart(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                              const std::vector<std::int32_t>& shell, const std::vector<std::int32_t>& parent);
 
-/// As find_self_intersections(), but only pairs of which at least one facet is `chosen` (#F): what is to be asked where
-/// few facets of a surface without intersections have changed.
+/// Finds what find_self_intersections() does, but only pairs of which at least one facet is `chosen` (#F): what is to
+/// be asked where few facets of a surface without intersections have changed.
 std::vector<std::pair<std::int32_t, std::int32_t>> find_intersections_of(const std::vector<char>& chosen,
                                                                          const std::vector<Vec3>& vertices,
                                                                          const std::vector<Triangle>& facets,

@@ -32,7 +32,7 @@ struct BoundedVolume {
     double error = 0;  ///< the exact volume inside of the facets, with the coordinates as they are, is no further away
 };
 
-/// The same volume with what rounding may have made of it, which is found beside the sum. Two sources: differences from
+/// The volume with what rounding may have made of it, which is found beside the sum. Two sources: differences from
 /// the first corner are rounded, by e = 2^-53 of themselves, which moves the vertices of a surface that is still
 /// closed, and so the volume by less than the sum of area x distance x e; and the n products are rounded and added with
 /// 64 bits: less than (n + 8) 2^-64 times the sum of their absolute values. Twice the time of enclosed_volume().

@@ -61,8 +61,8 @@ class Nearness {
         return true;
     }
 
-    /// Of what holds() has found near since this was made: no point is further away, and some corner of a division is
-    /// as far from the facet that it was compared with.
+    /// A bound on what holds() has found near since this was made: no point is further away, and some corner of a
+    /// division is as far from the facet that it was compared with.
     double directed_distance() const { return std::sqrt(squared_distance_); }
 
  private:

@@ -30,7 +30,7 @@ class ScaledPolygon {
     bool is_finite() const {
         return std::all_of(corners_.begin(), corners_.end(), [&](auto v) { return vertices_[v].allFinite(); });
     }
-    /// Of the coordinates of a corner: most programs write six digits.
+    /// The rounding of the coordinates of a corner: most programs write six digits.
     double rounding() const {
         constexpr double relative_rounding = 1e-5;
         return relative_rounding * largest_ / scale_;

@@ -66,12 +66,12 @@ class Surface {
 
     /// Builds the half-edges in O(#V + #F), or returns the first manifold defect. The arrays must be well-formed.
     static std::variant<Surface, ManifoldDefect> build(SurfaceArrays arrays);
-    /// As build(), where the neighbours of most facets are known. Corner 3 f + i is the half-edge of facet f from its
-    /// vertex i to the next; `partner` (3 #F) is the opposite corner, or -1 where it has to be found. Known partners
-    /// must be each other's over the same edge; only the others are paired, and only the vertices at them are proven to
-    /// be manifold.
+    /// Builds as above where the neighbours of most facets are known. Corner 3 f + i is the half-edge of facet f from
+    /// its vertex i to the next; `partner` (3 #F) is the opposite corner, or -1 where it has to be found. Known
+    /// partners must be each other's over the same edge; only the others are paired, and only the vertices at them are
+    /// proven to be manifold.
     static std::variant<Surface, ManifoldDefect> build(SurfaceArrays arrays, std::vector<std::int32_t> partner);
-    /// As build(), for arrays that are known to be a closed 2-manifold. Throws Error(internal) naming the defect.
+    /// Builds from arrays that are known to be a closed 2-manifold. Throws Error(internal) naming the defect.
     explicit Surface(SurfaceArrays arrays);
 
     const HalfEdgeMesh& mesh() const { return *mesh_; }

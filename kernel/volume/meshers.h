@@ -60,9 +60,9 @@ struct Mesher {
 
 /// All of them, in the order of the help; the first one is the default.
 std::span<const Mesher* const> meshers();
-/// The same by name.
+/// The names of all meshers, in the order of the table.
 std::vector<std::string> mesher_names();
-/// By name. Throws Error(usage) with the names that there are.
+/// Finds one by its name. Throws Error(usage) with the names that there are.
 const Mesher& find_mesher(std::string_view name);
 
 /// Improves the cells of a filling with dihedral angles below the threshold, if that is wanted, and says so in it: a

@@ -34,8 +34,8 @@ struct PartJob {
 
 /// The part as it is before it is meshed: its boundary alone.
 Part part_of_job(const PartJob& job);
-/// The same with its cells, of which the boundary is the job's surface. Interior vertices have no global numbers yet:
-/// they are -1.
+/// The part of a job with its cells, of which the boundary is the job's surface. Interior vertices have no global
+/// numbers yet: they are -1.
 Part part_of_job(const PartJob& job, TetMesh mesh);
 
 /// One attempt at a part: what a worker is told.
@@ -92,7 +92,7 @@ struct PartResult {
     }
 };
 
-/// Of a part that did not fit into the memory of its worker.
+/// The result of a part that did not fit into the memory of its worker.
 PartResult out_of_memory();
 
 /// Stores the part of a job again as it is in a file of write_part(), if there is a whole one: whoever finds its hash

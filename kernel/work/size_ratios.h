@@ -22,7 +22,7 @@ class RatioCounts {
     void add(double ratio, std::int64_t times = 1);  ///< positive, or infinite
     void add(const RatioCounts& other);
     std::int64_t count() const;
-    /// Of all, those from `low` to `high`; 0 if there is none.
+    /// The share of all that lies from `low` to `high`; 0 if there is none.
     double share_obeyed() const;
     /// Ratio below which the given fraction in [0, 1] lies, to 2.5 %; ratios beyond 1/11 and 11 count as these.
     double percentile(double fraction) const;
@@ -37,7 +37,7 @@ class RatioCounts {
     std::array<std::int64_t, bins_per_octave * octaves> bins_{};
 };
 
-/// Of one part, or of all.
+/// The ratios of one part, or of all.
 struct SizeRatios {
     struct OfPatch {
         std::int32_t patch = 0;
@@ -66,7 +66,8 @@ struct SizeRatios {
 /// many. O(#T), and the field once for each vertex.
 SizeRatios measure_sizes(const TetMesh& mesh, const SurfaceArrays& surface, const SizeField& field);
 
-/// For people: a line on the edges inside, and with `every_kind` one on interfaces and on each of the first patches.
+/// Text for people: a line on the edges inside, and with `every_kind` one on interfaces and on each of the first
+/// patches.
 std::string size_text(const SizeRatios& ratios, const std::vector<std::string>& patch_names, bool every_kind);
 
 }  // namespace kerf

@@ -222,20 +222,22 @@ TEST_F(SolvedCube, LooksAsItShould) {
 TEST_F(SolvedCube, IsAPictureByOneCommand) {
     const std::string png = folder_->file("a.png");
     const auto run = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> all = {"screenshot", folder_->file("out/solution"), "-o", png, "--resolution", "320x240"};
+        std::vector<std::string> all = {"screenshot", folder_->file("out/solution"), "-o", png, "--resolution",
+                                        "320x240"};
         all.insert(all.end(), more.begin(), more.end());
         return run_kerf(all);
     };
-    EXPECT_EQ(run({"--color", "von-mises", "--deform", "auto", "--isolines", "--range", "0", "1", "--load-case", "fast"})
-                  .exit_code,
-              0);
+    EXPECT_EQ(
+        run({"--color", "von-mises", "--deform", "auto", "--isolines", "--range", "0", "1", "--load-case", "fast"})
+            .exit_code,
+        0);
     const ChildResult no_case = run({"--load-case", "slower"});
     EXPECT_EQ(no_case.exit_code, 2);
     EXPECT_NE(no_case.log.find("It has 'slow', 'fast'"), std::string::npos) << no_case.log;
     EXPECT_EQ(run({"--deform", "much"}).exit_code, 2);
     EXPECT_EQ(run({"--range", "2", "1"}).exit_code, 2);
-    const ChildResult no_solution =
-        run_kerf({"screenshot", folder_->file("out/mesh"), "-o", png, "--resolution", "320x240", "--color", "displacement"});
+    const ChildResult no_solution = run_kerf(
+        {"screenshot", folder_->file("out/mesh"), "-o", png, "--resolution", "320x240", "--color", "displacement"});
     EXPECT_EQ(no_solution.exit_code, 2);
     EXPECT_NE(no_solution.log.find("There is no solution"), std::string::npos) << no_solution.log;
 }
