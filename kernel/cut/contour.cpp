@@ -129,19 +129,13 @@ std::vector<std::int32_t> LabelCleaner::contour_vertices() {
 
 // Runs of equally labelled facets around a vertex, in rotational order.
 std::vector<std::vector<std::int32_t>> LabelCleaner::fans_around(std::int32_t vertex) const {
-    std::int32_t start = surface_.outgoing(vertex);
-    const std::int32_t first = start;
-    while (!on_contour(start)) {
-        start = surface_.rotate(start);
-        if (start == first) return {};
-    }
     std::vector<std::vector<std::int32_t>> fans;
-    std::int32_t half_edge = start;
-    do {
-        if (on_contour(half_edge)) fans.emplace_back();
-        fans.back().push_back(across(half_edge));
-        half_edge = surface_.rotate(half_edge);
-    } while (half_edge != start);
+    std::vector<std::int32_t> before;  // of the last fan, which goes on beyond the first half-edge
+    for (const auto h : surface_.around(vertex)) {
+        if (on_contour(h.idx())) fans.emplace_back();
+        (fans.empty() ? before : fans.back()).push_back(across(h.idx()));
+    }
+    if (!fans.empty()) fans.back().insert(fans.back().end(), before.begin(), before.end());
     return fans;
 }
 
@@ -204,9 +198,8 @@ bool LabelCleaner::close_pockets() {
     bool changed = false;
     const std::vector<std::int32_t> vertices = contour_vertices();
     for (std::int32_t v : vertices) {
-        const std::int32_t first = surface_.outgoing(v);
-        std::int32_t half_edge = first;
-        do {
+        for (const auto h : surface_.around(v)) {
+            const std::int32_t half_edge = h.idx();
             if (degree_[surface_.to_vertex(half_edge)] > 0 && !on_contour(half_edge)) {
                 std::vector<std::int32_t> pocket = pocket_behind(half_edge);
                 const std::vector<std::int32_t> behind = pocket_behind(Surface::opposite(half_edge));
@@ -214,8 +207,7 @@ bool LabelCleaner::close_pockets() {
                 for (std::int32_t facet : pocket) turn(facet);
                 changed |= !pocket.empty();
             }
-            half_edge = surface_.rotate(half_edge);
-        } while (half_edge != first);
+        }
     }
     for (std::int32_t v : vertices) degree_[v] = 0;
     return changed;

@@ -34,15 +34,12 @@ struct VertexRing {
 VertexRing ring_of(const Surface& surface, std::int32_t vertex, const std::vector<char>& on_contour) {
     VertexRing ring;
     int count = 0;
-    const std::int32_t first = surface.outgoing(vertex);
-    std::int32_t h = first;
-    do {
-        const std::int32_t neighbour = surface.to_vertex(h);
+    for (const auto h : surface.around(vertex)) {
+        const std::int32_t neighbour = h.to().idx();
         ring.mean_edge += (surface.point(neighbour) - surface.point(vertex)).norm();
         ring.touches_contour |= on_contour[neighbour] != 0;
         ++count;
-        h = surface.rotate(h);
-    } while (h != first);
+    }
     ring.mean_edge /= count;
     return ring;
 }

@@ -229,13 +229,8 @@ Surface::Surface(SurfaceArrays arrays) {
 }
 
 std::int32_t Surface::find_half_edge(std::int32_t from, std::int32_t to) const {
-    const std::int32_t first = outgoing(from);
-    KERF_CHECK(first >= 0);
-    std::int32_t h = first;
-    do {
-        if (to_vertex(h) == to) return h;
-        h = rotate(h);
-    } while (h != first);
+    for (const auto h : around(from))
+        if (h.to().idx() == to) return h.idx();
     return -1;
 }
 

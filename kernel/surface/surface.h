@@ -113,25 +113,23 @@ class Surface {
     }
     std::int32_t from_vertex(std::int32_t half_edge) const { return to_vertex(half_edge ^ 1); }
     std::int32_t to_vertex(std::int32_t half_edge) const {
-        KERF_CHECK(has_half_edge(half_edge));
+        KERF_CHECK(half_edge >= 0 && half_edge < 3 * facet_count());
         return mesh_->to_vertex_handle(HalfEdgeMesh::HalfedgeHandle(half_edge)).idx();
     }
     std::int32_t facet_of(std::int32_t half_edge) const {
-        KERF_CHECK(has_half_edge(half_edge));
+        KERF_CHECK(half_edge >= 0 && half_edge < 3 * facet_count());
         return mesh_->face_handle(HalfEdgeMesh::HalfedgeHandle(half_edge)).idx();
     }
     std::int32_t next(std::int32_t half_edge) const {
-        KERF_CHECK(has_half_edge(half_edge));
+        KERF_CHECK(half_edge >= 0 && half_edge < 3 * facet_count());
         return mesh_->next_halfedge_handle(HalfEdgeMesh::HalfedgeHandle(half_edge)).idx();
     }
     static std::int32_t opposite(std::int32_t half_edge) { return half_edge ^ 1; }
-    /// Some half-edge that starts at the vertex, -1 for a vertex without facets.
-    std::int32_t outgoing(std::int32_t vertex) const {
-        KERF_CHECK(has_vertex(vertex));
-        return mesh_->halfedge_handle(HalfEdgeMesh::VertexHandle(vertex)).idx();
+    /// The half-edges that start at a vertex which has facets, clockwise seen from outside: a range of h with h.idx().
+    auto around(std::int32_t vertex) const {
+        KERF_CHECK(has_vertex(vertex) && !mesh_->is_isolated(HalfEdgeMesh::VertexHandle(vertex)));
+        return mesh_->voh_cw_range(HalfEdgeMesh::VertexHandle(vertex));
     }
-    /// Turns to the next half-edge around its start vertex (clockwise seen from outside).
-    std::int32_t rotate(std::int32_t half_edge) const { return next(opposite(half_edge)); }
 
     /// The half-edge between two vertices, -1 if there is none. `from` must have facets. O(degree).
     std::int32_t find_half_edge(std::int32_t from, std::int32_t to) const;
@@ -141,7 +139,6 @@ class Surface {
  private:
     bool has_vertex(std::int32_t vertex) const { return vertex >= 0 && vertex < vertex_count(); }
     bool has_facet(std::int32_t facet) const { return facet >= 0 && facet < facet_count(); }
-    bool has_half_edge(std::int32_t half_edge) const { return half_edge >= 0 && half_edge < 3 * facet_count(); }
 
     struct Paired {};  // every corner has its partner
     Surface(Paired, SurfaceArrays&& arrays, std::vector<std::int32_t> partner);

@@ -83,13 +83,13 @@ TEST_P(SurfaceLaws, RotationVisitsEveryFacetOfAVertexOnce) {
         for (std::int32_t v : soup_.facets[f]) expected[v].insert(static_cast<std::int32_t>(f));
     for (std::int32_t v = 0; v < surface_.vertex_count(); ++v) {
         std::set<std::int32_t> visited;
-        const std::int32_t start = surface_.outgoing(v);
-        std::int32_t h = start;
-        do {
-            EXPECT_EQ(surface_.from_vertex(h), v);
-            ASSERT_TRUE(visited.insert(surface_.facet_of(h)).second) << "vertex " << v;
-            h = surface_.rotate(h);
-        } while (h != start);
+        std::int32_t before = -1;
+        for (const auto h : surface_.around(v)) {
+            EXPECT_EQ(surface_.from_vertex(h.idx()), v);
+            ASSERT_TRUE(visited.insert(surface_.facet_of(h.idx())).second) << "vertex " << v;
+            EXPECT_TRUE(before < 0 || h.idx() == surface_.next(Surface::opposite(before)));
+            before = h.idx();
+        }
         EXPECT_EQ(visited, expected[v]);
     }
 }
@@ -140,7 +140,7 @@ TEST(FindManifoldDefects, AllowsVerticesWithoutFacets) {
     Soup soup = test::box();
     soup.vertices.emplace_back(5, 5, 5);
     EXPECT_TRUE(find_manifold_defects(soup.vertices.size(), soup.facets).empty());
-    EXPECT_EQ(Surface(to_arrays(soup)).outgoing(8), -1);
+    EXPECT_TRUE(Surface(to_arrays(soup)).mesh().is_isolated(HalfEdgeMesh::VertexHandle(8)));
 }
 
 TEST(SurfaceConstructor, NamesTheFirstDefect) {
