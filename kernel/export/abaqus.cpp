@@ -78,7 +78,7 @@ void write_nodes(const PartSource& parts, ExportFile& file) {
 
 void write_elements(const PartSource& parts, ExportFile& file) {
     std::int64_t element = 0;
-    for_each_part(parts, [&](PartIndex index, const Part& part) {
+    for_each_part(parts, PartContent::cells, [&](PartIndex index, const Part& part) {
         file.write(fmt::format("** part {}\n*ELEMENT, TYPE=C3D4, ELSET=SUBDOMAIN_{}\n", part.id, index.value() + 1));
         for (const Tetrahedron& tet : part.mesh.tets) {
             const auto [a, b, c, d] = global_corners(part, tet);
@@ -108,7 +108,7 @@ void write_body_sets(const PartSource& parts, ExportFile& file) {
     if (bodies.count() == 1)
         return file.write(fmt::format("*ELSET, ELSET=BODY_1, GENERATE\n1,{},1\n", parts.outline().tets()));
     const auto visit = [&](const auto& add) {
-        for_each_part(parts, [&](PartIndex index, const Part& part) {
+        for_each_part(parts, PartContent::cells, [&](PartIndex index, const Part& part) {
             std::int64_t element = parts.outline().first_tet(index);
             for (const std::int32_t body : bodies.of_tets(index, part)) add({body, ++element});
         });
@@ -154,7 +154,7 @@ void write_node_sets(const PartSource& parts, const Names& names, ExportFile& fi
 // Sets that are named again are continued.
 void write_face_sets(const PartSource& parts, const Names& names, ExportFile& file, std::vector<unsigned>& faces_of) {
     const auto visit = [&](const auto& add) {
-        for_each_part(parts, [&](PartIndex index, const Part& part) {
+        for_each_part(parts, PartContent::cells, [&](PartIndex index, const Part& part) {
             const std::int64_t first = parts.outline().first_tet(index) + 1;
             for (std::size_t f = 0; f < part.facets.size(); ++f) {
                 if (!part.has_patch(f)) continue;

@@ -260,8 +260,8 @@ void write_hdf5_part(const PartSource& parts, PartIndex index, const Part& part,
 void write_hdf5_merged(const PartSource& parts, const MergeOptions&, ExportFiles& files, const std::string& stem) {
     make_hdf5(parts.outline(), files, stem);
     make_xdmf(parts.outline(), files, stem);
-    for_each_whole_part(parts,
-                        [&](PartIndex index, const Part& part) { write_hdf5_rows(parts, index, part, files, stem); });
+    for_each_part(parts, PartContent::all,
+                  [&](PartIndex index, const Part& part) { write_hdf5_rows(parts, index, part, files, stem); });
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ void write_vertices(const PartSource& parts, ExportFile& file) {
 
 void write_tetrahedra(const PartSource& parts, ExportFile& file) {
     file.write(fmt::format("Tetrahedra\n{}\n", parts.outline().tets()));
-    for_each_part(parts, [&](PartIndex index, const Part& part) {
+    for_each_part(parts, PartContent::cells, [&](PartIndex index, const Part& part) {
         const std::vector<std::int32_t> bodies = parts.bodies().of_tets(index, part);
         for (std::size_t t = 0; t < bodies.size(); ++t) {
             const auto [a, b, c, d] = global_corners(part, part.mesh.tets[t]);
@@ -43,7 +43,7 @@ void write_tetrahedra(const PartSource& parts, ExportFile& file) {
 
 void write_triangles(const PartSource& parts, ExportFile& file) {
     file.write(fmt::format("Triangles\n{}\n", parts.outline().patch_facets()));
-    for_each_surface(parts, [&](PartIndex, const Part& part) {
+    for_each_part(parts, PartContent::surface, [&](PartIndex, const Part& part) {
         for (std::size_t f = 0; f < part.facets.size(); ++f) {
             if (!part.has_patch(f)) continue;
             const auto [a, b, c] = global_corners(part, part.facets[f]);

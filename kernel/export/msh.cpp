@@ -41,7 +41,7 @@ struct Whole {
 Whole survey(const PartSource& parts, const Tags& tags) {
     Whole whole;
     whole.surfaces.resize(parts.outline().patch_names.size());
-    for_each_whole_part(parts, [&](PartIndex index, const Part& part) {
+    for_each_part(parts, PartContent::all, [&](PartIndex index, const Part& part) {
         const PatchPieces pieces = patch_pieces(part);
         for (const PatchPiece& piece : pieces.on_patches) whole.surfaces[piece.patch].extend(piece.box);
         whole.blocks += pieces.on_patches.size();
@@ -75,7 +75,7 @@ void write_merged_4_1(const PartSource& parts, const Tags& tags, ExportFiles& fi
 
     writer.begin("Nodes");
     writer.extent(whole.blocks, outline.vertices, {0, outline.vertices - 1});
-    for_each_whole_part(parts, [&](PartIndex index, const Part& part) {
+    for_each_part(parts, PartContent::all, [&](PartIndex index, const Part& part) {
         const PatchPieces pieces = owned_patch_pieces(part);
         for (const PatchPiece& piece : pieces.on_patches)
             writer.nodes(Tags::surface(piece.patch), part, piece.vertices);
@@ -87,7 +87,7 @@ void write_merged_4_1(const PartSource& parts, const Tags& tags, ExportFiles& fi
     const std::int64_t elements = element_count(outline);
     writer.begin("Elements");
     writer.extent(whole.blocks, elements, {0, elements - 1});
-    for_each_whole_part(parts, [&](PartIndex index, const Part& part) {
+    for_each_part(parts, PartContent::all, [&](PartIndex index, const Part& part) {
         for (const PatchPiece& piece : patch_pieces(part).on_patches)
             writer.triangles(Tags::surface(piece.patch), part, piece, first_triangle(outline, index));
         for (const BodyPiece& piece : body_pieces(parts, index, part, {}))
@@ -157,7 +157,7 @@ void write_merged_2_2(const PartSource& parts, const Tags& tags, ExportFiles& fi
     writer.end("Nodes");
 
     writer.file().write(fmt::format("$Elements\n{}\n", element_count(outline)));
-    for_each_part(parts, [&](PartIndex index, const Part& part) {
+    for_each_part(parts, PartContent::cells, [&](PartIndex index, const Part& part) {
         write_triangles_2_2(writer, part, outline.parts[index], first_triangle(outline, index));
         Elements22 elements(writer, tet_type, part.tet_count());
         std::int64_t number = outline.first_tet(index);

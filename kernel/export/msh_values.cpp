@@ -68,7 +68,7 @@ void write_merged_values(const PartSource& parts, Writer& writer) {
     for (std::size_t k = 0; k < outline.values.size(); ++k) {
         const bool of_points = outline.values[k].of == PartValues::Of::points;
         ValueSection section(writer, outline.values[k], of_points ? outline.vertices : outline.tets());
-        for_each_whole_part(parts, [&](PartIndex index, const Part& part) {
+        for_each_part(parts, PartContent::all, [&](PartIndex index, const Part& part) {
             const std::vector<NodeId> owners = owners_of_vertices(part);
             write_rows_of_part(section, part, k, outline.first_tet(index),
                                [&](std::size_t v) { return owners[v] == part.id; });

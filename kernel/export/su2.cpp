@@ -18,7 +18,7 @@ namespace su2 {
 void write_elements(const PartSource& parts, ExportFile& file) {
     file.write(fmt::format("NDIME= 3\nNELEM= {}\n", parts.outline().tets()));
     std::int64_t number = 0;
-    for_each_part(parts, [&](PartIndex, const Part& part) {
+    for_each_part(parts, PartContent::cells, [&](PartIndex, const Part& part) {
         for (const Tetrahedron& tet : part.mesh.tets) {
             const auto [a, b, c, d] = global_corners(part, tet);
             write_row(file, {vtk_tetra, a, b, c, d, number++});

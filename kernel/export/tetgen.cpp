@@ -28,7 +28,7 @@ void write_nodes(const PartSource& parts, ExportFile file) {
 void write_elements(const PartSource& parts, ExportFile file) {
     file.write(fmt::format("{} 4 1\n", parts.outline().tets()));
     std::int64_t number = 0;
-    for_each_part(parts, [&](PartIndex index, const Part& part) {
+    for_each_part(parts, PartContent::cells, [&](PartIndex index, const Part& part) {
         const std::vector<std::int32_t> bodies = parts.bodies().of_tets(index, part);
         for (std::size_t t = 0; t < bodies.size(); ++t) {
             const auto [a, b, c, d] = global_corners(part, part.mesh.tets[t]);
@@ -44,7 +44,7 @@ void write_faces(const PartSource& parts, ExportFile file) {
         file.write(fmt::format("# marker {}: {}\n", patch + 1, comment_text(outline.patch_names[patch])));
     file.write(fmt::format("{} 1\n", outline.patch_facets()));
     std::int64_t number = 0;
-    for_each_surface(parts, [&](PartIndex, const Part& part) {
+    for_each_part(parts, PartContent::surface, [&](PartIndex, const Part& part) {
         for (std::size_t f = 0; f < part.facets.size(); ++f) {
             if (!part.has_patch(f)) continue;
             const auto [a, b, c] = global_corners(part, part.facets[f]);

@@ -31,19 +31,11 @@ void write_joining_file(const PartSource& parts, ExportFiles& files) {
 void write_piece(const PartSource& parts, PartIndex, const Part& part, ExportFiles& files) {
     const std::string name = file_of_part(part.id), path = files.path_of(name);
     const FileHash hash = write_part(path, part, layout_for(parts.outline(), files.options().fields), part.values);
-    files.add({name, std::int64_t(std::filesystem::file_size(path)), hash_text(hash)});
+    files.add({name, static_cast<std::int64_t>(std::filesystem::file_size(path)), hash_text(hash)});
 }
 
 using Grid = VtuGrid<ExportFile>;
 using GridArray = VtuArray<ExportFile>;
-
-void write_names(const MeshOutline& outline, ExportFile& file) {
-    for (const std::string& name : outline.patch_names) file.write(name.c_str(), name.size() + 1);
-}
-
-void write_points(const PartSource& parts, ExportFile& file) {
-    for_each_vertex(parts, [&](std::int64_t, std::span<const Vec3> points) { file.values(points); });
-}
 
 void write_parts(const MeshOutline& outline, ExportFile& file) {
     for (const auto count : {&PartExtent::tets, &PartExtent::patch_facets})
@@ -54,7 +46,7 @@ void write_parts(const MeshOutline& outline, ExportFile& file) {
 // -1 for tetrahedra, then the values of the triangles on patches.
 void write_of_facets(const PartSource& parts, std::vector<std::int32_t> Part::*values, ExportFile& file) {
     write_computed<std::int32_t>(file, parts.outline().tets(), [](std::int64_t) { return -1; });
-    for_each_surface(parts, [&](PartIndex, const Part& part) {
+    for_each_part(parts, PartContent::surface, [&](PartIndex, const Part& part) {
         for (std::size_t f = 0; f < part.facets.size(); ++f)
             if (part.has_patch(f)) file.value((part.*values)[f]);
     });
@@ -67,10 +59,10 @@ GridArray connectivity(const PartSource& parts) {
         const auto write_cell = [&](const Part& part, const auto& cell) {
             for (const std::int64_t id : global_corners(part, cell)) file.value(static_cast<Id>(id));
         };
-        for_each_part(parts, [&](PartIndex, const Part& part) {
+        for_each_part(parts, PartContent::cells, [&](PartIndex, const Part& part) {
             for (const Tetrahedron& tet : part.mesh.tets) write_cell(part, tet);
         });
-        for_each_surface(parts, [&](PartIndex, const Part& part) {
+        for_each_part(parts, PartContent::surface, [&](PartIndex, const Part& part) {
             for (std::size_t f = 0; f < part.facets.size(); ++f)
                 if (part.has_patch(f)) write_cell(part, part.facets[f]);
         });
@@ -84,10 +76,10 @@ void write_cell_values(const PartSource& parts, std::size_t k, ExportFile& file)
         for (int i = 0; i < values.components; ++i)
             file.value(static_cast<T>(tet < 0 ? NAN : values.number(std::int64_t{values.components} * tet + i)));
     };
-    for_each_whole_part(parts, [&](PartIndex, const Part& part) {
+    for_each_part(parts, PartContent::all, [&](PartIndex, const Part& part) {
         for (std::int32_t tet = 0; tet < part.tet_count(); ++tet) write_row(part.values[k], tet);
     });
-    for_each_whole_part(parts, [&](PartIndex, const Part& part) {
+    for_each_part(parts, PartContent::all, [&](PartIndex, const Part& part) {
         for (std::size_t f = 0; f < part.facets.size(); ++f)
             if (part.has_patch(f)) write_row(part.values[k], part.tet_at_facet[f]);
     });
@@ -120,7 +112,10 @@ Grid grid_of(const PartSource& parts) {
     };
     grid.arrays = {
         GridArray::of<std::uint8_t>("FieldData", "PatchNames", 1, name_bytes,
-                                    [&](ExportFile& file) { write_names(outline, file); }),
+                                    [&](ExportFile& file) {
+                                        for (const std::string& name : outline.patch_names)
+                                            file.write(name.c_str(), name.size() + 1);
+                                    }),
         GridArray::of<std::int64_t>("PointData", "GlobalVertexId", 1, outline.vertices,
                                     [&](ExportFile& file) {
                                         write_computed<std::int64_t>(file, outline.vertices,
@@ -131,7 +126,10 @@ Grid grid_of(const PartSource& parts) {
         of_cells("Patch", &Part::patch),
         of_cells("Facet", &Part::facet),
         GridArray::of<double>("Points", "Points", 3, outline.vertices,
-                              [&](ExportFile& file) { write_points(parts, file); }),
+                              [&](ExportFile& file) {
+                                  for_each_vertex(
+                                      parts, [&](std::int64_t, std::span<const Vec3> points) { file.values(points); });
+                              }),
         outline.vertices <= most_of_32_bits ? connectivity<std::int32_t>(parts) : connectivity<std::int64_t>(parts),
         GridArray::of<std::int64_t>("Cells", "offsets", 1, grid.cells,
                                     [=](ExportFile& file) {

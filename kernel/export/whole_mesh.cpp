@@ -35,11 +35,6 @@ IdRanges ranges_of(const Part& part) {
     return ranges;
 }
 
-void for_each_content(const PartSource& parts, PartContent content,
-                      const std::function<void(PartIndex index, const Part& part)>& take) {
-    for (const PartIndex index : parts.outline().parts.ids()) take(index, parts.load_only(index, content));
-}
-
 // Rows of the vertices of the whole mesh in the order of their global numbers, a piece at a time; row(part, v) has
 // those of a part.
 template <class Row, class RowOf>
@@ -98,21 +93,14 @@ void for_each_vertex_value(const PartSource& parts, std::size_t k,
     }
 }
 
-void for_each_part(const PartSource& parts, const std::function<void(PartIndex index, const Part& part)>& take) {
-    for_each_content(parts, PartContent::cells, take);
-}
-
-void for_each_whole_part(const PartSource& parts, const std::function<void(PartIndex index, const Part& part)>& take) {
-    for_each_content(parts, PartContent::all, take);
-}
-
-void for_each_surface(const PartSource& parts, const std::function<void(PartIndex index, const Part& part)>& take) {
-    for_each_content(parts, PartContent::surface, take);
+void for_each_part(const PartSource& parts, PartContent content,
+                   const std::function<void(PartIndex index, const Part& part)>& take) {
+    for (const PartIndex index : parts.outline().parts.ids()) take(index, parts.load_only(index, content));
 }
 
 std::vector<std::int64_t> patch_sizes(const PartSource& parts) {
     std::vector<std::int64_t> sizes(parts.outline().patch_names.size(), 0);
-    for_each_surface(parts, [&](PartIndex, const Part& part) {
+    for_each_part(parts, PartContent::surface, [&](PartIndex, const Part& part) {
         for (const std::int32_t patch : part.patch)
             if (patch >= 0) ++sizes.at(patch);
     });
@@ -125,7 +113,7 @@ void for_each_patch_triangle(
     for_each_by_patch<PatchTriangle>(
         sizes,
         [&](const auto& add) {
-            for_each_surface(parts, [&](PartIndex, const Part& part) {
+            for_each_part(parts, PartContent::surface, [&](PartIndex, const Part& part) {
                 for (std::size_t f = 0; f < part.facets.size(); ++f)
                     if (part.has_patch(f)) add({part.patch[f], global_corners(part, part.facets[f])});
             });

@@ -14,8 +14,8 @@
 namespace kerf {
 
 // Memory, whatever the size of the mesh: 48 MB of points and 6 bytes a tetrahedron of the largest part in
-// for_each_vertex(), 18 bytes a tetrahedron in for_each_part(), 48 MB in for_each_patch_triangle(); so parts of 2.5e6
-// tetrahedra are merged below 100 MB beside what the PartSource holds.
+// for_each_vertex(), 18 bytes a tetrahedron in for_each_part() for cells, 48 MB in for_each_patch_triangle(); so parts
+// of 2.5e6 tetrahedra are merged below 100 MB beside what the PartSource holds.
 
 /// Calls take(first, points) with the vertices of the whole mesh in the order of their global numbers: a piece at a
 /// time, the first of which has the number `first`. Parts are loaded as often as pieces need them.
@@ -26,14 +26,9 @@ void for_each_vertex(const PartSource& parts,
 void for_each_vertex_value(const PartSource& parts, std::size_t k,
                            const std::function<void(std::int64_t first, std::span<const double> rows)>& take);
 
-/// Calls take(index, part) with every part, in the order of the tree: PartContent::cells, so without coordinates.
-void for_each_part(const PartSource& parts, const std::function<void(PartIndex index, const Part& part)>& take);
-
-/// Gives every part with all that it has.
-void for_each_whole_part(const PartSource& parts, const std::function<void(PartIndex index, const Part& part)>& take);
-
-/// Gives every part with PartContent::surface.
-void for_each_surface(const PartSource& parts, const std::function<void(PartIndex index, const Part& part)>& take);
+/// Calls take(index, part) with every part, in the order of the tree, and what is asked for of it.
+void for_each_part(const PartSource& parts, PartContent content,
+                   const std::function<void(PartIndex index, const Part& part)>& take);
 
 /// The number of triangles that all parts have on each patch.
 std::vector<std::int64_t> patch_sizes(const PartSource& parts);

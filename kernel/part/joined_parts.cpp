@@ -189,6 +189,27 @@ std::vector<NodeId> JoinedParts::pieces_of(const std::vector<NodeId>& leaves) co
     return pieces;
 }
 
+// What a piece shares with others, by all that have it: ascending by id(item), each once.
+template <class Group, class Item, class InPiece, class IdOf>
+std::vector<Group> JoinedParts::join_groups(const std::vector<Part>& parts, std::vector<Group> Part::*groups,
+                                            std::vector<Item> Group::*items, const InPiece& in_piece,
+                                            const IdOf& id) const {
+    std::map<std::vector<PartIndex>, std::vector<Item>> items_of;
+    for (std::size_t p = 0; p < parts.size(); ++p)
+        for (const Group& group : parts[p].*groups) {
+            const std::vector<PartIndex> holders = indices_of(group.parts);
+            if (holders.size() < 2) continue;
+            for (const Item& item : group.*items) items_of[holders].push_back(in_piece(p, item));
+        }
+    std::vector<Group> joined;
+    for (auto& [holders, found] : items_of) {
+        std::sort(found.begin(), found.end(), [&](const Item& a, const Item& b) { return id(a) < id(b); });
+        found.erase(std::unique(found.begin(), found.end()), found.end());
+        joined.push_back({ids_of(holders), std::move(found)});
+    }
+    return joined;
+}
+
 Part JoinedParts::load(PartIndex index) const {
     const PieceOfTree& range = pieces_[index.value()];
     std::vector<Part> parts;
@@ -217,27 +238,17 @@ Part JoinedParts::load(PartIndex index) const {
             for (std::int32_t& v : tet) v = vertex_in_piece(p, v, piece);
             piece.mesh.tets.push_back(tet);
         }
-    // The vertices of the piece that other pieces have, by all that have them.
-    std::map<std::vector<PartIndex>, std::vector<std::int32_t>> vertices_of;
-    for (std::size_t p = 0; p < parts.size(); ++p)
-        for (const SharedGroup& group : parts[p].shared) {
-            const std::vector<PartIndex> indices = indices_of(group.parts);
-            if (indices.size() < 2) continue;
-            std::vector<std::int32_t>& vertices = vertices_of[indices];
-            for (const std::int32_t v : group.vertices) vertices.push_back(vertex_in_piece(p, v, piece));
-        }
-    for (auto& [indices, vertices] : vertices_of) piece.shared.push_back(group_of(indices, std::move(vertices), piece));
-    // The same for edges.
-    std::map<std::vector<PartIndex>, std::vector<UndirectedEdge>> edges_of;
-    for (std::size_t p = 0; p < parts.size(); ++p)
-        for (const SharedEdgeGroup& group : parts[p].shared_edges) {
-            const std::vector<PartIndex> indices = indices_of(group.parts);
-            if (indices.size() < 2) continue;
-            std::vector<UndirectedEdge>& edges = edges_of[indices];
-            for (const auto& [a, b] : group.edges)
-                edges.push_back({vertex_in_piece(p, a, piece), vertex_in_piece(p, b, piece)});
-        }
-    for (auto& [indices, edges] : edges_of) piece.shared_edges.push_back(group_of(indices, std::move(edges), piece));
+    piece.shared = join_groups(
+        parts, &Part::shared, &SharedGroup::vertices,
+        [&](std::size_t p, std::int32_t v) { return vertex_in_piece(p, v, piece); },
+        [&](std::int32_t v) { return piece.global_id[v]; });
+    piece.shared_edges = join_groups(
+        parts, &Part::shared_edges, &SharedEdgeGroup::edges,
+        [&](std::size_t p, const UndirectedEdge& edge) {
+            const std::int32_t first = vertex_in_piece(p, edge[0], piece);
+            return UndirectedEdge{first, vertex_in_piece(p, edge[1], piece)};
+        },
+        [&](const UndirectedEdge& edge) { return std::pair(piece.global_id[edge[0]], piece.global_id[edge[1]]); });
     for (std::size_t k = 0; k < outline_.values.size(); ++k)
         piece.values.push_back(
             join_values(parts, k, [&](std::size_t p, std::int32_t v) { return vertex_in_piece(p, v, piece); }));
@@ -256,27 +267,6 @@ std::vector<NodeId> JoinedParts::ids_of(const std::vector<PartIndex>& indices) c
     std::vector<NodeId> ids;
     for (const PartIndex index : indices) ids.push_back(outline_.parts[index].id);
     return ids;
-}
-
-// `vertices`: of the piece; those that several of its parts have come several times.
-SharedGroup JoinedParts::group_of(const std::vector<PartIndex>& indices, std::vector<std::int32_t> vertices,
-                                  const Part& piece) const {
-    const auto id = [&](std::int32_t v) { return piece.global_id[v]; };
-    std::sort(vertices.begin(), vertices.end(), [&](std::int32_t a, std::int32_t b) { return id(a) < id(b); });
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    return {ids_of(indices), std::move(vertices)};
-}
-
-// The same with edges.
-SharedEdgeGroup JoinedParts::group_of(const std::vector<PartIndex>& indices, std::vector<UndirectedEdge> edges,
-                                      const Part& piece) const {
-    const auto id = [&](const UndirectedEdge& edge) {
-        return std::pair(piece.global_id[edge[0]], piece.global_id[edge[1]]);
-    };
-    std::sort(edges.begin(), edges.end(),
-              [&](const UndirectedEdge& a, const UndirectedEdge& b) { return id(a) < id(b); });
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    return {ids_of(indices), std::move(edges)};
 }
 
 }  // namespace kerf

@@ -38,10 +38,9 @@ class JoinedParts : public PartSource {
     std::vector<NodeId> pieces_of(const std::vector<NodeId>& leaves) const;
     std::vector<PartIndex> indices_of(const std::vector<NodeId>& leaves) const;
     std::vector<NodeId> ids_of(const std::vector<PartIndex>& indices) const;
-    SharedGroup group_of(const std::vector<PartIndex>& indices, std::vector<std::int32_t> vertices,
-                         const Part& piece) const;
-    SharedEdgeGroup group_of(const std::vector<PartIndex>& indices, std::vector<UndirectedEdge> edges,
-                             const Part& piece) const;
+    template <class Group, class Item, class InPiece, class IdOf>
+    std::vector<Group> join_groups(const std::vector<Part>& parts, std::vector<Group> Part::*groups,
+                                   std::vector<Item> Group::*items, const InPiece& in_piece, const IdOf& id) const;
 
     const PartSource& parts_;
     std::vector<PieceOfTree> pieces_;

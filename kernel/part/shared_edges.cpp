@@ -63,12 +63,8 @@ std::vector<SharedEdges::Incidence> SharedEdges::incidences_of(const Part& part)
 
 SharedEdges::SharedEdges(std::vector<Incidence> told, const std::vector<NodeId>& ids)
     : incidences_(std::move(told)), ids_(ids.begin(), ids.end()) {
-    const auto key = [](const Incidence& held) { return std::tie(held.edge, held.part); };
-    std::sort(incidences_.begin(), incidences_.end(),
-              [&](const Incidence& a, const Incidence& b) { return key(a) < key(b); });
-    incidences_.erase(std::unique(incidences_.begin(), incidences_.end(),
-                                  [&](const Incidence& a, const Incidence& b) { return key(a) == key(b); }),
-                      incidences_.end());
+    std::sort(incidences_.begin(), incidences_.end());
+    incidences_.erase(std::unique(incidences_.begin(), incidences_.end()), incidences_.end());
     for (const PartIndex index : ids_.ids()) places_.push_back({ids_[index], index});
     std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) { return a.id < b.id; });
 }

@@ -19,6 +19,7 @@ class SharedEdges {
     struct Incidence {
         std::array<std::int64_t, 2> edge;  ///< global numbers of its ends, the smaller one first
         NodeId part;
+        auto operator<=>(const Incidence&) const = default;
 
         template <class Archive>
         void archive(Archive& a) {

@@ -2,17 +2,13 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
 
 namespace kerf {
 
 SharedVertices::SharedVertices(std::vector<Incidence> held, const std::vector<NodeId>& ids)
     : held_(std::move(held)), ids_(ids.begin(), ids.end()) {
-    const auto key = [](const Incidence& h) { return std::tie(h.vertex, h.part); };
-    std::sort(held_.begin(), held_.end(), [&](const Incidence& a, const Incidence& b) { return key(a) < key(b); });
-    held_.erase(std::unique(held_.begin(), held_.end(),
-                            [&](const Incidence& a, const Incidence& b) { return key(a) == key(b); }),
-                held_.end());
+    std::sort(held_.begin(), held_.end());
+    held_.erase(std::unique(held_.begin(), held_.end()), held_.end());
     std::size_t kept = 0;
     for (std::size_t i = 0, j = 0; i < held_.size(); i = j) {
         while (j < held_.size() && held_[j].vertex == held_[i].vertex) ++j;

@@ -17,6 +17,7 @@ class SharedVertices {
     struct Incidence {
         std::int64_t vertex;  ///< global number
         PartIndex part;
+        auto operator<=>(const Incidence&) const = default;
     };
 
     SharedVertices() = default;
