@@ -1,7 +1,7 @@
 // What a user may choose about cuts.
 #pragma once
 
-#include "core/check_cancelled.h"
+#include "core/cancellation.h"
 #include "cut/cut.h"
 #include "cut/load.h"
 #include "size/size_field.h"

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/check_cancelled.h"
+#include "core/cancellation.h"
 #include "cut/cut.h"
 
 namespace kerf {

@@ -222,8 +222,8 @@ void count_broken_faces(const TetMesh& mesh, const SurfaceArrays& surface, MeshL
 }  // namespace
 
 bool MeshLaws::hold() const {
-    return inverted_tets == 0 && missing_facets == 0 && extra_boundary_faces == 0 && mismatched_neighbours == 0 &&
-           moved_vertices == 0 && std::abs(volume - surface_volume) <= volume_error;
+    const auto holds = [&](const MeshLaw& law) { return this->*law.count == 0; };
+    return std::all_of(mesh_laws.begin(), mesh_laws.end(), holds) && std::abs(volume - surface_volume) <= volume_error;
 }
 
 MeshLaws verify_mesh(const TetMesh& mesh, const SurfaceArrays& surface, FaceProof proof) {

@@ -1,6 +1,8 @@
 // The laws that the mesh of one subdomain must obey.
 #pragma once
 
+#include <array>
+
 #include "mesh/tet_mesh.h"
 #include "surface/surface.h"
 
@@ -18,14 +20,31 @@ struct MeshLaws {
     double surface_volume = 0;               ///< enclosed by the surface
     double volume_error = 0;                 ///< what rounding may have made of their difference, at most
 
-    /// True if every count is zero and the volumes differ by no more than rounding can make of two that are the same.
+    /// True if every count of mesh_laws is zero and the volumes differ by no more than rounding can make of two that
+    /// are the same.
     bool hold() const;
     template <class Archive>
-    void archive(Archive& a) {
-        a(inverted_tets, missing_facets, extra_boundary_faces, mismatched_neighbours, moved_vertices, volume,
-          surface_volume, volume_error);
-    }
+    void archive(Archive& a);
 };
+
+/// One law of a mesh: what there must be none of.
+struct MeshLaw {
+    std::int64_t MeshLaws::*count;
+    const char* broken;  ///< for people, behind the count
+};
+/// The laws that are counts. A new one is a count of MeshLaws and a row here; verify_mesh() counts.
+inline constexpr std::array<MeshLaw, 5> mesh_laws = {
+    {{&MeshLaws::inverted_tets, "inverted tetrahedra"},
+     {&MeshLaws::missing_facets, "facets of the surface missing"},
+     {&MeshLaws::extra_boundary_faces, "boundary faces that are no facets"},
+     {&MeshLaws::mismatched_neighbours, "faces with mismatched neighbours"},
+     {&MeshLaws::moved_vertices, "moved surface vertices"}}};
+
+template <class Archive>
+void MeshLaws::archive(Archive& a) {
+    for (const MeshLaw& law : mesh_laws) a(this->*law.count);
+    a(volume, surface_volume, volume_error);
+}
 
 /// How the faces of a mesh without neighbours are told to be those of the surface.
 enum class FaceProof {

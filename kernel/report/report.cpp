@@ -12,8 +12,8 @@
 namespace kerf {
 
 bool RunVerification::all_hold() const {
-    return volume_rel_error <= volume_rel_bound && input_faces_missing == 0 && extra_boundary_faces == 0 &&
-           unmatched_interface_faces == 0 && inverted_tets == 0 && tets_zero_parts == 0;
+    const auto holds = [&](const RunLaw& law) { return this->*law.count == 0; };
+    return volume_rel_error <= volume_rel_bound && std::all_of(run_laws.begin(), run_laws.end(), holds);
 }
 
 namespace {

@@ -43,7 +43,7 @@ struct PartReport : PartOutcome {
     }
 };
 
-/// The laws of the whole, each a count that must be zero.
+/// What is known of the laws of a whole mesh (run_laws).
 struct RunVerification {
     bool passed = false;
     double volume_rel_error = 0;                 ///< sum of the parts against the enclosed volume
@@ -51,12 +51,38 @@ struct RunVerification {
     std::int64_t input_faces_missing = 0;        ///< facets of the input that are no boundary face of exactly one part
     std::int64_t extra_boundary_faces = 0;       ///< boundary faces of parts that are neither input nor interface
     std::int64_t unmatched_interface_faces = 0;  ///< not once on each side, with the same keys in opposite order
+    std::int64_t wrong_neighbours = 0;           ///< interface triangles that do not name the part on the other side
     std::int64_t inverted_tets = 0;
     std::int64_t tets_zero_parts = 0;  ///< parts without a tetrahedron
+    std::int64_t moved_vertices = 0;   ///< vertices whose coordinates differ between parts, or from the input
+    std::int64_t misnumbered = 0;      ///< global numbers that are missing, or used by two interior vertices
 
     /// True if the volumes agree within the bound and every count is zero.
     bool all_hold() const;
 };
+
+/// One law of a whole mesh: what there must be none of.
+struct RunLaw {
+    const char* name;  ///< in JSON
+    std::int64_t RunVerification::*count;
+    const char* broken;        ///< for people, behind the count
+    bool is_of_files = false;  ///< can only be broken by files, so that kerf verify alone looks
+};
+/// The laws that are counts, in the order in which they are told. A new one is a count of RunVerification and a row
+/// here; reports and kerf verify have it then, and whoever sees it counts.
+inline constexpr std::array<RunLaw, 8> run_laws = {
+    {{"input_faces_missing", &RunVerification::input_faces_missing, "facets of the input missing"},
+     {"extra_boundary_faces", &RunVerification::extra_boundary_faces,
+      "boundary faces that are neither input nor interface"},
+     {"unmatched_interface_faces", &RunVerification::unmatched_interface_faces,
+      "interface triangles without a partner of opposite orientation"},
+     {"wrong_neighbours", &RunVerification::wrong_neighbours, "interface triangles that name the wrong neighbour",
+      true},
+     {"inverted_tets", &RunVerification::inverted_tets, "tetrahedra that are not positively oriented"},
+     {"tets_zero_parts", &RunVerification::tets_zero_parts, "parts without tetrahedra"},
+     {"moved_vertices", &RunVerification::moved_vertices,
+      "vertices whose coordinates differ between parts or from the input", true},
+     {"misnumbered", &RunVerification::misnumbered, "wrong global vertex numbers", true}}};
 
 /// Wall clock, the longest over the ranks.
 struct StageSeconds {

@@ -16,9 +16,6 @@ struct VerifyOptions {
 /// What kerf verify found.
 struct FolderVerification {
     RunVerification laws;
-    std::int64_t moved_vertices = 0;    ///< vertices whose coordinates differ between parts, or from the input
-    std::int64_t misnumbered = 0;       ///< global numbers that are missing, or used by two interior vertices
-    std::int64_t wrong_neighbours = 0;  ///< interface triangles that do not name the part on the other side
     std::int64_t tets = 0, vertices = 0;
     std::int32_t parts = 0;
     std::vector<std::string> differences;  ///< what is not as the run has left it, or does not follow from the mesh

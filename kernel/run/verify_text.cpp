@@ -17,19 +17,10 @@ std::string to_text(const FolderVerification& found, const std::string& folder, 
     const RunVerification& laws = found.laws;
     std::string text = fmt::format("{}: {} parts, {} tetrahedra, {} vertices, volume error {:.1e}\n", folder,
                                    found.parts, found.tets, found.vertices, laws.volume_rel_error);
-    const auto line = [&](std::int64_t count, const char* what) {
-        if (count) text += fmt::format("  {} {}\n", count, what);
-    };
     if (!(laws.volume_rel_error <= laws.volume_rel_bound))
         text += fmt::format("  volume error above {:.1e}, which rounding explains\n", laws.volume_rel_bound);
-    line(laws.input_faces_missing, "facets of the input missing");
-    line(laws.extra_boundary_faces, "boundary faces that are neither input nor interface");
-    line(laws.unmatched_interface_faces, "interface triangles without a partner of opposite orientation");
-    line(found.wrong_neighbours, "interface triangles that name the wrong neighbour");
-    line(laws.inverted_tets, "tetrahedra that are not positively oriented");
-    line(laws.tets_zero_parts, "parts without tetrahedra");
-    line(found.moved_vertices, "vertices whose coordinates differ between parts or from the input");
-    line(found.misnumbered, "wrong global vertex numbers");
+    for (const RunLaw& law : run_laws)
+        if (const std::int64_t count = laws.*law.count) text += fmt::format("  {} {}\n", count, law.broken);
     for (const std::string& difference : found.differences) text += fmt::format("  {}\n", difference);
     if (!laws.passed)
         text += "The mesh is NOT valid. Run kerf mesh again.\n";
@@ -48,24 +39,17 @@ std::string to_text(const FolderVerification& found, const std::string& folder, 
 std::string to_json(const FolderVerification& found, const std::string& folder, const VerifyOptions& options) {
     using Json = nlohmann::ordered_json;
     const RunVerification& laws = found.laws;
-    const Json json = {{"path", path_text(folder)},
-                       {"passed", laws.passed},
-                       {"compared_with_input", !options.without_input && found.not_compared.empty()},
-                       {"parts", found.parts},
-                       {"tets", found.tets},
-                       {"vertices", found.vertices},
-                       {"volume_rel_error", laws.volume_rel_error},
-                       {"volume_rel_bound", laws.volume_rel_bound},
-                       {"input_faces_missing", laws.input_faces_missing},
-                       {"extra_boundary_faces", laws.extra_boundary_faces},
-                       {"unmatched_interface_faces", laws.unmatched_interface_faces},
-                       {"wrong_neighbours", found.wrong_neighbours},
-                       {"inverted_tets", laws.inverted_tets},
-                       {"tets_zero_parts", laws.tets_zero_parts},
-                       {"moved_vertices", found.moved_vertices},
-                       {"misnumbered", found.misnumbered},
-                       {"differences", found.differences},
-                       {"not_compared", found.not_compared}};
+    Json json = {{"path", path_text(folder)},
+                 {"passed", laws.passed},
+                 {"compared_with_input", !options.without_input && found.not_compared.empty()},
+                 {"parts", found.parts},
+                 {"tets", found.tets},
+                 {"vertices", found.vertices},
+                 {"volume_rel_error", laws.volume_rel_error},
+                 {"volume_rel_bound", laws.volume_rel_bound}};
+    for (const RunLaw& law : run_laws) json[law.name] = laws.*law.count;
+    json["differences"] = found.differences;
+    json["not_compared"] = found.not_compared;
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -37,14 +37,8 @@ std::vector<char> interface_vertices(const SurfaceArrays& surface, std::size_t v
 
 std::string broken_laws(const MeshLaws& laws) {
     std::string text = "The mesher returned a mesh that breaks the laws:";
-    const auto add = [&](std::int64_t count, const char* what) {
-        if (count) text += " " + std::to_string(count) + " " + what + ";";
-    };
-    add(laws.inverted_tets, "inverted tetrahedra");
-    add(laws.missing_facets, "facets of the surface missing");
-    add(laws.extra_boundary_faces, "boundary faces that are no facets");
-    add(laws.mismatched_neighbours, "faces with mismatched neighbours");
-    add(laws.moved_vertices, "moved surface vertices");
+    for (const MeshLaw& law : mesh_laws)
+        if (const std::int64_t count = laws.*law.count) text += fmt::format(" {} {};", count, law.broken);
     return text + fmt::format(" volume {:.6g}, {:+.2g} from the surface's, of which rounding explains {:.2g}.",
                               laws.volume, laws.volume - laws.surface_volume, laws.volume_error);
 }
