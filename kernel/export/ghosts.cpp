@@ -34,10 +34,10 @@ std::vector<bool> vertices_shared_with(NodeId id, const Part& part) {
 void add_ghosts(NodeId id, const Part& other, PartIndex index, std::int64_t first, Ghosts& ghosts) {
     const std::vector<bool> shared = vertices_shared_with(id, other);
     const auto is_shared = [&](std::int32_t v) { return shared[v]; };
-    for (std::size_t t = 0; t < other.mesh.tets.size(); ++t) {
+    for (std::int64_t t = 0; t < other.tet_count(); ++t) {
         const Tetrahedron& tet = other.mesh.tets[t];
         if (std::none_of(tet.begin(), tet.end(), is_shared)) continue;
-        ghosts.cells.push_back({first + std::int64_t(t), index, global_corners(other, tet)});
+        ghosts.cells.push_back({first + t, index, global_corners(other, tet)});
         for (const std::int32_t v : tet)
             if (!is_shared(v)) ghosts.vertices.push_back({other.global_id[v], other.mesh.vertices[v]});
     }

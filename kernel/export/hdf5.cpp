@@ -10,7 +10,6 @@
 #include "export/hdf5_arrays.h"
 #include "export/hdf5_file.h"
 #include "export/whole_mesh.h"
-#include "export/xdmf.h"
 #include "io/vtk_cell_types.h"
 #include "part/bodies.h"
 

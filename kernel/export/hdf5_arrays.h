@@ -36,4 +36,7 @@ std::string whole_array_of(const PartValues& values);
 
 std::vector<Hdf5Array> arrays_of(const MeshOutline& outline);
 
+/// What the arrays by global numbers mean, for readers of XDMF: a file, beside which they lie in the file `h5`.
+std::string xdmf_text(const MeshOutline& outline, std::string h5);
+
 }  // namespace kerf

@@ -14,7 +14,7 @@
 #include "core/error.h"
 #include "export/format.h"
 #include "export/msh_part.h"
-#include "export/msh_values.h"
+#include "export/msh_writer.h"
 #include "export/whole_mesh.h"
 #include "part/bodies.h"
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "export/msh_values.h"
+#include "export/msh_writer.h"
 
 namespace kerf::msh {
 

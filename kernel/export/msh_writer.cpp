@@ -4,6 +4,52 @@
 
 namespace kerf::msh {
 
+namespace {
+
+// $NodeData and $ElementData are alike in all versions. Tags have 32 bits.
+class ValueSection {
+ public:
+    ValueSection(Writer& writer, const PartValues& values, std::int64_t count)
+        : writer_(writer), name_(values.of == PartValues::Of::points ? "NodeData" : "ElementData") {
+        const int components = values.components == 6 ? 9 : values.components;  // Gmsh knows whole tensors
+        writer.file().write(fmt::format("${}\n1\n\"{}\"\n1\n0.0\n3\n0\n{}\n{}\n", name_,
+                                        readable(values.name, longest_name), components, count));
+    }
+    ~ValueSection() = default;
+    ValueSection(const ValueSection&) = delete;
+    ValueSection& operator=(const ValueSection&) = delete;
+
+    void row(std::int64_t number, const PartValues& values, std::size_t i) {
+        writer_.number(tag_of(number));
+        const auto at = [&](std::size_t c) { return values.number(values.components * i + c); };
+        if (values.components == 6)
+            for (const std::size_t c : {0, 3, 5, 3, 1, 4, 5, 4, 2}) writer_.real(at(c));  // of XX YY ZZ XY YZ XZ
+        else
+            for (int c = 0; c < values.components; ++c) writer_.real(at(c));
+        writer_.end_row();
+    }
+    void end() { writer_.end(name_); }
+
+ private:
+    Writer& writer_;
+    const char* name_;
+};
+
+// Writes what a part has, at its vertices for which wanted(v) holds, and in its tetrahedra.
+template <class Wanted>
+void write_rows_of_part(ValueSection& section, const Part& part, std::size_t k, std::int64_t first_tet,
+                        const Wanted& wanted) {
+    const PartValues& values = part.values[k];
+    if (values.of == PartValues::Of::tets) {
+        for (std::size_t t = 0; t < part.mesh.tets.size(); ++t) section.row(first_tet + t, values, t);
+        return;
+    }
+    for (std::size_t v = 0; v < part.global_id.size(); ++v)
+        if (wanted(v)) section.row(part.global_id[v], values, v);
+}
+
+}  // namespace
+
 void write_names(ExportFile& file, const Tags& tags, const std::vector<std::string>& patch_names) {
     file.write(fmt::format("$PhysicalNames\n{}\n", patch_names.size() + tags.bodies()));
     std::int32_t patch = 0;
@@ -13,6 +59,33 @@ void write_names(ExportFile& file, const Tags& tags, const std::vector<std::stri
     for (std::int32_t body = 0; body < tags.bodies() && tags.bodies() > 1; ++body)
         file.write(fmt::format("3 {} \"body_{}\"\n", tags.physical_body(body), body + 1));
     file.write("$EndPhysicalNames\n");
+}
+
+void require_tags_fit(const MeshOutline& outline) {
+    if (!outline.values.empty()) require_numbers_fit(outline, "values in MSH", most_int32 - 1);
+}
+
+void write_part_values(const MeshOutline& outline, PartIndex index, const Part& part, Writer& writer) {
+    for (std::size_t k = 0; k < part.values.size(); ++k) {
+        const bool of_points = part.values[k].of == PartValues::Of::points;
+        ValueSection section(writer, part.values[k], of_points ? part.vertex_count() : part.tet_count());
+        write_rows_of_part(section, part, k, outline.first_tet(index), [](std::size_t) { return true; });
+        section.end();
+    }
+}
+
+void write_merged_values(const PartSource& parts, Writer& writer) {
+    const MeshOutline& outline = parts.outline();
+    for (std::size_t k = 0; k < outline.values.size(); ++k) {
+        const bool of_points = outline.values[k].of == PartValues::Of::points;
+        ValueSection section(writer, outline.values[k], of_points ? outline.vertices : outline.tets());
+        for_each_part(parts, PartContent::all, [&](PartIndex index, const Part& part) {
+            const std::vector<NodeId> owners = owners_of_vertices(part);
+            write_rows_of_part(section, part, k, outline.first_tet(index),
+                               [&](std::size_t v) { return owners[v] == part.id; });
+        });
+        section.end();
+    }
 }
 
 }  // namespace kerf::msh

@@ -155,4 +155,11 @@ class Writer {
 /// $PhysicalNames: those of patches and bodies.
 void write_names(ExportFile& file, const Tags& tags, const std::vector<std::string>& patch_names);
 
+/// Throws Error(usage) for values of a mesh whose tags have more than the 32 bits that $NodeData and $ElementData take.
+void require_tags_fit(const MeshOutline& outline);
+
+/// $NodeData and $ElementData: what a solution has found.
+void write_part_values(const MeshOutline& outline, PartIndex index, const Part& part, Writer& writer);
+void write_merged_values(const PartSource& parts, Writer& writer);
+
 }  // namespace kerf::msh

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -45,7 +46,7 @@ struct Boundary {
 bool is_consistent(const Part& part, std::size_t ids, std::uint64_t vertices, std::uint64_t tets) {
     const std::size_t facets = part.facets.size();
     const std::size_t boundary = part.mesh.boundary_vertex_count;
-    const auto is_tet = [&](std::int32_t t) { return t >= -1 && t < std::int64_t(tets); };
+    const auto is_tet = [&](std::int32_t t) { return t >= -1 && std::cmp_less(t, tets); };
     bool holds = part.mesh.boundary_vertex_count >= 0 && boundary <= vertices && ids == boundary &&
                  part.patch.size() == facets && part.facet.size() == facets && part.neighbour.size() == facets &&
                  part.tet_at_facet.size() == facets && are_in_range(part.facets, boundary) &&

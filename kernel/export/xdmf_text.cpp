@@ -1,4 +1,4 @@
-#include "export/xdmf.h"
+#include "export/hdf5_arrays.h"
 
 #include <algorithm>
 #include <vector>
@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "core/xml_text.h"
-#include "export/hdf5_arrays.h"
 
 namespace kerf {
 
