@@ -194,7 +194,7 @@ MeshArrays arrays_of_run(const std::string& folder) {
     for_each_vertex(*parts, [&](std::int64_t, std::span<const Vec3> points) {
         for (const Vec3& p : points) mesh.vertices.push_back(to_array(p));
     });
-    for_each_part(*parts, [&](std::int32_t, const Part& part) {
+    for_each_part(*parts, PartContent::cells, [&](PartIndex, const Part& part) {
         for (const Tetrahedron& tet : part.mesh.tets) mesh.tets.push_back(global_corners(part, tet));
         mesh.part.insert(mesh.part.end(), part.mesh.tets.size(), part.id);
         add_boundary(part, mesh);

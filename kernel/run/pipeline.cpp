@@ -197,8 +197,8 @@ std::vector<RunFile> write_formats(const RunContext& run, const RunFolder& folde
                                 .patch_types = parse_patch_types(run.options.patch_types)};
     const WriteTarget target{.folder = folder.partial_path(), .options = options};
     return write_parts(run.ranks, parts, places_in_run_folder(formats), target, run.options.workers, run.listener,
-                       [&](std::int32_t rank) {
-                           if (stores_go) parts.remove(rank);
+                       [&](PartIndex part) {
+                           if (stores_go) parts.remove(part);
                        });
 }
 

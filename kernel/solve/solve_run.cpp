@@ -278,7 +278,7 @@ SolveReport SolveStages::run() {
     problem_ = make_problem(*space_, parts_->outline(), report_.wanted);
     report_.nodes = space_->total_rows();
     report_.supports = problem_.supports;
-    for (std::size_t dof = 0; dof < 3 * space_->owned_count(); ++dof) report_.held += problem_.is_held(dof) ? 1 : 0;
+    for (std::int32_t dof = 0; dof < 3 * space_->owned_count(); ++dof) report_.held += problem_.is_held(dof) ? 1 : 0;
     report_.held = ranks_.all_reduce(report_.held, Reduction::sum);
     open_folder();
     report_.seconds.conditions = stage_.lap();
