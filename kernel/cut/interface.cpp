@@ -85,12 +85,11 @@ InterfaceAttempt build_interface(const Surface& surface, const Band& band, const
     std::vector<std::int32_t>& contour = attempt.interface.contour;
     std::vector<double> contour_height;
     std::vector<char> on_contour(surface.vertex_count(), 0);
-    for (const auto& loop : loops)
-        for (const std::int32_t v : loop) {
-            contour.push_back(v);
-            on_contour[v] = 1;
-            contour_height.push_back(band.distance[v]);
-        }
+    for (const auto& loop : loops) contour.insert(contour.end(), loop.begin(), loop.end());
+    for (const std::int32_t v : contour) {
+        on_contour[v] = 1;
+        contour_height.push_back(band.distance[v]);
+    }
     ContourInPlane planar_contour = project_contour(surface, band.plane, loops);
     std::vector<Vec2> displacement = planar_contour.points;  // from the layout back to the projection
     if (layout == ContourLayout::unfolded && !unfold(surface, contour, options.good_dihedral_deg, planar_contour)) {

@@ -85,12 +85,12 @@ class Writer {
 
     void nodes(const Entity& entity, const Part& part, const std::vector<std::int32_t>& vertices) {
         block(entity, 0, vertices.size());
-        for (const std::int32_t v : vertices) size_row(tag_of(part.global_id[v]));
+        for (const std::int32_t v : vertices) row(std::array{tag_of(part.global_id[v])});
         for (const std::int32_t v : vertices) point_row(part.mesh.vertices[v]);
     }
     void nodes(const Entity& entity, const std::vector<GhostVertex>& vertices) {
         block(entity, 0, vertices.size());
-        for (const GhostVertex& vertex : vertices) size_row(tag_of(vertex.id));
+        for (const GhostVertex& vertex : vertices) row(std::array{tag_of(vertex.id)});
         for (const GhostVertex& vertex : vertices) point_row(vertex.point);
     }
     void triangles(const Entity& entity, const Part& part, const PatchPiece& piece, std::int64_t first) {
@@ -117,10 +117,6 @@ class Writer {
             file_.number(value);
         else
             file_.number(std::int64_t{value});
-    }
-    void size_row(std::int64_t value) {
-        size(value);
-        end_row();
     }
     void point_row(const Vec3& p) {
         point(p);

@@ -25,8 +25,7 @@ class SoupBuilder {
     /// `path` only serves messages. A reader that meets tetrahedra adds them if they are wanted, else passes over them.
     explicit SoupBuilder(const std::string& path, Wanted wanted = Wanted::surface)
         : path_(path), wanted_(wanted), tets_(path, soup_, !wants_tets()) {}
-    SoupBuilder(const SoupBuilder&) = delete;
-    SoupBuilder& operator=(const SoupBuilder&) = delete;
+    SoupBuilder& operator=(SoupBuilder&&) = delete;  // what collects tetrahedra refers to the soup
 
     bool wants_tets() const { return wanted_ == Wanted::tets || wants_scalars(); }
     bool wants_scalars() const { return wanted_ == Wanted::tets_and_scalars; }
@@ -34,7 +33,6 @@ class SoupBuilder {
     bool keeps_walls() const { return wanted_ == Wanted::surface_with_walls; }
     /// Where a surface is wanted, tetrahedra say what it separates, and their skin is the surface if there is none.
     TetCollector& tets() { return tets_; }
-    const TetCollector& tets() const { return tets_; }
 
     std::int64_t vertex_count() const { return static_cast<std::int64_t>(soup_.vertices.size()); }
     const Vec3& vertex(std::int64_t v) const { return soup_.vertices[static_cast<std::size_t>(v)]; }

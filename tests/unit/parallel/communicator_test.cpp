@@ -40,7 +40,7 @@ TEST(InAgreement, ErrorOfOneRankIsThrownOnAll) {
 }
 
 TEST(InAgreement, ElementsOfAnErrorReachAllRanks) {
-    run_ranks(2, [](Communicator& ranks) {
+    test::run_ranks(2, [](Communicator& ranks) {
         try {
             in_agreement(ranks, [&] {
                 if (ranks.rank() == 1)
