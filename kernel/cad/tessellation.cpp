@@ -36,6 +36,7 @@
 #include <gp_Vec.hxx>
 #include <gp_XY.hxx>
 
+#include "core/drop_items.h"
 #include "geometry/triangle.h"
 
 namespace kerf::cad {
@@ -180,18 +181,10 @@ class Welder {
     }
 
     void keep_facets(const std::vector<char>& drop) {
-        std::size_t kept = 0;
-        for (std::size_t f = 0; f < drop.size(); ++f) {
-            if (drop[f]) continue;
-            result_.facets[kept] = result_.facets[f];
-            result_.patch[kept] = result_.patch[f];
-            result_.plane[kept] = result_.plane[f];
-            result_.rise[kept++] = result_.rise[f];
-        }
-        result_.facets.resize(kept);
-        result_.patch.resize(kept);
-        result_.plane.resize(kept);
-        result_.rise.resize(kept);
+        drop_items(result_.facets, drop);
+        drop_items(result_.patch, drop);
+        drop_items(result_.plane, drop);
+        drop_items(result_.rise, drop);
     }
 
     void leave_out_collapsed() {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/check.h"
+#include "core/drop_items.h"
 #include "core/elements.h"
 
 namespace kerf {
@@ -162,16 +163,9 @@ void drop_facets(Soup& soup, const std::vector<char>& drop) {
         soup.polygon.resize(soup.facets.size());
         std::iota(soup.polygon.begin(), soup.polygon.end(), 0);
     }
-    std::size_t kept = 0;
-    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
-        if (drop[f]) continue;
-        soup.facets[kept] = soup.facets[f];
-        soup.patch[kept] = soup.patch[f];
-        soup.polygon[kept++] = soup.polygon[f];
-    }
-    soup.facets.resize(kept);
-    soup.patch.resize(kept);
-    soup.polygon.resize(kept);
+    drop_items(soup.facets, drop);
+    drop_items(soup.patch, drop);
+    drop_items(soup.polygon, drop);
 }
 
 std::int64_t weld_exactly(Soup& soup) { return renumber(soup, find_representatives(soup.vertices)); }

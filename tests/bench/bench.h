@@ -3,9 +3,13 @@
 
 #include <malloc.h>
 
+#include <exception>
 #include <fstream>
 #include <string>
 #include <utility>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "surface/surface.h"
 
@@ -45,6 +49,17 @@ inline double memory_bytes(const std::string& label) {
 inline void forget_process_memory() {
     ::malloc_trim(0);
     std::ofstream("/proc/self/clear_refs") << 5;
+}
+
+/// The main function of a benchmark that is called by words: its exit code, 1 for what `run` throws.
+template <class Run>
+int run_by_words(int argc, char** argv, const Run& run) {
+    try {
+        return run(std::vector<std::string>(argv + 1, argv + argc));
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}\n", error.what());
+        return 1;
+    }
 }
 
 }  // namespace kerf::bench

@@ -129,11 +129,4 @@ int run(const std::vector<std::string>& words) {
 
 }  // namespace kerf
 
-int main(int argc, char** argv) {
-    try {
-        return kerf::run(std::vector<std::string>(argv + 1, argv + argc));
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "{}\n", error.what());
-        return 1;
-    }
-}
+int main(int argc, char** argv) { return kerf::bench::run_by_words(argc, argv, kerf::run); }

@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
+#include "bench/bench.h"
 #include "io/stl_writer.h"
 #include "prepare/input.h"
 #include "remesh/remesh.h"
@@ -147,11 +148,4 @@ int run(const std::vector<std::string>& words) {
 
 }  // namespace kerf
 
-int main(int argc, char** argv) {
-    try {
-        return kerf::run(std::vector<std::string>(argv + 1, argv + argc));
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "{}\n", error.what());
-        return 1;
-    }
-}
+int main(int argc, char** argv) { return kerf::bench::run_by_words(argc, argv, kerf::run); }
