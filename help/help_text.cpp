@@ -39,7 +39,7 @@ std::string short_help_text(CommandHelp command, const std::vector<std::string>&
         for (const OptionGroup& group : command.groups)
             for (const OptionHelp& option : group.options)
                 if (option.names.back() == (name.size() == 1 ? "-" : "--") + name) chosen.options.push_back(option);
-    command.groups.assign(1, std::move(chosen));
+    command.groups = {chosen};
     command.footer = fmt::format("{} --help lists all {} options.", command.name, all);
     return help_text(command);
 }

@@ -39,8 +39,7 @@ using cad::Tessellation;
            fmt::format("solids '{}' and '{}' touch or overlap near {}. Join what touches by --unite, or choose one by "
                        "--solid N.",
                        one, other, place_text(where)),
-           SolidDefect::touching,
-           {{ElementKind::solid, {}, {{where.x(), where.y(), where.z()}}, {one, other}}});
+           SolidDefect::touching, {{ElementKind::solid, {}, {{where.x(), where.y(), where.z()}}, {one, other}}});
 }
 
 void select_solid(Model& model, std::int32_t number, const std::string& path) {

@@ -29,10 +29,12 @@ std::array<double, 3> to_array(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 InputOptions input_options(const NamedOptions& options) {
     InputOptions result;
     const std::vector<OptionField> fields = input_option_fields(result);
-    for (const auto& [name, value] : options) {
-        const auto field = std::find_if(fields.begin(), fields.end(), [&](const auto& f) { return f.name == name; });
-        if (field == fields.end()) throw Error(ErrorCode::usage, fmt::format("--{} is no option of a surface.", name));
-        field->set_text(value);
+    for (const auto& option : options) {
+        const auto field =
+            std::find_if(fields.begin(), fields.end(), [&](const auto& f) { return f.name == option.first; });
+        if (field == fields.end())
+            throw Error(ErrorCode::usage, fmt::format("--{} is no option of a surface.", option.first));
+        field->set_text(option.second);
     }
     result.check();
     return result;
@@ -42,11 +44,11 @@ RunOptions run_options(const Input& input, const MeshOptions& options, const std
     RunOptions run;
     const std::vector<OptionField> of_surface = input_option_fields(run.input_options);
     std::vector<OptionText> texts;
-    for (const auto& [name, value] : options.others) {
-        if (std::any_of(of_surface.begin(), of_surface.end(), [&](const auto& f) { return f.name == name; }))
+    for (const auto& option : options.others) {
+        if (std::any_of(of_surface.begin(), of_surface.end(), [&](const auto& f) { return f.name == option.first; }))
             throw Error(ErrorCode::usage,
-                        fmt::format("--{} is an option of the surface: give it where that is made.", name));
-        texts.push_back({name, value});
+                        fmt::format("--{} is an option of the surface: give it where that is made.", option.first));
+        texts.push_back({option.first, option.second});
     }
     run.sizes.size = options.size;
     run.decompose.parts = options.parts;

@@ -233,9 +233,9 @@ std::string pvtu_text(const std::vector<std::string>& pieces, const VtuLayout& l
                       std::span<const PartValues> values) {
     // Only the names and types of the arrays are asked for, so that they are those of the pieces.
     const Part no_part;
-    std::vector<PartValues> nothing(values.begin(), values.end());
-    for (PartValues& of_part : nothing) std::visit([](auto& numbers) { numbers.clear(); }, of_part.numbers);
-    return pvtu_text(GridMaker(no_part, true).part_grid(layout, nothing).heads(), pieces);
+    std::vector<PartValues> no_values(values.begin(), values.end());
+    for (PartValues& of_part : no_values) std::visit([](auto& numbers) { numbers.clear(); }, of_part.numbers);
+    return pvtu_text(GridMaker(no_part, true).part_grid(layout, no_values).heads(), pieces);
 }
 
 void write_pvtu(const std::string& path, const std::vector<std::string>& pieces, const VtuLayout& layout,

@@ -22,7 +22,8 @@ RemeshedFile remesh_file(RunOptions options, const std::string& output, StageLis
     options.input_options.check();
     options.sizes.check();
     Input input = read_input(options.input, options.input_options);
-    input = remesh_where_asked(std::move(input), with_lengths(options, input.diagonal), listener);
+    options = with_lengths(std::move(options), input.diagonal);
+    input = remesh_where_asked(std::move(input), options, listener);
     const SurfaceArrays surface = input.surface.arrays();
     if (ending == ".obj")
         write_obj(output, surface.vertices, surface.facets, surface.patch, input.patch_names);

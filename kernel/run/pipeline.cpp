@@ -164,7 +164,7 @@ StoredParts number_parts(const RunContext& run, const RunFolder& folder, const s
     }
     outline.vertices = next;
     outline.is_whole = outline.parts.size() == parts.size();
-    return {std::move(outline), std::move(places)};
+    return {std::move(outline), places};
 }
 
 // On the root rank, before it is cut.

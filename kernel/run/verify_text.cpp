@@ -37,20 +37,19 @@ std::string to_text(const FolderVerification& found, const std::string& folder, 
 }
 
 std::string to_json(const FolderVerification& found, const std::string& folder, const VerifyOptions& options) {
-    using Json = nlohmann::ordered_json;
     const RunVerification& laws = found.laws;
-    Json json = {{"path", path_text(folder)},
-                 {"passed", laws.passed},
-                 {"compared_with_input", !options.without_input && found.not_compared.empty()},
-                 {"parts", found.parts},
-                 {"tets", found.tets},
-                 {"vertices", found.vertices},
-                 {"volume_rel_error", laws.volume_rel_error},
-                 {"volume_rel_bound", laws.volume_rel_bound}};
+    nlohmann::ordered_json json = {{"path", path_text(folder)},
+                                   {"passed", laws.passed},
+                                   {"compared_with_input", !options.without_input && found.not_compared.empty()},
+                                   {"parts", found.parts},
+                                   {"tets", found.tets},
+                                   {"vertices", found.vertices},
+                                   {"volume_rel_error", laws.volume_rel_error},
+                                   {"volume_rel_bound", laws.volume_rel_bound}};
     for (const RunLaw& law : run_laws) json[law.name] = laws.*law.count;
     json["differences"] = found.differences;
     json["not_compared"] = found.not_compared;
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace kerf

@@ -156,8 +156,7 @@ Extreme SolveStages::largest(double value, const Vec3& place) const {
 
 void SolveStages::report_case(const std::vector<double>& forces, CaseReport& of_case) {
     const CaseSolution& solution = solutions_.back();
-    for (std::size_t dof = 0; dof < forces.size(); ++dof)
-        of_case.load[dof % 3] += forces[dof];
+    for (std::size_t dof = 0; dof < forces.size(); ++dof) of_case.load[dof % 3] += forces[dof];
     ranks_.all_reduce(std::span(of_case.load.data(), 3), Reduction::sum);
     of_case.reactions = reactions(problem_, solution.displacement, forces);
     Vec3 sum = of_case.load;

@@ -75,7 +75,7 @@ struct PartResult {
     std::int64_t core_tets = 0;  ///< Filling::core_tets
     MeshLaws laws;
     PartQuality quality;
-    SizeRatios sizes;                            ///< against the sizes of the call, which a fallback may have made larger
+    SizeRatios sizes;  ///< against the sizes of the call, which a fallback may have made larger
     std::array<std::uint64_t, 2> hash = {0, 0};  ///< of hash_part()
     FileHash file_hash = {0, 0};                 ///< of the stored part
     Improvement improvement;                     ///< Filling::improvement
