@@ -28,7 +28,7 @@ InterfaceTable::InterfaceTable(Communicator& ranks, const std::vector<Leaf>& lea
     std::vector<InterfaceSide> own;
     for (const Leaf& leaf : leaves)
         for (std::size_t f = 0; f < leaf.surface.facets.size(); ++f)
-            if (!is_of_input(leaf.surface.facet_key[f]))
+            if (is_of_cut(leaf.surface.facet_key[f]))
                 own.push_back({leaf.surface.facet_key[f], corner_keys(leaf.surface, f), leaf.id});
     sides_ = gather_items(ranks, own);
     std::sort(sides_.begin(), sides_.end(), [](const InterfaceSide& a, const InterfaceSide& b) {
@@ -39,7 +39,7 @@ InterfaceTable::InterfaceTable(Communicator& ranks, const std::vector<Leaf>& lea
 std::vector<NodeId> InterfaceTable::neighbours(const Leaf& leaf) const {
     std::vector<NodeId> neighbours(leaf.surface.facets.size(), -1);
     for (std::size_t f = 0; f < neighbours.size(); ++f) {
-        if (is_of_input(leaf.surface.facet_key[f])) continue;
+        if (!is_of_cut(leaf.surface.facet_key[f])) continue;
         const auto wanted = name_of({leaf.surface.facet_key[f], corner_keys(leaf.surface, f), leaf.id});
         for (auto it = std::lower_bound(sides_.begin(), sides_.end(), wanted,
                                         [](const InterfaceSide&side, const auto&name) { return name_of(side) < name; });

@@ -30,7 +30,7 @@ auto timed(double& seconds, Stage stage) {
 std::vector<char> interface_vertices(const SurfaceArrays& surface, std::size_t vertex_count) {
     std::vector<char> on_interface(vertex_count, 0);
     for (std::size_t f = 0; f < surface.facets.size(); ++f)
-        if (!is_of_input(surface.facet_key[f]))
+        if (is_of_cut(surface.facet_key[f]))
             for (std::int32_t v : surface.facets[f]) on_interface[v] = 1;
     return on_interface;
 }

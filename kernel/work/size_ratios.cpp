@@ -132,8 +132,7 @@ SizeRatios measure_sizes(const TetMesh& mesh, const SurfaceArrays& surface, cons
                         [&](std::int32_t a, std::int32_t b) { ratios.inside.add(ratio(a, b), sampling); });
     for (std::size_t f = 0; f < surface.facets.size(); ++f) {
         const Triangle& t = surface.facets[f];
-        RatioCounts& counts =
-            is_of_input(surface.facet_key[f]) ? counts_of_patch(ratios, surface.patch[f]) : ratios.interfaces;
+        RatioCounts& counts = surface.patch[f] >= 0 ? counts_of_patch(ratios, surface.patch[f]) : ratios.interfaces;
         for (std::size_t i = 0; i < 3; ++i) counts.add(ratio(t[i], t[(i + 1) % 3]));
     }
     return ratios;
