@@ -1,4 +1,4 @@
-// One bisection of a closed surface, with all remedies.
+// One bisection of a closed surface, with all strategies.
 #pragma once
 
 #include <array>

@@ -14,7 +14,12 @@ constexpr std::uint64_t has_left = ~std::uint64_t{0};
 
 // Whether that was to be done. Only the first thread calls MPI, but cuts are made on others meanwhile.
 bool initialise_mpi() {
-    int is_initialised = 0, provided = MPI_THREAD_SINGLE;
+    int is_initialised = 0, is_finalised = 0, provided = MPI_THREAD_SINGLE;
+    check_mpi(MPI_Finalized(&is_finalised), "MPI_Finalized");
+    if (is_finalised)
+        throw Error(ErrorCode::internal,
+                    "MPI has been finalised in this process, which cannot be undone. Use ranks "
+                    "before that.");
     check_mpi(MPI_Initialized(&is_initialised), "MPI_Initialized");
     if (is_initialised)
         check_mpi(MPI_Query_thread(&provided), "MPI_Query_thread");

@@ -44,8 +44,9 @@ struct RankValues {
 class MpiRanks : public Communicator {
  public:
     /// Collective. Without an argument: all processes that a launcher has started, or this one alone. Where the program
-    /// has not initialised MPI, that is done here, and undone by the destructor. Throws Error(internal) if MPI does not
-    /// allow the threads that a rank has beside its first.
+    /// has not initialised MPI, that is done here, and undone by the destructor, so that it can be done once in a
+    /// process. Throws Error(internal) if MPI has been finalised, or does not allow the threads that a rank has beside
+    /// its first. What fails while `comm` is duplicated is handled as `comm` says.
     explicit MpiRanks(MPI_Comm comm = MPI_COMM_WORLD);
     /// Collective.
     ~MpiRanks() override;

@@ -49,8 +49,8 @@ class Communicator {
     /// Collective: takes all messages that were posted before and not polled out of the way.
     virtual void drop_messages() = 0;
 
-    /// This rank meets an error that the others may know nothing of: the next collective of theirs throws it. No rank
-    /// calls another collective after that. Without effect where that has already happened.
+    /// This rank meets an error that the others may know nothing of: the next collective of theirs throws it, without
+    /// its elements. No rank calls another collective after that. Without effect where that has already happened.
     virtual void leave(const StageStatus& why) = 0;
 };
 

@@ -58,12 +58,12 @@ PartIndex index_of_leaf(const std::vector<NodeId>& leaves, NodeId leaf) {
 }
 
 void find_shared_edges(Communicator& ranks, const std::vector<NodeId>& leaves, std::vector<OwnPart>& own) {
-    std::vector<SharedEdges::Incidence> told;
+    std::vector<SharedEdges::Incidence> incidences;
     for (const OwnPart& part : own) {
         const std::vector<SharedEdges::Incidence> by_part = SharedEdges::incidences_of(part_of_job(part.job));
-        told.insert(told.end(), by_part.begin(), by_part.end());
+        incidences.insert(incidences.end(), by_part.begin(), by_part.end());
     }
-    const SharedEdges shared(gather_items(ranks, told), leaves);
+    const SharedEdges shared(gather_items(ranks, incidences), leaves);
     for (OwnPart& part : own) part.job.shared_edges = shared.groups_of(part_of_job(part.job));
 }
 

@@ -40,7 +40,7 @@ PartResult result_of_silence(const ChildResult& child) {
     return result;
 }
 
-// The first reason is that of the call as it was wanted; the others are those of remedies.
+// The first reason is that of the call as it was wanted; the others are those of fallbacks.
 std::string message_of_all(const PartOutcome& outcome) {
     const std::string& last = outcome.result.message;
     if (outcome.failures.empty() || outcome.failures.front() == last) return last;

@@ -48,7 +48,7 @@ struct QueueOptions {
 ///
 /// Parts that were added wait until a worker is free; those that are never added are left to queues of other ranks,
 /// which may share the list. An attempt that fails for the mesher's reasons
-/// (it aborts, crashes, hangs, or returns a mesh that breaks a law) is repeated with the remedies of volume/retries.h.
+/// (it aborts, crashes, hangs, or returns a mesh that breaks a law) is repeated with the fallbacks of volume/retries.h.
 /// The first signal that ends a worker at a part counts as sent from outside, and the same call is made once more: so
 /// the part becomes what it would have been. A part whose worker is killed twice, or runs out of memory, has failed,
 /// and its file is removed.

@@ -27,19 +27,19 @@ void expect_strategy(CutStrategy expected, const TreeNode& node) {
     EXPECT_EQ(node.method, expected == CutStrategy::straight ? ContourMethod::straight : ContourMethod::min_cut);
 }
 
-TEST(Rungs, SphereNeedsOneTry) {
+TEST(Strategies, SphereNeedsOneTry) {
     const TreeNode node = first_cut(test::icosphere(3), test::in_parts(2));
     expect_strategy(CutStrategy::first_try, node);
     EXPECT_EQ(node.tries, 1);
 }
 
-TEST(Rungs, WingInABoxNeedsLocalRepair) {
+TEST(Strategies, WingInABoxNeedsLocalRepair) {
     const TreeNode node = first_cut(test::asset_surface("wing_in_box"), test::in_parts(7));
     expect_strategy(CutStrategy::local_repair, node);
     EXPECT_GT(node.tries, 1);
 }
 
-TEST(Rungs, PorousFrameNeedsAnotherPlaneWhereNothingIsRepaired) {
+TEST(Strategies, PorousFrameNeedsAnotherPlaneWhereNothingIsRepaired) {
     DecomposeOptions options = test::in_parts(5);
     options.cut.repairs = 0;
     const TreeNode node = first_cut(test::porous_frame(2, 2), options);
@@ -47,7 +47,7 @@ TEST(Rungs, PorousFrameNeedsAnotherPlaneWhereNothingIsRepaired) {
     EXPECT_GT(node.tries, 1);
 }
 
-TEST(Rungs, BlockWithCavitiesNeedsAnotherAxisWherePlanesStay) {
+TEST(Strategies, BlockWithCavitiesNeedsAnotherAxisWherePlanesStay) {
     DecomposeOptions options = test::in_parts(7);
     options.cut.repairs = 0;
     options.cut.plane_steps = 0;
@@ -56,7 +56,7 @@ TEST(Rungs, BlockWithCavitiesNeedsAnotherAxisWherePlanesStay) {
     EXPECT_GT(node.tries, 1);
 }
 
-TEST(Rungs, ThinPlateIsLeftWithASoftCut) {
+TEST(Strategies, ThinPlateIsLeftWithASoftCut) {
     const CutOptions thresholds;
     const TreeNode node = first_cut(test::box(Vec3::Zero(), Vec3(100, 100, 0.5), {40, 40, 1}), test::in_parts(2));
     expect_strategy(CutStrategy::soft, node);
@@ -64,7 +64,7 @@ TEST(Rungs, ThinPlateIsLeftWithASoftCut) {
                 node.quality.angle_deg < thresholds.good_angle_deg || node.quality.gap_rel < thresholds.good_gap_rel);
 }
 
-TEST(Rungs, BoxOfTwelveFacetsNeedsAStraightCutOrStaysWhole) {
+TEST(Strategies, BoxOfTwelveFacetsNeedsAStraightCutOrStaysWhole) {
     DecomposeOptions options = test::in_parts(2);
     expect_strategy(CutStrategy::straight, first_cut(test::box(), options));
     options.facets = FacetPolicy::keep;
@@ -73,7 +73,7 @@ TEST(Rungs, BoxOfTwelveFacetsNeedsAStraightCutOrStaysWhole) {
     EXPECT_FALSE(kept.cut_tried);
 }
 
-TEST(Rungs, CoarseFrameIsTriedInVainAndThenCutStraightOrStaysWhole) {
+TEST(Strategies, CoarseFrameIsTriedInVainAndThenCutStraightOrStaysWhole) {
     DecomposeOptions options = test::in_parts(2);
     const Soup frame = test::porous_frame(2, 1);
     const TreeNode straight = first_cut(frame, options);
@@ -86,7 +86,7 @@ TEST(Rungs, CoarseFrameIsTriedInVainAndThenCutStraightOrStaysWhole) {
     EXPECT_GT(straight.tries, kept.tries);  // those in vain count
 }
 
-TEST(Rungs, RemediesTakenAwayLeadDownTheLadder) {
+TEST(Strategies, RemediesTakenAwayLeadDownTheLadder) {
     const Surface block(test::to_arrays(test::block_with_cavities({5, 2, 1})));
     DecomposeOptions options = test::in_parts(7);
     expect_strategy(CutStrategy::local_repair, first_cut(block, options));
