@@ -41,8 +41,8 @@ constexpr Key make_key(NodeId node, std::int32_t index) {
     return (static_cast<Key>(node) << 32) | static_cast<Key>(static_cast<std::uint32_t>(index));
 }
 constexpr NodeId key_node(Key key) { return static_cast<NodeId>(key >> 32); }
-/// Whether a vertex or facet is one of the input surface, or a piece of one. That a facet lies on the outer boundary, or
-/// has a patch, are other questions (part/part.h): walls inside of a body are of the input, too.
+/// Whether a vertex or facet is one of the input surface, or a piece of one. That a facet lies on the outer boundary,
+/// or has a patch, are other questions (part/part.h): walls inside of a body are of the input, too.
 constexpr bool is_of_input(Key key) { return key_node(key) == 0; }
 /// Whether a cut has made a vertex or facet, so that a facet has another part on its other side.
 constexpr bool is_of_cut(Key key) { return key_node(key) != 0; }
