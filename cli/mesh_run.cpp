@@ -68,7 +68,8 @@ void merge_result(const MeshRequest& request, const RunReport& report, Communica
         } catch (const Error& e) {
             throw Error(e.code(),
                         fmt::format("{} The mesh is whole in {}; kerf merge {} -o {} writes it.", e.what(),
-                                    report.folder, shell_word(report.folder), shell_word(request.merged_file)));
+                                    report.folder, shell_word(report.folder), shell_word(request.merged_file)),
+                        e.elements());
         }
         remove_run_folder(report.folder);
     });
@@ -106,7 +107,7 @@ void tell_result(const MeshRequest& request, const RunReport& report) {
 // Returns the exit code. The log of events outlives an error.
 int run_on_ranks(const MeshRequest& request, const Ranks& ranks, std::unique_ptr<EventLog>& events) {
     const bool root = ranks.communicator->rank() == 0;
-    RunOptions options = request.options;
+    const RunOptions& options = request.options;
     check_outputs(request, *ranks.communicator);
     events = open_event_log(request, *ranks.communicator);
     Input input;

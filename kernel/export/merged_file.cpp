@@ -1,7 +1,5 @@
 #include "export/merged_file.h"
 
-#include <cerrno>
-#include <cstdlib>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
@@ -11,6 +9,7 @@
 #include "core/error.h"
 #include "io/output_file.h"
 #include "io/run_folder.h"
+#include "io/temporary_folder.h"
 #include "part/solution_parts.h"
 
 namespace kerf {
@@ -29,28 +28,6 @@ const Format& format_of(const fs::path& file) {
     throw Error(ErrorCode::usage, fmt::format("--output is {}, whose ending is that of no format. There are {}.",
                                               file.string(), endings));
 }
-
-// A folder for files that are not complete yet, on the disk where they will lie. Removed with what is in it.
-class FolderBeside {
- public:
-    explicit FolderBeside(const fs::path& file) : path_(file.string() + ".XXXXXX") {
-        if (::mkdtemp(path_.data())) return;
-        const std::string reason = std::generic_category().message(errno);
-        throw Error(ErrorCode::io, fmt::format("Cannot write beside {}: {}. Choose another place for --output.",
-                                               file.string(), reason));
-    }
-    ~FolderBeside() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    FolderBeside(const FolderBeside&) = delete;
-    FolderBeside& operator=(const FolderBeside&) = delete;
-
-    const std::string& path() const { return path_; }
-
- private:
-    std::string path_;
-};
 
 // Where a file goes: behind links, to a place that is free or has a file, and outside of the run.
 fs::path place_for(const fs::path& file, const std::string& run) {
@@ -111,7 +88,9 @@ MergedFile merge_run(const MergeRequest& request) {
     if (const auto solution = find_solution_folder(request.folder)) place_for(output, mesh_of_solution(*solution));
     const std::unique_ptr<PartSource> source = open_parts(request.folder);
     const PartSource& parts = *source;
-    const FolderBeside beside(main_place);
+    // On the disk where the files will lie, for as long as they are not complete.
+    const TemporaryFolder beside(main_place.string(), "write beside " + main_place.string(),
+                                 "Choose another place for --output.");
     ExportFiles files(beside.path(), "", {}, {.msh_ascii = request.msh_ascii});
     format.write_merged(parts, request.options, files, output.stem().string());
 

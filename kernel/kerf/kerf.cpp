@@ -1,16 +1,14 @@
 #include "kerf/kerf.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
 #include <filesystem>
-#include <system_error>
 
 #include <fmt/format.h>
 
 #include "core/version.h"
 #include "export/whole_mesh.h"
 #include "io/program_finder.h"
+#include "io/temporary_folder.h"
 #include "kerf/mesh_on_ranks.h"
 #include "parallel/processors.h"
 #include "part/solution_parts.h"
@@ -84,25 +82,6 @@ void require_success(const RunReport& report) {
                     : fmt::format("Part {} could not be meshed: {}", failed->id, failed->result.message));
 }
 
-class TemporaryFolder {
- public:
-    TemporaryFolder() : path_((fs::temp_directory_path() / "kerf.XXXXXX").string()) {
-        if (::mkdtemp(path_.data())) return;
-        const std::string reason = std::generic_category().message(errno);
-        throw Error(ErrorCode::io, fmt::format("Cannot make the folder {}: {}. Set TMPDIR.", path_, reason));
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    const std::string& path() const { return path_; }
-
- private:
-    std::string path_;
-};
-
 // Corners and patches of a part's triangles on the user's surface.
 void add_boundary(const Part& part, MeshArrays& mesh) {
     for (std::size_t f = 0; f < part.facets.size(); ++f) {
@@ -124,12 +103,22 @@ const std::vector<std::string>& ClosedSurface::patch_names() const { return inpu
 
 std::vector<std::array<double, 3>> ClosedSurface::vertices() const {
     std::vector<std::array<double, 3>> points;
-    for (const Vec3& p : input_->surface.arrays().vertices) points.push_back(to_array(p));
+    for (std::int32_t v = 0; v < input_->surface.vertex_count(); ++v)
+        points.push_back(to_array(input_->surface.point(v)));
     return points;
 }
 
-std::vector<std::array<std::int32_t, 3>> ClosedSurface::facets() const { return input_->surface.arrays().facets; }
-std::vector<std::int32_t> ClosedSurface::patches() const { return input_->surface.arrays().patch; }
+std::vector<std::array<std::int32_t, 3>> ClosedSurface::facets() const {
+    std::vector<std::array<std::int32_t, 3>> facets;
+    for (std::int32_t f = 0; f < input_->surface.facet_count(); ++f) facets.push_back(input_->surface.vertices(f));
+    return facets;
+}
+
+std::vector<std::int32_t> ClosedSurface::patches() const {
+    std::vector<std::int32_t> patches;
+    for (std::int32_t f = 0; f < input_->surface.facet_count(); ++f) patches.push_back(input_->surface.patch(f));
+    return patches;
+}
 
 ClosedSurface surface_from_arrays(std::span<const std::array<double, 3>> vertices,
                                   std::span<const std::array<std::int32_t, 3>> facets,
@@ -181,7 +170,8 @@ void mesh_to_folder(const ClosedSurface& surface, const MeshOptions& options, co
 }
 
 MeshArrays mesh_to_arrays(const ClosedSurface& surface, const MeshOptions& options) {
-    const TemporaryFolder folder;
+    const std::string stem = (fs::temp_directory_path() / "kerf").string();
+    const TemporaryFolder folder(stem, "make a folder " + stem + ".XXXXXX", "Set TMPDIR.");
     mesh_to_folder(surface, options, folder.path() + "/run");
     return arrays_of_run(folder.path() + "/run");
 }
