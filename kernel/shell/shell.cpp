@@ -80,7 +80,8 @@ FilledShell fill_shell(const SurfaceArrays& surface, ShellCore core, const Refin
     if (found.lost > 0)
         throw Error(ErrorCode::subdomain,
                     fmt::format("{} of {} facets cannot be recovered.", found.lost, triangles.size()));
-    shell.recovered_facets = found.missing;
+    shell.recovery.missing = found.missing;
+    shell.recovery.by_flips = found.missing - found.lost;
     mark_shell(triangulation, found.faces);
     shell.refining_points = refine(triangulation, shell_region, bounds);
     if (!bounds.size.is_constant()) merge_close_vertices(triangulation, shell_region, bounds.size);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mesh/tet_mesh.h"
+#include "shell/facet_recovery_counts.h"
 #include "shell/refinement.h"
 #include "surface/surface.h"
 
@@ -18,7 +19,7 @@ struct ShellCore {
 
 struct FilledShell {
     TetMesh mesh;  ///< vertices: of the surface, of the core, others; the first two are its boundary. With neighbours.
-    std::int64_t recovered_facets = 0;  ///< that were not among the faces of a Delaunay triangulation
+    FacetRecovery recovery;
     std::int64_t refining_points = 0;
 };
 

@@ -58,7 +58,9 @@ double angle_to_improve_deg(const SurfaceArrays& surface, const MesherOptions& o
 
 // Improved before it is joined with the core, whose cells are as they should be.
 Filling fill_shell_alone(const SurfaceArrays& surface, ShellCore core, const MesherOptions& options) {
-    Filling filling{fill_shell(surface, std::move(core), {options.size, options.radius_edge}).mesh, "shell alone"};
+    FilledShell shell = fill_shell(surface, std::move(core), {options.size, options.radius_edge});
+    Filling filling{std::move(shell.mesh), "shell alone"};
+    filling.recovery = shell.recovery;
     improve_filling(filling, options, angle_to_improve_deg(surface, options));
     return filling;
 }

@@ -6,6 +6,7 @@
 #include "core/user_number.h"
 #include "improve/improve.h"
 #include "mesh/tet_mesh.h"
+#include "shell/facet_recovery_counts.h"
 #include "size/size_field.h"
 #include "surface/surface.h"
 #include "volume/tetgen_options.h"
@@ -34,6 +35,7 @@ struct Filling {
     TetMesh mesh;          ///< with its neighbours only if the mesher knows them anyway
     std::string strategy;  ///< which of its ways the mesher went, in a few words for the report; empty if it has one
     std::int64_t core_tets = 0;    ///< the first so many cells were stamped, the others are of the shell
+    FacetRecovery recovery = {};   ///< of the shell's facets; empty where TetGen has filled the surface
     Improvement improvement = {};  ///< what was done to the cells; empty if nothing
     double improve_seconds = 0;    ///< that took, wall clock
 };
