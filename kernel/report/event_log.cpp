@@ -7,6 +7,7 @@
 #include "io/checked_file.h"
 #include "io/output_file.h"
 #include "io/path_text.h"
+#include "report/recovery_json.h"
 
 namespace kerf {
 
@@ -82,7 +83,9 @@ void EventLog::on_part(const PartEvent& event) {
     if (part.result.code) json["message"] = part.result.message;
     if (!part.fallback.empty()) json["remedy"] = part.fallback;
     if (!part.result.strategy.empty()) json["way"] = part.result.strategy;
+    if (!part.result.reason.empty()) json["reason"] = part.result.reason;
     if (part.result.core_tets) json["core_tets"] = part.result.core_tets;
+    if (part.result.recovery.missing) json["recovery"] = json_of_recovery(part.result.recovery);
     write(std::move(json));
 }
 

@@ -19,13 +19,14 @@ class CheckedFile;
 ///     {"event": "parts", "parts": [{"id", "load", "facets", "volume", "resumed"}]}
 ///     {"event": "part", "id", "state": "done" | "resumed" | "failed", "rank", "worker", "mesher", "attempts",
 ///                       "tets", "part_seconds", "parts_done", "parts", "load_done", "tets_done", "message", "remedy",
-///                       "way", "core_tets"}
+///                       "way", "reason", "core_tets", "recovery": {"missing", "by_flips", "split", "added_vertices"}}
 ///     {"event": "end", "exit_code", "message"}
 ///
 /// The first one says what runs: absolute paths, "" for one that is not written, and K, 0 if the run chooses it.
 /// A reader of a pipe that leaves is told nothing more, and the run goes on.
 /// "message" is there where something failed, "remedy" where the first attempt did, "way" where the mesher has several,
-/// "core_tets" where it has stamped cells.
+/// "reason" where it did not go its first one, "core_tets" where it has stamped cells, "recovery" where facets had to
+/// be recovered (FacetRecovery).
 class EventLog : public RunListener {
  public:
     /// `target`: the path of a file, which is replaced, or fd:N, an open file descriptor, which stays open. Throws

@@ -48,16 +48,54 @@ std::string repairs_text(const Input& input) {
     return text;
 }
 
-// "part 13: tolerance 1e-06; part 14: another order of the vertices; and 2 more".
-std::string fallbacks_text(const RunReport& report) {
+// "part 13: tolerance 1e-06; part 14: another order of the vertices; and 2 more", of parts that were filled and of
+// which there is something to say.
+std::string first_parts_text(const RunReport& report, const std::function<std::string(const PartReport&)>& text_of) {
     constexpr std::size_t limit = 3;
     std::vector<std::string> all;
     for (const PartReport& part : report.parts)
-        if (part.result.code == 0 && !part.fallback.empty())
-            all.push_back(fmt::format("part {}: {}", part.id, part.fallback));
+        if (const std::string text = part.result.code == 0 ? text_of(part) : ""; !text.empty())
+            all.push_back(fmt::format("part {}: {}", part.id, text));
     const auto end = all.begin() + static_cast<std::ptrdiff_t>(std::min(limit, all.size()));
     const std::string more = all.size() > limit ? fmt::format("; and {} more", all.size() - limit) : "";
     return fmt::format("{}{}", fmt::join(all.begin(), end, "; "), more);
+}
+
+std::string fallbacks_text(const RunReport& report) {
+    return first_parts_text(report, [](const PartReport& part) { return part.fallback; });
+}
+
+// Where TetGen had to fill parts for Kerf's own mesher, and why.
+std::string tetgen_text(const RunReport& report) {
+    const MesherOptions& asked = report.options.mesher;
+    if (report.parts_by_tetgen == 0 || asked.name == "tetgen" || !asked.tetgen.switches.empty()) return "";
+    const auto reason_of = [](const PartReport& part) {
+        const PartResult& result = part.result;
+        if (!result.is_by_tetgen()) return std::string();
+        std::string text = result.reason.empty() && !part.failures.empty() ? part.failures.front() : result.reason;
+        if (text.ends_with('.')) text.pop_back();
+        return text;
+    };
+    return fmt::format("has filled {} of {} parts, slower, since Kerf's own mesher has failed: {}",
+                       report.parts_by_tetgen, report.parts.size(), first_parts_text(report, reason_of));
+}
+
+// "7 core and shell, 1 shell alone".
+std::string ways_text(const RunReport& report) {
+    std::string text;
+    for (const auto& [way, parts] : report.parts_by_way)
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(parts), way);
+    return text;
+}
+
+std::string recovery_text(const FacetRecovery& recovery) {
+    if (recovery.missing == 0) return "";
+    std::string text = fmt::format("{} facets that were not Delaunay: {} by flips", grouped(recovery.missing),
+                                   grouped(recovery.by_flips));
+    if (recovery.split > 0) text += fmt::format(", {} split for a while", grouped(recovery.split));
+    if (recovery.added_vertices > 0)
+        text += fmt::format("; {} vertices added inside", grouped(recovery.added_vertices));
+    return text;
 }
 
 // What was repeated because workers were killed, and what may be otherwise because they were too slow.
@@ -167,6 +205,7 @@ void add_cuts(ReportLines& lines, const RunReport& report) {
 }
 
 void add_way(ReportLines& lines, const RunReport& report) {
+    lines.add("TetGen", tetgen_text(report));
     lines.add("retried", fallbacks_text(report));
     lines.add("disturbed", disturbances_text(report));
     const auto resumed = std::count_if(report.parts.begin(), report.parts.end(), std::mem_fn(&PartReport::resumed));
@@ -178,6 +217,8 @@ void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
         all ? "" : fmt::format(", {} part{}", report.parts.size(), report.parts.size() == 1 ? "" : "s");
     lines.add("mesh",
               fmt::format("{} tetrahedra, {} vertices{}", grouped(report.tets), grouped(report.vertices), parts));
+    if (all) lines.add("filled", ways_text(report));
+    if (all) lines.add("recovered", recovery_text(report.recovery));
     if (all && !report.improvement.is_empty()) lines.add("improved", improvement_text(report));
     if (all && !report.sizes.empty())
         lines.add("sizes",

@@ -1,6 +1,7 @@
 // What a run did, as plain data and as report.json (schema 1).
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -120,8 +121,11 @@ struct RunReport {
     WorkerSeconds worker_seconds;
     std::int64_t vertices = 0;  ///< distinct, of the whole mesh
     std::int64_t tets = 0;
-    double imbalance = 1;             ///< max over mean of the part seconds summed per worker
-    std::int64_t peak_rss_bytes = 0;  ///< of the ranks, and of the largest worker for each worker
+    std::map<std::string, std::int64_t> parts_by_way;  ///< parts that were filled, by PartResult::way()
+    std::int64_t parts_by_tetgen = 0;                  ///< of them, whoever has asked TetGen
+    FacetRecovery recovery;                            ///< sum over the parts
+    double imbalance = 1;                              ///< max over mean of the part seconds summed per worker
+    std::int64_t peak_rss_bytes = 0;                   ///< of the ranks, and of the largest worker for each worker
     PartQuality quality;
     Improvement improvement;  ///< sum over the parts, and so are its seconds
     double improve_seconds = 0;

@@ -8,6 +8,7 @@
 #include "io/path_text.h"
 #include "quality/quality_json.h"
 #include "report/cut_json.h"
+#include "report/recovery_json.h"
 #include "report/report.h"
 
 namespace kerf {
@@ -139,7 +140,9 @@ Json part_json(const PartReport& part, const std::string& wanted_mesher) {
     if (!part.failures.empty()) json["failures"] = part.failures;
     if (!part.fallback.empty()) json["remedy"] = part.fallback;
     if (!part.result.strategy.empty()) json["way"] = part.result.strategy;
+    if (!part.result.reason.empty()) json["reason"] = part.result.reason;
     if (part.result.core_tets) json["core_tets"] = part.result.core_tets;
+    if (part.result.recovery.missing) json["recovery"] = json_of_recovery(part.result.recovery);
     if (part.result.angles.known())
         json["improvement"] =
             improvement_json(part.result.improvement, part.result.angles, part.result.improve_seconds);
@@ -168,6 +171,9 @@ Json totals_json(const RunReport& report) {
             {"volume", volume},
             {"interface_area", interface_area},
             {"split_facets", report.split_facets},
+            {"parts_by_way", report.parts_by_way},
+            {"parts_by_tetgen", report.parts_by_tetgen},
+            {"recovery", json_of_recovery(report.recovery)},
             {"read_seconds", report.seconds.read},
             {"decompose_seconds", report.seconds.decompose},
             {"prepare_seconds", report.seconds.prepare},

@@ -83,6 +83,11 @@ void add_up_parts(RunReport& report) {
         report.tets += part.result.tets;
         report.sizes.add(part.result.sizes);
         report.improve_seconds += part.result.improve_seconds;
+        report.recovery.add(part.result.recovery);
+        if (report.options.volume && part.result.code == 0) {
+            ++report.parts_by_way[part.result.way()];
+            report.parts_by_tetgen += part.result.is_by_tetgen();
+        }
         hashes.push_back({part.id, part.result.hash});
     }
     if (report.options.volume) report.mesh_hash = hash_of_parts(hashes);

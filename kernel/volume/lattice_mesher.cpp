@@ -100,7 +100,8 @@ Filling fill_without_core(const SurfaceArrays& surface, const MesherOptions& opt
     } catch (const Error& error) {
         if (error.code() != ErrorCode::subdomain) throw;
         Filling filling = find_mesher("tetgen").fill(surface, for_tetgen(options));
-        filling.strategy = "TetGen: the shell has failed";
+        filling.strategy = way_by_tetgen;
+        filling.reason = error.what();
         return filling;
     }
 }
@@ -111,7 +112,9 @@ Filling fill_with_lattice(const SurfaceArrays& surface, const MesherOptions& opt
         return fill_around_core(surface, options);
     } catch (const Error& error) {
         if (error.code() != ErrorCode::subdomain) throw;
-        return fill_without_core(surface, options);
+        Filling filling = fill_without_core(surface, options);
+        if (filling.reason.empty()) filling.reason = error.what();
+        return filling;
     }
 }
 

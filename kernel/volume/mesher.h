@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "core/user_number.h"
 #include "improve/improve.h"
@@ -30,10 +31,14 @@ struct MesherOptions {
     }
 };
 
+/// Filling::strategy of Kerf's own meshers where TetGen has filled the surface for them.
+inline constexpr std::string_view way_by_tetgen = "TetGen: the shell has failed";
+
 /// What a mesher returns.
 struct Filling {
-    TetMesh mesh;          ///< with its neighbours only if the mesher knows them anyway
-    std::string strategy;  ///< which of its ways the mesher went, in a few words for the report; empty if it has one
+    TetMesh mesh;             ///< with its neighbours only if the mesher knows them anyway
+    std::string strategy;     ///< which of its ways the mesher went, in a few words for the report; empty if it has one
+    std::string reason = {};  ///< why it did not go its first way, in a sentence; empty if it did
     std::int64_t core_tets = 0;    ///< the first so many cells were stamped, the others are of the shell
     FacetRecovery recovery = {};   ///< of the shell's facets; empty where TetGen has filled the surface
     Improvement improvement = {};  ///< what was done to the cells; empty if nothing

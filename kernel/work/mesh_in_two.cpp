@@ -44,11 +44,13 @@ Filling mesh_in_two(const SurfaceArrays& surface, const MesherOptions& options) 
     joined.boundary_vertex_count = static_cast<std::int32_t>(surface.vertices.size());
     for (const SurfaceArrays& half : halves_of(surface, options)) {
         const Filling of_half = mesh_volume(half, options);
+        filling.recovery.add(of_half.recovery);
         filling.improvement.add(of_half.improvement);
         filling.improve_seconds += of_half.improve_seconds;
         const TetMesh& mesh = of_half.mesh;
         if (filling.strategy.find(of_half.strategy) == std::string::npos)
             filling.strategy += (filling.strategy.empty() ? "" : ", ") + of_half.strategy;
+        if (filling.reason.empty()) filling.reason = of_half.reason;
         std::vector<std::int32_t> number(mesh.vertices.size());
         const auto place = [&](std::size_t vertex, std::int32_t at) {
             if (static_cast<std::size_t>(at) >= joined.vertices.size()) joined.vertices.resize(at + 1);

@@ -124,6 +124,8 @@ PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::s
         });
         TetMesh& mesh = filling.mesh;
         result.strategy = filling.strategy;
+        result.reason = filling.reason;
+        result.recovery = filling.recovery;
         result.improvement = filling.improvement;
         result.improve_seconds = filling.improve_seconds;
         mesh.neighbours = {};  // parts are stored without

@@ -71,6 +71,7 @@ struct PartResult {
     std::string message;   ///< if code
     std::string mesher;    ///< that has filled the part; empty if none was asked
     std::string strategy;  ///< Filling::strategy
+    std::string reason;    ///< Filling::reason
     std::int64_t vertices = 0, interior_vertices = 0, tets = 0;
     std::int64_t core_tets = 0;  ///< Filling::core_tets
     MeshLaws laws;
@@ -78,17 +79,23 @@ struct PartResult {
     SizeRatios sizes;  ///< against the sizes of the call, which a fallback may have made larger
     std::array<std::uint64_t, 2> hash = {0, 0};  ///< of hash_part()
     FileHash file_hash = {0, 0};                 ///< of the stored part
+    FacetRecovery recovery;                      ///< Filling::recovery
     Improvement improvement;                     ///< Filling::improvement
     ImprovedAngles angles;                       ///< by it
     double improve_seconds = 0;                  ///< of mesh_seconds
     double load_seconds = 0, mesh_seconds = 0, verify_seconds = 0, store_seconds = 0;
     std::int64_t peak_rss_bytes = 0;
 
+    /// What has filled the part: the way of a mesher that has several, else its name.
+    const std::string& way() const { return strategy.empty() ? mesher : strategy; }
+    /// Whether TetGen has filled the part or half of it, asked for or not.
+    bool is_by_tetgen() const { return mesher == "tetgen" || strategy.find(way_by_tetgen) != std::string::npos; }
+
     template <class Archive>
     void archive(Archive& a) {
-        a(code, message, mesher, strategy, vertices, interior_vertices, tets, core_tets, laws, quality, sizes, hash,
-          file_hash, improvement, angles, improve_seconds, load_seconds, mesh_seconds, verify_seconds, store_seconds,
-          peak_rss_bytes);
+        a(code, message, mesher, strategy, reason, vertices, interior_vertices, tets, core_tets, laws, quality, sizes,
+          hash, file_hash, recovery, improvement, angles, improve_seconds, load_seconds, mesh_seconds, verify_seconds,
+          store_seconds, peak_rss_bytes);
     }
 };
 

@@ -66,8 +66,8 @@ TEST_F(Terminal, ARunEndsWithFiveLines) {
         if (!line.starts_with("volume ")) labels.push_back(line.substr(0, line.find(' ')));
     EXPECT_EQ(labels, (std::vector<std::string>{"mesh", "quality", "time", "verified", "result"}));
     const std::string verbose = mesh({"-v"});
-    for (const std::string label : {"plan", "input", "parts", "interfaces", "mesh", "improved", "quality", "time",
-                                    "processes", "verified", "mesh hash", "result"})
+    for (const std::string label : {"plan", "input", "parts", "interfaces", "mesh", "filled", "improved", "quality",
+                                    "time", "processes", "verified", "mesh hash", "result"})
         EXPECT_TRUE(has_label(verbose, label)) << label << ":\n" << verbose;
     EXPECT_NE(verbose.find("; next: kerf "), std::string::npos) << verbose;
     EXPECT_EQ(verbose.find('\033'), std::string::npos) << "a log has no colours";

@@ -14,6 +14,7 @@
 #include "io/file_bytes.h"
 #include "part/vtu_writer.h"
 #include "report/report.h"
+#include "report/totals.h"
 #include "support/file_contents.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"
@@ -209,6 +210,74 @@ TEST(PartJob, HasNoTetrahedraWhenTheLawsAreBroken) {
     EXPECT_EQ(result.tets, 0);
     EXPECT_EQ(result.vertices, 0);
     EXPECT_EQ(result.interior_vertices, 0);
+}
+
+// What a filling says of its recovery comes back from the worker, and from a part in two halves the sum: each half has
+// facets on faces that many Delaunay triangulations of cospherical points share.
+TEST(PartJob, CountsTheFacetsThatWereRecovered) {
+    const test::TemporaryFolder folder;
+    MesherCall whole, in_two;
+    in_two.cut_first = true;
+    const Soup soup = test::uv_sphere(12, 17);
+    const FacetRecovery of_whole = mesh_volume(test::to_arrays(soup), whole.options).recovery;
+    const PartResult result = run_part_job(job_of(soup), whole, folder.file("whole"));
+    const PartResult halves = run_part_job(job_of(soup), in_two, folder.file("halves"));
+    ASSERT_EQ(result.code + halves.code, 0) << result.message << halves.message;
+    EXPECT_EQ(to_bytes(result.recovery), to_bytes(of_whole));
+    for (const PartResult& found : {result, halves}) {
+        EXPECT_GT(found.recovery.missing, 0);
+        EXPECT_LE(found.recovery.by_flips + found.recovery.split, found.recovery.missing);
+        EXPECT_EQ(to_bytes(from_bytes<PartResult>(to_bytes(found)).recovery), to_bytes(found.recovery));
+    }
+}
+
+// The sums are those of parts that were filled, and TetGen is named where it was not asked for.
+TEST(ReportOfParts, AddsUpWaysAndRecoveries) {
+    const test::TemporaryFolder folder;
+    Input input;
+    input.path = "box.stl";
+    input.volume = 1;
+    RunReport report;
+    report.input = &input;
+    report.options.workers = 1;
+    report.quality = run_part_job(job_of(test::box()), {}, folder.file("part")).quality;
+    report.parts.resize(6);
+    const auto set = [&](std::size_t i, const char* mesher, const std::string& strategy,
+                         const FacetRecovery& recovery) {
+        PartReport& part = report.parts[i];
+        part.id = static_cast<NodeId>(8 + i);
+        part.result.mesher = mesher;
+        part.result.strategy = strategy;
+        part.result.recovery = recovery;
+    };
+    set(0, "lattice", "core and shell", {7, 4, 3, 2});
+    set(1, "lattice", "core and shell", {1, 1, 0, 0});
+    set(2, "lattice", std::string(way_by_tetgen), {});
+    set(3, "lattice", "shell alone, " + std::string(way_by_tetgen), {1, 1, 0, 0});
+    set(4, "tetgen", "", {});
+    set(5, "lattice", "", {});
+    report.parts[2].result.reason = "1 of 9 facets is lost.";
+    report.parts[3].result.reason = "It hangs.";
+    report.parts[4].failures = {"Out of luck."};
+    report.parts[5].result.code = 4;
+    add_up_parts(report);
+    const nlohmann::json totals = nlohmann::json::parse(to_json(report)).at("totals");
+    EXPECT_EQ(totals.at("parts_by_way"), (nlohmann::json{{"core and shell", 2},
+                                                         {std::string(way_by_tetgen), 1},
+                                                         {"shell alone, " + std::string(way_by_tetgen), 1},
+                                                         {"tetgen", 1}}));
+    EXPECT_EQ(totals.at("parts_by_tetgen"), 3);
+    EXPECT_EQ(totals.at("recovery"),
+              (nlohmann::json{{"missing", 9}, {"by_flips", 6}, {"split", 3}, {"added_vertices", 2}}));
+    const std::string text = to_text(report, ReportDetail::brief);
+    EXPECT_NE(text.find("has filled 3 of 6 parts"), std::string::npos) << text;
+    EXPECT_NE(text.find("part 10: 1 of 9 facets is lost; part 11: It hangs; part 12: Out of luck\n"),
+              std::string::npos);
+    EXPECT_NE(
+        to_text(report).find("9 facets that were not Delaunay: 6 by flips, 3 split for a while; 2 vertices added"),
+        std::string::npos);
+    report.options.mesher.name = "tetgen";
+    EXPECT_EQ(to_text(report, ReportDetail::brief).find("TetGen"), std::string::npos);
 }
 
 // A part that has not been meshed goes to the mesher that was asked for.
