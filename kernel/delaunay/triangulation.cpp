@@ -53,7 +53,7 @@ std::int32_t vertex_at(const EditableTets& tets, const Vec3& p, std::int32_t cel
     return EditableTets::none;
 }
 
-bool sphere_contains(const EditableTets& tets, std::int32_t cell, const Vec3& p) {
+inline bool sphere_contains(const EditableTets& tets, std::int32_t cell, const Vec3& p) {
     const Tetrahedron& v = tets.vertices(cell);
     const std::vector<Vec3>& points = tets.points();
     return in_sphere(points[v[0]], points[v[1]], points[v[2]], points[v[3]], p);
@@ -108,8 +108,7 @@ std::int32_t Triangulation::start_of(const Vec3& p, std::int32_t hint) const {
 
 // The sphere of a ghost cell is the half-space beyond its face. In its plane, it is the disk of the face, which the
 // sphere behind it has, too, with the same decision of ties: heights in a plane say nothing about those outside of it.
-bool Triangulation::conflicts(std::int32_t cell, const Vec3& p) const {
-    if (!is_ghost(cell)) return sphere_contains(*this, cell, p);
+bool Triangulation::ghost_conflicts(std::int32_t cell, const Vec3& p) const {
     const Tetrahedron& v = cells_[cell].vertex;
     const int side = orientation(points_[v[0]], points_[v[1]], points_[v[2]], p);
     if (side != 0) return side > 0;
@@ -117,10 +116,10 @@ bool Triangulation::conflicts(std::int32_t cell, const Vec3& p) const {
     return cells_[inside].is_marked() || sphere_contains(*this, inside, p);
 }
 
-bool Triangulation::may_be_removed(std::int32_t cell, const Vec3& p) const {
-    if (has_constraints_)
-        if (is_ghost(cell) || std::find(refused_.begin(), refused_.end(), cell) != refused_.end()) return false;
-    return conflicts(cell, p);
+inline bool Triangulation::may_be_removed(std::int32_t cell, const Vec3& p) const {
+    if (is_ghost(cell)) return !has_constraints_ && ghost_conflicts(cell, p);
+    if (!refused_.empty() && std::find(refused_.begin(), refused_.end(), cell) != refused_.end()) return false;
+    return sphere_contains(*this, cell, p);
 }
 
 void Triangulation::grow_cavity(const Vec3& p, std::int32_t start) {
@@ -170,51 +169,66 @@ bool Triangulation::find_cavity(const Vec3& p, std::int32_t start) {
 
 // --- The cells that it brings ---
 
-// New cells take the places of old ones first.
+// New cells take the places of old ones first, of those with the lowest numbers: then none of them moves when the
+// others are removed.
 void Triangulation::place_cells() {
     star_edges_.set_vertex_count(points_.size());
     star_edges_.clear();
-    new_cells_.clear();
+    new_cells_.resize(cavity_faces_.size());
+    made_.resize(cavity_faces_.size());
+    if (const std::size_t count = cavity_faces_.size(); count < cavity_.size())
+        std::nth_element(cavity_.begin(), cavity_.begin() + static_cast<std::ptrdiff_t>(count), cavity_.end());
     std::int32_t next_cell = cell_count();
-    for (const auto& [inside, outside] : cavity_faces_) {
-        const std::size_t k = new_cells_.size();
-        const std::int32_t cell = k < cavity_.size() ? cavity_[k] : next_cell++;
+    for (std::size_t k = 0; k < cavity_faces_.size(); ++k) {
+        const auto [inside, outside] = cavity_faces_[k];
+        const std::int32_t cell = made_[k] = k < cavity_.size() ? cavity_[k] : next_cell++;
         const int i = index_in_cell(inside);
-        NewCell& made = new_cells_.emplace_back();
+        NewCell& made = new_cells_[k];
         made.vertex = vertices(cell_of(inside));
         made.face = cell_face(cell, i);
         made.outside = outside;
-        for (int j = 1; j < 4; ++j) {
+        for (int j = 0; j < 3; ++j) {
+            const std::int32_t v = made.vertex[tet_faces[i][j]];
             bool is_new = false;
-            made.place[i ^ j] = star_edges_.place(made.vertex[i ^ j], is_new);
-            if (is_new) cell_at_vertex_[made.vertex[i ^ j]] = cell;
+            made.place[j] = star_edges_.place(v, is_new);
+            if (is_new) cell_at_vertex_[v] = cell;
         }
     }
     cells_.resize(static_cast<std::size_t>(next_cell));
     if (!regions_.empty()) regions_.resize(cells_.size(), regions_[cavity_[0]]);
 }
 
-void Triangulation::set_cell(const NewCell& made, std::int32_t vertex) {
-    const int i = index_in_cell(made.face);
-    Cell& cell = cells_[cell_of(made.face)];
-    cell.vertex = made.vertex;
-    cell.vertex[i] = vertex;
-    cell.link[i] = made.outside;
-    link(made.outside & ~constraint) = made.face | (made.outside & constraint);
+// But for the links to each other.
+void Triangulation::set_cells(std::int32_t vertex) {
+    for (const NewCell& made : new_cells_) {
+        const int i = index_in_cell(made.face);
+        Cell& cell = cells_[cell_of(made.face)];
+        cell.vertex = made.vertex;
+        cell.vertex[i] = vertex;
+        cell.link[i] = made.outside;
+        link(made.outside & ~constraint) = made.face | (made.outside & constraint);
+    }
 }
 
+// The face of a new cell opposite to the vertex tet_faces[i][k] has the edge between the other two.
 void Triangulation::join_cells() {
     star_edges_.make_table();
-    for (const NewCell& made : new_cells_)
-        for (int k = 1; k < 4; ++k) {
-            const auto [a, b] = other_two[index_in_cell(made.face)][index_in_cell(made.face) ^ k];
-            star_edges_.at(made.place[a], made.place[b]) = made.face ^ k;
-        }
-    for (const NewCell& made : new_cells_)
-        for (int k = 1; k < 4; ++k) {
-            const auto [a, b] = other_two[index_in_cell(made.face)][index_in_cell(made.face) ^ k];
-            link(made.face ^ k) = star_edges_.at(made.place[b], made.place[a]);
-        }
+    for (const NewCell& made : new_cells_) {
+        const auto& [p, q, r] = made.place;
+        const auto& [i, j, k] = tet_faces[index_in_cell(made.face)];
+        const CellFace first = made.face & ~3;
+        star_edges_.at(q, r) = first + i;
+        star_edges_.at(r, p) = first + j;
+        star_edges_.at(p, q) = first + k;
+    }
+    for (const NewCell& made : new_cells_) {
+        const auto& [p, q, r] = made.place;
+        const auto& [i, j, k] = tet_faces[index_in_cell(made.face)];
+        auto& link = cells_[cell_of(made.face)].link;
+        link[i] = star_edges_.at(r, q);
+        link[j] = star_edges_.at(p, r);
+        link[k] = star_edges_.at(q, p);
+    }
 }
 
 void Triangulation::join_cells_of_large_star() {
@@ -239,11 +253,11 @@ std::int32_t Triangulation::insert_in_cavity(const Vec3& p) {
     require_room(cavity_faces_.size());
     const std::int32_t vertex = add_vertex(p);
     place_cells();
-    for (const NewCell& made : new_cells_) set_cell(made, vertex);
+    set_cells(vertex);
     star_edges_.is_large() ? join_cells_of_large_star() : join_cells();
-    last_cell_ = cell_at_vertex_[vertex] = cell_of(new_cells_[0].face);
-    if (new_cells_.size() < cavity_.size())
-        remove_cells(std::span(cavity_).subspan(new_cells_.size()), std::span(&last_cell_, 1));
+    cell_at_vertex_[vertex] = made_[0];
+    if (made_.size() < cavity_.size()) remove_cells(std::span(cavity_).subspan(made_.size()), {});
+    last_cell_ = made_[0];
     return vertex;
 }
 

@@ -53,6 +53,9 @@ class Triangulation : public EditableTets {
     /// Inserts the point if `accepts` says so; none, and nothing has changed, if it does not.
     std::int32_t insert_if(const Vec3& p, std::int32_t hint, const std::function<bool(const Star&)>& accepts);
 
+    /// The cells that the last insertion made: of each face in the order of Star::faces. Valid until the next change.
+    const std::vector<std::int32_t>& made_cells() const { return made_; }
+
     /// Gives vertex v the number number[v] in `points`, which has the same point there, and others that are no
     /// vertices. Linear.
     void renumber(const std::vector<std::int32_t>& number, std::vector<Vec3> points);
@@ -68,25 +71,25 @@ class Triangulation : public EditableTets {
         Tetrahedron vertex;
         CellFace face;  // and where the cell is stored
         CellFace outside;
-        std::array<StarEdges::Place, 4> place;
+        std::array<StarEdges::Place, 3> place;  // of the vertices of the face, in the order of tet_faces
     };
 
     std::int32_t start_of(const Vec3& p, std::int32_t hint) const;
-    bool conflicts(std::int32_t cell, const Vec3& p) const;
+    bool ghost_conflicts(std::int32_t cell, const Vec3& p) const;
     bool may_be_removed(std::int32_t cell, const Vec3& p) const;
     bool find_cavity(const Vec3& p, std::int32_t start);
     void grow_cavity(const Vec3& p, std::int32_t start);
     bool refuse_unseen_cells(const Vec3& p);
     std::int32_t insert_in_cavity(const Vec3& p);
     void place_cells();
-    void set_cell(const NewCell& made, std::int32_t vertex);
+    void set_cells(std::int32_t vertex);
     void join_cells();
     void join_cells_of_large_star();
 
     std::int32_t last_cell_ = 0;
 
     // Of the insertion under way.
-    std::vector<std::int32_t> cavity_, refused_;
+    std::vector<std::int32_t> cavity_, refused_, made_;
     std::vector<CavityFace> cavity_faces_;
     std::vector<NewCell> new_cells_;
     Star star_;

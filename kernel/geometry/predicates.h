@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "core/types.h"
+#include "geometry/vector_pair.h"
 
 namespace kerf {
 
@@ -49,6 +50,20 @@ template <class Number>
     return (dab * lift(c) - abc * lift(d)) + (bcd * lift(a) - cda * lift(b));
 }
 
+// The same in doubles, with a and c in one pair, b and d in the other.
+inline double lifted_determinant(const VectorPair& ac, const VectorPair& bd, Pair lift_ac, Pair lift_bd) {
+    const VectorPair ca = swapped(ac), db = swapped(bd);
+    const Pair ab_cd = ac.x * bd.y - bd.x * ac.y, bc_da = bd.x * ca.y - ca.x * bd.y;
+    const Pair ab_x = firsts(ac.x, bd.x), ab_y = firsts(ac.y, bd.y), cd_x = seconds(ac.x, bd.x),
+               cd_y = seconds(ac.y, bd.y);
+    const Pair ac_bd = ab_x * cd_y - cd_x * ab_y;
+    const Pair ca_ac = {-ac_bd[0], ac_bd[0]}, db_bd = {-ac_bd[1], ac_bd[1]};
+    const Pair abc_cda = ac.z * bc_da + bd.z * ca_ac + ca.z * ab_cd;
+    const Pair bcd_dab = bd.z * swapped(ab_cd) + ca.z * db_bd + db.z * bc_da;
+    const Pair terms = bcd_dab * lift_ac - swapped(abc_cda) * lift_bd;
+    return terms[0] + terms[1];
+}
+
 }  // namespace detail
 
 /// The sign of det[b-a, c-a, d-a]: 1 if d sees a, b, c counter-clockwise, as in every Tetrahedron (core/types.h); 0 if
@@ -76,12 +91,11 @@ inline int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& 
 /// decide, so they do on the triangulation. e must differ from the others. About 15 ns; near a tie half a
 /// microsecond where the coordinates have few bits (see predicates.cpp), else some.
 inline bool in_sphere(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& e) {
-    const auto p = detail::difference(a, e), q = detail::difference(b, e), r = detail::difference(c, e),
-               s = detail::difference(d, e);
-    const double det = detail::lifted_determinant(p, q, r, s);
+    const VectorPair ac = VectorPair(a, c) - VectorPair(e, e), bd = VectorPair(b, d) - VectorPair(e, e);
+    const Pair lift_ac = ac.squared_norm(), lift_bd = bd.squared_norm();
+    const double det = detail::lifted_determinant(ac, bd, lift_ac, lift_bd);
     // Every difference is at most the root of the largest lift.
-    const double largest_lift =
-        std::max(std::max(detail::lift(p), detail::lift(q)), std::max(detail::lift(r), detail::lift(s)));
+    const double largest_lift = largest_of(largest(lift_ac, lift_bd));
     constexpr double roundings = 20, terms = 24;
     const double error = roundings * terms * 0x1p-53 * (largest_lift * largest_lift * std::sqrt(largest_lift));
     // No product underflows or overflows where it would matter.

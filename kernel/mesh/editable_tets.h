@@ -9,6 +9,7 @@
 // cells of one's own choice are made as Tetrahedron, and replace() puts them in their place.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -25,11 +26,11 @@ constexpr CellFace cell_face(std::int32_t cell, int i) { return 4 * cell + i; }
 constexpr std::int32_t cell_of(CellFace face) { return face >> 2; }
 constexpr int index_in_cell(CellFace face) { return face & 3; }
 
-/// Which of the four vertices the vertex is; 4 if none.
+/// Which of the four vertices, which differ, the vertex is; 4 if none. Without branches, which could not be predicted.
 inline int index_of(const Tetrahedron& vertices, std::int32_t vertex) {
-    int i = 0;
-    while (i < 4 && vertices[i] != vertex) ++i;
-    return i;
+    const int matches = (vertices[0] == vertex) | (vertices[1] == vertex) << 1 | (vertices[2] == vertex) << 2 |
+                        (vertices[3] == vertex) << 3;
+    return std::countr_zero(static_cast<unsigned>(matches | 1 << 4));
 }
 
 /// The two vertices of a cell that are neither i nor j, as other_two[i][j]: (i, j, first, second) is an even
@@ -119,7 +120,7 @@ class EditableTets {
     void remove_unused_vertices(std::size_t count);
 
  protected:
-    struct Cell {
+    struct alignas(32) Cell {  // in one line of the cache
         Tetrahedron vertex;
         std::array<CellFace, 4> link;  // with `constraint` where the face is constrained
 

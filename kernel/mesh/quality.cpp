@@ -7,7 +7,7 @@
 // because |N_i x N_j| = D l. The cotangent falls monotonically from +inf to -inf over (0, 180) degrees, so the extreme
 // angles are those of the extreme cotangents, and unlike the cosine it stays accurate for the flat angles of slivers.
 //
-// Two cells are measured at once, in the two lanes of vectors as every processor of 64 bits has them. All is
+// Two cells are measured at once, in the lanes of pairs (geometry/vector_pair.h). All is
 // arithmetic, square roots and choices, the arc tangent, too: the same numbers come out on every machine, and for a
 // cell alone.
 #include "mesh/quality.h"
@@ -24,57 +24,36 @@
 #include "core/elements.h"
 #include "core/error.h"
 #include "core/quick_log2.h"
+#include "geometry/vector_pair.h"
 
 namespace kerf {
 
 namespace {
 
-constexpr std::size_t lane_count = 2;
-using Lanes = double __attribute__((vector_size(lane_count * sizeof(double))));
-
-Lanes lesser(Lanes x, Lanes y) { return y < x ? y : x; }
-Lanes greater(Lanes x, Lanes y) { return x < y ? y : x; }
-Lanes absolute(Lanes x) { return x < 0 ? -x : x; }
-Lanes square_root(Lanes x) {
+Pair square_root(Pair x) {
     const Eigen::Array2d root = Eigen::Array2d(x[0], x[1]).sqrt();  // both at once
-    return Lanes{root[0], root[1]};
+    return Pair{root[0], root[1]};
 }
-Lanes in_all_lanes(double value) { return Lanes{} + value; }
-
-struct Vectors {
-    Lanes x, y, z;
-};
-Vectors operator+(const Vectors& a, const Vectors& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-Vectors operator-(const Vectors& a, const Vectors& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-Vectors operator*(Lanes s, const Vectors& a) { return {s * a.x, s * a.y, s * a.z}; }
-Lanes dot(const Vectors& a, const Vectors& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vectors cross(const Vectors& a, const Vectors& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-Lanes length_of(const Vectors& a) { return square_root(dot(a, a)); }
-
-Vectors in_lanes(const Vec3& p, const Vec3& q) {
-    return {Lanes{p.x(), q.x()}, Lanes{p.y(), q.y()}, Lanes{p.z(), q.z()}};
-}
+Pair length_of(const VectorPair& a) { return square_root(a.squared_norm()); }
 
 // Smallest and largest of the values named, without a branch.
 struct Range {
-    Lanes min = in_all_lanes(std::numeric_limits<double>::infinity());
-    Lanes max = in_all_lanes(-std::numeric_limits<double>::infinity());
-    void include(Lanes value) {
-        min = lesser(min, value);
-        max = greater(max, value);
+    Pair min = both(std::numeric_limits<double>::infinity());
+    Pair max = both(-std::numeric_limits<double>::infinity());
+    void include(Pair value) {
+        min = smallest(min, value);
+        max = largest(max, value);
     }
 };
 
 // atan(r) for |r| <= tan(pi / 8): 1 + z g(z) times r with z = r^2, g interpolated at Chebyshev's points; to 5e-18.
-Lanes arc_tangent_near_zero(Lanes r) {
+Pair arc_tangent_near_zero(Pair r) {
     constexpr std::array<double, 11> g = {-0.333333333333333302,  0.199999999999955207,  -0.142857142846665421,
                                           0.111111110152562924,   -0.090909045781210852, 0.0769218319076065087,
                                           -0.0666451144646021898, 0.0585814890479512384, -0.0508544969603925853,
                                           0.0392316570850836866,  -0.0191768856365890519};
-    const Lanes z = r * r, z_sq = z * z;
-    Lanes even = in_all_lanes(g[10]), odd = in_all_lanes(g[9]);  // two rows of sums that need not wait for each other
+    const Pair z = r * r, z_sq = z * z;
+    Pair even = both(g[10]), odd = both(g[9]);  // two rows of sums that need not wait for each other
     for (std::size_t i = 8; i > 0; i -= 2) {
         even = even * z_sq + g[i];
         odd = odd * z_sq + g[i - 1];
@@ -83,19 +62,20 @@ Lanes arc_tangent_near_zero(Lanes r) {
 }
 
 // Of the angle with the cotangent x / y, y >= 0 and not both 0: atan2(y, x) in degrees.
-Lanes degrees_from_cotangent(Lanes x, Lanes y) {
+Pair degrees_from_cotangent(Pair x, Pair y) {
     constexpr double pi = std::numbers::pi, tan_of_22_5_deg = 0.41421356237309503;
-    const Lanes across = absolute(x), low = lesser(across, y), high = greater(across, y);
+    const Pair across = absolute(x), low = smallest(across, y), high = largest(across, y);
     const auto beyond = low > tan_of_22_5_deg * high;  // then it is 45 degrees and the rest
-    const Lanes rest = (beyond ? low - high : low) / (beyond ? low + high : high);
-    Lanes angle = arc_tangent_near_zero(rest) + (beyond ? in_all_lanes(pi / 4) : in_all_lanes(0));
+    const Pair rest = (beyond ? low - high : low) / (beyond ? low + high : high);
+    Pair angle = arc_tangent_near_zero(rest) + (beyond ? both(pi / 4) : both(0));
     angle = y > across ? pi / 2 - angle : angle;
     angle = x < 0 ? pi - angle : angle;
     return angle * (180 / pi);
 }
 
-Lanes circumradius(const Vectors& u, const Vectors& v, const Vectors& w, Lanes det) {
-    const Vectors centre_times_2d = dot(u, u) * cross(v, w) + dot(v, v) * cross(w, u) + dot(w, w) * cross(u, v);
+Pair circumradius(const VectorPair& u, const VectorPair& v, const VectorPair& w, Pair det) {
+    const VectorPair centre_times_2d =
+        u.squared_norm() * v.cross(w) + v.squared_norm() * w.cross(u) + w.squared_norm() * u.cross(v);
     return length_of(centre_times_2d) / (2 * det);
 }
 
@@ -107,31 +87,33 @@ namespace {
 
 // The measures of the cells in the lanes, in the order of TetQuality. Inlined, so that what the caller does not ask for
 // is not computed.
-[[gnu::always_inline]] inline std::array<Lanes, quality_measures.size()> measure(const Vectors& a, const Vectors& b,
-                                                                                 const Vectors& c, const Vectors& d) {
-    const Vectors u = b - a, v = c - a, w = d - a;
+[[gnu::always_inline]] inline std::array<Pair, quality_measures.size()> measure(const VectorPair& a,
+                                                                                const VectorPair& b,
+                                                                                const VectorPair& c,
+                                                                                const VectorPair& d) {
+    const VectorPair u = b - a, v = c - a, w = d - a;
     // Edge k of this list is the one that faces first[k] and second[k] of `normals` share.
-    const std::array<Lanes, 6> lengths = {length_of(u),     length_of(v),     length_of(w),
-                                          length_of(d - c), length_of(d - b), length_of(c - b)};
-    const std::array<Vectors, 4> normals = {cross(c - b, d - b), cross(w, v), cross(u, w), cross(v, u)};
+    const std::array<Pair, 6> lengths = {length_of(u),     length_of(v),     length_of(w),
+                                         length_of(d - c), length_of(d - b), length_of(c - b)};
+    const std::array<VectorPair, 4> normals = {(c - b).cross(d - b), w.cross(v), u.cross(w), v.cross(u)};
     constexpr std::array<std::size_t, 6> first = {2, 1, 1, 0, 0, 0}, second = {3, 3, 2, 1, 2, 3};
 
-    const Lanes signed_det = -dot(u, normals[1]);
-    const Lanes det = absolute(signed_det);
+    const Pair signed_det = -u.dot(normals[1]);
+    const Pair det = absolute(signed_det);
     Range edge, cotangent_times_det;
-    Lanes sum_of_cubes{}, sum_of_normals{};
+    Pair sum_of_cubes{}, sum_of_normals{};
     for (std::size_t k = 0; k < lengths.size(); ++k) {
         edge.include(lengths[k]);
-        cotangent_times_det.include(-dot(normals[first[k]], normals[second[k]]) / lengths[k]);
+        cotangent_times_det.include(-normals[first[k]].dot(normals[second[k]]) / lengths[k]);
         sum_of_cubes += lengths[k] * lengths[k] * lengths[k];
     }
-    for (const Vectors& normal : normals) sum_of_normals += length_of(normal);
+    for (const VectorPair& normal : normals) sum_of_normals += length_of(normal);
 
     // Two equal corners leave a rounding error in D.
     const auto is_flat = (det == 0) | (edge.min == 0);
-    const auto unless_flat = [&](Lanes value, double of_flat) { return is_flat ? in_all_lanes(of_flat) : value; };
+    const auto unless_flat = [&](Pair value, double of_flat) { return is_flat ? both(of_flat) : value; };
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    const Lanes inradius = det / sum_of_normals;
+    const Pair inradius = det / sum_of_normals;
     return {unless_flat(degrees_from_cotangent(cotangent_times_det.max, det), 0),
             unless_flat(degrees_from_cotangent(cotangent_times_det.min, det), 180),
             unless_flat(circumradius(u, v, w, det) / edge.min, infinity),
@@ -145,7 +127,7 @@ namespace {
 }  // namespace
 
 TetQuality tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    const auto q = measure(in_lanes(a, a), in_lanes(b, b), in_lanes(c, c), in_lanes(d, d));
+    const auto q = measure(VectorPair(a, a), VectorPair(b, b), VectorPair(c, c), VectorPair(d, d));
     return {q[0][0], q[1][0], q[2][0], q[3][0], q[4][0], q[5][0], q[6][0], q[7][0]};
 }
 
@@ -153,10 +135,10 @@ TetQuality tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& 
 template <class Take>
 [[gnu::always_inline]] inline void measure_in_lanes(const std::vector<Vec3>& points, std::span<const Tetrahedron> cells,
                                                     const Take& take) {
-    for (std::size_t i = 0; i < cells.size(); i += lane_count) {
+    for (std::size_t i = 0; i < cells.size(); i += 2) {
         const std::size_t next = std::min(i + 1, cells.size() - 1);
         const Tetrahedron &s = cells[i], &t = cells[next];
-        const auto corner = [&](std::size_t k) { return in_lanes(points[s[k]], points[t[k]]); };
+        const auto corner = [&](std::size_t k) { return VectorPair(points[s[k]], points[t[k]]); };
         take(i, next - i + 1, measure(corner(0), corner(1), corner(2), corner(3)));
     }
 }
@@ -188,7 +170,7 @@ TriangleAngles triangle_angles(const Vec3& a, const Vec3& b, const Vec3& c) {
     }
     if (twice_area == 0 || *std::min_element(edge_sq.begin(), edge_sq.end()) == 0) return {0, 180};
     const auto [least, most] = std::minmax_element(cotangent_times_area.begin(), cotangent_times_area.end());
-    const Lanes angles = degrees_from_cotangent(Lanes{*most, *least}, in_all_lanes(twice_area));
+    const Pair angles = degrees_from_cotangent(Pair{*most, *least}, both(twice_area));
     return {angles[0], angles[1]};
 }
 

@@ -83,9 +83,9 @@ class Refinement {
     }
     void push(std::int32_t cell) {
         if (t_.region(cell) != region_) return;
-        const Corners corners = corners_of(cell);
-        const double radius_sq = circumcentre_from_first(corners).squaredNorm();
-        if (is_to_be_divided(corners, radius_sq)) bad_.add(radius_sq, {cell, t_.vertices(cell)});
+        const auto [a, b, c, d] = corners_of(cell);
+        const double radius_sq = radius_sq_to_divide(CellGeometry(a, b, c, d), a, b, c, d);
+        if (radius_sq > 0) bad_.add(radius_sq, {cell, t_.vertices(cell)});
     }
 
     using Corners = std::array<Vec3, 4>;
@@ -94,8 +94,13 @@ class Refinement {
         return {point(v[0]), point(v[1]), point(v[2]), point(v[3])};
     }
 
-    bool is_to_be_divided(const Corners& corners, double radius_sq) const {
-        return radius_sq > most_ratio_sq_ * shortest_edge_sq(corners) || is_too_large(size_, corners);
+    // The square of the circumradius of a cell that is to be divided; 0 of another one.
+    double radius_sq_to_divide(const CellGeometry& cell, const Vec3& a, const Vec3& b, const Vec3& c,
+                               const Vec3& d) const {
+        const double scaled = cell.scaled_circumradius_sq(), scale = 4 * cell.six_volumes() * cell.six_volumes();
+        const bool is_to_be_divided = scaled > scale * most_ratio_sq_ * cell.shortest_edge_sq() ||
+                                      (!size_.is_empty() && is_too_large(size_, {a, b, c, d}));
+        return is_to_be_divided ? scaled / scale : 0;
     }
     double least_edge_sq_at(const Vec3& p) const {
         const double share = size_.is_constant() ? least_edge_share_of_bound : least_edge_share;
@@ -150,28 +155,30 @@ class Refinement {
             return !(keeps_off_faces && is_near_face(p, star)) && is_good(p, least_edge_sq, star);
         });
         if (vertex < before) return false;  // or Triangulation::none
-        for (const std::int32_t made : t_.cells_around_vertex(vertex)) push(made);
+        for (std::size_t k = made_radius_sq_.size(); k-- > 0;) {
+            const std::int32_t made = t_.made_cells()[k];
+            if (made_radius_sq_[k] > 0) bad_.add(made_radius_sq_[k], {made, t_.vertices(made)});
+        }
         return true;
     }
 
     // Whether no new cell is bad, or worse than all that it replaces. One that will be divided anyway may be, but not
-    // next to a face that stays.
-    bool is_good(const Vec3& p, double least_edge_sq, const Star& star) const {
+    // next to a face that stays. Says in made_radius_sq_ which ones are to be divided.
+    bool is_good(const Vec3& p, double least_edge_sq, const Star& star) {
+        made_radius_sq_.clear();
         double allowed = -infinity;  // of those removed, if it was asked for
         return std::all_of(star.faces.begin(), star.faces.end(), [&](const Star::Face& face) {
             const Vec3 &a = point(face.vertices[0]), &b = point(face.vertices[1]), &c = point(face.vertices[2]);
             if (std::min({(a - p).squaredNorm(), (b - p).squaredNorm(), (c - p).squaredNorm()}) < least_edge_sq)
                 return false;
-            const double badness = cell_shape(p, a, b, c).badness();
+            const CellGeometry cell(p, a, b, c);
+            made_radius_sq_.push_back(radius_sq_to_divide(cell, p, a, b, c));
+            if (!face.is_constrained && made_radius_sq_.back() > 0) return true;
+            const double badness = cell.shape().badness();
             if (badness < (face.is_constrained ? most_at_face_ : most_)) return true;
-            if (!face.is_constrained && will_be_divided({p, a, b, c})) return true;
             if (allowed < 0) allowed = worst_of(star.removed);
             return badness < allowed;
         });
-    }
-
-    bool will_be_divided(const Corners& corners) const {
-        return is_to_be_divided(corners, circumcentre_from_first(corners).squaredNorm());
     }
 
     double worst_of(std::span<const std::int32_t> cells) const {
@@ -188,6 +195,7 @@ class Refinement {
     const SizeField& size_;
     double most_ratio_sq_, most_at_face_, most_;
     CellsByRadius bad_;
+    std::vector<double> made_radius_sq_;  // of the cells of a star, in its order: see radius_sq_to_divide()
 };
 
 }  // namespace
