@@ -118,7 +118,7 @@ bool Triangulation::ghost_conflicts(std::int32_t cell, const Vec3& p) const {
 
 inline bool Triangulation::may_be_removed(std::int32_t cell, const Vec3& p) const {
     if (is_ghost(cell)) return !has_constraints_ && ghost_conflicts(cell, p);
-    if (!refused_.empty() && std::find(refused_.begin(), refused_.end(), cell) != refused_.end()) return false;
+    if (!refused_.empty() && is_refused(cell)) return false;
     return sphere_contains(*this, cell, p);
 }
 
@@ -135,7 +135,7 @@ void Triangulation::grow_cavity(const Vec3& p, std::int32_t start) {
             if (is_free && cells_[next].is_marked()) continue;
             if (is_free && may_be_removed(next, p)) {
                 for (const CellFace beyond : cells_[next].link)
-                    __builtin_prefetch(&cells_[cell_of(beyond & ~constraint)]);
+                    if (beyond >= 0) __builtin_prefetch(&cells_[cell_of(beyond & ~constraint)]);
                 cells_[next].flip_mark();
                 cavity_.push_back(next);
             } else {
@@ -149,22 +149,30 @@ void Triangulation::grow_cavity(const Vec3& p, std::int32_t start) {
 // False if the point sees all faces of the cavity from inside.
 bool Triangulation::refuse_unseen_cells(const Vec3& p) {
     const std::size_t refused_before = refused_.size();
-    for (const CavityFace& face : cavity_faces_)
-        if (orientation_with(*this, cell_of(face.inside), index_in_cell(face.inside), p) <= 0)
-            refused_.push_back(cell_of(face.inside));
+    for (const CavityFace& face : cavity_faces_) {
+        const std::int32_t cell = cell_of(face.inside);
+        if (is_refused(cell) || orientation_with(*this, cell, index_in_cell(face.inside), p) > 0) continue;
+        is_refused_[cell] = true;
+        refused_.push_back(cell);
+    }
     return refused_.size() > refused_before;
 }
 
 // False if the point may not be inserted. Among Delaunay cells the point sees all of its cavity. No vertex is lost: the
 // cell behind it, seen from the point, has the point outside of its sphere.
 bool Triangulation::find_cavity(const Vec3& p, std::int32_t start) {
-    refused_.clear();
-    if (has_constraints_ && is_ghost(start)) return false;
-    do {
-        if (std::find(refused_.begin(), refused_.end(), start) != refused_.end()) return false;
+    if (!has_constraints_) {
         grow_cavity(p, start);
-    } while (has_constraints_ && refuse_unseen_cells(p));
-    return true;
+        return true;
+    }
+    if (is_ghost(start)) return false;
+    if (is_refused_.size() < cells_.size()) is_refused_.resize(cells_.capacity());
+    do grow_cavity(p, start);
+    while (refuse_unseen_cells(p) && !is_refused(start));
+    const bool is_found = !is_refused(start);
+    for (const std::int32_t cell : refused_) is_refused_[cell] = false;
+    refused_.clear();
+    return is_found;
 }
 
 // --- The cells that it brings ---
@@ -195,7 +203,6 @@ void Triangulation::place_cells() {
         }
     }
     cells_.resize(static_cast<std::size_t>(next_cell));
-    if (!regions_.empty()) regions_.resize(cells_.size(), regions_[cavity_[0]]);
 }
 
 // But for the links to each other.
@@ -206,7 +213,7 @@ void Triangulation::set_cells(std::int32_t vertex) {
         cell.vertex = made.vertex;
         cell.vertex[i] = vertex;
         cell.link[i] = made.outside;
-        link(made.outside & ~constraint) = made.face | (made.outside & constraint);
+        if (made.outside >= 0) link(made.outside & ~constraint) = made.face | (made.outside & constraint);
     }
 }
 

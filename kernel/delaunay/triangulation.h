@@ -76,6 +76,7 @@ class Triangulation : public EditableTets {
 
     std::int32_t start_of(const Vec3& p, std::int32_t hint) const;
     bool ghost_conflicts(std::int32_t cell, const Vec3& p) const;
+    bool is_refused(std::int32_t cell) const { return is_refused_[cell]; }
     bool may_be_removed(std::int32_t cell, const Vec3& p) const;
     bool find_cavity(const Vec3& p, std::int32_t start);
     void grow_cavity(const Vec3& p, std::int32_t start);
@@ -90,6 +91,7 @@ class Triangulation : public EditableTets {
 
     // Of the insertion under way.
     std::vector<std::int32_t> cavity_, refused_, made_;
+    std::vector<bool> is_refused_;  // of each cell, and room for more; empty without constraints
     std::vector<CavityFace> cavity_faces_;
     std::vector<NewCell> new_cells_;
     Star star_;

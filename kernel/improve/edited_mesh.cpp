@@ -18,7 +18,7 @@ EditedMesh::EditedMesh(TetMesh mesh, std::int64_t frozen_cells, SizeField max_si
 
 TetMesh EditedMesh::finish() {
     std::vector<double>().swap(badness_);
-    TetMesh mesh = tets_.take_mesh(0, had_neighbours_);
+    TetMesh mesh = tets_.take_mesh(had_neighbours_);
     mesh.boundary_vertex_count = boundary_vertex_count_;
     return mesh;
 }

@@ -43,11 +43,9 @@ EditableTets::EditableTets(TetMesh mesh, std::int32_t most)
     points_ = std::move(mesh.vertices);
 }
 
-TetMesh EditableTets::take_mesh(std::uint8_t region, bool with_neighbours) {
+TetMesh EditableTets::take_mesh(bool with_neighbours) {
     TetMesh mesh;
-    const auto is_taken = [&](std::int32_t cell) {
-        return cells_[cell].vertex[0] >= 0 && this->region(cell) == region;
-    };
+    const auto is_taken = [&](std::int32_t cell) { return cells_[cell].vertex[0] >= 0; };
     std::size_t count = 0;
     for (std::int32_t cell = 0; cell < cell_count(); ++cell) count += is_taken(cell);
     mesh.tets.reserve(count);
@@ -98,11 +96,6 @@ void EditableTets::constrain(CellFace face) {
     has_constraints_ = true;
 }
 
-void EditableTets::set_region(std::int32_t cell, std::uint8_t region) {
-    regions_.resize(cells_.size());
-    regions_[cell] = region;
-}
-
 // Before anything is changed.
 void EditableTets::require_room(std::size_t more_cells) const {
     const std::size_t cells = cells_.size() + more_cells;
@@ -127,10 +120,6 @@ std::span<const std::int32_t> EditableTets::replace(std::span<const std::int32_t
     places_.assign(cells.begin(), cells.end());
     for (; places_.size() < by.size() && !gaps_.empty(); gaps_.pop_back()) places_.push_back(gaps_.back());
     for (; places_.size() < by.size(); cells_.emplace_back()) places_.push_back(cell_count());
-    if (!regions_.empty()) {
-        regions_.resize(cells_.size());
-        for (const std::int32_t place : places_) regions_[place] = regions_[cells[0]];
-    }
     for (std::size_t k = 0; k < by.size(); ++k) {
         cells_[places_[k]].vertex = by[k];
         for (int i = 0; i < 4; ++i) {
@@ -166,7 +155,6 @@ void EditableTets::remove_cells(std::span<const std::int32_t> cells, std::span<s
         const std::int32_t from = cell_count() - 1;
         if (to != from) {
             cells_[to] = cells_[from];
-            if (!regions_.empty()) regions_[to] = regions_[from];
             for (int i = 0; i < 4; ++i) {
                 const CellFace behind = cells_[to].link[i];
                 if (behind >= 0) link(behind & ~constraint) = cell_face(to, i) | (behind & constraint);
@@ -176,8 +164,46 @@ void EditableTets::remove_cells(std::span<const std::int32_t> cells, std::span<s
             std::replace(followed.begin(), followed.end(), from, to);
         }
         cells_.pop_back();
-        if (!regions_.empty()) regions_.pop_back();
     }
+}
+
+void EditableTets::keep_cells(const std::vector<bool>& is_kept) {
+    std::vector<std::int32_t> number(cells_.size(), none);
+    std::int32_t count = 0;
+    for (std::int32_t cell = 0; cell < cell_count(); ++cell)
+        if (is_kept[cell]) number[cell] = count++;
+    std::fill(cell_at_vertex_.begin(), cell_at_vertex_.end(), none);
+    for (std::int32_t cell = 0; cell < cell_count(); ++cell) {
+        if (!is_kept[cell]) continue;
+        Cell& kept = cells_[number[cell]] = cells_[cell];
+        for (CellFace& behind : kept.link) {
+            if (behind < 0) continue;
+            const CellFace face = behind & ~constraint;
+            const std::int32_t other = number[cell_of(face)];
+            behind = other == none ? none : cell_face(other, index_in_cell(face)) | (behind & constraint);
+        }
+        for (const std::int32_t v : kept.vertex) cell_at_vertex_[v] = number[cell];
+    }
+    cells_.resize(static_cast<std::size_t>(count));
+    gaps_.clear();
+}
+
+void EditableTets::add_cells(std::span<const Tetrahedron> cells) {
+    require_room(cells.size());
+    for (const Tetrahedron& cell : cells) {
+        for (const std::int32_t v : cell) cell_at_vertex_[v] = cell_count();
+        cells_.push_back({cell, {none, none, none, none}});
+    }
+    open_.clear();
+    for (std::int32_t cell = 0; cell < cell_count(); ++cell)
+        for (int i = 0; i < 4; ++i)
+            if (cells_[cell].link[i] < 0) open_.push_back({ascending_face(cells_[cell].vertex, i), cell_face(cell, i)});
+    std::sort(open_.begin(), open_.end(), [](const OpenFace& f, const OpenFace& g) { return f.vertices < g.vertices; });
+    for (std::size_t k = 1; k < open_.size(); ++k)
+        if (open_[k - 1].vertices == open_[k].vertices) {
+            link(open_[k - 1].side) = open_[k].side;
+            link(open_[k].side) = open_[k - 1].side;
+        }
 }
 
 std::int32_t EditableTets::add_vertex(const Vec3& p) {

@@ -58,10 +58,9 @@ class EditableTets {
     /// The cells of a mesh. Finds their neighbours where the mesh has none. Error (memory) if there are more than
     /// `most`. Linear.
     EditableTets(TetMesh mesh, std::int32_t most);
-    /// The cells of a region, which has no ghosts, in order, and all points; with neighbours if they are asked for,
-    /// none across constrained faces. Afterwards there are no cells. boundary_vertex_count is left to the caller.
-    /// Linear.
-    TetMesh take_mesh(std::uint8_t region, bool with_neighbours);
+    /// The cells, which have no ghosts, in order, and all points; with neighbours if they are asked for, none across
+    /// constrained faces. Afterwards there are no cells. boundary_vertex_count is left to the caller. Linear.
+    TetMesh take_mesh(bool with_neighbours);
 
     // --- what there is ---
 
@@ -98,19 +97,18 @@ class EditableTets {
     /// Constrains both sides of a face.
     void constrain(CellFace face);
 
-    // --- regions ---
-
-    /// A number of each cell, 0 at first. New cells have that of the ones that they replace.
-    std::uint8_t region(std::int32_t cell) const { return regions_.empty() ? 0 : regions_[cell]; }
-    void set_region(std::int32_t cell, std::uint8_t region);
-
     // --- changes ---
 
-    /// Replaces cells of one region by others that fill the same space and have the same faces around them, constrained
+    /// Replaces cells by others that fill the same space and have the same faces around them, constrained
     /// or not; faces between the cells must not be constrained. Ghost cells may be among both. The numbers of the new
     /// cells, in the order of `by`, are valid until the next change. Error (memory), and nothing has changed, if there
     /// would be too many. Quadratic in the number of faces.
     std::span<const std::int32_t> replace(std::span<const std::int32_t> cells, std::span<const Tetrahedron> by);
+    /// Removes all cells but those with `is_kept`, which have no ghosts and keep their order. There is no cell behind
+    /// faces between both. Linear.
+    void keep_cells(const std::vector<bool>& is_kept);
+    /// Adds cells where there are none, joined with others at common faces behind which there is no cell.
+    void add_cells(std::span<const Tetrahedron> cells);
 
     /// The number of a new vertex, which cells get by replace().
     std::int32_t add_vertex(const Vec3& p);
@@ -139,12 +137,11 @@ class EditableTets {
     std::vector<Vec3> points_;
     std::vector<Cell> cells_;
     std::vector<std::int32_t> cell_at_vertex_;
-    std::vector<std::uint8_t> regions_;  // of each cell; empty: all 0
     std::int32_t most_ = most_cells;
     bool has_constraints_ = false;
 
  private:
-    // Of a replacement under way: a face that has one of its sides.
+    // A face that has one of its sides.
     struct OpenFace {
         Triangle vertices;  // ascending
         CellFace side;      // and `constraint` for those that stay

@@ -7,17 +7,29 @@
 
 namespace kerf {
 
-/// The triangles as constrained faces, in the order of find_faces(): those that are there as they are; the others by
-/// flips of the cells around the edges that are in their way, which leave the triangulation no longer Delaunay there.
-/// Where flips alone do not help, new vertices are added beside the triangles, on either side of them.
+/// A closed surface in a triangulation.
 struct RecoveredFaces {
-    std::vector<CellFace> faces;  ///< of each triangle; Triangulation::none where nothing helped
-    std::int64_t missing = 0;     ///< that were not there by themselves
-    std::int64_t lost = 0;        ///< that are still not there
+    std::vector<CellFace> faces;     ///< constrained, seen from the body: they enclose it, but for the caps
+    std::vector<Tetrahedron> caps;   ///< cells of the body between the faces and triangles that were split
+    std::int64_t missing = 0;        ///< triangles that were not there by themselves
+    std::int64_t split = 0;          ///< of them, those that flips could not make
+    std::vector<std::int32_t> lost;  ///< numbers of triangles that are still not there, or a part of which is not
 };
 
-/// Two triangles must not meet but in common corners and edges. Deterministic. Linear, and some 50 us a missing one. It
-/// is not complete: where long triangles lie close together, some may be lost.
-RecoveredFaces recover_faces(Triangulation& triangulation, const std::vector<Triangle>& triangles);
+/// How triangles are recovered that are not there.
+struct RecoveryOptions {
+    bool adds_vertices = true;  ///< flips may add vertices beside triangles before triangles are split
+    double offset = 1e-2;       ///< see BoundarySplitting
+};
+
+/// Recovers the triangles of a closed surface, the body behind them: those that are there as they are; the others by
+/// flips of the cells in their way, which leave the triangulation no longer Delaunay there; where flips do not help, by
+/// vertices next to them, see BoundarySplitting.
+///
+/// Two triangles must not meet but in common corners and edges. It is not complete: where long triangles lie close
+/// together, some may be lost, and others with other options. Exact, deterministic. Linear, and some 50 us a missing
+/// one.
+RecoveredFaces recover_faces(Triangulation& triangulation, const std::vector<Triangle>& triangles,
+                             const RecoveryOptions& options = {});
 
 }  // namespace kerf

@@ -58,9 +58,8 @@ class CellsByRadius {
 
 class Refinement {
  public:
-    Refinement(Triangulation& triangulation, std::uint8_t region, const RefinementBounds& bounds)
+    Refinement(Triangulation& triangulation, const RefinementBounds& bounds)
         : t_(triangulation),
-          region_(region),
           size_(bounds.size),
           most_ratio_sq_(bounds.radius_edge > 0 ? bounds.radius_edge * bounds.radius_edge : infinity),
           most_at_face_(square_from_degrees(least_angle_at_face_deg)),
@@ -82,7 +81,6 @@ class Refinement {
         return bad.cell < t_.cell_count() && t_.vertices(bad.cell) == bad.vertices;
     }
     void push(std::int32_t cell) {
-        if (t_.region(cell) != region_) return;
         const auto [a, b, c, d] = corners_of(cell);
         const double radius_sq = radius_sq_to_divide(CellGeometry(a, b, c, d), a, b, c, d);
         if (radius_sq > 0) bad_.add(radius_sq, {cell, t_.vertices(cell)});
@@ -191,7 +189,6 @@ class Refinement {
     }
 
     Triangulation& t_;
-    std::uint8_t region_;
     const SizeField& size_;
     double most_ratio_sq_, most_at_face_, most_;
     CellsByRadius bad_;
@@ -200,8 +197,8 @@ class Refinement {
 
 }  // namespace
 
-std::int64_t refine(Triangulation& triangulation, std::uint8_t region, const RefinementBounds& bounds) {
-    return Refinement(triangulation, region, bounds).run();
+std::int64_t refine(Triangulation& triangulation, const RefinementBounds& bounds) {
+    return Refinement(triangulation, bounds).run();
 }
 
 }  // namespace kerf

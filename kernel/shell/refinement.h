@@ -13,11 +13,11 @@ struct RefinementBounds {
     double radius_edge = 0;  ///< circumradius over shortest edge; 0: none
 };
 
-/// Inserts points into cells of one region that exceed a bound, next to their circumcentres (ruppert1995,
+/// Inserts points into cells that exceed a bound, next to their circumcentres (ruppert1995,
 /// shewchuk1998), as long as no cell is made that is much worse, but for those that will be divided next: a few stay as
 /// they are, next to constrained faces above all. For shapes, and for sizes that differ, none comes into the smallest
-/// sphere around a constrained face, as TetGen has it; a constant size is a bound, and is kept there, too. The region
-/// must be closed by constrained faces. Returns the number of points. Deterministic. Some 10 us a point.
-std::int64_t refine(Triangulation& triangulation, std::uint8_t region, const RefinementBounds& bounds);
+/// sphere around a constrained face, as TetGen has it; a constant size is a bound, and is kept there, too. There must
+/// be no ghosts (EditableTets::keep_cells()). Returns the number of points. Deterministic. Some 10 us a point.
+std::int64_t refine(Triangulation& triangulation, const RefinementBounds& bounds);
 
 }  // namespace kerf

@@ -3,20 +3,26 @@
 #include "shell/shell.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
 #include "delaunay/delaunay.h"
+#include "delaunay/delaunay_flips.h"
 #include "delaunay/faces.h"
 #include "shell/face_recovery.h"
+#include "shell/steiner_points.h"
 #include "shell/vertex_merging.h"
 
 namespace kerf {
 
 namespace {
 
-constexpr std::uint8_t shell_region = 1;
+// What one of them loses, another may find. Smaller offsets are for parts of the boundary that are nearer to each
+// other.
+constexpr std::array attempts = {RecoveryOptions{true, 1e-2}, RecoveryOptions{false, 1e-2}, RecoveryOptions{true, 1e-4},
+                                 RecoveryOptions{false, 1e-6}};
 
 std::vector<Vec3> all_points(const SurfaceArrays& surface, const ShellCore& core) {
     std::vector<Vec3> points = surface.vertices;
@@ -45,14 +51,31 @@ Triangulation triangulate(std::vector<Vec3> points) {
     return std::move(result.triangulation);
 }
 
-void mark_shell(Triangulation& triangulation, const std::vector<CellFace>& faces) {
-    const auto behind = cells_behind(triangulation, faces);
+// Only what lies between surface and core is left.
+void cut_out(Triangulation& triangulation, const RecoveredFaces& boundary) {
+    const auto behind = cells_behind(triangulation, boundary.faces);
     if (!behind) throw Error(ErrorCode::subdomain, "The facets do not enclose a body.");
-    for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell)
-        if ((*behind)[cell]) triangulation.set_region(cell, shell_region);
+    triangulation.keep_cells(*behind);
+    if (!boundary.caps.empty()) triangulation.add_cells(boundary.caps);
 }
 
-// Recovery may have added some outside of the shell, and merging has taken some away.
+// Throws where the surface meets itself, or nearly so, that no double lies between.
+RecoveredFaces recover_all(Triangulation& triangulation, const std::vector<Triangle>& triangles) {
+    const std::size_t given_vertices = triangulation.points().size();
+    RecoveredFaces found = recover_faces(triangulation, triangles, attempts[0]);
+    for (std::size_t k = 1; k < attempts.size() && !found.lost.empty(); ++k) {
+        std::vector<Vec3> points = triangulation.points();
+        points.resize(given_vertices);
+        triangulation = triangulate(std::move(points));
+        found = recover_faces(triangulation, triangles, attempts[k]);
+    }
+    if (!found.lost.empty())
+        throw Error(ErrorCode::subdomain,
+                    fmt::format("{} of {} facets cannot be recovered.", found.lost.size(), triangles.size()));
+    return found;
+}
+
+// Merging has taken some away.
 void drop_unused_vertices(TetMesh& mesh) {
     std::vector<std::int32_t> number(mesh.vertices.size(), -1);
     for (const Tetrahedron& tet : mesh.tets)
@@ -72,21 +95,22 @@ void drop_unused_vertices(TetMesh& mesh) {
 
 FilledShell fill_shell(const SurfaceArrays& surface, ShellCore core, const RefinementBounds& bounds) {
     FilledShell shell;
-    const std::size_t boundary_vertices = surface.vertices.size() + core.points.size();
+    const auto boundary_vertices = static_cast<std::int32_t>(surface.vertices.size() + core.points.size());
     const std::vector<Triangle> triangles = all_triangles(surface, core);
     Triangulation triangulation = triangulate(all_points(surface, core));
     core = {};
-    const RecoveredFaces found = recover_faces(triangulation, triangles);
-    if (found.lost > 0)
-        throw Error(ErrorCode::subdomain,
-                    fmt::format("{} of {} facets cannot be recovered.", found.lost, triangles.size()));
-    shell.recovery.missing = found.missing;
-    shell.recovery.by_flips = found.missing - found.lost;
-    mark_shell(triangulation, found.faces);
-    shell.refining_points = refine(triangulation, shell_region, bounds);
-    if (!bounds.size.is_constant()) merge_close_vertices(triangulation, shell_region, bounds.size);
-    shell.mesh = triangulation.take_mesh(shell_region, true);
-    shell.mesh.boundary_vertex_count = static_cast<std::int32_t>(boundary_vertices);
+    const auto given_vertices = static_cast<std::int32_t>(triangulation.points().size());
+    const RecoveredFaces found = recover_all(triangulation, triangles);
+    cut_out(triangulation, found);
+    shell.recovery = {found.missing, found.missing - found.split, found.split, 0};
+    if (found.missing > 0) {
+        shell.recovery.added_vertices = settle_steiner_points(triangulation, given_vertices);
+        flip_to_delaunay(triangulation);
+    }
+    shell.refining_points = refine(triangulation, bounds);
+    if (!bounds.size.is_constant()) merge_close_vertices(triangulation, boundary_vertices, bounds.size);
+    shell.mesh = triangulation.take_mesh(true);
+    shell.mesh.boundary_vertex_count = boundary_vertices;
     drop_unused_vertices(shell.mesh);
     return shell;
 }

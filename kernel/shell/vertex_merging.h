@@ -3,14 +3,15 @@
 
 #include <cstdint>
 
-#include "delaunay/triangulation.h"
+#include "mesh/editable_tets.h"
 #include "size/size_field.h"
 
 namespace kerf {
 
-/// Merges vertices inside of a region with a neighbour if an edge of theirs is shorter than 0.7 times the wanted
-/// length, and no cell gets too large (is_too_large()) or worse than the worst of those that it replaces, or than 12
-/// degrees. Recovered faces and slender cells bring such vertices. They are left without cells. Deterministic.
-void merge_close_vertices(Triangulation& triangulation, std::uint8_t region, const SizeField& size);
+/// Merges vertices from number `first` on, none of which lies on the boundary, with a neighbour if an edge of theirs is
+/// shorter than 0.7 times the wanted length, and no cell gets too large (is_too_large()) or worse than the worst of
+/// those that it replaces, or than 12 degrees. Slender cells bring such vertices. They are left without cells.
+/// Deterministic.
+void merge_close_vertices(EditableTets& tets, std::int32_t first, const SizeField& size);
 
 }  // namespace kerf

@@ -91,29 +91,15 @@ Filling fill_around_core(const SurfaceArrays& surface, const MesherOptions& opti
     return filling;
 }
 
-bool wants_one_size(const MesherOptions& options) { return options.size.is_constant() && !options.size.is_empty(); }
-
-// Without points of a core near the surface fewer of its facets are missing.
-Filling fill_without_core(const SurfaceArrays& surface, const MesherOptions& options) {
+Filling fill_with_lattice(const SurfaceArrays& surface, const MesherOptions& options) {
+    const bool has_one_size = options.size.is_constant() && !options.size.is_empty();
     try {
-        return fill_shell_alone(surface, {}, options);
+        return has_one_size ? fill_around_core(surface, options) : fill_shell_alone(surface, {}, options);
     } catch (const Error& error) {
         if (error.code() != ErrorCode::subdomain) throw;
         Filling filling = find_mesher("tetgen").fill(surface, for_tetgen(options));
         filling.strategy = way_by_tetgen;
         filling.reason = error.what();
-        return filling;
-    }
-}
-
-Filling fill_with_lattice(const SurfaceArrays& surface, const MesherOptions& options) {
-    if (!wants_one_size(options)) return fill_without_core(surface, options);
-    try {
-        return fill_around_core(surface, options);
-    } catch (const Error& error) {
-        if (error.code() != ErrorCode::subdomain) throw;
-        Filling filling = fill_without_core(surface, options);
-        if (filling.reason.empty()) filling.reason = error.what();
         return filling;
     }
 }

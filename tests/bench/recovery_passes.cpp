@@ -38,7 +38,7 @@ std::string broken_laws(const MeshLaws& laws) {
 
 Outcome filled(const SurfaceArrays& boundary, const FilledShell& shell) {
     return {broken_laws(verify_mesh(shell.mesh, boundary)),
-            fmt::format("{} cells, {} facets recovered", shell.mesh.tets.size(), shell.recovered_facets)};
+            fmt::format("{} cells, {} facets recovered", shell.mesh.tets.size(), shell.recovery.missing)};
 }
 
 Outcome fill_raw(const SurfaceArrays& surface) { return filled(surface, fill_shell(surface, {}, {})); }

@@ -22,7 +22,7 @@ TetMesh four_cells() {
     return mesh;
 }
 
-TetMesh all_of(EditableTets tets) { return tets.take_mesh(0, true); }
+TetMesh all_of(EditableTets tets) { return tets.take_mesh(true); }
 
 void expect_links_agree(const EditableTets& tets) {
     for (std::int32_t cell = 0; cell < tets.cell_count(); ++cell) {
@@ -101,7 +101,6 @@ TEST(EditableTets, FillsGapsBeforeItGrows) {
     mesh.tets = {{0, 4, 1, 2}, {0, 4, 2, 3}, {0, 4, 3, 1}, {0, 2, 1, 5}};
     EditableTets tets(mesh, EditableTets::most_cells);
     tets.constrain(cell_face(0, 1));
-    for (std::int32_t cell = 0; cell < 3; ++cell) tets.set_region(cell, 7);
     EdgeRing ring;
     ASSERT_TRUE(find_ring(tets, 1, 0, 1, ring));
     EXPECT_EQ(ring.cells, (std::vector{1, 2, 0}));
@@ -110,8 +109,6 @@ TEST(EditableTets, FillsGapsBeforeItGrows) {
     EXPECT_EQ(std::vector(made.begin(), made.end()), (std::vector{1, 2}));
     EXPECT_LT(tets.vertices(0)[0], 0);
     EXPECT_EQ(tets.cell_count(), 4);
-    EXPECT_EQ(tets.region(1), 7);
-    EXPECT_EQ(tets.region(3), 0);
     EXPECT_EQ(tets.neighbour(3, 3), 1);
     EXPECT_TRUE(tets.is_constrained(cell_face(3, 3)));
     expect_links_agree(tets);
@@ -120,10 +117,20 @@ TEST(EditableTets, FillsGapsBeforeItGrows) {
     const std::array<Tetrahedron, 4> four = {{{v, 1, 2, 3}, {0, v, 2, 3}, {0, 1, v, 3}, {0, 1, 2, v}}};
     const auto filled = tets.replace(std::array{1}, four);
     EXPECT_EQ(std::vector(filled.begin(), filled.end()), (std::vector{1, 0, 4, 5}));
-    EXPECT_EQ(tets.region(5), 7);
     expect_links_agree(tets);
-    const TetMesh inside = tets.take_mesh(7, true);
-    EXPECT_EQ(inside.tets.size(), 5u);
+
+    const Tetrahedron outside = tets.vertices(3);
+    std::vector<bool> is_kept(6, true);
+    is_kept[3] = false;
+    tets.keep_cells(is_kept);
+    EXPECT_EQ(tets.cell_count(), 5);
+    EXPECT_EQ(tets.cell_at(5), EditableTets::none);
+    expect_links_agree(tets);
+    tets.add_cells(std::span(&outside, 1));
+    EXPECT_EQ(tets.neighbour(5, 3), 4);
+    expect_links_agree(tets);
+    const TetMesh inside = tets.take_mesh(true);
+    EXPECT_EQ(inside.tets.size(), 6u);
     EXPECT_EQ(inside.neighbours, find_neighbours(inside));
     EXPECT_EQ(tets.cell_count(), 0);
 }
