@@ -28,7 +28,7 @@ inline double largest_of(Pair p) { return p[0] < p[1] ? p[1] : p[0]; }
 struct VectorPair {
     Pair x, y, z;
 
-    VectorPair(Pair x_, Pair y_, Pair z_) : x(x_), y(y_), z(z_) {}
+    VectorPair(Pair xs, Pair ys, Pair zs) : x(xs), y(ys), z(zs) {}
     VectorPair(const Vec3& p, const Vec3& q) : x{p[0], q[0]}, y{p[1], q[1]}, z{p[2], q[2]} {}
 
     VectorPair operator+(const VectorPair& o) const { return {x + o.x, y + o.y, z + o.z}; }
