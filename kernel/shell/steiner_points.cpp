@@ -25,7 +25,8 @@ Place best_place(const VertexStar& star, const std::vector<Vec3>& points) {
     Vec3 middle = Vec3::Zero();
     for (const std::int32_t u : star.neighbours()) middle += points[u];
     middle /= static_cast<double>(star.neighbours().size());
-    const Vec3 from = star.at(), way = middle - from;
+    const Vec3& from = star.at();
+    const Vec3 way = middle - from;
     Place best{from, star.badness_at(from)};
     for (double step = 1; step > least_step; step /= 2) {
         const Vec3 p = from + step * way;
