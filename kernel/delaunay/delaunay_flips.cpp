@@ -68,9 +68,8 @@ class DelaunayFlips {
         EdgeRing ring;
         if (!find_ring(t_, cell_of(face), index_of(vertices, p), index_of(vertices, q), ring, 3) || ring.size() != 3)
             return false;
-        for (int k = 0; k < 3; ++k)
-            if (t_.is_constrained(cell_face(ring.cells[k], index_of(t_.vertices(ring.cells[k]), ring.ring[k]))))
-                return false;
+        for (std::size_t k = 0; k < 3; ++k)
+            if (is_spoke_constrained(t_, ring, k)) return false;
         const std::array<Tetrahedron, 2> two = {Tetrahedron{ring.a, ring.ring[0], ring.ring[1], ring.ring[2]},
                                                 Tetrahedron{ring.ring[0], ring.ring[1], ring.ring[2], ring.b}};
         if (orientation_of(two[0]) <= 0 || orientation_of(two[1]) <= 0) return false;

@@ -117,7 +117,7 @@ bool Triangulation::ghost_conflicts(std::int32_t cell, const Vec3& p) const {
 }
 
 inline bool Triangulation::may_be_removed(std::int32_t cell, const Vec3& p) const {
-    if (is_ghost(cell)) return !has_constraints_ && ghost_conflicts(cell, p);
+    if (is_ghost(cell)) return !is_altered_ && ghost_conflicts(cell, p);
     if (!refused_.empty() && is_refused(cell)) return false;
     return sphere_contains(*this, cell, p);
 }
@@ -133,7 +133,7 @@ void Triangulation::grow_cavity(const Vec3& p, std::int32_t start) {
             const bool is_free = (behind & constraint) == 0;
             const std::int32_t next = cell_of(behind & ~constraint);
             if (is_free && cells_[next].is_marked()) continue;
-            if (is_free && may_be_removed(next, p)) {
+            if (is_free && cavity_.size() < most_removed_ && may_be_removed(next, p)) {
                 for (const CellFace beyond : cells_[next].link)
                     if (beyond >= 0) __builtin_prefetch(&cells_[cell_of(beyond & ~constraint)]);
                 cells_[next].flip_mark();
@@ -161,7 +161,7 @@ bool Triangulation::refuse_unseen_cells(const Vec3& p) {
 // False if the point may not be inserted. Among Delaunay cells the point sees all of its cavity. No vertex is lost: the
 // cell behind it, seen from the point, has the point outside of its sphere.
 bool Triangulation::find_cavity(const Vec3& p, std::int32_t start) {
-    if (!has_constraints_) {
+    if (!is_altered_) {
         grow_cavity(p, start);
         return true;
     }
@@ -274,11 +274,14 @@ std::int32_t Triangulation::insert(const Vec3& p, std::int32_t hint) {
     return find_cavity(p, start) ? insert_in_cavity(p) : none;
 }
 
-std::int32_t Triangulation::insert_if(const Vec3& p, std::int32_t hint,
-                                      const std::function<bool(const Star&)>& accepts) {
+std::int32_t Triangulation::insert_if(const Vec3& p, std::int32_t hint, const std::function<bool(const Star&)>& accepts,
+                                      std::size_t most_removed) {
     const std::int32_t start = start_of(p, hint);
     if (const std::int32_t same = vertex_at(*this, p, start); same != none) return same;
-    if (!find_cavity(p, start)) return none;
+    most_removed_ = most_removed;
+    const bool is_found = find_cavity(p, start);
+    most_removed_ = unlimited;
+    if (!is_found) return none;
     star_.faces.clear();
     for (const CavityFace& face : cavity_faces_)
         star_.faces.push_back({face_vertices(face.inside), (face.outside & constraint) != 0});

@@ -26,6 +26,8 @@ struct Star {
 /// in space.
 class Triangulation : public EditableTets {
  public:
+    static constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
+
     /// A triangulation without cells, as of points that all lie in one plane.
     Triangulation() = default;
     /// One tetrahedron, of vertices 0 to 3. Requires orientation() 1. Never has more than `most` cells, at most
@@ -44,14 +46,17 @@ class Triangulation : public EditableTets {
     /// The number of the new vertex; that of the old one if there is one at the point.
     ///
     /// Removes the cells in whose spheres the point lies, and joins it with the faces around them (bowyer1981,
-    /// watson1981). What lies behind a constrained face is left as it is; cells whose faces the point cannot see are
-    /// left, too. none, and nothing has changed, if there are constrained faces, and the point lies on one or is not
-    /// strictly inside of the hull. hint: a cell near the point; none for one of the last insertion's. About 3 us near
-    /// the hint. Requires cells. Error (memory), and nothing has changed, if there might be too many: more than
-    /// some 39 million vertices in space.
+    /// watson1981). Once faces have been constrained or cells replaced: what lies behind a constrained face is left as
+    /// it is; cells whose faces the point cannot see are left, too; none, and nothing has changed, if the point lies on
+    /// a constrained face or is not strictly inside of the hull. hint: a cell near the point; none for one of the last
+    /// insertion's. About 3 us near the hint. Requires cells. Error (memory), and nothing has changed, if there might
+    /// be too many: more than some 39 million vertices in space.
     std::int32_t insert(const Vec3& p, std::int32_t hint = none);
-    /// Inserts the point if `accepts` says so; none, and nothing has changed, if it does not.
-    std::int32_t insert_if(const Vec3& p, std::int32_t hint, const std::function<bool(const Star&)>& accepts);
+    /// Inserts the point if `accepts` says so; none, and nothing has changed, if it does not. Where cells are not
+    /// Delaunay already, not more than `most_removed` need be removed: those nearest to the point by steps from cell to
+    /// cell are.
+    std::int32_t insert_if(const Vec3& p, std::int32_t hint, const std::function<bool(const Star&)>& accepts,
+                           std::size_t most_removed = unlimited);
 
     /// The cells that the last insertion made: of each face in the order of Star::faces. Valid until the next change.
     const std::vector<std::int32_t>& made_cells() const { return made_; }
@@ -88,6 +93,7 @@ class Triangulation : public EditableTets {
     void join_cells_of_large_star();
 
     std::int32_t last_cell_ = 0;
+    std::size_t most_removed_ = unlimited;
 
     // Of the insertion under way.
     std::vector<std::int32_t> cavity_, refused_, made_;

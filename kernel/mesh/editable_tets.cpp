@@ -93,7 +93,7 @@ void EditableTets::find_star(std::int32_t cell, std::int32_t vertex, std::vector
 void EditableTets::constrain(CellFace face) {
     link(mirror(face)) |= constraint;
     link(face) |= constraint;
-    has_constraints_ = true;
+    is_altered_ = true;
 }
 
 // Before anything is changed.
@@ -108,6 +108,7 @@ void EditableTets::require_room(std::size_t more_cells) const {
 std::span<const std::int32_t> EditableTets::replace(std::span<const std::int32_t> cells,
                                                     std::span<const Tetrahedron> by) {
     if (const std::size_t reused = cells.size() + gaps_.size(); by.size() > reused) require_room(by.size() - reused);
+    is_altered_ = true;
     open_.clear();
     for (const std::int32_t cell : cells) cells_[cell].flip_mark();
     for (const std::int32_t cell : cells) {
@@ -241,6 +242,11 @@ bool find_ring(const EditableTets& tets, std::int32_t cell, int i, int j, EdgeRi
         behind = index_of(tets.vertices(at), front);
     } while (at != cell);
     return true;
+}
+
+bool is_spoke_constrained(const EditableTets& tets, const EdgeRing& ring, std::size_t k) {
+    const std::int32_t cell = ring.cells[k];
+    return tets.is_constrained(cell_face(cell, index_of(tets.vertices(cell), ring.ring[(k + 1) % ring.size()])));
 }
 
 }  // namespace kerf

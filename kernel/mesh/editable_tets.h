@@ -138,7 +138,7 @@ class EditableTets {
     std::vector<Cell> cells_;
     std::vector<std::int32_t> cell_at_vertex_;
     std::int32_t most_ = most_cells;
-    bool has_constraints_ = false;
+    bool is_altered_ = false;  // faces were constrained, or cells replaced
 
  private:
     // A face that has one of its sides.
@@ -168,5 +168,8 @@ struct EdgeRing {
 /// from b. False if there is a face without a cell behind, or more cells than `most`.
 bool find_ring(const EditableTets& tets, std::int32_t cell, int i, int j, EdgeRing& ring,
                std::size_t most = std::numeric_limits<std::size_t>::max());
+
+/// Whether the face between cells k - 1 and k of a ring is constrained.
+bool is_spoke_constrained(const EditableTets& tets, const EdgeRing& ring, std::size_t k);
 
 }  // namespace kerf
