@@ -17,6 +17,8 @@ namespace {
 constexpr double least_angle_at_face_deg = 12, least_angle_deg = 5;
 // Of an edge to a new point, by the wanted length. A bound of the volume is to be kept on coarse facets, too.
 constexpr double least_edge_share = 0.65, least_edge_share_of_bound = 0.4;
+// Of a cell's circumradius: of an edge to the point for it.
+constexpr double least_radius_share = 0.5;
 
 struct BadCell {
     std::int32_t cell;
@@ -118,16 +120,19 @@ class Refinement {
         return sum / (2 * u.cross(w).dot(x));
     }
 
-    // A slender cell gets no edge that is shorter than its own, a large one none that is much shorter than wanted: so
-    // this ends.
+    // A large cell gets no edge that is much shorter than wanted, a slender one none that is shorter than its own: so
+    // this ends. Nor one that is much shorter than its radius: where cells are Delaunay there is none, but where flips have
+    // left others, a few short edges would fill the body with their like.
     bool insert_for(std::int32_t cell) {
         const Corners corners = corners_of(cell);
-        const Vec3 circumcentre = corners[0] + circumcentre_from_first(corners);
+        const Vec3 from_first = circumcentre_from_first(corners), circumcentre = corners[0] + from_first;
         if (!circumcentre.allFinite()) return false;
         const Vec3 centroid = (corners[0] + corners[1] + corners[2] + corners[3]) / 4;
         const double least_edge_sq = least_edge_sq_at(centroid);
         const bool is_large = is_too_large(size_, corners), exceeds_bound = is_large && size_.is_constant();
-        const double least_sq = is_large ? least_edge_sq : std::min(shortest_edge_sq(corners), least_edge_sq);
+        const double radius_sq = least_radius_share * least_radius_share * from_first.squaredNorm();
+        const double least_sq =
+            is_large ? least_edge_sq : std::min(std::max(shortest_edge_sq(corners), radius_sq), least_edge_sq);
         if (insert(circumcentre, least_sq, cell, !exceeds_bound)) return true;
         return exceeds_bound && (insert((circumcentre + centroid) / 2, least_edge_sq, cell, false) ||
                                  insert(centroid, least_edge_sq, cell, false));
@@ -145,9 +150,17 @@ class Refinement {
         });
     }
 
+    // To a vertex of the cell in which it lies. is_good() would say so, too, but where cells are not Delaunay, most
+    // points are, and very many cells may be in their way.
+    bool is_too_near(const Vec3& p, double least_edge_sq, std::int32_t cell) const {
+        const Corners corners = corners_of(cell);
+        return std::any_of(corners.begin(), corners.end(),
+                           [&](const Vec3& corner) { return (corner - p).squaredNorm() < least_edge_sq; });
+    }
+
     bool insert(const Vec3& p, double least_edge_sq, std::int32_t cell, bool keeps_off_faces) {
         const std::int32_t at = t_.locate_in_sight(p, cell);
-        if (at == Triangulation::none) return false;
+        if (at == Triangulation::none || is_too_near(p, least_edge_sq, at)) return false;
         const auto before = static_cast<std::int32_t>(t_.points().size());
         const std::int32_t vertex = t_.insert_if(p, at, [&](const Star& star) {
             return !(keeps_off_faces && is_near_face(p, star)) && is_good(p, least_edge_sq, star);
