@@ -230,24 +230,13 @@ void BoundarySplitting::flip_part(std::int32_t number, int i) {
 
 // Nothing where the edge or a face at it must stay.
 std::vector<std::int32_t> BoundarySplitting::cavity_of_edge(std::int32_t cell, std::int32_t p, std::int32_t q) const {
-    if (missing_.has_edge(p, q)) return {};
+    if (is_kept_(p, q)) return {};
     EdgeRing ring;
     find_ring(t_, cell, index_of(t_.vertices(cell), p), index_of(t_.vertices(cell), q), ring);
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-        const std::int32_t at = ring.cells[k];
-        if (t_.is_constrained(cell_face(at, index_of(t_.vertices(at), ring.ring[k])))) return {};
-    }
+    for (std::size_t k = 0; k < ring.size(); ++k)
+        if (is_spoke_constrained(t_, ring, k)) return {};
     std::erase_if(ring.cells, [&](std::int32_t at) { return t_.is_ghost(at); });
     return ring.cells;
-}
-
-// The faces around the cells, seen from inside.
-std::vector<CellFace> BoundarySplitting::sides_of(std::span<const std::int32_t> cavity) const {
-    std::vector<CellFace> sides;
-    for (const std::int32_t cell : cavity)
-        for (int i = 0; i < 4; ++i)
-            if (!contains(cavity, t_.neighbour(cell, i))) sides.push_back(cell_face(cell, i));
-    return sides;
 }
 
 bool BoundarySplitting::is_behind(const Vec3& p, const Triangle& triangle) const {
@@ -259,7 +248,7 @@ bool BoundarySplitting::is_behind(const Vec3& p, const Triangle& triangle) const
 bool BoundarySplitting::grow(std::vector<std::int32_t>& cavity, const Vec3& p) const {
     for (bool is_seen = false; !is_seen;) {
         is_seen = true;
-        for (const CellFace side : sides_of(cavity)) {
+        for (const CellFace side : sides_of(t_, cavity)) {
             if (is_behind(p, t_.face_vertices(side))) continue;
             const std::int32_t next = cell_of(t_.mirror(side));
             if (t_.is_constrained(side) || t_.is_ghost(next) || cavity.size() == most_cells_of_a_cavity) return false;
@@ -267,30 +256,7 @@ bool BoundarySplitting::grow(std::vector<std::int32_t>& cavity, const Vec3& p) c
             is_seen = false;
         }
     }
-    return may_be_removed(cavity);
-}
-
-// Whether no vertex, no constrained face, and no edge of a missing triangle is inside of it.
-bool BoundarySplitting::may_be_removed(std::span<const std::int32_t> cavity) const {
-    std::vector<std::int32_t> vertices;
-    std::vector<UndirectedEdge> edges;
-    for (const CellFace side : sides_of(cavity)) {
-        const Triangle corners = t_.face_vertices(side);
-        vertices.insert(vertices.end(), corners.begin(), corners.end());
-        for (int i = 0; i < 3; ++i) edges.push_back(undirected(corners[i], corners[(i + 1) % 3]));
-    }
-    for (const std::int32_t cell : cavity) {
-        const Tetrahedron& v = t_.vertices(cell);
-        for (int i = 0; i < 4; ++i) {
-            if (!contains(vertices, v[i])) return false;
-            if (t_.is_constrained(cell_face(cell, i)) && contains(cavity, t_.neighbour(cell, i))) return false;
-            for (int j = i + 1; j < 4; ++j)
-                if (const UndirectedEdge edge = undirected(v[i], v[j]);
-                    !contains(edges, edge) && missing_.has_edge(v[i], v[j]))
-                    return false;
-        }
-    }
-    return true;
+    return may_be_removed(t_, cavity, is_kept_);
 }
 
 double BoundarySplitting::distance_to_next(const Place& place) const {
@@ -323,13 +289,17 @@ std::optional<std::int32_t> BoundarySplitting::insert(const Place& place) {
     return std::nullopt;
 }
 
-// In the place of all cells whose spheres contain it and whose outer faces it sees.
+// In the place of cells whose spheres contain it and whose outer faces it sees; on this side of all triangles that are
+// there.
 template <class Accepts>
 std::optional<std::int32_t> BoundarySplitting::insert_if(const Vec3& p, const Place& place, const Accepts& accepts) {
     const auto before = static_cast<std::int32_t>(t_.points().size());
-    const std::int32_t vertex = t_.insert_if(p, place.cavity[0], [&](const Star& star) {
-        return star.removed.size() <= most_cells_of_a_cavity && accepts(star.removed) && may_be_removed(star.removed);
-    });
+    const std::int32_t at = t_.locate_in_sight(p, place.cavity[0]);
+    if (at == Triangulation::none) return std::nullopt;
+    const auto is_free = [&](const Star& star) {
+        return accepts(star.removed) && may_be_removed(t_, star.removed, is_kept_);
+    };
+    const std::int32_t vertex = t_.insert_if(p, at, is_free, most_cells_of_a_cavity);
     return vertex == before ? std::optional(vertex) : std::nullopt;
 }
 
@@ -339,7 +309,7 @@ std::optional<std::int32_t> BoundarySplitting::insert_alone(const Vec3& p, const
     if (!grow(cavity, p)) return std::nullopt;
     const std::int32_t vertex = t_.add_vertex(p);
     std::vector<Tetrahedron> cells;
-    for (const CellFace side : sides_of(cavity)) {
+    for (const CellFace side : sides_of(t_, cavity)) {
         const auto [a, b, c] = t_.face_vertices(side);
         cells.push_back({vertex, a, b, c});
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "delaunay/triangulation.h"
+#include "shell/cavity.h"
 #include "shell/crossing.h"
 #include "shell/missing_triangles.h"
 
@@ -32,7 +33,11 @@ class BoundarySplitting {
     /// its ends: in (0, 1). The smaller it is, the nearer another part of the boundary may be.
     BoundarySplitting(Triangulation& triangulation, const std::vector<Triangle>& given, MissingTriangles& missing,
                       double offset)
-        : t_(triangulation), given_(given), missing_(missing), offset_(offset) {}
+        : t_(triangulation),
+          given_(given),
+          missing_(missing),
+          is_kept_([this](std::int32_t a, std::int32_t b) { return missing_.has_edge(a, b); }),
+          offset_(offset) {}
 
     /// Replaces the missing triangles with this edge, which the triangulation lacks, by two each. False, and nothing
     /// has changed, where there is no place for the vertex: something else of the boundary is in the way.
@@ -60,12 +65,10 @@ class BoundarySplitting {
     std::vector<std::int32_t> cavity_of_edge(std::int32_t cell, std::int32_t p, std::int32_t q) const;
     std::optional<std::int32_t> insert(const Place& place);
     bool is_behind(const Vec3& p, const Triangle& triangle) const;
-    std::vector<CellFace> sides_of(std::span<const std::int32_t> cavity) const;
     template <class Accepts>
     std::optional<std::int32_t> insert_if(const Vec3& p, const Place& place, const Accepts& accepts);
     std::optional<std::int32_t> insert_alone(const Vec3& p, const Place& place);
     bool grow(std::vector<std::int32_t>& cavity, const Vec3& p) const;
-    bool may_be_removed(std::span<const std::int32_t> cavity) const;
     double distance_to_next(const Place& place) const;
     void replace(std::int32_t number, std::int32_t vertex, const std::vector<Triangle>& by);
 
@@ -80,6 +83,7 @@ class BoundarySplitting {
     Triangulation& t_;
     const std::vector<Triangle>& given_;
     MissingTriangles& missing_;
+    IsKept is_kept_;
     double offset_, curvature_ = 0;      // of all domes, 1/length; 0 before the first split
     std::map<std::int32_t, Vec3> feet_;  // of the vertices that were added
     std::vector<std::int32_t> fresh_;    // numbers of missing triangles whose edges may have to be flipped

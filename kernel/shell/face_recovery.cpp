@@ -2,64 +2,120 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
+#include <limits>
 
 #include "delaunay/faces.h"
 #include "shell/boundary_splitting.h"
 #include "shell/flip_recovery.h"
+#include "shell/surface_edges.h"
 
 namespace kerf {
 
 namespace {
 
-constexpr std::array rounds = {FlipLimits{0},
-                               FlipLimits{0},
-                               FlipLimits{1},
-                               FlipLimits{2, NewVertices::allowed},
-                               FlipLimits{2, NewVertices::allowed},
-                               FlipLimits{2, NewVertices::allowed},
-                               FlipLimits{2, NewVertices::allowed},
-                               FlipLimits{2, NewVertices::allowed}};
-constexpr std::array rounds_without_vertices = {FlipLimits{0, NewVertices::none, true},
-                                                FlipLimits{1, NewVertices::none, true},
-                                                FlipLimits{2, NewVertices::none, true}};
-// With more of all triangles still missing, those that are thin and close together, vertices would not help.
-constexpr double most_missing_share = 0.1;
-constexpr FlipLimits beside_splits = {2, NewVertices::none, true};
+// To remove an edge, others are removed first only as deep as it must be: that changes least.
+constexpr int most_depth_of_rounds = 12, most_rounds_in_vain = 3;
+constexpr FlipLimits anything = {40, true}, anything_and_vertices = {40, true, NewVertices::allowed};
+// What is done for all missing ones is done again as long as it leaves fewer of them than this share.
+constexpr double most_left = 0.95;
+// Of BoundarySplitting. What one loses, a smaller one may find: parts of the boundary may be nearer to each other then.
+constexpr std::array offsets = {1e-2, 1e-4, 1e-6};
 // Where long thin triangles lie close together, splits make others of the kind, and there is no end.
 constexpr std::int64_t most_parts_of_a_triangle = 60, most_parts_of_any = 600;
 
+Triangle ascending(Triangle t) {
+    std::sort(t.begin(), t.end());
+    return t;
+}
+
+// No triangle may be there twice.
+std::vector<Triangle> without_opposites(std::vector<Triangle> triangles) {
+    std::sort(triangles.begin(), triangles.end(),
+              [](const Triangle& s, const Triangle& t) { return ascending(s) < ascending(t); });
+    std::vector<Triangle> left;
+    for (const Triangle& t : triangles)
+        if (!left.empty() && ascending(left.back()) == ascending(t))
+            left.pop_back();
+        else
+            left.push_back(t);
+    return left;
+}
+
 class FaceRecovery {
  public:
-    FaceRecovery(Triangulation& triangulation, const std::vector<Triangle>& triangles, const RecoveryOptions& options)
+    FaceRecovery(Triangulation& triangulation, const std::vector<Triangle>& triangles, std::size_t most_removed)
         : t_(triangulation),
-          options_(options),
           triangles_(triangles),
-          flips_(triangulation, missing_),
-          splitting_(triangulation, triangles, missing_, options.offset) {}
+          flips_(
+              triangulation,
+              [this](std::int32_t a, std::int32_t b) { return edges_.contains(a, b) || missing_.has_edge(a, b); },
+              most_removed) {}
 
     RecoveredFaces run() {
         RecoveredFaces result;
         result.faces = find_faces(t_, triangles_);
-        find_missing(result.faces);
-        result.missing = missing_.missing_count();
-        if (result.missing == 0) return result;
-        if (options_.adds_vertices)
-            flip_all(rounds);
-        else
-            flip_all(rounds_without_vertices);
-        result.split = missing_.missing_count();
-        most_triangles_ = missing_.count() + most_parts_of_any + most_parts_of_a_triangle * result.split;
-        while (missing_.missing_count() > 0 && split_all()) {
+        result.missing = std::count(result.faces.begin(), result.faces.end(), Triangulation::none);
+        if (result.missing > 0) {
+            edges_ = SurfaceEdges(triangles_, t_.points().size());
+            recover_edges(result.faces);
+            result.faces = find_faces(t_, triangles_);
         }
+        constrain(result.faces);
+        recover_triangles();
+        result.split = missing_.missing_count();
+        if (result.split > 0) result.caps = split_missing();
         result.lost = missing_.missing_origins();
-        if (result.lost.empty()) result.faces = find_faces(t_, boundary(result.faces));
-        result.caps = splitting_.caps();
+        if (result.split > 0 && result.lost.empty())
+            result.faces = find_faces(t_, boundary(result.faces));
+        else if (result.missing > 0)
+            result.faces = find_faces(t_, triangles_);
         return result;
     }
 
  private:
-    void find_missing(const std::vector<CellFace>& faces) {
+    bool has_edge(std::int32_t a, std::int32_t b) { return crossing_of(t_, a, b).has_end; }
+
+    // --- edges, while no face is constrained ---
+
+    void recover_edges(const std::vector<CellFace>& faces) {
+        std::vector<UndirectedEdge> edges = missing_edges(faces);
+        int in_vain = 0;
+        for (int depth = 1; depth <= most_depth_of_rounds && in_vain < most_rounds_in_vain; ++depth) {
+            const std::size_t before = edges.size();
+            recover(edges, {depth});
+            in_vain = edges.size() < before ? std::max(0, in_vain - 1) : in_vain + 1;
+        }
+        repeat([&] { return edges.size(); }, [&] { recover(edges, anything); });
+    }
+
+    std::vector<UndirectedEdge> missing_edges(const std::vector<CellFace>& faces) {
+        std::vector<UndirectedEdge> edges;
+        for (std::size_t k = 0; k < triangles_.size(); ++k)
+            for (int i = 0; i < 3 && faces[k] == Triangulation::none; ++i)
+                edges.push_back(undirected(triangles_[k][i], triangles_[k][(i + 1) % 3]));
+        std::sort(edges.begin(), edges.end());
+        edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+        std::erase_if(edges, [&](const UndirectedEdge& edge) { return has_edge(edge[0], edge[1]); });
+        return edges;
+    }
+
+    // Those that are there then are no longer among them.
+    void recover(std::vector<UndirectedEdge>& edges, const FlipLimits& limits) {
+        std::erase_if(edges, [&](const UndirectedEdge& edge) { return flips_.recover_edge(edge[0], edge[1], limits); });
+    }
+
+    template <class Count, class Round>
+    static void repeat(const Count& count, const Round& round) {
+        for (bool goes_on = count() > 0; goes_on;) {
+            const auto before = static_cast<double>(count());
+            round();
+            goes_on = count() > 0 && static_cast<double>(count()) < most_left * before;
+        }
+    }
+
+    // --- triangles ---
+
+    void constrain(const std::vector<CellFace>& faces) {
         for (std::size_t k = 0; k < triangles_.size(); ++k)
             if (faces[k] == Triangulation::none)
                 missing_.add(triangles_[k], static_cast<std::int32_t>(k));
@@ -67,81 +123,118 @@ class FaceRecovery {
                 t_.constrain(faces[k]);
     }
 
-    void flip_all(std::span<const FlipLimits> all) {
-        for (const FlipLimits& limits : all) {
-            const double share = static_cast<double>(missing_.missing_count()) / static_cast<double>(triangles_.size());
-            if (limits.new_vertices == NewVertices::allowed && share > most_missing_share) return;
-            for (std::int32_t k = 0; k < missing_.count(); ++k)
-                if (missing_.is_missing(k)) recover(k, limits);
-        }
+    void recover_triangles() {
+        const auto count = [&] { return missing_.missing_count(); };
+        repeat(count, [&] { for_each_missing([&](std::int32_t number) { recover(number, anything); }); });
+        repeat(count, [&] { for_each_missing([&](std::int32_t number) { recover_with_vertices(number); }); });
+    }
+
+    // Those that come on the way, too, as long as there are not too many.
+    template <class Visit>
+    void for_each_missing(const Visit& visit) {
+        for (std::int32_t number = 0; number < missing_.count() && missing_.count() < most_triangles_; ++number)
+            if (missing_.is_missing(number)) visit(number);
     }
 
     bool recover(std::int32_t number, const FlipLimits& limits) {
-        if (!flips_.recover(missing_.triangle(number), limits)) return false;
+        const Triangle triangle = missing_.triangle(number);
+        for (int i = 0; i < 3; ++i)
+            if (!flips_.recover_edge(triangle[i], triangle[(i + 1) % 3], limits)) return false;
+        if (!flips_.recover_face(triangle, limits)) return false;
+        t_.constrain(find_face(t_, triangle));
         missing_.set_made(number);
         return true;
     }
 
-    // Those that come of a split, too. False if none could be made or split, or there are too many.
-    bool split_all() {
-        bool any = false;
-        for (std::int32_t k = 0; k < missing_.count() && missing_.count() < most_triangles_; ++k)
-            if (missing_.is_missing(k) && split_sides(k)) any = true;
-        if (any) return true;
-        for (std::int32_t k = 0; k < missing_.count() && missing_.count() < most_triangles_; ++k)
-            if (missing_.is_missing(k) && (recover(k, beside_splits) || split(k))) any = true;
-        return any && missing_.count() < most_triangles_;
+    void recover_with_vertices(std::int32_t number) {
+        const Triangle triangle = missing_.triangle(number);
+        const auto& p = t_.points();
+        for (int i = 0; i < 3; ++i) {
+            const std::int32_t a = triangle[i], b = triangle[(i + 1) % 3];
+            if (flips_.recover_edge(a, b, anything_and_vertices)) continue;
+            if (!flips_.insert_behind(triangle, (p[a] + p[b]) / 2) || !flips_.recover_edge(a, b, anything)) return;
+        }
+        if (recover(number, anything_and_vertices)) return;
+        if (flips_.insert_behind(triangle, (p[triangle[0]] + p[triangle[1]] + p[triangle[2]]) / 3))
+            recover(number, anything);
     }
 
-    // At edges between parts of different given triangles.
-    bool split_sides(std::int32_t number) {
+    // --- splits ---
+
+    // The caps.
+    std::vector<Tetrahedron> split_missing() {
+        const Triangulation unsplit = t_;
+        const MissingTriangles missing = missing_;
+        most_triangles_ = missing.count() + most_parts_of_any + most_parts_of_a_triangle * missing.missing_count();
+        for (const double offset : offsets) {
+            t_ = unsplit;
+            missing_ = missing;
+            BoundarySplitting splitting(t_, triangles_, missing_, offset);
+            while (missing_.missing_count() > 0 && missing_.count() < most_triangles_ && split_all(splitting)) {
+            }
+            if (missing_.missing_count() == 0) return splitting.caps();
+        }
+        return {};
+    }
+
+    // False if none could be made or split.
+    bool split_all(BoundarySplitting& splitting) {
+        bool any = false;
+        for_each_missing([&](std::int32_t number) { any |= split_side(splitting, number); });
+        if (any) return true;
+        for_each_missing([&](std::int32_t number) { any |= recover(number, anything) || split(splitting, number); });
+        return any;
+    }
+
+    // At an edge between parts of different given triangles.
+    bool split_side(BoundarySplitting& splitting, std::int32_t number) {
         const Triangle triangle = missing_.triangle(number);
         for (int i = 0; i < 3; ++i) {
             const std::int32_t a = triangle[i], b = triangle[(i + 1) % 3];
             const std::vector<std::int32_t> numbers = missing_.at_edge(a, b);
             if (numbers.size() != 2 || missing_.origin(numbers[0]) == missing_.origin(numbers[1])) continue;
-            if (!flips_.recover_edge(a, b, beside_splits) && splitting_.split_edge(a, b)) return true;
+            if (!flips_.recover_edge(a, b, anything) && splitting.split_edge(a, b)) return true;
         }
         return false;
     }
 
     // At an edge that is not there; in the middle if all are.
-    bool split(std::int32_t number) {
+    bool split(BoundarySplitting& splitting, std::int32_t number) {
         const Triangle triangle = missing_.triangle(number);
         bool has_edges = true;
         for (int i = 0; i < 3; ++i) {
             const std::int32_t a = triangle[i], b = triangle[(i + 1) % 3];
-            if (crossing_of(t_, a, b).has_end) continue;
-            if (splitting_.split_edge(a, b)) return true;
+            if (has_edge(a, b)) continue;
+            if (splitting.split_edge(a, b)) return true;
             has_edges = false;
         }
-        return has_edges && splitting_.split_triangle(number);
+        return has_edges && splitting.split_triangle(number);
     }
 
-    // What was there by itself, and what was made.
+    // What was there by itself, and what was made, but for two that are the same face seen from both sides: between
+    // them there is nothing but caps.
     std::vector<Triangle> boundary(const std::vector<CellFace>& faces) const {
         std::vector<Triangle> all;
         for (std::size_t k = 0; k < triangles_.size(); ++k)
             if (faces[k] != Triangulation::none) all.push_back(triangles_[k]);
         for (std::int32_t k = 0; k < missing_.count(); ++k)
             if (missing_.is_made(k)) all.push_back(missing_.triangle(k));
-        return all;
+        return without_opposites(std::move(all));
     }
 
     Triangulation& t_;
-    RecoveryOptions options_;
     const std::vector<Triangle>& triangles_;
+    SurfaceEdges edges_;
     MissingTriangles missing_;
     FlipRecovery flips_;
-    BoundarySplitting splitting_;
-    std::int64_t most_triangles_ = 0;
+    std::int64_t most_triangles_ = std::numeric_limits<std::int64_t>::max();  // missing ones and all that were
 };
 
 }  // namespace
 
 RecoveredFaces recover_faces(Triangulation& triangulation, const std::vector<Triangle>& triangles,
-                             const RecoveryOptions& options) {
-    return FaceRecovery(triangulation, triangles, options).run();
+                             std::size_t most_removed) {
+    return FaceRecovery(triangulation, triangles, most_removed).run();
 }
 
 }  // namespace kerf

@@ -121,8 +121,8 @@ class Refinement {
     }
 
     // A large cell gets no edge that is much shorter than wanted, a slender one none that is shorter than its own: so
-    // this ends. Nor one that is much shorter than its radius: where cells are Delaunay there is none, but where flips have
-    // left others, a few short edges would fill the body with their like.
+    // this ends. Nor one that is much shorter than its radius: where cells are Delaunay there is none, but where flips
+    // have left others, a few short edges would fill the body with their like.
     bool insert_for(std::int32_t cell) {
         const Corners corners = corners_of(cell);
         const Vec3 from_first = circumcentre_from_first(corners), circumcentre = corners[0] + from_first;

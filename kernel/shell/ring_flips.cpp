@@ -74,12 +74,26 @@ double badness_of_pair(const Triangulation& t, const EdgeRing& ring, std::int32_
     return orientation_of(t, {ring.a, ring.b, u, v}) == 0 ? 0 : impossible;
 }
 
+// Whether what the two cells of a triangle p, q, r in the ring have that others have not may be made; its edge from p
+// to r is new, too, if `has_diagonal`.
+bool allows_pair(const Triangulation& t, const EdgeRing& ring, const Triangle& triangle, bool has_diagonal,
+                 const Goal& goal) {
+    const auto& [p, q, r] = triangle;
+    if (goal.corners().empty()) return true;
+    if (!goal.allows_face(t, triangle)) return false;
+    return !has_diagonal ||
+           (goal.allows_edge(t, p, r) && goal.allows_face(t, {p, r, ring.a}) && goal.allows_face(t, {p, r, ring.b}));
+}
+
 // Appends the cells of a polygon of the ring's vertices. False if there are none that are positive.
 bool append_polygon(const Triangulation& t, const EdgeRing& ring, const std::vector<std::int32_t>& polygon,
-                    std::vector<Tetrahedron>& cells) {
+                    const Goal& goal, std::vector<Tetrahedron>& cells) {
     PolygonTriangulation<most_cells_of_a_ring> triangles;
     const auto badness = [&](std::size_t i, std::size_t j, std::size_t k, double) {
-        return badness_of_pair(t, ring, polygon[i], polygon[j], polygon[k]);
+        const double worse = badness_of_pair(t, ring, polygon[i], polygon[j], polygon[k]);
+        if (worse == impossible) return impossible;
+        const bool has_diagonal = k - i > 1 && k - i + 1 < ring.size();
+        return allows_pair(t, ring, {polygon[i], polygon[j], polygon[k]}, has_diagonal, goal) ? worse : impossible;
     };
     if (!triangles.find(polygon.size(), impossible, badness)) return false;
     triangles.for_each_triangle([&](std::size_t i, std::size_t j, std::size_t k) {
@@ -118,12 +132,6 @@ bool append_star(Triangulation& t, const EdgeRing& ring, const std::vector<std::
     return true;
 }
 
-// Whether the face between cells k - 1 and k of a ring may go.
-bool is_spoke_constrained(const Triangulation& t, const EdgeRing& ring, std::size_t k) {
-    const std::int32_t cell = ring.cells[k];
-    return t.is_constrained(cell_face(cell, index_of(t.vertices(cell), ring.ring[(k + 1) % ring.size()])));
-}
-
 std::vector<std::int32_t> polygon_between(const EdgeRing& ring, std::size_t from, std::size_t to) {
     std::vector<std::int32_t> polygon;
     for (std::size_t k = from; k != to; k = (k + 1) % ring.size()) polygon.push_back(ring.ring[k]);
@@ -131,13 +139,13 @@ std::vector<std::int32_t> polygon_between(const EdgeRing& ring, std::size_t from
     return polygon;
 }
 
-bool append_cells(Triangulation& t, const EdgeRing& ring, const std::vector<std::int32_t>& polygon,
+bool append_cells(Triangulation& t, const EdgeRing& ring, const std::vector<std::int32_t>& polygon, const Goal& goal,
                   NewVertices new_vertices, std::vector<Tetrahedron>& cells) {
-    if (append_polygon(t, ring, polygon, cells)) return true;
+    if (append_polygon(t, ring, polygon, goal, cells)) return true;
     return new_vertices == NewVertices::allowed && append_star(t, ring, polygon, cells);
 }
 
-bool span_ring_between(Triangulation& t, const EdgeRing& ring, std::size_t from, std::size_t to,
+bool span_ring_between(Triangulation& t, const EdgeRing& ring, std::size_t from, std::size_t to, const Goal& goal,
                        NewVertices new_vertices) {
     const std::vector<std::int32_t> polygon = polygon_between(ring, from, to);
     const Tetrahedron middle = {ring.a, ring.b, polygon.front(), polygon.back()};
@@ -148,7 +156,7 @@ bool span_ring_between(Triangulation& t, const EdgeRing& ring, std::size_t from,
         cells.push_back(ring.cells[k]);
     }
     std::vector<Tetrahedron> made = {middle};
-    if (!append_cells(t, ring, polygon, new_vertices, made)) return false;
+    if (!append_cells(t, ring, polygon, goal, new_vertices, made)) return false;
     t.replace(cells, made);
     return true;
 }
@@ -163,7 +171,7 @@ EdgeRing ring_around(const Triangulation& triangulation, std::int32_t cell, std:
 }
 
 bool remove_ring_edge(Triangulation& triangulation, const EdgeRing& ring, std::span<const std::int32_t> kept,
-                      NewVertices new_vertices) {
+                      const Goal& goal, NewVertices new_vertices) {
     if (ring.size() > most_cells_of_a_ring) return false;
     std::vector<std::size_t> corners;
     for (const std::int32_t vertex : kept) {
@@ -177,12 +185,12 @@ bool remove_ring_edge(Triangulation& triangulation, const EdgeRing& ring, std::s
     std::vector<Tetrahedron> made;
     if (corners.size() == 3 &&
         !append_polygon(triangulation, ring, {ring.ring[corners[0]], ring.ring[corners[1]], ring.ring[corners[2]]},
-                        made))
+                        goal, made))
         return false;
     const std::size_t vertices = triangulation.points().size();
     for (std::size_t k = 0; k < corners.size(); ++k) {
         const auto polygon = polygon_between(ring, corners[k], corners[(k + 1) % corners.size()]);
-        if (append_cells(triangulation, ring, polygon, new_vertices, made)) continue;
+        if (append_cells(triangulation, ring, polygon, goal, new_vertices, made)) continue;
         triangulation.remove_unused_vertices(vertices);
         return false;
     }
@@ -190,15 +198,15 @@ bool remove_ring_edge(Triangulation& triangulation, const EdgeRing& ring, std::s
     return true;
 }
 
-bool span_ring(Triangulation& triangulation, const EdgeRing& ring, std::int32_t a, std::int32_t b,
+bool span_ring(Triangulation& triangulation, const EdgeRing& ring, std::int32_t a, std::int32_t b, const Goal& goal,
                NewVertices new_vertices) {
     const std::size_t from = ring.place_of(a), to = ring.place_of(b);
     if (from == ring.size() || to == ring.size() || ring.size() > most_cells_of_a_ring) return false;
-    return span_ring_between(triangulation, ring, from, to, new_vertices) ||
-           span_ring_between(triangulation, ring, to, from, new_vertices);
+    return span_ring_between(triangulation, ring, from, to, goal, new_vertices) ||
+           span_ring_between(triangulation, ring, to, from, goal, new_vertices);
 }
 
-bool replace_face_by_edge(Triangulation& triangulation, CellFace face) {
+bool replace_face_by_edge(Triangulation& triangulation, CellFace face, const Goal& goal) {
     const CellFace behind = triangulation.mirror(face);
     const std::int32_t a = triangulation.opposite_vertex(face), b = triangulation.opposite_vertex(behind);
     if (a < 0 || b < 0 || triangulation.is_constrained(face) || triangulation.is_ghost(cell_of(face))) return false;
@@ -206,8 +214,10 @@ bool replace_face_by_edge(Triangulation& triangulation, CellFace face) {
     std::vector<Tetrahedron> made;
     for (int i = 0; i < 3; ++i) {
         made.push_back({a, corners[i], corners[(i + 1) % 3], b});
-        if (orientation_of(triangulation, made.back()) <= 0) return false;
+        if (orientation_of(triangulation, made.back()) <= 0 || !goal.allows_face(triangulation, {a, b, corners[i]}))
+            return false;
     }
+    if (!goal.allows_edge(triangulation, a, b)) return false;
     const std::array<std::int32_t, 2> cells = {cell_of(face), cell_of(behind)};
     triangulation.replace(cells, made);
     return true;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "delaunay/triangulation.h"
+#include "shell/goal.h"
 
 namespace kerf {
 
@@ -17,17 +18,18 @@ enum class NewVertices { none, allowed };
 
 /// Replaces all cells of a ring by others without its edge, of which one has the edges between the `kept` vertices of
 /// the ring: none, two, or three, which are a face then. The others are chosen so that the worst of them is best.
-/// False, and nothing has changed, if that is not possible with positive cells, or would remove a constrained face.
+/// False, and nothing has changed, if that is not possible with positive cells, would remove a constrained face, or
+/// make something that crosses the goal.
 bool remove_ring_edge(Triangulation& triangulation, const EdgeRing& ring, std::span<const std::int32_t> kept,
-                      NewVertices new_vertices = NewVertices::none);
+                      const Goal& goal = {}, NewVertices new_vertices = NewVertices::none);
 
 /// Replaces those cells of a ring that are between vertices a and b, on either side, by others and by one with corners
 /// a, b and the edge of the ring, which stays. False, and nothing has changed, as above.
 bool span_ring(Triangulation& triangulation, const EdgeRing& ring, std::int32_t a, std::int32_t b,
-               NewVertices new_vertices = NewVertices::none);
+               const Goal& goal = {}, NewVertices new_vertices = NewVertices::none);
 
 /// Replaces two cells with a common face by three around the edge between the other two vertices. False, and nothing
-/// has changed, if one of them would not be positive, or the face is constrained.
-bool replace_face_by_edge(Triangulation& triangulation, CellFace face);
+/// has changed, if one of them would not be positive, the face is constrained, or something new would cross the goal.
+bool replace_face_by_edge(Triangulation& triangulation, CellFace face, const Goal& goal = {});
 
 }  // namespace kerf

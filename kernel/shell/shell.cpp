@@ -19,10 +19,8 @@ namespace kerf {
 
 namespace {
 
-// What one of them loses, another may find. Smaller offsets are for parts of the boundary that are nearer to each
-// other.
-constexpr std::array attempts = {RecoveryOptions{true, 1e-2}, RecoveryOptions{false, 1e-2}, RecoveryOptions{true, 1e-4},
-                                 RecoveryOptions{false, 1e-6}};
+// Of recover_faces(): what one of them loses, another may find.
+constexpr std::array<std::size_t, 4> most_removed = {200, 1000, 60, 20};
 
 std::vector<Vec3> all_points(const SurfaceArrays& surface, const ShellCore& core) {
     std::vector<Vec3> points = surface.vertices;
@@ -62,12 +60,12 @@ void cut_out(Triangulation& triangulation, const RecoveredFaces& boundary) {
 // Throws where the surface meets itself, or nearly so, that no double lies between.
 RecoveredFaces recover_all(Triangulation& triangulation, const std::vector<Triangle>& triangles) {
     const std::size_t given_vertices = triangulation.points().size();
-    RecoveredFaces found = recover_faces(triangulation, triangles, attempts[0]);
-    for (std::size_t k = 1; k < attempts.size() && !found.lost.empty(); ++k) {
+    RecoveredFaces found = recover_faces(triangulation, triangles, most_removed[0]);
+    for (std::size_t k = 1; k < most_removed.size() && !found.lost.empty(); ++k) {
         std::vector<Vec3> points = triangulation.points();
         points.resize(given_vertices);
         triangulation = triangulate(std::move(points));
-        found = recover_faces(triangulation, triangles, attempts[k]);
+        found = recover_faces(triangulation, triangles, most_removed[k]);
     }
     if (!found.lost.empty())
         throw Error(ErrorCode::subdomain,

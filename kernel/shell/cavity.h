@@ -1,0 +1,21 @@
+// Cells that are to be removed together.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "delaunay/triangulation.h"
+
+namespace kerf {
+
+/// Whether an edge must stay.
+using IsKept = std::function<bool(std::int32_t, std::int32_t)>;
+
+/// The faces around cells, seen from inside. Quadratic in the number of cells.
+std::vector<CellFace> sides_of(const EditableTets& tets, std::span<const std::int32_t> cavity);
+
+/// Whether no vertex, no constrained face, and no edge that is kept is inside of cells. Quadratic in their number.
+bool may_be_removed(const EditableTets& tets, std::span<const std::int32_t> cavity, const IsKept& is_kept);
+
+}  // namespace kerf

@@ -1,0 +1,31 @@
+// Which pairs of vertices are edges of a surface.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "core/types.h"
+
+namespace kerf {
+
+/// The edges of a closed surface whose vertices are numbered from 0 to below `vertices`. 6 bytes a triangle and 4 a
+/// vertex.
+class SurfaceEdges {
+ public:
+    SurfaceEdges() = default;
+    SurfaceEdges(const std::vector<Triangle>& triangles, std::size_t vertices);
+
+    /// Whether it is one of them, in either direction. Linear in the number of edges to greater vertices at the
+    /// smaller.
+    bool contains(std::int32_t a, std::int32_t b) const {
+        if (a > b) std::swap(a, b);
+        if (a < 0 || static_cast<std::size_t>(a) + 1 >= start_.size()) return false;
+        return std::find(other_.begin() + start_[a], other_.begin() + start_[a + 1], b) !=
+               other_.begin() + start_[a + 1];
+    }
+
+ private:
+    std::vector<std::int32_t> start_, other_;  // by smaller vertices: the greater ones
+};
+
+}  // namespace kerf
