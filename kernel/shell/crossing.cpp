@@ -42,6 +42,14 @@ bool pierces(const Triangulation& t, std::int32_t p, std::int32_t q, const Trian
     return side != 0 && orient(t, p, q, b, c) == side && orient(t, p, q, c, a) == side;
 }
 
+// Whether the face is the triangle, seen from the cell that sees it clockwise.
+bool is_face(const Triangulation& triangulation, CellFace face, const Triangle& triangle) {
+    if (triangulation.opposite_vertex(face) == triangle[0]) return false;
+    Triangle there = triangulation.face_vertices(face);
+    std::rotate(there.begin(), std::find(there.begin(), there.end(), triangle[0]), there.end());
+    return there == triangle;
+}
+
 }  // namespace
 
 Crossing crossing_of(Triangulation& triangulation, std::int32_t a, std::int32_t b) {
@@ -91,13 +99,6 @@ CellFace find_face(Triangulation& triangulation, const Triangle& triangle) {
         for (int i = 0; i < 4; ++i)
             if (is_face(triangulation, cell_face(cell, i), triangle)) return cell_face(cell, i);
     return Triangulation::none;
-}
-
-bool is_face(const Triangulation& triangulation, CellFace face, const Triangle& triangle) {
-    if (cell_of(face) >= triangulation.cell_count() || triangulation.opposite_vertex(face) == triangle[0]) return false;
-    Triangle there = triangulation.face_vertices(face);
-    std::rotate(there.begin(), std::find(there.begin(), there.end(), triangle[0]), there.end());
-    return there == triangle;
 }
 
 }  // namespace kerf

@@ -40,7 +40,5 @@ std::vector<PiercingEdge> edges_through(Triangulation& triangulation, const Tria
 /// Finds the face that is the triangle, seen from the cell that sees it clockwise; none if there is none. Linear in the
 /// number of cells around its first corner.
 CellFace find_face(Triangulation& triangulation, const Triangle& triangle);
-/// Whether the face is the triangle, seen so.
-bool is_face(const Triangulation& triangulation, CellFace face, const Triangle& triangle);
 
 }  // namespace kerf
