@@ -1,7 +1,7 @@
 #include "delaunay/delaunay_flips.h"
 
 #include <array>
-#include <span>
+#include <numeric>
 #include <vector>
 
 #include "geometry/predicates.h"
@@ -12,7 +12,7 @@ namespace {
 
 class DelaunayFlips {
  public:
-    explicit DelaunayFlips(EditableTets& tets) : t_(tets) {}
+    DelaunayFlips(EditableTets& tets, const std::function<void(std::int32_t)>& on_made) : t_(tets), on_made_(on_made) {}
 
     void push(std::int32_t cell) { cells_.push_back({cell, t_.vertices(cell)}); }
 
@@ -77,19 +77,30 @@ class DelaunayFlips {
     }
 
     bool replace(std::span<const std::int32_t> cells, std::span<const Tetrahedron> by) {
-        for (const std::int32_t made : t_.replace(cells, by)) push(made);
+        for (const std::int32_t made : t_.replace(cells, by)) {
+            push(made);
+            on_made_(made);
+        }
         return true;
     }
 
     EditableTets& t_;
+    const std::function<void(std::int32_t)>& on_made_;
     std::vector<Entry> cells_;
 };
 
 }  // namespace
 
 std::int64_t flip_to_delaunay(EditableTets& tets) {
-    DelaunayFlips flips(tets);
-    for (std::int32_t cell = tets.cell_count(); cell-- > 0;) flips.push(cell);
+    std::vector<std::int32_t> all(static_cast<std::size_t>(tets.cell_count()));
+    std::iota(all.rbegin(), all.rend(), 0);
+    return flip_to_delaunay(tets, all, [](std::int32_t) {});
+}
+
+std::int64_t flip_to_delaunay(EditableTets& tets, std::span<const std::int32_t> cells,
+                              const std::function<void(std::int32_t cell)>& on_made) {
+    DelaunayFlips flips(tets, on_made);
+    for (const std::int32_t cell : cells) flips.push(cell);
     return flips.run();
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <span>
 
 #include "mesh/editable_tets.h"
 
@@ -12,5 +14,9 @@ namespace kerf {
 /// nearer to the constrained Delaunay triangulation, but not all there: where no flip is possible, they stay as they
 /// are. There must be no ghosts. Returns the number of flips. Deterministic. Linear in cells and flips.
 std::int64_t flip_to_delaunay(EditableTets& tets);
+/// The same, beginning with the faces of some cells; what else is not Delaunay stays so. on_made is told of each new
+/// cell, which a later flip may replace.
+std::int64_t flip_to_delaunay(EditableTets& tets, std::span<const std::int32_t> cells,
+                              const std::function<void(std::int32_t cell)>& on_made);
 
 }  // namespace kerf

@@ -116,26 +116,25 @@ bool Triangulation::ghost_conflicts(std::int32_t cell, const Vec3& p) const {
     return cells_[inside].is_marked() || sphere_contains(*this, inside, p);
 }
 
-inline bool Triangulation::may_be_removed(std::int32_t cell, const Vec3& p) const {
-    if (is_ghost(cell)) return !is_altered_ && ghost_conflicts(cell, p);
-    if (!refused_.empty() && is_refused(cell)) return false;
-    return sphere_contains(*this, cell, p);
+inline bool Triangulation::conflicts(std::int32_t cell, const Vec3& p) const {
+    return is_ghost(cell) ? ghost_conflicts(cell, p) : sphere_contains(*this, cell, p);
+}
+
+void Triangulation::unmark_cavity() {
+    for (const std::int32_t cell : cavity_) cells_[cell].flip_mark();
 }
 
 void Triangulation::grow_cavity(const Vec3& p, std::int32_t start) {
-    cavity_faces_.clear();
     cavity_.assign(1, start);
     cells_[start].flip_mark();
     for (std::size_t k = 0; k < cavity_.size(); ++k) {
         const std::int32_t cell = cavity_[k];
         for (int i = 0; i < 4; ++i) {
             const CellFace behind = cells_[cell].link[i];
-            const bool is_free = (behind & constraint) == 0;
-            const std::int32_t next = cell_of(behind & ~constraint);
-            if (is_free && cells_[next].is_marked()) continue;
-            if (is_free && cavity_.size() < most_removed_ && may_be_removed(next, p)) {
-                for (const CellFace beyond : cells_[next].link)
-                    if (beyond >= 0) __builtin_prefetch(&cells_[cell_of(beyond & ~constraint)]);
+            const std::int32_t next = cell_of(behind);
+            if (cells_[next].is_marked()) continue;
+            if (conflicts(next, p)) {
+                for (const CellFace beyond : cells_[next].link) __builtin_prefetch(&cells_[cell_of(beyond)]);
                 cells_[next].flip_mark();
                 cavity_.push_back(next);
             } else {
@@ -143,36 +142,81 @@ void Triangulation::grow_cavity(const Vec3& p, std::int32_t start) {
             }
         }
     }
-    for (const std::int32_t cell : cavity_) cells_[cell].flip_mark();
+    unmark_cavity();
 }
 
-// False if the point sees all faces of the cavity from inside.
-bool Triangulation::refuse_unseen_cells(const Vec3& p) {
-    const std::size_t refused_before = refused_.size();
-    for (const CavityFace& face : cavity_faces_) {
-        const std::int32_t cell = cell_of(face.inside);
-        if (is_refused(cell) || orientation_with(*this, cell, index_in_cell(face.inside), p) > 0) continue;
-        is_refused_[cell] = true;
-        refused_.push_back(cell);
+// Of a face of a marked cell.
+Triangle Triangulation::cavity_face_vertices(CellFace face) const {
+    Cell cell = cells_[cell_of(face)];
+    cell.flip_mark();
+    const auto& [i, j, k] = tet_faces[index_in_cell(face)];
+    return {cell.vertex[i], cell.vertex[j], cell.vertex[k]};
+}
+
+// Of a marked cell: 1 where p sees the face from inside of the cell, 0 in its plane.
+int Triangulation::side_of(const Vec3& p, CellFace face) const {
+    const auto [a, b, c] = cavity_face_vertices(face);
+    return orientation(p, points()[a], points()[b], points()[c]);
+}
+
+// By steps through faces that the point sees, or on which it lies: all cells that it sees through others with spheres
+// around it are found, and few that it does not see. False if a face keeps the point off.
+bool Triangulation::grow_cavity_in_sight(const Vec3& p, std::int32_t start, const InsertionConditions& conditions) {
+    unseen_.clear();
+    cavity_.assign(1, start);
+    cells_[start].flip_mark();
+    for (std::size_t k = 0; k < cavity_.size(); ++k)
+        for (int i = 0; i < 4; ++i) {
+            const CellFace face = cell_face(cavity_[k], i), behind = link(face);
+            const bool is_free = (behind & constraint) == 0;
+            const std::int32_t next = cell_of(behind & ~constraint);
+            if (is_free && cells_[next].is_marked()) continue;
+            const int side = side_of(p, face);
+            if (side <= 0) unseen_.push_back(face);
+            if (side < 0) continue;
+            if (!is_free) {
+                if (conditions.is_kept_off_by && conditions.is_kept_off_by(cavity_face_vertices(face))) return false;
+            } else if (cavity_.size() < conditions.most_removed && !is_ghost(next) && sphere_contains(*this, next, p)) {
+                cells_[next].flip_mark();
+                cavity_.push_back(next);
+            }
+        }
+    return true;
+}
+
+// Leaves the largest part of the cavity all of whose faces the point sees, in whatever order cells are taken away.
+void Triangulation::shrink_cavity(const Vec3& p) {
+    has_left_cells_ = false;
+    while (!unseen_.empty()) {
+        const CellFace face = unseen_.back();
+        unseen_.pop_back();
+        const std::int32_t cell = cell_of(face);
+        if (!cells_[cell].is_marked() || is_inside_cavity(link(face))) continue;
+        cells_[cell].flip_mark();
+        has_left_cells_ = true;
+        for (const CellFace behind : cells_[cell].link)
+            if (is_inside_cavity(behind) && side_of(p, behind) <= 0) unseen_.push_back(behind);
     }
-    return refused_.size() > refused_before;
+    if (has_left_cells_) std::erase_if(cavity_, [&](std::int32_t cell) { return !cells_[cell].is_marked(); });
+    for (const std::int32_t cell : cavity_)
+        for (int i = 0; i < 4; ++i)
+            if (const CellFace face = cell_face(cell, i); !is_inside_cavity(link(face)))
+                cavity_faces_.push_back({face, link(face)});
 }
 
 // False if the point may not be inserted. Among Delaunay cells the point sees all of its cavity. No vertex is lost: the
 // cell behind it, seen from the point, has the point outside of its sphere.
-bool Triangulation::find_cavity(const Vec3& p, std::int32_t start) {
+bool Triangulation::find_cavity(const Vec3& p, std::int32_t start, const InsertionConditions& conditions) {
+    cavity_faces_.clear();
     if (!is_altered_) {
         grow_cavity(p, start);
         return true;
     }
     if (is_ghost(start)) return false;
-    if (is_refused_.size() < cells_.size()) is_refused_.resize(cells_.capacity());
-    do grow_cavity(p, start);
-    while (refuse_unseen_cells(p) && !is_refused(start));
-    const bool is_found = !is_refused(start);
-    for (const std::int32_t cell : refused_) is_refused_[cell] = false;
-    refused_.clear();
-    return is_found;
+    const bool is_free = grow_cavity_in_sight(p, start, conditions);
+    if (is_free) shrink_cavity(p);
+    unmark_cavity();
+    return is_free && !cavity_.empty();
 }
 
 // --- The cells that it brings ---
@@ -271,22 +315,18 @@ std::int32_t Triangulation::insert_in_cavity(const Vec3& p) {
 std::int32_t Triangulation::insert(const Vec3& p, std::int32_t hint) {
     const std::int32_t start = start_of(p, hint);
     if (const std::int32_t same = vertex_at(*this, p, start); same != none) return same;
-    return find_cavity(p, start) ? insert_in_cavity(p) : none;
+    return find_cavity(p, start, {}) ? insert_in_cavity(p) : none;
 }
 
-std::int32_t Triangulation::insert_if(const Vec3& p, std::int32_t hint, const std::function<bool(const Star&)>& accepts,
-                                      std::size_t most_removed) {
+std::int32_t Triangulation::insert_if(const Vec3& p, std::int32_t hint, const InsertionConditions& conditions) {
     const std::int32_t start = start_of(p, hint);
     if (const std::int32_t same = vertex_at(*this, p, start); same != none) return same;
-    most_removed_ = most_removed;
-    const bool is_found = find_cavity(p, start);
-    most_removed_ = unlimited;
-    if (!is_found) return none;
+    if (!find_cavity(p, start, conditions)) return none;
     star_.faces.clear();
     for (const CavityFace& face : cavity_faces_)
         star_.faces.push_back({face_vertices(face.inside), (face.outside & constraint) != 0});
     star_.removed = cavity_;
-    return accepts(star_) ? insert_in_cavity(p) : none;
+    return conditions.accepts(star_) ? insert_in_cavity(p) : none;
 }
 
 void Triangulation::renumber(const std::vector<std::int32_t>& number, std::vector<Vec3> points) {

@@ -21,13 +21,23 @@ struct Star {
     std::span<const std::int32_t> removed;  ///< these cells
 };
 
+/// Of Triangulation::insert_if().
+struct InsertionConditions {
+    std::function<bool(const Star&)> accepts;
+    /// Asked before all cells are known that the point would remove, which saves time where it says yes: whether the
+    /// point may not come because of a constrained face that it sees. Empty: it may. Once faces have been constrained
+    /// or cells replaced.
+    std::function<bool(const Triangle&)> is_kept_off_by = {};
+    /// Where cells are not Delaunay already, not more need be removed: those nearest to the point by steps from cell to
+    /// cell are.
+    std::size_t most_removed = std::numeric_limits<std::size_t>::max();
+};
+
 /// Delaunay by the predicates of predicates.h, which know no ties, as long as no face was constrained and no cell
 /// replaced by others. Outside of the hull there are ghosts. 32 bytes a cell and 29 a vertex, about 6.8 cells a vertex
 /// in space.
 class Triangulation : public EditableTets {
  public:
-    static constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
-
     /// A triangulation without cells, as of points that all lie in one plane.
     Triangulation() = default;
     /// One tetrahedron, of vertices 0 to 3. Requires orientation() 1. Never has more than `most` cells, at most
@@ -52,14 +62,15 @@ class Triangulation : public EditableTets {
     /// insertion's. About 3 us near the hint. Requires cells. Error (memory), and nothing has changed, if there might
     /// be too many: more than some 39 million vertices in space.
     std::int32_t insert(const Vec3& p, std::int32_t hint = none);
-    /// Inserts the point if `accepts` says so; none, and nothing has changed, if it does not. Where cells are not
-    /// Delaunay already, not more than `most_removed` need be removed: those nearest to the point by steps from cell to
-    /// cell are.
-    std::int32_t insert_if(const Vec3& p, std::int32_t hint, const std::function<bool(const Star&)>& accepts,
-                           std::size_t most_removed = unlimited);
+    /// Inserts the point under these conditions; none, and nothing has changed, if they do not hold.
+    std::int32_t insert_if(const Vec3& p, std::int32_t hint, const InsertionConditions& conditions);
 
     /// The cells that the last insertion made: of each face in the order of Star::faces. Valid until the next change.
     const std::vector<std::int32_t>& made_cells() const { return made_; }
+
+    /// Whether the last insertion has left cells as they were in whose spheres its point lies, because the point does
+    /// not see all of their faces.
+    bool has_left_cells() const { return has_left_cells_; }
 
     /// Gives vertex v the number number[v] in `points`, which has the same point there, and others that are no
     /// vertices. Linear.
@@ -81,11 +92,17 @@ class Triangulation : public EditableTets {
 
     std::int32_t start_of(const Vec3& p, std::int32_t hint) const;
     bool ghost_conflicts(std::int32_t cell, const Vec3& p) const;
-    bool is_refused(std::int32_t cell) const { return is_refused_[cell]; }
-    bool may_be_removed(std::int32_t cell, const Vec3& p) const;
-    bool find_cavity(const Vec3& p, std::int32_t start);
+    bool conflicts(std::int32_t cell, const Vec3& p) const;
+    Triangle cavity_face_vertices(CellFace face) const;
+    int side_of(const Vec3& p, CellFace face) const;
+    bool is_inside_cavity(CellFace behind) const {
+        return (behind & constraint) == 0 && cells_[cell_of(behind)].is_marked();
+    }
+    bool find_cavity(const Vec3& p, std::int32_t start, const InsertionConditions& conditions);
     void grow_cavity(const Vec3& p, std::int32_t start);
-    bool refuse_unseen_cells(const Vec3& p);
+    bool grow_cavity_in_sight(const Vec3& p, std::int32_t start, const InsertionConditions& conditions);
+    void shrink_cavity(const Vec3& p);
+    void unmark_cavity();
     std::int32_t insert_in_cavity(const Vec3& p);
     void place_cells();
     void set_cells(std::int32_t vertex);
@@ -93,11 +110,11 @@ class Triangulation : public EditableTets {
     void join_cells_of_large_star();
 
     std::int32_t last_cell_ = 0;
-    std::size_t most_removed_ = unlimited;
 
     // Of the insertion under way.
-    std::vector<std::int32_t> cavity_, refused_, made_;
-    std::vector<bool> is_refused_;  // of each cell, and room for more; empty without constraints
+    std::vector<std::int32_t> cavity_, made_;
+    bool has_left_cells_ = false;
+    std::vector<CellFace> unseen_;  // of cells of the cavity
     std::vector<CavityFace> cavity_faces_;
     std::vector<NewCell> new_cells_;
     Star star_;

@@ -299,7 +299,7 @@ std::optional<std::int32_t> BoundarySplitting::insert_if(const Vec3& p, const Pl
     const auto is_free = [&](const Star& star) {
         return accepts(star.removed) && may_be_removed(t_, star.removed, is_kept_);
     };
-    const std::int32_t vertex = t_.insert_if(p, at, is_free, most_cells_of_a_cavity);
+    const std::int32_t vertex = t_.insert_if(p, at, {.accepts = is_free, .most_removed = most_cells_of_a_cavity});
     return vertex == before ? std::optional(vertex) : std::nullopt;
 }
 

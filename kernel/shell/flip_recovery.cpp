@@ -86,8 +86,9 @@ bool FlipRecovery::insert_behind(const Triangle& triangle, const Vec3& p) {
         const double share = farthest_behind * (0.1 + some_share()) / (1 << tries), x = some_share() / 2,
                      y = some_share() / 2;
         const Vec3 behind = p + share * (length * inwards + x * (b - p) + y * (c - p));
-        if (behind.allFinite() && t_.insert_if(behind, t_.cell_at(triangle[0]), is_free, most_removed_) >= before)
-            return true;
+        if (!behind.allFinite()) continue;
+        const InsertionConditions conditions = {.accepts = is_free, .most_removed = most_removed_};
+        if (t_.insert_if(behind, t_.cell_at(triangle[0]), conditions) >= before) return true;
     }
     return false;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "delaunay/delaunay_flips.h"
 #include "improve/cell_shape.h"
 
 namespace kerf {
@@ -138,16 +139,13 @@ class Refinement {
                                  insert(centroid, least_edge_sq, cell, false));
     }
 
-    // Whether the smallest sphere around a face that stays contains it.
-    bool is_near_face(const Vec3& p, const Star& star) const {
-        return std::any_of(star.faces.begin(), star.faces.end(), [&](const Star::Face& face) {
-            if (!face.is_constrained) return false;
-            const Vec3 &a = point(face.vertices[0]), u = point(face.vertices[1]) - a, v = point(face.vertices[2]) - a;
-            const Vec3 normal = u.cross(v);
-            const Vec3 centre =
-                (u.squaredNorm() * v.cross(normal) + v.squaredNorm() * normal.cross(u)) / (2 * normal.squaredNorm());
-            return (p - a - centre).squaredNorm() < centre.squaredNorm();
-        });
+    // Whether the smallest sphere around a face contains it.
+    bool is_near_face(const Vec3& p, const Triangle& face) const {
+        const Vec3 &a = point(face[0]), u = point(face[1]) - a, v = point(face[2]) - a;
+        const Vec3 normal = u.cross(v);
+        const Vec3 centre =
+            (u.squaredNorm() * v.cross(normal) + v.squaredNorm() * normal.cross(u)) / (2 * normal.squaredNorm());
+        return (p - a - centre).squaredNorm() < centre.squaredNorm();
     }
 
     // To a vertex of the cell in which it lies. is_good() would say so, too, but where cells are not Delaunay, most
@@ -162,14 +160,15 @@ class Refinement {
         const std::int32_t at = t_.locate_in_sight(p, cell);
         if (at == Triangulation::none || is_too_near(p, least_edge_sq, at)) return false;
         const auto before = static_cast<std::int32_t>(t_.points().size());
-        const std::int32_t vertex = t_.insert_if(p, at, [&](const Star& star) {
-            return !(keeps_off_faces && is_near_face(p, star)) && is_good(p, least_edge_sq, star);
-        });
+        InsertionConditions conditions = {.accepts = [&](const Star& star) { return is_good(p, least_edge_sq, star); }};
+        if (keeps_off_faces) conditions.is_kept_off_by = [&](const Triangle& face) { return is_near_face(p, face); };
+        const std::int32_t vertex = t_.insert_if(p, at, conditions);
         if (vertex < before) return false;  // or Triangulation::none
         for (std::size_t k = made_radius_sq_.size(); k-- > 0;) {
             const std::int32_t made = t_.made_cells()[k];
             if (made_radius_sq_[k] > 0) bad_.add(made_radius_sq_[k], {made, t_.vertices(made)});
         }
+        if (t_.has_left_cells()) flip_to_delaunay(t_, t_.made_cells(), [&](std::int32_t made) { push(made); });
         return true;
     }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <gtest/gtest.h>
 
@@ -184,7 +185,8 @@ TEST_P(EachMesher, KeepsTheVolumeBoundWhereTheSurfaceIsFine) {
             std::sort(volumes.begin(), volumes.end());
             EXPECT_LE(volumes[volumes.size() - 1 - volumes.size() / 1000], 1);  // all but one in a thousand
             EXPECT_LT(volumes.back(), 1.5);
-            EXPECT_GT(volumes.back(), 0.9);
+            const double all = std::accumulate(volumes.begin(), volumes.end(), 0.0);
+            EXPECT_GT(all / static_cast<double>(volumes.size()), 0.3);  // not many more cells than are needed
         }
 }
 
