@@ -20,6 +20,9 @@ constexpr FlipLimits anything = {40, true}, anything_and_vertices = {40, true, N
 constexpr double most_left = 0.95;
 // Of BoundarySplitting. What one loses, a smaller one may find: parts of the boundary may be nearer to each other then.
 constexpr std::array offsets = {1e-2, 1e-4, 1e-6};
+// By a vertex that comes behind a triangle, see FlipRecovery::insert_behind(). What is lost with one of them, another
+// may find.
+constexpr std::array<std::size_t, 4> most_removed_cells = {200, 1000, 60, 20};
 // Where long thin triangles lie close together, splits make others of the kind, and there is no end.
 constexpr std::int64_t most_parts_of_a_triangle = 60, most_parts_of_any = 600;
 
@@ -43,13 +46,10 @@ std::vector<Triangle> without_opposites(std::vector<Triangle> triangles) {
 
 class FaceRecovery {
  public:
-    FaceRecovery(Triangulation& triangulation, const std::vector<Triangle>& triangles, std::size_t most_removed)
-        : t_(triangulation),
-          triangles_(triangles),
-          flips_(
-              triangulation,
-              [this](std::int32_t a, std::int32_t b) { return edges_.contains(a, b) || missing_.has_edge(a, b); },
-              most_removed) {}
+    FaceRecovery(Triangulation& triangulation, const std::vector<Triangle>& triangles)
+        : t_(triangulation), triangles_(triangles), flips_(triangulation, [this](std::int32_t a, std::int32_t b) {
+              return edges_.contains(a, b) || missing_.has_edge(a, b);
+          }) {}
 
     RecoveredFaces run() {
         RecoveredFaces result;
@@ -61,9 +61,8 @@ class FaceRecovery {
             result.faces = find_faces(t_, triangles_);
         }
         constrain(result.faces);
-        recover_triangles();
-        result.split = missing_.missing_count();
-        if (result.split > 0) result.caps = split_missing();
+        repeat_for_missing([&](std::int32_t number) { recover(number, anything); });
+        if (missing_.missing_count() > 0) add_vertices(result);
         result.lost = missing_.missing_origins();
         if (result.split > 0 && result.lost.empty())
             result.faces = find_faces(t_, boundary(result.faces));
@@ -123,10 +122,9 @@ class FaceRecovery {
                 t_.constrain(faces[k]);
     }
 
-    void recover_triangles() {
-        const auto count = [&] { return missing_.missing_count(); };
-        repeat(count, [&] { for_each_missing([&](std::int32_t number) { recover(number, anything); }); });
-        repeat(count, [&] { for_each_missing([&](std::int32_t number) { recover_with_vertices(number); }); });
+    template <class Visit>
+    void repeat_for_missing(const Visit& visit) {
+        repeat([&] { return missing_.missing_count(); }, [&] { for_each_missing(visit); });
     }
 
     // Those that come on the way, too, as long as there are not too many.
@@ -146,16 +144,33 @@ class FaceRecovery {
         return true;
     }
 
-    void recover_with_vertices(std::int32_t number) {
+    // --- vertices ---
+
+    void add_vertices(RecoveredFaces& result) {
+        const Triangulation flipped = t_;
+        const MissingTriangles missing = missing_;
+        for (const std::size_t most_removed : most_removed_cells) {
+            t_ = flipped;
+            missing_ = missing;
+            most_triangles_ = std::numeric_limits<std::int64_t>::max();
+            repeat_for_missing([&](std::int32_t number) { recover_with_vertices(number, most_removed); });
+            result.split = missing_.missing_count();
+            if (result.split > 0) result.caps = split_missing();
+            if (missing_.missing_count() == 0) return;
+        }
+    }
+
+    void recover_with_vertices(std::int32_t number, std::size_t most_removed) {
         const Triangle triangle = missing_.triangle(number);
         const auto& p = t_.points();
         for (int i = 0; i < 3; ++i) {
             const std::int32_t a = triangle[i], b = triangle[(i + 1) % 3];
             if (flips_.recover_edge(a, b, anything_and_vertices)) continue;
-            if (!flips_.insert_behind(triangle, (p[a] + p[b]) / 2) || !flips_.recover_edge(a, b, anything)) return;
+            if (!flips_.insert_behind(triangle, (p[a] + p[b]) / 2, most_removed)) return;
+            if (!flips_.recover_edge(a, b, anything)) return;
         }
         if (recover(number, anything_and_vertices)) return;
-        if (flips_.insert_behind(triangle, (p[triangle[0]] + p[triangle[1]] + p[triangle[2]]) / 3))
+        if (flips_.insert_behind(triangle, (p[triangle[0]] + p[triangle[1]] + p[triangle[2]]) / 3, most_removed))
             recover(number, anything);
     }
 
@@ -232,9 +247,8 @@ class FaceRecovery {
 
 }  // namespace
 
-RecoveredFaces recover_faces(Triangulation& triangulation, const std::vector<Triangle>& triangles,
-                             std::size_t most_removed) {
-    return FaceRecovery(triangulation, triangles, most_removed).run();
+RecoveredFaces recover_faces(Triangulation& triangulation, const std::vector<Triangle>& triangles) {
+    return FaceRecovery(triangulation, triangles).run();
 }
 
 }  // namespace kerf

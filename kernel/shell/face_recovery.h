@@ -22,10 +22,9 @@ struct RecoveredFaces {
 /// FlipRecovery), then with vertices behind those that are still missing; in the end these are split at such vertices
 /// (see BoundarySplitting). Afterwards the triangulation is no longer Delaunay there.
 ///
-/// A vertex takes away about `most_removed` cells. Two triangles must not meet but in common corners and edges. It is
-/// not complete: where long triangles lie very close together, some may be lost, and others with another number. Exact,
-/// deterministic. Linear where nothing is missing; some 0.1 to 10 ms a missing one.
-RecoveredFaces recover_faces(Triangulation& triangulation, const std::vector<Triangle>& triangles,
-                             std::size_t most_removed);
+/// Two triangles must not meet but in common corners and edges. It is not complete: where parts of the surface are so
+/// close together that hardly a double lies between, some may be lost. Exact, deterministic. Linear where nothing is
+/// missing; some 0.1 to 10 ms a missing one.
+RecoveredFaces recover_faces(Triangulation& triangulation, const std::vector<Triangle>& triangles);
 
 }  // namespace kerf

@@ -76,7 +76,7 @@ bool FlipRecovery::clear_face(const Triangle& triangle) {
 // --- vertices ---
 
 // Behind, because in front of the triangle may be nothing.
-bool FlipRecovery::insert_behind(const Triangle& triangle, const Vec3& p) {
+bool FlipRecovery::insert_behind(const Triangle& triangle, const Vec3& p, std::size_t most_removed) {
     const Vec3 a = t_.points()[triangle[0]], b = t_.points()[triangle[1]], c = t_.points()[triangle[2]];
     const Vec3 inwards = (c - a).cross(b - a).normalized();
     const double length = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
@@ -87,7 +87,7 @@ bool FlipRecovery::insert_behind(const Triangle& triangle, const Vec3& p) {
                      y = some_share() / 2;
         const Vec3 behind = p + share * (length * inwards + x * (b - p) + y * (c - p));
         if (!behind.allFinite()) continue;
-        const InsertionConditions conditions = {.accepts = is_free, .most_removed = most_removed_};
+        const InsertionConditions conditions = {.accepts = is_free, .most_removed = most_removed};
         if (t_.insert_if(behind, t_.cell_at(triangle[0]), conditions) >= before) return true;
     }
     return false;

@@ -22,18 +22,17 @@ struct FlipLimits {
 /// Exact, deterministic.
 class FlipRecovery {
  public:
-    /// `most_removed` of insert_behind(): see Triangulation::insert_if().
-    FlipRecovery(Triangulation& triangulation, const IsKept& is_kept, std::size_t most_removed)
-        : t_(triangulation), is_kept_(is_kept), most_removed_(most_removed), removal_(triangulation, is_kept) {}
+    FlipRecovery(Triangulation& triangulation, const IsKept& is_kept)
+        : t_(triangulation), is_kept_(is_kept), removal_(triangulation, is_kept) {}
 
     /// Makes an edge. False if it is still not there. A face that it crosses is flipped; one that cannot be, as one of
     /// its edges is reflex, goes with that edge (si2015).
     bool recover_edge(std::int32_t a, std::int32_t b, const FlipLimits& limits);
     /// Makes a triangle whose edges are there by removing those that go through it. False if it is still not there.
     bool recover_face(const Triangle& triangle, const FlipLimits& limits);
-    /// Inserts a vertex near p, behind a triangle: it takes away long cells that are in the way. False if none of a few
-    /// places is free.
-    bool insert_behind(const Triangle& triangle, const Vec3& p);
+    /// Inserts a vertex near p, behind a triangle: it takes away long cells that are in the way, not many more than
+    /// `most_removed`. False if none of a few places is free.
+    bool insert_behind(const Triangle& triangle, const Vec3& p, std::size_t most_removed);
 
  private:
     bool clear(const Crossing& crossing);
@@ -43,7 +42,6 @@ class FlipRecovery {
 
     Triangulation& t_;
     IsKept is_kept_;
-    std::size_t most_removed_;
     NestedEdgeRemoval removal_;
     std::minstd_rand random_;
 };

@@ -2,9 +2,6 @@
 // them is refined and cut out.
 #include "shell/shell.h"
 
-#include <algorithm>
-#include <array>
-
 #include <fmt/format.h>
 
 #include "core/error.h"
@@ -18,9 +15,6 @@
 namespace kerf {
 
 namespace {
-
-// Of recover_faces(): what one of them loses, another may find.
-constexpr std::array<std::size_t, 4> most_removed = {200, 1000, 60, 20};
 
 std::vector<Vec3> all_points(const SurfaceArrays& surface, const ShellCore& core) {
     std::vector<Vec3> points = surface.vertices;
@@ -58,15 +52,8 @@ void cut_out(Triangulation& triangulation, const RecoveredFaces& boundary) {
 }
 
 // Throws where the surface meets itself, or nearly so, that no double lies between.
-RecoveredFaces recover_all(Triangulation& triangulation, const std::vector<Triangle>& triangles) {
-    const std::size_t given_vertices = triangulation.points().size();
-    RecoveredFaces found = recover_faces(triangulation, triangles, most_removed[0]);
-    for (std::size_t k = 1; k < most_removed.size() && !found.lost.empty(); ++k) {
-        std::vector<Vec3> points = triangulation.points();
-        points.resize(given_vertices);
-        triangulation = triangulate(std::move(points));
-        found = recover_faces(triangulation, triangles, most_removed[k]);
-    }
+RecoveredFaces recover(Triangulation& triangulation, const std::vector<Triangle>& triangles) {
+    RecoveredFaces found = recover_faces(triangulation, triangles);
     if (!found.lost.empty())
         throw Error(ErrorCode::subdomain,
                     fmt::format("{} of {} facets cannot be recovered.", found.lost.size(), triangles.size()));
@@ -98,7 +85,7 @@ FilledShell fill_shell(const SurfaceArrays& surface, ShellCore core, const Refin
     Triangulation triangulation = triangulate(all_points(surface, core));
     core = {};
     const auto given_vertices = static_cast<std::int32_t>(triangulation.points().size());
-    const RecoveredFaces found = recover_all(triangulation, triangles);
+    const RecoveredFaces found = recover(triangulation, triangles);
     cut_out(triangulation, found);
     shell.recovery = {found.missing, found.missing - found.split, found.split, 0};
     if (found.missing > 0) {

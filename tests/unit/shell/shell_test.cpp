@@ -184,7 +184,7 @@ std::vector<std::pair<std::string, Soup>> surfaces_to_recover() {
 void expect_recovered(const Soup& soup) {
     Triangulation triangulation = delaunay(soup.vertices).triangulation;
     const auto before = find_faces(triangulation, soup.facets);
-    const RecoveredFaces result = recover_faces(triangulation, soup.facets, 200);
+    const RecoveredFaces result = recover_faces(triangulation, soup.facets);
     test::expect_valid(triangulation);
     EXPECT_EQ(result.missing, std::count(before.begin(), before.end(), Triangulation::none));
     EXPECT_LE(result.split, result.missing);
