@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <mpi.h>
 
+#include "mpi/mpi_ranks.h"
 #include "part/run_parts.h"
 #include "solve/linear_system.h"
 #include "solve/stress.h"
@@ -118,12 +119,12 @@ std::vector<WeightedPoint> many_points() {
     return points;
 }
 
-void solve_and_print(const KnownField& field, const std::string& folder, int order) {
+void solve_and_print(MpiRanks& ranks, const KnownField& field, const std::string& folder, int order) {
     const RunParts run(folder);
     const std::vector<PartIndex> first = {PartIndex(0), PartIndex(run.outline().parts.size())};
     std::vector<Part> parts;
     for (const PartIndex index : run.outline().parts.ids()) parts.push_back(run.load(index));
-    const FeSpace space(MPI_COMM_SELF, run.outline(), first, std::move(parts), order);
+    const FeSpace space(ranks, run.outline(), first, std::move(parts), order);
 
     ElasticProblem problem = make_free_problem(space, field.material);
     for (std::size_t p = 0; p < space.parts().size(); ++p)
@@ -190,9 +191,11 @@ int main(int argc, char** argv) {
     MPI_Init(&argc, &argv);
     int code = 2;
     if (argc == 4) try {
-            const kerf::PetscSession petsc;
+            kerf::MpiRanks ranks(MPI_COMM_SELF);
+            const kerf::PetscSession petsc(ranks);
             const std::string name = argv[1];
-            kerf::solve_and_print(name == "sphere"    ? kerf::sphere
+            kerf::solve_and_print(ranks,
+                                  name == "sphere"    ? kerf::sphere
                                   : name == "bending" ? kerf::bending
                                                       : kerf::sine,
                                   argv[2], std::stoi(argv[3]));
