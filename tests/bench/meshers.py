@@ -2,6 +2,7 @@
 """Kerf's default mesher, TetGen, and gmsh's HXT where there is a gmsh, on the same surfaces under the same bounds of the volume.
 
 usage: meshers.py [all] [--only WORD] [--mesher NAME] [--no-hxt] [--repetitions N] [--long SECONDS] [--limit SECONDS] [--json FILE]
+                  [--surface FILE]...
 
 Each call is a process of its own on one thread. Seconds are those that the processor spends for the user on meshing
 alone, from the surface in memory to tetrahedra in memory, medians over repetitions that take turns; who needs more than
@@ -15,7 +16,8 @@ bound. Its seconds are those of its own log ("Done meshing 3D", processor), raw 
 
 Without `all`: the bearing cap at 0.4 and 3.5 million tetrahedra, at 20 million for meshers other than TetGen and HXT,
 and every asset without a bound. With it all of them at 20 million, the cap in 207 k facets (each of 52 k quartered) at
-3.8 and 20 million, and every other asset with a bound for a million.
+3.8 and 20 million, and every other asset with a bound for a million. With --surface these files instead, without a
+bound.
 """
 
 import argparse
@@ -199,6 +201,8 @@ def compare(args, case):
 
 
 def cases_of(args):
+    if args.surface:
+        return [Case(path, 0, f"{path.stem}, no bound") for path in args.surface]
     cap = ROOT / f"assets/{CAP}.stl"
     cases = [Case(cap, bound, f"{CAP} {size} M", is_large=size > 10) for bound, size in ((0.5, 0.4), (0.05, 3.5),
                                                                                         (0.0088, 20))]
@@ -215,6 +219,7 @@ def cases_of(args):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("which", nargs="?", choices=("quick", "all"), default="quick")
+    parser.add_argument("--surface", type=pathlib.Path, action="append", help="a file to measure instead of the assets")
     parser.add_argument("--helper", default=ROOT / "build/meshers_bench")
     parser.add_argument("--only", help="cases whose names contain this")
     parser.add_argument("--mesher", default="auto", help=f"this one beside {REFERENCE}")
