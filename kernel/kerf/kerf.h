@@ -77,8 +77,8 @@ FileCheck check_file(const std::string& path, const NamedOptions& options = {});
 /// Error(cancelled) by returning false. Must not throw.
 using Progress = std::function<bool(const char* stage, std::size_t done, std::size_t total)>;
 
-/// A surface with triangles worth meshing, nowhere farther than `deviation` from the given one. `size`: wanted edge
-/// length, 0: as long as the deviation allows. Both in units of the surface. Patches stay.
+/// A surface with triangles worth meshing, nowhere farther than `deviation` from the given one, 0: a twentieth of
+/// `size`. `size`: wanted edge length, 0: as long as the deviation allows. Both in units of the surface. Patches stay.
 ClosedSurface remeshed(const ClosedSurface& surface, double deviation, double size = 0, const Progress& progress = {});
 
 struct MeshOptions {

@@ -21,6 +21,8 @@ namespace {
 constexpr double largest_share = 0.05;   // of the diagonal, for the deviation
 constexpr double smallest_share = 1e-9;  // coordinates have few more digits
 constexpr double longest_share = 0.03;   // of the diagonal, for edges where nothing else is wanted
+// The deviation where none is given: of the wanted length, or, if none is wanted, of the diagonal.
+constexpr double share_of_length = 0.05, share_of_diagonal = 2e-5;
 constexpr double bytes_per_facet = 280;  // of the process while it remeshes
 constexpr double deg_per_rad = 180 / std::numbers::pi;
 
@@ -52,12 +54,18 @@ double longest_edge(const RunOptions& options, double diagonal) {
     return max_volume > 0 ? std::min(regular_tet_edge(max_volume), diagonal) : longest_share * diagonal;
 }
 
+double smallest_length(const SizeField& wanted, const SurfaceArrays& surface) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const Vec3& p : surface.vertices) smallest = std::min(smallest, wanted.at(p));
+    return smallest;
+}
+
 RemeshOptions remesh_options(const Input& input, const SurfaceArrays& surface, const RunOptions& options) {
-    RemeshOptions result = {.deviation = deviation_for(options.deviation, input.diagonal),
-                            .longest = longest_edge(options, input.diagonal),
-                            .creases = input.creases};
-    if (options.sizes.growth > 0) result.growth = options.sizes.growth;
     const SizeField wanted = wanted_lengths(options, surface, input);
+    RemeshOptions result = {.longest = longest_edge(options, input.diagonal), .creases = input.creases};
+    result.deviation = options.deviation.number() > 0 ? deviation_for(options.deviation, input.diagonal)
+                                                      : usual_deviation(wanted, surface, input.diagonal);
+    if (options.sizes.growth > 0) result.growth = options.sizes.growth;
     if (!wanted.is_empty()) result.wanted = [wanted](const Vec3& p) { return wanted.at(p); };
     return result;
 }
@@ -108,6 +116,13 @@ std::string sliver_note(const Slivers& slivers, const std::string& path) {
         "{:.0f} % of the facets have angles below 5 degrees, and cells will be no better. "
         "kerf mesh {} --surface remesh cures that.",
         100 * slivers.share_below_5_deg, path);
+}
+
+// Whoever wants a size gets it: a bound that is much smaller would ask for finer facets wherever the surface is curved.
+double usual_deviation(const SizeField& wanted, const SurfaceArrays& surface, double diagonal) {
+    if (wanted.is_empty()) return share_of_diagonal * diagonal;
+    return std::clamp(share_of_length * smallest_length(wanted, surface), smallest_share * diagonal,
+                      largest_share * diagonal);
 }
 
 double deviation_for(const Length& wanted, double diagonal) {

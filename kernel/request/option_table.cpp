@@ -207,8 +207,8 @@ constexpr OptionRow<RunOptions> meshing_rows[] = {
      "where slivers would spoil the cells; remesh-cad: remesh CAD files, split others. Default remesh-cad.",
      [](RunOptions& o) -> OptionField::Value { return surface_choice(o); }},
     {"deviation", "", option_group::input, "D",
-     "Largest distance of a remeshed surface from the input, in its units, or with % of its diagonal. Default "
-     "0.002%.",
+     "Largest distance of a remeshed surface from the input, in its units, or with % of its diagonal. Default: a "
+     "twentieth of the shortest edge that is wanted, 0.002% if none is.",
      place<&RunOptions::deviation>, true, deviation_range},
     {"mesher", "", option_group::meshing, "",
      "What fills the parts: auto, the default, takes lattice, unless --tetgen-switches is given.",

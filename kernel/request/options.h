@@ -29,16 +29,16 @@ struct RunOptions {
     SizeOptions sizes;           ///< of tetrahedra, see with_sizes()
     InputOptions input_options;  ///< of the surface before all else
     Remeshing remeshing = Remeshing::of_cad_files;
-    Length deviation = Length::percent(0.002);  ///< of a remeshed surface from the input
-    std::int32_t workers = 0;                   ///< processes of each rank; 0: its share of the processors
-    double timeout_seconds = 600;               ///< of one attempt at one part; 0: none
-    std::int64_t memory_mb = 0;                 ///< address space of one worker; 0: unlimited
-    std::int32_t attempts = 10;                 ///< at one part, at most (volume/retries.h)
-    std::string report_file;                    ///< a copy of the report; empty: only DIR/report.json
-    std::string trace_file;   ///< all cuts with their stages (run/trace.h); empty: none. Not inside of `output`
-    std::string events_file;  ///< of an EventLog that the caller gives to the run; empty: none
-    std::string formats;      ///< names of export/format.h with commas between; empty: vtu
-    std::string fields;       ///< of cells in vtu files (parse_cell_fields()); empty: min-dihedral
+    Length deviation;              ///< of a remeshed surface from the input; 0: usual_deviation()
+    std::int32_t workers = 0;      ///< processes of each rank; 0: its share of the processors
+    double timeout_seconds = 600;  ///< of one attempt at one part; 0: none
+    std::int64_t memory_mb = 0;    ///< address space of one worker; 0: unlimited
+    std::int32_t attempts = 10;    ///< at one part, at most (volume/retries.h)
+    std::string report_file;       ///< a copy of the report; empty: only DIR/report.json
+    std::string trace_file;        ///< all cuts with their stages (run/trace.h); empty: none. Not inside of `output`
+    std::string events_file;       ///< of an EventLog that the caller gives to the run; empty: none
+    std::string formats;           ///< names of export/format.h with commas between; empty: vtu
+    std::string fields;            ///< of cells in vtu files (parse_cell_fields()); empty: min-dihedral
     std::vector<std::string> patch_types;  ///< of parse_patch_types(); for formats that have such
     bool reference = false;                ///< the whole is meshed in one piece, too, and compared
     bool stl = false;                      ///< the surfaces of the parts as STL, too
@@ -65,8 +65,8 @@ RunOptions with_sizes(RunOptions options, const SizeField& field);
 
 /// The range of RunOptions::deviation, of which remesh_where_asked() knows more: shares of the diagonal that are too
 /// much.
-inline constexpr NumberRange deviation_range = {"a positive length in units of the input, or with % of its diagonal", 0,
-                                                std::numeric_limits<double>::infinity(), false, true};
+inline constexpr NumberRange deviation_range = {"a length in units of the input, or with % of its diagonal, or 0", 0,
+                                                std::numeric_limits<double>::infinity(), true, true};
 
 /// The fields that say what is done to the input.
 std::vector<OptionField> input_option_fields(InputOptions& options);

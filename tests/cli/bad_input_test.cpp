@@ -220,7 +220,8 @@ TEST_F(BadInput, NothingToDo) {
     expect_message(test::run_kerf({"saw", good_}), 2, {"'saw' is not a command"});
     expect_message(test::run_kerf({good_}), 2, {"kerf check " + good_, "kerf mesh " + good_ + " -o hollow_box-mesh"});
     expect_message(test::run_kerf({"no.stl"}), 2, {"kerf check no.stl"});
-    expect_message(test::run_kerf({KERF_ASSETS}), 2, {"is a folder", "kerf verify"});
+    std::filesystem::create_directory(folder_.file("folder"));
+    expect_message(test::run_kerf({folder_.file("folder")}), 2, {"is a folder", "kerf verify"});
 }
 
 // The printed options, read again, print themselves; the command line wins over the file.

@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "core/regular_tet.h"
+#include "geometry/box.h"
+#include "prepare/remeshing.h"
 #include "remesh/remesh.h"
 #include "run/pipeline.h"
 #include "size/size_options.h"
@@ -150,6 +153,47 @@ TEST(RemeshedSizes, AreObeyedInOnePartAndInMany) {
     }
     EXPECT_EQ(inputs[0].facets, inputs[1].facets);
     EXPECT_EQ(inputs[0].area, inputs[1].area);
+}
+
+TEST(UsualDeviation, IsATwentiethOfTheShortestWantedEdge) {
+    const SurfaceArrays ball = test::to_arrays(test::icosphere(2));
+    EXPECT_DOUBLE_EQ(usual_deviation(SizeField(), ball, 100), 0.002);
+    const double edge = 0.5;
+    EXPECT_DOUBLE_EQ(usual_deviation(SizeField(regular_tet_volume(edge)), ball, 100), edge / 20);
+    SizeOptions finer;
+    finer.size = edge;
+    finer.inside = {"sphere:0,0,1,0.3=0.1"};
+    EXPECT_DOUBLE_EQ(usual_deviation(make_size_field(finer, ball, {}), ball, 100), 0.1 / 20);
+    EXPECT_DOUBLE_EQ(usual_deviation(SizeField(regular_tet_volume(1e3)), ball, 100), 5) << "as far as is ever allowed";
+}
+
+// A round bar of needles: a bound that has nothing to do with the size would ask for many more facets.
+TEST(RemeshedInput, IsAsFineAsItIsWanted) {
+    Input input;
+    input.surface = test::to_surface(test::prism(48, 1, 3));
+    measure_input(input);
+    input.diagonal = box_around(input.surface.arrays().vertices).diagonal().norm();
+    input.patch_names = {"below", "sides", "above"};
+    RunOptions options;
+    options.remeshing = Remeshing::always;
+    double coarser = 0;  // facets
+    for (const double size : {0.5, 0.25, 0.125}) {
+        options.sizes.size = size;
+        options.deviation = 0;
+        const Input remeshed = remesh_where_asked(input, options);
+        EXPECT_DOUBLE_EQ(remeshed.remeshed->deviation, size / 20);
+        EXPECT_LE(remeshed.remeshed->distance_from_input, size / 20);
+        const auto facets = static_cast<double>(remeshed.facets);
+        EXPECT_GT(facets, 1.2 * coarser) << size;
+        if (coarser > 0) {
+            EXPECT_LT(facets, 5 * coarser) << size;
+        }
+        coarser = facets;
+        options.deviation = Length::percent(0.002);
+        if (size == 0.5) {
+            EXPECT_GT(static_cast<double>(remesh_where_asked(input, options).facets), 2 * facets);
+        }
+    }
 }
 
 }  // namespace

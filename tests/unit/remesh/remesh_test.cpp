@@ -331,7 +331,6 @@ TEST(RemeshedInput, TellsOfItsStepsAndCanBeCancelledAtEach) {
 TEST(Deviation, IsALengthOrAShare) {
     EXPECT_DOUBLE_EQ(deviation_for(0.5, 100), 0.5);
     EXPECT_DOUBLE_EQ(deviation_for(Length::percent(0.01), 100), 0.01);
-    EXPECT_DOUBLE_EQ(deviation_for(RunOptions().deviation, 100), 0.002);
     for (const Length& wrong : {Length(0), Length(1e9), Length(1e-300), Length::percent(6)})
         EXPECT_THROW(deviation_for(wrong, 100), Error) << wrong.text();
 }

@@ -159,6 +159,7 @@ TEST(RunOptions, PercentagesAreOfTheDiagonal) {
     RunOptions options;
     options.sizes.size = Length::percent(2);
     options.sizes.chord_error = Length::percent(0.5);
+    options.deviation = Length::percent(0.002);
     options.sizes.inside = {"sphere:1,2,3,4=1%", "box:0,0,0,1,1,1=7"};
     options.sizes.on = {"in=let 5%=3%"};
     options.sizes.near = {"a=2%:10%", "b=1:10%", "c=1e-3:2"};
