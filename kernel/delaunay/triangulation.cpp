@@ -186,7 +186,6 @@ bool Triangulation::grow_cavity_in_sight(const Vec3& p, std::int32_t start, cons
 
 // Leaves the largest part of the cavity all of whose faces the point sees, in whatever order cells are taken away.
 void Triangulation::shrink_cavity(const Vec3& p) {
-    has_left_cells_ = false;
     while (!unseen_.empty()) {
         const CellFace face = unseen_.back();
         unseen_.pop_back();
@@ -208,6 +207,7 @@ void Triangulation::shrink_cavity(const Vec3& p) {
 // cell behind it, seen from the point, has the point outside of its sphere.
 bool Triangulation::find_cavity(const Vec3& p, std::int32_t start, const InsertionConditions& conditions) {
     cavity_faces_.clear();
+    has_left_cells_ = false;
     if (!is_altered_) {
         grow_cavity(p, start);
         return true;

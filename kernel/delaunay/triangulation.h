@@ -25,8 +25,8 @@ struct Star {
 struct InsertionConditions {
     std::function<bool(const Star&)> accepts;
     /// Asked before all cells are known that the point would remove, which saves time where it says yes: whether the
-    /// point may not come because of a constrained face that it sees. Empty: it may. Once faces have been constrained
-    /// or cells replaced.
+    /// point may not come because of a constrained face that it sees. Empty: it may. Only once faces have been
+    /// constrained or cells replaced. Must not throw, nor ask for cells.
     std::function<bool(const Triangle&)> is_kept_off_by = {};
     /// Where cells are not Delaunay already, not more need be removed: those nearest to the point by steps from cell to
     /// cell are.

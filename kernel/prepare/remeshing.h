@@ -28,8 +28,8 @@ bool is_remeshed(const Input& input, const RunOptions& options);
 std::string sliver_note(const Slivers& slivers, const std::string& path);
 
 /// The deviation where the options ask for none: a twentieth of the shortest length that `wanted` has at a vertex,
-/// which is what chords of that length leave out of a circle 2.5 times as large, or 2e-5 of the diagonal if it is
-/// empty.
+/// which is what chords of that length leave out of a circle with a radius of 2.5 of them; 2e-5 of the diagonal if it
+/// is empty.
 double usual_deviation(const SizeField& wanted, const SurfaceArrays& surface, double diagonal);
 
 /// The deviation that is wanted of a body with this diagonal. Throws Error(usage), naming the option, for one that is
