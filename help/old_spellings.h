@@ -16,7 +16,8 @@ inline constexpr OldSpelling old_spellings[] = {
     {"screenshot", "--size", "", "--resolution WxH"},
     {"view screenshot", "--case", "", "--load-case NAME"},
     {"mesh decompose solve", "--remesh", "", "--surface remesh"},
-    {"mesh decompose solve view screenshot", "--surface", "by-file", "--surface remesh-cad"},
+    {"mesh decompose solve view screenshot", "--surface", "by-file", "--surface auto"},
+    {"mesh decompose solve view screenshot", "--surface", "remesh-cad", "--surface auto"},
 };
 
 }  // namespace kerf

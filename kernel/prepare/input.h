@@ -36,6 +36,7 @@ struct CheckedSoup {
 /// What remeshing did to a surface (prepare/remeshing.h).
 struct InputRemeshing {
     std::int64_t facets_before = 0;
+    std::int64_t facets_kept = 0;  ///< of these, because no sliver is near
     double smallest_angle_before_deg = 0, smallest_angle_deg = 0;
     double deviation = 0;  ///< that was allowed, units of the input
     double distance_to_input = 0,

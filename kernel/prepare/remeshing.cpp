@@ -11,6 +11,7 @@
 #include "core/regular_tet.h"
 #include "parallel/process_memory.h"
 #include "prepare/size_reader.h"
+#include "prepare/slivers.h"
 #include "remesh/remesh.h"
 #include "surface/mass_properties.h"
 
@@ -22,7 +23,7 @@ constexpr double largest_share = 0.05;   // of the diagonal, for the deviation
 constexpr double smallest_share = 1e-9;  // coordinates have few more digits
 constexpr double longest_share = 0.03;   // of the diagonal, for edges where nothing else is wanted
 // The deviation where none is given: of the wanted length, or, if none is wanted, of the diagonal.
-constexpr double share_of_length = 0.05, share_of_diagonal = 2e-5;
+constexpr double share_of_length = 0.05, share_of_diagonal = 5e-4;
 constexpr double bytes_per_facet = 280;  // of the process while it remeshes
 constexpr double deg_per_rad = 180 / std::numbers::pi;
 
@@ -67,6 +68,8 @@ RemeshOptions remesh_options(const Input& input, const SurfaceArrays& surface, c
                                                       : usual_deviation(wanted, surface, input.diagonal);
     if (options.sizes.growth > 0) result.growth = options.sizes.growth;
     if (!wanted.is_empty()) result.wanted = [wanted](const Vec3& p) { return wanted.at(p); };
+    if (options.remeshing == Remeshing::where_needed && !input.is_cad && wanted.is_empty())
+        result.kept = facets_away_from_slivers(surface);
     return result;
 }
 
@@ -83,17 +86,19 @@ void check_memory(const SurfaceArrays& surface, const RemeshOptions& options, bo
                             short_number(facets), short_number(most), way_out));
 }
 
-}  // namespace
-
-Slivers find_slivers(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
-    std::vector<double> sines = smallest_sines(vertices, facets);
-    if (sines.empty()) return {};
-    const double limit = std::sin(5 / deg_per_rad);
-    const auto below = std::count_if(sines.begin(), sines.end(), [&](double sine) { return sine < limit; });
-    const auto middle = sines.begin() + static_cast<std::ptrdiff_t>(sines.size() / 2);
-    std::nth_element(sines.begin(), middle, sines.end());
-    return {in_degrees(*middle), static_cast<double>(below) / static_cast<double>(sines.size())};
+// Of what nobody has asked for.
+std::string note_of_remeshing(const Input& input, const SurfaceArrays& surface, const RemeshOptions& options) {
+    if (input.is_cad)
+        return "A CAD file has no triangles of its own: they are remeshed. --surface split keeps those of OpenCASCADE.";
+    const Slivers slivers = find_slivers(surface.vertices, surface.facets);
+    return fmt::format(
+        "{} of {} facets have angles below 10 degrees, which would spoil the cells: {} remeshed within {:.2g} "
+        "(--deviation). --surface split keeps the facets.",
+        grouped(slivers.count), grouped(slivers.facets), options.kept.empty() ? "the surface is" : "these places are",
+        options.deviation);
 }
+
+}  // namespace
 
 bool is_remeshed(const Input& input, const RunOptions& options) {
     switch (options.remeshing) {
@@ -101,21 +106,12 @@ bool is_remeshed(const Input& input, const RunOptions& options) {
             return false;
         case Remeshing::always:
             return true;
-        case Remeshing::of_cad_files:
-            return input.is_cad;
-        case Remeshing::where_slivers_spoil_cells:
+        case Remeshing::where_needed:
             break;
     }
+    if (input.is_cad) return true;
     const SurfaceArrays surface = input.surface.arrays();
     return find_slivers(surface.vertices, surface.facets).spoil_cells();
-}
-
-std::string sliver_note(const Slivers& slivers, const std::string& path) {
-    if (!slivers.spoil_cells()) return "";
-    return fmt::format(
-        "{:.0f} % of the facets have angles below 5 degrees, and cells will be no better. "
-        "kerf mesh {} --surface remesh cures that.",
-        100 * slivers.share_below_5_deg, path);
 }
 
 // Whoever wants a size gets it: a bound that is much smaller would ask for finer facets wherever the surface is curved.
@@ -149,11 +145,8 @@ Input remesh_where_asked(Input input, const RunOptions& options, StageListener* 
         if (!note.empty()) input.notes.push_back(note);
         return input;
     }
-    if (options.remeshing == Remeshing::of_cad_files)
-        input.notes.push_back(
-            "A CAD file has no triangles of its own: they are remeshed. --surface split keeps those "
-            "of OpenCASCADE.");
     RemeshOptions wanted = remesh_options(input, before, options);
+    if (options.remeshing == Remeshing::where_needed) input.notes.push_back(note_of_remeshing(input, before, wanted));
     check_memory(before, wanted, !options.sizes.depends_on_place(), processes);
     if (listener) {
         wanted.poll = [listener, steps = std::size_t{0}]() mutable { tell_progress(listener, "remesh", steps++, 0); };
@@ -162,6 +155,7 @@ Input remesh_where_asked(Input input, const RunOptions& options, StageListener* 
     Remeshed remeshed = remesh(before, wanted);
 
     input.remeshed = {.facets_before = input.facets,
+                      .facets_kept = std::count(wanted.kept.begin(), wanted.kept.end(), char{1}),
                       .smallest_angle_before_deg = smallest_angle(before),
                       .smallest_angle_deg = smallest_angle(remeshed.surface),
                       .deviation = wanted.deviation,

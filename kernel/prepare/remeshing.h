@@ -10,25 +10,11 @@
 
 namespace kerf {
 
-/// How many facets are too sharp for good cells.
-struct Slivers {
-    double median_angle_deg = 60;  ///< of the smallest angles of the facets
-    double share_below_5_deg = 0;
-
-    /// Median below 15 degrees, or more than a tenth of the facets below 5: most of the cells at such a surface are no
-    /// better than it.
-    bool spoil_cells() const { return median_angle_deg < 15 || share_below_5_deg > 0.1; }
-};
-Slivers find_slivers(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets);
-
 /// Whether `options` have this input remeshed. All who ask about a run ask here.
 bool is_remeshed(const Input& input, const RunOptions& options);
 
-/// One sentence with the command that cures it; empty if they spoil nothing.
-std::string sliver_note(const Slivers& slivers, const std::string& path);
-
 /// The deviation where the options ask for none: a twentieth of the shortest length that `wanted` has at a vertex,
-/// which is what chords of that length leave out of a circle with a radius of 2.5 of them; 2e-5 of the diagonal if it
+/// which is what chords of that length leave out of a circle with a radius of 2.5 of them; 5e-4 of the diagonal if it
 /// is empty.
 double usual_deviation(const SizeField& wanted, const SurfaceArrays& surface, double diagonal);
 
@@ -39,7 +25,8 @@ double deviation_for(const Length& wanted, double diagonal);
 /// Facets that the surface will have by remesh_where_asked(), about; more where its shape asks for them. O(#F).
 double forecast_remeshed_facets(const Input& input, const RunOptions& options);
 
-/// The input, remeshed where `options` says so, or with a note about slivers. That a CAD file is by default is noted.
+/// The input, remeshed where `options` says so, or with a note about slivers. What is remeshed without being asked for
+/// is noted; where only few facets need it, the others stay (facets_away_from_slivers()), unless sizes are wanted.
 /// Remeshed, its surface, counts, area and volume are the new ones, and Input::remeshed tells what was done. The wanted
 /// lengths are those of options.sizes. `listener`, unless null, is told of the stage "remesh" again and again while it
 /// lasts, with the steps that are done, of nobody knows how many. Throws Error(usage) for a deviation out of range,

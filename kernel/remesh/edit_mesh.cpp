@@ -35,6 +35,11 @@ int EditMesh::feature_count(VertexHandle v) const {
     return count;
 }
 
+bool EditMesh::has_one_patch(VertexHandle v) const {
+    const std::int32_t patch = data(*cvf_begin(v)).patch;
+    return std::all_of(cvf_begin(v), cvf_end(v), [&](FaceHandle f) { return data(f).patch == patch; });
+}
+
 bool EditMesh::is_flat(EdgeHandle e) const {
     const auto [f, g] = facets_at(e);
     return data(f).region >= 0 && data(f).region == data(g).region && !data(e).is_feature;
@@ -56,15 +61,14 @@ double EditMesh::fold_cosine(EdgeHandle e) const {
     return norms > 0 ? a.dot(b) / norms : 1;
 }
 
-std::int64_t EditMesh::last_change(VertexHandle v) const {
-    std::int64_t last = 0;
-    for (const auto f : vf_range(v)) last = std::max(last, data(f).changed);
-    return last;
-}
-
 std::int64_t EditMesh::last_change(EdgeHandle e) const {
     const auto [f, g] = facets_at(e);
     return std::max(data(f).changed, data(g).changed);
+}
+
+void EditMesh::note_change(FaceHandle f, std::int64_t operation) {
+    data(f).changed = operation;
+    for (const auto v : fv_range(f)) data(v).changed = operation;
 }
 
 std::int64_t EditMesh::feature_edges() const {

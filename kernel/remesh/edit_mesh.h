@@ -18,10 +18,12 @@ struct EditTraits : OpenMesh::DefaultTraits {
     EdgeAttributes(OpenMesh::Attributes::Status);
     HalfedgeAttributes(OpenMesh::Attributes::Status | OpenMesh::Attributes::PrevHalfedge);
     VertexTraits {
-        double size = 0;          // wanted length of the edges
-        double asked = 0;         // by the user alone, at least size
-        double tolerance = 0;     // of the input around
-        std::int32_t input = -1;  // vertex of the input that it is, -1: none
+        double size = 0;           // wanted length of the edges
+        double asked = 0;          // by the user alone, at least size
+        double tolerance = 0;      // of the input around
+        std::int32_t input = -1;   // vertex of the input that it is, -1: none
+        std::int64_t changed = 0;  // number of the operation that last changed a facet around it
+        bool is_fixed = false;     // corner of a facet that is kept
     };
     FaceTraits {
         std::int32_t patch = 0;
@@ -29,6 +31,7 @@ struct EditTraits : OpenMesh::DefaultTraits {
         std::int32_t near = -1;         // some facet of the input near it
         std::int32_t first_point = -1;  // of the input's vertices that it stands for
         std::int64_t changed = 0;       // number of the operation that last changed it
+        bool is_kept = false;           // stays as it was given
     };
     EdgeTraits {
         bool is_feature = false;
@@ -46,9 +49,21 @@ class EditMesh : public OpenMesh::TriMesh_ArrayKernelT<EditTraits> {
     double size(VertexHandle v) const { return data(v).size; }
     /// Features that meet at the vertex.
     int feature_count(VertexHandle v) const;
+    /// Whether the facets around the vertex are of one patch.
+    bool has_one_patch(VertexHandle v) const;
     EdgeHandle edge_between(VertexHandle v, VertexHandle w) const { return edge_handle(find_halfedge(v, w)); }
+    /// Those of its first half-edge: from, to.
+    std::array<VertexHandle, 2> ends(EdgeHandle e) const {
+        const HalfedgeHandle h = halfedge_handle(e, 0);
+        return {from_vertex_handle(h), to_vertex_handle(h)};
+    }
     std::array<FaceHandle, 2> facets_at(EdgeHandle e) const {
         return {face_handle(halfedge_handle(e, 0)), face_handle(halfedge_handle(e, 1))};
+    }
+    /// Whether a facet at the edge is kept.
+    bool is_fixed(EdgeHandle e) const {
+        const auto [f, g] = facets_at(e);
+        return data(f).is_kept || data(g).is_kept;
     }
     /// Whether the facets at the edge lie in one flat region, and it is no feature.
     bool is_flat(EdgeHandle e) const;
@@ -58,8 +73,9 @@ class EditMesh : public OpenMesh::TriMesh_ArrayKernelT<EditTraits> {
     double fold_cosine(EdgeHandle e) const;
     /// Number of the operation that last changed the facets around a vertex or at an edge: what was refused there since
     /// then is refused again.
-    std::int64_t last_change(VertexHandle v) const;
+    std::int64_t last_change(VertexHandle v) const { return data(v).changed; }
     std::int64_t last_change(EdgeHandle e) const;
+    void note_change(FaceHandle f, std::int64_t operation);
     std::int64_t feature_edges() const;
     /// The facets and vertices that are left, in order. Renumbers everything.
     SurfaceArrays arrays();

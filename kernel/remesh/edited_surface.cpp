@@ -14,7 +14,7 @@ double sine_of(const EditMesh::Corners& t) { return smallest_sine(t[0], t[1], t[
 
 }  // namespace
 
-EditedSurface::EditedSurface(const InputShape& input) : bound_(input) {
+EditedSurface::EditedSurface(const InputShape& input, const std::vector<char>& kept) : bound_(input) {
     for (const Vec3& p : input.vertices()) {
         const Vertex v = mesh_.add_vertex(p);
         mesh_.data(v).tolerance = input.vertex_tolerance(v.idx());
@@ -27,6 +27,9 @@ EditedSurface::EditedSurface(const InputShape& input) : bound_(input) {
         data.patch = input.patch(number);
         data.region = input.regions().of[f];
         data.near = number;
+        data.is_kept = !kept.empty() && kept[f] != 0;
+        if (data.is_kept)
+            for (const std::int32_t v : t) mesh_.data(Vertex(v)).is_fixed = true;
         for (int i = 0; i < 3; ++i)
             if (input.is_feature(3 * number + i))
                 mesh_.data(mesh_.edge_between(Vertex(t[i]), Vertex(t[(i + 1) % 3]))).is_feature = true;
@@ -35,15 +38,18 @@ EditedSurface::EditedSurface(const InputShape& input) : bound_(input) {
 
 bool EditedSurface::collapse(HalfEdge h, const CollapseRules& rules) {
     const Vertex v = mesh_.from_vertex_handle(h), w = mesh_.to_vertex_handle(h);
+    if (mesh_.data(v).is_fixed) return false;
     const HalfEdge back = mesh_.opposite_halfedge_handle(h);
     const int features = mesh_.feature_count(v);
-    if (features != 0 && !(features == 2 && mesh_.data(mesh_.edge_handle(h)).is_feature)) return false;
+    const bool merges = rules.merges_features && mesh_.feature_count(w) >= 2 && mesh_.has_one_patch(v);
+    if (features != 0 && !merges && !(features == 2 && mesh_.data(mesh_.edge_handle(h)).is_feature)) return false;
     if (!mesh_.is_collapse_ok(h)) return false;
     // The other edge of a feature line goes on from w.
-    const Vertex left = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h));
-    const Vertex right = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(back));
-    for (const Vertex side : {left, right})
-        if (mesh_.data(mesh_.edge_between(v, side)).is_feature) return false;
+    const std::array<Vertex, 2> sides = {mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)),
+                                         mesh_.to_vertex_handle(mesh_.next_halfedge_handle(back))};
+    std::array<bool, 2> is_feature;
+    for (int i = 0; i < 2; ++i) is_feature[i] = mesh_.data(mesh_.edge_between(v, sides[i])).is_feature;
+    if (!merges && (is_feature[0] || is_feature[1])) return false;
 
     const Facet gone = mesh_.face_handle(h), gone_too = mesh_.face_handle(back);
     double worst = std::min(mesh_.sine(gone), mesh_.sine(gone_too));
@@ -69,8 +75,16 @@ bool EditedSurface::collapse(HalfEdge h, const CollapseRules& rules) {
     for (const Facet f : star_.facets) bound_.list_points(mesh_.data(f).first_point, points_);
     if (!mesh_.is_inside_region(v)) bound_.list_vertex(mesh_, v, points_);
     mesh_.collapse(h);
+    for (int i = 0; i < 2; ++i)
+        if (is_feature[i]) mesh_.data(mesh_.edge_between(w, sides[i])).is_feature = true;
     commit_star();
     return true;
+}
+
+bool EditedSurface::collapse_either_way(Edge e, const CollapseRules& rules) {
+    const HalfEdge h = mesh_.halfedge_handle(e, 0), back = mesh_.halfedge_handle(e, 1);
+    const bool first = mesh_.valence(mesh_.from_vertex_handle(h)) <= mesh_.valence(mesh_.from_vertex_handle(back));
+    return collapse(first ? h : back, rules) || collapse(first ? back : h, rules);
 }
 
 // The mesh has the facets of star_ now, and points_ is what they and those that are gone stood for.
@@ -83,11 +97,11 @@ void EditedSurface::commit_star() {
 
 void EditedSurface::note_change(std::span<const Facet> facets) {
     ++changes_;
-    for (const Facet f : facets) mesh_.data(f).changed = changes_;
+    for (const Facet f : facets) mesh_.note_change(f, changes_);
 }
 
 bool EditedSurface::take_flip(Edge e, bool is_exact_only) {
-    if (mesh_.data(e).is_feature) return false;
+    if (mesh_.data(e).is_feature || mesh_.is_fixed(e)) return false;
     const HalfEdge h = mesh_.halfedge_handle(e, 0), back = mesh_.halfedge_handle(e, 1);
     const Facet f = mesh_.face_handle(h), g = mesh_.face_handle(back);
     const Vec3 &a = mesh_.point(mesh_.from_vertex_handle(h)), &b = mesh_.point(mesh_.to_vertex_handle(h));
@@ -140,6 +154,7 @@ EditedSurface::Vertex EditedSurface::split(Edge e, double t) {
 }
 
 bool EditedSurface::move(Vertex v, const Vec3& wanted) {
+    if (mesh_.data(v).is_fixed) return false;
     const int features = mesh_.feature_count(v);
     if (features != 0 && features != 2) return false;
     const bool is_inside = mesh_.is_inside_region(v);

@@ -7,8 +7,9 @@
 
 namespace kerf {
 
-/// The operations of the remesher. They change nothing and return false where they would leave the bound of the input
-/// (InputBound), turn a facet over, lose a feature, change the topology or make the worst triangle worse.
+/// The operations of the remesher. They change nothing and return false where they would change a facet that is kept,
+/// leave the bound of the input (InputBound), turn a facet over, lose a feature, change the topology or make the worst
+/// triangle worse.
 class EditedSurface {
  public:
     using Vertex = EditMesh::VertexHandle;
@@ -16,8 +17,8 @@ class EditedSurface {
     using HalfEdge = EditMesh::HalfedgeHandle;
     using Facet = EditMesh::FaceHandle;
 
-    /// Keeps the reference.
-    explicit EditedSurface(const InputShape& input);
+    /// Keeps the reference to the input. `kept`: of its facets, whether no operation may change it; empty: none.
+    explicit EditedSurface(const InputShape& input, const std::vector<char>& kept = {});
 
     const EditMesh& mesh() const { return mesh_; }
     const InputShape& input() const { return bound_.input(); }
@@ -37,14 +38,18 @@ class EditedSurface {
         double good_sine;        ///< triangles may get worse down to this
         double worst_share = 1;  ///< of the worst sine before, which the new ones must have at least
         double longest = std::numeric_limits<double>::infinity();  ///< a new edge over the smaller size at its ends
+        bool merges_features = false;  ///< whether the start may be of other features than the end, of one patch
     };
     /// Moves the start of the half-edge to its end, which keeps its place.
     bool collapse(HalfEdge h, const CollapseRules& rules);
+    /// Rather away from the end of fewer edges.
+    bool collapse_either_way(Edge e, const CollapseRules& rules);
     /// Turns the edge if the smallest angle of its two facets grows.
     bool flip(Edge e) { return take_flip(e, false); }
     /// Flips the edge as flip() does, only within a flat region, by the empty circle. Cheap.
     bool make_delaunay(Edge e) { return take_flip(e, true); }
-    /// Puts a vertex on the edge at from + t (to - from), 0 < t < 1, of half-edge 0. Always possible.
+    /// Puts a vertex on the edge at from + t (to - from), 0 < t < 1, of half-edge 0. Possible for every edge that is
+    /// not fixed.
     Vertex split(Edge e, double t);
     /// Moves a vertex towards `wanted` along what it lies on: a flat region, a straight line between two, or the
     /// surface.

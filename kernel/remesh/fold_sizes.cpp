@@ -49,6 +49,12 @@ double well_shaped_length(const EditMesh& mesh, EditedSurface::Vertex v) {
     return longest;
 }
 
+double mean_length(const EditMesh& mesh, EditedSurface::Vertex v) {
+    double sum = 0;
+    for (const auto e : mesh.ve_range(v)) sum += mesh.calc_edge_length(e);
+    return sum / mesh.valence(v);
+}
+
 Vec3 vertex_normal(const EditMesh& mesh, EditedSurface::Vertex v) {
     Vec3 sum = Vec3::Zero();
     for (const auto h : mesh.voh_range(v))
@@ -91,7 +97,7 @@ FoldSizes::FoldSizes(EditedSurface& surface, const FoldSizeOptions& options) : s
         for (const auto e : mesh.ve_range(v))
             if (const std::int32_t fold = mesh.data(e).fold; fold >= 0) own_chord = std::min(own_chord, chord_[fold]);
         const double size = std::max(at(v, own_chord, sizes[v.idx()]), well_shaped_length(mesh, v));
-        sizes[v.idx()] = std::min(size, asked(mesh.point(v)));
+        sizes[v.idx()] = mesh.data(v).is_fixed ? mean_length(mesh, v) : std::min(size, asked(mesh.point(v)));
     }
     limit_growth(mesh, options.growth, sizes);
     for (const auto v : mesh.vertices()) surface.set_size(v, sizes[v.idx()], asked(mesh.point(v)));

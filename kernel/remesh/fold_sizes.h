@@ -23,8 +23,9 @@ struct FoldSizeOptions {
 class FoldSizes {
  public:
     /// Numbers the folds (EditTraits::fold) and sets the size of every vertex, which is not more than what grows from
-    /// its neighbours; where all facets around it are well shaped, it is not less than their edges. Keeps the
-    /// reference. O(#V log #V) where few folds are near each other.
+    /// its neighbours; where all facets around it are well shaped, it is not less than their edges; beside facets that
+    /// are kept it is the mean of the edges there. Keeps the reference. O(#V log #V) where few folds are near each
+    /// other.
     FoldSizes(EditedSurface& surface, const FoldSizeOptions& options);
 
     /// The size at a vertex that has come onto an edge of that fold (-1: of none), given what has grown to there. Away

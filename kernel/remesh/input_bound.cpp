@@ -134,8 +134,15 @@ std::optional<Vec3> InputBound::place_near(const EditMesh& mesh, EditMesh::Verte
         return t > 0 ? std::optional<Vec3>(p + std::min(t, 0.5) * (end - p)) : std::nullopt;
     }
     if (features > 0) return std::nullopt;
+    // Any facet below does, not only the closest one: what follows asks whether the place is near enough.
+    const std::int32_t near = mesh.data(*mesh.cvf_begin(v)).near;
+    if (const std::int32_t below = near_input_.facet_below(wanted, near); below >= 0) {
+        const auto& [a, b, c] = input_.tree().corners(below);
+        const Vec3 place = closest_point(wanted, a, b, c);
+        if ((place - wanted).norm() < mesh.size(v)) return place;
+    }
     // No further than a facet that is known to be near.
-    const double squared = input_.tree().squared_distance_to(wanted, mesh.data(*mesh.cvf_begin(v)).near);
+    const double squared = input_.tree().squared_distance_to(wanted, near);
     return squared == 0 ? wanted : input_.tree().closest(wanted, (1 + 1e-6) * squared).point;
 }
 

@@ -18,6 +18,7 @@ namespace {
 constexpr double flat_share = 0.1;          // of the tolerance: what counts as flat
 constexpr double gap_share = 1. / 3;        // of a gap that each of its sheets may use
 constexpr double rounding_of_files = 6e-8;  // of coordinates in single precision: lower facets have any normal
+constexpr double opposite_cosine = -0.1;    // of the normals of two sheets with a gap between them
 constexpr double least_share = 1. / 8;      // of the deviation: beside sharp edges gaps end in nothing
 
 bool share_a_vertex(const Triangle& s, const Triangle& t) {
@@ -63,17 +64,18 @@ std::vector<double> tolerances_of_gaps(const SurfaceArrays& surface, const Trian
     std::vector<double> tolerance(surface.facets.size(), deviation);
     std::vector<Vec3> normal;
     for (const Triangle& t : surface.facets) normal.push_back(doubled_area_vector(surface.vertices, t).normalized());
+    const double smallest = least_share * deviation;
     for (std::size_t f = 0; f < surface.facets.size(); ++f) {
         const Triangle& t = surface.facets[f];
         const Vec3 &a = surface.vertices[t[0]], &b = surface.vertices[t[1]], &c = surface.vertices[t[2]];
-        double squared_gap = std::numeric_limits<double>::infinity();
+        double gap = std::numeric_limits<double>::infinity();
+        const auto faces_it = [&](std::int32_t g) {
+            return normal[g].dot(normal[f]) < opposite_cosine && !share_a_vertex(surface.facets[g], t);
+        };
         for (const Vec3& p : {Vec3((a + b + c) / 3), a, b, c, Vec3((a + b) / 2), Vec3((b + c) / 2), Vec3((c + a) / 2)})
-            tree.any_within(p, deviation / gap_share, [&](std::int32_t g, double squared) {
-                if (normal[g].dot(normal[f]) < -0.1 && !share_a_vertex(surface.facets[g], t))
-                    squared_gap = std::min(squared_gap, squared);
-                return false;
-            });
-        tolerance[f] = std::clamp(gap_share * std::sqrt(squared_gap), least_share * deviation, deviation);
+            for (const Vec3& way : {normal[f], Vec3(-normal[f])})
+                gap = std::min(gap, tree.first_hit(p, way, 0, std::min(gap, deviation / gap_share), faces_it));
+        tolerance[f] = std::clamp(gap_share * gap, smallest, deviation);
     }
     return tolerance;
 }

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "geometry/triangle.h"
 #include "remesh/edited_surface.h"
+#include "remesh/feature_merger.h"
 #include "remesh/fold_sizes.h"
 #include "remesh/inspection.h"
 
@@ -24,8 +25,8 @@ constexpr double least_move = 0.03;  // of the size at a vertex
 constexpr double sine_of_20 = 0.342, sine_of_10 = 0.1736;
 constexpr int most_simplifications = 6, passes = 4, last_passes = 2, smoothings = 2, flips = 4;
 // Of the tolerance: what is left out first, and what counts as flat then, leaves room for what comes after.
-constexpr double share_of_simplification = 0.4, share_of_flatness = 0.2;
-constexpr double shortest_over_deviation = 3, shortest_over_longest = 0.02;
+constexpr double share_of_merging = 0.8, share_of_simplification = 0.4, share_of_flatness = 0.2;
+constexpr double shortest_over_deviation = 1.5, shortest_over_longest = 0.005;
 // Points between those that operations compare with the input may be further off.
 constexpr double used_share = 0.8;
 constexpr int most_rounds = 5;
@@ -51,10 +52,13 @@ class Refusals {
 
 class Remesher {
  public:
-    Remesher(const InputShape& input, const RemeshOptions& options) : options_(options), surface_(input) {}
+    Remesher(const InputShape& input, const RemeshOptions& options)
+        : options_(options), surface_(input, options.kept) {}
 
     void run() {
         flip_flat_edges();
+        surface_.set_share(share_of_merging);
+        merge_features(surface_, [this] { poll(); });
         surface_.set_share(share_of_simplification);
         simplify();
         surface_.set_share(1);
@@ -93,8 +97,7 @@ class Remesher {
     }
 
     double target(Edge e) const {
-        const Vertex a = mesh().to_vertex_handle(mesh().halfedge_handle(e, 0));
-        const Vertex b = mesh().to_vertex_handle(mesh().halfedge_handle(e, 1));
+        const auto [a, b] = mesh().ends(e);
         return std::min(std::max(mesh().data(a).asked, mesh().data(b).asked),
                         std::min(mesh().size(a), mesh().size(b)) + options_.growth * mesh().calc_edge_length(e) / 3);
     }
@@ -133,31 +136,22 @@ class Remesher {
         return edges;
     }
 
-    bool collapse_either_way(Edge e, const EditedSurface::CollapseRules& rules) {
-        const HalfEdge h = mesh().halfedge_handle(e, 0);
-        const HalfEdge back = mesh().halfedge_handle(e, 1);
-        // rather away from the vertex of fewer edges
-        const bool first =
-            mesh().valence(mesh().from_vertex_handle(h)) <= mesh().valence(mesh().from_vertex_handle(back));
-        return surface_.collapse(first ? h : back, rules) || surface_.collapse(first ? back : h, rules);
+    std::int64_t last_change_around(Edge e) const {
+        const auto [a, b] = mesh().ends(e);
+        return std::max(mesh().last_change(a), mesh().last_change(b));
     }
 
     // Leaves out what the bound does not need.
     void simplify() {
         const EditedSurface::CollapseRules rules = {.good_sine = sine_of_20, .worst_share = 0.9};
         Refusals refused;
-        const auto last_change = [&](Edge e) {
-            const HalfEdge h = mesh().halfedge_handle(e, 0);
-            return std::max(mesh().last_change(mesh().to_vertex_handle(h)),
-                            mesh().last_change(mesh().from_vertex_handle(h)));
-        };
         for (int pass = 0; pass < most_simplifications; ++pass) {
             std::size_t collapsed = 0;
             for (const auto& [length, e] :
                  edges_by_length([&](Edge, double length) { return length < 0.8 * options_.longest; })) {
                 poll();
-                if (!is_alive(e) || refused.knows(e.idx(), last_change(e))) continue;
-                if (collapse_either_way(e, rules))
+                if (!is_alive(e) || refused.knows(e.idx(), last_change_around(e))) continue;
+                if (surface_.collapse_either_way(e, rules))
                     ++collapsed;
                 else
                     refused.note(e.idx(), surface_.changes());
@@ -171,7 +165,9 @@ class Remesher {
         const EditedSurface::CollapseRules rules = {.good_sine = sine_of_20, .longest = split_ratio};
         for (const auto& [length, e] : edges_by_length([&](Edge e, double) { return ratio(e) < collapse_ratio; })) {
             poll();
-            if (is_alive(e) && ratio(e) < collapse_ratio) collapse_either_way(e, rules);
+            if (!is_alive(e) || !(ratio(e) < collapse_ratio)) continue;
+            if (refused_collapses_.knows(e.idx(), last_change_around(e))) continue;
+            if (!surface_.collapse_either_way(e, rules)) refused_collapses_.note(e.idx(), surface_.changes());
         }
     }
 
@@ -195,6 +191,7 @@ class Remesher {
             open.pop();
             if (ratio(wanted) != r) continue;
             const Edge e = longest_around(wanted);
+            if (mesh().is_fixed(e)) continue;
             const Vertex a = mesh().to_vertex_handle(mesh().halfedge_handle(e, 0));
             const Vertex b = mesh().to_vertex_handle(mesh().halfedge_handle(e, 1));
             const double size =
@@ -277,7 +274,7 @@ class Remesher {
             HalfEdge shortest = mesh().halfedge_handle(f);
             for (const auto h : mesh().fh_range(f))
                 if (mesh().calc_edge_length(h) < mesh().calc_edge_length(shortest)) shortest = h;
-            collapse_either_way(mesh().edge_handle(shortest), rules);
+            surface_.collapse_either_way(mesh().edge_handle(shortest), rules);
         }
     }
 
@@ -285,7 +282,7 @@ class Remesher {
     EditedSurface surface_;
     std::optional<FoldSizes> sizes_;
     std::int64_t steps_ = 0;
-    Refusals refused_moves_, refused_flips_;
+    Refusals refused_moves_, refused_flips_, refused_collapses_;
 };
 
 std::vector<InputPlace> places_on(const TriangleTree& input, const std::vector<Vec3>& vertices) {
@@ -306,16 +303,22 @@ Remeshed remesh_once(const SurfaceArrays& surface, const TriangleTree& tree, con
     return {remesher.surface().arrays(), {}, {.feature_edges = remesher.surface().mesh().feature_edges()}};
 }
 
-void check_remesh_options(const RemeshOptions& options) {
+void check_remesh_options(const RemeshOptions& options, std::size_t facets) {
+    KERF_CHECK(options.kept.empty() || options.kept.size() == facets);
     KERF_CHECK(options.deviation > 0 && options.longest > 0 && options.growth > 0 && options.feature_angle_deg > 0);
 }
 
 }  // namespace
 
 double forecast_facets(const SurfaceArrays& surface, const RemeshOptions& options) {
-    check_remesh_options(options);
+    check_remesh_options(options, surface.facets.size());
     double facets = 0;
-    for (const Triangle& t : surface.facets) {
+    for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+        if (!options.kept.empty() && options.kept[f] != 0) {
+            ++facets;
+            continue;
+        }
+        const Triangle& t = surface.facets[f];
         const std::vector<Vec3>& p = surface.vertices;
         double density = 0;  // sum over the samples
         int samples = 0;
@@ -331,7 +334,7 @@ double forecast_facets(const SurfaceArrays& surface, const RemeshOptions& option
 }
 
 Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& options) {
-    check_remesh_options(options);
+    check_remesh_options(options, surface.facets.size());
     const TriangleTree tree(surface.vertices, surface.facets);
     std::vector<double> tolerance = tolerances_of_gaps(surface, tree, used_share * options.deviation);
     for (int round = 1;; ++round) {

@@ -14,6 +14,7 @@ struct RemeshOptions {
     double growth = 0.4;            ///< of the size along the surface
     double feature_angle_deg = 30;  ///< between facets: their edge stays an edge
     std::vector<UndirectedEdge> creases = {};        ///< edges of the surface that stay edges, flat as they may be
+    std::vector<char> kept = {};                     ///< facets of the surface that stay as they are; empty: none
     double edges_per_thickness = 0.5;                ///< across thin walls; 0: they ask for nothing
     std::function<double(const Vec3&)> wanted = {};  ///< edge length at a point, if given: besides `longest`
     std::function<void()> poll = {};  ///< called every few milliseconds, if given; ends the work by what it throws

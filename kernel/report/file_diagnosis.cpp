@@ -7,8 +7,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/number_text.h"
 #include "io/cad_body.h"
-#include "prepare/remeshing.h"
+#include "prepare/slivers.h"
 #include "surface/regions.h"
 
 namespace kerf {
@@ -140,9 +141,13 @@ std::string to_text(const FileDiagnosis& found) {
     for (const std::string& note : soup.notes) text += fmt::format("  note      {}\n", note);
     text += defects_text(found.checked);
     const bool clean = found.can_be_meshed();
-    if (const std::string note = sliver_note(find_slivers(soup.vertices, soup.facets), found.path);
-        clean && !note.empty() && !soup.is_of_model)  // else kerf mesh remeshes it anyway
-        text += fmt::format("  slivers   {}\n", note);
+    if (const Slivers slivers = find_slivers(soup.vertices, soup.facets);
+        clean && slivers.spoil_cells() && !soup.is_of_model)  // else all is remeshed, whatever there is
+        text += fmt::format(
+            "  slivers   {} of {} facets have angles below 10 degrees: kerf mesh makes new ones, unless --surface "
+            "split or "
+            "keep is given.\n",
+            grouped(slivers.count), grouped(slivers.facets));
     return text + (clean ? "It can be meshed.\n" : "It cannot be meshed as it is.\n");
 }
 

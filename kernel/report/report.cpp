@@ -143,11 +143,12 @@ std::string time_text(const RunReport& report) {
 }  // namespace
 
 std::string remeshing_text(const InputRemeshing& done) {
+    const std::string kept = done.facets_kept > 0 ? fmt::format(", {} of them kept", grouped(done.facets_kept)) : "";
     return fmt::format(
-        "from {} facets; smallest angle {:.3g} deg from {:.3g}; largest distances {:.2g} and {:.2g} of "
+        "from {} facets{}; smallest angle {:.3g} deg from {:.3g}; largest distances {:.2g} and {:.2g} of "
         "{:.2g}",
-        grouped(done.facets_before), done.smallest_angle_deg, done.smallest_angle_before_deg, done.distance_to_input,
-        done.distance_from_input, done.deviation);
+        grouped(done.facets_before), kept, done.smallest_angle_deg, done.smallest_angle_before_deg,
+        done.distance_to_input, done.distance_from_input, done.deviation);
 }
 
 namespace {

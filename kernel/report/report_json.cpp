@@ -51,6 +51,7 @@ Json input_json(const Input& input) {
         json["optimisation"] = {{"vertices_moved", input.moved_vertices}, {"largest_move", input.largest_move}};
     if (input.remeshed)
         json["remeshing"] = {{"facets_before", input.remeshed->facets_before},
+                             {"facets_kept", input.remeshed->facets_kept},
                              {"smallest_angle_before_deg", input.remeshed->smallest_angle_before_deg},
                              {"smallest_angle_deg", input.remeshed->smallest_angle_deg},
                              {"deviation", input.remeshed->deviation},

@@ -51,19 +51,15 @@ OptionField::Choice mesher_choice(std::string& name) {
 // What is done to the surface, from nothing to most.
 OptionField::Choice surface_choice(RunOptions& o) {
     const auto get = [&o] {
-        if (o.remeshing == Remeshing::of_cad_files) return 4;
-        if (o.remeshing == Remeshing::where_slivers_spoil_cells) return 3;
+        if (o.remeshing == Remeshing::where_needed) return 3;
         if (o.remeshing == Remeshing::always) return 2;
         return o.decompose.facets == FacetPolicy::keep ? 0 : 1;
     };
     const auto set = [&o](int value) {
         o.decompose.facets = value == 0 ? FacetPolicy::keep : FacetPolicy::split;
-        o.remeshing = value == 2   ? Remeshing::always
-                      : value == 3 ? Remeshing::where_slivers_spoil_cells
-                      : value == 4 ? Remeshing::of_cad_files
-                                   : Remeshing::never;
+        o.remeshing = value == 2 ? Remeshing::always : value == 3 ? Remeshing::where_needed : Remeshing::never;
     };
-    return {{"keep", "split", "remesh", "auto", "remesh-cad"}, get, set};
+    return {{"keep", "split", "remesh", "auto"}, get, set};
 }
 
 constexpr OptionRow<InputOptions> input_rows[] = {
@@ -203,12 +199,12 @@ constexpr OptionRow<RunOptions> meshing_rows[] = {
          return choice(o.decompose.cut.contour, {"min-cut", "edges", "straight"});
      }},
     {"surface", "", option_group::input, "",
-     "keep every facet; split some where no contour of edges exists; remesh all within --deviation; auto: remesh "
-     "where slivers would spoil the cells; remesh-cad: remesh CAD files, split others. Default remesh-cad.",
+     "keep every facet; split some where no contour of edges exists; remesh all within --deviation; auto: remesh CAD "
+     "files, and where slivers would spoil the cells, else split. Default auto.",
      [](RunOptions& o) -> OptionField::Value { return surface_choice(o); }},
     {"deviation", "", option_group::input, "D",
      "Largest distance of a remeshed surface from the input, in its units, or with % of its diagonal. Default: a "
-     "twentieth of the shortest edge that is wanted, 0.002% if none is.",
+     "twentieth of the shortest edge that is wanted, 0.05% if none is.",
      place<&RunOptions::deviation>, true, deviation_range},
     {"mesher", "", option_group::meshing, "",
      "What fills the parts: auto, the default, takes lattice, unless --tetgen-switches is given.",

@@ -15,7 +15,11 @@
 namespace kerf {
 
 /// Whether the surface is remeshed within a bound before all else (prepare/remeshing.h).
-enum class Remeshing { of_cad_files, never, always, where_slivers_spoil_cells };
+enum class Remeshing {
+    where_needed,  ///< CAD files, whose facets nobody chose, and others where slivers would spoil the cells
+    never,
+    always
+};
 
 struct RunOptions {
     std::string input;
@@ -28,7 +32,7 @@ struct RunOptions {
     MesherOptions mesher;
     SizeOptions sizes;           ///< of tetrahedra, see with_sizes()
     InputOptions input_options;  ///< of the surface before all else
-    Remeshing remeshing = Remeshing::of_cad_files;
+    Remeshing remeshing = Remeshing::where_needed;
     Length deviation;              ///< of a remeshed surface from the input; 0: usual_deviation()
     std::int32_t workers = 0;      ///< processes of each rank; 0: its share of the processors
     double timeout_seconds = 600;  ///< of one attempt at one part; 0: none

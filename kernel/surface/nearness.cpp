@@ -14,7 +14,7 @@ namespace {
 
 constexpr double much_longer = 4;        // times as long as the facet below it: beyond that it is rather halved
 constexpr double thinnest = 1e-6;        // of the limit: pieces as thin as that are none
-constexpr int longest_walk = 8;          // from facet to facet
+constexpr int longest_walk = 40;         // from facet to facet: needles are crossed by the dozen
 constexpr double shortest_piece = 1e-3;  // length of a polygon over the limit, below which it is not divided
 
 template <class Corners>

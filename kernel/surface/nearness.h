@@ -54,12 +54,16 @@ class Nearness {
             hint = beside_.front();
             const auto is_near = [&](std::int32_t f) { return is_within(p, f, limit(f)); };
             const auto divides = [&](std::int32_t f) { return divide(p, f, largest_limit); };
-            if (!std::any_of(beside_.begin(), beside_.end(), is_near) &&
-                !std::any_of(beside_.begin(), beside_.end(), divides) && !halve(p, largest_limit))
-                return false;
+            if (std::any_of(beside_.begin(), beside_.end(), is_near) ||
+                std::any_of(beside_.begin(), beside_.end(), divides))
+                continue;
+            if (has_far_corner(p, hint, largest_limit, limit) || !halve(p, largest_limit)) return false;
         }
         return true;
     }
+
+    /// The facet that p lies over, from facet `start` on from neighbour to neighbour; -1: none, or not found that way.
+    std::int32_t facet_below(const Vec3& p, std::int32_t start) const;
 
     /// A bound on what holds() has found near since this was made: no point is further away, and some corner of a
     /// division is as far from the facet that it was compared with.
@@ -93,8 +97,19 @@ class Nearness {
                 return !beside_.empty();
             });
     }
-    /// The facet that p lies over, from `start` on from neighbour to neighbour; -1: none, or not found that way.
-    std::int32_t facet_below(const Vec3& p, std::int32_t start) const;
+    /// Whether some corner is near no facet: what has such a one is not worth being divided. `facet` is looked at
+    /// first.
+    template <class Limit>
+    bool has_far_corner(const Polygon& p, std::int32_t facet, double largest_limit, Limit limit) const {
+        const auto is_near = [&](std::int32_t f, double squared) {
+            const double most = limit(f);
+            return most >= 0 && squared <= most * most;
+        };
+        return std::any_of(p.corners.begin(), p.corners.begin() + p.count, [&](const Vec3& corner) {
+            return !is_near(facet, surface_.squared_distance_to(corner, facet)) &&
+                   !surface_.any_within(corner, largest_limit, is_near);
+        });
+    }
     bool is_within(const Polygon& p, std::int32_t facet, double limit);
     /// Puts pieces of p in its place, what is over the facet and what is not; false if that divides nothing.
     bool divide(const Polygon& p, std::int32_t facet, double limit);

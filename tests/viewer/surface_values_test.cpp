@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "prepare/remeshing.h"
+#include "prepare/slivers.h"
 #include "support/shapes.h"
 #include "support/surface_files.h"
 #include "support/temporary_folder.h"

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "prepare/cad_input.h"
-#include "prepare/remeshing.h"
+#include "prepare/slivers.h"
 #include "request/saved_run.h"
 #include "surface/mass_properties.h"
 #include "viewer/model/advice.h"

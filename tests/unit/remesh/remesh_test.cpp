@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "geometry/closest_point.h"
 #include "prepare/remeshing.h"
+#include "prepare/slivers.h"
 #include "support/shapes.h"
 #include "support/slice.h"
 #include "surface/intersections.h"
@@ -164,6 +165,38 @@ TEST(Remesh, StripsAndFansBecomeWellShaped) {
         const std::vector<double> sines = sorted_sines(remesh(surface, within(surface, 2e-5)).surface);
         EXPECT_GT(sines.front(), 0.17);  // 10 degrees
         EXPECT_GT(sines[sines.size() / 2], 0.5);
+    }
+}
+
+// A block with a step of this height over half of its top.
+SurfaceArrays stepped_block(double step) {
+    const std::vector<Vec3> outline = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 1 + step, 0}, {0, 1 + step, 0}};
+    constexpr int n = 6;
+    Soup soup;
+    for (const double z : {0., 1.})
+        for (const Vec3& p : outline) soup.vertices.emplace_back(p.x(), p.y(), z);
+    for (const Triangle& t : {Triangle{0, 1, 2}, Triangle{0, 2, 3}, Triangle{0, 3, 5}, Triangle{3, 4, 5}}) {
+        soup.facets.push_back({t[0], t[2], t[1]});
+        soup.facets.push_back({t[0] + n, t[1] + n, t[2] + n});
+    }
+    for (int i = 0, j = 1; i < n; ++i, j = (i + 1) % n) {
+        soup.facets.push_back({i, j, j + n});
+        soup.facets.push_back({i, j + n, i + n});
+    }
+    return test::to_arrays(soup);
+}
+
+TEST(Remesh, StepsBelowTheDeviationLeaveNoNeedles) {
+    for (const double over_deviation : {0.02, 0.2, 0.5, 3., 30.}) {
+        SCOPED_TRACE(over_deviation);
+        constexpr double deviation = 1e-3;
+        const SurfaceArrays surface = stepped_block(over_deviation * deviation);
+        const Remeshed remeshed = remesh(surface, {.deviation = deviation, .longest = 0.2});
+        obeys_the_laws(surface, remeshed.surface, deviation);
+        EXPECT_GT(sorted_sines(remeshed.surface).front(), std::sin(20 / 57.3));
+        if (over_deviation < 1) {
+            EXPECT_LT(remeshed.surface.facets.size(), 1500U) << "nothing is as fine as the step";
+        }
     }
 }
 
