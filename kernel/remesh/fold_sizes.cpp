@@ -158,8 +158,9 @@ double FoldSizes::at(EditedSurface::Vertex v, double own_chord, double grown) co
                 size = std::min(size, std::max({own_chord, chord_[fold], std::sqrt(squared)}));
             return false;
         });
-    if (options_.edges_per_thickness > 0) size = std::min(size, across_wall(v, size));
-    size = std::min(grown, std::max(size, options_.shortest));
+    size = std::max(size, options_.shortest);
+    if (options_.edges_per_thickness > 0) size = std::min(size, std::max(across_wall(v, size), options_.thinnest));
+    size = std::min(grown, size);
     return std::min(size, asked(p));
 }
 

@@ -12,7 +12,8 @@ namespace kerf {
 
 struct FoldSizeOptions {
     double longest = 0;                         ///< anywhere, > 0
-    double shortest = 0;                        ///< that the shape may ask for
+    double shortest = 0;                        ///< that folds may ask for
+    double thinnest = 0;                        ///< that walls may ask for
     double growth = 0.4;                        ///< of the size with distance
     double edges_per_thickness = 0;             ///< across a wall; 0: walls ask for nothing
     std::function<double(const Vec3&)> wanted;  ///< by the user at a point, if given

@@ -21,12 +21,14 @@ namespace {
 
 // Edges over their wanted length. A half of one that is split must not be one that is collapsed.
 constexpr double split_ratio = 1.35, collapse_ratio = 0.6;
+constexpr double as_asked = 0.95;    // a size over that which is asked for, which counts as that
 constexpr double least_move = 0.03;  // of the size at a vertex
 constexpr double sine_of_20 = 0.342, sine_of_10 = 0.1736;
 constexpr int most_simplifications = 6, passes = 4, last_passes = 2, smoothings = 2, flips = 4;
 // Of the tolerance: what is left out first, and what counts as flat then, leaves room for what comes after.
 constexpr double share_of_merging = 0.8, share_of_simplification = 0.4, share_of_flatness = 0.2;
-constexpr double shortest_over_deviation = 1.5, shortest_over_longest = 0.005;
+// What folds and walls may ask for.
+constexpr double shortest_over_deviation = 1.5, shortest_over_longest = 0.005, thinnest_over_deviation = 0.75;
 // Points between those that operations compare with the input may be further off.
 constexpr double used_share = 0.8;
 constexpr int most_rounds = 5;
@@ -68,6 +70,7 @@ class Remesher {
         sizes_.emplace(surface_, FoldSizeOptions{.longest = options_.longest,
                                                  .shortest = std::max(shortest_over_deviation * options_.deviation,
                                                                       shortest_over_longest * options_.longest),
+                                                 .thinnest = thinnest_over_deviation * options_.deviation,
                                                  .growth = options_.growth,
                                                  .edges_per_thickness = options_.edges_per_thickness,
                                                  .wanted = options_.wanted});
@@ -295,12 +298,26 @@ std::vector<InputPlace> places_on(const TriangleTree& input, const std::vector<V
     return places;
 }
 
+// Of the area, where some corner has a smaller size than the user asks for there.
+double finer_share(const EditMesh& mesh) {
+    double finer = 0, all = 0;
+    for (const auto f : mesh.faces()) {
+        const double area = area_normal(mesh.corners(f)).norm();
+        all += area;
+        const auto is_finer = [&](const auto& v) { return mesh.size(v) < as_asked * mesh.data(v).asked; };
+        if (std::any_of(mesh.cfv_begin(f), mesh.cfv_end(f), is_finer)) finer += area;
+    }
+    return all > 0 ? finer / all : 0;
+}
+
 Remeshed remesh_once(const SurfaceArrays& surface, const TriangleTree& tree, const std::vector<double>& tolerance,
                      const RemeshOptions& options) {
     const InputShape input(surface, tree, tolerance, options.feature_angle_deg, options.creases);
     Remesher remesher(input, options);
     remesher.run();
-    return {remesher.surface().arrays(), {}, {.feature_edges = remesher.surface().mesh().feature_edges()}};
+    const EditMesh& mesh = remesher.surface().mesh();
+    const RemeshReport report = {.feature_edges = mesh.feature_edges(), .finer_share = finer_share(mesh)};
+    return {remesher.surface().arrays(), {}, report};
 }
 
 void check_remesh_options(const RemeshOptions& options, std::size_t facets) {

@@ -25,6 +25,7 @@ struct RemeshReport {
     double distance_to_input = 0,
            distance_from_input = 0;  ///< nothing of the new surface, and of the old, is further away; proven
     std::int64_t feature_edges = 0;  ///< of the new surface
+    double finer_share = 0;  ///< of its area, where its shape asks for smaller edges than `wanted` and `longest`
 };
 
 /// sin of the smallest angle of a triangle, 0 for a degenerate one.

@@ -57,7 +57,8 @@ Json input_json(const Input& input) {
                              {"deviation", input.remeshed->deviation},
                              {"distance_to_input", input.remeshed->distance_to_input},
                              {"distance_from_input", input.remeshed->distance_from_input},
-                             {"feature_edges", input.remeshed->feature_edges}};
+                             {"feature_edges", input.remeshed->feature_edges},
+                             {"finer_share", input.remeshed->finer_share}};
     return json;
 }
 

@@ -13,6 +13,7 @@ namespace kerf {
 namespace {
 
 constexpr double much_longer = 4;        // times as long as the facet below it: beyond that it is rather halved
+constexpr double needle = 1e-6;          // height over length of a facet, below which its directions are noise
 constexpr double thinnest = 1e-6;        // of the limit: pieces as thin as that are none
 constexpr int longest_walk = 40;         // from facet to facet: needles are crossed by the dozen
 constexpr double shortest_piece = 1e-3;  // length of a polygon over the limit, below which it is not divided
@@ -34,6 +35,24 @@ Vec3 longest_way(const Corners& corners, int count) {
 
 }  // namespace
 
+Nearness::Nearness(const TriangleTree& surface, const std::vector<Triangle>& facets)
+    : surface_(surface), partner_(edge_partners(facets)) {
+    frames_.reserve(facets.size());
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+        const std::array<Vec3, 3>& t = surface.corners(static_cast<std::int32_t>(f));
+        const Vec3 normal = doubled_area_vector(t);
+        Frame frame = {t, {}, normal.normalized(), false};
+        double longest = 0;
+        for (int i = 0; i < 3; ++i) {
+            const Vec3 along = t[(i + 1) % 3] - t[i];
+            frame.outwards[i] = along.cross(normal).normalized();
+            longest = std::max(longest, along.squaredNorm());
+        }
+        frame.is_needle = !(normal.norm() > needle * longest);
+        frames_.push_back(frame);
+    }
+}
+
 Vec3 Nearness::Polygon::centre() const {
     Vec3 sum = Vec3::Zero();
     for (int i = 0; i < count; ++i) sum += corners[i];
@@ -49,12 +68,10 @@ bool Nearness::Polygon::add(const Vec3& corner) {
 std::int32_t Nearness::facet_below(const Vec3& p, std::int32_t start) const {
     std::int32_t facet = start, came_from = -1;
     for (int step = 0; facet >= 0 && step < longest_walk; ++step) {
-        const std::array<Vec3, 3>& t = surface_.corners(facet);
-        const Vec3 normal = doubled_area_vector(t);
+        const Frame& frame = frames_[facet];
         std::int32_t across = -1;
         for (int i = 0; i < 3 && across < 0; ++i)
-            if (3 * facet + i != came_from && (t[(i + 1) % 3] - t[i]).cross(normal).dot(p - t[i]) > 0)
-                across = 3 * facet + i;
+            if (3 * facet + i != came_from && frame.outwards[i].dot(p - frame.corners[i]) > 0) across = 3 * facet + i;
         if (across < 0) return facet;
         came_from = partner_[across];
         facet = came_from < 0 ? -1 : came_from / 3;
@@ -66,7 +83,7 @@ bool Nearness::is_within(const Polygon& p, std::int32_t facet, double limit) {
     if (limit < 0) return false;
     double largest = 0;
     for (int i = 0; i < p.count; ++i) {
-        largest = std::max(largest, surface_.squared_distance_to(p.corners[i], facet));
+        largest = std::max(largest, squared_distance(p.corners[i], facet));
         if (largest > limit * limit) return false;
     }
     squared_distance_ = std::max(squared_distance_, largest);
@@ -105,14 +122,13 @@ bool Nearness::halve(const Polygon& p, double limit) {
 }
 
 bool Nearness::divide(const Polygon& p, std::int32_t facet, double limit) {
-    const std::array<Vec3, 3>& t = surface_.corners(facet);
+    const Frame& frame = frames_[facet];
+    const std::array<Vec3, 3>& t = frame.corners;
     if (extent(p.corners, p.count).squaredNorm() > much_longer * much_longer * extent(t, 3).squaredNorm()) return false;
-    const Vec3 normal = doubled_area_vector(t);
     Polygon inside = p, below, above;
     const std::size_t before = open_.size();
     for (int i = 0; i < 3; ++i) {
-        const Vec3 outwards = (t[(i + 1) % 3] - t[i]).cross(normal).normalized();
-        if (!cut(inside, t[i], outwards / (thinnest * limit), below, above) || below.count == 0) {
+        if (!cut(inside, t[i], frame.outwards[i] / (thinnest * limit), below, above) || below.count == 0) {
             open_.resize(before);
             return false;
         }

@@ -19,8 +19,7 @@ namespace kerf {
 class Nearness {
  public:
     /// Keeps the reference. `facets`: those of the tree. O(#F).
-    Nearness(const TriangleTree& surface, const std::vector<Triangle>& facets)
-        : surface_(surface), partner_(edge_partners(facets)) {}
+    Nearness(const TriangleTree& surface, const std::vector<Triangle>& facets);
 
     /// Whether every point of triangle `t` is within limit(f) of some facet f of the surface; limit(f) is negative for
     /// facets that do not count, and `largest_limit` not less than any. False, too, if that takes more than `steps`
@@ -40,7 +39,7 @@ class Nearness {
             }
             const Vec3 centre = p.centre();
             if (const std::int32_t below = facet_below(centre, p.near);
-                below >= 0 && surface_.squared_distance_to(centre, below) <= std::pow(std::max(limit(below), 0.0), 2)) {
+                below >= 0 && squared_distance(centre, below) <= std::pow(std::max(limit(below), 0.0), 2)) {
                 hint = below;
                 if (is_within(p, below, limit(below)) || divide(p, below, largest_limit)) continue;
             }
@@ -106,7 +105,7 @@ class Nearness {
             return most >= 0 && squared <= most * most;
         };
         return std::any_of(p.corners.begin(), p.corners.begin() + p.count, [&](const Vec3& corner) {
-            return !is_near(facet, surface_.squared_distance_to(corner, facet)) &&
+            return !is_near(facet, squared_distance(corner, facet)) &&
                    !surface_.any_within(corner, largest_limit, is_near);
         });
     }
@@ -115,12 +114,31 @@ class Nearness {
     bool divide(const Polygon& p, std::int32_t facet, double limit);
     /// Across its longest way; false if it is too small.
     bool halve(const Polygon& p, double limit);
+    /// The squared distance of a facet, by its frame where p lies over it.
+    double squared_distance(const Vec3& p, std::int32_t facet) const {
+        const Frame& frame = frames_[facet];
+        if (frame.is_needle || !frame.has_below(p)) return surface_.squared_distance_to(p, facet);
+        const double height = frame.normal.dot(p - frame.corners[0]);
+        return height * height;
+    }
     /// The pieces below and above a plane, if any; false without room. `normal` is as long as the inverse of a length
     /// that counts as nothing.
     static bool cut(const Polygon& p, const Vec3& origin, const Vec3& normal, Polygon& below, Polygon& above);
 
+    struct Frame {                              // of a facet
+        std::array<Vec3, 3> corners, outwards;  // across the edges from the corners, of length 1
+        Vec3 normal;                            // of length 1
+        bool is_needle;                         // the directions are noise
+
+        bool has_below(const Vec3& p) const {
+            return outwards[0].dot(p - corners[0]) <= 0 && outwards[1].dot(p - corners[1]) <= 0 &&
+                   outwards[2].dot(p - corners[2]) <= 0;
+        }
+    };
+
     const TriangleTree& surface_;
     std::vector<std::int32_t> partner_;  // 3 #F: the corner on the other side
+    std::vector<Frame> frames_;          // #F
     std::vector<Polygon> open_;
     std::vector<std::int32_t> beside_;
     double squared_distance_ = 0;

@@ -326,7 +326,7 @@ TEST(Spellings, OfOptionsMeanTheSame) {
     EXPECT_EQ(config_with({"-j", "3"}), config_with({"--workers", "3"}));
     EXPECT_EQ(config_with({"--tetgen", "q1.2"}), config_with({"--tetgen-switches", "q1.2"}));
     EXPECT_TRUE(config_with({"--tetgen", "q1.2"}).contains("tetgen-switches = \"q1.2\""));
-    EXPECT_EQ(config_with({"--surface", "remesh-cad"}), config_with({}));
+    EXPECT_EQ(config_with({"--surface", "auto"}), config_with({}));
     const std::vector<std::pair<const char*, int>> megabytes = {
         {"500", 500},     {"500M", 500}, {"2G", 2048},    {"2GB", 2048}, {"2GiB", 2048},
         {"1.5GiB", 1536}, {"0", 0},      {"1T", 1048576}, {"1024K", 1},  {"1K", 1}};

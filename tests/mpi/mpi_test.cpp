@@ -106,8 +106,8 @@ class MpiStraightCuts : public testing::Test {
         std::map<std::string, std::string> expected;
         for (int ranks = 1; ranks <= 3; ++ranks) {
             SCOPED_TRACE(testing::Message() << command << ", " << ranks << " ranks");
-            const ChildResult result = run_ranks(
-                ranks, {KERF_PROGRAM, command, input, "-o", folder_.file("out"), "-n", std::to_string(parts)});
+            const ChildResult result = run_ranks(ranks, {KERF_PROGRAM, command, input, "-o", folder_.file("out"), "-n",
+                                                         std::to_string(parts), "--surface", "split"});
             ASSERT_EQ(result.exit_code, 0) << result.log;
             const std::string report = test::bytes_of_file(folder_.file("out/report.json"));
             EXPECT_NE(report.find("\"rung\": \"straight\""), std::string::npos);

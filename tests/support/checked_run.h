@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "prepare/remeshing.h"
 #include "support/run_in_process.h"
 #include "support/run_laws.h"
 #include "support/temporary_folder.h"
@@ -31,18 +32,21 @@ struct FinishedRun {
     std::vector<Part> parts;
 };
 
-/// Runs, checks the report, reads the files back and checks them against the input as it is read anew.
+/// Runs, checks the report, reads the files back and checks them against the input as it is read, and remeshed where it
+/// has to be, anew.
 inline FinishedRun run_and_check(const std::string& input, std::int32_t parts, RunListener* listener = nullptr,
                                  bool improve = true) {
     const TemporaryFolder folder;
     Input read;
     FinishedRun run;
-    run.report = run_parts(input, folder.file("out"), parts, read, listener, improve);
+    RunOptions options;
+    options.mesher.improve = improve;
+    run.report = run_parts(input, folder.file("out"), parts, read, listener, options);
     run.report.input = nullptr;  // ends with this function
     expect_verified(run.report, parts);
     run.parts = read_parts(folder.file("out"));
     EXPECT_EQ(run.parts.size(), run.report.parts.size());
-    EXPECT_EQ(broken_laws(run.parts, read_input(input).surface.arrays()), "");
+    EXPECT_EQ(broken_laws(run.parts, remesh_where_asked(read_input(input), options).surface.arrays()), "");
     std::int64_t tets = 0, last_id = -1;
     for (const Part& part : run.parts) {
         tets += static_cast<std::int64_t>(part.mesh.tets.size());

@@ -5,11 +5,9 @@
 
 namespace kerf::test {
 
-/// A run of one rank with two workers; `improve`: its cells.
+/// A run of one rank with two workers and otherwise these options.
 inline RunReport run_parts(const std::string& input, const std::string& output, std::int32_t parts, Input& read,
-                           RunListener* listener = nullptr, bool improve = true) {
-    RunOptions options;
-    options.mesher.improve = improve;
+                           RunListener* listener = nullptr, RunOptions options = {}) {
     options.input = input;
     options.output = output;
     options.worker_program = KERF_WORKER;

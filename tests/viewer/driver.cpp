@@ -25,6 +25,7 @@ view::AppOptions app_options(const Driver::Options& options) {
     app.volume = options.volume;
     app.run.decompose.parts = options.parts;
     app.run.decompose.cut.contour = options.contour;
+    app.run.remeshing = options.remeshing;
     app.run.workers = 2;
     return app;
 }

@@ -23,6 +23,7 @@ class Driver {
         bool auto_run = true, volume = true;
         std::int32_t parts = 4;
         ContourMethod contour = ContourMethod::min_cut;
+        Remeshing remeshing = Remeshing::where_needed;
         std::string config_folder, screenshot_folder = ".";
     };
     explicit Driver(const Options& options);

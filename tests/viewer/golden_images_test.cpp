@@ -267,7 +267,7 @@ TEST(RemeshedSurface, LooksAsItShould) {
     std::ofstream(folder.file("fine.stl")) << to_ascii_stl(twisted_cylinder(36, 20, 1, 4, 0.5));
     const std::string file = folder.file("run.trace");
     ASSERT_EQ(run_kerf({"decompose", folder.file("fine.stl"), "-o", folder.file("run"), "-n", "2", "-q", "--trace",
-                        file, "--size", "0.6", "--size-in", "sphere:1,0,4,0.5=0.1"})
+                        file, "--surface", "split", "--size", "0.6", "--size-in", "sphere:1,0,4,0.5=0.1"})
                   .exit_code,
               0);
     Trace trace = read_trace(file);

@@ -137,13 +137,13 @@ TEST(Screenshot, ShowsTheSurfaceBeforeAndAfterRemeshing) {
         return read_png(folder().file("a.png"));
     };
     const view::Image before = picture({"--surface", "remesh", "--stage", "before-remeshing"});
-    EXPECT_LE(compare(before, picture({"--stage", "input", "--features"})).differing, 0.1);
+    EXPECT_LE(compare(before, picture({"--surface", "split", "--stage", "input", "--features"})).differing, 0.1);
     const view::Image deviation = picture({"--surface", "remesh", "--color", "deviation"});
     EXPECT_GT(compare(before, deviation).differing, 20 * most_differing);
-    const ChildResult kept = screenshot({prism, "--color", "deviation"});
+    const ChildResult kept = screenshot({prism, "--surface", "split", "--color", "deviation"});
     EXPECT_EQ(kept.exit_code, 2);
     EXPECT_NE(kept.log.find("--surface remesh"), std::string::npos) << kept.log;
-    EXPECT_EQ(screenshot({prism, "--stage", "before-remeshing"}).exit_code, 2);
+    EXPECT_EQ(screenshot({prism, "--surface", "split", "--stage", "before-remeshing"}).exit_code, 2);
     EXPECT_EQ(screenshot({prism, "--surface", "nicely"}).exit_code, 2);
 }
 

@@ -416,7 +416,9 @@ TEST_F(SessionTest, SurfacesOfStraightCutsAreClosed) {
     const Soup soup = test::prism(7, 1, 5);
     test::write_off(folder_.file("prism.off"), soup.vertices, soup.facets);
     open(folder_.file("prism.off"));
-    session_.start_run(options(6), true);
+    RunOptions as_it_is = options(6);
+    as_it_is.remeshing = Remeshing::never;
+    session_.start_run(as_it_is, true);
     ASSERT_TRUE(settle(session_));
     ASSERT_TRUE(document().trace) << document().progress.message;
     ASSERT_EQ(document().tree.parts_below(1).size(), 6u);

@@ -378,6 +378,7 @@ TEST(Ui, RemeshesTheSurfaceAndShowsBoth) {
     Driver::Options options;
     options.parts = 2;
     options.volume = false;
+    options.remeshing = Remeshing::never;
     Driver driver(options);
     driver.open(folder.file("prism.stl"));
     EXPECT_NE(driver.app().steps().front().stage, Stage::before_remeshing);

@@ -183,6 +183,7 @@ SurfaceArrays stepped_block(double step) {
         soup.facets.push_back({i, j, j + n});
         soup.facets.push_back({i, j + n, i + n});
     }
+    soup.patch.assign(soup.facets.size(), 0);
     return test::to_arrays(soup);
 }
 

@@ -1,0 +1,107 @@
+// What a run does by default with facets that would spoil its cells.
+#include "prepare/slivers.h"
+
+#include <algorithm>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "prepare/remeshing.h"
+#include "remesh/remesh.h"
+#include "support/shapes.h"
+#include "surface/intersections.h"
+
+namespace kerf {
+namespace {
+
+// A ball with needles: facets, `step` apart, are divided at a point that is next to the middle of their first edge.
+SurfaceArrays ball_with_needles(std::size_t step) {
+    Soup soup = test::icosphere(4);
+    const std::size_t facets = soup.facets.size();
+    for (std::size_t f = 0; f < facets; f += step) {
+        const Triangle t = soup.facets[f];
+        const Vec3 &a = soup.vertices[t[0]], &b = soup.vertices[t[1]], &c = soup.vertices[t[2]];
+        const auto v = static_cast<std::int32_t>(soup.vertices.size());
+        soup.vertices.emplace_back(0.49 * a + 0.49 * b + 0.02 * c);
+        soup.facets[f] = {t[0], t[1], v};
+        soup.facets.push_back({t[1], t[2], v});
+        soup.facets.push_back({t[2], t[0], v});
+    }
+    soup.patch.assign(soup.facets.size(), 0);
+    return test::to_arrays(soup);
+}
+
+Input input_of(SurfaceArrays surface) {
+    Input input;
+    input.surface = Surface(std::move(surface));
+    measure_input(input);
+    input.diagonal = 2 * std::sqrt(3.);
+    input.patch_names = {"surface"};
+    return input;
+}
+
+std::multiset<std::array<double, 9>> corners_of(const SurfaceArrays& surface) {
+    std::multiset<std::array<double, 9>> all;
+    for (const Triangle& t : surface.facets) {
+        const auto first = std::min_element(t.begin(), t.end(), [&](std::int32_t v, std::int32_t w) {
+            const Vec3 &p = surface.vertices[v], &q = surface.vertices[w];
+            return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+        });
+        std::array<double, 9> corners;
+        for (int i = 0; i < 3; ++i)
+            for (int k = 0; k < 3; ++k) corners[3 * i + k] = surface.vertices[t[((first - t.begin()) + i) % 3]][k];
+        all.insert(corners);
+    }
+    return all;
+}
+
+TEST(Slivers, FewAreRemeshedAloneAndManyWithAll) {
+    for (const auto& [step, are_few] : {std::pair<std::size_t, bool>{400, true}, {150, true}, {5, false}}) {
+        SCOPED_TRACE(step);
+        const SurfaceArrays before = ball_with_needles(step);
+        ASSERT_TRUE(find_slivers(before.vertices, before.facets).spoil_cells());
+        const std::vector<char> kept = facets_away_from_slivers(before);
+        EXPECT_EQ(kept.empty(), !are_few);
+        const Input result = remesh_where_asked(input_of(before), {});
+        ASSERT_TRUE(result.remeshed);
+        ASSERT_EQ(result.notes.size(), 1U) << "nobody has asked for it";
+        EXPECT_NE(result.notes[0].find("--surface split keeps the facets"), std::string::npos);
+        const SurfaceArrays after = result.surface.arrays();
+        EXPECT_EQ(find_slivers(after.vertices, after.facets).count, 0);
+        EXPECT_TRUE(find_self_intersections(after.vertices, after.facets).empty());
+        EXPECT_EQ(result.remeshed->facets_kept, std::count(kept.begin(), kept.end(), char{1}));
+        const auto old_facets = corners_of(before), new_facets = corners_of(after);
+        std::size_t same = 0;
+        for (const auto& facet : old_facets) same += new_facets.count(facet);
+        EXPECT_GE(same, static_cast<std::size_t>(result.remeshed->facets_kept));
+    }
+}
+
+TEST(Slivers, KeptFacetsStayWhateverTheyAre) {
+    const SurfaceArrays surface = ball_with_needles(30);
+    for (const std::size_t first : {0UL, 1UL, 2UL, 3UL}) {
+        RemeshOptions options = {.deviation = 1e-3, .longest = 0.05};
+        options.kept.assign(surface.facets.size(), 0);
+        for (std::size_t f = first; f < surface.facets.size(); f += 4) options.kept[f] = 1;
+        const auto new_facets = corners_of(remesh(surface, options).surface);
+        SurfaceArrays kept = surface;
+        kept.facets.clear();
+        for (std::size_t f = first; f < surface.facets.size(); f += 4) kept.facets.push_back(surface.facets[f]);
+        for (const auto& facet : corners_of(kept)) EXPECT_EQ(new_facets.count(facet), 1U);
+    }
+}
+
+TEST(Slivers, WellShapedFacetsAndThoseThatShallStayDoStay) {
+    const SurfaceArrays good = test::to_arrays(test::icosphere(4)), bad = ball_with_needles(5);
+    RunOptions split;
+    split.remeshing = Remeshing::never;
+    for (const auto& [surface, options] : {std::pair(good, RunOptions()), std::pair(bad, split)}) {
+        const Input result = remesh_where_asked(input_of(surface), options);
+        EXPECT_FALSE(result.remeshed);
+        EXPECT_EQ(corners_of(result.surface.arrays()), corners_of(surface));
+        EXPECT_EQ(result.notes.empty(), &surface == &good || find_slivers(surface.vertices, surface.facets).count == 0);
+    }
+}
+
+}  // namespace
+}  // namespace kerf
