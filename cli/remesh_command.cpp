@@ -39,8 +39,9 @@ int remesh_and_tell(const RemeshRequest& request) {
         ProgressLine progress(request.quiet, nullptr);
         written = remesh_file(request.options, request.output, &progress);
     }
-    if (!request.quiet)
-        tell(fmt::format("kerf: {}: {} facets, {}\n", request.output, written.facets, remeshing_text(written.done)));
+    if (request.quiet) return 0;
+    tell(fmt::format("kerf: {}: {} facets, {}\n", request.output, written.facets, remeshing_text(written.done)));
+    if (written.found_size) tell(fmt::format("kerf: cells {}\n", found_size_text(*written.found_size)));
     return 0;
 }
 

@@ -8,7 +8,6 @@
 #include "io/obj_writer.h"
 #include "io/output_file.h"
 #include "io/stl_writer.h"
-#include "prepare/remeshing.h"
 
 namespace kerf {
 
@@ -23,13 +22,13 @@ RemeshedFile remesh_file(RunOptions options, const std::string& output, StageLis
     options.sizes.check();
     Input input = read_input(options.input, options.input_options);
     options = with_lengths(std::move(options), input.diagonal);
-    input = remesh_where_asked(std::move(input), options, listener);
-    const SurfaceArrays surface = input.surface.arrays();
+    const SizedInput sized = remesh_and_size(std::move(input), options, listener);
+    const SurfaceArrays surface = sized.input.surface.arrays();
     if (ending == ".obj")
-        write_obj(output, surface.vertices, surface.facets, surface.patch, input.patch_names);
+        write_obj(output, surface.vertices, surface.facets, surface.patch, sized.input.patch_names);
     else
         write_stl(output, surface.vertices, surface.facets);
-    return {static_cast<std::int64_t>(surface.facets.size()), *input.remeshed};
+    return {static_cast<std::int64_t>(surface.facets.size()), *sized.input.remeshed, sized.found};
 }
 
 }  // namespace kerf

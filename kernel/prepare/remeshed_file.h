@@ -1,8 +1,10 @@
 // A surface file remeshed into another one.
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "prepare/cells.h"
 #include "prepare/input.h"
 #include "prepare/stage_listener.h"
 #include "request/options.h"
@@ -13,6 +15,7 @@ namespace kerf {
 struct RemeshedFile {
     std::int64_t facets = 0;
     InputRemeshing done;
+    std::optional<FoundSize> found_size;  ///< for the number of tetrahedra that was asked for
 };
 
 /// Remeshes options.input within options.deviation to the wanted lengths (prepare/remeshing.h) and writes it to

@@ -218,6 +218,7 @@ void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
         all ? "" : fmt::format(", {} part{}", report.parts.size(), report.parts.size() == 1 ? "" : "s");
     lines.add("mesh",
               fmt::format("{} tetrahedra, {} vertices{}", grouped(report.tets), grouped(report.vertices), parts));
+    if (report.found_size) lines.add("cells", found_size_text(*report.found_size));
     if (all) lines.add("filled", ways_text(report));
     if (all) lines.add("recovered", recovery_text(report.recovery));
     if (all && !report.improvement.is_empty()) lines.add("improved", improvement_text(report));

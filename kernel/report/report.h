@@ -8,6 +8,7 @@
 
 #include "improve/improve.h"
 #include "io/run_manifest.h"
+#include "prepare/cells.h"
 #include "prepare/input.h"
 #include "request/options.h"
 #include "work/part_queue.h"
@@ -25,6 +26,7 @@ struct PartReport : PartOutcome {
     double surface_volume = 0;
     double surface_volume_error = 0;                       ///< as BoundedVolume has it
     double sized_volume = 0;                               ///< as sized_volume() has it
+    double tets_at_facets = 0;                             ///< forecast for those that are no interface
     Vec3 box_low = Vec3::Zero(), box_high = Vec3::Zero();  ///< corners of the box around its surface
     std::int64_t surface_vertices = 0, surface_facets = 0;
     std::int64_t interface_facets = 0;  ///< of them
@@ -38,8 +40,8 @@ struct PartReport : PartOutcome {
     template <class Archive>
     void archive(Archive& a) {
         PartOutcome::archive(a);
-        a(id, rank, resumed, load, job_hash, surface_hash, surface_volume, surface_volume_error, sized_volume, box_low,
-          box_high, surface_vertices, surface_facets, interface_facets, interface_area, interface_in_squared_edges,
+        a(id, rank, resumed, load, job_hash, surface_hash, surface_volume, surface_volume_error, sized_volume,
+          tets_at_facets, box_low, box_high, surface_vertices, surface_facets, interface_facets, interface_area, interface_in_squared_edges,
           neighbours);
     }
 };
@@ -112,6 +114,7 @@ struct Reference {
 struct RunReport {
     const Input* input = nullptr;
     RunOptions options;
+    std::optional<FoundSize> found_size;  ///< for the number of tetrahedra that was asked for
     int ranks = 1;
     std::vector<TreeNode> nodes;    ///< ascending by number
     std::vector<PartReport> parts;  ///< in the order of the tree

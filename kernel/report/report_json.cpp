@@ -210,6 +210,15 @@ Json sizes_json(const RunReport& report) {
             {"patches", patches}};
 }
 
+Json cells_json(const RunReport& report) {
+    if (!report.found_size) return nullptr;
+    const FoundSize& found = *report.found_size;
+    return {{"asked", found.cells},
+            {"size", found.size > 0 ? Json(found.size) : Json()},
+            {"forecast", std::llround(found.tets)},
+            {"remeshings", found.remeshings}};
+}
+
 Json reference_json(const RunReport& report) {
     if (!report.reference) return nullptr;
     const PartResult& whole = report.reference->outcome.result;
@@ -252,6 +261,7 @@ std::string to_json(const RunReport& report) {
                  {"quality", quality_json(report.quality)},
                  {"improvement",
                   improvement_json(report.improvement, {report.improvement, report.quality}, report.improve_seconds)},
+                 {"cells", cells_json(report)},
                  {"sizes", sizes_json(report)},
                  {"verification", verification_json(report.verification)},
                  {"reference", reference_json(report)},

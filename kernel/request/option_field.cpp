@@ -26,11 +26,25 @@ std::optional<std::int64_t> megabytes_in(std::string_view text) {
     return static_cast<std::int64_t>(megabytes);
 }
 
+// Thousands, millions or 10^9 of what stands before the unit, in "50k", "1.5M" or "2G"; or a whole number alone.
+std::optional<std::int64_t> count_in(std::string_view text) {
+    if (const auto count = number_in<std::int64_t>(text)) return count;
+    constexpr std::string_view units = "kKMG";
+    constexpr double factors[] = {1e3, 1e3, 1e6, 1e9};
+    const std::size_t unit = text.empty() ? units.npos : units.find(text.back());
+    if (unit == units.npos) return std::nullopt;
+    const auto number = number_in<double>(text.substr(0, text.size() - 1));
+    const double count = number ? std::round(*number * factors[unit]) : -1;
+    if (!(count >= 0 && count < 0x1p62)) return std::nullopt;
+    return static_cast<std::int64_t>(count);
+}
+
 template <class T>
 std::string text_of(const T* value) {
     return fmt::format("{}", *value);
 }
 std::string text_of(const OptionField::Memory& memory) { return fmt::format("{}", *memory); }
+std::string text_of(const OptionField::Count& count) { return fmt::format("{}", *count); }
 std::string text_of(const Length* length) { return length->text(); }
 std::string text_of(const OptionField::List items) { return join_items(*items); }
 std::string text_of(const OptionField::Choice& choice) { return choice.names[static_cast<std::size_t>(choice.get())]; }
@@ -40,11 +54,18 @@ template <class Number>
 void assign(Number* value, const std::string& text, const OptionField& field) {
     *value = parse_number<Number>(field.name, text, field.range);
 }
-void assign(const OptionField::Memory& memory, const std::string& text, const OptionField& field) {
-    const std::optional<std::int64_t> megabytes = megabytes_in(text);
-    if (!megabytes || !field.range.contains(static_cast<double>(*megabytes)))
+// Sets a whole number that may have had a unit.
+void assign_whole(std::int64_t& value, std::optional<std::int64_t> number, const std::string& text,
+                  const OptionField& field) {
+    if (!number || !field.range.contains(static_cast<double>(*number)))
         refuse_number(field.name, text, field.range.words);
-    *memory = *megabytes;
+    value = *number;
+}
+void assign(const OptionField::Memory& memory, const std::string& text, const OptionField& field) {
+    assign_whole(*memory, megabytes_in(text), text, field);
+}
+void assign(const OptionField::Count& count, const std::string& text, const OptionField& field) {
+    assign_whole(*count, count_in(text), text, field);
 }
 void assign(Length* value, const std::string& text, const OptionField& field) {
     *value = parse_length(field.name, text, field.range);
@@ -105,7 +126,7 @@ void OptionField::check() const {
         if constexpr (std::is_same_v<Place, Length*>)
             require_in(range, name, place->number());
         else if constexpr (std::is_same_v<Place, double*> || std::is_same_v<Place, std::int32_t*> ||
-                           std::is_same_v<Place, Memory>)
+                           std::is_same_v<Place, Memory> || std::is_same_v<Place, Count>)
             require_in(range, name, static_cast<double>(*place));
     };
     std::visit(check_value, value);
@@ -113,6 +134,7 @@ void OptionField::check() const {
 
 bool OptionField::is_number() const {
     return std::holds_alternative<std::int32_t*>(value) || std::holds_alternative<Memory>(value) ||
+           std::holds_alternative<Count>(value) ||
            std::holds_alternative<double*>(value) || std::holds_alternative<Length*>(value);
 }
 

@@ -36,6 +36,11 @@ struct OptionField {
         std::int64_t* megabytes;
         std::int64_t& operator*() const { return *megabytes; }
     };
+    /// A number of things; its text may have a unit, as 50k or 1.5M.
+    struct Count {
+        std::int64_t* number;
+        std::int64_t& operator*() const { return *number; }
+    };
     std::string name;        ///< without dashes
     std::string short_name;  ///< a letter, or empty
     std::string group;       ///< of option_group
@@ -43,7 +48,7 @@ struct OptionField {
     std::string help;        ///< one sentence with unit and default
     /// The value of an option that may be given several times; as one text, with semicolons between (join_items()).
     using List = std::vector<std::string>*;
-    using Value = std::variant<std::int32_t*, Memory, double*, Length*, bool*, std::string*, List, Choice>;
+    using Value = std::variant<std::int32_t*, Memory, Count, double*, Length*, bool*, std::string*, List, Choice>;
     Value value;
     bool shapes_parts = true;  ///< false: a finished run has the same part files whatever it is, but for parts that
                                ///< took longer than a limit of time, which the run marks (PartOutcome::timed_out)
@@ -55,7 +60,7 @@ struct OptionField {
     void set_text(const std::string& text) const;
     /// Throws Error(usage) for a number that is out of range.
     void check() const;
-    bool is_number() const;  ///< or a length, or memory
+    bool is_number() const;  ///< or a length, memory or a count
 };
 
 /// Items with semicolons between; those within an item, and backslashes, get a backslash before them. Empty items

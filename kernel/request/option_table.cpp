@@ -140,6 +140,9 @@ constexpr OptionRow<SizeOptions> size_rows[] = {
      place<&SizeOptions::size>, true, size_range::length},
     {"max-volume", "", option_group::sizes, "V", "Largest volume of a tetrahedron, instead of --size.",
      place<&SizeOptions::max_volume>, true, size_range::max_volume},
+    {"cells", "", option_group::sizes, "N",
+     "Finds the size that gives N tetrahedra within 15 %, as 50000, 50k or 1M, instead of --size.",
+     [](SizeOptions& o) -> OptionField::Value { return OptionField::Count{&o.cells}; }, true, size_range::cells},
     {"size-in", "", option_group::sizes, "SHAPE=H",
      "Edge length H, as of --size, in box:x0,y0,z0,x1,y1,z1=H, sphere:x,y,z,r=H or cylinder:x0,y0,z0,x1,y1,z1,r=H. "
      "Repeatable.",

@@ -54,6 +54,12 @@ RunOptions with_lengths(RunOptions options, double diagonal) {
     return has_percentage ? with_constant_size(std::move(options)) : options;
 }
 
+RunOptions with_size(RunOptions options, double size) {
+    options.sizes.cells = 0;
+    options.sizes.size = size;
+    return with_constant_size(std::move(options));
+}
+
 // Loads weigh the field as the mesher does.
 RunOptions with_sizes(RunOptions options, const SizeField& field) {
     options.decompose.cut.size = options.decompose.cut.load.size = options.mesher.size = field;

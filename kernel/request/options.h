@@ -67,6 +67,9 @@ RunOptions with_lengths(RunOptions options, double diagonal);
 /// places alike.
 RunOptions with_sizes(RunOptions options, const SizeField& field);
 
+/// Resolved options with this edge length everywhere in place of RunOptions::sizes.cells; 0: none.
+RunOptions with_size(RunOptions options, double size);
+
 /// The range of RunOptions::deviation, of which remesh_where_asked() knows more: shares of the diagonal that are too
 /// much.
 inline constexpr NumberRange deviation_range = {"a length in units of the input, or with % of its diagonal, or 0", 0,

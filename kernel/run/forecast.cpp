@@ -14,6 +14,7 @@
 #include "io/folder_files.h"
 #include "io/run_folder.h"
 #include "volume/meshers.h"
+#include "volume/tet_forecast.h"
 
 namespace kerf {
 
@@ -25,6 +26,7 @@ constexpr double reserved_bytes = 100e6, safety = 1.5;
 constexpr double least_tets_per_part = 1000;
 constexpr std::int32_t parts_per_worker = 4;    // so that the last one is short against all of them
 constexpr double area_per_squared_edge = 0.69;  // of an interface triangle, and of its longest wanted edge
+constexpr double tets_at_interface_facet = 0.5;
 constexpr double stored_bytes_per_tet = 22, file_bytes_per_tet = 70;  // of the store, of one format but vtu
 constexpr double vtu_bytes_per_tet = 31, field_bytes_per_tet = 4;     // of vtu, and of each field of its cells
 
@@ -33,19 +35,20 @@ constexpr double certain = 0.5;  // nearly every mesh is larger than this share 
 const MesherForecast& known_of(const MesherOptions& mesher) { return find_mesher(mesher.name).forecast; }
 
 // Those of the interfaces as the bound of the volume will have them: a dry run leaves them coarse.
+double expected_interface_facets(const PartReport& part) {
+    return std::max(static_cast<double>(part.interface_facets),
+                    part.interface_in_squared_edges / area_per_squared_edge);
+}
+
 double expected_facets(const PartReport& part) {
-    const auto coarse = static_cast<double>(part.interface_facets);
-    const double fine = part.interface_in_squared_edges / area_per_squared_edge;
-    return static_cast<double>(part.surface_facets) - coarse + std::max(coarse, fine);
+    return static_cast<double>(part.surface_facets - part.interface_facets) + expected_interface_facets(part);
 }
 
 Forecast forecast_of(const PartReport& part, const RunOptions& options) {
-    return forecast(expected_facets(part), part.sized_volume, options.mesher);
-}
-
-double tets_inside(double volume, const MesherOptions& mesher) {
-    return mesher.size.is_empty() ? 0
-                                  : known_of(mesher).tets_per_volume_bound * volume / mesher.size.reference_volume();
+    return forecast({expected_facets(part),
+                     part.tets_at_facets + tets_at_interface_facet * expected_interface_facets(part),
+                     part.sized_volume},
+                    options.mesher);
 }
 
 // For which there must be room.
@@ -60,12 +63,12 @@ std::string seconds_text(double seconds) {
 
 }  // namespace
 
-Forecast forecast(double facets, double volume, const MesherOptions& mesher) {
-    KERF_CHECK(facets >= 0 && volume >= 0);
+Forecast forecast(const BodyToFill& body, const MesherOptions& mesher) {
+    KERF_CHECK(body.facets >= 0 && body.tets_at_facets >= 0 && body.volume >= 0);
     const MesherForecast& known = known_of(mesher);
-    const double tets = known.tets_per_facet * facets + tets_inside(volume, mesher);
-    return {tets, known.seconds_per_facet * facets + known.seconds_per_tet * tets,
-            bytes_of_worker + known.bytes_per_tet * most_tets(facets, volume, mesher)};
+    const double tets = body.tets_at_facets + tets_inside(body.volume, mesher);
+    return {tets, known.seconds_per_facet * body.facets + known.seconds_per_tet * tets,
+            bytes_of_worker + known.bytes_per_tet * most_tets(body.facets, body.volume, mesher)};
 }
 
 double pace_of_reading(double seconds, double facets) {
@@ -197,6 +200,8 @@ std::string plan_text(const std::vector<PartReport>& parts, const RunOptions& op
                        largest.memory_bytes / (1 << 20)) +
            table;
 }
+
+std::string plan_text(const FoundSize& found) { return fmt::format("{:<11} {}\n", "cells", found_size_text(found)); }
 
 RunningForecast::RunningForecast(const std::vector<PartReport>& parts, const RunOptions& options, int ranks)
     : options_(options), workers_(ranks * options.workers) {

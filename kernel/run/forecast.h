@@ -15,10 +15,16 @@ struct Forecast {
     double memory_bytes = 0;  ///< resident, of its worker
 };
 
-/// Forecasts by what is known of the mesher that the options name (MesherForecast). V is the sized volume
-/// (size/volume_samples.h), here and below, and a the reference volume of the field. The memory is that of a body with
+/// What is known of a body before it is filled.
+struct BodyToFill {
+    double facets = 0;
+    double tets_at_facets = 0;  ///< of tets_at_facets() (volume/tet_forecast.h)
+    double volume = 0;          ///< the sized volume (size/volume_samples.h), here and below
+};
+
+/// Forecasts by what is known of the mesher that the options name (MesherForecast). The memory is that of a body with
 /// more tetrahedra for its facets than most.
-Forecast forecast(double facets, double volume, const MesherOptions& mesher);
+Forecast forecast(const BodyToFill& body, const MesherOptions& mesher);
 
 /// The seconds of this machine, as busy as it is, for one of the core that forecasts speak of, by those that it took to
 /// read and check a surface of so many facets. Within a factor of two of what its workers then do, mostly.
@@ -41,6 +47,9 @@ void check_budget(const RunOptions& options, double facets, double volume, Facet
 /// `pace`.
 std::string plan_text(const std::vector<PartReport>& parts, const RunOptions& options, int ranks, bool every_part,
                       double pace = 1);
+
+/// One line on the size that was found for a number of tetrahedra.
+std::string plan_text(const FoundSize& found);
 
 /// What is expected of a run while its parts end, one after the other: forecasts, corrected by how far those of the
 /// parts that have ended were off.

@@ -58,6 +58,7 @@ struct RunContext {
     Communicator& ranks;
     Input& input;
     RunListener* listener;
+    const std::optional<FoundSize>& found_size;
 
     bool is_root() const { return ranks.rank() == 0; }
 };
@@ -90,7 +91,8 @@ void announce_parts(const RunContext& run, const std::vector<PartReport>& parts,
     const double pace = shows_pace ? pace_of_reading(read_seconds, static_cast<double>(run.input.facets)) : 1;
     in_agreement(run.ranks, [&] {
         if (run.listener && run.is_root() && run.options.volume)
-            run.listener->on_parts(parts, plan_text(parts, run.options, run.ranks.size(), run.options.dry_run, pace));
+            run.listener->on_parts(parts, (run.found_size ? plan_text(*run.found_size) : "") +
+                                              plan_text(parts, run.options, run.ranks.size(), run.options.dry_run, pace));
     });
 }
 
@@ -268,6 +270,7 @@ RunReport empty_report(const RunContext& run) {
     report.input = &run.input;
     report.options = run.options;
     report.ranks = run.ranks.size();
+    report.found_size = run.found_size;
     report.quality = PartQuality(run.input.diagonal);
     return report;
 }
@@ -278,7 +281,7 @@ RunReport run(const RunOptions& request, int cores_of_rank, Communicator& ranks,
     const Stopwatch whole;
     const RunPlan plan = plan_run(request, cores_of_rank, ranks, input, listener);
     const RunOptions& options = plan.options;
-    const RunContext run{options, ranks, input, listener};
+    const RunContext run{options, ranks, input, listener, plan.found_size};
     RunReport report = empty_report(run);
     StageSeconds& seconds = report.seconds;
     seconds.read = longest(ranks, whole);
@@ -291,7 +294,7 @@ RunReport run(const RunOptions& request, int cores_of_rank, Communicator& ranks,
         report.split_facets = static_cast<std::int64_t>(own.divided_facets.size());
         PreparedParts prepared = timed(ranks, seconds.prepare, [&] {
             report.nodes = gather_nodes(ranks, own.nodes, host_name());
-            return prepare_parts(ranks, input, report.nodes, std::move(own), options.decompose.cut);
+            return prepare_parts(ranks, input, report.nodes, std::move(own), options);
         });
         report.verification.unmatched_interface_faces = prepared.unmatched_interface_facets;
         report.verification.input_faces_missing = prepared.missing_input_facets;

@@ -10,6 +10,7 @@
 #include "export/patch_types.h"
 #include "io/program_finder.h"
 #include "io/run_manifest.h"
+#include "prepare/cells.h"
 #include "prepare/remeshing.h"
 #include "prepare/size_reader.h"
 #include "request/saved_run.h"
@@ -55,6 +56,7 @@ double sized_volume_of(const Input& input, const RunOptions& options) {
 // Remeshing takes longer than to see that its result could not be filled.
 void check_budget_before_remeshing(const Input& input, RunOptions options, int ranks) {
     if (options.dry_run || !is_remeshed(input, options)) return;
+    options = with_forecast_size(input, std::move(options));
     options.sizes.growth = 0;  // from edges that are to change
     options = sized_on(input, std::move(options));
     const double volume = sized_volume_of(input, options), facets = forecast_remeshed_facets(input, options);
@@ -93,8 +95,10 @@ RunPlan plan_run(const RunOptions& request, int cores_of_rank, Communicator& ran
         return options;
     });
     plan.options = in_agreement(ranks, [&] {
-        input = remesh_where_asked(std::move(input), wanted, listener, ranks_here);
-        RunOptions options = sized_on(input, wanted);
+        SizedInput sized = remesh_and_size(std::move(input), wanted, listener, ranks_here);
+        input = std::move(sized.input);
+        plan.found_size = sized.found;
+        RunOptions options = sized_on(input, std::move(sized.options));
         require_patches(parse_patch_types(options.patch_types), input.patch_names);
         if (ranks.rank() != 0) return options;
         const double volume = sized_volume_of(input, options);

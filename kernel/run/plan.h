@@ -1,9 +1,11 @@
 // From what a user asks to what a run does.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "parallel/communicator.h"
+#include "prepare/cells.h"
 #include "prepare/input.h"
 #include "prepare/stage_listener.h"
 #include "request/options.h"
@@ -13,6 +15,7 @@ namespace kerf {
 /// All choices of a run; none of them changes while its stages go on.
 struct RunPlan {
     RunOptions options;       ///< resolved: K, lengths in units of the input, sizes over the surface that is cut
+    std::optional<FoundSize> found_size;  ///< for the number of tetrahedra that was asked for
     std::string worker_hash;  ///< of the program that meshes the parts; empty if there is nothing for it to do
 };
 

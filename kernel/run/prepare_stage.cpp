@@ -10,13 +10,15 @@
 #include "prepare/interface_match.h"
 #include "prepare/numbering.h"
 #include "surface/mass_properties.h"
+#include "volume/tet_forecast.h"
 
 namespace kerf {
 
 namespace {
 
 // What is known of a part before it is meshed.
-PartReport describe_part(const PartJob& job, double volume, int rank, const CutOptions& cut) {
+PartReport describe_part(const PartJob& job, double volume, int rank, const RunOptions& options) {
+    const CutOptions& cut = options.decompose.cut;
     PartReport part;
     part.id = job.part;
     part.rank = rank;
@@ -28,12 +30,16 @@ PartReport describe_part(const PartJob& job, double volume, int rank, const CutO
     part.surface_vertices = static_cast<std::int64_t>(job.surface.vertices.size());
     part.surface_facets = static_cast<std::int64_t>(job.surface.facets.size());
     for (std::size_t f = 0; f < job.neighbour.size(); ++f) {
-        if (job.neighbour[f] < 0) continue;
-        ++part.interface_facets;
         const Triangle& t = job.surface.facets[f];
         const std::vector<Vec3>& p = job.surface.vertices;
         const double area = triangle_area(p, t);
-        const double edge = cut.max_interface_edge((p[t[0]] + p[t[1]] + p[t[2]]) / 3);
+        const Vec3 centroid = (p[t[0]] + p[t[1]] + p[t[2]]) / 3;
+        if (job.neighbour[f] < 0) {
+            part.tets_at_facets += tets_at_facet(area, options.mesher.size.at(centroid), options.mesher);
+            continue;
+        }
+        ++part.interface_facets;
+        const double edge = cut.max_interface_edge(centroid);
         part.interface_area += area;
         part.interface_in_squared_edges += area / (edge * edge);
         part.neighbours.push_back(job.neighbour[f]);
@@ -70,7 +76,7 @@ void find_shared_edges(Communicator& ranks, const std::vector<NodeId>& leaves, s
 }  // namespace
 
 PreparedParts prepare_parts(Communicator& ranks, const Input& input, const std::vector<TreeNode>& nodes,
-                            Decomposition own, const CutOptions& cut) {
+                            Decomposition own, const RunOptions& options) {
     PreparedParts prepared;
     const InterfaceTable table(ranks, own.leaves);
     prepared.unmatched_interface_facets = table.unmatched();
@@ -88,7 +94,7 @@ PreparedParts prepare_parts(Communicator& ranks, const Input& input, const std::
         job.patch_names = input.patch_names;
         job.length_scale = input.diagonal;
         job.surface = std::exchange(leaf.surface, {});
-        PartReport report = describe_part(job, leaf.volume, ranks.rank(), cut);
+        PartReport report = describe_part(job, leaf.volume, ranks.rank(), options);
         prepared.own.push_back({std::move(report), std::move(job)});
     }
     find_shared_edges(ranks, leaves, prepared.own);

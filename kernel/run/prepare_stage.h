@@ -27,7 +27,7 @@ struct PreparedParts {
 /// Brings both sides of all interfaces together: neighbours, global numbers, and what parts share. Collective. `nodes`:
 /// of the whole tree, ascending by number; `own`: of this rank. Memory of every rank: the interfaces of all.
 PreparedParts prepare_parts(Communicator& ranks, const Input& input, const std::vector<TreeNode>& nodes,
-                            Decomposition own, const CutOptions& cut);
+                            Decomposition own, const RunOptions& options);
 
 /// The reports of all parts, in the order of the tree. Collective.
 std::vector<PartReport> gather_reports(Communicator& ranks, const std::vector<OwnPart>& own);

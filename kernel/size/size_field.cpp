@@ -75,6 +75,13 @@ double SizeField::smallest() const { return sources_ ? std::min(edge_, edge_fact
 
 double SizeField::reference_volume() const { return smallest() < edge_ ? regular_tet_volume(smallest()) : max_volume_; }
 
+SizeField SizeField::with_constant(double max_volume) const {
+    SizeField field(max_volume);
+    field.edge_factor_ = edge_factor_;
+    field.sources_ = sources_;
+    return field;
+}
+
 SizeField SizeField::coarser(double factor) const {
     SizeField field(max_volume_ * factor);
     field.edge_factor_ = edge_factor_ * cube_root(factor);

@@ -73,6 +73,8 @@ class SizeField {
     /// Largest change of at() by distance.
     double growth() const { return sources_ ? edge_factor_ * sources_->growth : 0; }
 
+    /// The field with this constant, and the same sources, in place of its own. 0: no constant.
+    SizeField with_constant(double max_volume) const;
     /// The field whose tetrahedra may be `factor` > 0 times as large.
     SizeField coarser(double factor) const;
     /// A field with the same answer, to the last bit, at each point of the box, that has fewer sources to travel with.

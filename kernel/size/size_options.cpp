@@ -159,6 +159,14 @@ void SizeOptions::check() const {
     require_in(size_range::max_volume, "max-volume", max_volume);
     if (max_volume != 0 && !std::isnormal(max_volume))
         refuse_number("max-volume", fmt::format("{}", max_volume), "a number that double precision does not round off");
+    require_in(size_range::cells, "cells", static_cast<double>(cells));
+    const auto refuse_beside_cells = [&](const char* option, const std::string& text) {
+        throw Error(ErrorCode::usage, fmt::format("--cells is {} and --{} is {}, but each follows from the other. Leave "
+                                                  "one of them out.",
+                                                  cells, option, text));
+    };
+    if (cells > 0 && size.number() != 0) refuse_beside_cells("size", size.text());
+    if (cells > 0 && max_volume != 0) refuse_beside_cells("max-volume", fmt::format("{}", max_volume));
     require_in(size_range::growth, "growth", growth);
     require_in(size_range::length, "chord-error", chord_error.number());
     require_in(size_range::segments_per_turn, "segments-per-turn", segments_per_turn);

@@ -15,6 +15,8 @@ namespace kerf {
 namespace size_range {
 inline constexpr NumberRange length = {"a positive length in units of the input, or with % of its diagonal", 0};
 inline constexpr NumberRange max_volume = {"a positive volume, or 0 for no bound", 0};
+inline constexpr NumberRange cells = {"a number of tetrahedra such as 50000, 50k or 1M, at most 1e12, or 0 for none", 1,
+                                      1e12, true};
 inline constexpr NumberRange growth = {"0.01 to 10, or 0 for the usual one", 0.01, 10, true};
 inline constexpr NumberRange segments_per_turn = {"3 to 10000, or 0 for none", 3, 1e4, true};
 inline constexpr NumberRange cells_across = {"0.1 to 10000, or 0 for none", 0.1, 1e4, true};
@@ -25,6 +27,7 @@ inline constexpr NumberRange cells_across = {"0.1 to 10000, or 0 for none", 0.1,
 struct SizeOptions {
     Length size;                      ///< wanted edge length everywhere
     double max_volume = 0;            ///< of a tetrahedron everywhere, instead of `size`
+    std::int64_t cells = 0;           ///< tetrahedra of the whole mesh: `size` follows (prepare/cells.h)
     std::vector<std::string> inside;  ///< box:x0,y0,z0,x1,y1,z1=H, sphere:x,y,z,r=H, cylinder:x0,y0,z0,x1,y1,z1,r=H
     std::vector<std::string> on;      ///< NAME=H: on a patch
     std::vector<std::string> near;    ///< NAME=H:D: up to the distance D from a patch

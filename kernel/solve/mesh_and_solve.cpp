@@ -145,6 +145,10 @@ MeshAndSolveReport mesh_and_solve(const MeshAndSolveRequest& request, int cores_
             if (request.steps > 0 && ranks.rank() == 0) write_text_file(folders.report(), to_json(request, report));
         });
         if (report.reached) break;
+        if (options.sizes.cells > 0) {  // of the first mesh: others are finer where the error asks for that
+            options.sizes.cells = 0;
+            options.sizes.size = report.mesh.options.sizes.size;
+        }
         options.sizes.field_file = folders.solution(step) + "/" + size_field_file;
     }
     in_agreement(ranks, [&] {

@@ -54,7 +54,7 @@ void prepare(const std::string& input, const std::string& stem, bool is_quartere
     fmt::print(R"({{"facets": {}, "shells": {}, "volume": {}, "tets_without_bound": {}, "tets_times_bound": {}}})"
                "\n",
                surface.facets.size(), facets.size(), volume,
-               forecast.tets_per_facet * static_cast<double>(surface.facets.size()),
+               forecast.tets_by_edge_ratio.back() * static_cast<double>(surface.facets.size()),
                forecast.tets_per_volume_bound * volume);
 }
 

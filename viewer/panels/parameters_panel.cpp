@@ -26,6 +26,7 @@ struct Editor {
         if (widgets.input_number(label, &wide)) *value = static_cast<std::int32_t>(std::clamp(wide, -limit, limit));
     }
     void operator()(const OptionField::Memory& memory) const { widgets.input_number(label, memory.megabytes); }
+    void operator()(const OptionField::Count& count) const { widgets.input_number(label, count.number); }
     void operator()(double* value) const { widgets.input_number(label, value); }
     void operator()(Length* value) const {
         if (value->is_percent()) {

@@ -155,6 +155,21 @@ TEST(OptionFields, TextThatIsNoValueIsRefused) {
     }
 }
 
+TEST(OptionFields, CountsMayHaveAUnit) {
+    RunOptions options;
+    const auto set = [&](const std::string& text) {
+        set_options(options, {{"cells", text}}, "the test");
+        return options.sizes.cells;
+    };
+    EXPECT_EQ(set("50000"), 50'000);
+    EXPECT_EQ(set("50k"), 50'000);
+    EXPECT_EQ(set("50K"), 50'000);
+    EXPECT_EQ(set("1.5M"), 1'500'000);
+    EXPECT_EQ(set("2G"), 2'000'000'000);
+    EXPECT_EQ(set("0"), 0);
+    for (const char* text : {"k", "1.5", "5kB", "50 k", "-1k", "nank", "1e10M", "1e13"}) EXPECT_THROW(set(text), Error);
+}
+
 TEST(RunOptions, PercentagesAreOfTheDiagonal) {
     RunOptions options;
     options.sizes.size = Length::percent(2);

@@ -40,7 +40,7 @@ TEST(ChooseParts, FollowTheMemoryOfAWorker) {
             const std::int32_t parts = choose_parts(options, 1e5, 1, 1, 1'000'000);
             EXPECT_GE(parts, 8);
             const auto needed_mb = [&](double k) {
-                return (forecast(1e5, 1, options.mesher).memory_bytes - forecast(0, 0, {}).memory_bytes) / k /
+                return (forecast({1e5, 2e5, 1}, options.mesher).memory_bytes - forecast({}, {}).memory_bytes) / k /
                        (1 << 20);
             };
             EXPECT_LT(needed_mb(parts), static_cast<double>(memory_mb));
@@ -57,10 +57,16 @@ std::vector<PartReport> random_parts(unsigned seed) {
     for (std::size_t i = 0; i < parts.size(); ++i) {
         parts[i].id = static_cast<NodeId>(parts.size() + i);
         parts[i].surface_facets = std::uniform_int_distribution<std::int64_t>(100, 3'000'000)(random);
+        parts[i].tets_at_facets = std::uniform_real_distribution<double>(0.5, 3)(random) *
+                                  static_cast<double>(parts[i].surface_facets);
         parts[i].surface_volume = std::uniform_real_distribution<double>(0, 1)(random);
         parts[i].sized_volume = parts[i].surface_volume;
     }
     return parts;
+}
+
+Forecast forecast_of(const PartReport& part, const RunOptions& options) {
+    return forecast({static_cast<double>(part.surface_facets), part.tets_at_facets, part.sized_volume}, options.mesher);
 }
 
 bool holds_words(const std::string& line, const std::string& words) {
@@ -78,8 +84,7 @@ TEST(PlanText, SaysWhatTheForecastsOfItsPartsAddUpTo) {
         Forecast all, largest;
         std::vector<Forecast> each;
         for (const PartReport& part : parts) {
-            const Forecast one = each.emplace_back(
-                forecast(static_cast<double>(part.surface_facets), part.surface_volume, options.mesher));
+            const Forecast one = each.emplace_back(forecast_of(part, options));
             all.tets += one.tets;
             all.seconds += one.seconds;
             if (one.tets > largest.tets) largest = one;
@@ -121,7 +126,7 @@ TEST(RunningForecast, LearnsFromThePartsThatHaveEnded) {
         double forecast_tets = 0, tets = 0, seconds = 0;
         std::vector<PartReport> ended = parts;
         for (PartReport& part : ended) {
-            const Forecast f = forecast(static_cast<double>(part.surface_facets), part.surface_volume, options.mesher);
+            const Forecast f = forecast_of(part, options);
             forecast_tets += f.tets;
             part.result.tets = std::llround(0.64 * f.tets);
             tets += static_cast<double>(part.result.tets);

@@ -276,8 +276,10 @@ TEST(Meshers, ForecastWhatBodiesTake) {
     for (const Mesher* mesher : meshers()) {
         const MesherForecast& f = mesher->forecast;
         for (const double value :
-             {f.tets_per_facet, f.most_tets_per_facet, f.tets_per_volume_bound, f.seconds_per_tet, f.volume_weight})
+             {f.tets_by_edge_ratio.back(), f.most_tets_per_facet, f.tets_per_volume_bound, f.tets_per_sized_volume,
+              f.seconds_per_tet, f.volume_weight})
             EXPECT_GT(value, 0) << mesher->name;
+        for (const double value : f.tets_by_edge_ratio) EXPECT_GE(value, 0) << mesher->name;
         EXPECT_GE(f.bytes_per_tet, sizeof(Tetrahedron)) << mesher->name;
         EXPECT_LT(f.most_tets, std::numeric_limits<std::int32_t>::max()) << mesher->name;
     }

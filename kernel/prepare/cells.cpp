@@ -1,0 +1,180 @@
+// Forecasts fall while the size grows, nearly as a power of it: so the size is found by the secant of logarithms, between
+// one that gives too many tetrahedra and the diagonal.
+#include "prepare/cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/number_text.h"
+#include "core/regular_tet.h"
+#include "prepare/remeshing.h"
+#include "prepare/size_reader.h"
+#include "size/volume_samples.h"
+#include "volume/tet_forecast.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr int most_remeshings = 4, most_tries = 40;
+constexpr double good_forecast = 0.005, good_remeshing = 0.07;  // of the number of tetrahedra
+constexpr double usual_slope = -2.3, flattest_slope = -0.8, steepest_slope = -3.2, largest_step = 4;
+constexpr double area_per_squared_size = 0.342;  // of a facet of a remeshed surface, see forecast_facets()
+
+// What a surface with these options will be filled with, by size. 0: none.
+class TetForecast {
+ public:
+    TetForecast(const Input& input, RunOptions options)
+        : input_(input), surface_(input.surface.arrays()), options_(std::move(options)) {
+        options_.sizes.cells = 0;
+        if (options_.sizes.depends_on_place())
+            places_ = read_size_field(options_.sizes, surface_, input.patch_names);
+    }
+    double tets(double size) const {
+        const RunOptions options = options_of(size);
+        return tets_at_facets(surface_, options.mesher) + tets_inside(sized_volume_of(options), options.mesher);
+    }
+    // If it is remeshed to that size before.
+    double tets_if_remeshed(double size) const {
+        const RunOptions options = options_of(size);
+        const double of_facet = tets_at_facet(area_per_squared_size, 1, options.mesher);
+        return of_facet * forecast_remeshed_facets(input_, with_size(options_, size)) +
+               tets_inside(sized_volume_of(options), options.mesher);
+    }
+
+ private:
+    RunOptions options_of(double size) const {
+        return with_sizes(options_, places_.with_constant(size > 0 ? regular_tet_volume(size) : 0));
+    }
+    double sized_volume_of(const RunOptions& options) const {
+        return sized_volume(options.mesher.size, surface_.vertices, surface_.facets, input_.volume);
+    }
+
+    const Input& input_;
+    SurfaceArrays surface_;
+    RunOptions options_;
+    SizeField places_;  // what is asked for besides
+};
+
+// Written as it is used.
+double with_four_digits(double size) { return std::stod(fmt::format("{:.4g}", size)); }
+
+// 0 if even the largest size gives more. `excess`: logarithm of the tetrahedra over those that are wanted, falling.
+template <class Excess>
+double find_root(double small, double large, const Excess& excess) {
+    double at_large = excess(large);
+    if (at_large > 0) return 0;
+    double at_small = excess(small);
+    for (int step = 0; at_small <= 0 && step < most_tries; ++step) at_small = excess(small /= 2);
+    double low = std::log(small), high = std::log(large), middle = low;
+    int side = 0;  // of the last try: where it is the same twice, the other end is pulled in (Illinois)
+    for (int step = 0; step < most_tries; ++step) {
+        middle = (low * at_large - high * at_small) / (at_large - at_small);
+        const double value = excess(std::exp(middle));
+        if (std::abs(value) < good_forecast) break;
+        if (value > 0) {
+            low = middle;
+            at_small = value;
+            if (std::exchange(side, 1) == 1) at_large /= 2;
+        } else {
+            high = middle;
+            at_large = value;
+            if (std::exchange(side, -1) == -1) at_small /= 2;
+        }
+    }
+    return with_four_digits(std::exp(middle));
+}
+
+double forecast_size(const Input& input, const RunOptions& options, bool is_to_be_remeshed) {
+    const TetForecast forecast(input, options);
+    const auto cells = static_cast<double>(options.sizes.cells);
+    const double small = regular_tet_edge(input.volume / cells);
+    return find_root(small, std::max(input.diagonal, 2 * small), [&](double size) {
+        return std::log((is_to_be_remeshed ? forecast.tets_if_remeshed(size) : forecast.tets(size)) / cells);
+    });
+}
+
+// The next size after those that were tried, with what came of them.
+double next_size(const std::vector<FoundSize>& tried) {
+    const FoundSize& last = tried.back();
+    double slope = usual_slope;
+    if (tried.size() > 1) {
+        const FoundSize& before = tried[tried.size() - 2];
+        slope = std::log(last.tets / before.tets) / std::log(last.size / before.size);
+        slope = std::isfinite(slope) ? std::clamp(slope, steepest_slope, flattest_slope) : usual_slope;
+    }
+    const double factor = std::pow(last.tets / static_cast<double>(last.cells), -1 / slope);
+    return with_four_digits(last.size * std::clamp(factor, 1 / largest_step, largest_step));
+}
+
+double excess_of(const FoundSize& found) { return std::log(found.tets / static_cast<double>(found.cells)); }
+
+SizedInput remesh_to_cells(const Input& input, const RunOptions& options, StageListener* listener, int processes) {
+    SizedInput best;
+    std::vector<FoundSize> tried;
+    double size = forecast_size(input, options, true);
+    if (size == 0) size = with_four_digits(input.diagonal);
+    while (true) {
+        RunOptions sized = with_size(options, size);
+        Input remeshed = remesh_where_asked(input, sized, listener, processes);
+        tried.push_back({options.sizes.cells, size, TetForecast(remeshed, options).tets(size)});
+        const double excess = excess_of(tried.back());
+        if (!best.found || std::abs(excess) < std::abs(excess_of(*best.found)))
+            best = {std::move(remeshed), std::move(sized), tried.back()};
+        if (std::abs(excess) < good_remeshing || tried.size() == most_remeshings) break;
+        size = std::min(next_size(tried), with_four_digits(input.diagonal));
+        if (size == tried.back().size) break;
+    }
+    best.found->remeshings = static_cast<int>(tried.size());
+    return best;
+}
+
+SizedInput size_to_cells(Input input, const RunOptions& options, StageListener* listener, int processes) {
+    const double size = forecast_size(input, options, false);
+    const FoundSize found{options.sizes.cells, size, TetForecast(input, options).tets(size)};
+    RunOptions sized = with_size(options, size);
+    input = remesh_where_asked(std::move(input), sized, listener, processes);
+    return {std::move(input), std::move(sized), found};
+}
+
+std::string note_of(const FoundSize& found, bool is_remeshed) {
+    constexpr double too_many = 0.14;
+    if (found.size > 0 && excess_of(found) < too_many) return "";
+    return fmt::format(
+        "--cells asks for {} tetrahedra, but {} need about {} at least, which they get. {} --cells {:.2g} or more.",
+        short_number(static_cast<double>(found.cells)),
+        is_remeshed ? "the shape of the surface and the sizes at places" : "the facets and the sizes at places",
+        short_number(found.tets), is_remeshed ? "Ask for" : "Give --surface remesh for larger facets, or ask for",
+        found.tets);
+}
+
+}  // namespace
+
+RunOptions with_forecast_size(const Input& input, RunOptions options) {
+    if (options.sizes.cells == 0) return options;
+    const double size = forecast_size(input, options, is_remeshed(input, options));
+    return with_size(std::move(options), size);
+}
+
+SizedInput remesh_and_size(Input input, const RunOptions& options, StageListener* listener, int processes) {
+    if (options.sizes.cells == 0)
+        return {remesh_where_asked(std::move(input), options, listener, processes), options, std::nullopt};
+    const bool remeshes = is_remeshed(input, options);
+    SizedInput sized = remeshes ? remesh_to_cells(input, options, listener, processes)
+                                : size_to_cells(std::move(input), options, listener, processes);
+    const std::string note = note_of(*sized.found, remeshes);
+    if (!note.empty()) sized.input.notes.push_back(note);
+    return sized;
+}
+
+std::string found_size_text(const FoundSize& found) {
+    const std::string size = found.size > 0 ? fmt::format("size {:.4g}", found.size) : "no size";
+    return fmt::format("{} asked for: {}, about {} forecast{}", grouped(found.cells), size, short_number(found.tets),
+                       found.remeshings > 1 ? fmt::format(", remeshed {} times", found.remeshings) : "");
+}
+
+}  // namespace kerf
