@@ -1,5 +1,5 @@
-// Forecasts fall while the size grows, nearly as a power of it: so the size is found by the secant of logarithms, between
-// one that gives too many tetrahedra and the diagonal.
+// Forecasts fall while the size grows, nearly as a power of it: so the size is found by the secant of logarithms,
+// between one that gives too many tetrahedra and the diagonal.
 #include "prepare/cells.h"
 
 #include <algorithm>
@@ -21,9 +21,10 @@ namespace kerf {
 namespace {
 
 constexpr int most_remeshings = 4, most_tries = 40;
+constexpr double least_share = 1e-9;                            // of the diagonal, for sizes
 constexpr double good_forecast = 0.005, good_remeshing = 0.07;  // of the number of tetrahedra
 constexpr double usual_slope = -2.3, flattest_slope = -0.8, steepest_slope = -3.2, largest_step = 4;
-constexpr double area_per_squared_size = 0.342;  // of a facet of a remeshed surface, see forecast_facets()
+constexpr double usual_edge = 0.89, usual_longest = 1;  // of facets of a remeshed surface, over the wanted length
 
 // What a surface with these options will be filled with, by size. 0: none.
 class TetForecast {
@@ -31,17 +32,18 @@ class TetForecast {
     TetForecast(const Input& input, RunOptions options)
         : input_(input), surface_(input.surface.arrays()), options_(std::move(options)) {
         options_.sizes.cells = 0;
-        if (options_.sizes.depends_on_place())
-            places_ = read_size_field(options_.sizes, surface_, input.patch_names);
+        if (options_.sizes.depends_on_place()) places_ = read_size_field(options_.sizes, surface_, input.patch_names);
     }
     double tets(double size) const {
         const RunOptions options = options_of(size);
-        return tets_at_facets(surface_, options.mesher) + tets_inside(sized_volume_of(options), options.mesher);
+        return tets_at_facets(surface_, half_thickness(), options.mesher) +
+               tets_inside(sized_volume_of(options), options.mesher);
     }
     // If it is remeshed to that size before.
     double tets_if_remeshed(double size) const {
         const RunOptions options = options_of(size);
-        const double of_facet = tets_at_facet(area_per_squared_size, 1, options.mesher);
+        const FacetShape usual{usual_edge * size, usual_longest * size};
+        const double of_facet = tets_at_facet(usual, size, half_thickness(), options.mesher);
         return of_facet * forecast_remeshed_facets(input_, with_size(options_, size)) +
                tets_inside(sized_volume_of(options), options.mesher);
     }
@@ -50,6 +52,7 @@ class TetForecast {
     RunOptions options_of(double size) const {
         return with_sizes(options_, places_.with_constant(size > 0 ? regular_tet_volume(size) : 0));
     }
+    double half_thickness() const { return input_.volume / input_.area; }
     double sized_volume_of(const RunOptions& options) const {
         return sized_volume(options.mesher.size, surface_.vertices, surface_.facets, input_.volume);
     }
@@ -92,7 +95,7 @@ double find_root(double small, double large, const Excess& excess) {
 double forecast_size(const Input& input, const RunOptions& options, bool is_to_be_remeshed) {
     const TetForecast forecast(input, options);
     const auto cells = static_cast<double>(options.sizes.cells);
-    const double small = regular_tet_edge(input.volume / cells);
+    const double small = std::max(regular_tet_edge(input.volume / cells), least_share * input.diagonal);
     return find_root(small, std::max(input.diagonal, 2 * small), [&](double size) {
         return std::log((is_to_be_remeshed ? forecast.tets_if_remeshed(size) : forecast.tets(size)) / cells);
     });
@@ -141,15 +144,21 @@ SizedInput size_to_cells(Input input, const RunOptions& options, StageListener* 
     return {std::move(input), std::move(sized), found};
 }
 
-std::string note_of(const FoundSize& found, bool is_remeshed) {
-    constexpr double too_many = 0.14;
-    if (found.size > 0 && excess_of(found) < too_many) return "";
+// Rounded up to two digits, as an option takes it.
+std::string enough(double tets) {
+    const double unit = std::pow(10, std::max(0.0, std::floor(std::log10(tets)) - 1));
+    return fmt::format("{:.0f}", std::ceil(tets / unit) * unit);
+}
+
+// Empty if there will be as many as were asked for.
+std::string note_of(const FoundSize& found, bool is_remeshed, const SizeOptions& sizes) {
+    if (excess_of(found) < good_remeshing) return "";
     return fmt::format(
-        "--cells asks for {} tetrahedra, but {} need about {} at least, which they get. {} --cells {:.2g} or more.",
-        short_number(static_cast<double>(found.cells)),
-        is_remeshed ? "the shape of the surface and the sizes at places" : "the facets and the sizes at places",
-        short_number(found.tets), is_remeshed ? "Ask for" : "Give --surface remesh for larger facets, or ask for",
-        found.tets);
+        "--cells asks for {} tetrahedra, but {}{} need about {} at least: there are as few as they allow. "
+        "{}sk for --cells {} or more.",
+        short_number(static_cast<double>(found.cells)), is_remeshed ? "the shape of the surface" : "the facets",
+        sizes.depends_on_place() ? " and the sizes at places" : "", short_number(found.tets),
+        is_remeshed ? "A" : "Use --surface remesh for larger facets, or a", enough(found.tets));
 }
 
 }  // namespace
@@ -166,7 +175,7 @@ SizedInput remesh_and_size(Input input, const RunOptions& options, StageListener
     const bool remeshes = is_remeshed(input, options);
     SizedInput sized = remeshes ? remesh_to_cells(input, options, listener, processes)
                                 : size_to_cells(std::move(input), options, listener, processes);
-    const std::string note = note_of(*sized.found, remeshes);
+    const std::string note = note_of(*sized.found, remeshes, options.sizes);
     if (!note.empty()) sized.input.notes.push_back(note);
     return sized;
 }

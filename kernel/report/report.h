@@ -41,8 +41,8 @@ struct PartReport : PartOutcome {
     void archive(Archive& a) {
         PartOutcome::archive(a);
         a(id, rank, resumed, load, job_hash, surface_hash, surface_volume, surface_volume_error, sized_volume,
-          tets_at_facets, box_low, box_high, surface_vertices, surface_facets, interface_facets, interface_area, interface_in_squared_edges,
-          neighbours);
+          tets_at_facets, box_low, box_high, surface_vertices, surface_facets, interface_facets, interface_area,
+          interface_in_squared_edges, neighbours);
     }
 };
 

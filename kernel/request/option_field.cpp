@@ -134,8 +134,8 @@ void OptionField::check() const {
 
 bool OptionField::is_number() const {
     return std::holds_alternative<std::int32_t*>(value) || std::holds_alternative<Memory>(value) ||
-           std::holds_alternative<Count>(value) ||
-           std::holds_alternative<double*>(value) || std::holds_alternative<Length*>(value);
+           std::holds_alternative<Count>(value) || std::holds_alternative<double*>(value) ||
+           std::holds_alternative<Length*>(value);
 }
 
 }  // namespace kerf

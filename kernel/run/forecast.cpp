@@ -45,10 +45,10 @@ double expected_facets(const PartReport& part) {
 }
 
 Forecast forecast_of(const PartReport& part, const RunOptions& options) {
-    return forecast({expected_facets(part),
-                     part.tets_at_facets + tets_at_interface_facet * expected_interface_facets(part),
-                     part.sized_volume},
-                    options.mesher);
+    return forecast(
+        {expected_facets(part), part.tets_at_facets + tets_at_interface_facet * expected_interface_facets(part),
+         part.sized_volume},
+        options.mesher);
 }
 
 // For which there must be room.

@@ -91,8 +91,9 @@ void announce_parts(const RunContext& run, const std::vector<PartReport>& parts,
     const double pace = shows_pace ? pace_of_reading(read_seconds, static_cast<double>(run.input.facets)) : 1;
     in_agreement(run.ranks, [&] {
         if (run.listener && run.is_root() && run.options.volume)
-            run.listener->on_parts(parts, (run.found_size ? plan_text(*run.found_size) : "") +
-                                              plan_text(parts, run.options, run.ranks.size(), run.options.dry_run, pace));
+            run.listener->on_parts(parts,
+                                   (run.found_size ? plan_text(*run.found_size) : "") +
+                                       plan_text(parts, run.options, run.ranks.size(), run.options.dry_run, pace));
     });
 }
 

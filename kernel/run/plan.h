@@ -14,7 +14,7 @@ namespace kerf {
 
 /// All choices of a run; none of them changes while its stages go on.
 struct RunPlan {
-    RunOptions options;       ///< resolved: K, lengths in units of the input, sizes over the surface that is cut
+    RunOptions options;  ///< resolved: K, lengths in units of the input, sizes over the surface that is cut
     std::optional<FoundSize> found_size;  ///< for the number of tetrahedra that was asked for
     std::string worker_hash;  ///< of the program that meshes the parts; empty if there is nothing for it to do
 };

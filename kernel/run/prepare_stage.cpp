@@ -17,7 +17,8 @@ namespace kerf {
 namespace {
 
 // What is known of a part before it is meshed.
-PartReport describe_part(const PartJob& job, double volume, int rank, const RunOptions& options) {
+PartReport describe_part(const PartJob& job, double volume, int rank, double half_thickness,
+                         const RunOptions& options) {
     const CutOptions& cut = options.decompose.cut;
     PartReport part;
     part.id = job.part;
@@ -35,7 +36,8 @@ PartReport describe_part(const PartJob& job, double volume, int rank, const RunO
         const double area = triangle_area(p, t);
         const Vec3 centroid = (p[t[0]] + p[t[1]] + p[t[2]]) / 3;
         if (job.neighbour[f] < 0) {
-            part.tets_at_facets += tets_at_facet(area, options.mesher.size.at(centroid), options.mesher);
+            part.tets_at_facets += tets_at_facet(shape_of_facet(p[t[0]], p[t[1]], p[t[2]]),
+                                                 options.mesher.size.at(centroid), half_thickness, options.mesher);
             continue;
         }
         ++part.interface_facets;
@@ -94,7 +96,7 @@ PreparedParts prepare_parts(Communicator& ranks, const Input& input, const std::
         job.patch_names = input.patch_names;
         job.length_scale = input.diagonal;
         job.surface = std::exchange(leaf.surface, {});
-        PartReport report = describe_part(job, leaf.volume, ranks.rank(), options);
+        PartReport report = describe_part(job, leaf.volume, ranks.rank(), input.volume / input.area, options);
         prepared.own.push_back({std::move(report), std::move(job)});
     }
     find_shared_edges(ranks, leaves, prepared.own);

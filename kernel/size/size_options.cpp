@@ -161,9 +161,10 @@ void SizeOptions::check() const {
         refuse_number("max-volume", fmt::format("{}", max_volume), "a number that double precision does not round off");
     require_in(size_range::cells, "cells", static_cast<double>(cells));
     const auto refuse_beside_cells = [&](const char* option, const std::string& text) {
-        throw Error(ErrorCode::usage, fmt::format("--cells is {} and --{} is {}, but each follows from the other. Leave "
-                                                  "one of them out.",
-                                                  cells, option, text));
+        throw Error(ErrorCode::usage,
+                    fmt::format("--cells is {} and --{} is {}, but each follows from the other. Leave "
+                                "one of them out.",
+                                cells, option, text));
     };
     if (cells > 0 && size.number() != 0) refuse_beside_cells("size", size.text());
     if (cells > 0 && max_volume != 0) refuse_beside_cells("max-volume", fmt::format("{}", max_volume));

@@ -6,11 +6,19 @@
 
 namespace kerf {
 
-/// Those for one facet, beside those that the volume asks for; `size`: the edge that is wanted there, or infinity.
-double tets_at_facet(double area, double size, const MesherOptions& mesher);
+/// What counts of a facet.
+struct FacetShape {
+    double edge = 0;     ///< of an equilateral one of its area
+    double longest = 0;  ///< of its own edges
+};
+FacetShape shape_of_facet(const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// Those for one facet, beside those that the volume asks for. `size`: the edge that is wanted there, or infinity;
+/// `half_thickness`: volume over area of the body.
+double tets_at_facet(const FacetShape& facet, double size, double half_thickness, const MesherOptions& mesher);
 
 /// The sum over the facets of a surface. O(#F) where the size is constant, else with a query of the field for each.
-double tets_at_facets(const SurfaceArrays& surface, const MesherOptions& mesher);
+double tets_at_facets(const SurfaceArrays& surface, double half_thickness, const MesherOptions& mesher);
 
 /// Those that the volume asks for, told from the sized volume (size/volume_samples.h); 0 where no size is wanted.
 double tets_inside(double sized_volume, const MesherOptions& mesher);

@@ -88,19 +88,20 @@ Reproducer tetgen_reproducer(const SurfaceArrays& surface, const MesherOptions& 
 // Measured on 270 parts of the assets: nine tenths have 0.74 to 1.25 times as many tetrahedra, and for their number
 // take 0.55 to 1.44 times the memory and 0.8 to 2 times the seconds. The work was fitted on 1,160 runs (rms 16 %).
 // TetGen counts the corners of tetrahedra in 32 bits.
-extern const Mesher tetgen_mesher = {.name = "tetgen",
-                                     .forecast = {.tets_by_edge_ratio = {0, 0, 0, 0, 0.8, 0.9, 1.2, 1.75, 2.1, 2.2, 2.3},
-                                                  .tets_per_volume_bound = 1.6,
-                                                  .tets_per_sized_volume = 1.4,
-                                                  .most_tets_per_facet = 1.9,
-                                                  .seconds_per_facet = 0,
-                                                  .seconds_per_tet = 5e-6,
-                                                  .bytes_per_tet = 220,
-                                                  .volume_weight = 0.606,
-                                                  .most_tets = 1 << 29},
-                                     .check = check_tetgen_options,
-                                     .fill = fill_with_tetgen,
-                                     .calls = tetgen_calls,
-                                     .reproducer = tetgen_reproducer};
+extern const Mesher tetgen_mesher = {
+    .name = "tetgen",
+    .forecast = {.tets_by_edge_ratio = {0, 0, 0, 0, 0.8, 0.9, 1.2, 1.75, 2.1, 2.2, 2.3},
+                 .tets_per_volume_bound = 1.6,
+                 .tets_per_sized_volume = 1.4,
+                 .most_tets_per_facet = 1.9,
+                 .seconds_per_facet = 0,
+                 .seconds_per_tet = 5e-6,
+                 .bytes_per_tet = 220,
+                 .volume_weight = 0.606,
+                 .most_tets = 1 << 29},
+    .check = check_tetgen_options,
+    .fill = fill_with_tetgen,
+    .calls = tetgen_calls,
+    .reproducer = tetgen_reproducer};
 
 }  // namespace kerf

@@ -66,6 +66,21 @@ TEST_F(BadInput, SizesThatAreNone) {
     expect_refused(good_, 3, {"hollow_box"}, {"-n", "1", "--size-field", good_});
 }
 
+// Whoever asks for a number of cells has no size of his own, on the command line nor in a file.
+TEST_F(BadInput, CellsBesideASize) {
+    expect_refused(good_, 2, {"--cells is 50000 and --size is 0.1", "Leave one of them out"},
+                   {"--cells", "50k", "--size", "0.1"});
+    expect_refused(good_, 2, {"--cells is 50000 and --size is 2%"}, {"--cells", "50k", "--size", "2%"});
+    expect_refused(good_, 2, {"--cells is 1000000 and --max-volume is 0.01"},
+                   {"--cells", "1M", "--max-volume", "0.01"});
+    const std::string config = write("kerf.toml", "size = 0.1\n");
+    expect_refused(good_, 2, {"--cells", "--size is 0.1"}, {"--cells", "5000", "--config", config});
+    for (const std::string cells : {"-5", "many", "1.5", "50 k", "1e99", ""})
+        expect_refused(good_, 2, {"--cells is ", "must be", "50k or 1M"}, {"--cells", cells});
+    expect_message(test::run_kerf({"remesh", good_, "-o", folder_.file("out.obj"), "--cells", "9k", "--size", "1"}), 2,
+                   {"--cells is 9000 and --size is 1"});
+}
+
 TEST_F(BadInput, TruncatedStl) {
     std::ifstream file(good_, std::ios::binary);
     std::string bytes(5000, '\0');

@@ -116,6 +116,35 @@ nlohmann::json options_of(const std::string& folder) {
     return nlohmann::json::parse(test::bytes_of_file(folder + "/report.json")).at("options");
 }
 
+// Cells become a size: asked for itself, that gives the same bytes, whatever the number of workers.
+TEST_F(Numbers, OfCellsAreASize) {
+    const auto mesh = [&](const std::string& output, std::vector<std::string> more) {
+        more.insert(more.begin(), {"mesh", ball_, "-q", "-n", "3", "-o", folder_.file(output)});
+        const ChildResult result = test::run_kerf(more);
+        EXPECT_EQ(result.exit_code, 0) << result.log;
+        return test::contents(folder_.file(output + "/parts"));
+    };
+    for (const std::string surface : {"split", "remesh"}) {
+        SCOPED_TRACE(surface);
+        const auto parts = mesh(surface, {"--cells", "20k", "--surface", surface, "--workers", "1"});
+        const auto report = nlohmann::json::parse(test::bytes_of_file(folder_.file(surface + "/report.json")));
+        const double size = report.at("options").at("size");
+        EXPECT_EQ(report.at("options").at("cells"), 0) << "what is in effect";
+        EXPECT_EQ(report.at("cells").at("asked"), 20'000);
+        EXPECT_EQ(report.at("cells").at("size"), size);
+        EXPECT_NEAR(report.at("cells").at("forecast").get<double>(), 20'000, 1'500);
+        EXPECT_NEAR(report.at("totals").at("tets").get<double>(), 20'000, 3'000);
+        EXPECT_EQ(test::run_kerf({"verify", folder_.file(surface), "-q"}).exit_code, 0);
+        EXPECT_TRUE(parts == mesh("sized", {"--size", fmt::format("{}", size), "--surface", surface}));
+        EXPECT_TRUE(parts == mesh("again", {"--cells", "20000", "--surface", surface, "--workers", "2"}));
+        const ChildResult dry =
+            test::run_kerf({"mesh", ball_, "-n", "3", "--cells", "20k", "--surface", surface, "--dry-run"});
+        const std::string said = test::output_of(dry) + dry.log;
+        for (const std::string& words : {std::string("20,000 asked for"), fmt::format("size {}", size)})
+            EXPECT_NE(said.find(words), std::string::npos) << said;
+    }
+}
+
 // The diagonal of the ball's box is its own, whatever is written.
 TEST_F(Numbers, PercentIsOfTheDiagonal) {
     const double diagonal = 2 * std::sqrt(3.0);

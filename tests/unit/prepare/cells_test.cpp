@@ -44,7 +44,7 @@ void expect_cells(const Input& input, const RunOptions& options, double toleranc
     EXPECT_EQ(std::stod(fmt::format("{:.4g}", sized.found->size)), sized.found->size);
     EXPECT_TRUE(sized.input.notes.size() == input.notes.size()) << sized.input.notes.back();
     const auto cells = static_cast<double>(options.sizes.cells);
-    EXPECT_NEAR(sized.found->tets / cells, 1, 0.075);
+    EXPECT_LE(std::abs(std::log(sized.found->tets / cells)), 0.07);
     EXPECT_NEAR(tets_of(sized) / cells, 1, tolerance);
 }
 
@@ -65,14 +65,15 @@ TEST(Cells, AreAsManyAsAskedForWhereTheSurfaceIsRemeshed) {
         for (const std::int64_t cells : {5'000, 100'000}) expect_cells(body, with_cells(cells, Remeshing::always));
 }
 
+// Of sizes that differ less is known.
 TEST(Cells, CountWhatIsFinerAtPlaces) {
     const Input ball = input_of(test::icosphere(4));
     for (const std::int64_t cells : {60'000, 150'000}) {
         RunOptions options = with_cells(cells);
         options.sizes.inside = {"sphere:0.5,0,0,0.3=0.04"};
-        expect_cells(ball, options);
+        expect_cells(ball, options, 0.2);
         options.remeshing = Remeshing::always;
-        expect_cells(ball, options);
+        expect_cells(ball, options, 0.2);
     }
 }
 
@@ -85,7 +86,7 @@ TEST(Cells, FewerThanTheFacetsNeedAreNoted) {
     EXPECT_TRUE(sized.options.mesher.size.is_empty());
     EXPECT_NEAR(sized.found->tets / tets_of(sized), 1, 0.25);
     ASSERT_EQ(sized.input.notes.size(), ball.notes.size() + 1);
-    for (const char* words : {"--cells asks for 1 k", "at least", "--surface remesh"})
+    for (const char* words : {"--cells asks for 1 k", "the facets need about", "--surface remesh", "--cells 1"})
         EXPECT_NE(sized.input.notes.back().find(words), std::string::npos) << sized.input.notes.back();
 }
 

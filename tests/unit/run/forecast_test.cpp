@@ -57,8 +57,8 @@ std::vector<PartReport> random_parts(unsigned seed) {
     for (std::size_t i = 0; i < parts.size(); ++i) {
         parts[i].id = static_cast<NodeId>(parts.size() + i);
         parts[i].surface_facets = std::uniform_int_distribution<std::int64_t>(100, 3'000'000)(random);
-        parts[i].tets_at_facets = std::uniform_real_distribution<double>(0.5, 3)(random) *
-                                  static_cast<double>(parts[i].surface_facets);
+        parts[i].tets_at_facets =
+            std::uniform_real_distribution<double>(0.5, 3)(random) * static_cast<double>(parts[i].surface_facets);
         parts[i].surface_volume = std::uniform_real_distribution<double>(0, 1)(random);
         parts[i].sized_volume = parts[i].surface_volume;
     }

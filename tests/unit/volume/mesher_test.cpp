@@ -275,9 +275,8 @@ TEST(Meshers, KeepTheLawsOfTheTable) {
 TEST(Meshers, ForecastWhatBodiesTake) {
     for (const Mesher* mesher : meshers()) {
         const MesherForecast& f = mesher->forecast;
-        for (const double value :
-             {f.tets_by_edge_ratio.back(), f.most_tets_per_facet, f.tets_per_volume_bound, f.tets_per_sized_volume,
-              f.seconds_per_tet, f.volume_weight})
+        for (const double value : {f.tets_by_edge_ratio.back(), f.most_tets_per_facet, f.tets_per_volume_bound,
+                                   f.tets_per_sized_volume, f.seconds_per_tet, f.volume_weight})
             EXPECT_GT(value, 0) << mesher->name;
         for (const double value : f.tets_by_edge_ratio) EXPECT_GE(value, 0) << mesher->name;
         EXPECT_GE(f.bytes_per_tet, sizeof(Tetrahedron)) << mesher->name;
