@@ -22,7 +22,7 @@ namespace {
 
 constexpr int most_remeshings = 4, most_tries = 40;
 constexpr double least_share = 1e-9;                            // of the diagonal, for sizes
-constexpr double good_forecast = 0.005, good_remeshing = 0.07;  // of the number of tetrahedra
+constexpr double good_forecast = 0.005, good_remeshing = 0.05;  // of the number of tetrahedra
 constexpr double usual_slope = -2.3, flattest_slope = -0.8, steepest_slope = -3.2, largest_step = 4;
 constexpr double usual_edge = 0.89, usual_longest = 1;  // of facets of a remeshed surface, over the wanted length
 

@@ -33,7 +33,7 @@ RunOptions with_forecast_size(const Input& input, RunOptions options);
 /// remesh_where_asked(), and the options with a size in place of SizeOptions::cells: that with which the mesher of the
 /// options is forecast to make this number of tetrahedra. Where the surface is remeshed, what its shape asks for is
 /// known afterwards: it is remeshed up to four times, with sizes that are closer and closer, until the forecast is
-/// within 7 % of the number, and the closest is taken. If even the coarsest mesh has more, that is what comes, with a
+/// within 5 % of the number, and the closest is taken. If even the coarsest mesh has more, that is what comes, with a
 /// note in Input::notes. Depends on input and options alone. Throws as remesh_where_asked() and read_size_field() do.
 SizedInput remesh_and_size(Input input, const RunOptions& options, StageListener* listener = nullptr,
                            int processes = 1);

@@ -44,7 +44,7 @@ void expect_cells(const Input& input, const RunOptions& options, double toleranc
     EXPECT_EQ(std::stod(fmt::format("{:.4g}", sized.found->size)), sized.found->size);
     EXPECT_TRUE(sized.input.notes.size() == input.notes.size()) << sized.input.notes.back();
     const auto cells = static_cast<double>(options.sizes.cells);
-    EXPECT_LE(std::abs(std::log(sized.found->tets / cells)), 0.07);
+    EXPECT_LE(std::abs(std::log(sized.found->tets / cells)), 0.05);
     EXPECT_NEAR(tets_of(sized) / cells, 1, tolerance);
 }
 

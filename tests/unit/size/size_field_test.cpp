@@ -56,6 +56,7 @@ TEST(SizeField, IsTheMinimumOfItsSources) {
             EXPECT_GE(field.at(p), field.smallest());
             const double bound = uniform(random, 0, 2);
             EXPECT_EQ(field.at(p, bound), std::min(bound, least));
+            EXPECT_EQ(field.with_constant(0.3).with_constant(constant).at(p), least);
             EXPECT_NEAR(field.coarser(8).at(p), 2 * least, 1e-14 * least);
             EXPECT_NEAR(field.max_volume_at(p), regular_tet_volume(least), 1e-14 * regular_tet_volume(least));
             EXPECT_GE(field.max_volume_at(p), field.reference_volume() * (1 - 1e-14));

@@ -1,4 +1,5 @@
 #include "volume/meshers.h"
+#include "volume/tet_forecast.h"
 
 #include <algorithm>
 #include <cmath>
@@ -283,6 +284,26 @@ TEST(Meshers, ForecastWhatBodiesTake) {
         EXPECT_LT(f.most_tets, std::numeric_limits<std::int32_t>::max()) << mesher->name;
     }
     EXPECT_EQ(LoadModel().volume_weight, find_mesher(MesherOptions().name).forecast.volume_weight);
+}
+
+// As many for a body in another unit, and nearly so for a size that is nearly the same.
+TEST(Meshers, ForecastByRatiosAlone) {
+    for (const Mesher* mesher : meshers()) {
+        MesherOptions options;
+        options.name = mesher->name;
+        const auto at_facet = [&](double scale, double size) {
+            return tets_at_facet({scale, 1.1 * scale}, size * scale, 2 * scale, options);
+        };
+        for (double size = 0.01; size < 100; size *= 1.01) {
+            SCOPED_TRACE(testing::Message() << mesher->name << ", size " << size);
+            EXPECT_NEAR(at_facet(1e-3, size), at_facet(1, size), 1e-9 * at_facet(1, size));
+            EXPECT_LE(std::abs(at_facet(1, 1.01 * size) - at_facet(1, size)), 0.2 * at_facet(1, size) + 0.05);
+        }
+        EXPECT_EQ(at_facet(1, std::numeric_limits<double>::infinity()), at_facet(1, 1e9)) << "where none is wanted";
+        EXPECT_EQ(tets_inside(1, options), 0) << "no size";
+        options.size = SizeField(0.01);
+        EXPECT_NEAR(tets_inside(2, options), 2 * tets_inside(1, options), 1e-9);
+    }
 }
 
 TEST(Mesher, ReportsIntersectingFacets) {
