@@ -21,8 +21,8 @@ namespace kerf {
 namespace {
 
 constexpr int most_remeshings = 4, most_tries = 40;
-constexpr double least_share = 1e-9;                            // of the diagonal, for sizes
-constexpr double good_forecast = 0.005, good_remeshing = 0.05;  // of the number of tetrahedra
+constexpr double least_share = 1e-9;                                                 // of the diagonal, for sizes
+constexpr double good_forecast = 0.005, good_remeshing = 0.05, noted_excess = 0.14;  // of the number of tetrahedra
 constexpr double usual_slope = -2.3, flattest_slope = -0.8, steepest_slope = -3.2, largest_step = 4;
 constexpr double usual_edge = 0.89, usual_longest = 1;  // of facets of a remeshed surface, over the wanted length
 
@@ -152,7 +152,7 @@ std::string enough(double tets) {
 
 // Empty if there will be as many as were asked for.
 std::string note_of(const FoundSize& found, bool is_remeshed, const SizeOptions& sizes) {
-    if (excess_of(found) < good_remeshing) return "";
+    if (excess_of(found) < noted_excess) return "";
     return fmt::format(
         "--cells asks for {} tetrahedra, but {}{} need about {} at least: there are as few as they allow. "
         "{}sk for --cells {} or more.",

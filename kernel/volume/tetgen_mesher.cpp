@@ -91,7 +91,7 @@ Reproducer tetgen_reproducer(const SurfaceArrays& surface, const MesherOptions& 
 extern const Mesher tetgen_mesher = {
     .name = "tetgen",
     .forecast = {.tets_by_edge_ratio = {0, 0, 0, 0, 0.8, 0.9, 1.2, 1.75, 2.1, 2.2, 2.3},
-                 .tets_per_volume_bound = 1.6,
+                 .tets_per_volume_bound = 1.48,
                  .tets_per_sized_volume = 1.4,
                  .most_tets_per_facet = 1.9,
                  .seconds_per_facet = 0,
