@@ -18,7 +18,7 @@ constexpr double least_ratio = 0.25, steps_per_octave = 2;  // of MesherForecast
 // Fitted to 12 surfaces of well-shaped facets with 8 sizes each, and to 8 others.
 constexpr double coarse_ratio = 0.5, reach_of_coarse = 2.45;  // in edges
 constexpr double growing_octaves = 3, tets_by_depth = 0.43, usual_depth = 2.1, least_by_depth = -0.9;
-constexpr double usual_slenderness = 1.06, largest_slenderness = 1.6;
+constexpr double usual_slenderness = 1.06, largest_slenderness = 1.6, power_of_slenderness = 1.5;
 
 double tets_by_edge_ratio(const MesherForecast& known, double ratio) {
     const auto& tets = known.tets_by_edge_ratio;
@@ -45,7 +45,7 @@ double tets_at_facet(const FacetShape& facet, double size, double half_thickness
     const double growing = std::clamp(std::log2(ratio) / growing_octaves, 0.0, 1.0);
     const double by_depth = std::max(least_by_depth, tets_by_depth * std::log(depth / usual_depth));
     const double slenderness = std::clamp(facet.longest / facet.edge / usual_slenderness, 1.0, largest_slenderness);
-    return (usual + growing * by_depth) * std::lerp(1.0, slenderness, growing);
+    return (usual + growing * by_depth) * std::lerp(1.0, std::pow(slenderness, power_of_slenderness), growing);
 }
 
 double tets_at_facets(const SurfaceArrays& surface, double half_thickness, const MesherOptions& mesher) {
