@@ -13,7 +13,7 @@ namespace kerf {
 namespace {
 
 constexpr double much_longer = 4;        // times as long as the facet below it: beyond that it is rather halved
-constexpr double needle = 1e-6;          // height over length of a facet, below which its directions are noise
+constexpr double flattest = 1e-6;        // height over length of a facet, below which its directions are noise
 constexpr double thinnest = 1e-6;        // of the limit: pieces as thin as that are none
 constexpr int longest_walk = 40;         // from facet to facet: needles are crossed by the dozen
 constexpr double shortest_piece = 1e-3;  // length of a polygon over the limit, below which it is not divided
@@ -48,7 +48,7 @@ Nearness::Nearness(const TriangleTree& surface, const std::vector<Triangle>& fac
             frame.outwards[i] = along.cross(normal).normalized();
             longest = std::max(longest, along.squaredNorm());
         }
-        frame.is_needle = !(normal.norm() > needle * longest);
+        frame.is_needle = !(normal.norm() > flattest * longest);
         frames_.push_back(frame);
     }
 }

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "prepare/remeshing.h"
 #include "support/damage.h"
 #include "support/decomposition_laws.h"
 #include "support/program.h"

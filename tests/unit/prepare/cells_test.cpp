@@ -16,7 +16,7 @@
 namespace kerf {
 namespace {
 
-Input input_of(const Soup& soup) { return make_input(soup.vertices, soup.facets, soup.patch, soup.patch_names); }
+Input input_from(const Soup& soup) { return make_input(soup.vertices, soup.facets, soup.patch, soup.patch_names); }
 
 RunOptions with_cells(std::int64_t cells, Remeshing remeshing = Remeshing::never) {
     RunOptions options;
@@ -50,8 +50,8 @@ void expect_cells(const Input& input, const RunOptions& options, double toleranc
 
 TEST(Cells, AreAsManyAsAskedForWhereFacetsAreKept) {
     const Input bodies[] = {read_input(test::asset_path("cylinder")), read_input(test::asset_path("hollow_box")),
-                            read_input(test::asset_path("wing_in_box")), input_of(test::icosphere(4)),
-                            input_of(test::box(Vec3::Zero(), Vec3(3, 1, 0.3), {30, 10, 3}))};
+                            read_input(test::asset_path("wing_in_box")), input_from(test::icosphere(4)),
+                            input_from(test::box(Vec3::Zero(), Vec3(3, 1, 0.3), {30, 10, 3}))};
     for (const Input& body : bodies)
         for (const double per_facet : {5, 15, 40})
             expect_cells(body, with_cells(std::llround(per_facet * static_cast<double>(body.facets))));
@@ -59,15 +59,15 @@ TEST(Cells, AreAsManyAsAskedForWhereFacetsAreKept) {
 
 // From a few facets, and from many: the size decides alone.
 TEST(Cells, AreAsManyAsAskedForWhereTheSurfaceIsRemeshed) {
-    const Input bodies[] = {input_of(test::icosphere(3)), input_of(test::prism(48, 1, 3)),
-                            input_of(test::box(Vec3::Zero(), Vec3(3, 1, 0.3), 1))};
+    const Input bodies[] = {input_from(test::icosphere(3)), input_from(test::prism(48, 1, 3)),
+                            input_from(test::box(Vec3::Zero(), Vec3(3, 1, 0.3), 1))};
     for (const Input& body : bodies)
         for (const std::int64_t cells : {5'000, 100'000}) expect_cells(body, with_cells(cells, Remeshing::always));
 }
 
 // Of sizes that differ less is known.
 TEST(Cells, CountWhatIsFinerAtPlaces) {
-    const Input ball = input_of(test::icosphere(4));
+    const Input ball = input_from(test::icosphere(4));
     for (const std::int64_t cells : {60'000, 150'000}) {
         RunOptions options = with_cells(cells);
         options.sizes.inside = {"sphere:0.5,0,0,0.3=0.04"};
@@ -79,7 +79,7 @@ TEST(Cells, CountWhatIsFinerAtPlaces) {
 
 // Even without any size there are more: one sentence says so, and the least that there will be.
 TEST(Cells, FewerThanTheFacetsNeedAreNoted) {
-    const Input ball = input_of(test::icosphere(4));
+    const Input ball = input_from(test::icosphere(4));
     const SizedInput sized = remesh_and_size(ball, with_cells(1'000));
     ASSERT_TRUE(sized.found);
     EXPECT_EQ(sized.found->size, 0);
@@ -91,7 +91,7 @@ TEST(Cells, FewerThanTheFacetsNeedAreNoted) {
 }
 
 TEST(Cells, AreNoBusinessOfWhoAsksForNone) {
-    const Input ball = input_of(test::icosphere(2));
+    const Input ball = input_from(test::icosphere(2));
     RunOptions options;
     options.sizes.size = 0.3;
     EXPECT_EQ(with_forecast_size(ball, options).sizes.size, 0.3);
