@@ -98,18 +98,24 @@ draw_bracket() {
     done
 }
 
+# draw_cad_surface NAME WHEN ENDING [OPTION...]
+draw_cad_surface() {
+    local name=$1 when=$2 ending=$3
+    shift 3
+    draw "cad_${name}_$when.png" "$work/cad_$name.$ending" "$@" --stage input --state "$work/no_axes.json" \
+        --no-legend --antialias 2 --resolution 480x360
+}
+
 # before_and_after FILE NAME [OPTION...]: a CAD file's surface as OpenCASCADE triangulates it, and remeshed.
 before_and_after() {
-    local file=$1 name=$2 end
+    local file=$1 name=$2
     shift 2
     "$kerf" decompose "$file" "$@" --surface split -n 1 --stl -q -o "$work/cad_$name"
     "$kerf" remesh "$file" "$@" -q -o "$work/cad_$name.obj"
     cp "$(find "$work/cad_$name" -name '*.stl')" "$work/cad_$name.stl"
     echo '{"axes": false}' >"$work/no_axes.json"
-    for end in stl:before obj:after; do
-        draw "cad_${name}_${end#*:}.png" "$work/cad_$name.${end%:*}" --stage input --state "$work/no_axes.json" \
-            --no-legend --antialias 2 --resolution 480x360
-    done
+    draw_cad_surface "$name" before stl --surface split
+    draw_cad_surface "$name" after obj
 }
 
 draw_cad() {
