@@ -162,7 +162,7 @@ Input remesh_where_asked(Input input, const RunOptions& options, StageListener* 
                       .distance_to_input = remeshed.report.distance_to_input,
                       .distance_from_input = remeshed.report.distance_from_input,
                       .feature_edges = remeshed.report.feature_edges,
-                      .finer_share = remeshed.report.finer_share};
+                      .finer_share = wanted.wanted ? remeshed.report.finer_share : 0};
     input.surface = Surface(std::move(remeshed.surface));
     measure_input(input);
     return input;

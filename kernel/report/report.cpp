@@ -144,11 +144,17 @@ std::string time_text(const RunReport& report) {
 
 std::string remeshing_text(const InputRemeshing& done) {
     const std::string kept = done.facets_kept > 0 ? fmt::format(", {} of them kept", grouped(done.facets_kept)) : "";
+    constexpr double told_share = 0.01;
+    const std::string finer =
+        done.finer_share >= told_share
+            ? fmt::format("; finer than asked for on {:.0f} % of the area, where the surface folds or is thin",
+                          100 * done.finer_share)
+            : "";
     return fmt::format(
         "from {} facets{}; smallest angle {:.3g} deg from {:.3g}; largest distances {:.2g} and {:.2g} of "
-        "{:.2g}",
+        "{:.2g}{}",
         grouped(done.facets_before), kept, done.smallest_angle_deg, done.smallest_angle_before_deg,
-        done.distance_to_input, done.distance_from_input, done.deviation);
+        done.distance_to_input, done.distance_from_input, done.deviation, finer);
 }
 
 namespace {
