@@ -18,7 +18,8 @@ constexpr double angle_for_a_vertex_deg = 20;        // cells with a smaller one
 constexpr double angle_where_sizes_differ_deg = 12;  // ... and here with this one, because vertices crowd
 constexpr int first_round_with_vertices = 2;         // before, much is mended without
 constexpr double first_least_made_deg = 8, later_least_made_deg = 3;  // of cells around a new vertex
-constexpr double share_for_vertices = 0.25;                           // of all; more only for ...
+constexpr double much_better = 3;            // in squared cotangents: what a vertex must make of a cell that is worse
+constexpr double share_for_vertices = 0.25;  // of all; more only for ...
 constexpr double angle_of_no_volume_deg = 0.01;         // ... cells with a smaller one, which no solver can use
 constexpr double least_share_of_a_round = 0.1;          // of the bad cells, or there is no other round
 constexpr std::int64_t evaluations_of_any_mesh = 1000;  // beside those for each of its cells
@@ -164,12 +165,14 @@ class Improver {
         if (!may_be || badness < bad_enough_for_a_vertex_) return false;
         if (badness < without_volume_ && evaluations_for_vertices_ > share_for_vertices * evaluation_budget_)
             return false;
+        // A sliver between facets is better replaced by what is still bad, but can be moved.
         const double least_made_deg =
             result_->rounds == first_round_with_vertices ? first_least_made_deg : later_least_made_deg;
         // Anything is better than a cell whose volume is lost in rounding.
-        const double limit = badness > without_volume_ ? badness
-                                                       : std::min(badness - least_gain_of_a_move * (1 + badness),
-                                                                  square_from_degrees(least_made_deg));
+        const double limit = badness > without_volume_
+                                 ? badness
+                                 : std::min(badness - least_gain_of_a_move * (1 + badness),
+                                            std::max(square_from_degrees(least_made_deg), badness / much_better));
         evaluations_for_vertices_ -= mesh_.evaluations();
         const std::span<const std::int32_t> cavity = insertion_.insert(mesh_, cell, limit);
         evaluations_for_vertices_ += mesh_.evaluations();

@@ -45,9 +45,10 @@ struct Improvement {
 /// shewchuk2002), and where none can be, vertices are moved (freitag1997, klingner2007). From the second round on,
 /// where that does not help and an angle is below 20 degrees, or above 160, a vertex is added (klingner2007); below 12
 /// or above 168 where sizes differ from place to place, which more vertices would not obey. It must leave no cell below
-/// 8 degrees, 3 in later rounds, or vertices would crowd where the surface allows no better. Cells below 0.01 degrees,
-/// whose volume is lost in rounding, come first and are given up last. Flips of single faces are not tried: of 600,000
-/// bad cells of the assets they helped three that the others did not.
+/// 8 degrees, 3 in later rounds, or vertices would crowd where the surface allows no better; of a sharper one it may
+/// leave those of 1.7 times its angle. Cells below 0.01 degrees, whose volume is lost in rounding, come first and are
+/// given up last. Flips of single faces are not tried: of 600,000 bad cells of the assets they helped three that the
+/// others did not.
 ///
 /// All faces that have a cell on one side only stay, as do the vertices on them, the first boundary_vertex_count
 /// vertices, and those of frozen cells; no vertex is removed or gets another number, new ones come last. Cells that are

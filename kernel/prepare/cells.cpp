@@ -34,21 +34,26 @@ class TetForecast {
         options_.sizes.cells = 0;
         if (options_.sizes.depends_on_place()) places_ = read_size_field(options_.sizes, surface_, input.patch_names);
     }
-    double tets(double size) const {
+    double tets(double size, CoarseFacets coarse = CoarseFacets::kept) const {
         const RunOptions options = options_of(size);
-        return tets_at_facets(surface_, half_thickness(), options.mesher) +
+        return tets_at_facets(surface_, half_thickness(), options.mesher, coarse) +
                tets_inside(sized_volume_of(options), options.mesher);
     }
-    // If it is remeshed to that size before.
+    // If this is done before.
+    double tets_after(SurfaceChange change, double size) const {
+        if (change == SurfaceChange::remeshing) return tets_if_remeshed(size);
+        return tets(size, change == SurfaceChange::division ? CoarseFacets::divided : CoarseFacets::kept);
+    }
+
+ private:
     double tets_if_remeshed(double size) const {
         const RunOptions options = options_of(size);
         const FacetShape usual{usual_edge * size, usual_longest * size};
         const double of_facet = tets_at_facet(usual, size, half_thickness(), options.mesher);
-        return of_facet * forecast_remeshed_facets(input_, with_size(options_, size)) +
+        return of_facet * forecast_changed_facets(input_, with_size(options_, size)) +
                tets_inside(sized_volume_of(options), options.mesher);
     }
 
- private:
     RunOptions options_of(double size) const {
         return with_sizes(options_, places_.with_constant(size > 0 ? regular_tet_volume(size) : 0));
     }
@@ -92,13 +97,12 @@ double find_root(double small, double large, const Excess& excess) {
     return with_four_digits(std::exp(middle));
 }
 
-double forecast_size(const Input& input, const RunOptions& options, bool is_to_be_remeshed) {
+double forecast_size(const Input& input, const RunOptions& options, SurfaceChange change) {
     const TetForecast forecast(input, options);
     const auto cells = static_cast<double>(options.sizes.cells);
     const double small = std::max(regular_tet_edge(input.volume / cells), least_share * input.diagonal);
-    return find_root(small, std::max(input.diagonal, 2 * small), [&](double size) {
-        return std::log((is_to_be_remeshed ? forecast.tets_if_remeshed(size) : forecast.tets(size)) / cells);
-    });
+    return find_root(small, std::max(input.diagonal, 2 * small),
+                     [&](double size) { return std::log(forecast.tets_after(change, size) / cells); });
 }
 
 // The next size after those that were tried, with what came of them.
@@ -116,32 +120,34 @@ double next_size(const std::vector<FoundSize>& tried) {
 
 double excess_of(const FoundSize& found) { return std::log(found.tets / static_cast<double>(found.cells)); }
 
-SizedInput remesh_to_cells(const Input& input, const RunOptions& options, StageListener* listener, int processes) {
-    SizedInput best;
-    std::vector<FoundSize> tried;
-    double size = forecast_size(input, options, true);
-    if (size == 0) size = with_four_digits(input.diagonal);
-    while (true) {
-        RunOptions sized = with_size(options, size);
-        Input remeshed = remesh_where_asked(input, sized, listener, processes);
-        tried.push_back({options.sizes.cells, size, TetForecast(remeshed, options).tets(size)});
-        const double excess = excess_of(tried.back());
-        if (!best.found || std::abs(excess) < std::abs(excess_of(*best.found)))
-            best = {std::move(remeshed), std::move(sized), tried.back()};
-        if (std::abs(excess) < good_remeshing || tried.size() == most_remeshings) break;
-        size = std::min(next_size(tried), with_four_digits(input.diagonal));
-        if (size == tried.back().size) break;
-    }
-    best.found->remeshings = static_cast<int>(tried.size());
-    return best;
-}
-
 SizedInput size_to_cells(Input input, const RunOptions& options, StageListener* listener, int processes) {
-    const double size = forecast_size(input, options, false);
+    const double size = forecast_size(input, options, SurfaceChange::none);
     const FoundSize found{options.sizes.cells, size, TetForecast(input, options).tets(size)};
     RunOptions sized = with_size(options, size);
     input = remesh_where_asked(std::move(input), sized, listener, processes);
     return {std::move(input), std::move(sized), found};
+}
+
+SizedInput change_to_cells(const Input& input, const RunOptions& options, SurfaceChange change, StageListener* listener,
+                           int processes) {
+    SizedInput best;
+    std::vector<FoundSize> tried;
+    double size = forecast_size(input, options, change);
+    if (size == 0 && change == SurfaceChange::division) return size_to_cells(input, options, listener, processes);
+    if (size == 0) size = with_four_digits(input.diagonal);
+    while (true) {
+        RunOptions sized = with_size(options, size);
+        Input changed = remesh_where_asked(input, sized, listener, processes);
+        tried.push_back({options.sizes.cells, size, TetForecast(changed, options).tets(size)});
+        const double excess = excess_of(tried.back());
+        if (!best.found || std::abs(excess) < std::abs(excess_of(*best.found)))
+            best = {std::move(changed), std::move(sized), tried.back()};
+        if (std::abs(excess) < good_remeshing || tried.size() == most_remeshings) break;
+        size = std::min(next_size(tried), with_four_digits(input.diagonal));
+        if (size == tried.back().size) break;
+    }
+    best.found->remeshings = change == SurfaceChange::remeshing ? static_cast<int>(tried.size()) : 0;
+    return best;
 }
 
 // Rounded up to two digits, as an option takes it.
@@ -165,17 +171,17 @@ std::string note_of(const FoundSize& found, bool is_remeshed, const SizeOptions&
 
 RunOptions with_forecast_size(const Input& input, RunOptions options) {
     if (options.sizes.cells == 0) return options;
-    const double size = forecast_size(input, options, is_remeshed(input, options));
+    const double size = forecast_size(input, options, surface_change(input, options));
     return with_size(std::move(options), size);
 }
 
 SizedInput remesh_and_size(Input input, const RunOptions& options, StageListener* listener, int processes) {
     if (options.sizes.cells == 0)
         return {remesh_where_asked(std::move(input), options, listener, processes), options, std::nullopt};
-    const bool remeshes = is_remeshed(input, options);
-    SizedInput sized = remeshes ? remesh_to_cells(input, options, listener, processes)
-                                : size_to_cells(std::move(input), options, listener, processes);
-    const std::string note = note_of(*sized.found, remeshes, options.sizes);
+    const SurfaceChange change = surface_change(input, options);
+    SizedInput sized = change == SurfaceChange::none ? size_to_cells(std::move(input), options, listener, processes)
+                                                     : change_to_cells(input, options, change, listener, processes);
+    const std::string note = note_of(*sized.found, change == SurfaceChange::remeshing, options.sizes);
     if (!note.empty()) sized.input.notes.push_back(note);
     return sized;
 }

@@ -33,10 +33,11 @@ struct CheckedSoup {
     double weld_tolerance = 0;  ///< that was used, units of the file
 };
 
-/// What remeshing did to a surface (prepare/remeshing.h).
+/// What remeshing, or division, did to a surface (prepare/remeshing.h).
 struct InputRemeshing {
     std::int64_t facets_before = 0;
-    std::int64_t facets_kept = 0;  ///< of these, because no sliver is near
+    std::int64_t facets_kept = 0;  ///< of these, because no sliver is near, or because they are as small as wanted
+    bool only_divided = false;     ///< the shape is the same
     double smallest_angle_before_deg = 0, smallest_angle_deg = 0;
     double deviation = 0;  ///< that was allowed, units of the input
     double distance_to_input = 0,

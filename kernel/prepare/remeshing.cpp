@@ -10,6 +10,7 @@
 #include "core/number_text.h"
 #include "core/regular_tet.h"
 #include "parallel/process_memory.h"
+#include "prepare/facet_division.h"
 #include "prepare/size_reader.h"
 #include "prepare/slivers.h"
 #include "remesh/remesh.h"
@@ -73,17 +74,22 @@ RemeshOptions remesh_options(const Input& input, const SurfaceArrays& surface, c
     return result;
 }
 
-void check_memory(const SurfaceArrays& surface, const RemeshOptions& options, bool have_one_size, int processes) {
-    const double facets = forecast_facets(surface, options);
+void check_memory(double facets, const RunOptions& options, double edge, int processes) {
     const double most = most_memory_bytes(processes) / bytes_per_facet;
     if (facets <= most) return;
     // A twentieth more than what there is memory for, so that it stays enough when it is rounded.
-    const std::string way_out =
-        have_one_size ? fmt::format("Use --size {:.2g} or larger", 1.05 * options.longest * std::sqrt(facets / most))
-                      : "Use larger sizes";
+    const std::string way_out = options.sizes.depends_on_place() ? "Use larger sizes"
+                                                                 : fmt::format("Use --size {:.2g} or larger",
+                                                                               1.05 * edge * std::sqrt(facets / most));
     throw Error(ErrorCode::memory,
-                fmt::format("The remeshed surface would have about {} facets, but there is memory for {}. {}.",
+                fmt::format("The surface of these sizes would have about {} facets, but there is memory for {}. {}.",
                             short_number(facets), short_number(most), way_out));
+}
+
+// Tells of steps, of nobody knows how many.
+std::function<void()> step_counter(StageListener* listener) {
+    if (!listener) return {};
+    return [listener, steps = std::size_t{0}]() mutable { tell_progress(listener, "remesh", steps++, 0); };
 }
 
 // Of what nobody has asked for.
@@ -98,20 +104,55 @@ std::string note_of_remeshing(const Input& input, const SurfaceArrays& surface, 
         options.deviation);
 }
 
+Input remeshed(Input input, const RunOptions& options, StageListener* listener, int processes) {
+    const SurfaceArrays before = input.surface.arrays();
+    RemeshOptions wanted = remesh_options(input, before, options);
+    if (options.remeshing == Remeshing::where_needed) input.notes.push_back(note_of_remeshing(input, before, wanted));
+    check_memory(forecast_facets(before, wanted), options, wanted.longest, processes);
+    wanted.poll = step_counter(listener);
+    if (wanted.poll) wanted.poll();
+    Remeshed result = remesh(before, wanted);
+
+    input.remeshed = {.facets_before = input.facets,
+                      .facets_kept = std::count(wanted.kept.begin(), wanted.kept.end(), char{1}),
+                      .smallest_angle_before_deg = smallest_angle(before),
+                      .smallest_angle_deg = smallest_angle(result.surface),
+                      .deviation = wanted.deviation,
+                      .distance_to_input = result.report.distance_to_input,
+                      .distance_from_input = result.report.distance_from_input,
+                      .feature_edges = result.report.feature_edges,
+                      .finer_share = wanted.wanted ? result.report.finer_share : 0};
+    input.surface = Surface(std::move(result.surface));
+    measure_input(input);
+    return input;
+}
+
+Input divided(Input input, const RunOptions& options, StageListener* listener, int processes) {
+    const SurfaceArrays before = input.surface.arrays();
+    const SizeField wanted = wanted_lengths(options, before, input);
+    check_memory(forecast_divided_facets(before, wanted), options, longest_edge(options, input.diagonal), processes);
+    DividedSurface result = divide_facets(before, wanted, CancellationCheck(step_counter(listener)));
+
+    input.remeshed = {.facets_before = input.facets,
+                      .facets_kept = result.kept,
+                      .only_divided = true,
+                      .smallest_angle_before_deg = smallest_angle(before),
+                      .smallest_angle_deg = smallest_angle(result.surface)};
+    input.surface = Surface(std::move(result.surface));
+    measure_input(input);
+    return input;
+}
+
 }  // namespace
 
-bool is_remeshed(const Input& input, const RunOptions& options) {
-    switch (options.remeshing) {
-        case Remeshing::never:
-            return false;
-        case Remeshing::always:
-            return true;
-        case Remeshing::where_needed:
-            break;
-    }
-    if (input.is_cad) return true;
+SurfaceChange surface_change(const Input& input, const RunOptions& options) {
+    if (options.remeshing == Remeshing::never) return SurfaceChange::none;
+    if (options.remeshing == Remeshing::always || input.is_cad) return SurfaceChange::remeshing;
     const SurfaceArrays surface = input.surface.arrays();
-    return find_slivers(surface.vertices, surface.facets).spoil_cells();
+    if (find_slivers(surface.vertices, surface.facets).spoil_cells()) return SurfaceChange::remeshing;
+    if (options.sizes.cells > 0 || has_facets_to_divide(surface, wanted_lengths(options, surface, input)))
+        return SurfaceChange::division;
+    return SurfaceChange::none;
 }
 
 // Whoever wants a size gets it: a bound that is much smaller would ask for finer facets wherever the surface is curved.
@@ -132,40 +173,24 @@ double deviation_for(const Length& wanted, double diagonal) {
     return deviation;
 }
 
-double forecast_remeshed_facets(const Input& input, const RunOptions& options) {
-    if (!is_remeshed(input, options)) return static_cast<double>(input.facets);
+double forecast_changed_facets(const Input& input, const RunOptions& options) {
+    const auto facets = static_cast<double>(input.facets);
+    const SurfaceChange change = surface_change(input, options);
+    if (change == SurfaceChange::none) return facets;
     const SurfaceArrays surface = input.surface.arrays();
+    if (change == SurfaceChange::division)
+        return forecast_divided_facets(surface, wanted_lengths(options, surface, input));
     return forecast_facets(surface, remesh_options(input, surface, options));
 }
 
 Input remesh_where_asked(Input input, const RunOptions& options, StageListener* listener, int processes) {
-    const SurfaceArrays before = input.surface.arrays();
-    if (!is_remeshed(input, options)) {
-        const std::string note = sliver_note(find_slivers(before.vertices, before.facets), input.path);
-        if (!note.empty()) input.notes.push_back(note);
-        return input;
-    }
-    RemeshOptions wanted = remesh_options(input, before, options);
-    if (options.remeshing == Remeshing::where_needed) input.notes.push_back(note_of_remeshing(input, before, wanted));
-    check_memory(before, wanted, !options.sizes.depends_on_place(), processes);
-    if (listener) {
-        wanted.poll = [listener, steps = std::size_t{0}]() mutable { tell_progress(listener, "remesh", steps++, 0); };
-        wanted.poll();
-    }
-    Remeshed remeshed = remesh(before, wanted);
-
-    input.remeshed = {.facets_before = input.facets,
-                      .facets_kept = std::count(wanted.kept.begin(), wanted.kept.end(), char{1}),
-                      .smallest_angle_before_deg = smallest_angle(before),
-                      .smallest_angle_deg = smallest_angle(remeshed.surface),
-                      .deviation = wanted.deviation,
-                      .distance_to_input = remeshed.report.distance_to_input,
-                      .distance_from_input = remeshed.report.distance_from_input,
-                      .feature_edges = remeshed.report.feature_edges,
-                      .finer_share = wanted.wanted ? remeshed.report.finer_share : 0};
-    input.surface = Surface(std::move(remeshed.surface));
-    measure_input(input);
-    return input;
+    const SurfaceChange change = surface_change(input, options);
+    if (change == SurfaceChange::remeshing) return remeshed(std::move(input), options, listener, processes);
+    const SurfaceArrays surface = input.surface.arrays();
+    const std::string note = sliver_note(find_slivers(surface.vertices, surface.facets), input.path);
+    if (!note.empty()) input.notes.push_back(note);
+    return change == SurfaceChange::division ? divided(std::move(input), options, listener, processes)
+                                             : std::move(input);
 }
 
 }  // namespace kerf

@@ -10,8 +10,16 @@
 
 namespace kerf {
 
-/// Whether `options` have this input remeshed. All who ask about a run ask here.
-bool is_remeshed(const Input& input, const RunOptions& options);
+/// What is done to a surface before it is cut.
+enum class SurfaceChange {
+    none,
+    division,  ///< its coarse facets are divided where they lie (prepare/facet_division.h)
+    remeshing
+};
+
+/// What `options` have done to this input; division, too, where the size is yet to follow from a number of cells. All
+/// who ask about a run ask here. O(#F).
+SurfaceChange surface_change(const Input& input, const RunOptions& options);
 
 /// The deviation where the options ask for none: a twentieth of the shortest length that `wanted` has at a vertex,
 /// which is what chords of that length leave out of a circle with a radius of 2.5 of them; 5e-4 of the diagonal if it
@@ -23,12 +31,13 @@ double usual_deviation(const SizeField& wanted, const SurfaceArrays& surface, do
 double deviation_for(const Length& wanted, double diagonal);
 
 /// Facets that the surface will have by remesh_where_asked(), about; more where its shape asks for them. O(#F).
-double forecast_remeshed_facets(const Input& input, const RunOptions& options);
+double forecast_changed_facets(const Input& input, const RunOptions& options);
 
 /// The input, remeshed where `options` says so, or with a note about slivers. What is remeshed without being asked for
 /// is noted; where only few facets need it, the others stay (facets_away_from_slivers()), unless sizes are wanted.
-/// Remeshed, its surface, counts, area and volume are the new ones, and Input::remeshed tells what was done. The wanted
-/// lengths are those of options.sizes. `listener`, unless null, is told of the stage "remesh" again and again while it
+/// Where facets are good but coarser than sizes, they are divided, unless the options keep them. Surface, counts, area
+/// and volume are the new ones then, and Input::remeshed tells what was done. The wanted lengths are those of
+/// options.sizes. `listener`, unless null, is told of the stage "remesh" again and again while it
 /// lasts, with the steps that are done, of nobody knows how many. Throws Error(usage) for a deviation out of range,
 /// Error(input) where the bound cannot be kept, Error(memory) with the way out for more facets than there is memory
 /// for, before the first of them, Error(cancelled).

@@ -142,6 +142,11 @@ std::string time_text(const RunReport& report) {
 
 }  // namespace
 
+std::string division_text(const InputRemeshing& done) {
+    return fmt::format("{} of {} facets, which are coarser than the sizes (--surface keep forbids it)",
+                       grouped(done.facets_before - done.facets_kept), grouped(done.facets_before));
+}
+
 std::string remeshing_text(const InputRemeshing& done) {
     const std::string kept = done.facets_kept > 0 ? fmt::format(", {} of them kept", grouped(done.facets_kept)) : "";
     constexpr double told_share = 0.01;
@@ -196,7 +201,8 @@ void add_input(ReportLines& lines, const RunReport& report, bool all) {
     if (input.moved_vertices > 0)
         lines.add("optimised", fmt::format("{} vertices moved by {:.3g} at most", grouped(input.moved_vertices),
                                            input.largest_move));
-    if (input.remeshed) lines.add("remeshed", remeshing_text(*input.remeshed));
+    if (input.remeshed && input.remeshed->only_divided) lines.add("divided", division_text(*input.remeshed));
+    if (input.remeshed && !input.remeshed->only_divided) lines.add("remeshed", remeshing_text(*input.remeshed));
 }
 
 void add_cuts(ReportLines& lines, const RunReport& report) {

@@ -52,6 +52,7 @@ Json input_json(const Input& input) {
     if (input.remeshed)
         json["remeshing"] = {{"facets_before", input.remeshed->facets_before},
                              {"facets_kept", input.remeshed->facets_kept},
+                             {"only_divided", input.remeshed->only_divided},
                              {"smallest_angle_before_deg", input.remeshed->smallest_angle_before_deg},
                              {"smallest_angle_deg", input.remeshed->smallest_angle_deg},
                              {"deviation", input.remeshed->deviation},

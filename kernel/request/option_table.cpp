@@ -203,7 +203,8 @@ constexpr OptionRow<RunOptions> meshing_rows[] = {
      }},
     {"surface", "", option_group::input, "",
      "keep every facet; split some where no contour of edges exists; remesh all within --deviation; auto: remesh CAD "
-     "files, and where slivers would spoil the cells, else split. Default auto.",
+     "files, and where slivers would spoil the cells, else split, and divide what is coarser than sizes. Default "
+     "auto.",
      [](RunOptions& o) -> OptionField::Value { return surface_choice(o); }},
     {"deviation", "", option_group::input, "D",
      "Largest distance of a remeshed surface from the input, in its units, or with % of its diagonal. Default: a "

@@ -53,13 +53,13 @@ double sized_volume_of(const Input& input, const RunOptions& options) {
     return sized_volume(options.mesher.size, surface.vertices, surface.facets, input.volume);
 }
 
-// Remeshing takes longer than to see that its result could not be filled.
+// A surface of many facets takes longer to be made than it takes to see that it could not be filled.
 void check_budget_before_remeshing(const Input& input, RunOptions options, int ranks) {
-    if (options.dry_run || !is_remeshed(input, options)) return;
+    if (options.dry_run || surface_change(input, options) == SurfaceChange::none) return;
     options = with_forecast_size(input, std::move(options));
     options.sizes.growth = 0;  // from edges that are to change
     options = sized_on(input, std::move(options));
-    const double volume = sized_volume_of(input, options), facets = forecast_remeshed_facets(input, options);
+    const double volume = sized_volume_of(input, options), facets = forecast_changed_facets(input, options);
     if (options.decompose.parts == 0)
         options.decompose.parts =
             choose_parts(options, facets, volume, ranks, std::numeric_limits<std::int32_t>::max());

@@ -48,11 +48,16 @@ double tets_at_facet(const FacetShape& facet, double size, double half_thickness
     return (usual + growing * by_depth) * std::lerp(1.0, std::pow(slenderness, power_of_slenderness), growing);
 }
 
-double tets_at_facets(const SurfaceArrays& surface, double half_thickness, const MesherOptions& mesher) {
+double tets_at_facets(const SurfaceArrays& surface, double half_thickness, const MesherOptions& mesher,
+                      CoarseFacets coarse) {
     double tets = 0;
     for (const Triangle& t : surface.facets) {
         const Vec3 &a = surface.vertices[t[0]], &b = surface.vertices[t[1]], &c = surface.vertices[t[2]];
-        tets += tets_at_facet(shape_of_facet(a, b, c), mesher.size.at((a + b + c) / 3), half_thickness, mesher);
+        const double size = mesher.size.at((a + b + c) / 3);
+        const FacetShape facet = shape_of_facet(a, b, c);
+        const double parts = coarse == CoarseFacets::divided ? std::max(1.0, facet.edge / size) : 1;
+        const FacetShape part = {facet.edge / parts, facet.longest / parts};
+        tets += parts * parts * tets_at_facet(part, size, half_thickness, mesher);
     }
     return tets;
 }

@@ -17,8 +17,12 @@ FacetShape shape_of_facet(const Vec3& a, const Vec3& b, const Vec3& c);
 /// `half_thickness`: volume over area of the body.
 double tets_at_facet(const FacetShape& facet, double size, double half_thickness, const MesherOptions& mesher);
 
+/// What becomes of facets that are coarser than sizes.
+enum class CoarseFacets { kept, divided };
+
 /// The sum over the facets of a surface. O(#F) where the size is constant, else with a query of the field for each.
-double tets_at_facets(const SurfaceArrays& surface, double half_thickness, const MesherOptions& mesher);
+double tets_at_facets(const SurfaceArrays& surface, double half_thickness, const MesherOptions& mesher,
+                      CoarseFacets coarse = CoarseFacets::kept);
 
 /// Those that the volume asks for, told from the sized volume (size/volume_samples.h); 0 where no size is wanted.
 double tets_inside(double sized_volume, const MesherOptions& mesher);

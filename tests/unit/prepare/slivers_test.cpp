@@ -14,11 +14,11 @@
 namespace kerf {
 namespace {
 
-// A ball with needles: facets, `step` apart, are divided at a point that is next to the middle of their first edge.
-SurfaceArrays ball_with_needles(std::size_t step) {
+// A ball with needles: facets, `spacing` apart, are divided at a point that is next to the middle of their first edge.
+SurfaceArrays ball_with_needles(std::size_t spacing) {
     Soup soup = test::icosphere(4);
     const std::size_t facets = soup.facets.size();
-    for (std::size_t f = 0; f < facets; f += step) {
+    for (std::size_t f = 0; f < facets; f += spacing) {
         const Triangle t = soup.facets[f];
         const Vec3 &a = soup.vertices[t[0]], &b = soup.vertices[t[1]], &c = soup.vertices[t[2]];
         const auto v = static_cast<std::int32_t>(soup.vertices.size());
@@ -56,9 +56,9 @@ std::multiset<std::array<double, 9>> corners_of(const SurfaceArrays& surface) {
 }
 
 TEST(Slivers, FewAreRemeshedAloneAndManyWithAll) {
-    for (const auto& [step, are_few] : {std::pair<std::size_t, bool>{400, true}, {150, true}, {5, false}}) {
-        SCOPED_TRACE(step);
-        const SurfaceArrays before = ball_with_needles(step);
+    for (const auto& [spacing, are_few] : {std::pair<std::size_t, bool>{400, true}, {150, true}, {5, false}}) {
+        SCOPED_TRACE(spacing);
+        const SurfaceArrays before = ball_with_needles(spacing);
         ASSERT_TRUE(find_slivers(before.vertices, before.facets).spoil_cells());
         const std::vector<char> kept = facets_away_from_slivers(before);
         EXPECT_EQ(kept.empty(), !are_few);
