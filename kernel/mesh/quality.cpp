@@ -305,15 +305,37 @@ void TriangleDistributions::add(const TriangleDistributions& other) {
     for (std::size_t i = 0; i < measures.size(); ++i) measures[i].add(other.measures[i]);
 }
 
+ForcedDistributions::ForcedDistributions()
+    : forced(Distribution::Scale::linear, 0, 180), unforced(Distribution::Scale::linear, 0, 180) {}
+
+void ForcedDistributions::add(const ForcedDistributions& other) {
+    forced.add(other.forced);
+    unforced.add(other.unforced);
+}
+
 void PartQuality::add(const PartQuality& other) {
     all.add(other.all);
     interface.add(other.interface);
     interior.add(other.interior);
+    angles.add(other.angles);
 }
 
-PartQuality measure_quality(const TetMesh& mesh, std::span<const char> on_interface, double length_scale) {
+namespace {
+
+std::vector<char> vertices_on_interfaces(const BoundaryTriangles& boundary, std::size_t vertex_count) {
+    std::vector<char> on_interface(vertex_count, 0);
+    for (std::size_t f = 0; f < boundary.facets.size(); ++f)
+        if (boundary.is_interface[f])
+            for (const std::int32_t v : boundary.facets[f]) on_interface[v] = 1;
+    return on_interface;
+}
+
+}  // namespace
+
+PartQuality measure_quality(const TetMesh& mesh, const BoundaryTriangles& boundary, double length_scale) {
     KERF_CHECK(are_in_range(mesh.tets, mesh.vertices.size()));
-    KERF_CHECK(on_interface.empty() || on_interface.size() == mesh.vertices.size());
+    const std::vector<char> on_interface = vertices_on_interfaces(boundary, mesh.vertices.size());
+    ForcedCells forced(mesh.vertices, boundary);
     PartQuality quality(length_scale);
     constexpr std::size_t at_once = 256;
     std::array<TetQuality, at_once> measured;
@@ -323,9 +345,11 @@ PartQuality measure_quality(const TetMesh& mesh, std::span<const char> on_interf
         measure_cells(mesh.vertices, cells, std::span(measured).first(cells.size()));
         for (std::size_t i = 0; i < cells.size(); ++i) {
             const auto& [a, b, c, d] = cells[i];
-            const bool touches =
-                !on_interface.empty() && (on_interface[a] || on_interface[b] || on_interface[c] || on_interface[d]);
+            const bool touches = on_interface[a] || on_interface[b] || on_interface[c] || on_interface[d];
             (touches ? quality.interface : quality.interior).add(measured[i]);
+            const double smallest = measured[i].min_dihedral_deg;
+            const bool is_forced = forced.contains(cells[i], smallest);
+            (is_forced ? quality.angles.forced : quality.angles.unforced).add(smallest);
         }
     }
     quality.all.add(quality.interface);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/forced_cells.h"
 #include "mesh/tet_mesh.h"
 
 namespace kerf {
@@ -138,9 +139,28 @@ struct TriangleDistributions {
     void add(const TriangleDistributions& other);
 };
 
-/// The three distributions of the report: all cells, cells with a vertex on an interface, the others.
+/// Distributions of TetQuality::min_dihedral_deg: of cells that the surface forces to be sharp (mesh/forced_cells.h),
+/// and of the others.
+inline constexpr Measure forced_measure = {"forced_dihedral_deg", "smallest dihedral angle forced", "deg", true},
+                         unforced_measure = {"unforced_dihedral_deg", "smallest dihedral angle not forced", "deg",
+                                             true};
+struct ForcedDistributions {
+    Distribution forced, unforced;
+
+    ForcedDistributions();
+    void add(const ForcedDistributions& other);
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(forced, unforced);
+    }
+};
+
+/// The three distributions of the report: all cells, cells with a vertex on an interface, the others. Besides, which of
+/// their small angles are those of the surface.
 struct PartQuality {
     QualityDistributions all, interface, interior;
+    ForcedDistributions angles;
 
     PartQuality() = default;
     explicit PartQuality(double length_scale) : all(length_scale), interface(length_scale), interior(length_scale) {}
@@ -148,12 +168,12 @@ struct PartQuality {
 
     template <class Archive>
     void archive(Archive& a) {
-        a(all, interface, interior);
+        a(all, interface, interior, angles);
     }
 };
 
-/// The distributions of a mesh. `on_interface` (#V, or empty) tells its vertices that lie on an interface. About 70 ns
-/// a cell.
-PartQuality measure_quality(const TetMesh& mesh, std::span<const char> on_interface, double length_scale);
+/// The distributions of a mesh. Without boundary triangles it has no interface, and no cell is forced. About 75 ns a
+/// cell, and what ForcedCells asks for bad cells at the boundary.
+PartQuality measure_quality(const TetMesh& mesh, const BoundaryTriangles& boundary, double length_scale);
 
 }  // namespace kerf

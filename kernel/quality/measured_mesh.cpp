@@ -13,20 +13,13 @@ namespace kerf {
 
 namespace {
 
-std::vector<char> vertices_of(const std::vector<Triangle>& facets, const std::vector<char>& is_interface,
-                              std::size_t vertex_count) {
-    std::vector<char> on_interface(vertex_count, 0);
-    for (std::size_t f = 0; f < facets.size(); ++f)
-        if (is_interface[f])
-            for (const std::int32_t v : facets[f]) on_interface[v] = 1;
-    return on_interface;
-}
-
-void add_boundary(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
-                  const std::vector<char>& is_interface, TriangleDistributions& boundary) {
-    for (std::size_t f = 0; f < facets.size(); ++f)
-        if (!is_interface[f])
-            boundary.add(triangle_angles(vertices[facets[f][0]], vertices[facets[f][1]], vertices[facets[f][2]]));
+void add_quality(const TetMesh& mesh, const BoundaryTriangles& boundary, double length_scale, MeshQuality& quality) {
+    quality.cells.add(measure_quality(mesh, boundary, length_scale));
+    for (std::size_t f = 0; f < boundary.facets.size(); ++f) {
+        const auto& [a, b, c] = boundary.facets[f];
+        if (!boundary.is_interface[f])
+            quality.boundary.add(triangle_angles(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]));
+    }
 }
 
 std::vector<Triangle> hull_of(TetMesh& mesh) {
@@ -72,9 +65,7 @@ void MeasurableMesh::open_run() {
 void MeasurableMesh::add(const Part& part, double length_scale, MeshQuality& quality) const {
     std::vector<char> is_interface(part.facets.size());
     for (std::size_t f = 0; f < is_interface.size(); ++f) is_interface[f] = part.is_interface(f);
-    const std::vector<char> on_interface = vertices_of(part.facets, is_interface, part.mesh.vertices.size());
-    quality.cells.add(measure_quality(part.mesh, on_interface, length_scale));
-    add_boundary(part.mesh.vertices, part.facets, is_interface, quality.boundary);
+    add_quality(part.mesh, {part.facets, is_interface}, length_scale, quality);
 }
 
 MeshQuality MeasurableMesh::measure(double length_scale) const {
@@ -88,13 +79,10 @@ MeshQuality MeasurableMesh::measure(double length_scale) const {
         for (const PartIndex part : run_->outline().parts.ids()) add(run_->load(part), length_scale, quality);
         return quality;
     }
-    const std::vector<Vec3>& vertices = file_.mesh.vertices;
-    quality.vertices = std::ssize(vertices);
+    quality.vertices = std::ssize(file_.mesh.vertices);
     quality.turned_tets = file_.turned_tets;
     quality.notes = file_.notes;
-    quality.cells =
-        measure_quality(file_.mesh, vertices_of(file_.facets, file_.is_interface, vertices.size()), length_scale);
-    add_boundary(vertices, file_.facets, file_.is_interface, quality.boundary);
+    add_quality(file_.mesh, {file_.facets, file_.is_interface}, length_scale, quality);
     return quality;
 }
 

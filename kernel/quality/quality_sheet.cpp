@@ -312,7 +312,7 @@ std::string counts_text(const MeshQuality& quality) {
 }  // namespace
 
 std::string quality_sheet(const MeshQuality& quality) {
-    const auto& [all, interface, interior] = quality.cells;
+    const auto& [all, interface, interior, angles] = quality.cells;
     std::vector<sheet::Panel> panels;
     const bool has_interface = interface.measures.front().count() > 0;
     for (std::size_t i = 0; i < quality_measures.size(); ++i) {

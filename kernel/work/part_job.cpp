@@ -27,12 +27,11 @@ auto timed(double& seconds, Stage stage) {
     return stage();
 }
 
-std::vector<char> interface_vertices(const SurfaceArrays& surface, std::size_t vertex_count) {
-    std::vector<char> on_interface(vertex_count, 0);
-    for (std::size_t f = 0; f < surface.facets.size(); ++f)
-        if (is_of_cut(surface.facet_key[f]))
-            for (std::int32_t v : surface.facets[f]) on_interface[v] = 1;
-    return on_interface;
+PartQuality quality_of_part(const TetMesh& mesh, const PartJob& job) {
+    std::vector<char> is_interface;
+    is_interface.reserve(job.surface.facets.size());
+    for (const Key key : job.surface.facet_key) is_interface.push_back(is_of_cut(key));
+    return measure_quality(mesh, {job.surface.facets, is_interface}, job.length_scale);
 }
 
 std::string broken_laws(const MeshLaws& laws) {
@@ -137,8 +136,7 @@ PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::s
         result.core_tets = filling.core_tets;
         timed(result.store_seconds, [&] {
             result.sizes = measure_sizes(mesh, job.surface, call.options.size);
-            result.quality =
-                measure_quality(mesh, interface_vertices(job.surface, mesh.vertices.size()), job.length_scale);
+            result.quality = quality_of_part(mesh, job);
             result.angles = ImprovedAngles(result.improvement, result.quality);
         });
         const Part part = part_of_job(job, std::move(mesh));

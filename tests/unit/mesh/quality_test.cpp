@@ -392,11 +392,15 @@ TEST(PartQuality, AddsAndTravels) {
     PartQuality part(2.0), sum(2.0);
     part.all.add(quality_of(regular()));
     part.interface.add(quality_of(regular()));
+    part.angles.forced.add(10);
+    part.angles.unforced.add(20);
     sum.add(part);
     sum.add(from_bytes<PartQuality>(to_bytes(part)));
     EXPECT_EQ(sum.all.measures[0].count(), 2);
     EXPECT_EQ(sum.interface.measures[0].count(), 2);
     EXPECT_EQ(sum.interior.measures[0].count(), 0);
+    EXPECT_EQ(sum.angles.forced.count(), 2);
+    EXPECT_EQ(sum.angles.unforced.min(), 20);
     EXPECT_EQ(sum.all.measures[4].min(), part.all.measures[4].min());
 }
 
