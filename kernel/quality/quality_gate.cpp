@@ -32,6 +32,8 @@ std::vector<Named> all_measures(const MeshQuality* quality) {
     for (std::size_t i = 0; i < quality_measures.size(); ++i)
         all.push_back({option_name(quality_measures[i]), &quality_measures[i],
                        quality ? &quality->cells.all.measures[i] : nullptr});
+    all.push_back(
+        {option_name(unforced_measure), &unforced_measure, quality ? &quality->cells.angles.unforced : nullptr});
     for (std::size_t i = 0; i < triangle_measures.size(); ++i)
         all.push_back({option_name(triangle_measures[i]), &triangle_measures[i],
                        quality ? &quality->boundary.measures[i] : nullptr});

@@ -18,7 +18,7 @@ struct QualityLimit {
 /// Which end of a measure is bad.
 enum class BadEnd { small, large };
 
-/// The measures that are bad at this end: "min-dihedral, shape, volume, min-edge, min-angle".
+/// The measures that are bad at this end: "min-dihedral, shape, volume, min-edge, unforced-dihedral, min-angle".
 std::string limit_names(BadEnd end);
 
 /// Limits of a list "min-dihedral=5,shape=0.01"; an empty list has none. Throws Error(usage) for what is no such list,

@@ -42,6 +42,12 @@ Json quality_json(const PartQuality& quality) {
             {"interior", quality_json(quality.interior)}};
 }
 
+Json forced_json(const ForcedDistributions& angles) {
+    return {{"tets", angles.forced.count()},
+            {"min_dihedral_deg", distribution_json(angles.forced)},
+            {"others_min_dihedral_deg", distribution_json(angles.unforced)}};
+}
+
 Json quality_json(const MeshQuality& quality) {
     return {{"path", quality.name},
             {"parts", quality.parts},
@@ -52,6 +58,7 @@ Json quality_json(const MeshQuality& quality) {
             {"turned_tets", quality.turned_tets},
             {"notes", quality.notes},
             {"quality", quality_json(quality.cells)},
+            {"forced", forced_json(quality.cells.angles)},
             {"boundary", distributions_json(triangle_measures, quality.boundary.measures)}};
 }
 

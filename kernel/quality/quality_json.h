@@ -14,7 +14,12 @@ nlohmann::ordered_json quality_json(const QualityDistributions& quality);
 /// all, interface, interior: each as above.
 nlohmann::ordered_json quality_json(const PartQuality& quality);
 
-/// Name, counts, the number of turned tetrahedra, notes, the quality of cells, and the angles of boundary triangles.
+/// The number of cells that the surface forces, with their smallest dihedral angles and those of the others: each as a
+/// measure above.
+nlohmann::ordered_json forced_json(const ForcedDistributions& angles);
+
+/// Name, counts, the number of turned tetrahedra, notes, the quality of cells, which are forced, and the angles of
+/// boundary triangles.
 nlohmann::ordered_json quality_json(const MeshQuality& quality);
 
 }  // namespace kerf

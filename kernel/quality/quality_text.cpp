@@ -53,6 +53,15 @@ std::string cells_table(const char* which, const QualityDistributions& cells, st
                             cells.measures);
 }
 
+std::string forced_table(const ForcedDistributions& angles, std::int64_t of) {
+    const std::int64_t count = angles.forced.count();
+    const std::string head =
+        fmt::format("Forced by the surface: {} cell{} ({})", grouped(count), count == 1 ? "" : "s", percent(count, of));
+    if (count == 0) return "\n" + head + "\n";
+    return "\n" + percentile_head(head) + percentile_row(title_of(forced_measure), angles.forced) +
+           percentile_row(title_of(unforced_measure), angles.unforced);
+}
+
 std::string interval_text(double low, double high) {
     return fmt::format("{:>9} - {:<9}", four_digits(low), four_digits(high));
 }
@@ -111,12 +120,15 @@ std::string side_by_side_text(const Measure& measure, const Distribution& first,
     return text;
 }
 
+std::string compared_rows(const Measure& measure, const Distribution& first, const Distribution& second) {
+    const std::string title = title_of(measure);
+    return percentile_row(title + ": A", first) + percentile_row(fmt::format("{:>{}}B", "", title.size() + 2), second);
+}
+
 std::string compared_percentiles(std::span<const Measure> measures, const std::vector<Distribution>& first,
                                  const std::vector<Distribution>& second) {
     std::string text;
-    for (std::size_t i = 0; i < measures.size(); ++i)
-        text += percentile_row(title_of(measures[i]) + ": A", first[i]) +
-                percentile_row(fmt::format("{:>{}}B", "", title_of(measures[i]).size() + 2), second[i]);
+    for (std::size_t i = 0; i < measures.size(); ++i) text += compared_rows(measures[i], first[i], second[i]);
     return text;
 }
 
@@ -134,6 +146,7 @@ std::string four_digits(double value) { return fmt::format("{:.4g}", value); }
 std::string quality_text(const MeshQuality& quality, QualityDetail detail) {
     std::string text = head_text(quality);
     text += cells_table("All cells", quality.cells.all, quality.tets());
+    if (quality.tets() > 0) text += forced_table(quality.cells.angles, quality.tets());
     if (detail == QualityDetail::brief) return text;
     text += cells_table("Cells with a vertex on an interface", quality.cells.interface, quality.tets());
     if (quality.cells.interface.measures.front().count() > 0)
@@ -154,6 +167,8 @@ std::string comparison_text(const MeshQuality& first, const MeshQuality& second,
         first.boundary.measures.front().count() > 0 && second.boundary.measures.front().count() > 0;
     std::string text = fmt::format("A {}B {}\n", head_text(first), head_text(second)) + percentile_head("All cells");
     text += compared_percentiles(quality_measures, first.cells.all.measures, second.cells.all.measures);
+    const ForcedDistributions &a = first.cells.angles, &b = second.cells.angles;
+    if (a.forced.count() > 0 || b.forced.count() > 0) text += compared_rows(unforced_measure, a.unforced, b.unforced);
     if (have_boundaries)
         text += compared_percentiles(triangle_measures, first.boundary.measures, second.boundary.measures);
     if (detail == QualityDetail::brief) return text;

@@ -128,6 +128,16 @@ std::string improvement_text(const RunReport& report) {
                        report.improve_seconds);
 }
 
+// Which cells the surface forces to be sharp, where these are of interest: always, or as the worst of all.
+std::string forced_text(const ForcedDistributions& angles, bool always) {
+    const Distribution &forced = angles.forced, &others = angles.unforced;
+    if (forced.count() == 0 || (!always && others.count() > 0 && others.min() <= forced.min())) return "";
+    const std::string text = fmt::format("by the surface: {} cell{}, dihedral min {:.1f} deg", grouped(forced.count()),
+                                         forced.count() == 1 ? "" : "s", forced.min());
+    if (others.count() == 0) return text;
+    return text + fmt::format("; others min {:.1f}, 1 % {:.1f}", others.min(), others.percentile(0.01));
+}
+
 // Where the seconds went.
 std::string time_text(const RunReport& report) {
     const StageSeconds& s = report.seconds;
@@ -241,6 +251,7 @@ void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
     const Distribution& ratio = report.quality.all.measures[2];
     lines.add("quality", fmt::format("dihedral min {:.1f}, 1 % {:.1f}, median {:.1f} deg; radius-edge max {:.2f}",
                                      dihedral.min(), dihedral.percentile(0.01), dihedral.percentile(0.5), ratio.max()));
+    lines.add("forced", forced_text(report.quality.angles, all));
 }
 
 std::string ranks_text(const RunReport& report) {

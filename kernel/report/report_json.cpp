@@ -260,6 +260,7 @@ std::string to_json(const RunReport& report) {
                  {"parts", parts_json(report)},
                  {"totals", totals_json(report)},
                  {"quality", quality_json(report.quality)},
+                 {"forced", forced_json(report.quality.angles)},
                  {"improvement",
                   improvement_json(report.improvement, {report.improvement, report.quality}, report.improve_seconds)},
                  {"cells", cells_json(report)},

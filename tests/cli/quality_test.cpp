@@ -83,6 +83,7 @@ TEST_F(Quality, OfARunIsThatOfItsReport) {
         const Json report = Json::parse(test::bytes_of_file(path(run) + "/report.json"));
         const Json found = quality_json({path(run)});
         EXPECT_EQ(found.at("quality"), report.at("quality"));
+        EXPECT_EQ(found.at("forced"), report.at("forced"));
         EXPECT_EQ(found.at("tets"), report.at("totals").at("tets"));
         EXPECT_EQ(found.at("vertices"), report.at("totals").at("vertices"));
         EXPECT_EQ(found.at("parts"), report.at("parts").size());
@@ -122,6 +123,7 @@ TEST_F(Quality, OfAMergedMeshIsThatOfItsParts) {
         ASSERT_EQ(test::run_program(KERF_PROGRAM, {"merge", path("straight"), "-o", file}).exit_code, 0);
         const Json found = quality_json({file});
         EXPECT_EQ(found.at("quality").at("all"), expected.at("quality").at("all"));
+        EXPECT_EQ(found.at("forced"), expected.at("forced"));
         EXPECT_EQ(found.at("vertices"), expected.at("vertices"));
         EXPECT_EQ(found.at("boundary_triangles"), expected.at("boundary_triangles"));
         EXPECT_EQ(found.at("turned_tets"), 0);

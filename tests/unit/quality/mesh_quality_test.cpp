@@ -32,6 +32,7 @@ MeshQuality quality_of_random_cells(unsigned seed, int count, double length_scal
     for (int i = 0; i < count; ++i) {
         const TetQuality cell = tet_quality(point(), point(), point(), point());
         (i % 4 == 0 ? quality.cells.interface : quality.cells.interior).add(cell);
+        (i % 5 == 0 ? quality.cells.angles.forced : quality.cells.angles.unforced).add(cell.min_dihedral_deg);
         quality.boundary.add(triangle_angles(point(), point(), point()));
     }
     quality.cells.all.add(quality.cells.interface);
@@ -138,6 +139,24 @@ TEST(MeshQuality, OfKnownCells) {
     EXPECT_NEAR(quality.boundary.measures[0].min(), 45, 1e-12);
     EXPECT_NEAR(quality.boundary.measures[1].max(), 90, 1e-12);
     EXPECT_NEAR(quality.boundary.measures[0].max(), 60, 1e-12);
+    EXPECT_EQ(quality.cells.angles.forced.count(), 0);
+    EXPECT_EQ(quality.cells.angles.unforced.min(), quality.cells.all.measures[0].min());
+}
+
+// Of triangles in the file, and of the hull where there are none.
+TEST(MeshQuality, TellsWhichCellsAreForced) {
+    const test::TemporaryFolder folder;
+    Soup flat = test::tetrahedron();
+    for (Vec3& p : flat.vertices) p.z() *= 0.1;
+    std::ofstream(folder.file("flat.mesh")) << test::to_medit(flat, {{0, 1, 2, 3}});
+    std::ofstream(folder.file("flat.node")) << test::to_node_list(flat, 0);
+    std::ofstream(folder.file("flat.ele")) << test::to_element_list({{0, 1, 2, 3}}, 0);
+    for (const char* name : {"flat.mesh", "flat.node"}) {
+        const MeshQuality quality = MeasurableMesh(folder.file(name)).measure(2);
+        EXPECT_EQ(quality.cells.angles.forced.count(), 1);
+        EXPECT_EQ(quality.cells.angles.forced.min(), quality.cells.all.measures[0].min());
+        EXPECT_EQ(quality.cells.angles.unforced.count(), 0);
+    }
 }
 
 // TetGen's files have no triangles, so that the boundary is found.
@@ -175,6 +194,9 @@ TEST(ComparedQuality, HasOneLengthScaleAndTheLimitsOfTheFirst) {
     const auto json = nlohmann::json::parse(to_json(both, missed));
     EXPECT_EQ(json["missed_limits"][0], missed[0]);
     EXPECT_EQ(json["compared_with"]["tets"], json["tets"]);
+    EXPECT_EQ(json["forced"]["tets"], 0);
+    EXPECT_EQ(json["forced"]["others_min_dihedral_deg"], json["quality"]["all"]["min_dihedral_deg"]);
+    EXPECT_EQ(json["forced"]["min_dihedral_deg"]["histogram"]["counts"].size(), 36U);
     EXPECT_FALSE(compare_quality(folder.file("small.mesh")).other);
 }
 
@@ -200,8 +222,18 @@ TEST(QualityGate, ComparesTheWorstWithItsLimit) {
     EXPECT_NE(missed.front().find("smallest dihedral angle"), std::string::npos) << missed.front();
 }
 
+TEST(QualityGate, MayLeaveOutWhatTheSurfaceForces) {
+    MeshQuality quality = quality_of_random_cells(8, 100);
+    quality.cells.all.add(tet_quality(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0.3, 0.3, 1e-9)));
+    quality.cells.angles.forced.add(quality.cells.all.measures[0].min());
+    const double smallest = quality.cells.angles.unforced.min();
+    EXPECT_GT(smallest, quality.cells.all.measures[0].min());
+    EXPECT_EQ(missed_limits(quality, {{"min-dihedral", smallest}}, BadEnd::small).size(), 1U);
+    EXPECT_TRUE(missed_limits(quality, {{"unforced-dihedral", smallest}}, BadEnd::small).empty());
+}
+
 TEST(QualityGate, RefusesWhatIsNoLimit) {
-    EXPECT_EQ(limit_names(BadEnd::small), "min-dihedral, shape, volume, min-edge, min-angle");
+    EXPECT_EQ(limit_names(BadEnd::small), "min-dihedral, shape, volume, min-edge, unforced-dihedral, min-angle");
     EXPECT_EQ(limit_names(BadEnd::large), "max-dihedral, radius-edge, aspect, max-edge, max-angle");
     EXPECT_TRUE(parse_limits("", BadEnd::small).empty());
     EXPECT_EQ(parse_limits("min-dihedral=5,shape=1e-2", BadEnd::small).size(), 2U);
@@ -296,6 +328,22 @@ TEST(QualityText, CountsEveryCellInEveryHistogram) {
             << measure.title;
     EXPECT_NE(text.find("Cells with a vertex on an interface: 3,087 (25.01 %)"), text.npos) << text;
     EXPECT_NE(text.find("Other cells: 9,258 (74.99 %)"), text.npos);
+}
+
+TEST(QualityText, TellsForcedCellsApart) {
+    MeshQuality quality = quality_of_random_cells(4, 12345);
+    const std::string title = "smallest dihedral angle not forced, deg";
+    for (const QualityDetail detail : {QualityDetail::brief, QualityDetail::all}) {
+        const std::string text = quality_text(quality, detail);
+        EXPECT_NE(text.find("\nForced by the surface: 2,469 cells (20.00 %)"), text.npos) << text;
+        EXPECT_EQ(count_of(text, title), 1U);
+    }
+    const std::string beside = comparison_text(quality, quality_of_random_cells(9, 2000), QualityDetail::brief);
+    EXPECT_EQ(count_of(beside, title + ": A"), 1U) << beside;
+    quality.cells.angles = {};
+    EXPECT_NE(quality_text(quality).find("\nForced by the surface: 0 cells (0.00 %)\n"), std::string::npos);
+    EXPECT_EQ(count_of(quality_text(quality), title), 0U);
+    EXPECT_EQ(count_of(comparison_text(quality, quality), title), 0U);
 }
 
 TEST(QualityText, ComparesUpToTheLastCell) {
