@@ -128,10 +128,10 @@ std::string improvement_text(const RunReport& report) {
                        report.improve_seconds);
 }
 
-// Which cells the surface forces to be sharp, where these are of interest: always, or as the worst of all.
+// Which cells the surface forces to be sharp, where these are of interest: always, or among the worst hundredth.
 std::string forced_text(const ForcedDistributions& angles, bool always) {
     const Distribution &forced = angles.forced, &others = angles.unforced;
-    if (forced.count() == 0 || (!always && others.count() > 0 && others.min() <= forced.min())) return "";
+    if (forced.count() == 0 || (!always && others.count() > 0 && others.percentile(0.01) < forced.min())) return "";
     const std::string text = fmt::format("by the surface: {} cell{}, dihedral min {:.1f} deg", grouped(forced.count()),
                                          forced.count() == 1 ? "" : "s", forced.min());
     if (others.count() == 0) return text;

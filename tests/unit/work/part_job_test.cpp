@@ -94,6 +94,24 @@ TEST(ReportOfParts, SaysWhatImprovementHasGained) {
                 part.at("p1_dihedral_deg_after").get<double>() - part.at("p1_dihedral_deg_before").get<double>(), 1e-9);
 }
 
+TEST(ReportOfParts, SaysWhichCellsTheSurfaceForces) {
+    const test::TemporaryFolder folder;
+    Input input;
+    input.path = "plate.stl";
+    RunReport report;
+    report.input = &input;
+    const auto told = [&](const Soup& body, ReportDetail detail) {
+        report.quality = run_part_job(job_of(body), {}, folder.file("part")).quality;
+        return to_text(report, detail).find("forced      by the surface: ") != std::string::npos;
+    };
+    const Soup plate = test::box(Vec3(-5, -5, 0), Vec3(5, 5, 0.1), std::array{8, 8, 1});
+    for (const ReportDetail detail : {ReportDetail::brief, ReportDetail::all}) {
+        EXPECT_TRUE(told(plate, detail));
+        EXPECT_GT(nlohmann::json::parse(to_json(report)).at("forced").at("tets"), 0);
+        EXPECT_FALSE(told(test::box(Vec3::Zero(), Vec3::Ones(), 4), detail));
+    }
+}
+
 // The remedy that fills two halves: what others see of the part is the same, and the vertices of the cut are inside.
 TEST(PartJob, IsTheSameFromOutsideWhenCutInTwo) {
     const test::TemporaryFolder folder;
