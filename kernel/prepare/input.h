@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "remesh/remesh.h"
 #include "request/input_options.h"
 #include "surface/diagnosis.h"
 #include "surface/orientation.h"
@@ -43,7 +44,7 @@ struct InputRemeshing {
     double distance_to_input = 0,
            distance_from_input = 0;  ///< largest that was found, of the new surface and of the old
     std::int64_t feature_edges = 0;  ///< of the new surface
-    double finer_share = 0;          ///< of its area, where its shape asks for smaller edges than sizes do, if any
+    FinerShares finer = {};          ///< where its shape asks for smaller edges than sizes do, if any
 };
 
 /// A surface ready to be cut, and what was learnt about it.

@@ -121,7 +121,7 @@ Input remeshed(Input input, const RunOptions& options, StageListener* listener, 
                       .distance_to_input = result.report.distance_to_input,
                       .distance_from_input = result.report.distance_from_input,
                       .feature_edges = result.report.feature_edges,
-                      .finer_share = wanted.wanted ? result.report.finer_share : 0};
+                      .finer = wanted.wanted ? result.report.finer : FinerShares()};
     input.surface = Surface(std::move(result.surface));
     measure_input(input);
     return input;

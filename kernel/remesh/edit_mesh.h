@@ -10,6 +10,19 @@
 
 namespace kerf {
 
+/// What the edges at a vertex are to be so short for: what is asked for; curvature, which the bound allows no longer
+/// chord of; strips between features; thin walls.
+enum class LengthRule : std::uint8_t { asked, bound, features, walls };
+
+struct WantedLength {
+    double length = 0;
+    LengthRule rule = LengthRule::asked;
+
+    void shorten(double other, LengthRule other_rule) {
+        if (other < length) *this = {other, other_rule};
+    }
+};
+
 struct EditTraits : OpenMesh::DefaultTraits {
     using Point = Vec3;
     using Normal = Vec3;
@@ -18,8 +31,8 @@ struct EditTraits : OpenMesh::DefaultTraits {
     EdgeAttributes(OpenMesh::Attributes::Status);
     HalfedgeAttributes(OpenMesh::Attributes::Status | OpenMesh::Attributes::PrevHalfedge);
     VertexTraits {
-        double size = 0;           // wanted length of the edges
-        double asked = 0;          // by the user alone, at least size
+        WantedLength wanted;       // of the edges
+        double asked = 0;          // by the user alone, at least the wanted length
         double tolerance = 0;      // of the input around
         std::int32_t input = -1;   // vertex of the input that it is, -1: none
         std::int64_t changed = 0;  // number of the operation that last changed a facet around it
@@ -46,7 +59,7 @@ class EditMesh : public OpenMesh::TriMesh_ArrayKernelT<EditTraits> {
     Corners corners(FaceHandle f) const;
     /// Smallest of the angles of a facet, as its sine.
     double sine(FaceHandle f) const;
-    double size(VertexHandle v) const { return data(v).size; }
+    double size(VertexHandle v) const { return data(v).wanted.length; }
     /// Features that meet at the vertex.
     int feature_count(VertexHandle v) const;
     /// Whether the facets around the vertex are of one patch.

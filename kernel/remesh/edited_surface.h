@@ -23,8 +23,8 @@ class EditedSurface {
     const EditMesh& mesh() const { return mesh_; }
     const InputShape& input() const { return bound_.input(); }
     /// `asked` is what the user wants, whatever the shape needs.
-    void set_size(Vertex v, double size, double asked) {
-        mesh_.data(v).size = size;
+    void set_size(Vertex v, const WantedLength& wanted, double asked) {
+        mesh_.data(v).wanted = wanted;
         mesh_.data(v).asked = asked;
     }
     void set_fold(Edge e, std::int32_t fold) { mesh_.data(e).fold = fold; }

@@ -62,20 +62,25 @@ Vec3 vertex_normal(const EditMesh& mesh, EditedSurface::Vertex v) {
     return sum.normalized();
 }
 
+// Of a fold, or of two that are near each other; features have no chord.
+LengthRule rule_of(double chord, double other_chord) {
+    return chord > 0 || other_chord > 0 ? LengthRule::bound : LengthRule::features;
+}
+
 // Dijkstra's way from small to large.
-void limit_growth(const EditMesh& mesh, double growth, std::vector<double>& sizes) {
+void limit_growth(const EditMesh& mesh, double growth, std::vector<WantedLength>& sizes) {
     using Entry = std::pair<double, int>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-    for (const auto v : mesh.vertices()) open.push({sizes[v.idx()], v.idx()});
+    for (const auto v : mesh.vertices()) open.push({sizes[v.idx()].length, v.idx()});
     while (!open.empty()) {
         const auto [size, number] = open.top();
         open.pop();
-        if (size > sizes[number]) continue;
+        if (size > sizes[number].length) continue;
         const EditedSurface::Vertex v(number);
         for (const auto w : mesh.vv_range(v)) {
             const double limit = size + growth * (mesh.point(v) - mesh.point(w)).norm();
-            if (limit >= sizes[w.idx()]) continue;
-            sizes[w.idx()] = limit;
+            if (limit >= sizes[w.idx()].length) continue;
+            sizes[w.idx()] = {limit, sizes[number].rule};
             open.push({limit, w.idx()});
         }
     }
@@ -86,18 +91,20 @@ void limit_growth(const EditMesh& mesh, double growth, std::vector<double>& size
 FoldSizes::FoldSizes(EditedSurface& surface, const FoldSizeOptions& options) : surface_(surface), options_(options) {
     find_folds(surface);
     const EditMesh& mesh = surface.mesh();
-    std::vector<double> sizes(mesh.n_vertices(), options.longest);
+    std::vector<WantedLength> sizes(mesh.n_vertices(), {options.longest, LengthRule::asked});
     for (const auto e : mesh.edges())
         if (const std::int32_t fold = mesh.data(e).fold; fold >= 0)
             for (const auto v : {e.v0(), e.v1()})
-                sizes[v.idx()] =
-                    std::min(sizes[v.idx()], std::max({chord_[fold], straight_length(e), options.shortest}));
+                sizes[v.idx()].shorten(std::max({chord_[fold], straight_length(e), options.shortest}),
+                                       rule_of(chord_[fold], 0));
     for (const auto v : mesh.vertices()) {
         double own_chord = infinite;
         for (const auto e : mesh.ve_range(v))
             if (const std::int32_t fold = mesh.data(e).fold; fold >= 0) own_chord = std::min(own_chord, chord_[fold]);
-        const double size = std::max(at(v, own_chord, sizes[v.idx()]), well_shaped_length(mesh, v));
-        sizes[v.idx()] = mesh.data(v).is_fixed ? mean_length(mesh, v) : std::min(size, asked(mesh.point(v)));
+        WantedLength& size = sizes[v.idx()];
+        size = at(v, own_chord, size);
+        size.length = mesh.data(v).is_fixed ? mean_length(mesh, v) : std::max(size.length, well_shaped_length(mesh, v));
+        if (!mesh.data(v).is_fixed) size.shorten(asked(mesh.point(v)), LengthRule::asked);
     }
     limit_growth(mesh, options.growth, sizes);
     for (const auto v : mesh.vertices()) surface.set_size(v, sizes[v.idx()], asked(mesh.point(v)));
@@ -143,25 +150,28 @@ double FoldSizes::straight_length(EditedSurface::Edge e) const {
     return length;
 }
 
-double FoldSizes::of_new(EditedSurface::Vertex v, std::int32_t fold, double grown) const {
-    return at(v, fold >= 0 ? chord_[fold] : infinite, std::min(grown, options_.longest));
+WantedLength FoldSizes::of_new(EditedSurface::Vertex v, std::int32_t fold, WantedLength grown) const {
+    grown.shorten(options_.longest, LengthRule::asked);
+    return at(v, fold >= 0 ? chord_[fold] : infinite, grown);
 }
 
 // Folds that come close ask for small triangles between them only if neither can be left out at that length.
-double FoldSizes::at(EditedSurface::Vertex v, double own_chord, double grown) const {
+WantedLength FoldSizes::at(EditedSurface::Vertex v, double own_chord, const WantedLength& grown) const {
     const Vec3& p = surface_.mesh().point(v);
-    double size = grown;
-    if (folds_ && own_chord < grown)
-        folds_->any_within(p, grown, [&](std::int32_t fold, double squared) {
+    WantedLength size = grown;
+    if (folds_ && own_chord < grown.length)
+        folds_->any_within(p, grown.length, [&](std::int32_t fold, double squared) {
             // those that end at p, and that on which it lies, are its own
             if (squared > 1e-12 * options_.longest * options_.longest)
-                size = std::min(size, std::max({own_chord, chord_[fold], std::sqrt(squared)}));
+                size.shorten(std::max({own_chord, chord_[fold], std::sqrt(squared)}), rule_of(own_chord, chord_[fold]));
             return false;
         });
-    size = std::max(size, options_.shortest);
-    if (options_.edges_per_thickness > 0) size = std::min(size, std::max(across_wall(v, size), options_.thinnest));
-    size = std::min(grown, size);
-    return std::min(size, asked(p));
+    size.length = std::max(size.length, options_.shortest);
+    if (options_.edges_per_thickness > 0)
+        size.shorten(std::max(across_wall(v, size.length), options_.thinnest), LengthRule::walls);
+    if (grown.length <= size.length) size = grown;
+    size.shorten(asked(p), LengthRule::asked);
+    return size;
 }
 
 // The way inwards to a sheet that faces the other way.

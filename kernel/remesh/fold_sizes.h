@@ -31,7 +31,7 @@ class FoldSizes {
 
     /// The size at a vertex that has come onto an edge of that fold (-1: of none), given what has grown to there. Away
     /// from folds nothing is asked but what grows from them.
-    double of_new(EditedSurface::Vertex v, std::int32_t fold, double grown) const;
+    WantedLength of_new(EditedSurface::Vertex v, std::int32_t fold, WantedLength grown) const;
     /// The size that the user asks for at a point, at most the longest.
     double asked(const Vec3& p) const {
         return options_.wanted ? std::min(options_.wanted(p), options_.longest) : options_.longest;
@@ -39,7 +39,7 @@ class FoldSizes {
 
  private:
     void find_folds(EditedSurface& surface);
-    double at(EditedSurface::Vertex v, double own_chord, double grown) const;
+    WantedLength at(EditedSurface::Vertex v, double own_chord, const WantedLength& grown) const;
     double straight_length(EditedSurface::Edge e) const;
     double across_wall(EditedSurface::Vertex v, double limit) const;
 

@@ -197,8 +197,8 @@ class Remesher {
             if (mesh().is_fixed(e)) continue;
             const Vertex a = mesh().to_vertex_handle(mesh().halfedge_handle(e, 0));
             const Vertex b = mesh().to_vertex_handle(mesh().halfedge_handle(e, 1));
-            const double size =
-                std::min(mesh().size(a), mesh().size(b)) + options_.growth * mesh().calc_edge_length(e) / 2;
+            WantedLength size = mesh().data(mesh().size(a) < mesh().size(b) ? a : b).wanted;
+            size.length += options_.growth * mesh().calc_edge_length(e) / 2;
             const std::int32_t fold = mesh().data(e).fold;
             const Vertex v = surface_.split(e, 0.5);
             surface_.set_size(v, sizes_->of_new(v, fold, size), sizes_->asked(mesh().point(v)));
@@ -298,16 +298,25 @@ std::vector<InputPlace> places_on(const TriangleTree& input, const std::vector<V
     return places;
 }
 
-// Of the area, where some corner has a smaller size than the user asks for there.
-double finer_share(const EditMesh& mesh) {
-    double finer = 0, all = 0;
+// Of the area, where some corner has a smaller size than the user asks for there; by the one that has least of it.
+FinerShares finer_shares(const EditMesh& mesh) {
+    std::array<double, 4> finer{};
+    double all = 0;
     for (const auto f : mesh.faces()) {
         const double area = area_normal(mesh.corners(f)).norm();
         all += area;
-        const auto is_finer = [&](const auto& v) { return mesh.size(v) < as_asked * mesh.data(v).asked; };
-        if (std::any_of(mesh.cfv_begin(f), mesh.cfv_end(f), is_finer)) finer += area;
+        double least = as_asked;
+        LengthRule rule = LengthRule::asked;
+        for (const auto v : mesh.fv_range(f))
+            if (const double share = mesh.size(v) / mesh.data(v).asked; share < least) {
+                least = share;
+                rule = mesh.data(v).wanted.rule;
+            }
+        if (least < as_asked) finer[static_cast<std::size_t>(rule)] += area;
     }
-    return all > 0 ? finer / all : 0;
+    if (!(all > 0)) return {};
+    const auto share = [&](LengthRule rule) { return finer[static_cast<std::size_t>(rule)] / all; };
+    return {share(LengthRule::bound), share(LengthRule::features), share(LengthRule::walls)};
 }
 
 Remeshed remesh_once(const SurfaceArrays& surface, const TriangleTree& tree, const std::vector<double>& tolerance,
@@ -316,7 +325,7 @@ Remeshed remesh_once(const SurfaceArrays& surface, const TriangleTree& tree, con
     Remesher remesher(input, options);
     remesher.run();
     const EditMesh& mesh = remesher.surface().mesh();
-    const RemeshReport report = {.feature_edges = mesh.feature_edges(), .finer_share = finer_share(mesh)};
+    const RemeshReport report = {.feature_edges = mesh.feature_edges(), .finer = finer_shares(mesh)};
     return {remesher.surface().arrays(), {}, report};
 }
 

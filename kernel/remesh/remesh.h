@@ -20,12 +20,21 @@ struct RemeshOptions {
     std::function<void()> poll = {};  ///< called every few milliseconds, if given; ends the work by what it throws
 };
 
+/// Of the area of a surface, where its shape asks for smaller edges than `wanted` and `longest`, by what does.
+struct FinerShares {
+    double bound = 0;     ///< it is curved: a larger deviation allows longer edges
+    double features = 0;  ///< it has strips between features
+    double walls = 0;     ///< it is thin
+
+    double sum() const { return bound + features + walls; }
+};
+
 struct RemeshReport {
     std::int64_t rounds = 0;  ///< with smaller tolerances where the result was refused; 1: nowhere
     double distance_to_input = 0,
            distance_from_input = 0;  ///< nothing of the new surface, and of the old, is further away; proven
     std::int64_t feature_edges = 0;  ///< of the new surface
-    double finer_share = 0;  ///< of its area, where its shape asks for smaller edges than `wanted` and `longest`
+    FinerShares finer;
 };
 
 /// sin of the smallest angle of a triangle, 0 for a degenerate one.

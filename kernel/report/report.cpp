@@ -150,26 +150,35 @@ std::string time_text(const RunReport& report) {
                       s.prepare, s.mesh, w.mesher, w.verify, w.store, w.start, w.idle, s.write, s.hash);
 }
 
-}  // namespace
-
 std::string division_text(const InputRemeshing& done) {
     return fmt::format("{} of {} facets, which are coarser than the sizes (--surface keep forbids it)",
                        grouped(done.facets_before - done.facets_kept), grouped(done.facets_before));
 }
 
+// What else than the size rules the edges, and what to do about it.
+std::string finer_text(const FinerShares& finer) {
+    constexpr double told_share = 0.01;
+    std::vector<std::string> reasons;
+    const auto add = [&](double share, const char* reason) {
+        if (share >= told_share) reasons.push_back(fmt::format("{:.0f} % {}", 100 * share, reason));
+    };
+    add(finer.bound, "because it is curved (a larger --deviation allows longer edges)");
+    add(finer.features, "in strips between features");
+    add(finer.walls, "at thin walls");
+    if (reasons.empty()) return "";
+    return fmt::format("; finer than asked for on {:.0f} % of the area: {}", 100 * finer.sum(),
+                       fmt::join(reasons, ", "));
+}
+
+}  // namespace
+
 std::string remeshing_text(const InputRemeshing& done) {
     const std::string kept = done.facets_kept > 0 ? fmt::format(", {} of them kept", grouped(done.facets_kept)) : "";
-    constexpr double told_share = 0.01;
-    const std::string finer =
-        done.finer_share >= told_share
-            ? fmt::format("; finer than asked for on {:.0f} % of the area, where the surface folds or is thin",
-                          100 * done.finer_share)
-            : "";
     return fmt::format(
         "from {} facets{}; smallest angle {:.3g} deg from {:.3g}; largest distances {:.2g} and {:.2g} of "
         "{:.2g}{}",
         grouped(done.facets_before), kept, done.smallest_angle_deg, done.smallest_angle_before_deg,
-        done.distance_to_input, done.distance_from_input, done.deviation, finer);
+        done.distance_to_input, done.distance_from_input, done.deviation, finer_text(done.finer));
 }
 
 namespace {

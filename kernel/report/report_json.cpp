@@ -59,7 +59,11 @@ Json input_json(const Input& input) {
                              {"distance_to_input", input.remeshed->distance_to_input},
                              {"distance_from_input", input.remeshed->distance_from_input},
                              {"feature_edges", input.remeshed->feature_edges},
-                             {"finer_share", input.remeshed->finer_share}};
+                             {"finer_share", input.remeshed->finer.sum()},
+                             {"finer_by",
+                              {{"deviation", input.remeshed->finer.bound},
+                               {"features", input.remeshed->finer.features},
+                               {"walls", input.remeshed->finer.walls}}}};
     return json;
 }
 

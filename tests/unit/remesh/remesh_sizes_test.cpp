@@ -196,5 +196,23 @@ TEST(RemeshedInput, IsAsFineAsItIsWanted) {
     }
 }
 
+// Three bodies, each with one reason for finer edges than asked for.
+TEST(FinerShares, NameTheReason) {
+    const auto shares = [](const Soup& body, double deviation, double longest) {
+        RemeshOptions options = {.deviation = deviation, .longest = longest};
+        return remesh(test::to_arrays(body), options).report.finer;
+    };
+    const FinerShares ball = shares(test::icosphere(4), 1e-3, 1), coarse_ball = shares(test::icosphere(4), 1e-3, 0.05);
+    EXPECT_GT(ball.bound, 0.95);
+    EXPECT_EQ(ball.features + ball.walls, 0);
+    EXPECT_LT(coarse_ball.sum(), 0.01) << "the bound allows that";
+    const FinerShares plate = shares(test::box(Vec3::Zero(), Vec3(2, 2, 0.05), {20, 20, 1}), 1e-3, 0.5);
+    EXPECT_GT(plate.walls, 0.8);
+    EXPECT_EQ(plate.bound, 0);
+    const FinerShares bar = shares(test::box(Vec3::Zero(), Vec3(2, 0.2, 0.2), {10, 1, 1}), 1e-3, 0.5);
+    EXPECT_GT(bar.features + bar.walls, 0.5);
+    EXPECT_EQ(bar.bound, 0);
+}
+
 }  // namespace
 }  // namespace kerf
