@@ -104,10 +104,11 @@ Filling fill_with_lattice(const SurfaceArrays& surface, const MesherOptions& opt
     }
 }
 
-// TetGen, and what it has for failures.
+// TetGen, and what it has for failures but the lattice.
 std::vector<MesherCall> lattice_calls(const MesherOptions& wanted) {
     std::vector<MesherCall> calls = {{.fallback = "", .options = wanted}};
     for (MesherCall& call : find_mesher("tetgen").calls(for_tetgen(wanted))) {
+        if (call.options.name == wanted.name) continue;
         call.fallback = call.fallback.empty() ? "TetGen" : "TetGen, " + call.fallback;
         calls.push_back(std::move(call));
     }

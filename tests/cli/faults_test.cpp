@@ -124,6 +124,34 @@ TEST(KilledWorker, TimeLimitIsReportedAlike) {
     EXPECT_NE(result.log.find("ran longer than its 0.3 s"), std::string::npos) << result.log;
 }
 
+// TetGen hangs twice.
+TEST(KilledWorker, WhatTetGenDoesNotEndInTimeIsTheLatticesAndSaid) {
+    const test::TemporaryFolder folder;
+    const auto whole_by = [&](const std::string& mesher, const std::string& output) {
+        return std::vector<std::string>{"mesh",         test::asset_path("cube"),
+                                        "-o",           folder.file(output),
+                                        "-n",           "1",
+                                        "--max-volume", "6e-6",
+                                        "--mesher",     mesher,
+                                        "-j",           "1",
+                                        "--timeout",    test::is_sanitized() ? "20" : "3"};
+    };
+    ASSERT_EQ(test::run_kerf(whole_by("lattice", "lattice")).exit_code, 0);
+    test::StartedRun run(KERF_PROGRAM, whole_by("tetgen", "out"));
+    const pid_t first = run.stop_worker();
+    ASSERT_GT(first, 0);
+    ASSERT_TRUE(test::await([&] { return test::has_ended(first); }));
+    ASSERT_GT(run.stop_worker(), 0);
+    const ChildResult result = run.wait();
+    EXPECT_EQ(result.exit_code, 0) << result.log;
+    EXPECT_NE(result.log.find("part 1: the lattice mesher"), std::string::npos) << result.log;
+    EXPECT_NE(result.log.find("1 part after a time-out"), std::string::npos) << result.log;
+    const auto report = nlohmann::json::parse(test::bytes_of_file(folder.file("out/report.json")));
+    EXPECT_EQ(report["parts"][0]["remedy"], "the lattice mesher");
+    EXPECT_EQ(report["parts"][0]["attempts"], 3);
+    EXPECT_TRUE(test::contents(folder.file("out/parts")) == test::contents(folder.file("lattice/parts")));
+}
+
 TEST(MemoryLimit, IsReportedWithItsOwnCode) {
     const test::TemporaryFolder folder;
     const ChildResult result =

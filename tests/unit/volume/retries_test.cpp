@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -46,6 +47,34 @@ TEST(MesherCalls, BeginAsAskedForAndAllDiffer) {
         }
         EXPECT_EQ(different.size(), calls.size());
     }
+}
+
+// What TetGen does not end within its time the lattice does, unless its user has switches for it.
+TEST(MesherCalls, AskTheLatticeOnceAfterTetGenUnlessThereAreSwitches) {
+    const auto first_of_lattice = [](const MesherOptions& wanted) -> std::optional<std::size_t> {
+        const std::vector<MesherCall> calls = mesher_calls(wanted);
+        EXPECT_LE(std::count_if(calls.begin(), calls.end(),
+                                [](const MesherCall& call) { return call.options.name == "lattice"; }),
+                  1);
+        for (std::size_t call = 0; call < calls.size(); ++call)
+            if (calls[call].options.name == "lattice") return call;
+        return std::nullopt;
+    };
+    for (const MesherOptions& wanted : options_to_try()) {
+        const bool has_switches = !wanted.tetgen.switches.empty();
+        const std::optional<std::size_t> call = first_of_lattice(wanted);
+        ASSERT_EQ(call.has_value(), !has_switches);
+        if (wanted.name != "tetgen" || has_switches) continue;
+        const std::vector<MesherCall> calls = mesher_calls(wanted);
+        EXPECT_EQ(next_call(calls, 1, MesherFailure::timed_out), call);
+        MesherOptions lattice = wanted;
+        lattice.name = "lattice";
+        EXPECT_EQ(to_bytes(calls[*call].options), to_bytes(lattice)) << "all that was asked for";
+    }
+    MesherOptions with_switches;
+    with_switches.name = "tetgen";
+    with_switches.tetgen.switches = "q1.3";
+    EXPECT_FALSE(first_of_lattice(with_switches));
 }
 
 TEST(MesherCalls, EndWhateverFails) {
