@@ -22,9 +22,10 @@ namespace {
 
 constexpr double largest_share = 0.05;   // of the diagonal, for the deviation
 constexpr double smallest_share = 1e-9;  // coordinates have few more digits
-constexpr double longest_share = 0.03;   // of the diagonal, for edges where nothing else is wanted
+// Of the diagonal, for edges where nothing else is wanted: coarse, medium and fine.
+constexpr double longest_shares[] = {0.05, 0.03, 0.015};
 // The deviation where none is given: of the wanted length, or, if none is wanted, of the diagonal.
-constexpr double share_of_length = 0.05, share_of_diagonal = 5e-4;
+constexpr double share_of_length = 0.05, shares_of_diagonal[] = {2e-3, 5e-4, 1.5e-4};
 constexpr double bytes_per_facet = 280;  // of the process while it remeshes
 constexpr double deg_per_rad = 180 / std::numbers::pi;
 
@@ -53,7 +54,8 @@ SizeField wanted_lengths(const RunOptions& options, const SurfaceArrays& surface
 // Edge where nothing else is wanted.
 double longest_edge(const RunOptions& options, double diagonal) {
     const double max_volume = options.sizes.constant_max_volume();
-    return max_volume > 0 ? std::min(regular_tet_edge(max_volume), diagonal) : longest_share * diagonal;
+    return max_volume > 0 ? std::min(regular_tet_edge(max_volume), diagonal)
+                          : longest_shares[static_cast<int>(options.sizes.fineness)] * diagonal;
 }
 
 double smallest_length(const SizeField& wanted, const SurfaceArrays& surface) {
@@ -65,9 +67,10 @@ double smallest_length(const SizeField& wanted, const SurfaceArrays& surface) {
 RemeshOptions remesh_options(const Input& input, const SurfaceArrays& surface, const RunOptions& options) {
     const SizeField wanted = wanted_lengths(options, surface, input);
     RemeshOptions result = {.longest = longest_edge(options, input.diagonal), .creases = input.creases};
-    result.deviation = options.deviation.number() > 0 ? deviation_for(options.deviation, input.diagonal)
-                                                      : usual_deviation(wanted, surface, input.diagonal);
-    if (options.sizes.growth > 0) result.growth = options.sizes.growth;
+    result.deviation = options.deviation.number() > 0
+                           ? deviation_for(options.deviation, input.diagonal)
+                           : usual_deviation(wanted, surface, input.diagonal, options.sizes.fineness);
+    if (const double growth = with_fineness_at_kept_facets(options).sizes.growth; growth > 0) result.growth = growth;
     if (!wanted.is_empty()) result.wanted = [wanted](const Vec3& p) { return wanted.at(p); };
     if (options.remeshing == Remeshing::where_needed && !input.is_cad && wanted.is_empty())
         result.kept = facets_away_from_slivers(surface);
@@ -156,8 +159,8 @@ SurfaceChange surface_change(const Input& input, const RunOptions& options) {
 }
 
 // Whoever wants a size gets it: a bound that is much smaller would ask for finer facets wherever the surface is curved.
-double usual_deviation(const SizeField& wanted, const SurfaceArrays& surface, double diagonal) {
-    if (wanted.is_empty()) return share_of_diagonal * diagonal;
+double usual_deviation(const SizeField& wanted, const SurfaceArrays& surface, double diagonal, Fineness fineness) {
+    if (wanted.is_empty()) return shares_of_diagonal[static_cast<int>(fineness)] * diagonal;
     return std::clamp(share_of_length * smallest_length(wanted, surface), smallest_share * diagonal,
                       largest_share * diagonal);
 }

@@ -23,8 +23,9 @@ SurfaceChange surface_change(const Input& input, const RunOptions& options);
 
 /// The deviation where the options ask for none: a twentieth of the shortest length that `wanted` has at a vertex,
 /// which is what chords of that length leave out of a circle with a radius of 2.5 of them; 5e-4 of the diagonal if it
-/// is empty.
-double usual_deviation(const SizeField& wanted, const SurfaceArrays& surface, double diagonal);
+/// is empty, 2e-3 or 1.5e-4 if that is to be coarse or fine.
+double usual_deviation(const SizeField& wanted, const SurfaceArrays& surface, double diagonal,
+                       Fineness fineness = Fineness::medium);
 
 /// The deviation that is wanted of a body with this diagonal. Throws Error(usage), naming the option, for one that is
 /// too small or too large for it.

@@ -143,6 +143,12 @@ constexpr OptionRow<SizeOptions> size_rows[] = {
     {"cells", "", option_group::sizes, "N",
      "Finds the size that gives N tetrahedra within 15 %, as 50000, 50k or 1M, instead of --size.",
      [](SizeOptions& o) -> OptionField::Value { return OptionField::Count{&o.cells}; }, true, size_range::cells},
+    {"fineness", "", option_group::sizes, "",
+     "How fine surface and cells are where no size is given: each step has some two to three times the cells. Default "
+     "medium.",
+     [](SizeOptions& o) -> OptionField::Value {
+         return choice(o.fineness, {"coarse", "medium", "fine"});
+     }},
     {"size-in", "", option_group::sizes, "SHAPE=H",
      "Edge length H, as of --size, in box:x0,y0,z0,x1,y1,z1=H, sphere:x,y,z,r=H or cylinder:x0,y0,z0,x1,y1,z1,r=H. "
      "Repeatable.",

@@ -16,6 +16,7 @@ namespace kerf {
 namespace {
 
 constexpr std::int64_t bytes_per_interface_point = 500;
+constexpr double coarse_radius_edge = 2;
 
 RunOptions with_constant_size(RunOptions options) {
     options.sizes.max_volume = options.sizes.constant_max_volume();
@@ -56,8 +57,19 @@ RunOptions with_lengths(RunOptions options, double diagonal) {
 
 RunOptions with_size(RunOptions options, double size) {
     options.sizes.cells = 0;
+    options.sizes.fineness = Fineness::medium;
     options.sizes.size = size;
     return with_constant_size(std::move(options));
+}
+
+RunOptions with_fineness_at_kept_facets(RunOptions options) {
+    SizeOptions& sizes = options.sizes;
+    double& radius_edge = options.mesher.radius_edge;
+    if (!sizes.follow_fineness()) return options;
+    if (sizes.fineness == Fineness::fine && sizes.growth == 0) sizes.growth = SizeOptions::usual_growth;
+    if (sizes.fineness == Fineness::coarse && radius_edge == MesherOptions().radius_edge)
+        radius_edge = coarse_radius_edge;
+    return options;
 }
 
 // Loads weigh the field as the mesher does.

@@ -67,8 +67,13 @@ RunOptions with_lengths(RunOptions options, double diagonal);
 /// places alike.
 RunOptions with_sizes(RunOptions options, const SizeField& field);
 
-/// Resolved options with this edge length everywhere in place of RunOptions::sizes.cells; 0: none.
+/// Resolved options with this edge length everywhere in place of RunOptions::sizes.cells and of the fineness; 0: none.
 RunOptions with_size(RunOptions options, double size);
+
+/// The options with what their fineness asks of cells beside facets that are kept, where no size is given: fine, cells
+/// grow from the edges of the surface by SizeOptions::usual_growth, if no growth is given; coarse, a weaker bound of
+/// the radius-edge ratio, 2, in place of the usual one.
+RunOptions with_fineness_at_kept_facets(RunOptions options);
 
 /// The range of RunOptions::deviation, of which remesh_where_asked() knows more: shares of the diagonal that are too
 /// much.

@@ -66,6 +66,8 @@ void check_budget_before_remeshing(const Input& input, RunOptions options, int r
     check_budget(options, facets, volume, Facets::follow_size);
 }
 
+bool keeps_most_facets(const Input& input) { return !input.remeshed || 2 * input.remeshed->facets_kept > input.facets; }
+
 int ranks_of_this_host(Communicator& ranks) {
     const std::vector<std::string> hosts = all_gather(ranks, host_name());
     return static_cast<int>(std::count(hosts.begin(), hosts.end(), host_name()));
@@ -98,6 +100,7 @@ RunPlan plan_run(const RunOptions& request, int cores_of_rank, Communicator& ran
         SizedInput sized = remesh_and_size(std::move(input), wanted, listener, ranks_here);
         input = std::move(sized.input);
         plan.found_size = sized.found;
+        if (keeps_most_facets(input)) sized.options = with_fineness_at_kept_facets(std::move(sized.options));
         RunOptions options = sized_on(input, std::move(sized.options));
         require_patches(parse_patch_types(options.patch_types), input.patch_names);
         if (ranks.rank() != 0) return options;

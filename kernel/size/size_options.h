@@ -22,12 +22,16 @@ inline constexpr NumberRange segments_per_turn = {"3 to 10000, or 0 for none", 3
 inline constexpr NumberRange cells_across = {"0.1 to 10000, or 0 for none", 0.1, 1e4, true};
 }  // namespace size_range
 
+/// How fine surface and cells are where no size is given.
+enum class Fineness { coarse, medium, fine };
+
 /// Lengths are in units of the input or, until resolve_lengths(), in percent of its diagonal; 0, or nothing, stands for
 /// "not given". In texts, H and D are such lengths.
 struct SizeOptions {
-    Length size;                      ///< wanted edge length everywhere
-    double max_volume = 0;            ///< of a tetrahedron everywhere, instead of `size`
-    std::int64_t cells = 0;           ///< tetrahedra of the whole mesh: `size` follows (prepare/cells.h)
+    Length size;                           ///< wanted edge length everywhere
+    double max_volume = 0;                 ///< of a tetrahedron everywhere, instead of `size`
+    std::int64_t cells = 0;                ///< tetrahedra of the whole mesh: `size` follows (prepare/cells.h)
+    Fineness fineness = Fineness::medium;  ///< without say where one of the former three is given
     std::vector<std::string> inside;  ///< box:x0,y0,z0,x1,y1,z1=H, sphere:x,y,z,r=H, cylinder:x0,y0,z0,x1,y1,z1,r=H
     std::vector<std::string> on;      ///< NAME=H: on a patch
     std::vector<std::string> near;    ///< NAME=H:D: up to the distance D from a patch
@@ -51,6 +55,8 @@ struct SizeOptions {
         return !inside.empty() || !on.empty() || !near.empty() || growth > 0 || !field_file.empty() ||
                chord_error.number() > 0 || segments_per_turn > 0 || cells_across > 0;
     }
+    /// Whether none is given that would hold everywhere, so that `fineness` decides.
+    bool follow_fineness() const { return size.number() == 0 && max_volume == 0 && cells == 0; }
     double growth_or_usual() const { return growth > 0 ? growth : usual_growth; }
 };
 
