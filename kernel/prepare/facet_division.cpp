@@ -88,7 +88,7 @@ class FacetDivider {
         result_.surface.vertices = surface.vertices;
     }
 
-    void divide_edges();
+    void divide_edges(const CancellationCheck& check_cancelled);
     void divide_facets(const CancellationCheck& check_cancelled);
     DividedSurface result() &&;
 
@@ -104,7 +104,7 @@ class FacetDivider {
     DividedSurface result_;
 };
 
-void FacetDivider::divide_edges() {
+void FacetDivider::divide_edges(const CancellationCheck& check_cancelled) {
     std::vector<Vec3>& points = result_.surface.vertices;
     const EdgeCorners edges(before_.facets);
     edges.for_each_edge([&](std::int32_t low, const auto& corners) {
@@ -112,6 +112,7 @@ void FacetDivider::divide_edges() {
         for (const EdgeCorners::Corner& c : corners)
             edge_of_corner_[c.corner] = static_cast<std::int32_t>(first_point_.size());
         first_point_.push_back(static_cast<std::int32_t>(points.size()));
+        check_cancelled.at(first_point_.size());
         for (const double share : shares_of_pieces(lengths_along(a, b, wanted_))) points.push_back(a + share * (b - a));
     });
     first_point_.push_back(static_cast<std::int32_t>(points.size()));
@@ -214,7 +215,7 @@ double forecast_divided_facets(const SurfaceArrays& surface, const SizeField& wa
 DividedSurface divide_facets(const SurfaceArrays& surface, const SizeField& wanted,
                              const CancellationCheck& check_cancelled) {
     FacetDivider divider(surface, wanted);
-    divider.divide_edges();
+    divider.divide_edges(check_cancelled);
     divider.divide_facets(check_cancelled);
     return std::move(divider).result();
 }

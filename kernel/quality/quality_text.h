@@ -8,7 +8,7 @@
 namespace kerf {
 
 enum class QualityDetail {
-    brief,  ///< counts, and percentiles over all cells and of the angles that are forced
+    brief,  ///< counts, and percentiles over all cells and of the angles that are forced, if any
     all
 };
 

@@ -102,8 +102,9 @@ TEST_F(BadInput, SelfIntersectingSurface) {
 // The first reason is the one that helps, whatever the remedies said.
 TEST_F(BadInput, ShellsThatAlmostTouchForTetGen) {
     const Soup ball = test::icosphere(2), inner = test::inside_out(test::icosphere(2, 1 - 1e-12));
-    const ChildResult result = test::run_kerf({"mesh", write("balls.off", test::join(ball, inner)), "-o",
-                                               folder_.file("out"), "-n", "1", "-q", "--mesher", "tetgen"});
+    const ChildResult result =
+        test::run_kerf({"mesh", write("balls.off", test::join(ball, inner)), "-o", folder_.file("out"), "-n", "1", "-q",
+                        "--mesher", "tetgen", "--tetgen-switches", "q1.4"});
     EXPECT_EQ(result.exit_code, 4) << result.log;
     EXPECT_NE(result.log.find("could not be meshed: TetGen stopped with code 3: it found facets that intersect"),
               std::string::npos)

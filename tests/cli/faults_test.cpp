@@ -168,7 +168,7 @@ TEST(Cancelling, EndsACutInTheMiddle) {
     const test::TemporaryFolder folder;
     for (const double seconds : {0.3, 1.2, 2.5}) {
         test::StartedRun run(KERF_PROGRAM, {"decompose", test::asset_path("hollow_box"), "-o", folder.file("out"), "-n",
-                                            "32", "--size", "0.002"});
+                                            "32", "--size", "0.002", "--surface", "split"});
         const auto computed = [&] { return test::seconds_computed(run.process()); };
         ASSERT_TRUE(test::await([&] { return computed() >= seconds; }));
         const double before = computed();
