@@ -58,8 +58,8 @@ void add_mesh_command(CLI::App& kerf, int& exit_code) {
     command->add_flag("--dry-run", request->options.dry_run,
                       "Cut, print what every part will take, and end; write nothing.");
     put_help_last(*command, option_group::running,
-                  {"output", "parts", "size", "size-on", "surface", "feature-angle", "format", "workers", "memory",
-                   "resume", "dry-run", "config", "quiet", "verbose"});
+                  {"output", "parts", "size", "cells", "fineness", "surface", "feature-angle", "format", "workers",
+                   "memory", "resume", "dry-run", "quiet", "verbose"});
 }
 
 void add_decompose_command(CLI::App& kerf, int& exit_code) {

@@ -20,7 +20,8 @@ constexpr int first_round_with_vertices = 2;         // before, much is mended w
 constexpr double first_least_made_deg = 8, later_least_made_deg = 3;  // of cells around a new vertex
 constexpr double much_better = 3;            // in squared cotangents: what a vertex must make of a cell that is worse
 constexpr double share_for_vertices = 0.25;  // of all; more only for ...
-constexpr double angle_of_no_volume_deg = 0.01;         // ... cells with a smaller one, which no solver can use
+constexpr double angle_of_a_useless_cell_deg = 3;       // ... cells with a smaller one
+constexpr double angle_of_no_volume_deg = 0.01;         // of cells whose volume is lost in rounding
 constexpr double least_share_of_a_round = 0.1;          // of the bad cells, or there is no other round
 constexpr std::int64_t evaluations_of_any_mesh = 1000;  // beside those for each of its cells
 constexpr int cells_between_questions = 1024;           // whether it is cancelled
@@ -36,7 +37,8 @@ class Improver {
           result_(&improvement),
           bad_(square_from_degrees(options.threshold_deg)),
           bad_enough_for_a_vertex_(std::max(bad_, square_from_degrees(worth_a_vertex_deg(options)))),
-          without_volume_(square_from_degrees(angle_of_no_volume_deg)) {}
+          without_volume_(square_from_degrees(angle_of_no_volume_deg)),
+          useless_(square_from_degrees(angle_of_a_useless_cell_deg)) {}
 
     void run() {
         for (std::int32_t cell = 0; cell < mesh_.cell_count(); ++cell)
@@ -163,8 +165,7 @@ class Improver {
         const double badness = mesh_.badness(cell);
         const bool may_be = options_->adds_vertices && result_->rounds >= first_round_with_vertices;
         if (!may_be || badness < bad_enough_for_a_vertex_) return false;
-        if (badness < without_volume_ && evaluations_for_vertices_ > share_for_vertices * evaluation_budget_)
-            return false;
+        if (badness < useless_ && evaluations_for_vertices_ > share_for_vertices * evaluation_budget_) return false;
         // A sliver between facets is better replaced by what is still bad, but can be moved.
         const double least_made_deg =
             result_->rounds == first_round_with_vertices ? first_least_made_deg : later_least_made_deg;
@@ -188,7 +189,7 @@ class Improver {
     EditedMesh mesh_;
     const ImproveOptions* options_;
     Improvement* result_;
-    double bad_, bad_enough_for_a_vertex_, without_volume_;
+    double bad_, bad_enough_for_a_vertex_, without_volume_, useless_;
     std::int64_t evaluations_for_vertices_ = 0;
     bool is_cancelled_ = false;
     std::priority_queue<Entry> queue_;

@@ -46,7 +46,8 @@ struct Improvement {
 /// where that does not help and an angle is below 20 degrees, or above 160, a vertex is added (klingner2007); below 12
 /// or above 168 where sizes differ from place to place, which more vertices would not obey. It must leave no cell below
 /// 8 degrees, 3 in later rounds, or vertices would crowd where the surface allows no better; of a sharper one it may
-/// leave those of 1.7 times its angle. Cells below 0.01 degrees, whose volume is lost in rounding, come first and are
+/// leave those of 1.7 times its angle. Below 3 degrees the vertex may begin under the facets of the cell, too, and only
+/// the budget of all ends the tries. Cells below 0.01 degrees, whose volume is lost in rounding, come first and are
 /// given up last. Flips of single faces are not tried: of 600,000 bad cells of the assets they helped three that the
 /// others did not.
 ///

@@ -7,6 +7,8 @@ namespace kerf {
 namespace {
 constexpr std::size_t most_cavity_cells = 40;
 constexpr int most_moves = 4;
+// Where cells around a sliver between facets are as flat as it is, the vertex begins below them.
+constexpr double angle_of_a_sliver_deg = 3, depth_below_facets = 0.3;  // in lengths of the edge
 }  // namespace
 
 bool VertexInsertion::contains(std::int32_t cell) const {
@@ -65,11 +67,11 @@ double VertexInsertion::worst_at(const EditedMesh& mesh, const Vec3& at) const {
 }
 
 // In turn grows the cavity and moves the place, and keeps the best of both.
-void VertexInsertion::grow_and_move(const EditedMesh& mesh) {
+void VertexInsertion::grow_and_move(const EditedMesh& mesh, const Vec3& start) {
     cavity_ = ring_.cells;
     excess_ = mesh.most_excess(cavity_);
     find_sides(mesh);
-    BestPlace::Place place = {(mesh.point(ring_.a) + mesh.point(ring_.b)) / 2, 0};
+    BestPlace::Place place = {start, 0};
     for (int moves = 0; moves < most_moves; ++moves) {
         places_.clear();
         for (const Side& side : sides_) {
@@ -89,12 +91,33 @@ void VertexInsertion::grow_and_move(const EditedMesh& mesh) {
     }
 }
 
+// Zero where no face of the cell is at the boundary.
+Vec3 VertexInsertion::away_from_boundary(const EditedMesh& mesh, std::int32_t cell) {
+    Vec3 sum = Vec3::Zero();
+    for (int i = 0; i < 4; ++i) {
+        if (mesh.neighbour(cell, i) >= 0) continue;
+        const Triangle face = mesh.face(cell, i);
+        const Vec3& a = mesh.point(face[0]);
+        sum += (mesh.point(face[2]) - a).cross(mesh.point(face[1]) - a).normalized();
+    }
+    return sum.stableNormalized();
+}
+
 std::span<const std::int32_t> VertexInsertion::insert(EditedMesh& mesh, std::int32_t cell, double limit) {
     best_ = {Vec3::Zero(), limit};
     best_cavity_.clear();
-    for (int i = 0; i < 4; ++i)
-        for (int j = i + 1; j < 4; ++j)
-            if (mesh.find_ring(cell, i, j, ring_)) grow_and_move(mesh);
+    const Vec3 inwards = away_from_boundary(mesh, cell);
+    const auto try_all_edges = [&](double depth) {
+        for (int i = 0; i < 4; ++i)
+            for (int j = i + 1; j < 4; ++j) {
+                if (!mesh.find_ring(cell, i, j, ring_)) continue;
+                const Vec3 &a = mesh.point(ring_.a), &b = mesh.point(ring_.b);
+                grow_and_move(mesh, (a + b) / 2 + depth * (b - a).norm() * inwards);
+            }
+    };
+    try_all_edges(0);
+    const bool is_sliver = mesh.badness(cell) > square_from_degrees(angle_of_a_sliver_deg);
+    if (best_cavity_.empty() && is_sliver && inwards != Vec3::Zero()) try_all_edges(depth_below_facets);
     if (best_cavity_.empty()) return {};
     cavity_ = best_cavity_;
     find_sides(mesh);

@@ -7,9 +7,10 @@
 
 namespace kerf {
 
-/// A cavity begins as the cells around an edge of the bad one, the vertex in the middle of that. Then it grows, across
-/// the worst of its faces as seen from the vertex to what is better, in turn with moves of the vertex to its best place
-/// (klingner2007 grow theirs by a measure of what is gained). Every corner of the cavity stays on its boundary.
+/// A cavity begins as the cells around an edge of the bad one, the vertex in the middle of that, or, for a sliver with
+/// facets where that does not do, below them. Then it grows, across the worst of its faces as seen from the vertex to
+/// what is better, in turn with moves of the vertex to its best place (klingner2007 grow theirs by a measure of what is
+/// gained). Every corner of the cavity stays on its boundary.
 class VertexInsertion {
  public:
     /// The cells that the new ones replace; empty if there is no vertex whose worst cell is better than `limit`, and
@@ -24,7 +25,8 @@ class VertexInsertion {
         double badness;  // of the cell between it and the place
     };
 
-    void grow_and_move(const EditedMesh& mesh);
+    static Vec3 away_from_boundary(const EditedMesh& mesh, std::int32_t cell);
+    void grow_and_move(const EditedMesh& mesh, const Vec3& start);
     void find_sides(const EditedMesh& mesh);
     bool grow(const EditedMesh& mesh, const Vec3& at);
     bool has_inner_vertex(const EditedMesh& mesh) const;

@@ -135,7 +135,7 @@ constexpr OptionRow<InputOptions> input_rows[] = {
 
 constexpr OptionRow<SizeOptions> size_rows[] = {
     {"size", "", option_group::sizes, "H",
-     "Wanted edge length inside, in units of the input, or with % of the diagonal of its bounding box. Default: as "
+     "Wanted edge length, in units of the input, or with % of the diagonal of its bounding box. Default: as "
      "the surface.",
      place<&SizeOptions::size>, true, size_range::length},
     {"max-volume", "", option_group::sizes, "V", "Largest volume of a tetrahedron, instead of --size.",

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "cut/load.h"
 #include "io/surface_reader.h"
+#include "mesh/quality.h"
 #include "mesh/verification.h"
 #include "support/shapes.h"
 
@@ -319,6 +320,15 @@ TEST(Mesher, CoincidentVerticesBreakTheLaws) {
     EXPECT_GT(laws.extra_boundary_faces, 0);
     EXPECT_EQ(laws.mismatched_neighbours, 0);
     EXPECT_FALSE(laws.hold());
+}
+
+// Rings of long flat facets, whose Delaunay cells are slivers between two of them.
+TEST(Meshers, LeaveNoSliversBetweenFacets) {
+    for (const int sections : {6, 8}) {
+        const Filling filling = mesh_volume(test::to_arrays(test::torus(1, 0.1, sections, 6)), MesherOptions());
+        const PartQuality quality = measure_quality(filling.mesh, {}, 1);
+        EXPECT_GT(quality.all.measures[0].min(), 3) << sections;
+    }
 }
 
 }  // namespace
