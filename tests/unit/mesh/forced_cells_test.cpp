@@ -34,6 +34,7 @@ Soup wedge(double degrees, int layers) {
     }
     soup.facets.push_back({0, 2, 1});
     soup.facets.push_back({3 * layers, 3 * layers + 1, 3 * layers + 2});
+    soup.patch.assign(soup.facets.size(), 0);
     return soup;
 }
 
