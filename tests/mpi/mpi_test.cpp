@@ -167,7 +167,7 @@ class MpiInterruptions : public testing::Test {
  protected:
     std::vector<std::string> command(const std::string& output) const {
         return {"mesh", test::asset_path("cube"), "-o",   folder_.file(output), "-n",
-                "9",    "--max-volume",           "3e-6", "--workers",          "1"};
+                "9",    "--max-volume",           "1e-6", "--workers",          "1"};
     }
     void expect_same_when_resumed(int ranks) const {
         EXPECT_FALSE(std::filesystem::exists(folder_.file("out")));
