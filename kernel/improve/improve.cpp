@@ -175,7 +175,7 @@ class Improver {
                                  : std::min(badness - least_gain_of_a_move * (1 + badness),
                                             std::max(square_from_degrees(least_made_deg), badness / much_better));
         evaluations_for_vertices_ -= mesh_.evaluations();
-        const std::span<const std::int32_t> cavity = insertion_.insert(mesh_, cell, limit);
+        const std::span<const std::int32_t> cavity = insertion_.insert(mesh_, cell, limit, badness > useless_);
         evaluations_for_vertices_ += mesh_.evaluations();
         if (cavity.empty()) return false;
         is_settled_.push_back(0);

@@ -1,5 +1,6 @@
 #include "improve/vertex_insertion.h"
 
+#include "geometry/triangle.h"
 #include "mesh/faces.h"
 
 namespace kerf {
@@ -7,8 +8,7 @@ namespace kerf {
 namespace {
 constexpr std::size_t most_cavity_cells = 40;
 constexpr int most_moves = 4;
-// Where cells around a sliver between facets are as flat as it is, the vertex begins below them.
-constexpr double angle_of_a_sliver_deg = 3, depth_below_facets = 0.3;  // in lengths of the edge
+constexpr double depth_below_facets = 0.3;  // in lengths of the edge
 }  // namespace
 
 bool VertexInsertion::contains(std::int32_t cell) const {
@@ -91,33 +91,34 @@ void VertexInsertion::grow_and_move(const EditedMesh& mesh, const Vec3& start) {
     }
 }
 
-// Zero where no face of the cell is at the boundary.
+// Of length 1, or zero where no face of the cell is at the boundary.
 Vec3 VertexInsertion::away_from_boundary(const EditedMesh& mesh, std::int32_t cell) {
     Vec3 sum = Vec3::Zero();
     for (int i = 0; i < 4; ++i) {
         if (mesh.neighbour(cell, i) >= 0) continue;
         const Triangle face = mesh.face(cell, i);
-        const Vec3& a = mesh.point(face[0]);
-        sum += (mesh.point(face[2]) - a).cross(mesh.point(face[1]) - a).normalized();
+        sum -= doubled_area_vector(mesh.point(face[0]), mesh.point(face[1]), mesh.point(face[2])).normalized();
     }
     return sum.stableNormalized();
 }
 
-std::span<const std::int32_t> VertexInsertion::insert(EditedMesh& mesh, std::int32_t cell, double limit) {
+void VertexInsertion::try_all_edges(const EditedMesh& mesh, std::int32_t cell, const Vec3& away) {
+    for (int i = 0; i < 4; ++i)
+        for (int j = i + 1; j < 4; ++j) {
+            if (!mesh.find_ring(cell, i, j, ring_)) continue;
+            const Vec3 &a = mesh.point(ring_.a), &b = mesh.point(ring_.b);
+            grow_and_move(mesh, (a + b) / 2 + (b - a).norm() * away);
+        }
+}
+
+std::span<const std::int32_t> VertexInsertion::insert(EditedMesh& mesh, std::int32_t cell, double limit,
+                                                      bool may_begin_below) {
     best_ = {Vec3::Zero(), limit};
     best_cavity_.clear();
-    const Vec3 inwards = away_from_boundary(mesh, cell);
-    const auto try_all_edges = [&](double depth) {
-        for (int i = 0; i < 4; ++i)
-            for (int j = i + 1; j < 4; ++j) {
-                if (!mesh.find_ring(cell, i, j, ring_)) continue;
-                const Vec3 &a = mesh.point(ring_.a), &b = mesh.point(ring_.b);
-                grow_and_move(mesh, (a + b) / 2 + depth * (b - a).norm() * inwards);
-            }
-    };
-    try_all_edges(0);
-    const bool is_sliver = mesh.badness(cell) > square_from_degrees(angle_of_a_sliver_deg);
-    if (best_cavity_.empty() && is_sliver && inwards != Vec3::Zero()) try_all_edges(depth_below_facets);
+    try_all_edges(mesh, cell, Vec3::Zero());
+    if (best_cavity_.empty() && may_begin_below)
+        if (const Vec3 inwards = away_from_boundary(mesh, cell); inwards != Vec3::Zero())
+            try_all_edges(mesh, cell, depth_below_facets * inwards);
     if (best_cavity_.empty()) return {};
     cavity_ = best_cavity_;
     find_sides(mesh);

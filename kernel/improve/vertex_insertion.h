@@ -13,9 +13,10 @@ namespace kerf {
 /// gained). Every corner of the cavity stays on its boundary.
 class VertexInsertion {
  public:
+    /// `may_begin_below`: below the facets of the cell, too, as where those around it are as flat as it is.
     /// The cells that the new ones replace; empty if there is no vertex whose worst cell is better than `limit`, and
     /// nothing has changed. The vertex has been added, and cells() are those around it.
-    std::span<const std::int32_t> insert(EditedMesh& mesh, std::int32_t cell, double limit);
+    std::span<const std::int32_t> insert(EditedMesh& mesh, std::int32_t cell, double limit, bool may_begin_below);
     const std::vector<Tetrahedron>& cells() const { return cells_; }
 
  private:
@@ -26,6 +27,7 @@ class VertexInsertion {
     };
 
     static Vec3 away_from_boundary(const EditedMesh& mesh, std::int32_t cell);
+    void try_all_edges(const EditedMesh& mesh, std::int32_t cell, const Vec3& away);
     void grow_and_move(const EditedMesh& mesh, const Vec3& start);
     void find_sides(const EditedMesh& mesh);
     bool grow(const EditedMesh& mesh, const Vec3& at);

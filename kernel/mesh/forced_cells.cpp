@@ -5,10 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Geometry>
-
 #include "core/check.h"
 #include "geometry/angles.h"
+#include "geometry/triangle.h"
 #include "mesh/buckets.h"
 #include "mesh/tet_mesh.h"
 
@@ -39,12 +38,6 @@ bool ForcedCells::is_on_surface(Triangle face) const {
     return std::find(begin, end, UndirectedEdge{face[1], face[2]}) != end;
 }
 
-// As long as twice the area.
-Vec3 ForcedCells::normal_of(const Triangle& face) const {
-    const Vec3& a = vertices_[face[0]];
-    return (vertices_[face[1]] - a).cross(vertices_[face[2]] - a);
-}
-
 bool ForcedCells::contains(const Tetrahedron& cell, double smallest_deg) {
     if (!(smallest_deg > 0) || smallest_deg >= largest_bound_deg) return false;
     const double limit = std::min(largest_bound_deg, smallest_deg / least_share) * std::numbers::pi / 180;
@@ -57,7 +50,7 @@ bool ForcedCells::contains(const Tetrahedron& cell, double smallest_deg) {
         is_facet[i] = is_on_surface(faces[i]);
     }
     if (std::count(is_facet.begin(), is_facet.end(), true) == 0) return false;
-    for (std::size_t i = 0; i < 4; ++i) normals[i] = normal_of(faces[i]).normalized();
+    for (std::size_t i = 0; i < 4; ++i) normals[i] = doubled_area_vector(vertices_, faces[i]).normalized();
     for (std::size_t i = 0; i < 4; ++i) {
         if (!is_facet[i]) continue;
         double smallest = std::numbers::pi;
@@ -80,7 +73,7 @@ bool ForcedCells::is_shallow(const Triangle& face, double cell_depth, double lim
     const double opposite_a = (c - b).norm(), opposite_b = (a - c).norm(), opposite_c = (b - a).norm();
     const double perimeter = opposite_a + opposite_b + opposite_c;
     const Vec3 centre = (opposite_a * a + opposite_b * b + opposite_c * c) / perimeter;
-    const Vec3 radius = normal_of(face) / -perimeter;  // inwards
+    const Vec3 radius = doubled_area_vector(vertices_, face) / -perimeter;  // inwards
     constexpr double rounding = 1e-6;
     const double from = cell_depth * (1 - rounding);
     const auto is_interface = [&](std::int32_t f) { return boundary_.is_interface[static_cast<std::size_t>(f)] != 0; };

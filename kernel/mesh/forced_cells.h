@@ -49,7 +49,6 @@ class ForcedCells {
 
  private:
     bool is_on_surface(Triangle face) const;
-    Vec3 normal_of(const Triangle& face) const;
     bool is_shallow(const Triangle& face, double cell_depth, double limit);
 
     const std::vector<Vec3>& vertices_;

@@ -146,7 +146,7 @@ std::string four_digits(double value) { return fmt::format("{:.4g}", value); }
 std::string quality_text(const MeshQuality& quality, QualityDetail detail) {
     std::string text = head_text(quality);
     text += cells_table("All cells", quality.cells.all, quality.tets());
-    if (quality.cells.angles.forced.count() > 0 || detail == QualityDetail::all)
+    if (quality.cells.angles.forced.count() > 0 || (detail == QualityDetail::all && quality.tets() > 0))
         text += forced_table(quality.cells.angles, quality.tets());
     if (detail == QualityDetail::brief) return text;
     text += cells_table("Cells with a vertex on an interface", quality.cells.interface, quality.tets());
