@@ -96,10 +96,9 @@ std::function<void()> step_counter(StageListener* listener) {
 }
 
 // Of what nobody has asked for.
-std::string note_of_remeshing(const Input& input, const SurfaceArrays& surface, const RemeshOptions& options) {
+std::string note_of_remeshing(const Input& input, const Slivers& slivers, const RemeshOptions& options) {
     if (input.is_cad)
         return "A CAD file has no triangles of its own: they are remeshed. --surface split keeps those of OpenCASCADE.";
-    const Slivers slivers = find_slivers(surface.vertices, surface.facets);
     return fmt::format(
         "{} of {} facets have angles below 10 degrees, which would spoil the cells: {} remeshed within {:.2g} "
         "(--deviation). --surface split keeps the facets.",
@@ -107,10 +106,10 @@ std::string note_of_remeshing(const Input& input, const SurfaceArrays& surface, 
         options.deviation);
 }
 
-Input remeshed(Input input, const RunOptions& options, StageListener* listener, int processes) {
-    const SurfaceArrays before = input.surface.arrays();
+Input remeshed(Input input, const SurfaceArrays& before, const Slivers& slivers, const RunOptions& options,
+               StageListener* listener, int processes) {
     RemeshOptions wanted = remesh_options(input, before, options);
-    if (options.remeshing == Remeshing::where_needed) input.notes.push_back(note_of_remeshing(input, before, wanted));
+    if (options.remeshing == Remeshing::where_needed) input.notes.push_back(note_of_remeshing(input, slivers, wanted));
     check_memory(forecast_facets(before, wanted), options, wanted.longest, processes);
     wanted.poll = step_counter(listener);
     if (wanted.poll) wanted.poll();
@@ -130,8 +129,8 @@ Input remeshed(Input input, const RunOptions& options, StageListener* listener, 
     return input;
 }
 
-Input divided(Input input, const RunOptions& options, StageListener* listener, int processes) {
-    const SurfaceArrays before = input.surface.arrays();
+Input divided(Input input, const SurfaceArrays& before, const RunOptions& options, StageListener* listener,
+              int processes) {
     const SizeField wanted = wanted_lengths(options, before, input);
     check_memory(forecast_divided_facets(before, wanted), options, longest_edge(options, input.diagonal), processes);
     DividedSurface result = divide_facets(before, wanted, CancellationCheck(step_counter(listener)));
@@ -146,16 +145,21 @@ Input divided(Input input, const RunOptions& options, StageListener* listener, i
     return input;
 }
 
-}  // namespace
-
-SurfaceChange surface_change(const Input& input, const RunOptions& options) {
+SurfaceChange change_of(const Input& input, const SurfaceArrays& surface, const Slivers& slivers,
+                        const RunOptions& options) {
     if (options.remeshing == Remeshing::never) return SurfaceChange::none;
-    if (options.remeshing == Remeshing::always || input.is_cad) return SurfaceChange::remeshing;
-    const SurfaceArrays surface = input.surface.arrays();
-    if (find_slivers(surface.vertices, surface.facets).spoil_cells()) return SurfaceChange::remeshing;
+    if (options.remeshing == Remeshing::always || input.is_cad || slivers.spoil_cells())
+        return SurfaceChange::remeshing;
     if (options.sizes.cells > 0 || has_facets_to_divide(surface, wanted_lengths(options, surface, input)))
         return SurfaceChange::division;
     return SurfaceChange::none;
+}
+
+}  // namespace
+
+SurfaceChange surface_change(const Input& input, const RunOptions& options) {
+    const SurfaceArrays surface = input.surface.arrays();
+    return change_of(input, surface, find_slivers(surface.vertices, surface.facets), options);
 }
 
 // Whoever wants a size gets it: a bound that is much smaller would ask for finer facets wherever the surface is curved.
@@ -177,22 +181,27 @@ double deviation_for(const Length& wanted, double diagonal) {
 }
 
 double forecast_changed_facets(const Input& input, const RunOptions& options) {
-    const auto facets = static_cast<double>(input.facets);
-    const SurfaceChange change = surface_change(input, options);
-    if (change == SurfaceChange::none) return facets;
     const SurfaceArrays surface = input.surface.arrays();
-    if (change == SurfaceChange::division)
-        return forecast_divided_facets(surface, wanted_lengths(options, surface, input));
-    return forecast_facets(surface, remesh_options(input, surface, options));
+    switch (change_of(input, surface, find_slivers(surface.vertices, surface.facets), options)) {
+        case SurfaceChange::none:
+            break;
+        case SurfaceChange::division:
+            return forecast_divided_facets(surface, wanted_lengths(options, surface, input));
+        case SurfaceChange::remeshing:
+            return forecast_facets(surface, remesh_options(input, surface, options));
+    }
+    return static_cast<double>(input.facets);
 }
 
 Input remesh_where_asked(Input input, const RunOptions& options, StageListener* listener, int processes) {
-    const SurfaceChange change = surface_change(input, options);
-    if (change == SurfaceChange::remeshing) return remeshed(std::move(input), options, listener, processes);
-    const SurfaceArrays surface = input.surface.arrays();
-    const std::string note = sliver_note(find_slivers(surface.vertices, surface.facets), input.path);
+    const SurfaceArrays before = input.surface.arrays();
+    const Slivers slivers = find_slivers(before.vertices, before.facets);
+    const SurfaceChange change = change_of(input, before, slivers, options);
+    if (change == SurfaceChange::remeshing)
+        return remeshed(std::move(input), before, slivers, options, listener, processes);
+    const std::string note = sliver_note(slivers, input.path);
     if (!note.empty()) input.notes.push_back(note);
-    return change == SurfaceChange::division ? divided(std::move(input), options, listener, processes)
+    return change == SurfaceChange::division ? divided(std::move(input), before, options, listener, processes)
                                              : std::move(input);
 }
 
