@@ -30,7 +30,8 @@ PARTS_PER_PROCESS = 4
 
 def run_kerf(args, command, folder, surface, parts, workers, max_volume):
     """Seconds of the command, and its report."""
-    options = ["-n", f"{parts}", "--workers", f"{workers}", "--max-volume", f"{max_volume:g}"]
+    # TetGen keeps the facets, too.
+    options = ["-n", f"{parts}", "--workers", f"{workers}", "--max-volume", f"{max_volume:g}", "--surface", "split"]
     line = [args.kerf, command, str(surface), "-o", str(folder), "-q", *options]
     print(" ".join(line[1:2] + options), file=sys.stderr)
     seconds, _ = timed(line)

@@ -136,7 +136,9 @@ def main():
 
         contestants = [TetGen(smesh), kerf("decompose", "-n", "8")]
         for volume in args.max_volume:
-            options = ["-n", f"{args.parts}", "--workers", f"{args.workers}", "--max-volume", f"{volume:g}"]
+            # TetGen keeps the facets, too.
+            options = ["-n", f"{args.parts}", "--workers", f"{args.workers}", "--max-volume", f"{volume:g}",
+                       "--surface", "split"]
             contestants += [TetGen(smesh, volume), kerf("mesh", *options)]
         whole, decomposition, *results = measure(contestants, args.repetitions)
 
