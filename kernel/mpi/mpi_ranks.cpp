@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <new>
 
 #include <fmt/format.h>
@@ -12,8 +13,16 @@ namespace {
 
 constexpr std::uint64_t has_left = ~std::uint64_t{0};
 
-// Whether that was to be done. Only the first thread calls MPI, but cuts are made on others meanwhile.
-bool initialise_mpi() {
+void finalise_mpi() {
+    int is_finalised = 0;
+    MPI_Finalized(&is_finalised);
+    if (!is_finalised) MPI_Finalize();
+}
+
+// Only the first thread calls MPI, but cuts are made on others meanwhile. Where ranks end with an error, the launcher
+// ends the others when the first of them has left: so they leave together, at the end of the process, when the one that
+// speaks for them has spoken.
+void initialise_mpi() {
     int is_initialised = 0, is_finalised = 0, provided = MPI_THREAD_SINGLE;
     check_mpi(MPI_Finalized(&is_finalised), "MPI_Finalized");
     if (is_finalised)
@@ -23,10 +32,11 @@ bool initialise_mpi() {
     check_mpi(MPI_Initialized(&is_initialised), "MPI_Initialized");
     if (is_initialised)
         check_mpi(MPI_Query_thread(&provided), "MPI_Query_thread");
-    else
+    else {
         check_mpi(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
-    if (provided >= MPI_THREAD_FUNNELED) return !is_initialised;
-    if (!is_initialised) MPI_Finalize();
+        std::atexit(finalise_mpi);
+    }
+    if (provided >= MPI_THREAD_FUNNELED) return;
     throw Error(ErrorCode::internal,
                 "The MPI library supports no program with threads (MPI_THREAD_FUNNELED). Use one that was built "
                 "with threads, or run kerf without mpirun.");
@@ -49,7 +59,8 @@ struct MpiRanks::LastWords {
     std::array<char, 1020> message{};
 };
 
-MpiRanks::MpiRanks(MPI_Comm comm) : has_initialised_(initialise_mpi()) {
+MpiRanks::MpiRanks(MPI_Comm comm) {
+    initialise_mpi();
     check_mpi(MPI_Comm_dup(comm, &comm_), "MPI_Comm_dup");
     check_mpi(MPI_Comm_set_errhandler(comm_, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
     check_mpi(MPI_Comm_rank(comm_, &rank_), "MPI_Comm_rank");
@@ -58,10 +69,7 @@ MpiRanks::MpiRanks(MPI_Comm comm) : has_initialised_(initialise_mpi()) {
     sizes_.resize(sent_to_.size());
 }
 
-MpiRanks::~MpiRanks() {
-    MPI_Comm_free(&comm_);
-    if (has_initialised_) MPI_Finalize();
-}
+MpiRanks::~MpiRanks() { MPI_Comm_free(&comm_); }
 
 MPI_Op MpiRanks::operation_of(Reduction reduction) {
     if (reduction == Reduction::sum) return MPI_SUM;

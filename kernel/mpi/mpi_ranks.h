@@ -44,9 +44,8 @@ struct RankValues {
 class MpiRanks : public Communicator {
  public:
     /// Collective. Without an argument: all processes that a launcher has started, or this one alone. Where the program
-    /// has not initialised MPI, that is done here, and undone by the destructor, so that it can be done once in a
-    /// process. Throws Error(internal) if MPI has been finalised, or does not allow the threads that a rank has beside
-    /// its first. What fails while `comm` is duplicated is handled as `comm` says.
+    /// has not initialised MPI, that is done here, and undone at the end of the process. Throws Error(internal) if MPI
+    /// has been finalised, or does not allow the threads that a rank has beside its first. What fails while `comm` is duplicated is handled as `comm` says.
     explicit MpiRanks(MPI_Comm comm = MPI_COMM_WORLD);
     /// Collective.
     ~MpiRanks() override;
@@ -114,7 +113,6 @@ class MpiRanks : public Communicator {
         Bytes message;
         MPI_Request request = MPI_REQUEST_NULL;
     };
-    bool has_initialised_ = false;  // MPI
     MPI_Comm comm_ = MPI_COMM_NULL;
     int rank_ = 0, size_ = 1;
     std::list<Posted> posted_;
