@@ -45,7 +45,8 @@ class MpiRanks : public Communicator {
  public:
     /// Collective. Without an argument: all processes that a launcher has started, or this one alone. Where the program
     /// has not initialised MPI, that is done here, and undone at the end of the process. Throws Error(internal) if MPI
-    /// has been finalised, or does not allow the threads that a rank has beside its first. What fails while `comm` is duplicated is handled as `comm` says.
+    /// has been finalised, or does not allow the threads that a rank has beside its first. What fails while `comm` is
+    /// duplicated is handled as `comm` says.
     explicit MpiRanks(MPI_Comm comm = MPI_COMM_WORLD);
     /// Collective.
     ~MpiRanks() override;

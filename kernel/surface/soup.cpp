@@ -154,6 +154,10 @@ void scale(Soup& soup, double factor) {
     if (factor == 1) return;
     for (std::vector<Vec3>* points : {&soup.vertices, &soup.holes})
         for (Vec3& p : *points) p *= factor;
+    for (RegionSeed& seed : soup.seeds) {
+        seed.point *= factor;
+        seed.largest_cell *= factor * factor * factor;
+    }
 }
 
 void drop_facets(Soup& soup, const std::vector<char>& drop) {
@@ -166,6 +170,7 @@ void drop_facets(Soup& soup, const std::vector<char>& drop) {
     drop_items(soup.facets, drop);
     drop_items(soup.patch, drop);
     drop_items(soup.polygon, drop);
+    if (!soup.sides.empty()) drop_items(soup.sides, drop);
 }
 
 std::int64_t weld_exactly(Soup& soup) { return renumber(soup, find_representatives(soup.vertices)); }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/types.h"
+#include "surface/facet_sides.h"
 
 namespace kerf {
 
@@ -14,6 +15,18 @@ namespace kerf {
 struct ModelEdge {
     UndirectedEdge vertices;
     std::int32_t sharp;  ///< 0: the faces of the model are tangent there, so that only patches end; else 1
+};
+
+/// A point of a region that a file, or its user, names.
+struct RegionSeed {
+    std::string name;
+    Vec3 point;               ///< units of the file
+    double largest_cell = 0;  ///< volume that its cells may have at most; 0: no bound
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(name, point, largest_cell);
+    }
 };
 
 /// Triangles with shared vertices and a patch per triangle. No promise about closedness, orientation or manifoldness.
@@ -36,11 +49,16 @@ struct Soup {
     std::vector<ModelEdge> model_edges = {};
     /// sRGB and 255 for each patch; four zeros where the file gives no colour. Empty if it gives none at all.
     std::vector<std::array<std::uint8_t, 4>> patch_colours = {};
+    /// #F, each facet once: what lies on its sides, by numbers of `region_names`. Empty: the facets bound one body, or
+    /// what they bound is yet to be found.
+    std::vector<FacetSides> sides = {};
+    std::vector<std::string> region_names = {};  ///< of the numbers in `sides`; empty if these are
+    std::vector<RegionSeed> seeds = {};          ///< which cells of the facets are regions, where the file tells that
 
     template <class Archive>
     void archive(Archive& a) {
         a(vertices, facets, patch, patch_names, polygon, unfit_polygons, vertex_number, holes, notes, is_of_model,
-          model_edges, patch_colours);
+          model_edges, patch_colours, sides, region_names, seeds);
     }
 
     /// The numbers that the file gives to facets and vertices; facets of one face that follow each other count once.

@@ -1,0 +1,23 @@
+// What lies on the two sides of a facet.
+#pragma once
+
+#include <cstdint>
+
+namespace kerf {
+
+/// The regions that a facet separates, by their numbers; -1: outside of all of them.
+struct FacetSides {
+    std::int32_t front = -1;  ///< where its normal points to
+    std::int32_t back = 0;
+
+    bool is_wall() const { return front >= 0 && back >= 0; }
+    FacetSides turned() const { return {back, front}; }
+    bool operator==(const FacetSides&) const = default;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(front, back);
+    }
+};
+
+}  // namespace kerf
