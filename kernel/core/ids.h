@@ -63,6 +63,9 @@ class Array : public std::vector<T> {
 /// The place of a part in the order of the tree (MeshOutline::parts), which is not its NodeId, nor an MPI rank.
 using PartIndex = Id<struct PartIndexTag>;
 
+/// A region of a complex (surface/complex.h): a body of one material.
+using RegionIndex = Id<struct RegionIndexTag>;
+
 }  // namespace kerf
 
 template <class Tag>

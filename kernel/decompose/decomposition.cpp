@@ -7,6 +7,7 @@
 
 #include "core/check.h"
 #include "core/error.h"
+#include "decompose/region_tree.h"
 
 namespace kerf {
 
@@ -18,6 +19,13 @@ struct Branch {
     std::int32_t first_leaf = 0, leaves = 1;
 };
 
+// Several of them, and the tree above their roots.
+struct Regions {
+    const Complex& complex;
+    std::vector<RegionMeasures> measures;
+    RegionTree tree;
+};
+
 class Decomposer {
  public:
     Decomposer(const DecomposeOptions& options, LeafRange range, CutListener* listener)
@@ -26,6 +34,7 @@ class Decomposer {
     }
 
     Decomposition descend(Surface surface, const Branch& branch, std::int32_t threads);
+    Decomposition descend(const Regions& regions, const RegionTree::Node& node, std::int32_t threads);
 
  private:
     using Halves = std::array<Surface, 2>;
@@ -38,6 +47,10 @@ class Decomposer {
     void tell_listener(const Surface& surface, const Cut& cut);
     void descend_halves(Halves halves, const std::array<Branch, 2>& branches, std::int32_t threads,
                         Decomposition& result);
+    // Calls descend_half(i, threads) for both halves, if they have leaves in the range, on two threads if there are.
+    template <class DescendHalf>
+    void descend_both(const std::array<bool, 2>& wanted, std::int32_t threads, Decomposition& result,
+                      DescendHalf descend_half);
 
     DecomposeOptions options_;
     LeafRange range_;
@@ -55,7 +68,7 @@ void append(Decomposition& result, Decomposition branch) {
 void Decomposer::keep_whole(const Surface& surface, Decomposition& result) const {
     const TreeNode& node = result.nodes.back();
     if (range_.contains(node.first_leaf))
-        result.leaves.push_back({node.id, node.first_leaf, node.leaves, node.mass.volume, surface.arrays()});
+        result.leaves.push_back({node.id, node.first_leaf, node.leaves, node.mass.volume, {}, surface.arrays()});
 }
 
 std::array<double, 2> Decomposer::loads(const Halves& halves) const {
@@ -106,18 +119,41 @@ Decomposition Decomposer::descend(Surface surface, const Branch& branch, std::in
 void Decomposer::descend_halves(Halves halves, const std::array<Branch, 2>& branches, std::int32_t threads,
                                 Decomposition& result) {
     const auto wanted = [&](std::size_t i) { return range_.meets(branches[i].first_leaf, branches[i].leaves); };
-    const auto half = [&](std::size_t i, std::int32_t own_threads) {
+    descend_both({wanted(0), wanted(1)}, threads, result, [&](std::size_t i, std::int32_t own_threads) {
         return descend(std::exchange(halves[i], {}), branches[i], own_threads);
-    };
-    if (threads > 1 && wanted(0) && wanted(1)) {
-        std::future<Decomposition> below = std::async(std::launch::async, half, 0, threads / 2);
-        Decomposition above = half(1, threads - threads / 2);
+    });
+}
+
+template <class DescendHalf>
+void Decomposer::descend_both(const std::array<bool, 2>& wanted, std::int32_t threads, Decomposition& result,
+                              DescendHalf descend_half) {
+    if (threads > 1 && wanted[0] && wanted[1]) {
+        std::future<Decomposition> below = std::async(std::launch::async, descend_half, 0, threads / 2);
+        Decomposition above = descend_half(1, threads - threads / 2);
         append(result, below.get());
         append(result, std::move(above));
     } else {
         for (const std::size_t i : {0, 1})
-            if (wanted(i)) append(result, half(i, threads));
+            if (wanted[i]) append(result, descend_half(i, threads));
     }
+}
+
+Decomposition Decomposer::descend(const Regions& regions, const RegionTree::Node& node, std::int32_t threads) {
+    const RegionTree& tree = regions.tree;
+    if (node.regions == 1) {
+        Decomposition branch = descend(regions.complex.surface_of(tree.region(node)),
+                                       {node.id, tree.first_leaf(node), tree.leaves(node)}, threads);
+        for (Leaf& leaf : branch.leaves) leaf.region = tree.region(node);
+        for (TreeNode& below : branch.nodes) below.region = tree.region(node);
+        return branch;
+    }
+    Decomposition result;
+    result.nodes.push_back(tree.describe(node, regions.measures));
+    const std::array<RegionTree::Node, 2> halves = tree.halves(node);
+    const auto wanted = [&](std::size_t i) { return range_.meets(tree.first_leaf(halves[i]), tree.leaves(halves[i])); };
+    descend_both({wanted(0), wanted(1)}, threads, result,
+                 [&](std::size_t i, std::int32_t own_threads) { return descend(regions, halves[i], own_threads); });
+    return result;
 }
 
 }  // namespace
@@ -126,6 +162,18 @@ Decomposition decompose(Surface surface, const DecomposeOptions& options, LeafRa
     KERF_CHECK(surface.facet_count() > 0);
     KERF_CHECK(options.parts >= 1 && options.threads >= 1);
     return Decomposer(options, range, listener).descend(std::move(surface), {1, 0, options.parts}, options.threads);
+}
+
+Decomposition decompose(const Complex& complex, const DecomposeOptions& options, LeafRange range,
+                        CutListener* listener) {
+    if (complex.region_count() == 1) return decompose(complex.surface_of(RegionIndex(0)), options, range, listener);
+    KERF_CHECK(options.parts >= complex.region_count() && options.threads >= 1);
+    std::vector<RegionMeasures> measures = measure_regions(complex, options.cut);
+    const RegionTree tree(complex, measures, options.parts);
+    const Regions regions{complex, std::move(measures), tree};
+    Decomposition result = Decomposer(options, range, listener).descend(regions, tree.root(), options.threads);
+    result.contacts = complex.find_contacts();
+    return result;
 }
 
 }  // namespace kerf

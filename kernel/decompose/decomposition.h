@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "decompose/tree_node.h"
+#include "surface/complex.h"
 
 namespace kerf {
 
@@ -30,18 +31,21 @@ struct Leaf {
     std::int32_t first_leaf = 0;  ///< as in TreeNode
     std::int32_t leaves = 1;      ///< more than one: it should have been cut, but has no contour of edges
     double volume = 0;            ///< enclosed
+    RegionIndex region;           ///< in which it lies
     SurfaceArrays surface;
 
     template <class Archive>
     void archive(Archive& a) {
-        a(id, first_leaf, leaves, volume, surface);
+        a(id, first_leaf, leaves, volume, region, surface);
     }
 };
 
 /// A facet of the input that straight cuts have split: its pieces cover it and have its key.
 struct DividedFacet {
     std::int32_t facet = 0;
-    std::array<Vec3, 3> corners;
+    std::array<Vec3, 3> corners;  ///< counter-clockwise seen from outside of the part
+    NodeId part = 1;              ///< that was divided, or one beside it
+    RegionIndex region;           ///< of the part
 };
 
 /// Is told of every cut while its data is at hand: one call at a time, from any thread. On several threads cuts arrive
@@ -69,6 +73,7 @@ struct Decomposition {
     std::vector<TreeNode> nodes;               ///< visited ones, in depth-first order
     std::vector<Leaf> leaves;                  ///< those of the range, in the order of the tree
     std::vector<DividedFacet> divided_facets;  ///< ascending by facet
+    Contacts contacts;                         ///< of all leaves of the tree, in the range or not
 };
 
 /// Cuts the surface, which must not be empty, into options.parts subdomains and returns those of `range`; only branches
@@ -78,6 +83,13 @@ struct Decomposition {
 /// on the range, listener or threads. Cost n + n/2 + n/4 + ... for a single leaf, n log K for all; the first cut runs
 /// on one thread, the halves of a cut share the threads.
 Decomposition decompose(Surface surface, const DecomposeOptions& options, LeafRange range,
+                        CutListener* listener = nullptr);
+
+/// The same for the regions of a complex, of which options.parts has one at least for each: above their roots are nodes
+/// that divide them (decompose/region_tree.h). No cut crosses a wall, and no part has cells of two regions. Surfaces of
+/// half-edges are made of those regions alone that have leaves in the range. Throws Error(input) for a region without
+/// volume.
+Decomposition decompose(const Complex& complex, const DecomposeOptions& options, LeafRange range,
                         CutListener* listener = nullptr);
 
 }  // namespace kerf

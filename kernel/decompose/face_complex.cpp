@@ -99,7 +99,7 @@ std::int32_t FaceComplex::add_point(const Vec3& point, NodeId cut) {
 void FaceComplex::note_division(const ComplexFace& face) {
     if (face.divided || face.cap != 0 || !is_of_input(face.key)) return;
     const Triangle& t = face.corners;
-    divided_facets_.push_back({key_index(face.key), {points_[t[0]], points_[t[1]], points_[t[2]]}});
+    divided_facets_.push_back({key_index(face.key), {points_[t[0]], points_[t[1]], points_[t[2]]}, face.owner[0], {}});
 }
 
 void FaceComplex::divide(NodeId id, const Part& whole, const StraightCut& cut) {
@@ -182,6 +182,13 @@ const Plane& FaceComplex::plane(NodeId cut) const {
 void FaceComplex::replace_caps(const std::vector<ComplexFace>& caps) {
     std::erase_if(faces_, [](const ComplexFace& face) { return face.cap != 0; });
     faces_.insert(faces_.end(), caps.begin(), caps.end());
+}
+
+Contacts FaceComplex::find_contacts() const {
+    std::vector<Triangle> outer;
+    for (const ComplexFace& face : faces_)
+        if (face.owner[1] == 0) outer.push_back(face.corners);
+    return kerf::find_contacts(outer, vertex_key_);
 }
 
 std::vector<std::pair<NodeId, std::int32_t>> FaceComplex::assign_keys() {

@@ -61,6 +61,8 @@ class FaceComplex {
     /// Gives the caps and the vertices of straight cuts dense keys in the order of their numbers; vertices without
     /// faces get none. Returns the number of vertices that each straight cut made, ascending by cut.
     std::vector<std::pair<NodeId, std::int32_t>> assign_keys();
+    /// Where parts touch without a face between them, by the keys that are assigned. O(#faces).
+    Contacts find_contacts() const;
 
  private:
     void split_others(NodeId id, std::vector<SplitEdge> edges);

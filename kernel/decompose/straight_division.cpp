@@ -19,8 +19,9 @@ namespace {
 class StraightDivision {
  public:
     StraightDivision(Decomposition whole, const DecomposeOptions& options, CutListener* listener)
-        : options_(options), listener_(listener), complex_(whole.leaves) {
+        : options_(options), listener_(listener), complex_(whole.leaves), has_contacts_(!whole.contacts.empty()) {
         for (TreeNode& node : whole.nodes) nodes_.emplace(node.id, node);
+        for (const Leaf& leaf : whole.leaves) regions_.emplace(leaf.id, leaf.region);
     }
 
     void divide(NodeId id);
@@ -29,14 +30,17 @@ class StraightDivision {
 
  private:
     void add_child(NodeId id, std::int32_t first_leaf, std::int32_t leaves);
+    RegionIndex region_of(NodeId leaf) const;
     bool cut(TreeNode& node);
     double load(NodeId id) const;
 
     const DecomposeOptions& options_;
     CutListener* listener_;
     FaceComplex complex_;
+    bool has_contacts_;
     std::map<NodeId, TreeNode> nodes_;
-    std::vector<NodeId> leaves_;  // in the order of the tree
+    std::map<NodeId, RegionIndex> regions_;  // of the leaves before
+    std::vector<NodeId> leaves_;             // in the order of the tree
 };
 
 double StraightDivision::load(NodeId id) const {
@@ -48,7 +52,9 @@ double StraightDivision::load(NodeId id) const {
 
 void StraightDivision::add_child(NodeId id, std::int32_t first_leaf, std::int32_t leaves) {
     const Surface surface(complex_.part(id).arrays);
-    nodes_.emplace(id, describe_node(id, first_leaf, leaves, surface, mass_properties(surface)));
+    TreeNode node = describe_node(id, first_leaf, leaves, surface, mass_properties(surface));
+    node.region = region_of(id);
+    nodes_.emplace(id, std::move(node));
     divide(id);
 }
 
@@ -108,17 +114,26 @@ void StraightDivision::finish_interfaces() {
     for (const auto& [id, points] : corners) add_to_cut_hash(nodes_.at(id), std::span<const Vec3>(points));
 }
 
+// That of the leaf from which it was divided.
+RegionIndex StraightDivision::region_of(NodeId leaf) const {
+    auto found = regions_.find(leaf);
+    while (found == regions_.end()) found = regions_.find(leaf /= 2);
+    return found->second;
+}
+
 Decomposition StraightDivision::take(LeafRange range) {
     Decomposition result;
     for (const auto& [id, node] : nodes_) result.nodes.push_back(node);
     for (const NodeId id : leaves_) {
         const TreeNode& node = nodes_.at(id);
         if (!range.contains(node.first_leaf)) continue;
-        result.leaves.push_back({id, node.first_leaf, node.leaves, 0, complex_.part(id).arrays});
+        result.leaves.push_back({id, node.first_leaf, node.leaves, 0, region_of(id), complex_.part(id).arrays});
         Leaf& leaf = result.leaves.back();
         leaf.volume = enclosed_volume(leaf.surface.vertices, leaf.surface.facets);
     }
     result.divided_facets = complex_.divided_facets();
+    for (DividedFacet& facet : result.divided_facets) facet.region = region_of(facet.part);
+    if (has_contacts_) result.contacts = complex_.find_contacts();
     std::sort(result.divided_facets.begin(), result.divided_facets.end(),
               [](const DividedFacet& a, const DividedFacet& b) { return a.facet < b.facet; });
     return result;

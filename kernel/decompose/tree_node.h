@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "core/ids.h"
 #include "cut/bisect.h"
 
 namespace kerf {
@@ -12,6 +13,8 @@ struct TreeNode : CutSummary {
     NodeId id = 1;
     std::int32_t first_leaf = 0;  ///< of the leaves below it, in the order of the tree
     std::int32_t leaves = 1;      ///< wanted below it
+    std::int32_t regions = 1;     ///< in it; a node of several is divided into those of both halves, without a cut
+    RegionIndex region;           ///< of a node of one
     std::int32_t vertices = 0;
     std::int32_t facets = 0;
     MassProperties mass;
@@ -20,9 +23,12 @@ struct TreeNode : CutSummary {
     std::int32_t interface_vertices = 0;  ///< interior ones, which this cut added
     FileHash cut_hash = {0, 0};  ///< of all below that follows from the cut: equal on all ranks; {0, 0}: none was made
 
+    /// Whether there are nodes below it.
+    bool is_divided() const { return cut_made || regions > 1; }
+
     template <class Archive>
     void archive(Archive& a) {
-        a(id, first_leaf, leaves, vertices, facets, mass.volume, mass.area, mass.centroid);
+        a(id, first_leaf, leaves, regions, region, vertices, facets, mass.volume, mass.area, mass.centroid);
         for (int i = 0; i < 9; ++i) a(mass.inertia.data()[i], mass.axes.data()[i]);
         a(mass.eigenvalues, cut_made, cut_tried, interface_vertices, cut_hash);
         CutSummary::archive(a);

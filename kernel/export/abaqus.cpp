@@ -157,7 +157,7 @@ void write_face_sets(const PartSource& parts, const Names& names, ExportFile& fi
         for_each_part(parts, PartContent::cells, [&](PartIndex index, const Part& part) {
             const std::int64_t first = parts.outline().first_tet(index) + 1;
             for (std::size_t f = 0; f < part.facets.size(); ++f) {
-                if (!part.has_patch(f)) continue;
+                if (!part.is_listed(f)) continue;
                 const std::int32_t t = part.tet_at_facet[f];
                 const Tetrahedron& tet = part.mesh.tets.at(t);
                 add({part.patch[f], face_of(tet, part.facets[f]), first + t});

@@ -59,7 +59,7 @@ class Hdf5Rows {
 template <class Take>
 void for_each_patch_facet(const Part& part, Take take) {
     for (std::size_t f = 0; f < part.facets.size(); ++f)
-        if (part.has_patch(f)) take(f);
+        if (part.is_listed(f)) take(f);
 }
 
 // The rows of one part in all arrays.

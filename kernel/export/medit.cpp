@@ -45,7 +45,7 @@ void write_triangles(const PartSource& parts, ExportFile& file) {
     file.write(fmt::format("Triangles\n{}\n", parts.outline().patch_facets()));
     for_each_part(parts, PartContent::surface, [&](PartIndex, const Part& part) {
         for (std::size_t f = 0; f < part.facets.size(); ++f) {
-            if (!part.has_patch(f)) continue;
+            if (!part.is_listed(f)) continue;
             const auto [a, b, c] = global_corners(part, part.facets[f]);
             write_row(file, {a + 1, b + 1, c + 1, part.patch[f] + 1});
         }

@@ -71,7 +71,7 @@ class MfemFile {
         write_names();
         file_.write(fmt::format("boundary\n{}\n", outline_.parts[index_].patch_facets));
         for (std::size_t f = 0; f < part_.facets.size(); ++f) {
-            if (!part_.has_patch(f)) continue;
+            if (!part_.is_listed(f)) continue;
             file_.write(fmt::format("{} {} ", part_.patch[f] + 1, mfem_triangle));
             write_numbers(part_.facets[f]);
         }

@@ -131,7 +131,7 @@ class Elements22 {
 void write_triangles_2_2(Writer& writer, const Part& part, const PartExtent& extent, std::int64_t number) {
     Elements22 elements(writer, triangle_type, extent.patch_facets);
     for (std::size_t f = 0; f < part.facets.size(); ++f)
-        if (part.has_patch(f))
+        if (part.is_listed(f))
             elements.add(number++, Tags::physical_patch(part.patch[f]), Tags::surface(part.patch[f]),
                          global_corners(part, part.facets[f]));
 }

@@ -46,7 +46,7 @@ void write_faces(const PartSource& parts, ExportFile file) {
     std::int64_t number = 0;
     for_each_part(parts, PartContent::surface, [&](PartIndex, const Part& part) {
         for (std::size_t f = 0; f < part.facets.size(); ++f) {
-            if (!part.has_patch(f)) continue;
+            if (!part.is_listed(f)) continue;
             const auto [a, b, c] = global_corners(part, part.facets[f]);
             write_row(file, {number++, a, b, c, part.patch[f] + 1});
         }

@@ -48,7 +48,7 @@ void write_of_facets(const PartSource& parts, std::vector<std::int32_t> Part::*v
     write_computed<std::int32_t>(file, parts.outline().tets(), [](std::int64_t) { return -1; });
     for_each_part(parts, PartContent::surface, [&](PartIndex, const Part& part) {
         for (std::size_t f = 0; f < part.facets.size(); ++f)
-            if (part.has_patch(f)) file.value((part.*values)[f]);
+            if (part.is_listed(f)) file.value((part.*values)[f]);
     });
 }
 
@@ -64,7 +64,7 @@ GridArray connectivity(const PartSource& parts) {
         });
         for_each_part(parts, PartContent::surface, [&](PartIndex, const Part& part) {
             for (std::size_t f = 0; f < part.facets.size(); ++f)
-                if (part.has_patch(f)) write_cell(part, part.facets[f]);
+                if (part.is_listed(f)) write_cell(part, part.facets[f]);
         });
     });
 }
@@ -81,7 +81,7 @@ void write_cell_values(const PartSource& parts, std::size_t k, ExportFile& file)
     });
     for_each_part(parts, PartContent::all, [&](PartIndex, const Part& part) {
         for (std::size_t f = 0; f < part.facets.size(); ++f)
-            if (part.has_patch(f)) write_row(part.values[k], part.tet_at_facet[f]);
+            if (part.is_listed(f)) write_row(part.values[k], part.tet_at_facet[f]);
     });
 }
 

@@ -115,7 +115,7 @@ void for_each_patch_triangle(
         [&](const auto& add) {
             for_each_part(parts, PartContent::surface, [&](PartIndex, const Part& part) {
                 for (std::size_t f = 0; f < part.facets.size(); ++f)
-                    if (part.has_patch(f)) add({part.patch[f], global_corners(part, part.facets[f])});
+                    if (part.is_listed(f)) add({part.patch[f], global_corners(part, part.facets[f])});
             });
         },
         take);

@@ -103,20 +103,20 @@ const std::vector<std::string>& ClosedSurface::patch_names() const { return inpu
 
 std::vector<std::array<double, 3>> ClosedSurface::vertices() const {
     std::vector<std::array<double, 3>> points;
-    for (std::int32_t v = 0; v < input_->surface.vertex_count(); ++v)
-        points.push_back(to_array(input_->surface.point(v)));
+    for (std::int32_t v = 0; v < input_->complex.vertex_count(); ++v)
+        points.push_back(to_array(input_->complex.point(v)));
     return points;
 }
 
 std::vector<std::array<std::int32_t, 3>> ClosedSurface::facets() const {
     std::vector<std::array<std::int32_t, 3>> facets;
-    for (std::int32_t f = 0; f < input_->surface.facet_count(); ++f) facets.push_back(input_->surface.vertices(f));
+    for (std::int32_t f = 0; f < input_->complex.facet_count(); ++f) facets.push_back(input_->complex.vertices(f));
     return facets;
 }
 
 std::vector<std::int32_t> ClosedSurface::patches() const {
     std::vector<std::int32_t> patches;
-    for (std::int32_t f = 0; f < input_->surface.facet_count(); ++f) patches.push_back(input_->surface.patch(f));
+    for (std::int32_t f = 0; f < input_->complex.facet_count(); ++f) patches.push_back(input_->complex.patch(f));
     return patches;
 }
 
@@ -149,7 +149,7 @@ ClosedSurface remeshed(const ClosedSurface& surface, double deviation, double si
     options.sizes.check();
     ProgressListener listener(progress);
     const Input result = remesh_where_asked(surface.input(), options, &listener);
-    SurfaceArrays arrays = result.surface.arrays();
+    SurfaceArrays arrays = result.complex.arrays();
     return ClosedSurface(std::make_shared<const Input>(
         make_input(std::move(arrays.vertices), std::move(arrays.facets), std::move(arrays.patch), result.patch_names)));
 }

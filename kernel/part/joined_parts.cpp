@@ -153,6 +153,7 @@ JoinedParts::JoinedParts(const PartSource& parts, std::int32_t pieces, std::int6
     }
     outline_.vertices = whole.vertices;
     outline_.patch_names = whole.patch_names;
+    outline_.region_names = whole.region_names;
     outline_.values = whole.values;
     for (const PieceOfTree& piece : pieces_) {
         PartExtent& extent = outline_.parts.emplace_back();
@@ -163,7 +164,8 @@ JoinedParts::JoinedParts(const PartSource& parts, std::int32_t pieces, std::int6
             extent.vertices += part.vertex_count();
             const std::vector<NodeId> beside = pieces_of(part.neighbour);
             for (std::size_t f = 0; f < part.facets.size(); ++f)
-                (part.has_patch(f) ? extent.patch_facets : extent.interface_facets) +=
+                (is_listed_triangle(part.patch[f], piece.id, beside[f]) ? extent.patch_facets
+                                                                        : extent.interface_facets) +=
                     !part.is_interface(f) || beside[f] != piece.id;
             // A vertex counts in the first part of the piece that has it.
             for (const SharedGroup& group : part.shared) {
@@ -217,6 +219,7 @@ Part JoinedParts::load(PartIndex index) const {
     Part piece;
     piece.id = range.id;
     piece.patch_names = outline_.patch_names;
+    piece.region_names = outline_.region_names;
     PieceVertices vertex_in_piece(parts);
     std::int32_t first_tet = 0;
     for (std::size_t p = 0; p < parts.size(); ++p) {
@@ -230,6 +233,9 @@ Part JoinedParts::load(PartIndex index) const {
             piece.neighbour.push_back(beside[f]);
             piece.tet_at_facet.push_back(part.tet_at_facet[f] < 0 ? -1 : first_tet + part.tet_at_facet[f]);
         }
+        for (const RegionRun& run : part.regions)
+            if (piece.regions.empty() || piece.regions.back().region != run.region)
+                piece.regions.push_back({first_tet + run.first_tet, run.region});
         first_tet += part.tet_count();
     }
     piece.mesh.boundary_vertex_count = std::ssize(piece.mesh.vertices);

@@ -59,12 +59,7 @@ class JoinedSurfaces {
     /// With one array behind the other as the files have them.
     Grid grid() const {
         Grid grid{points_, cells_, boundary_count_field(vtk_type<std::int64_t>, points_)};
-        const VtuHeader::Array* names = pieces_.empty() ? nullptr : pieces_.front().header.find("PatchNames");
-        grid.arrays = {GridArray::of<std::uint8_t>("FieldData", "PatchNames", 1, names ? names->tuples : 0,
-                                                   [this](CheckedFile& file) {
-                                                       read_array(pieces_.front(), "PatchNames", 1,
-                                                                  [&](const std::string& b) { file.write(b); });
-                                                   }),
+        grid.arrays = {names("PatchNames"),
                        copied<std::int64_t>("PointData", "GlobalVertexId", 1, points_),
                        copied<std::int32_t>("CellData", "Part", 1, cells_),
                        copied<std::int32_t>("CellData", "Patch", 1, cells_),
@@ -75,10 +70,23 @@ class JoinedSurfaces {
                                                    [this](CheckedFile& file) { write_connectivity(file); }),
                        computed<std::int64_t>("offsets", [](std::int64_t cell) { return 3 * (cell + 1); }),
                        computed<std::uint8_t>("types", [](std::int64_t) { return vtk_triangle; })};
+        if (!pieces_.empty() && pieces_.front().header.find("Region")) {
+            grid.add(names("RegionNames"));
+            grid.add(copied<std::int32_t>("CellData", "Region", 1, cells_));
+        }
         return grid;
     }
 
  private:
+    // As the first file has them.
+    GridArray names(const char* array) const {
+        const VtuHeader::Array* names = pieces_.empty() ? nullptr : pieces_.front().header.find(array);
+        return GridArray::of<std::uint8_t>(
+            "FieldData", array, 1, names ? names->tuples : 0, [this, array](CheckedFile& file) {
+                read_array(pieces_.front(), array, 1, [&](const std::string& b) { file.write(b); });
+            });
+    }
+
     template <class T>
     GridArray copied(const char* section, const char* name, std::int64_t components, std::int64_t tuples) const {
         return GridArray::of<T>(section, name, components, tuples, [this, name](CheckedFile& file) {

@@ -22,9 +22,19 @@ Part boundary_of(const Part& part) {
     surface.tet_at_facet.assign(part.facets.size(), -1);
     surface.global_id.assign(part.global_id.begin(), part.global_id.begin() + boundary);
     surface.patch_names = part.patch_names;
+    surface.region_names = part.region_names;
+    surface.regions = part.regions;
+    surface.contact_vertices = part.contact_vertices;
+    surface.contact_edges = part.contact_edges;
     surface.shared = part.shared;
     surface.shared_edges = part.shared_edges;
     return surface;
+}
+
+RegionIndex Part::region_of(std::int32_t tet) const {
+    const auto after = std::upper_bound(regions.begin(), regions.end(), tet,
+                                        [](std::int32_t t, const RegionRun& run) { return t < run.first_tet; });
+    return after == regions.begin() ? RegionIndex() : std::prev(after)->region;
 }
 
 std::vector<NodeId> owners_of_vertices(const Part& part) {

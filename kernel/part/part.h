@@ -52,32 +52,60 @@ struct PartValues {
     }
 };
 
-/// One part of a distributed mesh. Its boundary triangles lie on the user's surface, or on an interface, where another
-/// part has the same triangle in opposite orientation over the same global numbers.
+/// As Part::is_listed(), of a triangle of this part.
+constexpr bool is_listed_triangle(std::int32_t patch, NodeId part, NodeId neighbour) {
+    return patch >= 0 && (neighbour < 0 || part < neighbour);
+}
+
+/// Tetrahedra of a part that follow each other and lie in one region.
+struct RegionRun {
+    std::int32_t first_tet = 0;
+    RegionIndex region;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(first_tet, region);
+    }
+};
+
+/// One part of a distributed mesh. Its boundary triangles lie on the user's surface, or where another part has the same
+/// triangle in opposite orientation over the same global numbers: on an interface, which a cut has made, or on a wall,
+/// a facet of the user's with regions on both sides.
 struct Part {
     NodeId id = 1;                           ///< leaf of the tree
     TetMesh mesh;                            ///< vertices of the boundary first
     std::vector<Triangle> facets;            ///< #F; boundary triangles, over the boundary vertices, seen from outside
     std::vector<std::int32_t> patch;         ///< #F; of the user's surface, -1 on interfaces
     std::vector<std::int32_t> facet;         ///< #F; of the input, that is or contains this triangle, -1 on interfaces
-    std::vector<NodeId> neighbour;           ///< #F; part on the other side of an interface, else -1
+    std::vector<NodeId> neighbour;           ///< #F; part on the other side of an interface or wall, else -1
     std::vector<std::int32_t> tet_at_facet;  ///< #F; the tetrahedron behind the triangle, -1 if there is none
     std::vector<std::int64_t> global_id;  ///< #V; dense over the whole mesh, the same in every part that has the vertex
     std::vector<std::string> patch_names;
+    std::vector<std::string> region_names;  ///< empty if there is one region
+    std::vector<RegionRun> regions;         ///< of all tetrahedra, ascending; a part that is none joined has one run;
+                                            ///< empty if there is one region
+    std::vector<std::int32_t> contact_vertices;  ///< where other parts may be that share no triangle with it there
+    std::vector<UndirectedEdge> contact_edges;   ///< likewise
     std::vector<SharedGroup> shared;  ///< all vertices that other parts have, too; ascending by SharedGroup::parts,
                                       ///< compared in the order of the tree
     std::vector<SharedEdgeGroup> shared_edges;  ///< all edges that other parts have, too; in the same order
 
     std::vector<PartValues> values = {};  ///< of a solution (part/solution_parts.h), else none
 
-    /// Four questions about a boundary triangle. Does another part lie on its other side?
+    /// Questions about a boundary triangle. Does another part lie on its other side?
     bool is_interface(std::size_t f) const { return neighbour[f] >= 0; }
     /// Does nothing lie there?
     bool is_on_outer_boundary(std::size_t f) const { return neighbour[f] < 0; }
-    /// Is it on a patch of the user's?
-    bool has_patch(std::size_t f) const { return patch[f] >= 0; }
     /// Is it a facet of the input, or a piece of one?
     bool is_of_input(std::size_t f) const { return facet[f] >= 0; }
+    /// Does it lie between two regions?
+    bool is_wall(std::size_t f) const { return is_interface(f) && is_of_input(f); }
+    /// Is it one of the triangles on patches of the user's that files list? Of both sides of a wall, that of the part
+    /// with the smaller number is.
+    bool is_listed(std::size_t f) const { return is_listed_triangle(patch[f], id, neighbour[f]); }
+
+    /// The region of a tetrahedron; that with number 0 where there is only one. O(log #runs).
+    RegionIndex region_of(std::int32_t tet) const;
 
     std::int64_t tet_count() const { return std::ssize(mesh.tets); }
     std::int64_t vertex_count() const { return std::ssize(mesh.vertices); }
@@ -93,7 +121,7 @@ std::vector<NodeId> owners_of_vertices(const Part& part);
 struct PartExtent {
     NodeId id = 1;
     std::int64_t vertices = 0, tets = 0;
-    std::int64_t patch_facets = 0;      ///< boundary triangles on the user's surface
+    std::int64_t patch_facets = 0;      ///< boundary triangles that files list, see Part::is_listed()
     std::int64_t interface_facets = 0;  ///< the other ones
 };
 
@@ -102,6 +130,7 @@ struct MeshOutline {
     Array<PartIndex, PartExtent> parts;  ///< in the order of the tree
     std::int64_t vertices = 0;           ///< distinct ones
     std::vector<std::string> patch_names;
+    std::vector<std::string> region_names = {};  ///< empty if there is one region
     bool is_whole = true;                 ///< else others, which could not be meshed, may be neighbours of these parts
     std::vector<PartValues> values = {};  ///< those that all parts have, without their numbers
 

@@ -17,7 +17,7 @@ namespace kerf {
 
 namespace {
 
-constexpr std::array<char, 8> magic = {'K', 'E', 'R', 'F', 'P', 'A', 'R', '1'};
+constexpr std::array<char, 8> magic = {'K', 'E', 'R', 'F', 'P', 'A', 'R', '2'};
 constexpr std::uint64_t most_elements = std::uint64_t{1} << 31;
 
 struct Head {
@@ -33,7 +33,8 @@ struct Boundary {
     template <class Archive>
     void archive(Archive& a) {
         a(part.id, part.mesh.boundary_vertex_count, part.facets, part.patch, part.facet, part.neighbour,
-          part.tet_at_facet, ids, part.patch_names, part.shared, part.shared_edges);
+          part.tet_at_facet, ids, part.patch_names, part.region_names, part.regions, part.contact_vertices,
+          part.contact_edges, part.shared, part.shared_edges);
     }
 };
 

@@ -62,13 +62,15 @@ RunParts::RunParts(std::string folder, std::string solution)
         ids.push_back(extent.id);
         Part surface = read_part(folder_ + "/parts/" + part_surface_file_name(extent.id));
         for (std::size_t f = 0; f < surface.facets.size(); ++f) {
-            ++(surface.has_patch(f) ? extent.patch_facets : extent.interface_facets);
+            ++(surface.is_listed(f) ? extent.patch_facets : extent.interface_facets);
             if (!surface.is_interface(f)) continue;
             for (const std::int32_t v : surface.facets[f]) held.push_back({surface.global_id[v], index});
         }
+        for (const std::int32_t v : surface.contact_vertices) held.push_back({surface.global_id[v], index});
         const std::vector<SharedEdges::Incidence> incidences_here = SharedEdges::incidences_of(surface);
         told.insert(told.end(), incidences_here.begin(), incidences_here.end());
         outline_.patch_names = std::move(surface.patch_names);
+        outline_.region_names = std::move(surface.region_names);
         first_interior_ids_.push_back(interior);
         interior += extent.vertices - surface.mesh.boundary_vertex_count;
     }

@@ -8,23 +8,24 @@ namespace kerf {
 
 namespace {
 
-// An edge of an interface with the part on the other side of one of its two triangles.
+constexpr NodeId any_part = -1;
+
+// An edge of an interface with the part on the other side of one of its two triangles, or one of a contact.
 struct InterfaceEdge {
     std::array<std::int64_t, 2> edge;  // global numbers
-    NodeId neighbour;
-    UndirectedEdge corners;  // of the part, as the global numbers
+    NodeId neighbour;                  // any_part: any that may be there
+    UndirectedEdge corners;            // of the part, as the global numbers
 
     auto key() const { return std::tie(edge, neighbour); }
 };
 
-InterfaceEdge interface_edge(const Part& part, std::size_t f, std::size_t corner) {
-    std::int32_t a = part.facets[f][corner], b = part.facets[f][(corner + 1) % 3];
+InterfaceEdge interface_edge(const Part& part, std::int32_t a, std::int32_t b, NodeId neighbour) {
     std::int64_t id_a = part.global_id[a], id_b = part.global_id[b];
     if (id_b < id_a) {
         std::swap(a, b);
         std::swap(id_a, id_b);
     }
-    return {{id_a, id_b}, part.neighbour[f], {a, b}};
+    return {{id_a, id_b}, neighbour, {a, b}};
 }
 
 // Ascending by edge, then neighbour; each pair once.
@@ -32,7 +33,10 @@ std::vector<InterfaceEdge> interface_edges(const Part& part) {
     std::vector<InterfaceEdge> edges;
     for (std::size_t f = 0; f < part.facets.size(); ++f)
         if (part.is_interface(f))
-            for (std::size_t corner = 0; corner < 3; ++corner) edges.push_back(interface_edge(part, f, corner));
+            for (std::size_t corner = 0; corner < 3; ++corner)
+                edges.push_back(
+                    interface_edge(part, part.facets[f][corner], part.facets[f][(corner + 1) % 3], part.neighbour[f]));
+    for (const auto& [a, b] : part.contact_edges) edges.push_back(interface_edge(part, a, b, any_part));
     const auto less = [](const InterfaceEdge& a, const InterfaceEdge& b) { return a.key() < b.key(); };
     const auto same = [](const InterfaceEdge& a, const InterfaceEdge& b) { return a.key() == b.key(); };
     std::sort(edges.begin(), edges.end(), less);
@@ -54,9 +58,11 @@ void for_each_edge(const std::vector<InterfaceEdge>& edges, Take take) {
 std::vector<SharedEdges::Incidence> SharedEdges::incidences_of(const Part& part) {
     std::vector<Incidence> told;
     for_each_edge(interface_edges(part), [&](auto begin, auto end) {
-        if (end - begin < 2) return;
+        const bool is_contact = begin->neighbour == any_part;  // the smallest of all
+        if (end - begin < 2 && !is_contact) return;
         told.push_back({begin->edge, part.id});
-        for (auto met = begin; met != end; ++met) told.push_back({met->edge, met->neighbour});
+        for (auto met = begin; met != end; ++met)
+            if (met->neighbour != any_part) told.push_back({met->edge, met->neighbour});
     });
     return told;
 }
@@ -80,12 +86,14 @@ std::vector<SharedEdgeGroup> SharedEdges::groups_of(const Part& part) const {
     std::vector<PartIndex> holders;
     for_each_edge(interface_edges(part), [&](auto begin, auto end) {
         holders.assign(1, index_of(part.id));
-        for (auto met = begin; met != end; ++met) holders.push_back(index_of(met->neighbour));
+        for (auto met = begin; met != end; ++met)
+            if (met->neighbour != any_part) holders.push_back(index_of(met->neighbour));
         auto told = std::lower_bound(incidences_.begin(), incidences_.end(), begin->edge,
                                      [](const Incidence& held, const auto& wanted) { return held.edge < wanted; });
         for (; told != incidences_.end() && told->edge == begin->edge; ++told) holders.push_back(index_of(told->part));
         std::sort(holders.begin(), holders.end());
         holders.erase(std::unique(holders.begin(), holders.end()), holders.end());
+        if (holders.size() < 2) return;  // nothing touches the part here
         edges_of[holders].push_back(begin->corners);
     });
     std::vector<SharedEdgeGroup> groups;

@@ -12,7 +12,7 @@ namespace kerf {
 /// The edges on interfaces, each with the parts that hold it. Two parts may have both ends of an edge in common and not
 /// the edge. Around an edge that several parts hold each of them meets the next one in an interface, so that a part
 /// knows its neighbours there, but not theirs: only edges that some part shares with two others, or more, have to be
-/// told.
+/// told, and those at which bodies touch (Part::contact_edges), by all that have them.
 class SharedEdges {
  public:
     /// An edge and a part that holds it; may be named more than once.
@@ -28,7 +28,7 @@ class SharedEdges {
     };
 
     /// What the others have to know of a part: the edges where it meets several, with all that it meets there and
-    /// itself. Of a part or its surface. O(#F log #F).
+    /// itself, and the edges of contacts. Of a part or its surface. O(#F log #F).
     static std::vector<Incidence> incidences_of(const Part& part);
 
     SharedEdges() = default;

@@ -10,14 +10,20 @@
 namespace kerf {
 
 /// The vertices on interfaces, each with the parts that hold it. Of all vertices that several parts hold, each lies on
-/// an interface of each of them, because a body that is cut at a vertex is cut through it.
+/// an interface of each of them, because a body that is cut at a vertex is cut through it, or it is a vertex at which
+/// bodies touch (Part::contact_vertices).
 class SharedVertices {
  public:
-    /// A vertex of an interface and a part that has it there; may be named more than once.
+    /// A vertex of an interface, or of a contact, and a part that has it there; may be named more than once.
     struct Incidence {
         std::int64_t vertex;  ///< global number
         PartIndex part;
         auto operator<=>(const Incidence&) const = default;
+
+        template <class Archive>
+        void archive(Archive& a) {
+            a(vertex, part);
+        }
     };
 
     SharedVertices() = default;

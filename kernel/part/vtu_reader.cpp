@@ -9,7 +9,9 @@
 #include <filesystem>
 #include <fstream>
 #include <string_view>
+#include <utility>
 
+#include "core/elements.h"
 #include "io/checked_file.h"
 #include "io/vtk_cell_types.h"
 #include "part/vtu_writer.h"
@@ -165,17 +167,45 @@ std::int32_t common_part(PartArraysFile& file) {
     return part;
 }
 
-std::vector<std::string> read_names(PartArraysFile& file) {
-    const auto bytes = file.take<char>(file.open("PatchNames"));
+std::vector<std::string> read_names(PartArraysFile& file, const char* array) {
+    const auto bytes = file.take<char>(file.open(array));
     std::vector<std::string> names;
     std::string_view rest(bytes.data(), bytes.size());
     while (!rest.empty()) {
         const std::size_t end = rest.find('\0');
-        if (end == rest.npos) file.fail("the last of its PatchNames is not complete");
+        if (end == rest.npos) file.fail(fmt::format("the last of its {} is not complete", array));
         names.emplace_back(rest.substr(0, end));
         rest.remove_prefix(end + 1);
     }
     return names;
+}
+
+// The names of regions, and the runs of cells in them; a surface is one run. None where there is one region.
+void read_regions(PartArraysFile& file, std::int64_t tet_count, Part& part) {
+    if (!file.header().find("Region")) return;
+    part.region_names = read_names(file, "RegionNames");
+    std::int32_t cell = 0;
+    visit_tags(file, "Region", [&](std::int32_t region) {
+        if (region < 0 || region >= std::ssize(part.region_names)) file.fail("a cell lies in a region without a name");
+        const bool is_counted = cell < tet_count || part.regions.empty();
+        if (is_counted && (part.regions.empty() || part.regions.back().region != RegionIndex(region)))
+            part.regions.push_back({cell, RegionIndex(region)});
+        ++cell;
+    });
+}
+
+// Where other parts may touch this one without a triangle in common.
+void read_contacts(PartArraysFile& file, Part& part) {
+    if (!file.header().find("ContactVertices")) return;
+    const std::uint64_t vertices = file.open("ContactVertices");
+    part.contact_vertices = file.take<std::int32_t>(static_cast<std::int64_t>(vertices / sizeof(std::int32_t)));
+    const std::uint64_t edges = file.open("ContactEdges");
+    part.contact_edges = file.take<UndirectedEdge>(static_cast<std::int64_t>(edges / sizeof(UndirectedEdge)));
+    const auto boundary = static_cast<std::size_t>(file.header().boundary_vertex_count);
+    const auto is_boundary = [&](std::int32_t v) { return v >= 0 && std::cmp_less(v, boundary); };
+    if (!std::all_of(part.contact_vertices.begin(), part.contact_vertices.end(), is_boundary) ||
+        !are_in_range(part.contact_edges, boundary))
+        file.fail("a contact names no vertex of the boundary");
 }
 
 void read_vertices(PartArraysFile& file, Part& part) {
@@ -200,7 +230,9 @@ void read_cells(PartArraysFile& file, Part& part) {
     part.patch = facet_values(file, "Patch", tet_count);
     part.facet = read_input_facets(file, tet_count);
     part.neighbour = facet_values(file, "Neighbour", tet_count);
-    part.patch_names = read_names(file);
+    part.patch_names = read_names(file, "PatchNames");
+    read_regions(file, tet_count, part);
+    read_contacts(file, part);
 }
 
 }  // namespace

@@ -42,12 +42,15 @@ class GridMaker {
     /// With the qualities of cells and with values.
     Grid part_grid(const VtuLayout& layout, std::span<const PartValues> values) {
         require_sizes(part_.tet_at_facet.size() == part_.facets.size());
-        add_names();
+        add_names("PatchNames", part_.patch_names);
+        if (layout.has_regions) add_names("RegionNames", part_.region_names);
+        add_contacts();
         add_array<std::int32_t>("FieldData", "Facet", 1, part_.facet);  // each tetrahedron has none
         add_global_ids();
         add_tags(layout.tag_bytes, "Part", part_.id, nullptr);
         add_tags(layout.tag_bytes, "Patch", -1, &part_.patch);
         add_tags(layout.tag_bytes, "Neighbour", -1, &part_.neighbour);
+        if (layout.has_regions) add_regions(layout.tag_bytes);
         add_quality(layout.fields);
         add_points();
         const bool is_short = 4 * tet_count_ + 3 * facet_count_ <= std::numeric_limits<std::int32_t>::max();
@@ -58,12 +61,15 @@ class GridMaker {
     }
 
     Grid surface_grid() {
-        add_names();
+        add_names("PatchNames", part_.patch_names);
+        if (!part_.region_names.empty()) add_names("RegionNames", part_.region_names);
+        add_contacts();
         add_global_ids();
         add_tags(sizeof(std::int32_t), "Part", part_.id, nullptr);
         add_tags(sizeof(std::int32_t), "Patch", -1, &part_.patch);
         add_tags(sizeof(std::int32_t), "Facet", -1, &part_.facet);
         add_tags(sizeof(std::int32_t), "Neighbour", -1, &part_.neighbour);
+        if (!part_.region_names.empty()) add_regions(sizeof(std::int32_t));
         add_points();
         add_cells<std::int64_t>();
         return std::move(grid_);
@@ -90,13 +96,19 @@ class GridMaker {
 
     // Strings as bytes, each one with a zero byte behind it. VTK has a type for strings with the same bytes, but meshio
     // opens no file with an array of it.
-    void add_names() {
-        const std::vector<std::string>& names = part_.patch_names;
+    void add_names(const char* array, const std::vector<std::string>& names) {
         std::int64_t bytes = 0;
         for (const std::string& name : names) bytes += name.size() + 1;
-        add<std::uint8_t>("FieldData", "PatchNames", 1, bytes, [&names](CheckedFile& file) {
+        add<std::uint8_t>("FieldData", array, 1, bytes, [&names](CheckedFile& file) {
             for (const std::string& name : names) file.write(name.c_str(), name.size() + 1);
         });
+    }
+
+    // Most parts have none, and then no arrays either.
+    void add_contacts() {
+        if (part_.contact_vertices.empty()) return;
+        add_array<std::int32_t>("FieldData", "ContactVertices", 1, part_.contact_vertices);
+        add_array<std::int32_t>("FieldData", "ContactEdges", 2, std::span(part_.contact_edges));
     }
 
     void add_global_ids() {
@@ -118,10 +130,26 @@ class GridMaker {
                });
     }
 
-    // Integers of so many bytes: the same one for every tetrahedron and, without values of facets, for every facet.
+    // The same integer for every tetrahedron and, without values of facets, for every facet.
     void add_tags(int bytes, const char* name, std::int32_t tag, const std::vector<std::int32_t>* of_facets) {
-        const auto of_tet = [tag](std::int64_t) { return tag; };
-        const auto of_facet = [tag, of_facets](std::int64_t f) { return of_facets ? (*of_facets)[f] : tag; };
+        add_integers(
+            bytes, name, [tag](std::int64_t) { return tag; },
+            [tag, of_facets](std::int64_t f) { return of_facets ? (*of_facets)[f] : tag; });
+    }
+
+    // The triangles have those of the tetrahedra behind them.
+    void add_regions(int bytes) {
+        const auto of_tet = [&part = part_](std::int64_t t) {
+            return part.region_of(static_cast<std::int32_t>(t)).value();
+        };
+        add_integers(bytes, "Region", of_tet, [&part = part_](std::int64_t f) {
+            return part.region_of(std::max(0, part.tet_at_facet[static_cast<std::size_t>(f)])).value();
+        });
+    }
+
+    // Integers of so many bytes.
+    template <class OfTet, class OfFacet>
+    void add_integers(int bytes, const char* name, OfTet of_tet, OfFacet of_facet) {
         if (bytes == 1) return add_of_cells<std::int8_t>("CellData", name, of_tet, of_facet);
         if (bytes == 2) return add_of_cells<std::int16_t>("CellData", name, of_tet, of_facet);
         add_of_cells<std::int32_t>("CellData", name, of_tet, of_facet);
@@ -207,13 +235,13 @@ constexpr const char* nowhere = "/dev/null";
 }  // namespace
 
 VtuLayout layout_for(const MeshOutline& outline, CellFieldSet fields) {
-    std::int64_t largest = std::ssize(outline.patch_names);
+    std::int64_t largest = std::max(std::ssize(outline.patch_names), std::ssize(outline.region_names));
     for (const PartExtent& part : outline.parts) largest = std::max<std::int64_t>(largest, part.id);
     const auto fits = [&](std::int64_t limit) { return outline.is_whole && largest <= limit; };
     const int tag_bytes = fits(std::numeric_limits<std::int8_t>::max())    ? 1
                           : fits(std::numeric_limits<std::int16_t>::max()) ? 2
                                                                            : 4;
-    return {fields, tag_bytes};
+    return {fields, tag_bytes, !outline.region_names.empty()};
 }
 
 FileHash write_part(const std::string& path, const Part& part, const VtuLayout& layout,
@@ -244,7 +272,7 @@ void write_pvtu(const std::string& path, const std::vector<std::string>& pieces,
 }
 
 VtuLayout layout_of(const VtuHeader& header) {
-    VtuLayout layout{{}, 4};
+    VtuLayout layout{{}, 4, header.find("Region") != nullptr};
     for (std::size_t field = 0; field < cell_fields.size(); ++field)
         layout.fields[field] = header.find(cell_fields[field].array) != nullptr;
     if (const VtuHeader::Array* tag = header.find("Part"))

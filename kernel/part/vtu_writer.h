@@ -15,7 +15,8 @@ namespace kerf {
 /// What may differ between the files of two meshes, but not between those of one: mesh.pvtu says it for all.
 struct VtuLayout {
     CellFieldSet fields = default_cell_fields;
-    int tag_bytes = 4;  ///< of a value of Part, Patch and Neighbour: 1, 2 or 4
+    int tag_bytes = 4;         ///< of a value of Part, Patch, Neighbour and Region: 1, 2 or 4
+    bool has_regions = false;  ///< more than one
 };
 
 /// The layout with the shortest tags that name all parts and patches.
@@ -27,13 +28,17 @@ VtuLayout layout_for(const MeshOutline& outline, CellFieldSet fields);
 /// the fields; a boundary triangle carries the quality of the tetrahedron behind it, NaN if there is none; a
 /// tetrahedron has Patch and Neighbour -1. Field data PatchNames (UInt8: the names' bytes in the order of their
 /// patches, a zero byte behind each), Facet (Int32: that of the input, -1 on interfaces, of each boundary triangle) and
-/// BoundaryVertexCount (Int32); `values` follow the arrays of their kind. 30 bytes a tetrahedron and 4 a field, with
-/// tags of one byte. The bytes depend on the part and the layout alone; their hash is returned. Throws Error(io).
+/// BoundaryVertexCount (Int32). Where there are several regions, there is a cell array Region, for a boundary triangle
+/// that of the tetrahedron behind it, and field data RegionNames as PatchNames; where bodies
+/// touch without a triangle in common, ContactVertices and ContactEdges (Int32, numbers of vertices); `values` follow
+/// the arrays of their kind. 30 bytes a tetrahedron and 4 a field, with tags of one byte. The bytes depend on the part
+/// and the layout alone; their hash is returned. Throws Error(io).
 FileHash write_part(const std::string& path, const Part& part, const VtuLayout& layout = {},
                     std::span<const PartValues> values = {});
 
 /// Writes DIR/parts/part_XXXX.surface.vtu: the boundary of a part with GlobalVertexId, cell arrays Part, Patch,
-/// Facet and Neighbour (Int32), and the same other field data. Returns the hash of its bytes. Throws Error(io).
+/// Facet, Neighbour and, of several, Region (Int32), and the same other field data. Returns the hash of its bytes.
+/// Throws Error(io).
 FileHash write_part_surface(const std::string& path, const Part& part);
 
 /// The hashes that these would return, without a file.

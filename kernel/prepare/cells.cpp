@@ -30,7 +30,7 @@ constexpr double usual_edge = 0.89, usual_longest = 1;  // of facets of a remesh
 class TetForecast {
  public:
     TetForecast(const Input& input, RunOptions options)
-        : input_(input), surface_(input.surface.arrays()), options_(std::move(options)) {
+        : input_(input), surface_(input.complex.arrays()), options_(std::move(options)) {
         options_.sizes.cells = 0;
         if (options_.sizes.depends_on_place()) places_ = read_size_field(options_.sizes, surface_, input.patch_names);
     }

@@ -36,6 +36,13 @@ SurfaceArrays with_input_keys(Soup soup) {
     return arrays;
 }
 
+Complex to_complex(Soup soup) {
+    if (soup.sides.empty()) return Complex(Surface(with_input_keys(std::move(soup))));
+    std::vector<FacetSides> sides = std::move(soup.sides);
+    std::vector<std::string> names = std::move(soup.region_names);
+    return {with_input_keys(std::move(soup)), std::move(sides), std::move(names)};
+}
+
 double diagonal_of(const Soup& soup) {
     const Box box = box_around_finite(soup.vertices);
     return box.isEmpty() ? 0 : box.diagonal().norm();
@@ -83,6 +90,11 @@ Input to_input(CheckedSoup checked, const std::string& path, const InputOptions&
     input.repairs = checked.repairs;
     input.weld_tolerance = checked.weld_tolerance;
     input.notes = soup.notes;
+    if (!soup.sides.empty() && (options.feature_angle_deg > 0 || options.optimisation_sweeps > 0))
+        throw Error(ErrorCode::usage,
+                    fmt::format("{} has several regions, whose surfaces are neither optimised nor "
+                                "divided into patches by angles. Leave --{} out.",
+                                path, options.optimisation_sweeps > 0 ? "optimise-surface" : "feature-angle"));
     if (options.feature_angle_deg > 0 && soup.patch_names.size() == 1)
         make_feature_patches(soup, options.feature_angle_deg);
     if (options.optimisation_sweeps > 0) optimise(soup, options.optimisation_sweeps, input);
@@ -92,9 +104,18 @@ Input to_input(CheckedSoup checked, const std::string& path, const InputOptions&
         if (edge.sharp != 0) input.creases.push_back(edge.vertices);
     if (soup.patch_colours.size() == soup.patch_names.size()) input.patch_colours = soup.patch_colours;
     input.diagonal = diagonal_of(soup);
-    input.surface = Surface(with_input_keys(std::move(soup)));
+    input.complex = to_complex(std::move(soup));
     measure_input(input);
     return input;
+}
+
+double area_of(const Complex& complex) {
+    double area = 0;
+    for (std::int32_t f = 0; f < complex.facet_count(); ++f) {
+        const auto [a, b, c] = complex.vertices(f);
+        area += triangle_area(complex.point(a), complex.point(b), complex.point(c));
+    }
+    return area;
 }
 
 // Rows of an array that are refused, all in the elements, the first in words.
@@ -132,13 +153,19 @@ void check_sizes(const Soup& soup) {
                     fmt::format("There are {} facets, but patch has {} rows. Give one for each facet, "
                                 "or none.",
                                 soup.facets.size(), soup.patch.size()));
+    if (soup.region_names.empty() ? !soup.sides.empty() : soup.sides.size() != soup.facets.size())
+        throw Error(ErrorCode::usage,
+                    fmt::format("There are {} facets and {} names of regions, but sides has {} rows. Give one for each "
+                                "facet, and a name for each region.",
+                                soup.facets.size(), soup.region_names.size(), soup.sides.size()));
 }
 
 void check_rows(const Soup& soup) {
     const auto vertex_count = static_cast<std::int32_t>(soup.vertices.size());
     const auto patch_count = static_cast<std::int32_t>(soup.patch_names.size());
     RefusedRows infinite("vertices", ElementKind::vertex), beyond("facets", ElementKind::facet),
-        repeated("facets", ElementKind::facet), unnamed("patch", ElementKind::facet);
+        repeated("facets", ElementKind::facet), unnamed("patch", ElementKind::facet),
+        nowhere("sides", ElementKind::facet);
     for (std::size_t v = 0; v < soup.vertices.size(); ++v)
         if (!soup.vertices[v].allFinite()) infinite.add(v);
     for (std::size_t f = 0; f < soup.facets.size(); ++f) {
@@ -147,6 +174,15 @@ void check_rows(const Soup& soup) {
         if (a == b || b == c || c == a) repeated.add(f);
         if (soup.patch[f] < 0 || soup.patch[f] >= patch_count) unnamed.add(f);
     }
+    const auto region_count = static_cast<std::int32_t>(soup.region_names.size());
+    for (std::size_t f = 0; f < soup.sides.size(); ++f)
+        if (const auto [front, back] = soup.sides[f];
+            std::min(front, back) < -1 || std::max(front, back) >= region_count)
+            nowhere.add(f);
+    nowhere.throw_if_any([&](std::size_t f) {
+        return fmt::format("is ({}, {}), but the {} regions are numbered from 0, and -1 is outside",
+                           soup.sides[f].front, soup.sides[f].back, region_count);
+    });
     infinite.throw_if_any(
         [&](std::size_t v) { return fmt::format("is ({}), which is not finite", fmt::join(soup.vertices[v], ", ")); });
     beyond.throw_if_any([&](std::size_t f) {
@@ -167,55 +203,14 @@ std::string hash_of(const Soup& soup) {
     hasher.add(std::span<const Triangle>(soup.facets));
     hasher.add(std::span<const std::int32_t>(soup.patch));
     for (const std::string& name : soup.patch_names) hasher.add(std::span<const char>(name));
+    for (const FacetSides& sides : soup.sides)
+        hasher.add(std::span<const std::int32_t>(std::array{sides.front, sides.back}));
+    for (const std::string& name : soup.region_names) hasher.add(std::span<const char>(name));
     return hash_text(hasher.digest());
 }
 
-}  // namespace
-
-CheckedSoup check_input(const std::string& path, const InputOptions& options, double needle_angle_deg) {
-    return check_soup(read_surface_or_cad(path, options), options, needle_angle_deg);
-}
-
-CheckedSoup check_soup(Soup read, const InputOptions& options, double needle_angle_deg) {
-    CheckedSoup checked{std::move(read), {}, {}, 0};
-    Soup& soup = checked.soup;
-    InputRepairs& repairs = checked.repairs;
-    repairs.welded_vertices = weld_exactly(soup);
-    if (options.weld_tolerance.number() > 0) checked.weld_tolerance = weld(soup, options.weld_tolerance, repairs);
-    if (options.keep_largest) repairs.removed_facets = keep_largest_component(soup);
-    if (options.fill_hole_edges > 0) {
-        const HoleFilling filling = fill_holes(soup, options.fill_hole_edges);
-        repairs.filled_holes = filling.holes;
-        repairs.added_facets = filling.facets;
-    }
-    repairs.unused_vertices = drop_unused_vertices(soup);
-    checked.diagnosis = diagnose(soup, {options.voids, needle_angle_deg});
-    const std::vector<char>& dropped = checked.diagnosis.dropped;
-    repairs.dropped_facets = std::count(dropped.begin(), dropped.end(), char{1});
-    return checked;
-}
-
-OrientationReport apply_repairs(CheckedSoup& checked) {
-    if (checked.repairs.dropped_facets > 0) {
-        drop_facets(checked.soup, checked.diagnosis.dropped);
-        checked.repairs.unused_vertices += drop_unused_vertices(checked.soup);
-    }
-    checked.diagnosis = {};  // its numbers have lost their meaning
-    return orient(checked.soup);
-}
-
-Input read_input(const std::string& path, const InputOptions& options) {
-    std::string bytes = read_file(path);
-    const std::string hash = hash_text(digest_of(bytes));
-    Input input = to_input(check_soup(read_surface_or_cad(std::move(bytes), path, options), options), path, options,
-                           " Run kerf check on it for all defects.");
-    input.file_hash = hash;
-    return input;
-}
-
-Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::vector<std::int32_t> patch,
-                 std::vector<std::string> patch_names, const InputOptions& options) {
-    Soup soup{std::move(vertices), std::move(facets), std::move(patch), std::move(patch_names)};
+// What was not given gets its default.
+Input input_of_arrays(Soup soup, const InputOptions& options) {
     if (soup.patch.empty()) soup.patch.assign(soup.facets.size(), 0);
     check_sizes(soup);
     if (soup.patch_names.empty()) {
@@ -233,18 +228,87 @@ Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::
     return input;
 }
 
+}  // namespace
+
+CheckedSoup check_input(const std::string& path, const InputOptions& options, double needle_angle_deg) {
+    return check_soup(read_surface_or_cad(path, options), options, needle_angle_deg);
+}
+
+CheckedSoup check_soup(Soup read, const InputOptions& options, double needle_angle_deg) {
+    CheckedSoup checked{std::move(read), {}, {}, 0};
+    Soup& soup = checked.soup;
+    InputRepairs& repairs = checked.repairs;
+    repairs.welded_vertices = weld_exactly(soup);
+    if (options.weld_tolerance.number() > 0) checked.weld_tolerance = weld(soup, options.weld_tolerance, repairs);
+    if (options.keep_largest) repairs.removed_facets = keep_largest_component(soup);
+    if (options.fill_hole_edges > 0 && soup.sides.empty()) {
+        const HoleFilling filling = fill_holes(soup, options.fill_hole_edges);
+        repairs.filled_holes = filling.holes;
+        repairs.added_facets = filling.facets;
+    }
+    repairs.unused_vertices = drop_unused_vertices(soup);
+    checked.diagnosis = diagnose(soup, {options.voids, needle_angle_deg});
+    const std::vector<char>& dropped = checked.diagnosis.dropped;
+    repairs.dropped_facets = std::count(dropped.begin(), dropped.end(), char{1});
+    return checked;
+}
+
+OrientationReport apply_repairs(CheckedSoup& checked) {
+    if (checked.repairs.dropped_facets > 0) {
+        drop_facets(checked.soup, checked.diagnosis.dropped);
+        checked.repairs.unused_vertices += drop_unused_vertices(checked.soup);
+    }
+    checked.diagnosis = {};  // its numbers have lost their meaning
+    return checked.soup.sides.empty() ? orient(checked.soup) : OrientationReport();
+}
+
+Input read_input(const std::string& path, const InputOptions& options) {
+    std::string bytes = read_file(path);
+    const std::string hash = hash_text(digest_of(bytes));
+    Input input = to_input(check_soup(read_surface_or_cad(std::move(bytes), path, options), options), path, options,
+                           " Run kerf check on it for all defects.");
+    input.file_hash = hash;
+    return input;
+}
+
+Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::vector<std::int32_t> patch,
+                 std::vector<std::string> patch_names, const InputOptions& options) {
+    return input_of_arrays({std::move(vertices), std::move(facets), std::move(patch), std::move(patch_names)}, options);
+}
+
+Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::vector<FacetSides> sides,
+                 std::vector<std::string> region_names, std::vector<std::int32_t> patch,
+                 std::vector<std::string> patch_names, const InputOptions& options) {
+    Soup soup{std::move(vertices), std::move(facets), std::move(patch), std::move(patch_names)};
+    soup.sides = std::move(sides);
+    soup.region_names = std::move(region_names);
+    return input_of_arrays(std::move(soup), options);
+}
+
 void measure_input(Input& input) {
-    const MassProperties mass = mass_properties(input.surface);
-    input.volume = mass.volume;
-    input.volume_error = mass.volume_error;
+    const Complex& complex = input.complex;
     input.largest_coordinate = 0;
-    for (std::int32_t v = 0; v < input.surface.vertex_count(); ++v)
-        input.largest_coordinate = std::max(input.largest_coordinate, input.surface.point(v).cwiseAbs().maxCoeff());
-    input.area = mass.area;
-    input.vertices = input.surface.vertex_count();
-    input.facets = input.surface.facet_count();
-    input.components = input.orientation.shells;
-    input.genus = input.components - (input.vertices - input.facets / 2) / 2;  // V - E + F = 2 (c - g), E = 3 F / 2
+    for (std::int32_t v = 0; v < complex.vertex_count(); ++v)
+        input.largest_coordinate = std::max(input.largest_coordinate, complex.point(v).cwiseAbs().maxCoeff());
+    input.vertices = complex.vertex_count();
+    input.facets = complex.facet_count();
+    input.volume = input.volume_error = input.area = 0;
+    input.components = input.genus = 0;
+    input.regions.clear();
+    for (const RegionIndex region : ids<RegionIndex>(complex.region_count())) {
+        const Surface surface = complex.surface_of(region);
+        const MassProperties mass = mass_properties(surface);
+        const std::int64_t shells = find_shells(surface).count;
+        input.volume += mass.volume;
+        input.volume_error += mass.volume_error;
+        input.area += mass.area;
+        input.components += shells;
+        // V - E + F = 2 (c - g), E = 3 F / 2
+        input.genus += shells - (surface.vertex_count() - surface.facet_count() / 2) / 2;
+        if (complex.region_count() > 1)
+            input.regions.push_back({surface.facet_count(), shells, mass.volume, mass.volume_error, mass.area});
+    }
+    if (complex.region_count() > 1) input.area = area_of(complex);
 }
 
 }  // namespace kerf

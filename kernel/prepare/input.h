@@ -9,9 +9,9 @@
 
 #include "remesh/remesh.h"
 #include "request/input_options.h"
+#include "surface/complex.h"
 #include "surface/diagnosis.h"
 #include "surface/orientation.h"
-#include "surface/surface.h"
 
 namespace kerf {
 
@@ -47,19 +47,29 @@ struct InputRemeshing {
     FinerShares finer = {};          ///< where its shape asks for smaller edges than sizes do, if any
 };
 
-/// A surface ready to be cut, and what was learnt about it.
+/// One of several regions.
+struct InputRegion {
+    std::int64_t facets = 0;
+    std::int64_t components = 0;
+    double volume = 0;
+    double volume_error = 0;  ///< as BoundedVolume has it
+    double area = 0;
+};
+
+/// Surfaces ready to be cut, and what was learnt about them.
 struct Input {
     std::string path;
     std::string file_hash;  ///< of the file's bytes, or of the arrays, see hash_text()
     std::int64_t vertices = 0;
     std::int64_t facets = 0;
-    std::int64_t components = 0;
-    std::int64_t genus = 0;  ///< sum over the components
-    double volume = 0;
-    double volume_error = 0;  ///< as BoundedVolume has it
-    double area = 0;
-    double largest_coordinate = 0;  ///< as an absolute value
-    double diagonal = 0;            ///< of the bounding box
+    std::int64_t components = 0;       ///< shells of all regions
+    std::int64_t genus = 0;            ///< sum over the components
+    double volume = 0;                 ///< of all regions
+    double volume_error = 0;           ///< as BoundedVolume has it
+    double area = 0;                   ///< each facet once
+    std::vector<InputRegion> regions;  ///< of Complex::region_names(), in their order; empty if there is only one
+    double largest_coordinate = 0;     ///< as an absolute value
+    double diagonal = 0;               ///< of the bounding box
     InputRepairs repairs;
     double weld_tolerance = 0;  ///< that was used, units of the input
     OrientationReport orientation;
@@ -73,7 +83,7 @@ struct Input {
     bool is_ready = false;                                   ///< run() takes it as it is, and reads no file
     /// Edges of the surface as it was read that are creases of a CAD model, flat as they may be.
     std::vector<UndirectedEdge> creases;
-    Surface surface;
+    Complex complex;
 };
 
 /// Reads (CAD files, too: prepare/cad_input.h), repairs, diagnoses. Throws Error only for a file that cannot be read.
@@ -99,6 +109,12 @@ inline constexpr const char* name_of_arrays = "surface in memory";
 /// that is not finite, a corner that is no vertex, a facet with a repeated corner, a patch without a name, and for all
 /// that read_input() refuses: the message names the first row, Error::elements() all of them. O(#F log #F).
 Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::vector<std::int32_t> patch = {},
+                 std::vector<std::string> patch_names = {}, const InputOptions& options = {});
+
+/// The same for several regions. `sides`: what lies on the sides of each facet, by numbers of `region_names`; each
+/// facet is given once. Throws as above, and Error(input) for what a Complex refuses.
+Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::vector<FacetSides> sides,
+                 std::vector<std::string> region_names, std::vector<std::int32_t> patch = {},
                  std::vector<std::string> patch_names = {}, const InputOptions& options = {});
 
 /// check_input() and apply_repairs(), then builds the surface. Throws Error(input), naming the file, the

@@ -1,6 +1,7 @@
 // The law that the parts keep the user's surface.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "decompose/decomposition.h"
@@ -8,9 +9,11 @@
 
 namespace kerf {
 
-/// Facets of the input, numbered below `facets`, that are not a facet of exactly one leaf, unchanged, or, if straight
-/// cuts have divided them, covered exactly once by facets of the leaves. Collective; `own` holds the leaves of this
+/// Sides of the input's facets, numbered below `facets`, that are not a facet of exactly one leaf of the region that
+/// they belong to, unchanged, or, if straight cuts have divided them, covered exactly once by facets of such leaves.
+/// `sides`: as Complex::all_sides(); a facet of one region has one side. Collective; `own` holds the leaves of this
 /// rank, and divided_facets of the whole.
-std::int64_t count_missing_input_facets(Communicator& ranks, std::int64_t facets, const Decomposition& own);
+std::int64_t count_missing_input_facets(Communicator& ranks, std::int64_t facets, const Decomposition& own,
+                                        std::span<const FacetSides> sides = {});
 
 }  // namespace kerf

@@ -24,11 +24,12 @@ bool opposite(const InterfaceSide& a, const InterfaceSide& b) {
 
 }  // namespace
 
-InterfaceTable::InterfaceTable(Communicator& ranks, const std::vector<Leaf>& leaves) {
+InterfaceTable::InterfaceTable(Communicator& ranks, const std::vector<Leaf>& leaves, std::span<const FacetSides> sides)
+    : facet_sides_(sides) {
     std::vector<InterfaceSide> own;
     for (const Leaf& leaf : leaves)
         for (std::size_t f = 0; f < leaf.surface.facets.size(); ++f)
-            if (is_of_cut(leaf.surface.facet_key[f]))
+            if (is_shared(leaf.surface.facet_key[f]))
                 own.push_back({leaf.surface.facet_key[f], corner_keys(leaf.surface, f), leaf.id});
     sides_ = gather_items(ranks, own);
     std::sort(sides_.begin(), sides_.end(), [](const InterfaceSide& a, const InterfaceSide& b) {
@@ -36,10 +37,15 @@ InterfaceTable::InterfaceTable(Communicator& ranks, const std::vector<Leaf>& lea
     });
 }
 
+bool InterfaceTable::is_shared(Key facet) const {
+    if (is_of_cut(facet)) return true;
+    return !facet_sides_.empty() && facet_sides_[static_cast<std::size_t>(key_index(facet))].is_wall();
+}
+
 std::vector<NodeId> InterfaceTable::neighbours(const Leaf& leaf) const {
     std::vector<NodeId> neighbours(leaf.surface.facets.size(), -1);
     for (std::size_t f = 0; f < neighbours.size(); ++f) {
-        if (!is_of_cut(leaf.surface.facet_key[f])) continue;
+        if (!is_shared(leaf.surface.facet_key[f])) continue;
         const auto wanted = name_of({leaf.surface.facet_key[f], corner_keys(leaf.surface, f), leaf.id});
         for (auto it = std::lower_bound(sides_.begin(), sides_.end(), wanted,
                                         [](const InterfaceSide&side, const auto&name) { return name_of(side) < name; });
@@ -49,12 +55,12 @@ std::vector<NodeId> InterfaceTable::neighbours(const Leaf& leaf) const {
     return neighbours;
 }
 
-SharedVertices InterfaceTable::shared_vertices(const VertexNumbering& numbering,
-                                               const std::vector<NodeId>& leaves) const {
+SharedVertices InterfaceTable::shared_vertices(const VertexNumbering& numbering, const std::vector<NodeId>& leaves,
+                                               std::vector<SharedVertices::Incidence> contacts) const {
     std::map<NodeId, PartIndex> index_of;
     for (const NodeId leaf : leaves) index_of.emplace(leaf, PartIndex(index_of.size()));
-    std::vector<SharedVertices::Incidence> held;
-    held.reserve(3 * sides_.size());
+    std::vector<SharedVertices::Incidence> held = std::move(contacts);
+    held.reserve(held.size() + 3 * sides_.size());
     for (const InterfaceSide& side : sides_)
         for (const Key vertex : side.vertices) held.push_back({numbering.global_id(vertex), index_of.at(side.leaf)});
     return {std::move(held), leaves};

@@ -12,7 +12,7 @@
 
 namespace kerf {
 
-/// One side of an interface facet.
+/// One side of a facet between two leaves.
 struct InterfaceSide {
     Key facet;
     NamedTriangle vertices;  ///< rotated so that the smallest comes first
@@ -24,20 +24,26 @@ struct InterfaceSide {
     }
 };
 
-/// The interface facets of all leaves, sorted by facet key.
+/// The facets of all leaves that have a leaf on either side, interfaces and walls of regions, sorted by facet key.
 class InterfaceTable {
  public:
-    /// Collective: gathers the sides that the leaves of this rank hold.
-    InterfaceTable(Communicator& ranks, const std::vector<Leaf>& leaves);
+    /// Collective: gathers the sides that the leaves of this rank hold. `sides`: of the facets of the input, as
+    /// Complex::all_sides(), and for as long as this lives.
+    InterfaceTable(Communicator& ranks, const std::vector<Leaf>& leaves, std::span<const FacetSides> sides = {});
 
-    /// For each facet of the leaf the leaf on the other side, -1 for facets of the input.
+    /// For each facet of the leaf the leaf on the other side, -1 where there is none.
     std::vector<NodeId> neighbours(const Leaf& leaf) const;
-    /// The vertices of all interfaces. `leaves`: all of the run, in the order of the tree.
-    SharedVertices shared_vertices(const VertexNumbering& numbering, const std::vector<NodeId>& leaves) const;
+    /// The vertices of all interfaces, and those of `contacts`, which all ranks have told. `leaves`: all of the run, in
+    /// the order of the tree.
+    SharedVertices shared_vertices(const VertexNumbering& numbering, const std::vector<NodeId>& leaves,
+                                   std::vector<SharedVertices::Incidence> contacts = {}) const;
     /// Facets that do not appear exactly twice, on two leaves, with the same vertices in opposite order.
     std::int64_t unmatched() const;
 
  private:
+    bool is_shared(Key facet) const;
+
+    std::span<const FacetSides> facet_sides_;
     std::vector<InterfaceSide> sides_;
 };
 

@@ -23,7 +23,7 @@ RemeshedFile remesh_file(RunOptions options, const std::string& output, StageLis
     Input input = read_input(options.input, options.input_options);
     options = with_lengths(std::move(options), input.diagonal);
     const SizedInput sized = remesh_and_size(std::move(input), options, listener);
-    const SurfaceArrays surface = sized.input.surface.arrays();
+    const SurfaceArrays surface = sized.input.complex.arrays();
     if (ending == ".obj")
         write_obj(output, surface.vertices, surface.facets, surface.patch, sized.input.patch_names);
     else

@@ -124,7 +124,7 @@ Input remeshed(Input input, const SurfaceArrays& before, const Slivers& slivers,
                       .distance_from_input = result.report.distance_from_input,
                       .feature_edges = result.report.feature_edges,
                       .finer = wanted.wanted ? result.report.finer : FinerShares()};
-    input.surface = Surface(std::move(result.surface));
+    input.complex = Complex(Surface(std::move(result.surface)));
     measure_input(input);
     return input;
 }
@@ -140,7 +140,7 @@ Input divided(Input input, const SurfaceArrays& before, const RunOptions& option
                       .only_divided = true,
                       .smallest_angle_before_deg = smallest_angle(before),
                       .smallest_angle_deg = smallest_angle(result.surface)};
-    input.surface = Surface(std::move(result.surface));
+    input.complex = Complex(Surface(std::move(result.surface)));
     measure_input(input);
     return input;
 }
@@ -148,6 +148,13 @@ Input divided(Input input, const SurfaceArrays& before, const RunOptions& option
 SurfaceChange change_of(const Input& input, const SurfaceArrays& surface, const Slivers& slivers,
                         const RunOptions& options) {
     if (options.remeshing == Remeshing::never) return SurfaceChange::none;
+    if (input.complex.region_count() > 1) {
+        if (options.remeshing != Remeshing::always) return SurfaceChange::none;
+        throw Error(ErrorCode::usage,
+                    fmt::format("{} has {} regions, which cannot be remeshed. Use --surface split, or "
+                                "keep, and facets of the size that is wanted.",
+                                input.path, input.complex.region_count()));
+    }
     if (options.remeshing == Remeshing::always || input.is_cad || slivers.spoil_cells())
         return SurfaceChange::remeshing;
     if (options.sizes.cells > 0 || has_facets_to_divide(surface, wanted_lengths(options, surface, input)))
@@ -158,7 +165,7 @@ SurfaceChange change_of(const Input& input, const SurfaceArrays& surface, const 
 }  // namespace
 
 SurfaceChange surface_change(const Input& input, const RunOptions& options) {
-    const SurfaceArrays surface = input.surface.arrays();
+    const SurfaceArrays surface = input.complex.arrays();
     return change_of(input, surface, find_slivers(surface.vertices, surface.facets), options);
 }
 
@@ -181,7 +188,7 @@ double deviation_for(const Length& wanted, double diagonal) {
 }
 
 double forecast_changed_facets(const Input& input, const RunOptions& options) {
-    const SurfaceArrays surface = input.surface.arrays();
+    const SurfaceArrays surface = input.complex.arrays();
     switch (change_of(input, surface, find_slivers(surface.vertices, surface.facets), options)) {
         case SurfaceChange::none:
             break;
@@ -194,7 +201,7 @@ double forecast_changed_facets(const Input& input, const RunOptions& options) {
 }
 
 Input remesh_where_asked(Input input, const RunOptions& options, StageListener* listener, int processes) {
-    const SurfaceArrays before = input.surface.arrays();
+    const SurfaceArrays before = input.complex.arrays();
     const Slivers slivers = find_slivers(before.vertices, before.facets);
     const SurfaceChange change = change_of(input, before, slivers, options);
     if (change == SurfaceChange::remeshing)

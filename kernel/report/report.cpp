@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -209,6 +211,27 @@ class ReportLines {
     std::string text_;
 };
 
+// The largest first; of many, the others as a number.
+std::string regions_text(const RunReport& report) {
+    const Input& input = *report.input;
+    if (input.regions.empty()) return "";
+    constexpr std::size_t most = 6;
+    std::vector<std::int64_t> tets(input.regions.size(), 0);
+    for (const PartReport& part : report.parts) tets[static_cast<std::size_t>(part.region.value())] += part.result.tets;
+    std::vector<std::size_t> order(tets.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return std::pair(tets[a], input.regions[a].volume) > std::pair(tets[b], input.regions[b].volume);
+    });
+    std::string text = fmt::format("{}:", order.size());
+    for (std::size_t i = 0; i < std::min(most, order.size()); ++i) {
+        const std::size_t r = order[i];
+        text += fmt::format("{} {} ", i > 0 ? "," : "", input.complex.region_names()[r]);
+        text += tets[r] > 0 ? grouped(tets[r]) : fmt::format("(volume {:.4g})", input.regions[r].volume);
+    }
+    return order.size() > most ? text + fmt::format(" and {} more", order.size() - most) : text;
+}
+
 void add_input(ReportLines& lines, const RunReport& report, bool all) {
     const Input& input = *report.input;
     if (all)
@@ -249,6 +272,7 @@ void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
         all ? "" : fmt::format(", {} part{}", report.parts.size(), report.parts.size() == 1 ? "" : "s");
     lines.add("mesh",
               fmt::format("{} tetrahedra, {} vertices{}", grouped(report.tets), grouped(report.vertices), parts));
+    lines.add("regions", regions_text(report));
     if (report.found_size) lines.add("cells", found_size_text(*report.found_size));
     if (all) lines.add("filled", ways_text(report));
     if (all) lines.add("recovered", recovery_text(report.recovery));

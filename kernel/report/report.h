@@ -30,6 +30,8 @@ struct PartReport : PartOutcome {
     Vec3 box_low = Vec3::Zero(), box_high = Vec3::Zero();  ///< corners of the box around its surface
     std::int64_t surface_vertices = 0, surface_facets = 0;
     std::int64_t interface_facets = 0;  ///< of them
+    std::int64_t walls_of_others = 0;   ///< of them: walls that the part on their other side lists
+    RegionIndex region;
     double interface_area = 0;
     double interface_in_squared_edges =
         0;                           ///< the same, each facet over the square of CutOptions::max_interface_edge()
@@ -41,8 +43,8 @@ struct PartReport : PartOutcome {
     void archive(Archive& a) {
         PartOutcome::archive(a);
         a(id, rank, resumed, load, job_hash, surface_hash, surface_volume, surface_volume_error, sized_volume,
-          tets_at_facets, box_low, box_high, surface_vertices, surface_facets, interface_facets, interface_area,
-          interface_in_squared_edges, neighbours);
+          tets_at_facets, box_low, box_high, surface_vertices, surface_facets, interface_facets, walls_of_others,
+          region, interface_area, interface_in_squared_edges, neighbours);
     }
 };
 

@@ -46,6 +46,14 @@ Json input_json(const Input& input) {
                    {"facets_added", input.repairs.added_facets},
                    {"facets_flipped", input.orientation.facets_flipped},
                    {"shells_flipped", input.orientation.shells_flipped}}}};
+    for (std::size_t r = 0; r < input.regions.size(); ++r) {
+        const InputRegion& region = input.regions[r];
+        json["regions"].push_back({{"name", path_text(input.complex.region_names()[r])},
+                                   {"faces", region.facets},
+                                   {"components", region.components},
+                                   {"volume", region.volume},
+                                   {"area", region.area}});
+    }
     if (!input.notes.empty()) json["notes"] = input.notes;
     if (input.moved_vertices > 0)
         json["optimisation"] = {{"vertices_moved", input.moved_vertices}, {"largest_move", input.largest_move}};
@@ -92,7 +100,7 @@ Json options_json(RunOptions options) {
 Json node_json(const TreeNode& node) {
     Json json = {{"id", node.id},
                  {"parent", node.id / 2},
-                 {"children", node.cut_made ? Json{2 * node.id, 2 * node.id + 1} : Json::array()},
+                 {"children", node.is_divided() ? Json{2 * node.id, 2 * node.id + 1} : Json::array()},
                  {"level", static_cast<int>(std::log2(node.id))},
                  {"leaves", node.leaves},
                  {"vertices", node.vertices},
@@ -102,6 +110,7 @@ Json node_json(const TreeNode& node) {
                  {"inertia", rows(node.mass.inertia)},
                  {"eigenvalues", to_json(node.mass.eigenvalues)},
                  {"axes", columns(node.mass.axes)}};
+    if (node.regions > 1) json["regions"] = node.regions;
     if (node.cut_tried) json["cut"] = json_of_cut(node);
     return json;
 }
@@ -163,7 +172,10 @@ Json part_json(const PartReport& part, const std::string& wanted_mesher) {
 
 Json parts_json(const RunReport& report) {
     Json json = Json::array();
-    for (const PartReport& part : report.parts) json.push_back(part_json(part, report.options.mesher.name));
+    for (const PartReport& part : report.parts) {
+        json.push_back(part_json(part, report.options.mesher.name));
+        if (!report.input->regions.empty()) json.back()["region"] = part.region.value();
+    }
     return json;
 }
 

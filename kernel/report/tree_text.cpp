@@ -32,9 +32,10 @@ std::string percent(double part, double whole) { return fmt::format("{:.2f}", 10
 
 std::string node_line(const TreeNode& node, double volume) {
     const std::string source = node.id == 1 ? "-" : std::to_string(node.id / 2);
-    const std::string products = node.cut_made ? fmt::format("{} {}", 2 * node.id, 2 * node.id + 1) : "part";
+    const std::string products = node.is_divided() ? fmt::format("{} {}", 2 * node.id, 2 * node.id + 1) : "part";
     std::string line = fmt::format("{:>5} {:>6} {:>6} {:>9} {:>8} {:>8} {:>6}", level_of(node), node.id, source,
                                    products, node.facets, node.vertices, percent(node.mass.volume, volume));
+    if (node.regions > 1) line += fmt::format("  {} regions", node.regions);
     if (node.cut_tried) line += fmt::format("  {:<12} {:>5}", in_words(name(node.strategy)), node.tries);
     if (node.cut_made)
         line += fmt::format(" {:>8.3g} {:>5.1f} {:>8.1f}", node.section_area, node.quality.angle_deg,
@@ -59,7 +60,7 @@ LevelSummary summarise(std::span<const TreeNode> nodes) {
         level.most_facets = std::max(level.most_facets, node.facets);
         level.least_volume = std::min(level.least_volume, node.mass.volume);
         level.most_volume = std::max(level.most_volume, node.mass.volume);
-        level.parts += !node.cut_made;
+        level.parts += !node.is_divided();
         if (!node.cut_tried) continue;
         level.cuts += node.cut_made;
         level.first_tries += node.strategy == CutStrategy::first_try;
@@ -105,7 +106,8 @@ std::string lines_of_levels(std::span<const TreeNode> nodes) {
 std::string tree_text(std::span<const TreeNode> nodes, bool every_node) {
     const auto by_number = [](const TreeNode& a, const TreeNode& b) { return a.id < b.id; };
     KERF_CHECK(!nodes.empty() && std::is_sorted(nodes.begin(), nodes.end(), by_number));
-    const auto parts = std::count_if(nodes.begin(), nodes.end(), [](const TreeNode& node) { return !node.cut_made; });
+    const auto parts =
+        std::count_if(nodes.begin(), nodes.end(), [](const TreeNode& node) { return !node.is_divided(); });
     const bool few = static_cast<std::size_t>(parts) <= most_parts_of_node_lines;
     return every_node || few ? lines_of_nodes(nodes) : lines_of_levels(nodes);
 }

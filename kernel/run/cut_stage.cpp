@@ -23,6 +23,7 @@ Decomposition divide_unfinished(Communicator& ranks, Decomposition own, const De
     Decomposition whole;
     whole.nodes = gather_nodes(ranks, own.nodes, host_name());
     whole.leaves = gather_items(ranks, own.leaves);
+    whole.contacts = std::move(own.contacts);
     return in_agreement(
         ranks, [&] { return divide_straight(std::move(whole), options, range_of_rank(options.parts, ranks), cuts); });
 }
@@ -39,7 +40,9 @@ Decomposition cut_surface(Communicator& ranks, Input& input, const RunOptions& o
     if (!options.trace_file.empty()) cuts = &trace.emplace(options, input, cuts);
     Decomposition own = in_agreement(ranks, [&] {
         tell_progress(listener, "decompose", 0, 1);
-        return decompose(std::move(input.surface), wanted, range, cuts);
+        // The halves hold all that is needed of a single surface.
+        return input.complex.region_count() == 1 ? decompose(input.complex.take_only_region(), wanted, range, cuts)
+                                                 : decompose(input.complex, wanted, range, cuts);
     });
     if (wanted.facets == FacetPolicy::split) own = divide_unfinished(ranks, std::move(own), options.decompose, cuts);
     if (trace) trace->write(options.trace_file, ranks, own, range);  // a run that fails later has one, too

@@ -156,11 +156,14 @@ StoredParts number_parts(const RunContext& run, const RunFolder& folder, const s
     MeshOutline outline;
     std::vector<StoredParts::Place> places;
     outline.patch_names = run.input.patch_names;
+    const std::span<const std::string> regions = run.input.complex.region_names();
+    outline.region_names.assign(regions.begin(), regions.end());
     std::int64_t next = surface_vertices;
     for (const PartReport& part : parts) {
         if (part.result.code == 0) {
-            outline.parts.push_back({part.id, part.result.vertices, part.result.tets,
-                                     part.surface_facets - part.interface_facets, part.interface_facets});
+            const std::int64_t unlisted = part.interface_facets + part.walls_of_others;
+            outline.parts.push_back(
+                {part.id, part.result.vertices, part.result.tets, part.surface_facets - unlisted, unlisted});
             places.push_back({folder.stored_part_file(part.id), next, part.result.file_hash});
         }
         next += part.result.interior_vertices;
@@ -173,7 +176,11 @@ StoredParts number_parts(const RunContext& run, const RunFolder& folder, const s
 // On the root rank, before it is cut.
 std::optional<Surface> surface_for_reference(const RunContext& run) {
     if (!run.options.reference || !run.is_root()) return std::nullopt;
-    return run.input.surface;
+    if (run.input.complex.region_count() > 1)
+        throw Error(ErrorCode::usage, fmt::format("--reference meshes the whole in one piece, but {} has {} regions. "
+                                                  "Leave it out.",
+                                                  run.input.path, run.input.complex.region_count()));
+    return run.input.complex.surface_of(RegionIndex(0));
 }
 
 std::optional<Reference> mesh_reference(const RunContext& run, const RunFolder& folder, const RunReport& report,

@@ -28,28 +28,29 @@ std::int64_t least_facets(const DecomposeOptions& options) {
 // K as given, if the surface allows it; else that of a run into the same folder that was interrupted, perhaps on
 // another machine; else as it follows from the surface, its sized volume, the machine and its memory.
 std::int32_t part_count(const Input& input, const RunOptions& options, double volume, int ranks) {
+    const std::int32_t regions = input.complex.region_count();
     const auto most =
-        static_cast<std::int32_t>(std::max<std::int64_t>(1, input.facets / least_facets(options.decompose)));
+        static_cast<std::int32_t>(std::max<std::int64_t>(regions, input.facets / least_facets(options.decompose)));
     const std::int32_t wanted = options.decompose.parts;
     if (wanted == 0) {
         const std::int32_t interrupted = options.dry_run ? 0 : interrupted_part_count(options.output, input.file_hash);
-        if (interrupted > 0 && interrupted <= most) return interrupted;
-        return std::max(choose_parts(options, static_cast<double>(input.facets), volume, ranks, most),
-                        std::min(options.least_parts, most));
+        if (interrupted >= regions && interrupted <= most) return interrupted;
+        return std::max({choose_parts(options, static_cast<double>(input.facets), volume, ranks, most),
+                         std::min(options.least_parts, most), regions});
     }
     if (wanted > most)
         throw Error(ErrorCode::usage, fmt::format("{} has {} facets, too few for {} parts. Use -n {} or fewer, or a "
                                                   "finer surface.",
                                                   input.path, input.facets, wanted, most));
-    return wanted;
+    return std::max(wanted, regions);
 }
 
 RunOptions sized_on(const Input& input, RunOptions options) {
-    return with_sizes_on(std::move(options), input.surface.arrays(), input.patch_names);
+    return with_sizes_on(std::move(options), input.complex.arrays(), input.patch_names);
 }
 
 double sized_volume_of(const Input& input, const RunOptions& options) {
-    const SurfaceArrays surface = options.mesher.size.is_constant() ? SurfaceArrays() : input.surface.arrays();
+    const SurfaceArrays surface = options.mesher.size.is_constant() ? SurfaceArrays() : input.complex.arrays();
     return sized_volume(options.mesher.size, surface.vertices, surface.facets, input.volume);
 }
 
@@ -109,7 +110,11 @@ RunPlan plan_run(const RunOptions& request, int cores_of_rank, Communicator& ran
         if (!options.dry_run) check_budget(options, static_cast<double>(input.facets), volume);
         return options;
     });
+    const std::int32_t wanted_parts = wanted.decompose.parts;
     plan.options.decompose.parts = all_gather(ranks, plan.options.decompose.parts).front();
+    if (wanted_parts > 0 && plan.options.decompose.parts > wanted_parts)
+        input.notes.push_back(fmt::format("The {} regions are a part each, though -n {} asks for fewer parts.",
+                                          input.complex.region_count(), wanted_parts));
     return plan;
 }
 

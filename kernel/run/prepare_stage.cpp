@@ -23,6 +23,7 @@ PartReport describe_part(const PartJob& job, double volume, int rank, double hal
     PartReport part;
     part.id = job.part;
     part.rank = rank;
+    part.region = job.region;
     part.surface_volume = volume;
     part.surface_volume_error = bounded_volume(job.surface.vertices, job.surface.facets).error;
     const Box box = box_around(job.surface.vertices);
@@ -35,7 +36,9 @@ PartReport describe_part(const PartJob& job, double volume, int rank, double hal
         const std::vector<Vec3>& p = job.surface.vertices;
         const double area = triangle_area(p, t);
         const Vec3 centroid = (p[t[0]] + p[t[1]] + p[t[2]]) / 3;
-        if (job.neighbour[f] < 0) {
+        if (job.neighbour[f] >= 0) part.neighbours.push_back(job.neighbour[f]);
+        if (is_of_input(job.surface.facet_key[f])) {
+            part.walls_of_others += !is_listed_triangle(job.surface.patch[f], job.part, job.neighbour[f]);
             part.tets_at_facets += tets_at_facet(shape_of_facet(p[t[0]], p[t[1]], p[t[2]]),
                                                  options.mesher.size.at(centroid), half_thickness, options.mesher);
             continue;
@@ -44,7 +47,6 @@ PartReport describe_part(const PartJob& job, double volume, int rank, double hal
         const double edge = cut.max_interface_edge(centroid);
         part.interface_area += area;
         part.interface_in_squared_edges += area / (edge * edge);
-        part.neighbours.push_back(job.neighbour[f]);
     }
     part.sized_volume = sized_volume(cut.size, job.surface.vertices, job.surface.facets, volume);
     const bool is_sized = cut.load.depends_on_place();
@@ -75,25 +77,71 @@ void find_shared_edges(Communicator& ranks, const std::vector<NodeId>& leaves, s
     for (OwnPart& part : own) part.job.shared_edges = shared.groups_of(part_of_job(part.job));
 }
 
+// Of one surface, where it lies at contacts.
+struct SurfaceContacts {
+    std::vector<std::int32_t> vertices;
+    std::vector<UndirectedEdge> edges;
+};
+
+SurfaceContacts contacts_of(const SurfaceArrays& surface, const Contacts& contacts) {
+    SurfaceContacts own;
+    if (contacts.empty()) return own;
+    std::vector<char> is_contact(surface.vertices.size(), 0);
+    for (std::size_t v = 0; v < is_contact.size(); ++v)
+        if (contacts.has(surface.vertex_key[v])) {
+            is_contact[v] = 1;
+            own.vertices.push_back(static_cast<std::int32_t>(v));
+        }
+    for (const Triangle& t : surface.facets)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::int32_t a = t[i], b = t[(i + 1) % 3];
+            if (is_contact[a] && is_contact[b] && contacts.has(surface.vertex_key[a], surface.vertex_key[b]))
+                own.edges.push_back(undirected(a, b));
+        }
+    std::sort(own.edges.begin(), own.edges.end());
+    own.edges.erase(std::unique(own.edges.begin(), own.edges.end()), own.edges.end());
+    return own;
+}
+
+// Which leaves have the vertices of contacts.
+std::vector<SharedVertices::Incidence> gather_contacts(Communicator& ranks, const Decomposition& own,
+                                                       const VertexNumbering& numbering,
+                                                       const std::vector<NodeId>& leaves) {
+    std::vector<SharedVertices::Incidence> held;
+    if (own.contacts.empty()) return held;
+    for (const Leaf& leaf : own.leaves)
+        for (const Key key : leaf.surface.vertex_key)
+            if (own.contacts.has(key)) held.push_back({numbering.global_id(key), index_of_leaf(leaves, leaf.id)});
+    return gather_items(ranks, held);
+}
+
 }  // namespace
 
 PreparedParts prepare_parts(Communicator& ranks, const Input& input, const std::vector<TreeNode>& nodes,
                             Decomposition own, const RunOptions& options) {
     PreparedParts prepared;
-    const InterfaceTable table(ranks, own.leaves);
+    const std::span<const FacetSides> sides = input.complex.all_sides();
+    const InterfaceTable table(ranks, own.leaves, sides);
     prepared.unmatched_interface_facets = table.unmatched();
-    prepared.missing_input_facets = count_missing_input_facets(ranks, input.facets, own);
+    prepared.missing_input_facets = count_missing_input_facets(ranks, input.facets, own, sides);
     const VertexNumbering numbering(input.vertices, nodes);
     prepared.surface_vertices = numbering.surface_vertices();
     const std::vector<NodeId> leaves = gather_leaves(ranks, own.leaves);
-    const SharedVertices shared = table.shared_vertices(numbering, leaves);
+    const SharedVertices shared =
+        table.shared_vertices(numbering, leaves, gather_contacts(ranks, own, numbering, leaves));
+    const std::span<const std::string> regions = input.complex.region_names();
     for (Leaf& leaf : own.leaves) {
         PartJob job;
         job.part = leaf.id;
         job.boundary_id = numbering.global_ids(leaf.surface.vertex_key);
         job.neighbour = table.neighbours(leaf);
+        SurfaceContacts contacts = contacts_of(leaf.surface, own.contacts);
+        job.contact_vertices = std::move(contacts.vertices);
+        job.contact_edges = std::move(contacts.edges);
         job.shared = shared.groups_of(index_of_leaf(leaves, leaf.id), job.boundary_id);
         job.patch_names = input.patch_names;
+        job.region_names.assign(regions.begin(), regions.end());
+        job.region = leaf.region;
         job.length_scale = input.diagonal;
         job.surface = std::exchange(leaf.surface, {});
         PartReport report = describe_part(job, leaf.volume, ranks.rank(), input.volume / input.area, options);

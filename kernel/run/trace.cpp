@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -18,7 +19,7 @@ namespace kerf {
 namespace {
 
 constexpr std::uint64_t trace_magic = 0x636172746672656b;  // "kerftrac" in little-endian order
-constexpr std::uint32_t trace_version = 5;  // is raised whenever a field of the record is added, dropped or changed
+constexpr std::uint32_t trace_version = 6;  // is raised whenever a field of the record is added, dropped or changed
 
 struct TraceHeader {
     std::uint64_t magic = trace_magic;
@@ -55,6 +56,22 @@ void check(const TraceHeader& header, std::span<const char> record, const std::s
                "run.");
 }
 
+bool is_below(NodeId node, NodeId ancestor) {
+    while (node > ancestor) node /= 2;
+    return node == ancestor;
+}
+
+// The first node of each region; all ranks have the nodes above the regions that they own.
+std::vector<NodeId> roots_of_regions(Communicator& ranks, const std::vector<TreeNode>& own, std::size_t regions) {
+    std::vector<NodeId> roots(regions, std::numeric_limits<NodeId>::max());
+    for (const TreeNode& node : own)
+        if (NodeId& root = roots[static_cast<std::size_t>(node.region.value())]; node.regions == 1)
+            root = std::min(root, node.id);
+    for (const std::vector<NodeId>& of_rank : all_gather(ranks, roots))
+        for (std::size_t r = 0; r < regions; ++r) roots[r] = std::min(roots[r], of_rank[r]);
+    return roots;
+}
+
 }  // namespace
 
 const Cut* Trace::find(NodeId node) const {
@@ -62,14 +79,47 @@ const Cut* Trace::find(NodeId node) const {
     return found != cuts.end() && found->node == node ? &*found : nullptr;
 }
 
+std::optional<Surface> Trace::root_surface(NodeId node) const {
+    if (region_roots.empty()) return node == 1 ? std::optional(Surface(surface)) : std::nullopt;
+    const auto root = std::find(region_roots.begin(), region_roots.end(), node);
+    if (root == region_roots.end()) return std::nullopt;
+    return Complex(surface, sides, region_names).surface_of(RegionIndex(root - region_roots.begin()));
+}
+
+bool Trace::holds_regions(NodeId node) const {
+    return std::any_of(region_roots.begin(), region_roots.end(),
+                       [&](NodeId root) { return root != node && is_below(root, node); });
+}
+
+SurfaceArrays Trace::outside_of_regions(NodeId node) const {
+    const auto is_inside = [&](std::int32_t region) {
+        return region >= 0 && is_below(region_roots[static_cast<std::size_t>(region)], node);
+    };
+    SurfaceArrays outside = surface;  // of which all vertices stay
+    std::size_t kept = 0;
+    for (std::size_t f = 0; f < sides.size(); ++f) {
+        const bool has_back = is_inside(sides[f].back), has_front = is_inside(sides[f].front);
+        if (has_back == has_front) continue;
+        const Triangle& t = surface.facets[f];
+        outside.facets[kept] = has_back ? t : Triangle{t[0], t[2], t[1]};
+        outside.facet_key[kept] = surface.facet_key[f];
+        outside.patch[kept++] = surface.patch[f];
+    }
+    outside.facets.resize(kept);
+    outside.facet_key.resize(kept);
+    outside.patch.resize(kept);
+    return outside;
+}
+
 Surface replay(const Trace& trace, NodeId node) {
     if (const Cut* straight = trace.find(node); straight && !straight->split_parent.facets.empty())
         return Surface(straight->split_parent);
-    if (node == 1) return Surface(trace.surface);
+    if (std::optional<Surface> root = trace.root_surface(node)) return *std::move(root);
     const Cut* cut = trace.find(node / 2);
     if (!cut || !cut->made())
-        throw Error(ErrorCode::usage, fmt::format("The tree of {} has no node {}. Its root is 1, the children of a "
-                                                  "node i that was cut are 2i and 2i+1.",
+        throw Error(ErrorCode::usage, fmt::format("The tree of {} has no node {} with a surface. Its root is 1, the "
+                                                  "children of a node i that was cut, or that holds several regions, "
+                                                  "are 2i and 2i+1.",
                                                   trace.input, node));
     const Surface parent = replay(trace, node / 2);
     return Surface(std::move(split(parent, cut->side, cut->interface, cut->node)[node % 2].arrays));
@@ -101,7 +151,9 @@ Trace read_trace(const std::string& path) {
 
 TraceRecorder::TraceRecorder(const RunOptions& options, const Input& input, CutListener* next) : next_(next) {
     trace_.input = input.path;
-    trace_.surface = input.surface.arrays();
+    trace_.surface = input.complex.arrays();
+    trace_.sides.assign(input.complex.all_sides().begin(), input.complex.all_sides().end());
+    trace_.region_names.assign(input.complex.region_names().begin(), input.complex.region_names().end());
     trace_.remeshed = input.remeshed.has_value();
     trace_.patch_names = input.patch_names;
     trace_.patch_colours = input.patch_colours;
@@ -130,6 +182,8 @@ void TraceRecorder::write(const std::string& path, Communicator& ranks, const De
     for (const TreeNode& node : own.nodes)
         if (node.cut_tried && range.meets(node.first_leaf, 1)) given.push_back(*trace_.find(node.id));
     const std::vector<Bytes> all = ranks.all_gather(to_bytes(given));
+    if (!trace_.region_names.empty())
+        trace_.region_roots = roots_of_regions(ranks, own.nodes, trace_.region_names.size());
     in_agreement(ranks, [&] {
         if (ranks.rank() != 0) return;
         trace_.cuts.clear();

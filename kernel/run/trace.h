@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,26 +15,35 @@ namespace kerf {
 
 /// What --trace writes. It depends on input, options and K alone: not on ranks, workers or time.
 struct Trace {
-    std::string input;                                       ///< path of the surface file, as it was given
-    SurfaceArrays surface;                                   ///< as it was cut: welded and oriented
-    bool remeshed = false;                                   ///< it is not as the file has it, but Input::remeshed
-    std::vector<std::string> patch_names;                    ///< of surface.patch
+    std::string input;                      ///< path of the surface file, as it was given
+    SurfaceArrays surface;                  ///< as it was cut: welded and oriented; of several regions each facet once
+    std::vector<FacetSides> sides;          ///< of its facets, empty for one region
+    std::vector<std::string> region_names;  ///< of several
+    std::vector<NodeId> region_roots;       ///< of each region the node that is the whole of it
+    bool remeshed = false;                  ///< it is not as the file has it, but Input::remeshed
+    std::vector<std::string> patch_names;   ///< of surface.patch
     std::vector<std::array<std::uint8_t, 4>> patch_colours;  ///< as Input has them
     std::vector<OptionText> options;                         ///< those that shape the parts, resolved
     std::vector<Cut> cuts;  ///< of every node where one was tried, ascending by number; recorded, with seconds 0
 
     /// The cut of a node, nullptr if none was tried there. O(log #cuts).
     const Cut* find(NodeId node) const;
+    /// The surface that was cut first, if the node is its: that of a region, or of node 1 if there is only one.
+    std::optional<Surface> root_surface(NodeId node) const;
+    /// Whether a node holds several regions, so that it is divided without a cut and has no surface of half-edges.
+    bool holds_regions(NodeId node) const;
+    /// The facets with such a node on one side, turned outwards. O(#F + #regions).
+    SurfaceArrays outside_of_regions(NodeId node) const;
 
     template <class Archive>
     void archive(Archive& a) {
-        a(input, surface, remeshed, patch_names, patch_colours, options, cuts);
+        a(input, surface, sides, region_names, region_roots, remeshed, patch_names, patch_colours, options, cuts);
     }
 };
 
 /// The surface of a node of the tree, with the vertex and facet numbers that its Cut refers to: the splits of the nodes
 /// above are done again, O(#F) for each. A node with a straight cut comes with its facets split. Throws Error(usage) if
-/// the tree has no such node.
+/// the tree has no such node, or it holds several regions.
 Surface replay(const Trace& trace, NodeId node);
 
 /// Writes the file, replacing what was there. Throws Error(io).

@@ -41,11 +41,14 @@ struct InterfaceFacet {
     std::int32_t part, neighbour;
 };
 
-// A boundary triangle that lies on a facet of the input: the facet itself, or a piece of it.
+// A boundary triangle that lies on a facet of the input: the facet itself, or a piece of it, seen from outside of the
+// region.
 struct InputPiece {
-    std::int32_t facet, patch;
+    std::int32_t facet, region, patch;
     NamedTriangle vertices;
-    bool operator<(const InputPiece& o) const { return std::tie(facet, vertices) < std::tie(o.facet, o.vertices); }
+    bool operator<(const InputPiece& o) const {
+        return std::tie(facet, region, vertices) < std::tie(o.facet, o.region, o.vertices);
+    }
 };
 
 std::string read_report(const std::string& folder) {
@@ -109,7 +112,9 @@ class FolderVerifier {
     void check_interfaces();
     void check_numbering();
     void check_input();
-    bool is_facet(const Surface& input, std::int32_t facet, std::span<const InputPiece> pieces) const;
+    std::int64_t count_missing_sides(const Complex& input, std::int32_t facet,
+                                     std::span<const InputPiece> pieces) const;
+    bool is_facet(const Complex& input, const Triangle& facet, std::span<const InputPiece> pieces) const;
     void summarise();
 
     std::string folder_;
@@ -124,8 +129,8 @@ class FolderVerifier {
     std::int64_t unnumbered_interior_ = 0;                // vertices of files that leave the numbers to who reads them
     std::vector<InputPiece> pieces_;
     std::vector<InterfaceFacet> interfaces_;
-    std::vector<std::string> patch_names_;  // of the first part
-    std::vector<PartHash> hashes_;          // in the order of the report
+    std::vector<std::string> patch_names_, region_names_;  // of the first part
+    std::vector<PartHash> hashes_;                         // in the order of the report
 };
 
 // The files are those of the list, each with its hash.
@@ -169,8 +174,13 @@ void FolderVerifier::check_part(const nlohmann::json& of_report) {
     if (of_report.at("tets") != part.mesh.tets.size() || of_report.at("vertices") != part.mesh.vertices.size())
         differs(fmt::format("report.json has other numbers of part {}", leaf));
     check_boundary_arrays(part, name);
-    if (hashes_.empty()) patch_names_ = part.patch_names;
+    if (hashes_.empty()) {
+        patch_names_ = part.patch_names;
+        region_names_ = part.region_names;
+    }
     if (part.patch_names != patch_names_) differs(name + " has other names of patches than the parts before it");
+    if (part.region_names != region_names_) differs(name + " has other names of regions than the parts before it");
+    if (part.regions.size() > 1) differs(name + " has cells of several regions");
     hashes_.push_back({leaf, hash_part(part)});
     if (is_of_this_version_) check_what_follows(part, name, "parts/" + part_surface_file_name(leaf));
     keep_boundary(part);
@@ -180,8 +190,10 @@ void FolderVerifier::check_part(const nlohmann::json& of_report) {
 void FolderVerifier::check_boundary_arrays(const Part& part, const std::string& path) {
     const auto patches = static_cast<std::int32_t>(part.patch_names.size());
     for (std::size_t f = 0; f < part.facets.size(); ++f) {
-        const bool is_interface = part.neighbour[f] >= 0, has_facet = part.facet[f] >= 0;
-        if (is_interface != has_facet && (is_interface || (part.patch[f] >= 0 && part.patch[f] < patches))) continue;
+        const bool is_between = part.is_interface(f), has_facet = part.is_of_input(f);
+        const bool may_be_both = !part.region_names.empty();  // a wall
+        const bool is_something = is_between != has_facet || (is_between && may_be_both);
+        if (is_something && (!has_facet || (part.patch[f] >= 0 && part.patch[f] < patches))) continue;
         differs(fmt::format("{} has a boundary triangle without a patch or facet of the input", path));
         return;
     }
@@ -227,9 +239,9 @@ void FolderVerifier::keep_boundary(const Part& part) {
     for (std::size_t f = 0; f < part.facets.size(); ++f) {
         const Triangle& t = part.facets[f];
         const NamedTriangle g = rotated_to_smallest({part.global_id[t[0]], part.global_id[t[1]], part.global_id[t[2]]});
-        if (part.neighbour[f] < 0)
-            pieces_.push_back({part.facet[f], part.patch[f], g});
-        else
+        if (part.is_of_input(f) || !part.is_interface(f))
+            pieces_.push_back({part.facet[f], part.region_of(0).value(), part.patch[f], g});
+        if (part.is_interface(f))
             interfaces_.push_back({part.id < part.neighbour[f] ? g : reversed(g), part.id, part.neighbour[f]});
     }
 }
@@ -287,9 +299,26 @@ void FolderVerifier::check_numbering() {
     result_.vertices = next + unnumbered_interior_;
 }
 
+// Sides of a facet of the input that no pieces are, and pieces of regions that it does not bound. `pieces`: by region.
+std::int64_t FolderVerifier::count_missing_sides(const Complex& input, std::int32_t facet,
+                                                 std::span<const InputPiece> pieces) const {
+    const auto [front, back] = input.sides(facet);
+    const Triangle& t = input.vertices(facet);
+    std::int64_t missing = 0;
+    auto used = static_cast<std::ptrdiff_t>(pieces.size());
+    for (const std::int32_t region : {back, front}) {
+        if (region < 0) continue;
+        const auto [first, last] =
+            std::equal_range(pieces.begin(), pieces.end(), InputPiece{facet, region, 0, {}},
+                             [](const InputPiece& a, const InputPiece& b) { return a.region < b.region; });
+        used -= last - first;
+        missing += !is_facet(input, region == back ? t : Triangle{t[0], t[2], t[1]}, {first, last});
+    }
+    return missing + used;
+}
+
 // True if the pieces are the facet itself, or cover it with new vertices on the way.
-bool FolderVerifier::is_facet(const Surface& input, std::int32_t facet, std::span<const InputPiece> pieces) const {
-    const Triangle t = input.vertices(facet);
+bool FolderVerifier::is_facet(const Complex& input, const Triangle& t, std::span<const InputPiece> pieces) const {
     if (pieces.size() == 1) return pieces[0].vertices == rotated_to_smallest({t[0], t[1], t[2]});
     std::vector<std::array<Vec3, 3>> corners;
     for (const InputPiece& piece : pieces) {
@@ -339,19 +368,21 @@ void FolderVerifier::check_input() {
     auto next = std::find_if(pieces_.begin(), pieces_.end(), [](const InputPiece& p) { return p.facet >= 0; });
     result_.laws.extra_boundary_faces += next - pieces_.begin();
     std::int64_t wrong_patches = 0;
-    for (std::int32_t f = 0; f < input.surface.facet_count(); ++f) {
+    for (std::int32_t f = 0; f < input.complex.facet_count(); ++f) {
         const auto first = next;
         for (; next != pieces_.end() && next->facet == f; ++next)
-            wrong_patches += next->patch != input.surface.patch(f);
-        result_.laws.input_faces_missing += !is_facet(input.surface, f, {first, next});
+            wrong_patches += next->patch != input.complex.patch(f);
+        result_.laws.input_faces_missing += !count_missing_sides(input.complex, f, {first, next});
     }
     if (wrong_patches > 0)
         differs(fmt::format("{} boundary triangles are in other patches than the input", wrong_patches));
     if (patch_names_ != input.patch_names) differs("the parts have other names of patches than the input");
+    if (!std::ranges::equal(region_names_, input.complex.region_names()))
+        differs("the parts have other names of regions than the input");
     result_.laws.extra_boundary_faces += pieces_.end() - next;
     for (const PlacedVertex& v : boundary_)
         if (v.id < input.vertices)
-            result_.laws.moved_vertices += input.surface.point(static_cast<std::int32_t>(v.id)) != v.point;
+            result_.laws.moved_vertices += input.complex.point(static_cast<std::int32_t>(v.id)) != v.point;
 }
 
 void FolderVerifier::summarise() {

@@ -137,7 +137,7 @@ std::vector<PatchSummary> SurfaceSelector::summaries() const {
         const Part& part = space_.parts()[facet.part];
         const auto& [a, b, c] = part.facets[facet.facet];
         const std::vector<Vec3>& points = part.mesh.vertices;
-        if (part.has_patch(facet.facet)) patches[part.patch[facet.facet]].add(points[a], points[b], points[c]);
+        if (part.patch[facet.facet] >= 0) patches[part.patch[facet.facet]].add(points[a], points[b], points[c]);
     }
     std::vector<double> sums;
     for (const PatchSummary& own : patches)

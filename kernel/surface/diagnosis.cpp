@@ -47,7 +47,8 @@ class Examination {
     void select_facets();
     void find_non_manifold(const ConsistentFacets& consistent);
     void find_turned(const ConsistentFacets& consistent);
-    void find_intersections(const ConsistentFacets& consistent);
+    void find_shells(const ConsistentFacets& consistent);
+    void find_intersections();
     void find_misplaced_shells();
     void find_needles();
     void find_short_edges();
@@ -242,11 +243,20 @@ bool are_apart(const std::vector<Vec3>& vertices, const ConsistentFacets& consis
     return nested_shells_are_apart(vertices, consistent.facets, consistent.shell, parent);
 }
 
-void Examination::find_intersections(const ConsistentFacets& consistent) {
+// What one body is bounded by: its shells and how they lie.
+void Examination::find_shells(const ConsistentFacets& consistent) {
+    find_non_manifold(consistent);
+    find_turned(consistent);
+    bool apart = false;
     if (result_.clean()) {
         shells_ = locate_shells(soup_.vertices, consistent, soup_.holes);
-        if (are_apart(soup_.vertices, consistent, shells_)) return;
+        apart = are_apart(soup_.vertices, consistent, shells_);
     }
+    if (!apart) find_intersections();
+    if (result_.clean()) find_misplaced_shells();
+}
+
+void Examination::find_intersections() {
     std::vector<Triangle> solid;
     std::vector<std::int32_t> number;
     for (std::size_t i = 0; i < facets_.size(); ++i) {
@@ -322,11 +332,10 @@ Diagnosis Examination::run() {
     find_superfluous();
     find_degenerate();
     select_facets();
-    const ConsistentFacets consistent = make_consistent(facets_);
-    find_non_manifold(consistent);
-    find_turned(consistent);
-    find_intersections(consistent);
-    if (result_.clean()) find_misplaced_shells();
+    if (soup_.sides.empty())
+        find_shells(make_consistent(facets_));
+    else
+        find_intersections();
     find_needles();
     find_short_edges();
     const auto first_facet = [](const Defect& d) { return d.facets.empty() ? -1 : d.facets.front(); };

@@ -35,7 +35,8 @@ struct Diagnosis {
 
 /// Finds all defects in one pass, each check on what it can work with: edges on facets without repeated vertices,
 /// intersections on those with an area. Shells are located only where the surface is otherwise a closed manifold. All
-/// decisions about topology and intersections are exact. `soup`: its numbers in range; welded, without unused vertices;
+/// decisions about topology and intersections are exact. Where the soup says what lies on the sides of its facets, a
+/// Complex tells whether its regions close. `soup`: its numbers in range; welded, without unused vertices;
 /// Soup::polygon ascending. At most 10,000
 /// self-intersections, and the 1000 worst needles and shortest edges, are listed. O(#F log #F); 400 k facets in 4 s.
 Diagnosis diagnose(const Soup& soup, const DiagnosisOptions& options = {});

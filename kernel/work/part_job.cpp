@@ -72,6 +72,10 @@ Part part_of_job(const PartJob& job, TetMesh mesh) {
     part.global_id = job.boundary_id;
     part.global_id.resize(mesh.vertices.size(), -1);
     part.patch_names = job.patch_names;
+    part.region_names = job.region_names;
+    if (!job.region_names.empty()) part.regions = {{0, job.region}};
+    part.contact_vertices = job.contact_vertices;
+    part.contact_edges = job.contact_edges;
     part.shared = job.shared;
     part.shared_edges = job.shared_edges;
     part.mesh = std::move(mesh);

@@ -19,16 +19,21 @@ namespace kerf {
 struct PartJob {
     NodeId part = 1;
     SurfaceArrays surface;
-    std::vector<std::int64_t> boundary_id;  ///< #V; global numbers
-    std::vector<NodeId> neighbour;          ///< #F; the part on the other side of an interface facet, else -1
+    std::vector<std::int64_t> boundary_id;       ///< #V; global numbers
+    std::vector<NodeId> neighbour;               ///< #F; the part on the other side of an interface facet, else -1
+    std::vector<std::int32_t> contact_vertices;  ///< as in Part
+    std::vector<UndirectedEdge> contact_edges;
     std::vector<SharedGroup> shared;
     std::vector<SharedEdgeGroup> shared_edges;
     std::vector<std::string> patch_names;
-    double length_scale = 1;  ///< diagonal of the whole input, for the bins of the distributions
+    std::vector<std::string> region_names;  ///< empty if there is one region
+    RegionIndex region;                     ///< in which the part lies
+    double length_scale = 1;                ///< diagonal of the whole input, for the bins of the distributions
 
     template <class Archive>
     void archive(Archive& a) {
-        a(part, surface, boundary_id, neighbour, shared, shared_edges, patch_names, length_scale);
+        a(part, surface, boundary_id, neighbour, contact_vertices, contact_edges, shared, shared_edges, patch_names,
+          region_names, region, length_scale);
     }
 };
 

@@ -126,8 +126,8 @@ int main() {
     fmt::print("decomposition of the bearing cap on one thread: seconds, microseconds per facet, peak memory\n");
     fmt::print("{:>8} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>12}\n", "facets", "2 parts", "8 parts", "64 parts",
                "us/f (2)", "us/f (8)", "us/f (64)", "bytes/facet");
-    kerf::print_row(kerf::read_input(assets + "/bearing_cap_14k.stl").surface);
-    kerf::Surface surface = kerf::read_input(assets + "/bearing_cap_52k.stl").surface;
+    kerf::print_row(kerf::read_input(assets + "/bearing_cap_14k.stl").complex.take_only_region());
+    kerf::Surface surface = kerf::read_input(assets + "/bearing_cap_52k.stl").complex.take_only_region();
     kerf::print_row(surface);
     for (int level = 0; level < 2; ++level) {
         surface = kerf::bench::quartered(surface);

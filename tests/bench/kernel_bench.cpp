@@ -34,7 +34,7 @@ void decompose_surface(benchmark::State& state) {
     const Input input = read_input(bearing_cap);
     DecomposeOptions options;
     options.parts = static_cast<std::int32_t>(state.range(0));
-    for (auto _ : state) benchmark::DoNotOptimize(decompose(input.surface, options, {0, options.parts}));
+    for (auto _ : state) benchmark::DoNotOptimize(decompose(input.complex, options, {0, options.parts}));
 }
 BENCHMARK(decompose_surface)->ArgName("parts")->Arg(2)->Arg(8)->Unit(benchmark::kMillisecond);
 

@@ -40,7 +40,7 @@ SurfaceArrays rounded(SurfaceArrays surface) {
 }
 
 void prepare(const std::string& input, const std::string& stem, bool is_quartered) {
-    const Surface given = read_input(input).surface;
+    const Surface given = read_input(input).complex.take_only_region();
     const SurfaceArrays surface = rounded(is_quartered ? bench::quartered(given).arrays() : given.arrays());
     write_stl(stem + ".stl", surface.vertices, surface.facets);
     const ConsistentFacets shells = make_consistent(surface.facets);
@@ -92,7 +92,7 @@ double user_seconds() {
 }
 
 void fill(const std::string& mesher, const std::string& path, double bound, bool is_measured) {
-    const SurfaceArrays surface = read_input(path).surface.arrays();
+    const SurfaceArrays surface = read_input(path).complex.arrays();
     MesherOptions options;
     options.name = mesher;
     options.size = SizeField(bound);

@@ -228,7 +228,7 @@ Request request_of(const std::vector<std::string>& words) {
 int run(const std::vector<std::string>& words) {
     const Request request = request_of(words);
     if (!request.is_one) return test_many(request);
-    if (!request.input.empty()) return test_one(read_input(request.input).surface.arrays(), request);
+    if (!request.input.empty()) return test_one(read_input(request.input).complex.arrays(), request);
     const auto surface = test::hard_surface(request.first, request.most_facets);
     if (!surface) throw Error(ErrorCode::usage, fmt::format("Facets of surface {} meet.", request.first));
     fmt::print("{}, ", surface->family);

@@ -168,7 +168,7 @@ void write_lost(const std::string& path, const SurfaceArrays& surface, const std
 
 int run(const std::vector<std::string>& words) {
     if (words.empty() || words.size() > 2) return 2;
-    const Surface surface = read_input(words[0]).surface;
+    const Surface surface = read_input(words[0]).complex.take_only_region();
     const SurfaceArrays arrays = surface.arrays();
     const Causes causes(surface);
     Triangulation triangulation = delaunay(arrays.vertices).triangulation;

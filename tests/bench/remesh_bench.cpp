@@ -39,7 +39,7 @@ double diagonal_of(const std::vector<Vec3>& vertices) {
 }
 
 void prepare(const std::string& input_path, const std::string& output) {
-    const SurfaceArrays surface = read_input(input_path).surface.arrays();
+    const SurfaceArrays surface = read_input(input_path).complex.arrays();
     write_stl(output, surface.vertices, surface.facets);
     fmt::print(R"({{"facets": {}, "diagonal": {}}})"
                "\n",
@@ -62,7 +62,7 @@ CgalMesh to_cgal(const SurfaceArrays& surface) {
 void remesh_by_cgal(const std::string& input_path, const std::string& output, double size) {
     namespace processing = CGAL::Polygon_mesh_processing;
     namespace named = CGAL::parameters;
-    CgalMesh mesh = to_cgal(read_input(input_path).surface.arrays());
+    CgalMesh mesh = to_cgal(read_input(input_path).complex.arrays());
     const auto is_feature = mesh.add_property_map<CgalMesh::Edge_index, bool>("e:is_feature", false).first;
     processing::detect_sharp_edges(mesh, feature_angle_deg, is_feature);
     std::vector<CgalMesh::Edge_index> features;

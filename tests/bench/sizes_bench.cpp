@@ -28,7 +28,7 @@ using Edge = std::array<std::int32_t, 2>;
 
 void prepare(const std::string& path, const std::string& result) {
     const Input input = read_input(path);
-    const SurfaceArrays surface = input.surface.arrays();
+    const SurfaceArrays surface = input.complex.arrays();
     if (result != "-") write_stl(result, surface.vertices, surface.facets);
     fmt::print(R"({{"facets": {}, "shells": {}, "diagonal": {}, "volume": {}}})"
                "\n",

@@ -54,12 +54,12 @@ TEST_P(GoodSurface, IsReadAndClean) {
     EXPECT_TRUE(checked.diagnosis.clean()) << checked.diagnosis.summary(checked.soup);
     const Input input = read_input(GetParam());
     EXPECT_GT(input.volume, 0);
-    EXPECT_EQ(input.facets, input.surface.facet_count());
+    EXPECT_EQ(input.facets, input.complex.facet_count());
 }
 
 TEST_P(GoodSurface, DecomposesIntoEveryNumberOfParts) {
     constexpr std::int32_t facets_for_a_part = 300;
-    const Surface surface = std::move(read_input(GetParam()).surface);
+    const Surface surface = read_input(GetParam()).complex.surface_of(RegionIndex(0));
     for (const std::int32_t parts : {2, 8, 32}) {
         SCOPED_TRACE(testing::Message() << parts << " parts");
         DecomposeOptions options;
@@ -84,7 +84,7 @@ class WellShapedSurface : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Corpus, WellShapedSurface, testing::ValuesIn(well_shaped_surfaces()), test_name);
 
 TEST_P(WellShapedSurface, IsMeshedAndVerifiedWithoutAFailedCut) {
-    const SurfaceArrays surface = read_input(GetParam()).surface.arrays();
+    const SurfaceArrays surface = read_input(GetParam()).complex.arrays();
     for (const std::int32_t parts : {2, 8, 32}) {
         SCOPED_TRACE(testing::Message() << parts << " parts");
         const test::TemporaryFolder folder;
@@ -119,7 +119,7 @@ TEST_P(CadSurface, IsMeshedInEightPartsByTheLaws) {
     EXPECT_EQ(report.exit_code, 0);
     EXPECT_TRUE(report.verification.passed);
     EXPECT_EQ(report.parts.size(), 8u);
-    EXPECT_EQ(test::broken_laws(test::read_parts(folder.file("out")), read_input(GetParam()).surface.arrays()), "");
+    EXPECT_EQ(test::broken_laws(test::read_parts(folder.file("out")), read_input(GetParam()).complex.arrays()), "");
 }
 
 // Needles, few or many: whoever asks for nothing gets cells that are of use.
@@ -140,7 +140,7 @@ TEST_P(SliveredSurface, GetsUsefulCellsByDefault) {
     const Distribution& angles = report.quality.all.measures[0];
     EXPECT_GE(angles.min(), 3);
     EXPECT_GE(angles.percentile(0.01), 20);
-    const SurfaceArrays remeshed = remesh_where_asked(read_input(path), {}).surface.arrays();
+    const SurfaceArrays remeshed = remesh_where_asked(read_input(path), {}).complex.arrays();
     EXPECT_EQ(test::broken_laws(test::read_parts(folder.file("out")), remeshed), "");
 }
 
@@ -326,7 +326,7 @@ TEST_P(BadSurface, IsRefusedWithAMessageOrMeshedByTheLaws) {
         Input input;
         const RunReport report = test::run_parts(GetParam(), folder.file("out"), 1, input);
         EXPECT_EQ(report.exit_code, 0);
-        const SurfaceArrays surface = remesh_where_asked(read_input(GetParam()), {}).surface.arrays();
+        const SurfaceArrays surface = remesh_where_asked(read_input(GetParam()), {}).complex.arrays();
         EXPECT_EQ(test::broken_laws(test::read_parts(folder.file("out")), surface), "");
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::input) << error.what();

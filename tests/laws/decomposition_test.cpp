@@ -143,7 +143,7 @@ TEST(DecompositionLaws, NoticeEveryDamage) {
     EXPECT_TRUE(broken([](Decomposition& d, auto&) { d.leaves[2] = d.leaves[1]; }));
     EXPECT_TRUE(broken([](Decomposition& d, auto&) { d.leaves[1].volume *= 1.001; }));
     EXPECT_TRUE(broken([](Decomposition& d, auto&) { ++d.nodes.front().interface_vertices; }));
-    EXPECT_TRUE(broken([](Decomposition& d, auto&) { d.divided_facets.push_back({3, {}}); }));
+    EXPECT_TRUE(broken([](Decomposition& d, auto&) { d.divided_facets.push_back({3, {}, 1, {}}); }));
     EXPECT_TRUE(broken([](Decomposition&, SurfaceArrays& s) { s.facets.pop_back(), s.facet_key.pop_back(); }));
     EXPECT_TRUE(broken([](Decomposition&, SurfaceArrays& s) { s.vertices.back() += Vec3::Constant(1e-9); }));
     EXPECT_TRUE(broken([](Decomposition&, SurfaceArrays& s) { s.vertex_key.back() += 1; }));

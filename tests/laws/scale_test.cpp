@@ -60,7 +60,7 @@ void expect_laws(const std::string& command, const std::string& asset, const Pla
     EXPECT_EQ(std::count(found.begin(), found.end(), char{0}), 0) << "vertices of the input are missing";
     if (is_meshed) {
         EXPECT_EQ(test::run_kerf({"verify", out}).exit_code, 0);
-        EXPECT_EQ(test::broken_laws(parts, read_input(path).surface.arrays()), "");
+        EXPECT_EQ(test::broken_laws(parts, read_input(path).complex.arrays()), "");
     }
 }
 

@@ -20,6 +20,8 @@ inline std::string asset_folder() { return KERF_ASSETS; }
 
 inline std::string asset_path(const std::string& name) { return asset_folder() + "/" + name + ".stl"; }
 
-inline Surface asset_surface(const std::string& name) { return std::move(read_input(asset_path(name)).surface); }
+inline Surface asset_surface(const std::string& name) {
+    return read_input(asset_path(name)).complex.take_only_region();
+}
 
 }  // namespace kerf::test

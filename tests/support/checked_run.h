@@ -46,7 +46,7 @@ inline FinishedRun run_and_check(const std::string& input, std::int32_t parts, R
     expect_verified(run.report, parts);
     run.parts = read_parts(folder.file("out"));
     EXPECT_EQ(run.parts.size(), run.report.parts.size());
-    EXPECT_EQ(broken_laws(run.parts, remesh_where_asked(read_input(input), options).surface.arrays()), "");
+    EXPECT_EQ(broken_laws(run.parts, remesh_where_asked(read_input(input), options).complex.arrays()), "");
     std::int64_t tets = 0, last_id = -1;
     for (const Part& part : run.parts) {
         tets += static_cast<std::int64_t>(part.mesh.tets.size());

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
+#include <set>
 #include <tuple>
 
+#include <fmt/format.h>
 #include <Eigen/Geometry>
 
 #include "geometry/predicates.h"
@@ -27,7 +30,16 @@ struct BoundaryFace {
 
 class RunLaws {
  public:
-    RunLaws(const std::vector<Part>& parts, const SurfaceArrays& input) : parts_(parts), input_(input) {}
+    RunLaws(const std::vector<Part>& parts, const SurfaceArrays& input) : parts_(parts), input_(input) {
+        volumes_ = {enclosed_volume(input.vertices, input.facets)};
+    }
+    RunLaws(const std::vector<Part>& parts, const SurfaceArrays& input, const Complex& complex)
+        : parts_(parts), input_(input), sides_(complex.all_sides()) {
+        for (const RegionIndex region : ids<RegionIndex>(complex.region_count())) {
+            const SurfaceArrays arrays = complex.arrays_of(region);
+            volumes_.push_back(enclosed_volume(arrays.vertices, arrays.facets));
+        }
+    }
 
     std::string broken() {
         check_numbers();
@@ -51,6 +63,8 @@ class RunLaws {
 
     const std::vector<Part>& parts_;
     const SurfaceArrays& input_;
+    std::span<const FacetSides> sides_;
+    std::vector<double> volumes_;  // of the regions
     std::string text_;
     std::vector<Vec3> points_;  // by global number
 };
@@ -116,14 +130,19 @@ void RunLaws::check_tetrahedra(const Part& part) {
 }
 
 void RunLaws::check_volume() {
-    double sum = 0;
+    std::vector<double> sums(volumes_.size(), 0);
+    std::int64_t wrong = 0;
     for (const Part& part : parts_)
         for (const Tetrahedron& t : part.mesh.tets) {
             const std::vector<Vec3>& p = part.mesh.vertices;
-            sum += (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).dot(p[t[3]] - p[t[0]]) / 6;
+            sums[static_cast<std::size_t>(part.region_of(0).value())] +=
+                (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).dot(p[t[3]] - p[t[0]]) / 6;
         }
-    const double enclosed = enclosed_volume(input_.vertices, input_.facets);
-    add(!(std::abs(sum - enclosed) <= 1e-10 * enclosed), "volume that is not the enclosed one");
+    for (std::size_t r = 0; r < sums.size(); ++r) wrong += !(std::abs(sums[r] - volumes_[r]) <= 1e-10 * volumes_[r]);
+    add(wrong, "volume that is not the enclosed one");
+    std::int64_t mixed = 0;
+    for (const Part& part : parts_) mixed += part.regions.size() != (sides_.empty() ? 0 : 1);
+    add(mixed, "parts that do not lie in one region");
 }
 
 std::vector<BoundaryFace> RunLaws::boundary(bool interface) const {
@@ -141,21 +160,33 @@ std::vector<BoundaryFace> RunLaws::boundary(bool interface) const {
 
 // The pieces of a facet are the facet itself, or new vertices lie on its edges and inside of it.
 void RunLaws::check_facets() {
-    std::vector<std::vector<std::pair<Face, std::int32_t>>> pieces(input_.facets.size());
+    // Behind facet f, then in front of it.
+    std::vector<std::vector<std::pair<Face, std::int32_t>>> pieces(2 * input_.facets.size());
     std::int64_t foreign = 0, changed = 0;
+    const auto region_at = [&](std::size_t side) {
+        const FacetSides sides = sides_.empty() ? FacetSides{} : sides_[side / 2];
+        return side % 2 == 0 ? sides.back : sides.front;
+    };
     for (const Part& part : parts_)
         for (std::size_t f = 0; f < part.facets.size(); ++f) {
-            if (part.neighbour[f] >= 0) continue;
+            if (part.neighbour[f] >= 0 && part.facet[f] < 0) continue;
             const Triangle& t = part.facets[f];
             const auto facet = static_cast<std::size_t>(part.facet[f]);
-            if (facet >= pieces.size() || part.patch[f] != input_.patch[facet])
+            const std::int32_t region = part.region_of(0).value();
+            if (facet >= input_.facets.size() || part.patch[f] != input_.patch[facet] ||
+                (region_at(2 * facet) != region && region_at(2 * facet + 1) != region))
                 ++foreign;
             else
-                pieces[facet].push_back(
+                pieces[2 * facet + (region_at(2 * facet) == region ? 0 : 1)].push_back(
                     {rotated({part.global_id[t[0]], part.global_id[t[1]], part.global_id[t[2]]}), part.id});
         }
     for (std::size_t f = 0; f < pieces.size(); ++f) {
-        const Triangle& t = input_.facets[f];
+        Triangle t = input_.facets[f / 2];
+        if (f % 2 == 1) std::swap(t[1], t[2]);
+        if (region_at(f) < 0) {
+            changed += !pieces[f].empty();
+            continue;
+        }
         if (pieces[f].size() == 1) {
             changed += pieces[f][0].first != rotated({t[0], t[1], t[2]});
             continue;
@@ -176,7 +207,7 @@ void RunLaws::check_boundary() {
     for (std::size_t i = 0; i < sides.size(); ++i) {
         const BoundaryFace& side = sides[i];
         unmatched += !std::binary_search(sides.begin(), sides.end(),
-                                         BoundaryFace{turned(side.corners), side.neighbour, side.part, -1});
+                                         BoundaryFace{turned(side.corners), side.neighbour, side.part, side.patch});
         doubled += i > 0 && side.corners == sides[i - 1].corners;
     }
     add(unmatched, "interface faces without their other side");
@@ -201,6 +232,49 @@ std::vector<Part> read_part_surfaces(const std::string& folder) { return read_fi
 
 std::string broken_laws(const std::vector<Part>& parts, const SurfaceArrays& input) {
     return RunLaws(parts, input).broken();
+}
+
+std::string broken_laws(const std::vector<Part>& parts, const Complex& input) {
+    const SurfaceArrays facets = input.arrays();
+    return input.region_count() == 1 ? broken_laws(parts, facets) : RunLaws(parts, facets, input).broken();
+}
+
+std::string broken_sharing(const PartSource& source) {
+    using Holders = std::set<NodeId>;
+    std::map<std::int64_t, Holders> of_vertex, told_of_vertex;
+    std::map<std::array<std::int64_t, 2>, Holders> of_edge, told_of_edge;
+    const auto edge_of = [](const Part& part, std::int32_t a, std::int32_t b) {
+        return std::array{std::min(part.global_id[a], part.global_id[b]),
+                          std::max(part.global_id[a], part.global_id[b])};
+    };
+    std::int64_t wrong = 0;
+    for (const PartIndex index : source.outline().parts.ids()) {
+        const Part part = source.load(index);
+        for (const std::int64_t id : part.global_id) of_vertex[id].insert(part.id);
+        for (const Tetrahedron& t : part.mesh.tets)
+            for (std::size_t i = 0; i < 4; ++i)
+                for (std::size_t j = 0; j < i; ++j) of_edge[edge_of(part, t[i], t[j])].insert(part.id);
+        for (const SharedGroup& group : part.shared)
+            for (const std::int32_t v : group.vertices) {
+                const auto [told, is_new] =
+                    told_of_vertex.emplace(part.global_id[v], Holders(group.parts.begin(), group.parts.end()));
+                wrong += told->second != Holders(group.parts.begin(), group.parts.end());
+            }
+        for (const SharedEdgeGroup& group : part.shared_edges)
+            for (const auto& [a, b] : group.edges) {
+                const auto [told, is_new] =
+                    told_of_edge.emplace(edge_of(part, a, b), Holders(group.parts.begin(), group.parts.end()));
+                wrong += told->second != Holders(group.parts.begin(), group.parts.end());
+            }
+    }
+    std::erase_if(of_vertex, [](const auto& held) { return held.second.size() < 2; });
+    std::erase_if(of_edge, [](const auto& held) { return held.second.size() < 2; });
+    std::string text;
+    if (wrong > 0) text += fmt::format("{} that parts tell of differently; ", wrong);
+    if (of_vertex != told_of_vertex)
+        text += fmt::format("{} vertices shared, {} told; ", of_vertex.size(), told_of_vertex.size());
+    if (of_edge != told_of_edge) text += fmt::format("{} edges shared, {} told; ", of_edge.size(), told_of_edge.size());
+    return text;
 }
 
 }  // namespace kerf::test

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "part/vtu_reader.h"
-#include "surface/surface.h"
+#include "surface/complex.h"
 
 namespace kerf::test {
 
@@ -22,5 +22,13 @@ std::vector<Part> read_part_surfaces(const std::string& folder);
 /// part; the boundary of the tetrahedra is what the file says; all tetrahedra are positive; GlobalVertexId is dense,
 /// input vertices keep their numbers, and equal numbers mean equal coordinates, bit for bit, and the reverse.
 std::string broken_laws(const std::vector<Part>& parts, const SurfaceArrays& input);
+
+/// The same for several regions: volumes add up in each of them, every side of a facet is a boundary face of exactly
+/// one part of the region that lies there, and no part has cells of two.
+std::string broken_laws(const std::vector<Part>& parts, const Complex& input);
+
+/// What Part::shared and Part::shared_edges say wrongly: of every vertex, and of every edge of a tetrahedron, that
+/// several parts have, each of them names all. Empty if all is right.
+std::string broken_sharing(const PartSource& parts);
 
 }  // namespace kerf::test

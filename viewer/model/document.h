@@ -21,10 +21,10 @@ namespace kerf::view {
 struct NodeSurface {
     std::vector<Vec3> vertices;
     std::vector<Triangle> facets;
-    std::vector<std::int32_t> patch;          ///< #F; of the input, -1 on interfaces
-    std::vector<NodeId> interface_of;         ///< #F; the node whose cut made it, 0: the input's surface, -1: not known
-    std::vector<std::int32_t> neighbour;      ///< #F; of a part: the part behind an interface facet, else -1. Or empty
-    std::vector<std::int32_t> facet_number;   ///< #F; of the facet in the input, -1 on interfaces
+    std::vector<std::int32_t> patch;         ///< #F; of the input, -1 on interfaces
+    std::vector<NodeId> interface_of;        ///< #F; the node whose cut made it, 0: the input's surface, -1: not known
+    std::vector<std::int32_t> neighbour;     ///< #F; of a part: the part behind an interface or wall, else -1. Or empty
+    std::vector<std::int32_t> facet_number;  ///< #F; of the facet in the input, -1 on interfaces
     std::vector<std::int64_t> vertex_number;  ///< #V; global number (parts) or number in the input; -1: interior of an
                                               ///< interface
 

@@ -4,25 +4,16 @@
 
 namespace kerf::view {
 
-NodeSurface node_surface_of(const Surface& surface) {
+NodeSurface node_surface_of(const SurfaceArrays& surface) {
     NodeSurface result;
-    const auto vertices = static_cast<std::size_t>(surface.vertex_count());
-    const auto facets = static_cast<std::size_t>(surface.facet_count());
-    result.vertices.reserve(vertices);
-    result.vertex_number.reserve(vertices);
-    for (std::int32_t v = 0; v < surface.vertex_count(); ++v) {
-        const Key key = surface.vertex_key(v);
-        result.vertices.push_back(surface.point(v));
-        result.vertex_number.push_back(is_of_input(key) ? key_index(key) : -1);
-    }
-    result.facets.reserve(facets);
-    result.patch.reserve(facets);
-    result.interface_of.reserve(facets);
-    result.facet_number.reserve(facets);
-    for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
-        const Key key = surface.facet_key(f);
-        result.facets.push_back(surface.vertices(f));
-        result.patch.push_back(surface.patch(f));
+    result.vertices = surface.vertices;
+    result.facets = surface.facets;
+    result.patch = surface.patch;
+    result.vertex_number.reserve(surface.vertices.size());
+    for (const Key key : surface.vertex_key) result.vertex_number.push_back(is_of_input(key) ? key_index(key) : -1);
+    result.interface_of.reserve(surface.facets.size());
+    result.facet_number.reserve(surface.facets.size());
+    for (const Key key : surface.facet_key) {
         result.interface_of.push_back(key_node(key));
         result.facet_number.push_back(is_of_input(key) ? key_index(key) : -1);
     }

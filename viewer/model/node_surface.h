@@ -6,7 +6,7 @@
 namespace kerf::view {
 
 /// The surface of a node, numbered alike.
-NodeSurface node_surface_of(const Surface& surface);
+NodeSurface node_surface_of(const SurfaceArrays& surface);
 
 /// What a file said, numbered and oriented alike: as the surface of the root.
 NodeSurface node_surface_of(const Soup& soup);

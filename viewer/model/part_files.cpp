@@ -89,8 +89,9 @@ NodeSurface read_part_surface(const std::string& folder, NodeId part, std::vecto
     if (patch_names) *patch_names = std::move(file.patch_names);
     NodeSurface surface;
     surface.interface_of.reserve(file.facets.size());
-    for (const std::int32_t neighbour : file.neighbour)
-        surface.interface_of.push_back(neighbour < 0 ? 0 : common_ancestor(part, neighbour));
+    for (std::size_t f = 0; f < file.neighbour.size(); ++f)
+        surface.interface_of.push_back(
+            !file.is_interface(f) || file.is_wall(f) ? 0 : common_ancestor(part, file.neighbour[f]));
     surface.vertices = std::move(file.mesh.vertices);
     surface.facets = std::move(file.facets);
     surface.patch = std::move(file.patch);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <iterator>
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -70,8 +71,8 @@ std::shared_ptr<const Surface> Replayer::surface(NodeId node) {
 std::shared_ptr<const Surface> Replayer::uncut_surface(NodeId node) {
     const bool is_its_own = !splits_facets(trace_->find(node));
     if (is_its_own && places_.contains(node)) return surface(node);
-    if (node == 1) {
-        auto root = std::make_shared<const Surface>(trace_->surface);
+    if (std::optional<Surface> first = trace_->root_surface(node)) {
+        auto root = std::make_shared<const Surface>(*std::move(first));
         return is_its_own ? keep(node, root) : root;
     }
     const Cut* parent_cut = trace_->find(node / 2);

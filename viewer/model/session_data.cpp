@@ -93,12 +93,16 @@ std::shared_ptr<const NodeSurface> Session::Impl::surface(NodeId node) {
     if (node == 0)
         return fetch<NodeSurface>(
             key, [path = document_.options.input, options = document_.options.input_options]() -> Fetched<NodeSurface> {
-                return {node_surface_of(read_input(path, options).surface), {}};
+                return {node_surface_of(read_input(path, options).complex.arrays()), {}};
             });
+    if (replayer_ && document_.trace->holds_regions(node))
+        return fetch<NodeSurface>(key, [trace = document_.trace, node]() -> Fetched<NodeSurface> {
+            return {node_surface_of(trace->outside_of_regions(node)), {}};
+        });
     if (replayer_)
         return fetch<NodeSurface>(key, [this, replayer = replayer_, node]() -> Fetched<NodeSurface> {
             const std::shared_ptr<const Surface> surface = replayer->surface(node);
-            return {node_surface_of(*surface),
+            return {node_surface_of(surface->arrays()),
                     fill_row(node, surface->vertex_count(), surface->facet_count(), mass_properties(*surface))};
         });
     if (!folder_parts_.empty()) {
@@ -302,6 +306,7 @@ void Session::Impl::prefetch_surfaces() {
     state->replayer = replayer_;
     for (const TreeRow& row : document_.tree.rows) {
         if (!row.centroid) state->undescribed.insert(row.id);
+        if (replayer_->trace()->holds_regions(row.id)) continue;
         if (!row.centroid || !store_.holds({Store::Kind::surface, row.id})) state->nodes.push_back(row.id);
     }
     std::reverse(state->nodes.begin(), state->nodes.end());
@@ -314,7 +319,7 @@ void Session::Impl::prefetch_surfaces() {
         if (state->undescribed.contains(node))
             fill = fill_row(node, surface->vertex_count(), surface->facet_count(), mass_properties(*surface));
         if (state->is_full) return fill;
-        const auto value = std::make_shared<const NodeSurface>(node_surface_of(*surface));
+        const auto value = std::make_shared<const NodeSurface>(node_surface_of(surface->arrays()));
         const std::size_t bytes = bytes_of(*value);
         state->bytes += bytes;
         if (state->bytes > prefetch_bytes) {

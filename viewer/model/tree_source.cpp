@@ -37,6 +37,10 @@ void count_leaves(Tree& tree) {
 Tree tree_of(const Trace& trace) {
     Tree tree;
     tree.at(1);
+    for (const NodeId root : trace.region_roots) {
+        tree.at(root);
+        for (NodeId node = root / 2; node > 0; node /= 2) tree.at(node).state = NodeState::divided;
+    }
     for (const Cut& cut : trace.cuts) {
         describe_cut(cut, tree.at(cut.node));
         if (!cut.made()) continue;

@@ -26,7 +26,7 @@ RunOptions with_cells(std::int64_t cells, Remeshing remeshing = Remeshing::never
 }
 
 double tets_of(const SizedInput& sized) {
-    const SurfaceArrays surface = sized.input.surface.arrays();
+    const SurfaceArrays surface = sized.input.complex.arrays();
     MesherOptions mesher = with_sizes_on(sized.options, surface, sized.input.patch_names).mesher;
     mesher.improve = false;  // which changes less than 3 % of the number
     return static_cast<double>(mesh_volume(surface, mesher).mesh.tets.size());

@@ -41,9 +41,9 @@ TEST(MakeInput, IsThatOfAFile) {
     const Soup box = test::box(Vec3::Zero(), Vec3(1, 2, 3), 2);
     write_obj(folder.file("box.obj"), box.vertices, box.facets, box.patch, box.patch_names);
     const Input read = read_input(folder.file("box.obj")), made = input_of(box);
-    EXPECT_EQ(made.surface.arrays().vertices, read.surface.arrays().vertices);
-    EXPECT_EQ(made.surface.arrays().facets, read.surface.arrays().facets);
-    EXPECT_EQ(made.surface.arrays().patch, read.surface.arrays().patch);
+    EXPECT_EQ(made.complex.arrays().vertices, read.complex.arrays().vertices);
+    EXPECT_EQ(made.complex.arrays().facets, read.complex.arrays().facets);
+    EXPECT_EQ(made.complex.arrays().patch, read.complex.arrays().patch);
     EXPECT_EQ(made.patch_names, read.patch_names);
     EXPECT_EQ(made.volume, read.volume);
     EXPECT_TRUE(made.is_ready);

@@ -33,7 +33,7 @@ SurfaceArrays ball_with_needles(std::size_t spacing) {
 
 Input input_of(SurfaceArrays surface) {
     Input input;
-    input.surface = Surface(std::move(surface));
+    input.complex = Complex(Surface(std::move(surface)));
     measure_input(input);
     input.diagonal = 2 * std::sqrt(3.);
     input.patch_names = {"surface"};
@@ -66,7 +66,7 @@ TEST(Slivers, FewAreRemeshedAloneAndManyWithAll) {
         ASSERT_TRUE(result.remeshed);
         ASSERT_EQ(result.notes.size(), 1U) << "nobody has asked for it";
         EXPECT_NE(result.notes[0].find("--surface split keeps the facets"), std::string::npos);
-        const SurfaceArrays after = result.surface.arrays();
+        const SurfaceArrays after = result.complex.arrays();
         EXPECT_EQ(find_slivers(after.vertices, after.facets).count, 0);
         EXPECT_TRUE(find_self_intersections(after.vertices, after.facets).empty());
         EXPECT_EQ(result.remeshed->facets_kept, std::count(kept.begin(), kept.end(), char{1}));
@@ -98,7 +98,7 @@ TEST(Slivers, WellShapedFacetsAndThoseThatShallStayDoStay) {
     for (const auto& [surface, options] : {std::pair(good, RunOptions()), std::pair(bad, split)}) {
         const Input result = remesh_where_asked(input_of(surface), options);
         EXPECT_FALSE(result.remeshed);
-        EXPECT_EQ(corners_of(result.surface.arrays()), corners_of(surface));
+        EXPECT_EQ(corners_of(result.complex.arrays()), corners_of(surface));
         EXPECT_EQ(result.notes.empty(), &surface == &good || find_slivers(surface.vertices, surface.facets).count == 0);
     }
 }

@@ -170,9 +170,9 @@ TEST(UsualDeviation, IsATwentiethOfTheShortestWantedEdge) {
 // A round bar of needles: a bound that has nothing to do with the size would ask for many more facets.
 TEST(RemeshedInput, IsAsFineAsItIsWanted) {
     Input input;
-    input.surface = test::to_surface(test::prism(48, 1, 3));
+    input.complex = Complex(test::to_surface(test::prism(48, 1, 3)));
     measure_input(input);
-    input.diagonal = box_around(input.surface.arrays().vertices).diagonal().norm();
+    input.diagonal = box_around(input.complex.arrays().vertices).diagonal().norm();
     input.patch_names = {"below", "sides", "above"};
     RunOptions options;
     options.remeshing = Remeshing::always;

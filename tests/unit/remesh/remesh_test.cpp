@@ -340,16 +340,16 @@ class PatientListener : public RunListener {
 
 TEST(RemeshedInput, TellsOfItsStepsAndCanBeCancelledAtEach) {
     Input input;
-    input.surface = test::to_surface(test::prism(12, 1, 3));
+    input.complex = Complex(test::to_surface(test::prism(12, 1, 3)));
     measure_input(input);
-    input.diagonal = diagonal_of(input.surface.arrays());
+    input.diagonal = diagonal_of(input.complex.arrays());
     input.patch_names = {"below", "sides", "above"};
     RunOptions options;
     options.remeshing = Remeshing::always;
     PatientListener all(1'000'000);
     const Input remeshed = remesh_where_asked(input, options, &all);
     EXPECT_GT(all.told(), 5u);
-    EXPECT_EQ(remeshed.surface.arrays().vertices, remesh_where_asked(input, options).surface.arrays().vertices);
+    EXPECT_EQ(remeshed.complex.arrays().vertices, remesh_where_asked(input, options).complex.arrays().vertices);
     for (const std::size_t steps : {std::size_t{0}, std::size_t{1}, all.told() / 2, all.told() - 1}) {
         PatientListener listener(steps);
         try {
