@@ -49,14 +49,17 @@ struct Filling {
 void check_mesher_options(const MesherOptions& options);
 
 /// Fills the closed surface, which must be well-formed, with tetrahedra; every facet of it is kept and none is added.
+/// It may touch itself at vertices and along edges, which are there once then (joined_by_key(), surface/touching.h): no
+/// two vertices lie at the same place.
 ///
 /// The result's boundary vertices are those of the surface, bit for bit and in its order. Throws Error(subdomain) with
 /// the mesher's reason, Error(memory) if that is memory, Error(usage) for options out of range. A mesher may also
 /// abort, hang or exhaust memory, so call it in a process of its own, and it need not be thread-safe. Deterministic.
 Filling mesh_volume(const SurfaceArrays& surface, const MesherOptions& options);
 
-/// One point inside every void shell (a shell that encloses negative volume) of a closed surface.
-/// Each point is proven to lie in its void by ray parity. Throws Error(subdomain) where none is found.
+/// One point inside every void shell (a shell that encloses negative volume) of a closed surface, which may touch
+/// itself as that of mesh_volume(). Each point is proven to lie in its void by ray parity. Throws Error(subdomain)
+/// where none is found.
 std::vector<Vec3> hole_points(const SurfaceArrays& surface);
 
 }  // namespace kerf

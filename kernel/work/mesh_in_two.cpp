@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "cut/bisect.h"
+#include "surface/touching.h"
 #include "volume/meshers.h"
 
 namespace kerf {
@@ -23,7 +24,7 @@ SurfaceArrays renamed(SurfaceArrays arrays) {
 }
 
 std::array<SurfaceArrays, 2> halves_of(const SurfaceArrays& arrays, const MesherOptions& options) {
-    const Surface surface(renamed(arrays));
+    const Surface surface = separated_surface(renamed(arrays));
     const MassProperties mass = mass_properties(surface);
     CutOptions cut;
     cut.size = cut.load.size = options.size;
@@ -32,7 +33,7 @@ std::array<SurfaceArrays, 2> halves_of(const SurfaceArrays& arrays, const Mesher
     const Bisection bisection = bisect(surface, mass, cut_node, choose_place(surface, mass, 2, cut), cut, false);
     if (!bisection.cut.made())
         throw Error(ErrorCode::subdomain, "The part has no contour of edges that would cut it in two.");
-    return {bisection.halves[0].arrays(), bisection.halves[1].arrays()};
+    return {joined_by_key(bisection.halves[0].arrays()), joined_by_key(bisection.halves[1].arrays())};
 }
 
 }  // namespace

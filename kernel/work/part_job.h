@@ -18,7 +18,7 @@ namespace kerf {
 /// What is known of a part before it is meshed. The mesh depends on this alone.
 struct PartJob {
     NodeId part = 1;
-    SurfaceArrays surface;
+    SurfaceArrays surface;  ///< closed; as mesh_volume() takes it: may touch itself at vertices and along edges
     std::vector<std::int64_t> boundary_id;       ///< #V; global numbers
     std::vector<NodeId> neighbour;               ///< #F; the part on the other side of an interface facet, else -1
     std::vector<std::int32_t> contact_vertices;  ///< as in Part

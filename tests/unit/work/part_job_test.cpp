@@ -18,6 +18,7 @@
 #include "support/file_contents.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"
+#include "support/voxels.h"
 #include "work/failed_part.h"
 #include "work/journal.h"
 
@@ -130,6 +131,29 @@ TEST(PartJob, IsTheSameFromOutsideWhenCutInTwo) {
         EXPECT_NE(b.hash, a.hash);
         EXPECT_EQ(digest_of(read_file(folder.file("halves"))), b.file_hash);
     }
+}
+
+// Whole and in two: a cut may leave copies of a vertex in one half, which are one again before it is filled.
+TEST(PartJob, FillsBodiesThatTouchThemselves) {
+    const test::TemporaryFolder folder;
+    int cut = 0;
+    for (const test::Voxels& voxels :
+         {test::Voxels{{0, 0, 0}, {1, 1, 1}}, test::Voxels{{0, 0, 0}, {1, 1, 0}},
+          test::Voxels{{0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {1, 1, 0}, {1, 1, 1}, {0, 1, 1}}, test::notched_voxels()})
+        for (const bool cut_first : {false, true}) {
+            const PartJob job = job_of(test::voxel_surface(voxels, 4));
+            MesherCall call;
+            call.options.size = SizeField(1e-2);
+            call.cut_first = cut_first;
+            const PartResult result = run_part_job(job, call, folder.file("part"));
+            if (cut_first && result.code == static_cast<int>(ErrorCode::subdomain)) continue;  // no contour
+            ASSERT_EQ(result.code, 0) << result.message;
+            cut += cut_first;
+            EXPECT_TRUE(result.laws.hold());
+            EXPECT_NEAR(result.laws.volume, static_cast<double>(voxels.size()), 1e-9);
+            EXPECT_EQ(result.vertices - result.interior_vertices, static_cast<std::int64_t>(job.boundary_id.size()));
+        }
+    EXPECT_GE(cut, 3);
 }
 
 // A part file holds all that the store does with what the job says.
