@@ -17,6 +17,7 @@
 #include "surface/intersections.h"
 #include "surface/mass_properties.h"
 #include "surface/ray_parity.h"
+#include "surface/touching.h"
 
 namespace kerf {
 
@@ -235,6 +236,34 @@ bool is_good(const InterfaceQuality& quality, const CutOptions& options) {
            quality.gap_rel >= options.good_gap_rel;
 }
 
+constexpr std::size_t most_centroids = 16;
+
+// Points of a shell that lie on no other one: a vertex without copies, or where there is none the middle of facets.
+std::vector<Vec3> points_of(const SurfaceArrays& arrays, const std::vector<char>& copied, const Shell& shell) {
+    for (const Triangle& t : shell.facets)
+        for (const std::int32_t v : t)
+            if (copied.empty() || !copied[v]) return {arrays.vertices[v]};
+    std::vector<Vec3> points;
+    for (std::size_t f = 0; f < std::min(most_centroids, shell.facets.size()); ++f) {
+        const Triangle& t = shell.facets[f];
+        points.push_back((arrays.vertices[t[0]] + arrays.vertices[t[1]] + arrays.vertices[t[2]]) / 3);
+    }
+    return points;
+}
+
+// How many of the other shells are around the point; nothing if it lies on one.
+std::optional<int> depth_of(const Vec3& point, const SurfaceArrays& arrays, const std::vector<Shell>& shells,
+                            const BoxTree& boxes, std::int32_t self) {
+    int depth = 0;
+    for (const std::int32_t s : boxes.around(Eigen::AlignedBox3d(point, point))) {
+        if (s == self) continue;
+        const std::optional<bool> inside = encloses(arrays.vertices, shells[s], point);
+        if (!inside) return std::nullopt;
+        depth += *inside;
+    }
+    return depth;
+}
+
 }  // namespace
 
 Verdict judge_interface(const Surface& surface, const Band& band, const Interface& interface,
@@ -268,17 +297,14 @@ std::int32_t find_misplaced_shell(const Surface& half) {
     const SurfaceArrays arrays = half.arrays();
     const std::vector<Shell> shells = collect_shells(arrays.vertices, arrays.facets, components.of, components.count);
     const BoxTree boxes = boxes_of(shells);
+    const std::vector<char> copied = copied_vertices(half);
     for (std::size_t i = 0; i < shells.size(); ++i) {
         const std::int32_t vertex = shells[i].facets[0][0];
-        const Vec3& point = arrays.vertices[vertex];
-        int depth = 0;
-        for (const std::int32_t j : boxes.around(Eigen::AlignedBox3d(point, point))) {
-            if (static_cast<std::size_t>(j) == i) continue;
-            const std::optional<bool> inside = encloses(arrays.vertices, shells[j], point);
-            if (!inside) return vertex;  // it touches another shell
-            depth += *inside;
-        }
-        const bool is_void = depth % 2 == 1;
+        std::optional<int> depth;
+        for (const Vec3& point : points_of(arrays, copied, shells[i]))
+            if (!depth) depth = depth_of(point, arrays, shells, boxes, static_cast<std::int32_t>(i));
+        if (!depth) return vertex;  // it touches another shell
+        const bool is_void = *depth % 2 == 1;
         if (is_outward(arrays.vertices, shells[i].facets) == is_void) return vertex;
     }
     return -1;

@@ -19,6 +19,7 @@
 #include "cut/labels.h"
 #include "cut/plane.h"
 #include "cut/split.h"
+#include "surface/touching.h"
 
 namespace kerf {
 
@@ -83,9 +84,10 @@ bool divides(const std::vector<Side>& side) {
 // One plane and its rounds of local repair.
 class PlaneTrial {
  public:
-    PlaneTrial(const Surface& surface, const PlaneCandidate& candidate, NodeId node, const CutOptions& options,
-               bool record, std::int64_t& step_budget)
+    PlaneTrial(const Surface& surface, const std::vector<char>& copied, const PlaneCandidate& candidate, NodeId node,
+               const CutOptions& options, bool record, std::int64_t& step_budget)
         : surface_(surface),
+          copied_(copied),
           candidate_(candidate),
           node_(node),
           options_(options),
@@ -118,6 +120,7 @@ class PlaneTrial {
     void raise_penalty();
 
     const Surface& surface_;
+    const std::vector<char>& copied_;  // vertices, or none
     const PlaneCandidate& candidate_;
     NodeId node_;
     const CutOptions& options_;
@@ -170,7 +173,7 @@ bool PlaneTrial::find_contour(Attempt& attempt) {
     }
     last_contour_ = edges;
     if (record_) attempt.stages.smoothed = attempt.record.contour = edges;
-    ContourLoops contour = trace_loops(surface_, edges);
+    ContourLoops contour = trace_loops(surface_, edges, copied_);
     if (edges.empty() && !divides(attempt.side)) refuse(attempt, Refusal::empty_side, {});
     if (!contour.pinched.empty()) refuse(attempt, Refusal::pinched_contour, contour.pinched);
     attempt.loops = std::move(contour.loops);
@@ -286,6 +289,7 @@ class Ladder {
     Ladder(const Surface& surface, const MassProperties& mass, NodeId node, const CutPlace& place,
            const CutOptions& options, bool record)
         : surface_(surface),
+          copied_(copied_vertices(surface)),
           mass_(mass),
           node_(node),
           place_(place),
@@ -301,6 +305,7 @@ class Ladder {
     bool try_plane(const PlaneCandidate& candidate, std::vector<CutTry>& tries);
 
     const Surface& surface_;
+    const std::vector<char> copied_;
     const MassProperties& mass_;
     NodeId node_;
     const CutPlace& place_;
@@ -312,7 +317,7 @@ class Ladder {
 };
 
 bool Ladder::try_plane(const PlaneCandidate& candidate, std::vector<CutTry>& tries) {
-    PlaneTrial trial(surface_, candidate, node_, options_, record_, step_budget_);
+    PlaneTrial trial(surface_, copied_, candidate, node_, options_, record_, step_budget_);
     const std::int32_t rounds = options_.contour == ContourMethod::min_cut ? options_.repairs : 0;
     for (std::int32_t repair = 0, soft = 0; repair <= rounds && soft < soft_rounds; ++repair) {
         options_.check_cancelled();

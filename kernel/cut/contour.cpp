@@ -10,6 +10,7 @@
 #include "core/check.h"
 #include "core/elements.h"
 #include "geometry/triangle.h"
+#include "surface/touching.h"
 
 namespace kerf {
 
@@ -244,12 +245,14 @@ std::vector<SurfaceEdge> contour_edges(const Surface& surface, const Band& band,
     return edges;
 }
 
-ContourLoops trace_loops(const Surface& surface, const std::vector<SurfaceEdge>& edges) {
+ContourLoops trace_loops(const Surface& surface, const std::vector<SurfaceEdge>& edges,
+                         const std::vector<char>& copied) {
     KERF_CHECK(are_in_range(edges, static_cast<std::size_t>(surface.vertex_count())));
     ContourLoops result;
     std::vector<std::int32_t> next(surface.vertex_count(), -1);
     for (const SurfaceEdge& edge : edges) {
-        if (next[edge[0]] >= 0) result.pinched.push_back(edge[0]);
+        const bool touches = (!copied.empty() && copied[edge[0]]) || has_touching_edge(surface, edge[0]);
+        if (touches || next[edge[0]] >= 0) result.pinched.push_back(edge[0]);
         next[edge[0]] = edge[1];
     }
     if (!result.pinched.empty()) return result;

@@ -17,11 +17,14 @@ void clean_labels(const Surface& surface, const Band& band, std::vector<Side>& s
 /// Edges between the labels, oriented with the half below on their left, ascending by facet.
 std::vector<SurfaceEdge> contour_edges(const Surface& surface, const Band& band, const std::vector<Side>& side);
 
-/// Closed loops of contour edges, or the vertices where more than two meet.
+/// Closed loops of contour edges, or the vertices where more than two meet or the surface touches itself: halves could
+/// not be told from each other by their vertices there.
 struct ContourLoops {
     std::vector<std::vector<std::int32_t>> loops;  ///< each starts at the edge that comes first in `contour_edges`
     std::vector<std::int32_t> pinched;             ///< if not empty, `loops` is meaningless
 };
-ContourLoops trace_loops(const Surface& surface, const std::vector<SurfaceEdge>& edges);
+/// `copied`: copied_vertices() of the surface (surface/touching.h).
+ContourLoops trace_loops(const Surface& surface, const std::vector<SurfaceEdge>& edges,
+                         const std::vector<char>& copied = {});
 
 }  // namespace kerf

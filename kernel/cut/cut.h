@@ -63,7 +63,7 @@ enum class Refusal {
     none,                 ///< accepted
     empty_side,           ///< all facets fell on one side
     flow_limit,           ///< the minimum cut was not found within its bound of steps
-    pinched_contour,      ///< a vertex with more than two contour edges remained
+    pinched_contour,      ///< a vertex with more than two contour edges, or where the surface touches itself
     crossing_projection,  ///< contour edges cross or touch in the plane
     nesting,              ///< the section is not on the left of every contour edge
     chord,                ///< an interface edge coincides with a surface edge off the contour

@@ -13,6 +13,7 @@
 #include "cut/contour.h"
 #include "cut/triangulation.h"
 #include "surface/intersections.h"
+#include "surface/touching.h"
 
 namespace kerf {
 
@@ -147,19 +148,24 @@ Refusal span_plane(const Surface& parent, Cut& cut) {
     return planar.refusal;
 }
 
-// A piece of a split or of an untested facet that meets another facet, with that.
-std::vector<Collision> first_collision(const PlaneSplit& split, const std::vector<char>& untested) {
+// A piece of a split or of an untested facet that meets another facet, with that. Facets may meet at copies of a
+// vertex.
+std::vector<Collision> first_collision(const Surface& surface, const PlaneSplit& split,
+                                       const std::vector<char>& untested) {
+    const bool has_copies = !copied_vertices(surface).empty();
+    const SurfaceArrays joined = has_copies ? joined_by_key(split.arrays) : SurfaceArrays();
+    const SurfaceArrays& arrays = has_copies ? joined : split.arrays;
     const std::vector<std::int32_t>& parent = split.parent;
     std::vector<char> chosen(parent.size(), 0);
     for (std::size_t i = 0; i < parent.size(); ++i)
         chosen[i] = (!untested.empty() && untested[parent[i]]) || (i > 0 && parent[i - 1] == parent[i]) ||
                     (i + 1 < parent.size() && parent[i + 1] == parent[i]);
     const auto corners = [&](std::int32_t facet) -> std::array<Vec3, 3> {
-        const Triangle& t = split.arrays.facets[facet];
-        return {split.arrays.vertices[t[0]], split.arrays.vertices[t[1]], split.arrays.vertices[t[2]]};
+        const Triangle& t = arrays.facets[facet];
+        return {arrays.vertices[t[0]], arrays.vertices[t[1]], arrays.vertices[t[2]]};
     };
     std::vector<Collision> found;
-    for (const auto& [a, b] : find_intersections_of(chosen, split.arrays.vertices, split.arrays.facets, 1))
+    for (const auto& [a, b] : find_intersections_of(chosen, arrays.vertices, arrays.facets, 1))
         found.push_back(chosen[a] ? Collision{corners(a), corners(b)} : Collision{corners(b), corners(a)});
     return found;
 }
@@ -172,9 +178,9 @@ Refusal try_plane(const Surface& surface, const StraightPlane& plane, const std:
     if (!split) return Refusal::coincident_vertices;
     result.split = std::move(*split);
     const SurfaceArrays& arrays = result.split.arrays;
-    collisions = first_collision(result.split, untested);
+    collisions = first_collision(surface, result.split, untested);
     if (!collisions.empty()) return Refusal::intersection;
-    result.parent = Surface(SurfaceArrays(arrays));
+    result.parent = separated_surface(arrays);
     const std::vector<SurfaceEdge> edges = contour_of(result.parent, result.split);
     if (edges.empty()) return Refusal::empty_side;
     cut.loops = trace_loops(result.parent, edges).loops;

@@ -57,9 +57,11 @@ std::map<NodeId, CapMeasures> measure_caps(const FaceComplex& complex) {
                                        complex.point(face.corners[(i + 2) % 3])));
     }
     const std::vector<EdgeSide> sides = edge_sides(complex);
-    for (std::size_t i = 1; i < sides.size(); ++i) {
-        const EdgeSide &a = sides[i - 1], &b = sides[i];
-        if (a.place() != b.place() || a.cap == b.cap) continue;
+    for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
+        while (end < sides.size() && sides[end].place() == sides[i].place()) ++end;
+        if (end - i != 2) continue;  // an edge along which a part touches itself
+        const EdgeSide &a = sides[i], &b = sides[i + 1];
+        if (a.cap == b.cap) continue;
         const double angle =
             dihedral_degrees(complex.point(a.low), complex.point(a.high), complex.point(a.apex), complex.point(b.apex));
         for (const NodeId cap : {a.cap, b.cap})

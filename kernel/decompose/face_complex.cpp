@@ -8,6 +8,9 @@
 #include <numeric>
 #include <tuple>
 
+#include "surface/edge_corners.h"
+#include "surface/touching.h"
+
 namespace kerf {
 
 namespace {
@@ -33,17 +36,33 @@ std::vector<KeyedItem> sorted_items(const std::vector<Leaf>& leaves, KeysOf keys
 
 Triangle turned(const Triangle& t) { return {t[0], t[2], t[1]}; }
 
+// Edges that are double: where a surface touches itself without copies of a vertex.
+bool has_double_edges(const SurfaceArrays& surface) {
+    bool found = false;
+    EdgeCorners(surface.facets).for_each_edge([&](std::int32_t, std::span<const EdgeCorners::Corner> corners) {
+        found |= corners.size() > 2;
+    });
+    return found;
+}
+
 }  // namespace
 
 FaceComplex::FaceComplex(const std::vector<Leaf>& leaves) {
     std::vector<std::vector<std::int32_t>> number(leaves.size());
-    for (std::size_t i = 0; i < leaves.size(); ++i) number[i].resize(leaves[i].surface.vertices.size());
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+        number[i].resize(leaves[i].surface.vertices.size());
+        touches_ |= has_double_edges(leaves[i].surface);
+    }
+    std::int32_t last_leaf = -1;
     for (const KeyedItem& v : sorted_items(
              leaves, [](const SurfaceArrays& s) -> auto& { return s.vertex_key; })) {
         if (vertex_key_.empty() || vertex_key_.back() != v.key) {
             points_.push_back(leaves[v.leaf].surface.vertices[v.index]);
             vertex_key_.push_back(v.key);
+        } else {
+            touches_ |= v.leaf == last_leaf;
         }
+        last_leaf = v.leaf;
         number[v.leaf][v.index] = static_cast<std::int32_t>(vertex_key_.size()) - 1;
     }
     is_new_.assign(points_.size(), 0);
@@ -85,6 +104,11 @@ FaceComplex::Part FaceComplex::part(NodeId id) const {
         part.untested.push_back(face.untested[face.owner[0] == id ? 0 : 1]);
     }
     KERF_CHECK(!part.face.empty());
+    if (!touches_) return part;
+    SeparatedSurface separated = separate_touching(std::move(part.arrays));
+    part.arrays = std::move(separated.arrays);
+    for (std::size_t copy = part.vertex.size(); copy < separated.original.size(); ++copy)
+        part.vertex.push_back(std::int32_t{part.vertex[separated.original[copy]]});
     return part;
 }
 

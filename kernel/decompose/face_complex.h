@@ -26,10 +26,11 @@ struct ComplexFace {
 /// The faces of a decomposition. Vertices and faces keep their numbers when parts are divided; new ones follow.
 class FaceComplex {
  public:
-    /// Joins the closed surfaces of all parts by the keys of vertices and facets. O(n log n).
+    /// Joins the closed surfaces of all parts by the keys of vertices and facets, copies of a vertex too. O(n log n).
     explicit FaceComplex(const std::vector<Leaf>& leaves);
 
-    /// The closed surface of one part, and what its vertices and facets are here.
+    /// The closed surface of one part, and what its vertices and facets are here. Where it touches itself it is taken
+    /// apart, as separate_touching() does it, and several of its vertices are one here.
     struct Part {
         SurfaceArrays arrays;
         std::vector<std::int32_t> vertex;
@@ -74,6 +75,7 @@ class FaceComplex {
     std::vector<ComplexFace> faces_;
     std::vector<std::pair<NodeId, Plane>> planes_;  // in the order of the cuts
     std::vector<DividedFacet> divided_facets_;
+    bool touches_ = false;  // a part touches itself; cuts do not make others do so
 };
 
 }  // namespace kerf

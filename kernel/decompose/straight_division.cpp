@@ -11,6 +11,7 @@
 #include "decompose/cap_quality.h"
 #include "decompose/cap_triangulation.h"
 #include "decompose/face_complex.h"
+#include "surface/touching.h"
 
 namespace kerf {
 
@@ -51,7 +52,7 @@ double StraightDivision::load(NodeId id) const {
 }
 
 void StraightDivision::add_child(NodeId id, std::int32_t first_leaf, std::int32_t leaves) {
-    const Surface surface(complex_.part(id).arrays);
+    const Surface surface = separated_surface(complex_.part(id).arrays);
     TreeNode node = describe_node(id, first_leaf, leaves, surface, mass_properties(surface));
     node.region = region_of(id);
     nodes_.emplace(id, std::move(node));
@@ -62,7 +63,7 @@ bool StraightDivision::cut(TreeNode& node) {
     const Stopwatch stopwatch;
     const FaceComplex::Part part = complex_.part(node.id);
     std::vector<CutTry> tries;
-    const Surface surface(part.arrays);
+    const Surface surface = separated_surface(part.arrays);
     std::optional<StraightCut> made =
         cut_straight(surface, node.id, fraction_below(node.leaves), options_.cut.of(surface), tries, part.untested);
     node.cut_tried = true;

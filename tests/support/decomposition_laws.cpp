@@ -6,11 +6,13 @@
 #include <map>
 #include <tuple>
 
+#include "core/error.h"
 #include "decompose/straight_division.h"
 #include "support/face.h"
 #include "surface/facet_cover.h"
 #include "surface/intersections.h"
 #include "surface/mass_properties.h"
+#include "surface/touching.h"
 
 namespace kerf::test {
 
@@ -26,6 +28,16 @@ Face face_of(const SurfaceArrays& surface, std::size_t facet) {
 std::array<Vec3, 3> corners_of(const SurfaceArrays& surface, std::size_t facet) {
     const Triangle& t = surface.facets[facet];
     return {surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]};
+}
+
+// Whether it is closed and each fan has vertices of its own; without edges that touch each other unless it `may_touch`.
+bool is_separated(const SurfaceArrays& surface, bool may_touch) {
+    try {
+        const SeparatedSurface separated = separate_touching(surface);
+        return separated.arrays.vertices.size() == surface.vertices.size() && (may_touch || !separated.touches());
+    } catch (const Error&) {
+        return false;
+    }
 }
 
 class DecompositionLaws {
@@ -68,12 +80,14 @@ void DecompositionLaws::check_tree() {
 }
 
 void DecompositionLaws::check_leaves() {
+    const bool may_touch = separate_touching(input_).touches();
     std::int64_t open = 0, crossed = 0, wrong = 0;
     double sum = 0;
     for (const Leaf& leaf : whole_.leaves) {
         const auto& [vertices, facets, vertex_key, facet_key, patch] = leaf.surface;
-        open += !find_manifold_defects(vertices.size(), facets).empty();
-        crossed += !find_self_intersections(vertices, facets, 1).empty();
+        open += !is_separated(leaf.surface, may_touch);
+        const SurfaceArrays joined = joined_by_key(leaf.surface);
+        crossed += !find_self_intersections(joined.vertices, joined.facets, 1).empty();
         const double volume = enclosed_volume(vertices, facets);
         wrong += !(volume > 0) || std::abs(volume - leaf.volume) > volume_rel_tolerance * volume;
         sum += volume;

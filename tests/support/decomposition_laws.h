@@ -17,7 +17,8 @@ inline DecomposeOptions in_parts(std::int32_t parts) {
 /// All leaves, by contours of edges and, where these leave parts whole and facets may be split, by straight cuts.
 Decomposition decompose_whole(const Surface& surface, const DecomposeOptions& options, CutListener* listener = nullptr);
 
-/// The laws that all leaves of `input` break, each with a count; empty if all hold.
+/// The laws that all leaves of `input` break, each with a count; empty if all hold. The input may touch itself, with
+/// one vertex at each place.
 ///
 /// Every leaf is a closed 2-manifold without self-intersections (exact); volumes add up to the enclosed one; every
 /// facet of the input lies once in one leaf, with its vertices, orientation and patch, or its pieces cover it;

@@ -10,9 +10,10 @@
 #include "cut/contour.h"
 #include "cut/labels.h"
 #include "cut/split.h"
-#include "support/shapes.h"
+#include "support/voxels.h"
 #include "surface/intersections.h"
 #include "surface/mass_properties.h"
+#include "surface/touching.h"
 
 namespace kerf {
 namespace {
@@ -156,6 +157,19 @@ TEST(Acceptance, ShellsMustLieInTheMaterial) {
                                    test::translated(test::box(), Vec3(3, 3, 3)))),
               0)
         << "material inside of material";
+}
+
+// No vertex says where a cube lies that touches others at all of its corners.
+TEST(Acceptance, ShellsMayTouchOneAnother) {
+    test::Voxels checkerboard;
+    for (int i = 0; i < 27; ++i)
+        if ((i / 9 + i / 3 + i) % 2 == 0) checkerboard.insert({i / 9, i / 3 % 3, i % 3});
+    const test::Voxels at_vertex = {{0, 0, 0}, {1, 1, 1}}, at_edge = {{0, 0, 0}, {1, 1, 0}};
+    for (const test::Voxels& voxels : {at_vertex, at_edge, checkerboard, test::notched_voxels()}) {
+        const Soup soup = test::voxel_surface(voxels);
+        EXPECT_EQ(find_misplaced_shell(separated_surface(test::to_arrays(soup))), -1);
+        EXPECT_GE(find_misplaced_shell(separated_surface(test::to_arrays(test::inside_out(soup)))), 0);
+    }
 }
 
 TEST(Split, FacetsArePartitionedAndInterfacesOpposite) {
