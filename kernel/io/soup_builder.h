@@ -102,6 +102,7 @@ class SoupBuilder {
     bool has_facets() const { return !soup_.facets.empty(); }
     /// A point in a void.
     void add_hole(const Vec3& point) { soup_.holes.push_back(point); }
+    void add_seed(RegionSeed seed) { soup_.seeds.push_back(std::move(seed)); }
     void note(std::string text) { soup_.notes.push_back(std::move(text)); }
     /// Says that something of the file was not used; nothing if `count` is 0.
     void note_ignored(std::int64_t count, const char* one, const char* many) {

@@ -22,10 +22,11 @@ enum class Walls { refused, kept };
 /// STL solids, OBJ groups (else objects, else materials), Gmsh's physical groups (else surfaces), MEDIT references and
 /// TetGen markers become patches. Polygons are cut into fans, see find_fan(); those that are not planar or that no fan
 /// covers are in Soup::unfit_polygons. Facets of TetGen that have several polygons or holes, or that no fan covers, are
-/// triangulated, see triangulate_facet(). Volume elements, curves, points and regions are passed over; Soup::notes says
-/// so. Where a .msh or .vtu has tetrahedra and no triangles, the skin of the tetrahedra is the surface, see skin_of().
+/// triangulated, see triangulate_facet(). Volume elements, curves and points are passed over; Soup::notes says so.
+/// Where a .msh or .vtu has tetrahedra and no triangles, the skin of the tetrahedra is the surface, see skin_of().
 /// Volumes of a .msh between which there are triangles are refused unless `walls` are kept. TetGen's hole points
-/// are in Soup::holes. Numbers beyond the doubles are read as the nearest, that is infinite or zero, and "nan" is NaN.
+/// are in Soup::holes, its regions in Soup::seeds, by the names "region_ATTRIBUTE". Numbers beyond the doubles are read
+/// as the nearest, that is infinite or zero, and "nan" is NaN.
 ///
 /// Throws Error(io) for a file that cannot be opened or read, Error(input) for content that is empty, truncated, or
 /// malformed, each naming the file, the place (line, byte or facet) and the way out. A binary STL may have up to 49

@@ -3,12 +3,15 @@
 // .smesh and .poly are four lists of lines, each behind a line with its length. Nodes are a number (from 0 or
 // 1), x y z and what may follow; if there are none, they are in the .node file beside. A facet of .smesh is its number
 // of corners, the corners and a boundary marker; one of .poly says on a line of its own how many polygons and holes it
-// has and its marker, then lists its polygons as .smesh does and its holes as points. Hole points of the whole are
-// kept, regions passed over.
+// has and its marker, then lists its polygons as .smesh does and its holes as points. Points of holes and regions of
+// the whole follow, those of regions with an attribute and perhaps the largest volume that a cell may have there.
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "io/compressed.h"
 #include "io/file_bytes.h"
@@ -80,11 +83,35 @@ void read_corners(TextScanner& scanner, std::int64_t first_node, std::vector<std
     for (std::int64_t i = 0; i < size; ++i) corners.push_back(scanner.next_index(first_node));
 }
 
-Vec3 read_point(TextScanner& scanner) {
-    scanner.next_integer();  // its number
+Vec3 read_coordinates(TextScanner& scanner) {
     const double x = scanner.next_real(), y = scanner.next_real(), z = scanner.next_real();
-    scanner.skip_line();  // attribute and volume bound of a region
     return {x, y, z};
+}
+
+Vec3 read_hole(TextScanner& scanner) {
+    scanner.next_integer();  // its number
+    const Vec3 point = read_coordinates(scanner);
+    scanner.skip_line();
+    return point;
+}
+
+// Attributes are real numbers, of which most programs write whole ones.
+std::string name_of_region(double attribute) {
+    constexpr double largest_whole = 1e15;
+    if (std::abs(attribute) <= largest_whole && attribute == std::floor(attribute))
+        return fmt::format("region_{}", static_cast<std::int64_t>(attribute));
+    return fmt::format("region_{}", attribute);
+}
+
+RegionSeed read_region(TextScanner& scanner) {
+    const std::int64_t number = scanner.next_integer();
+    RegionSeed seed;
+    seed.point = read_coordinates(scanner);
+    seed.name = name_of_region(scanner.at_line_end() ? static_cast<double>(number) : scanner.next_real());
+    const double bound = scanner.at_line_end() ? 0 : scanner.next_real();
+    if (bound > 0 && std::isfinite(bound)) seed.largest_cell = bound;
+    scanner.skip_line();
+    return seed;
 }
 
 void read_poly_facet(TextScanner& scanner, bool has_marker, std::int64_t first_node, SoupBuilder& builder,
@@ -100,7 +127,7 @@ void read_poly_facet(TextScanner& scanner, bool has_marker, std::int64_t first_n
     }
     facet.polygons.resize(static_cast<std::size_t>(line.polygons));
     facet.holes.clear();
-    for (std::int64_t i = 0; i < line.holes; ++i) facet.holes.push_back(read_point(scanner));
+    for (std::int64_t i = 0; i < line.holes; ++i) facet.holes.push_back(read_hole(scanner));
 }
 
 void read_smesh_facet(TextScanner& scanner, bool has_marker, std::int64_t first_node, SoupBuilder& builder,
@@ -137,13 +164,8 @@ void read_facets(TextScanner& scanner, const std::string& path, std::int64_t fir
     }
 }
 
-// Calls take(point) for each of a list of lines, each a number and x y z; the list may be missing. Returns its length.
-template <class Take>
-std::int64_t read_points(TextScanner& scanner, const Take& take) {
-    const std::int64_t count = scanner.at_end() ? 0 : scanner.next_count();
-    for (std::int64_t i = 0; i < count; ++i) take(read_point(scanner));
-    return count;
-}
+// The length of a list that may be missing.
+std::int64_t read_length(TextScanner& scanner) { return scanner.at_end() ? 0 : scanner.next_count(); }
 
 }  // namespace
 
@@ -155,8 +177,8 @@ Soup read_tetgen(std::string_view bytes, const std::string& path) {
     const std::int64_t first_node =
         nodes > 0 ? read_nodes(scanner, nodes, builder) : read_node_file(node_file, builder);
     read_facets(scanner, path, first_node, builder);
-    read_points(scanner, [&](const Vec3& point) { builder.add_hole(point); });
-    builder.note_ignored(read_points(scanner, [](const Vec3&) {}), "region", "regions");
+    for (std::int64_t i = read_length(scanner); i > 0; --i) builder.add_hole(read_hole(scanner));
+    for (std::int64_t i = read_length(scanner); i > 0; --i) builder.add_seed(read_region(scanner));
     scanner.expect_end("its lists of nodes, facets, holes and regions");
     return builder.finish();
 }

@@ -653,11 +653,30 @@ TEST(TetgenReader, AcceptsPolygonsCommentsAndMissingLists) {
     EXPECT_EQ(read_bytes(nodes + "1 0\n4 0 1 2 3 5", ".smesh").patch_names, std::vector<std::string>{"surface"});
 }
 
-TEST(TetgenReader, KeepsHolesAndNotesRegions) {
+TEST(TetgenReader, KeepsHolesAndRegions) {
     for (const bool is_poly : {false, true}) {
         const Soup soup = read_bytes(to_tetgen(box(), 1, is_poly), ".smesh");
         EXPECT_EQ(soup.holes, (std::vector<Vec3>{Vec3(0.5, 0.5, 0.5)}));
-        EXPECT_EQ(soup.notes, std::vector<std::string>{"1 region was ignored."});
+        EXPECT_EQ(soup.seeds.size(), 1u);
+        EXPECT_TRUE(soup.notes.empty());
+    }
+}
+
+TEST(TetgenReader, NamesRegionsByTheirAttributes) {
+    const std::string nodes = "4 3\n1 0 0 0\n2 3 0 0\n3 0 3 0\n4 0 0 1\n",
+                      smesh = "4 0\n3 1 3 2\n3 1 2 4\n3 2 3 4\n3 3 1 4\n",
+                      poly = "4 0\n1\n3 1 3 2\n1\n3 1 2 4\n1\n3 2 3 4\n1\n3 3 1 4\n",
+                      lists = "1\n1 9 9 9\n4\n1 0.1 0.2 0.3 10 0.25\n2 0 0 1 -2.0 -1 # none\n3 1 0 0 0.5\n4 1 1 1\n";
+    for (const bool is_poly : {false, true}) {
+        const Soup soup = read_bytes(nodes + (is_poly ? poly : smesh) + lists, is_poly ? ".poly" : ".smesh");
+        EXPECT_EQ(soup.holes.size(), 1u);
+        ASSERT_EQ(soup.seeds.size(), 4u);
+        const std::vector<std::string> names = {"region_10", "region_-2", "region_0.5", "region_4"};
+        for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(soup.seeds[i].name, names[i]);
+        EXPECT_EQ(soup.seeds[0].point, Vec3(0.1, 0.2, 0.3));
+        EXPECT_EQ(soup.seeds[0].largest_cell, 0.25);
+        for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(soup.seeds[i].largest_cell, 0);
+        EXPECT_TRUE(soup.notes.empty() && soup.sides.empty());
     }
 }
 
