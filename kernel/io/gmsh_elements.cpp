@@ -45,18 +45,17 @@ void Elements::set_patch(std::int64_t group, std::int64_t entity) {
 
 void Elements::finish() const {
     if (!builder_.has_facets() && builder_.tets().empty() && of_higher_order_) refuse_type(of_higher_order_);
-    if (!builder_.wants_tets()) {
-        builder_.tets().name_volumes(volume_names());
-        if (builder_.tets().empty()) refuse_shared_surfaces();
-    }
+    builder_.tets().name_volumes([&](const VolumeKey& key) { return model_.volumes.name_of(key.first, key.second); });
+    if (!builder_.wants_tets() && builder_.tets().empty()) refuse_shared_surfaces();
     note_ignored();
 }
 
 void Elements::note_ignored() const {
+    const bool uses_tets = builder_.wants_tets() || !builder_.has_facets() || builder_.tets().volume_count() > 1;
     for (const Shape shape :
          {Shape::tetrahedron, Shape::hexahedron, Shape::prism, Shape::pyramid, Shape::line, Shape::point}) {
         const auto i = static_cast<std::size_t>(shape);
-        if (shape == Shape::tetrahedron && (builder_.wants_tets() || !builder_.has_facets())) continue;
+        if (shape == Shape::tetrahedron && uses_tets) continue;
         builder_.note_ignored(counts_[i], shape_names[i][0], shape_names[i][1]);
     }
 }
@@ -82,21 +81,8 @@ void Elements::add_element() {
 
 // The number of that of the current patch.
 std::int32_t Elements::volume() {
-    if (volume_ >= 0) return volume_;
-    const auto key = model_.is_partitioned ? std::pair<std::int64_t, std::int64_t>() : patch_;
-    const auto [found, is_new] = number_of_volume_.try_emplace(key, static_cast<std::int32_t>(volumes_.size()));
-    if (is_new) volumes_.push_back(key);
-    return volume_ = found->second;
-}
-
-// Those in the same group are told by their entities.
-std::vector<std::string> Elements::volume_names() const {
-    std::map<std::int64_t, int> count_in_group;
-    for (const auto& [group, entity] : volumes_) ++count_in_group[group];
-    std::vector<std::string> names;
-    for (const auto& [group, entity] : volumes_)
-        names.push_back(model_.volumes.name_of(count_in_group[group] == 1 ? group : 0, entity));
-    return names;
+    if (volume_ < 0) volume_ = builder_.tets().volume(model_.is_partitioned ? VolumeKey() : patch_);
+    return volume_;
 }
 
 // Of a file without tetrahedra, the geometry tells which surfaces are between two volumes; only volumes count all
@@ -121,7 +107,8 @@ void Elements::refuse_shared_surfaces() const {
         return model_.volumes.name_of(group ? *group : 0, volume);
     };
     const std::int64_t vertex = *find(in_file, shared->first);
-    builder_.tets().refuse_wall(name_of(shared->second), name_of(std::next(shared)->second), builder_.vertex(vertex));
+    builder_.tets().refuse_wall(name_of(shared->second), name_of(std::next(shared)->second),
+                                builder_.soup().vertices[static_cast<std::size_t>(vertex)]);
 }
 
 std::string Elements::describe(const ElementType& type) {

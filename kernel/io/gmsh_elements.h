@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -63,7 +62,6 @@ class Elements {
     }
     void add_element();
     std::int32_t volume();
-    std::vector<std::string> volume_names() const;
     void refuse_shared_surfaces() const;
     static std::string describe(const ElementType& type);
     const std::int64_t* find_vertex(std::int64_t node) const;
@@ -74,8 +72,6 @@ class Elements {
     const Model& model_;
     ElementType type_;
     std::pair<std::int64_t, std::int64_t> patch_ = {-1, -1}, last_patch_ = {-1, -1};  // group, entity
-    std::vector<std::pair<std::int64_t, std::int64_t>> volumes_;                      // of tetrahedra: group, entity
-    std::map<std::pair<std::int64_t, std::int64_t>, std::int32_t> number_of_volume_;
     std::int32_t volume_ = -1;                                     // number of that of patch_; -1: not known yet
     std::vector<std::pair<std::int64_t, std::int64_t>> surfaces_;  // of faces: entity, a vertex
     std::int64_t of_higher_order_ = 0;                             // type of such tetrahedra; 0: there are none

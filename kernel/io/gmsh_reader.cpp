@@ -5,7 +5,7 @@
 // Nodes carry tags, any different numbers; elements name nodes by tag. An element belongs to a geometric entity, and
 // that to physical groups: MSH 2 writes one group and the entity with every element, and an element of several groups
 // once for each; MSH 4 lists the groups of each entity in $Entities and the elements entity by entity. The patch of a
-// triangle is its first group, else its entity; so is the volume of a tetrahedron. Partitions are no volumes: where MSH
+// triangle is its first group, else its entity; so is the region of a tetrahedron. Partitions are no volumes: where MSH
 // 4 has them, there is only one.
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // MEDIT's .mesh as text: sections of a capitalised keyword, a count and as many lines of numbers, up to the word End.
 // Vertices are x y z and a reference, Triangles and Quadrilaterals their corners (from 1) and a reference, which is
-// their patch; so are Tetrahedra, where they are wanted. Every other section is passed over up to the next keyword:
-// edges, ridges, normals, required elements.
+// their patch; so are Tetrahedra, whose reference is their volume. Every other section is passed over up to the next
+// keyword: edges, ridges, normals, required elements.
 #include <algorithm>
 #include <array>
 #include <string>
@@ -48,8 +48,9 @@ void read_tets(TextScanner& scanner, SoupBuilder& builder) {
     std::array<std::int64_t, 4> corners{};
     for (std::int64_t t = 0; t < count; ++t) {
         for (std::int64_t& corner : corners) corner = scanner.next_index(1);
-        scanner.next_integer();  // the reference
-        builder.tets().add(corners, [&](const std::string& what) { scanner.fail(what); });
+        const std::int32_t volume = builder.tets().volume({0, scanner.next_integer()});
+        builder.tets().add(
+            corners, [&](const std::string& what) { scanner.fail(what); }, volume);
     }
 }
 
@@ -59,10 +60,8 @@ void note_volume_elements(TextScanner& scanner, std::string_view keyword, SoupBu
         std::string_view keyword;
         const char *one, *many;
     };
-    constexpr std::array<Kind, 4> kinds = {{{"Tetrahedra", "tetrahedron", "tetrahedra"},
-                                            {"Hexahedra", "hexahedron", "hexahedra"},
-                                            {"Prisms", "prism", "prisms"},
-                                            {"Pyramids", "pyramid", "pyramids"}}};
+    constexpr std::array<Kind, 3> kinds = {
+        {{"Hexahedra", "hexahedron", "hexahedra"}, {"Prisms", "prism", "prisms"}, {"Pyramids", "pyramid", "pyramids"}}};
     const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.keyword == keyword; });
     if (kind != kinds.end()) builder.note_ignored(scanner.next_count(), kind->one, kind->many);
 }
@@ -85,7 +84,7 @@ void read_section(TextScanner& scanner, std::string_view keyword, SoupBuilder& b
         read_faces(scanner, 3, builder);
     else if (keyword == "Quadrilaterals")
         read_faces(scanner, 4, builder);
-    else if (keyword == "Tetrahedra" && builder.wants_tets())
+    else if (keyword == "Tetrahedra")
         read_tets(scanner, builder);
     else
         pass_over_section(scanner, keyword, builder);
@@ -108,6 +107,8 @@ void scan_medit(std::string_view bytes, const std::string& path, SoupBuilder& bu
 Soup read_medit(std::string_view bytes, const std::string& path) {
     SoupBuilder builder(path);
     scan_medit(bytes, path, builder);
+    builder.tets().name_volumes([](const VolumeKey& key) { return "region_" + std::to_string(key.second); });
+    builder.note_ignored_tets();
     return builder.finish();
 }
 

@@ -20,7 +20,9 @@ void scan_tetgen_cells(std::string_view elements, const std::string& path, SoupB
 /// VTK's XML unstructured grids (VTU): tetrahedra and triangles of all pieces; numbers as text, base64 or appended,
 /// plain or compressed by zlib, in both orders of bytes. Other cells are noted as ignored, those of higher order and
 /// other compressions refused. The patch of a triangle is "interface" in parts of Kerf where another part is on the
-/// other side, else "surface".
+/// other side, else "surface". Where a surface is wanted, whole numbers of the cells named Region, else gmsh:physical,
+/// medit:ref or attribute as meshio names them, are the volumes of tetrahedra; the names of these are the bytes of the
+/// field data RegionNames, a zero byte behind each, else "region_N".
 void scan_vtu(std::string_view bytes, const std::string& path, SoupBuilder& builder);
 inline constexpr const char* interface_patch = "interface";
 

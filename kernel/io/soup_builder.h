@@ -31,11 +31,12 @@ class SoupBuilder {
     bool wants_scalars() const { return wanted_ == Wanted::tets_and_scalars; }
     /// Whether facets may lie between two volumes.
     bool keeps_walls() const { return wanted_ == Wanted::surface_with_walls; }
-    /// Where a surface is wanted, tetrahedra say what it separates, and their skin is the surface if there is none.
+    /// Where a surface is wanted, the tetrahedra of several volumes say what it separates, and the skin of those of one
+    /// is the surface if there is none.
     TetCollector& tets() { return tets_; }
 
     std::int64_t vertex_count() const { return static_cast<std::int64_t>(soup_.vertices.size()); }
-    const Vec3& vertex(std::int64_t v) const { return soup_.vertices[static_cast<std::size_t>(v)]; }
+    const Soup& soup() const { return soup_; }
 
     void add_vertex(const Vec3& p) {
         if (soup_.vertices.size() == std::numeric_limits<std::int32_t>::max())
@@ -51,9 +52,15 @@ class SoupBuilder {
     }
     /// Facets to come belong to the patch of this name; a patch without facets is not kept.
     void set_patch(std::string_view name) {
+        is_unnamed_ = false;
         if (name == patch_name_) return;
         patch_name_ = name;
         patch_ = -1;
+    }
+    /// Facets to come belong to a patch that has its name of Kerf: walls between regions get another one.
+    void set_unnamed_patch() {
+        set_patch("surface");
+        is_unnamed_ = true;
     }
     /// The polygon as a fan of triangles, in the current patch. Calls `fail(message)`, which must throw, if the polygon
     /// has less than three corners, or one that is no vertex so far. One that no fan covers (see find_fan()) is noted.
@@ -110,17 +117,19 @@ class SoupBuilder {
         soup_.notes.push_back(std::to_string(count) + " " +
                               (count == 1 ? std::string(one) + " was" : std::string(many) + " were") + " ignored.");
     }
-    /// The soup, whose facets are the skin of the tetrahedra if there were no others. Throws Error(input) if there is
-    /// no facet in it, or one between two volumes.
+    /// Says that tetrahedra of one volume are not used where there are facets.
+    void note_ignored_tets() {
+        if (has_facets() && tets_.volume_count() < 2) note_ignored(tets_.count(), "tetrahedron", "tetrahedra");
+    }
+    /// The soup. With tetrahedra of several volumes its facets are all faces at which a region ends; with those of one
+    /// their skin, if there are no others. Throws Error(input) if there is no facet in it.
     Soup finish() {
         note_ignored(facets_without_area_, "facet of edges or points alone", "facets of edges or points alone");
         note_ignored(edges_outside_, "edge or point outside of its facet", "edges or points outside of their facets");
-        if (soup_.facets.empty() && !tets_.empty()) {
+        if (tets_.volume_count() > 1)
+            take_regions();
+        else if (soup_.facets.empty() && !tets_.empty())
             add_skin();
-        } else if (tets_.volume_names().size() > 1) {
-            if (!keeps_walls()) tets_.refuse_walls();
-            note(tell_volumes(tets_.volume_names()));
-        }
         if (soup_.facets.empty())
             throw Error(ErrorCode::input, path_ + ": the file holds no facets. Export the surface again.");
         return std::move(soup_);
@@ -147,19 +156,29 @@ class SoupBuilder {
     }
     void add_skin() {
         set_patch("surface");  // whatever curves or volumes came last
-        for (const Triangle& facet : tets_.skin()) add_facet(facet);
-        note(tell_skin(static_cast<std::size_t>(tets_.count()), tets_.volume_names()));
+        for (const RegionFace& face : tets_.skin()) add_facet(face.corners);
+        note(tell_skin(static_cast<std::size_t>(tets_.count())));
+    }
+    void take_regions() {
+        const std::vector<RegionFace> faces = tets_.faces_of_regions();
+        if (faces.size() > static_cast<std::size_t>(most_facets)) refuse_facets();
+        if (tets_.region_names().size() == 1)
+            note(tell_joined_volumes(tets_.volume_count(), tets_.region_names().front()));
+        take_region_faces(soup_, faces, tets_.region_names(), {polygon_count_, unnamed_patch_}, path_);
+    }
+    [[noreturn]] void refuse_facets() const {
+        throw Error(ErrorCode::input, path_ + ": the file has more than " + std::to_string(most_facets) +
+                                          " facets, which is the most that a surface can have. Split it.");
     }
     void add_facet(const Triangle& facet) {
-        if (soup_.facets.size() == static_cast<std::size_t>(most_facets))
-            throw Error(ErrorCode::input, path_ + ": the file has more than " + std::to_string(most_facets) +
-                                              " facets, which is the most that a surface can have. Split it.");
+        if (soup_.facets.size() == static_cast<std::size_t>(most_facets)) refuse_facets();
         if (patch_ < 0) {
             patch_ = patch_of_name_.try_emplace(patch_name_, static_cast<std::int32_t>(soup_.patch_names.size()))
                          .first->second;
             if (patch_ == static_cast<std::int32_t>(soup_.patch_names.size()))
                 soup_.patch_names.push_back(patch_name_.substr(0, longest_name));
         }
+        if (is_unnamed_) unnamed_patch_ = patch_;
         soup_.facets.push_back(facet);
         soup_.patch.push_back(patch_);
         if (has_fans_) soup_.polygon.push_back(polygon_count_);
@@ -183,6 +202,8 @@ class SoupBuilder {
     bool has_fans_ = false;
     std::int32_t patch_ = -1;  // of the current name, -1 as long as no facet has used it
     std::map<std::string, std::int32_t> patch_of_name_;
+    bool is_unnamed_ = false;          // facets to come
+    std::int32_t unnamed_patch_ = -1;  // of such facets
 };
 
 }  // namespace kerf

@@ -8,8 +8,8 @@
 
 namespace kerf {
 
-/// Triangles between two volumes of a .msh: a surface has one side inside, so that they are refused, or kept for what
-/// leaves pieces of the surface out.
+/// Triangles between two volumes of a .msh without tetrahedra: a surface has one side inside, so that they are refused,
+/// or kept for what leaves pieces of the surface out.
 enum class Walls { refused, kept };
 
 /// Reads STL (binary or ASCII), OBJ, PLY (ASCII, both binary endians), OFF, Gmsh MSH 2 or 4.1 (ASCII, both binary
@@ -22,11 +22,17 @@ enum class Walls { refused, kept };
 /// STL solids, OBJ groups (else objects, else materials), Gmsh's physical groups (else surfaces), MEDIT references and
 /// TetGen markers become patches. Polygons are cut into fans, see find_fan(); those that are not planar or that no fan
 /// covers are in Soup::unfit_polygons. Facets of TetGen that have several polygons or holes, or that no fan covers, are
-/// triangulated, see triangulate_facet(). Volume elements, curves and points are passed over; Soup::notes says so.
-/// Where a .msh or .vtu has tetrahedra and no triangles, the skin of the tetrahedra is the surface, see skin_of().
-/// Volumes of a .msh between which there are triangles are refused unless `walls` are kept. TetGen's hole points
-/// are in Soup::holes, its regions in Soup::seeds, by the names "region_ATTRIBUTE". Numbers beyond the doubles are read
-/// as the nearest, that is infinite or zero, and "nan" is NaN.
+/// triangulated, see triangulate_facet(). Other volume elements, curves and points are passed over; Soup::notes says
+/// so. TetGen's hole points are in Soup::holes, its regions in Soup::seeds, by the names "region_ATTRIBUTE". Numbers
+/// beyond the doubles are read as the nearest, that is infinite or zero, and "nan" is NaN.
+///
+/// Tetrahedra of one volume (.msh, .mesh, .vtu) are passed over, too; without triangles their skin is the surface.
+/// Those of two or more volumes give Soup::sides and Soup::region_names: the facets are all faces between two regions
+/// and those that one tetrahedron has, each once, the smaller region, or the only one, behind it. Their patch is that
+/// of the file's triangle there; else "outer", or "A_to_B" between the regions A and B. Triangles at which no region
+/// ends are left out. Volumes are Gmsh's physical groups (else volumes), MEDIT's references ("region_N") and VTU's cell
+/// arrays, see scan_vtu(); those of the same name are one region. Without tetrahedra, volumes between
+/// which there are triangles are refused unless `walls` are kept.
 ///
 /// Throws Error(io) for a file that cannot be opened or read, Error(input) for content that is empty, truncated, or
 /// malformed, each naming the file, the place (line, byte or facet) and the way out. A binary STL may have up to 49

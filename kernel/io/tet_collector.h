@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,7 +11,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "io/tet_skin.h"
+#include "io/region_facets.h"
 #include "surface/soup.h"
 
 namespace kerf {
@@ -30,7 +31,7 @@ class TetCollector {
     bool empty() const { return tets_.empty(); }
     std::int64_t count() const { return static_cast<std::int64_t>(tets_.size()); }
 
-    /// Takes a tetrahedron of any orientation, in a volume: any number from 0 on. Calls `fail(message)`, which must
+    /// Takes a tetrahedron of any orientation, in a volume(). Calls `fail(message)`, which must
     /// throw, for a corner that is no vertex so far.
     template <class Fail>
     void add(std::span<const std::int64_t> corners, const Fail& fail, std::int32_t volume = 0) {
@@ -49,23 +50,30 @@ class TetCollector {
         if (has_volumes_) volume_of_tet_.push_back(volume);
     }
 
-    /// Names of the volumes, by their numbers.
-    void name_volumes(std::vector<std::string> names) { volume_names_ = std::move(names); }
-    const std::vector<std::string>& volume_names() const { return volume_names_; }
+    /// The number of a volume, a new one if it is the first time.
+    std::int32_t volume(const VolumeKey& key) {
+        return number_of_volume_.try_emplace(key, static_cast<std::int32_t>(number_of_volume_.size())).first->second;
+    }
+    std::size_t volume_count() const { return number_of_volume_.size(); }
+    /// Names the volumes, `name(key)`, and so the regions that they are.
+    template <class Name>
+    void name_volumes(const Name& name) {
+        regions_ = regions_of(number_of_volume_, name);
+    }
+    const std::vector<std::string>& region_names() const { return regions_.names; }
+    /// Faces of the regions, of volumes that have been named; throws Error(input) if tetrahedra of two overlap.
+    std::vector<RegionFace> faces_of_regions() const {
+        std::vector<std::int32_t> region_of_tet = volume_of_tet_;
+        for (std::int32_t& region : region_of_tet) region = regions_.region_of_volume[static_cast<std::size_t>(region)];
+        RegionFaces found = region_faces(soup_.vertices, tets_, region_of_tet);
+        if (found.overlap) refuse_overlap(soup_, *found.overlap, regions_.names, path_);
+        return std::move(found.faces);
+    }
     /// Throws Error(input): a surface has one side inside, and these volumes are on both sides of it.
     [[noreturn]] void refuse_wall(const std::string& volume, const std::string& other, const Vec3& where) const {
         throw Error(ErrorCode::input, path_ + ": " + tell_wall(volume, other, where));
     }
-    /// Does that for the first facet of the soup between two volumes.
-    void refuse_walls() const {
-        const auto wall = find_wall(soup_.vertices.size(), tets_, volume_of_tet_, soup_.facets);
-        if (!wall) return;
-        const Triangle& t = soup_.facets[static_cast<std::size_t>(wall->facet)];
-        const auto& p = soup_.vertices;
-        refuse_wall(volume_names_[wall->volumes[0]], volume_names_[wall->volumes[1]],
-                    (p[t[0]] + p[t[1]] + p[t[2]]) / 3);
-    }
-    std::vector<Triangle> skin() const { return skin_of(soup_.vertices, tets_); }
+    std::vector<RegionFace> skin() const { return region_faces(soup_.vertices, tets_).faces; }
 
     /// The values of this name, one for each vertex so far.
     std::vector<double>& scalar(std::string_view name) {
@@ -93,7 +101,8 @@ class TetCollector {
     bool has_volumes_;
     std::vector<Tetrahedron> tets_;
     std::vector<std::int32_t> volume_of_tet_;
-    std::vector<std::string> volume_names_;
+    std::map<VolumeKey, std::int32_t> number_of_volume_;
+    VolumeRegions regions_;
     std::vector<NodeScalar> scalars_;
 };
 

@@ -15,28 +15,48 @@ namespace {
 
 namespace skin {
 
-Triangle face_of(const std::vector<Tetrahedron>& tets, const FaceSide& side) {
-    const Tetrahedron& tet = tets[static_cast<std::size_t>(side.tet())];
-    Triangle face{};
-    for (std::size_t i = 0; i < 3; ++i) face[i] = tet[static_cast<std::size_t>(tet_faces[side.corner()][i])];
-    return face;
-}
+class Faces {
+ public:
+    Faces(const std::vector<Vec3>& vertices, const std::vector<Tetrahedron>& tets,
+          const std::vector<std::int32_t>& region_of_tet)
+        : vertices_(vertices), tets_(tets), region_of_tet_(region_of_tet) {}
 
-bool is_negative(const std::vector<Vec3>& vertices, const Tetrahedron& tet) {
-    return six_volumes_of(vertices, tet) < 0;
-}
+    std::int32_t region(const FaceSide& side) const {
+        return region_of_tet_.empty() ? 0 : region_of_tet_[static_cast<std::size_t>(side.tet())];
+    }
+    double six_volumes(const FaceSide& side) const { return six_volumes_of(vertices_, tet(side)); }
+    // Counter-clockwise seen from outside of the tetrahedron.
+    Triangle outward(const FaceSide& side) const {
+        Triangle face{};
+        for (std::size_t i = 0; i < 3; ++i) face[i] = tet(side)[static_cast<std::size_t>(tet_faces[side.corner()][i])];
+        if (six_volumes(side) < 0) std::swap(face[1], face[2]);
+        return face;
+    }
+    // Of flat tetrahedra nobody knows.
+    bool are_on_same_side(const FaceSide& a, const FaceSide& b) const {
+        const double volume_a = six_volumes(a), volume_b = six_volumes(b);
+        if (volume_a == 0 || volume_b == 0) return false;
+        return (a.is_turned() != (volume_a < 0)) == (b.is_turned() != (volume_b < 0));
+    }
 
-Triangle sorted(Triangle t) {
-    std::sort(t.begin(), t.end());
-    return t;
-}
+ private:
+    const Tetrahedron& tet(const FaceSide& side) const { return tets_[static_cast<std::size_t>(side.tet())]; }
 
-std::string names_text(const std::vector<std::string>& volumes) {
+    const std::vector<Vec3>& vertices_;
+    const std::vector<Tetrahedron>& tets_;
+    const std::vector<std::int32_t>& region_of_tet_;
+};
+
+struct Face {
+    FaceSide back;
+    std::int32_t front;
+};
+
+std::string names_text(const std::vector<std::string>& names) {
     constexpr std::size_t most = 4;
-    const std::size_t told = std::min(volumes.size(), most);
-    std::string text =
-        fmt::format("'{}'", fmt::join(volumes.begin(), volumes.begin() + static_cast<int>(told), "', '"));
-    if (told < volumes.size()) text += fmt::format(" and {} more", volumes.size() - told);
+    const std::size_t told = std::min(names.size(), most);
+    std::string text = fmt::format("'{}'", fmt::join(names.begin(), names.begin() + static_cast<int>(told), "', '"));
+    if (told < names.size()) text += fmt::format(" and {} more", names.size() - told);
     return text;
 }
 
@@ -44,52 +64,46 @@ std::string names_text(const std::vector<std::string>& volumes) {
 
 }  // namespace
 
-std::vector<Triangle> skin_of(const std::vector<Vec3>& vertices, const std::vector<Tetrahedron>& tets) {
-    std::vector<FaceSide> sides;
-    match_faces(
-        vertices.size(), tets, [](const FaceSide&, const FaceSide&) {},
-        [&](const FaceSide& side) { sides.push_back(side); });
-    std::sort(sides.begin(), sides.end(), [](const FaceSide& a, const FaceSide& b) { return a.code < b.code; });
-    std::vector<Triangle> facets;
-    facets.reserve(sides.size());
-    for (const FaceSide& side : sides) {
-        facets.push_back(skin::face_of(tets, side));
-        if (skin::is_negative(vertices, tets[static_cast<std::size_t>(side.tet())]))
-            std::swap(facets.back()[1], facets.back()[2]);
-    }
-    return facets;
-}
-
-std::optional<Wall> find_wall(std::size_t vertex_count, const std::vector<Tetrahedron>& tets,
-                              const std::vector<std::int32_t>& volume_of_tet, const std::vector<Triangle>& facets) {
-    std::vector<std::pair<Triangle, std::array<std::int32_t, 2>>> between;
+RegionFaces region_faces(const std::vector<Vec3>& vertices, const std::vector<Tetrahedron>& tets,
+                         const std::vector<std::int32_t>& region_of_tet) {
+    const skin::Faces of_tets(vertices, tets, region_of_tet);
+    RegionFaces found;
+    std::vector<skin::Face> faces;
     const auto pair = [&](const FaceSide& a, const FaceSide& b) {
-        const auto [low, high] = std::minmax(volume_of_tet[static_cast<std::size_t>(a.tet())],
-                                             volume_of_tet[static_cast<std::size_t>(b.tet())]);
-        if (low != high) between.push_back({skin::sorted(skin::face_of(tets, a)), {low, high}});
+        const std::int32_t of_a = of_tets.region(a), of_b = of_tets.region(b);
+        if (of_a == of_b) return;
+        faces.push_back(of_a < of_b ? skin::Face{a, of_b} : skin::Face{b, of_a});
+        if (!found.overlap && of_tets.are_on_same_side(a, b))
+            found.overlap = {of_tets.outward(faces.back().back), {faces.back().front, std::min(of_a, of_b)}};
     };
-    match_faces(vertex_count, tets, pair, [](const FaceSide&) {});
-    std::sort(between.begin(), between.end());
-    for (std::size_t f = 0; f < facets.size(); ++f) {
-        const Triangle facet = skin::sorted(facets[f]);
-        const auto found = std::lower_bound(between.begin(), between.end(), facet,
-                                            [](const auto& face, const Triangle& t) { return face.first < t; });
-        if (found != between.end() && found->first == facet) return Wall{static_cast<std::int32_t>(f), found->second};
-    }
-    return {};
+    match_faces(vertices.size(), tets, pair, [&](const FaceSide& side) { faces.push_back({side, -1}); });
+    std::sort(faces.begin(), faces.end(),
+              [](const skin::Face& a, const skin::Face& b) { return a.back.code < b.back.code; });
+    found.faces.reserve(faces.size());
+    for (const skin::Face& face : faces)
+        found.faces.push_back({of_tets.outward(face.back), {face.front, of_tets.region(face.back)}});
+    return found;
 }
 
-std::string tell_skin(std::size_t tets, const std::vector<std::string>& volumes) {
-    std::string text = fmt::format("There are no triangles: the surface is the skin of the {} tetrahedr{}", tets,
-                                   tets == 1 ? "on" : "a");
-    if (volumes.size() > 1)
-        text += fmt::format(" of {} volumes, {}, which are one body where they touch", volumes.size(),
-                            skin::names_text(volumes));
-    return text + ".";
+std::string tell_skin(std::size_t tets) {
+    return fmt::format("There are no triangles: the surface is the skin of the {} tetrahedr{}.", tets,
+                       tets == 1 ? "on" : "a");
 }
 
-std::string tell_volumes(const std::vector<std::string>& volumes) {
-    return fmt::format("{} volumes are read together: {}.", volumes.size(), skin::names_text(volumes));
+std::string tell_regions(const std::vector<std::string>& regions, std::size_t walls, std::size_t facets) {
+    return fmt::format("There are {} regions, {}: {} of the {} facets {} between two of them.", regions.size(),
+                       skin::names_text(regions), walls, facets, walls == 1 ? "is" : "are");
+}
+
+std::string tell_joined_volumes(std::size_t volumes, const std::string& region) {
+    return fmt::format("{} volumes are one region, '{}'.", volumes, region);
+}
+
+std::string tell_overlap(const std::string& region, const std::string& other, const Vec3& where) {
+    return fmt::format(
+        "tetrahedra of the regions '{}' and '{}' overlap near ({:.9g}, {:.9g}, {:.9g}). Save the mesh with each "
+        "tetrahedron once, in one of them.",
+        region, other, where.x(), where.y(), where.z());
 }
 
 std::string tell_wall(const std::string& volume, const std::string& other, const Vec3& where) {

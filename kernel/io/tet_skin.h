@@ -8,26 +8,32 @@
 #include <vector>
 
 #include "mesh/tet_mesh.h"
+#include "surface/facet_sides.h"
 
 namespace kerf {
 
-/// Faces that only one tetrahedron has, counter-clockwise seen from outside of it, whatever the orientation of the
-/// tetrahedron; in the order of the tetrahedra. O(#T), deterministic.
-std::vector<Triangle> skin_of(const std::vector<Vec3>& vertices, const std::vector<Tetrahedron>& tets);
-
-/// A facet with tetrahedra of different volumes on its sides.
-struct Wall {
-    std::int32_t facet;
-    std::array<std::int32_t, 2> volumes;  ///< ascending
+/// A face of a tetrahedron at which a region ends.
+struct RegionFace {
+    Triangle corners;  ///< counter-clockwise seen from outside of the region at the back
+    FacetSides sides;  ///< at the back the smaller number, or the only one
 };
 
-/// The first facet that is a wall. `volume_of_tet`: #T. O(#T + #F log #F), deterministic.
-std::optional<Wall> find_wall(std::size_t vertex_count, const std::vector<Tetrahedron>& tets,
-                              const std::vector<std::int32_t>& volume_of_tet, const std::vector<Triangle>& facets);
+struct RegionFaces {
+    std::vector<RegionFace> faces;
+    std::optional<RegionFace> overlap;  ///< the first one at which tetrahedra of two regions lie on the same side
+};
 
-/// Sentences for users. Of many names of volumes the first are told.
-std::string tell_skin(std::size_t tets, const std::vector<std::string>& volumes);
-std::string tell_volumes(const std::vector<std::string>& volumes);
+/// Faces between tetrahedra of two regions, and those that only one tetrahedron has, which are the skin; whatever the
+/// orientation of the tetrahedra, in the order of those at the back. `region_of_tet`: #T, from 0 on; empty: all are of
+/// region 0. O(#T), deterministic.
+RegionFaces region_faces(const std::vector<Vec3>& vertices, const std::vector<Tetrahedron>& tets,
+                         const std::vector<std::int32_t>& region_of_tet = {});
+
+/// Sentences for users. Of many names the first are told.
+std::string tell_skin(std::size_t tets);
+std::string tell_regions(const std::vector<std::string>& regions, std::size_t walls, std::size_t facets);
+std::string tell_joined_volumes(std::size_t volumes, const std::string& region);
+std::string tell_overlap(const std::string& region, const std::string& other, const Vec3& where);
 std::string tell_wall(const std::string& volume, const std::string& other, const Vec3& where);
 
 }  // namespace kerf

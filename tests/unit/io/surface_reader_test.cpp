@@ -548,9 +548,9 @@ double enclosed_volume(const Soup& soup) {
 TEST(SurfaceReader, TakesTheSkinOfTetrahedraWithoutTriangles) {
     std::vector<Triangle> first;
     for (const SurfaceFile& file : to_all_mesh_formats(corners_of_cube(), tets_of_cube())) {
-        if (file.name.ends_with(".mesh")) continue;
         SCOPED_TRACE(file.name);
         const Soup soup = read_bytes(file.bytes);
+        EXPECT_TRUE(soup.sides.empty());
         EXPECT_EQ(soup.facets.size(), 12u);
         EXPECT_EQ(enclosed_volume(soup), 1) << "outward";
         if (first.empty()) first = soup.facets;
@@ -566,34 +566,6 @@ TEST(SurfaceReader, TakesTheSkinOfTetrahedraWithoutTriangles) {
         EXPECT_EQ(soup.facets, cube.facets) << "triangles go before";
         EXPECT_EQ(std::count(soup.notes.begin(), soup.notes.end(), "1 tetrahedron was ignored."), 1);
     }
-}
-
-// Two tetrahedra, in the physical volumes 7 and 8, over the triangle 1 2 3.
-std::string two_volumes(const std::string& triangles, int count, int second_group = 8) {
-    return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 7 \"core\"\n3 8 \"shell\"\n"
-           "$EndPhysicalNames\n$Nodes\n5\n1 0 0 0\n2 3 0 0\n3 0 3 0\n4 0 0 1\n5 0 0 -1\n$EndNodes\n$Elements\n" +
-           std::to_string(count + 2) + "\n1 4 2 7 1 1 2 3 4\n2 4 2 " + std::to_string(second_group) + " 2 1 3 2 5\n" +
-           triangles + "$EndElements\n";
-}
-
-TEST(GmshReader, NamesVolumesThatTouch) {
-    const std::string outer = "3 2 0 1 2 4\n4 2 0 2 3 4\n5 2 0 3 1 4\n6 2 0 2 1 5\n7 2 0 3 2 5\n8 2 0 1 3 5\n",
-                      wall = "9 2 0 2 1 3\n";
-    const std::string message = message_of(two_volumes(outer + wall, 7));
-    EXPECT_NE(message.find(": volumes 'core' and 'shell' touch near (1, 1, 0)"), std::string::npos) << message;
-    EXPECT_NE(message.find("Save each in a file of its own"), std::string::npos) << message;
-    EXPECT_NE(message_of(two_volumes(outer + wall, 7, 7)).find("volumes 'volume_1' and 'volume_2'"), std::string::npos)
-        << "two entities of a group";
-    EXPECT_EQ(read_surface(TemporaryFile(two_volumes(outer + wall, 7)).path(), Walls::kept).facets.size(), 7u);
-    const Soup around = read_bytes(two_volumes(outer, 6));
-    EXPECT_EQ(around.facets.size(), 6u) << "without the wall they are one body";
-    EXPECT_EQ(around.notes, (std::vector<std::string>{"2 tetrahedra were ignored.",
-                                                      "2 volumes are read together: 'core', 'shell'."}));
-    const Soup skin = read_bytes(two_volumes("", 0));
-    EXPECT_EQ(skin.facets.size(), 6u);
-    EXPECT_EQ(skin.notes, std::vector<std::string>{"There are no triangles: the surface is the skin of the 2 "
-                                                   "tetrahedra of 2 volumes, 'core', 'shell', which are one body "
-                                                   "where they touch."});
 }
 
 TEST(GmshReader, TellsSharedSurfacesByTheGeometryWhereThereAreNoTetrahedra) {
@@ -614,14 +586,14 @@ TEST(MeditReader, TakesTrianglesWithReferencesAndPassesOverTheRest) {
         "# a comment\nMeshVersionFormatted\n2\n\nDimension\n3\nNormals 1\nnan -1e-3 0\nVertices\n4\n0 0 0 1\n1 0 0 1\n"
         "1 1 0 1\n0 1 0 1\nRequiredVertices 1 1\nTriangles\n2 # with references\n1 2 3 -7\n1 3 4 2\nRequiredTriangles "
         "1\n"
-        "1\nEdges 1 1 2 0\nTetrahedra 12\n1 2 3 4 0\nPyramids 1 1 2 3 4 1 0\nQuadrilaterals 1 1 2 3 4 "
+        "1\nEdges 1 1 2 0\nTetrahedra 2\n1 2 3 4 0\n1 2 3 4 0\nPyramids 1 1 2 3 4 1 0\nQuadrilaterals 1 1 2 3 4 "
         "-7\nEnd\nTriangles 1 1 2 3 0");
     EXPECT_EQ(soup.vertices.size(), 4u);
     EXPECT_EQ(soup.facets, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}, {0, 2, 3}}));
     EXPECT_EQ(soup.polygon, (std::vector<std::int32_t>{0, 1, 2, 2}));
     EXPECT_EQ(soup.patch, (std::vector<std::int32_t>{0, 1, 0, 0}));
     EXPECT_EQ(soup.patch_names, (std::vector<std::string>{"reference_-7", "reference_2"}));
-    EXPECT_EQ(soup.notes, (std::vector<std::string>{"12 tetrahedra were ignored.", "1 pyramid was ignored."}));
+    EXPECT_EQ(soup.notes, (std::vector<std::string>{"1 pyramid was ignored.", "2 tetrahedra were ignored."}));
 }
 
 TEST(SurfaceReader, NotesPolygonsThatNoFanCovers) {

@@ -1,0 +1,239 @@
+// Files of several volumes: facets between them and around them, each once, and what is on their sides.
+#include <algorithm>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "io/surface_reader.h"
+#include "region_files.h"
+
+namespace kerf {
+namespace {
+
+using namespace test::regions;
+using Notes = std::vector<std::string>;
+
+Soup read_volumes(const File& file) { return read_surface_bytes(file.bytes, file.name); }
+
+std::string refusal_of(const File& file) {
+    try {
+        read_volumes(file);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::input);
+        return error.what();
+    }
+    ADD_FAILURE() << "accepted";
+    return "";
+}
+
+// Each facet once, with the smaller region behind it; the facets of each region close, and enclose this volume.
+void expect_regions(const Soup& soup, const std::vector<double>& volumes) {
+    ASSERT_EQ(soup.sides.size(), soup.facets.size());
+    ASSERT_EQ(soup.patch.size(), soup.facets.size());
+    ASSERT_EQ(soup.region_names.size(), volumes.size());
+    std::vector<double> enclosed(volumes.size(), 0);
+    std::map<std::pair<std::int32_t, UndirectedEdge>, int> balance;
+    std::vector<Triangle> sorted = soup.facets;
+    for (Triangle& t : sorted) std::sort(t.begin(), t.end());
+    std::sort(sorted.begin(), sorted.end());
+    EXPECT_EQ(std::adjacent_find(sorted.begin(), sorted.end()), sorted.end());
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        const Triangle& t = soup.facets[f];
+        const auto& [front, back] = soup.sides[f];
+        ASSERT_TRUE(back >= 0 && (front == -1 || front > back));
+        for (const auto& [region, sign] : {std::pair(back, 1), {front, -1}}) {
+            if (region < 0) continue;
+            const auto& p = soup.vertices;
+            enclosed[static_cast<std::size_t>(region)] += sign * p[t[0]].cross(p[t[1]]).dot(p[t[2]]) / 6;
+            for (std::size_t i = 0; i < 3; ++i) {
+                const std::int32_t from = t[i], to = t[(i + 1) % 3];
+                balance[{region, undirected(from, to)}] += from < to ? sign : -sign;
+            }
+        }
+    }
+    for (const auto& [edge, sum] : balance) EXPECT_EQ(sum, 0) << "region " << edge.first;
+    for (std::size_t r = 0; r < volumes.size(); ++r) EXPECT_NEAR(enclosed[r], volumes[r], 1e-12) << "region " << r;
+}
+
+std::int64_t wall_count(const Soup& soup) {
+    return std::count_if(soup.sides.begin(), soup.sides.end(), [](const FacetSides& s) { return s.is_wall(); });
+}
+
+std::string patch_name_of(const Soup& soup, std::size_t facet) {
+    return soup.patch_names[static_cast<std::size_t>(soup.patch[facet])];
+}
+
+TEST(RegionReader, MakesFacetsOfAllFacesAtWhichARegionEnds) {
+    for (const File& file : all_files(two_tets())) {
+        SCOPED_TRACE(file.name);
+        const Soup soup = read_volumes(file);
+        const bool has_names = file.name.ends_with(".msh");
+        const std::string core = has_names ? "core" : "region_7", shell = has_names ? "outer shell" : "region_8";
+        EXPECT_EQ(soup.region_names, (Names{core, shell}));
+        expect_regions(soup, {1.5, 3});
+        ASSERT_EQ(soup.facets.size(), 7u);
+        EXPECT_EQ(wall_count(soup), 1);
+        EXPECT_EQ(soup.patch_names, (Names{"outer", core + "_to_" + shell}));
+        EXPECT_EQ(soup.notes, Notes{"There are 2 regions, '" + core + "', '" + shell +
+                                    "': 1 of the 7 facets is between two of them."});
+        EXPECT_TRUE(soup.polygon.empty());
+    }
+    for (const File& file : all_files(two_cubes())) {
+        SCOPED_TRACE(file.name);
+        const Soup soup = read_volumes(file);
+        expect_regions(soup, {1, 1});
+        EXPECT_EQ(soup.facets.size(), 22u);
+        EXPECT_EQ(wall_count(soup), 2);
+    }
+}
+
+TEST(RegionReader, KnowsThreeRegionsAroundAnEdge) {
+    for (const File& file : all_files(around_an_edge())) {
+        SCOPED_TRACE(file.name);
+        const Soup soup = read_volumes(file);
+        constexpr double volume = 1.0 / 3;
+        expect_regions(soup, {volume, 2 * volume, volume});
+        EXPECT_EQ(soup.facets.size(), 12u);
+        EXPECT_EQ(wall_count(soup), 4);
+        if (file.name.ends_with(".msh")) {
+            EXPECT_EQ(soup.patch_names, (Names{"outer", "a_to_b", "b_to_c"}));
+        }
+    }
+}
+
+TEST(RegionReader, KnowsRegionsThatDoNotTouch) {
+    Mesh mesh = two_tets();
+    for (int i = 0; i < 3; ++i) mesh.vertices.push_back(mesh.vertices[i] - Vec3(0, 0, 1));
+    mesh.tets[1] = {5, 6, 7, 4};
+    for (const File& file : all_files(mesh)) {
+        SCOPED_TRACE(file.name);
+        const Soup soup = read_volumes(file);
+        expect_regions(soup, {1.5, 1.5});
+        EXPECT_EQ(soup.facets.size(), 8u);
+        EXPECT_EQ(soup.patch_names, Names{"outer"});
+    }
+}
+
+TEST(RegionReader, KeepsThePatchesOfTrianglesThatAreThere) {
+    Mesh mesh = two_cubes();
+    mesh.triangles = {{1, 4, 10}, {9, 11, 8}, {0, 1, 4}, {4, 10, 1}, {0, 4, 10}};  // wall, none, outer, wall, inside
+    mesh.surface_of_triangle = {5, 6, 7, 8, 9};
+    for (const File& file : all_files(mesh)) {
+        SCOPED_TRACE(file.name);
+        const Soup soup = read_volumes(file);
+        expect_regions(soup, {1, 1});
+        ASSERT_EQ(soup.facets.size(), 22u);
+        const std::string begin = file.name.ends_with(".mesh") ? "reference_" : "surface_";
+        const bool is_vtu = file.name.ends_with(".vtu");
+        EXPECT_TRUE(soup.sides[0].is_wall());
+        EXPECT_FALSE(soup.sides[1].is_wall());
+        EXPECT_EQ(patch_name_of(soup, 0), is_vtu ? "region_1_to_region_2" : begin + "5");
+        EXPECT_EQ(patch_name_of(soup, 1), is_vtu ? "outer" : begin + "7");
+        EXPECT_EQ(soup.patch_names.size(), is_vtu ? 2u : 4u) << "those of triangles that are left out are gone";
+        EXPECT_EQ(soup.polygon[1], 2) << "the number in the file";
+        EXPECT_EQ(soup.polygon[2], 5) << "numbers behind those of the file";
+        ASSERT_GE(soup.notes.size(), 2u);
+        EXPECT_EQ(soup.notes[0], "2 triangles at which no region ends were ignored.");
+        EXPECT_EQ(soup.notes[1], "1 triangle that the file has twice was ignored.");
+    }
+}
+
+TEST(RegionReader, JoinsVolumesOfTheSameName) {
+    Mesh mesh = two_tets();
+    mesh.volumes[1] = mesh.volumes[0];
+    mesh.triangles = {{0, 1, 2}, {0, 1, 3}};
+    mesh.surface_of_triangle = {1, 2};
+    for (const File& file : msh_files(mesh)) {
+        SCOPED_TRACE(file.name);
+        const Soup soup = read_volumes(file);
+        EXPECT_TRUE(soup.sides.empty() && soup.region_names.empty());
+        EXPECT_EQ(soup.facets.size(), 6u);
+        EXPECT_EQ(soup.patch_names, (Names{"surface_2", "surface"}));
+        EXPECT_EQ(soup.notes,
+                  (Notes{"2 volumes are one region, 'core'.", "1 triangle at which no region ends was ignored."}));
+    }
+    mesh = around_an_edge();
+    mesh.volumes[2] = {"a", 9};
+    for (const File& file : msh_files(mesh)) {
+        SCOPED_TRACE(file.name);
+        const Soup soup = read_volumes(file);
+        EXPECT_EQ(soup.region_names, (Names{"a", "b"}));
+        expect_regions(soup, {2.0 / 3, 2.0 / 3});
+    }
+}
+
+TEST(RegionReader, NamesVolumesWithoutANameByTheirNumbers) {
+    Mesh mesh = two_tets();
+    mesh.volumes = {{"", 12}, {"", 0}};
+    for (const File& file : msh_files(mesh)) {
+        SCOPED_TRACE(file.name);
+        EXPECT_EQ(read_volumes(file).region_names, (Names{"volume_2", "physical_12"}));
+    }
+    mesh.volumes = {{"", 4}, {"", -3}};
+    EXPECT_EQ(read_volumes({"medit.mesh", to_medit(mesh)}).region_names, (Names{"region_-3", "region_4"}));
+}
+
+TEST(RegionReader, TakesTheArrayOfVtuThatTellsRegions) {
+    Mesh mesh = two_tets();
+    mesh.volumes = {{"", 1}, {"", 0}};
+    for (const char* name : {"Region", "gmsh:physical", "medit:ref", "attribute"}) {
+        SCOPED_TRACE(name);
+        EXPECT_EQ(read_volumes({"mesh.vtu", to_vtu(mesh, {"Other", name})}).region_names,
+                  (Names{"region_0", "region_1"}));
+    }
+    for (const char* name : {"Other", "Real", "Patch"}) {
+        SCOPED_TRACE(name);
+        EXPECT_TRUE(read_volumes({"mesh.vtu", to_vtu(mesh, {name})}).sides.empty());
+    }
+    const std::string names("shell of steel\0core\0", 20);
+    const Soup soup = read_volumes({"mesh.vtu", to_vtu(mesh, {"Region"}, names)});
+    EXPECT_EQ(soup.region_names, (Names{"shell of steel", "core"}));
+    EXPECT_EQ(soup.patch_names[1], "shell of steel_to_core");
+    mesh.volumes[0].group = 2;
+    EXPECT_EQ(read_volumes({"mesh.vtu", to_vtu(mesh, {"Region"}, names)}).region_names,
+              (Names{"shell of steel", "region_2"}));
+}
+
+TEST(RegionReader, RefusesTetrahedraThatOverlap) {
+    Mesh mesh = two_tets();
+    mesh.tets[1] = {0, 1, 2, 3};
+    for (const File& file : all_files(mesh)) {
+        SCOPED_TRACE(file.name);
+        const std::string message = refusal_of(file);
+        EXPECT_NE(message.find("overlap near (1, 1, 0)"), std::string::npos) << message;
+    }
+    mesh = two_tets();
+    mesh.tets.push_back({0, 2, 1, 4});
+    mesh.volume_of_tet.push_back(0);
+    EXPECT_NE(refusal_of({"a.mesh", to_medit(mesh)}).find("'region_7' and 'region_8' overlap"), std::string::npos);
+}
+
+// Whatever is cut off or changed, a reader ends with an Error or with sides that are some.
+TEST(RegionReader, IsNotSurprisedByDamage) {
+    std::mt19937 random(5);
+    for (const File& file : all_files(two_cubes()))
+        for (int change = 0; change < 300; ++change) {
+            SCOPED_TRACE(file.name + ", change " + std::to_string(change));
+            File damaged = file;
+            if (change % 3 == 0) damaged.bytes.resize(random() % damaged.bytes.size());
+            for (int i = 0; i < 2 && !damaged.bytes.empty(); ++i)
+                damaged.bytes[random() % damaged.bytes.size()] = static_cast<char>(random());
+            try {
+                const Soup soup = read_volumes(damaged);
+                ASSERT_TRUE(soup.sides.empty() || soup.sides.size() == soup.facets.size());
+                const auto count = static_cast<std::int32_t>(soup.region_names.size());
+                for (const FacetSides& s : soup.sides)
+                    ASSERT_TRUE(s.back >= 0 && s.back < count && s.front < count && s.front != s.back);
+                for (const std::int32_t p : soup.patch) ASSERT_LT(static_cast<std::size_t>(p), soup.patch_names.size());
+            } catch (const Error& error) {
+                ASSERT_EQ(error.code(), ErrorCode::input) << error.what();
+            }
+        }
+}
+
+}  // namespace
+}  // namespace kerf
