@@ -46,7 +46,10 @@ void Elements::set_patch(std::int64_t group, std::int64_t entity) {
 void Elements::finish() const {
     if (!builder_.has_facets() && builder_.tets().empty() && of_higher_order_) refuse_type(of_higher_order_);
     builder_.tets().name_volumes([&](const VolumeKey& key) { return model_.volumes.name_of(key.first, key.second); });
-    if (!builder_.wants_tets() && builder_.tets().empty()) refuse_shared_surfaces();
+    if (!builder_.wants_tets() && builder_.tets().empty()) {
+        SurfaceSides found = sides_of_surfaces(model_, surfaces_, builder_.soup());
+        builder_.set_sides(std::move(found.sides), std::move(found.region_names));
+    }
     note_ignored();
 }
 
@@ -73,42 +76,15 @@ void Elements::add_element() {
     last_patch_ = patch_;
     const auto fail = [&](const std::string& what) { source_.fail(what); };
     if (!is_face()) return builder_.tets().add(corners_, fail, volume());
+    if (!model_.surfaces_of_volume.empty() && (surfaces_.empty() || surfaces_.back().entity != patch_.second))
+        surfaces_.push_back({patch_.second, builder_.soup().facets.size()});
     builder_.add_polygon(corners_, fail);
-    if (model_.surfaces_of_volume.empty()) return;
-    if (surfaces_.empty() || surfaces_.back().first != patch_.second)
-        surfaces_.emplace_back(patch_.second, corners_.front());
 }
 
 // The number of that of the current patch.
 std::int32_t Elements::volume() {
     if (volume_ < 0) volume_ = builder_.tets().volume(model_.is_partitioned ? VolumeKey() : patch_);
     return volume_;
-}
-
-// Of a file without tetrahedra, the geometry tells which surfaces are between two volumes; only volumes count all
-// of whose surfaces are in the file.
-void Elements::refuse_shared_surfaces() const {
-    if (model_.is_partitioned || builder_.keeps_walls()) return;
-    auto in_file = surfaces_;
-    std::sort(in_file.begin(), in_file.end());
-    std::vector<std::pair<std::int64_t, std::int64_t>> volume_of_surface;
-    for (const auto& [volume, surfaces] : model_.surfaces_of_volume) {
-        const auto is_in_file = [&](std::int64_t surface) { return find(in_file, surface) != nullptr; };
-        if (!std::all_of(surfaces.begin(), surfaces.end(), is_in_file)) continue;
-        for (const std::int64_t surface : surfaces) volume_of_surface.emplace_back(surface, volume);
-    }
-    std::sort(volume_of_surface.begin(), volume_of_surface.end());
-    const auto shared =
-        std::adjacent_find(volume_of_surface.begin(), volume_of_surface.end(),
-                           [](const auto& a, const auto& b) { return a.first == b.first && a.second != b.second; });
-    if (shared == volume_of_surface.end()) return;
-    const auto name_of = [&](std::int64_t volume) {
-        const std::int64_t* group = find(model_.volumes.group_of_entity, volume);
-        return model_.volumes.name_of(group ? *group : 0, volume);
-    };
-    const std::int64_t vertex = *find(in_file, shared->first);
-    builder_.tets().refuse_wall(name_of(shared->second), name_of(std::next(shared)->second),
-                                builder_.soup().vertices[static_cast<std::size_t>(vertex)]);
 }
 
 std::string Elements::describe(const ElementType& type) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/gmsh_model.h"
+#include "io/gmsh_sides.h"
 #include "io/gmsh_source.h"
 #include "io/soup_builder.h"
 
@@ -62,7 +63,6 @@ class Elements {
     }
     void add_element();
     std::int32_t volume();
-    void refuse_shared_surfaces() const;
     static std::string describe(const ElementType& type);
     const std::int64_t* find_vertex(std::int64_t node) const;
     std::int64_t to_vertex(std::int64_t element, std::int64_t node) const;
@@ -72,10 +72,10 @@ class Elements {
     const Model& model_;
     ElementType type_;
     std::pair<std::int64_t, std::int64_t> patch_ = {-1, -1}, last_patch_ = {-1, -1};  // group, entity
-    std::int32_t volume_ = -1;                                     // number of that of patch_; -1: not known yet
-    std::vector<std::pair<std::int64_t, std::int64_t>> surfaces_;  // of faces: entity, a vertex
-    std::int64_t of_higher_order_ = 0;                             // type of such tetrahedra; 0: there are none
-    std::vector<std::int64_t> corners_, last_corners_;             // of this face, of the last one
+    std::int32_t volume_ = -1;                          // number of that of patch_; -1: not known yet
+    std::vector<SurfaceRun> surfaces_;                  // of faces
+    std::int64_t of_higher_order_ = 0;                  // type of such tetrahedra; 0: there are none
+    std::vector<std::int64_t> corners_, last_corners_;  // of this face, of the last one
     std::array<std::int64_t, static_cast<std::size_t>(Shape::unknown)> counts_{};
 };
 

@@ -6,7 +6,7 @@
 // that to physical groups: MSH 2 writes one group and the entity with every element, and an element of several groups
 // once for each; MSH 4 lists the groups of each entity in $Entities and the elements entity by entity. The patch of a
 // triangle is its first group, else its entity; so is the region of a tetrahedron. Partitions are no volumes: where MSH
-// 4 has them, there is only one.
+// 4 has them, there is only one. Without tetrahedra, $Entities of MSH 4 may say which surfaces bound which volumes.
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -272,12 +272,6 @@ void scan_gmsh(std::string_view bytes, const std::string& path, SoupBuilder& bui
 
 Soup read_gmsh(std::string_view bytes, const std::string& path) {
     SoupBuilder builder(path);
-    scan_gmsh(bytes, path, builder);
-    return builder.finish();
-}
-
-Soup read_gmsh_with_walls(std::string_view bytes, const std::string& path) {
-    SoupBuilder builder(path, SoupBuilder::Wanted::surface_with_walls);
     scan_gmsh(bytes, path, builder);
     return builder.finish();
 }

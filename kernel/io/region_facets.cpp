@@ -175,6 +175,24 @@ void take_region_faces(Soup& soup, const std::vector<RegionFace>& faces, const s
     region::finish(soup, region_names);
 }
 
+void take_region_sides(Soup& soup, std::vector<FacetSides> sides, const std::vector<std::string>& region_names) {
+    soup.sides = std::move(sides);
+    std::vector<char> drop(soup.facets.size(), 0);
+    std::int64_t dropped = 0;
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        FacetSides& of_facet = soup.sides[f];
+        drop[f] = of_facet.front == of_facet.back;
+        dropped += drop[f];
+        if (of_facet.back >= 0 && (of_facet.front < 0 || of_facet.back < of_facet.front)) continue;
+        of_facet = of_facet.turned();
+        std::swap(soup.facets[f][1], soup.facets[f][2]);
+    }
+    drop_facets(soup, drop);
+    region::note_left_out(soup, dropped, "triangle at which no region ends was",
+                          "triangles at which no region ends were");
+    region::finish(soup, region_names);
+}
+
 void refuse_overlap(const Soup& soup, const RegionFace& face, const std::vector<std::string>& region_names,
                     const std::string& path) {
     const auto& [a, b, c] = face.corners;

@@ -50,6 +50,10 @@ struct FileFacets {
 void take_region_faces(Soup& soup, const std::vector<RegionFace>& faces, const std::vector<std::string>& region_names,
                        const FileFacets& file, const std::string& path);
 
+/// Gives the facets of a soup these sides (#F), and turns those that have the smaller region, or the only one, in
+/// front. Facets with the same on both sides are left out, which Soup::notes says. O(#F).
+void take_region_sides(Soup& soup, std::vector<FacetSides> sides, const std::vector<std::string>& region_names);
+
 /// Throws Error(input): tetrahedra of the regions of this face overlap.
 [[noreturn]] void refuse_overlap(const Soup& soup, const RegionFace& face, const std::vector<std::string>& region_names,
                                  const std::string& path);

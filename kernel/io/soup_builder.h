@@ -21,7 +21,7 @@ namespace kerf {
 
 class SoupBuilder {
  public:
-    enum class Wanted { surface, surface_with_walls, tets, tets_and_scalars };
+    enum class Wanted { surface, tets, tets_and_scalars };
     /// `path` only serves messages. A reader that meets tetrahedra adds them if they are wanted, else passes over them.
     explicit SoupBuilder(const std::string& path, Wanted wanted = Wanted::surface)
         : path_(path), wanted_(wanted), tets_(path, soup_, !wants_tets()) {}
@@ -29,8 +29,6 @@ class SoupBuilder {
 
     bool wants_tets() const { return wanted_ == Wanted::tets || wants_scalars(); }
     bool wants_scalars() const { return wanted_ == Wanted::tets_and_scalars; }
-    /// Whether facets may lie between two volumes.
-    bool keeps_walls() const { return wanted_ == Wanted::surface_with_walls; }
     /// Where a surface is wanted, the tetrahedra of several volumes say what it separates, and the skin of those of one
     /// is the surface if there is none.
     TetCollector& tets() { return tets_; }
@@ -61,6 +59,11 @@ class SoupBuilder {
     void set_unnamed_patch() {
         set_patch("surface");
         is_unnamed_ = true;
+    }
+    /// What is on the sides of the facets (#F), where the file says that without tetrahedra; see take_region_sides().
+    void set_sides(std::vector<FacetSides> sides, std::vector<std::string> region_names) {
+        sides_ = std::move(sides);
+        region_names_ = std::move(region_names);
     }
     /// The polygon as a fan of triangles, in the current patch. Calls `fail(message)`, which must throw, if the polygon
     /// has less than three corners, or one that is no vertex so far. One that no fan covers (see find_fan()) is noted.
@@ -130,6 +133,8 @@ class SoupBuilder {
             take_regions();
         else if (soup_.facets.empty() && !tets_.empty())
             add_skin();
+        else if (!sides_.empty())
+            take_region_sides(soup_, std::move(sides_), region_names_);
         if (soup_.facets.empty())
             throw Error(ErrorCode::input, path_ + ": the file holds no facets. Export the surface again.");
         return std::move(soup_);
@@ -204,6 +209,8 @@ class SoupBuilder {
     std::map<std::string, std::int32_t> patch_of_name_;
     bool is_unnamed_ = false;          // facets to come
     std::int32_t unnamed_patch_ = -1;  // of such facets
+    std::vector<FacetSides> sides_;
+    std::vector<std::string> region_names_;
 };
 
 }  // namespace kerf

@@ -130,9 +130,9 @@ Reader recognise(std::string_view bytes, const std::string& path) {
 
 }  // namespace
 
-Soup read_surface(const std::string& path, Walls walls) { return read_surface_bytes(read_file(path), path, walls); }
+Soup read_surface(const std::string& path) { return read_surface_bytes(read_file(path), path); }
 
-Soup read_surface_bytes(std::string file, const std::string& path, Walls walls) {
+Soup read_surface_bytes(std::string file, const std::string& path) {
     const std::string content = decompress(std::move(file), path);
     std::string_view bytes = content;
     if (bytes.empty()) throw Error(ErrorCode::input, path + ": the file is empty. Export the surface again.");
@@ -143,8 +143,7 @@ Soup read_surface_bytes(std::string file, const std::string& path, Walls walls) 
                                 "kerf check or kerf mesh, or export it as STL, OBJ or PLY.",
                                 path, name(cad)));
     const Reader read = recognise(bytes, path);
-    const std::string_view body = body_of(bytes, read);
-    return read == read_gmsh && walls == Walls::kept ? read_gmsh_with_walls(body, path) : read(body, path);
+    return read(body_of(bytes, read), path);
 }
 
 }  // namespace kerf

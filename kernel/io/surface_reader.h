@@ -8,10 +8,6 @@
 
 namespace kerf {
 
-/// Triangles between two volumes of a .msh without tetrahedra: a surface has one side inside, so that they are refused,
-/// or kept for what leaves pieces of the surface out.
-enum class Walls { refused, kept };
-
 /// Reads STL (binary or ASCII), OBJ, PLY (ASCII, both binary endians), OFF, Gmsh MSH 2 or 4.1 (ASCII, both binary
 /// endians), MEDIT .mesh (ASCII), VTK's VTU (see scan_vtu()), TetGen .smesh or .poly, each also compressed with gzip or
 /// zstd, in double precision where the format has it. The content tells the format. The ending is only asked where the
@@ -31,17 +27,17 @@ enum class Walls { refused, kept };
 /// and those that one tetrahedron has, each once, the smaller region, or the only one, behind it. Their patch is that
 /// of the file's triangle there; else "outer", or "A_to_B" between the regions A and B. Triangles at which no region
 /// ends are left out. Volumes are Gmsh's physical groups (else volumes), MEDIT's references ("region_N") and VTU's cell
-/// arrays, see scan_vtu(); those of the same name are one region. Without tetrahedra, volumes between
-/// which there are triangles are refused unless `walls` are kept.
+/// arrays, see scan_vtu(); those of the same name are one region. So are the volumes of an MSH 4.1 without tetrahedra
+/// whose $Entities say which surfaces bound them, see gmsh::sides_of_surfaces().
 ///
 /// Throws Error(io) for a file that cannot be opened or read, Error(input) for content that is empty, truncated, or
 /// malformed, each naming the file, the place (line, byte or facet) and the way out. A binary STL may have up to 49
 /// bytes of padding; with more its count of facets is in doubt, and it is refused. Memory is bounded by a multiple of
 /// the size of the content, whatever its header claims. `-` is refused.
-Soup read_surface(const std::string& path, Walls walls = Walls::refused);
+Soup read_surface(const std::string& path);
 
 /// Reads the bytes of a file that is already in memory.
-Soup read_surface_bytes(std::string file, const std::string& path, Walls walls = Walls::refused);
+Soup read_surface_bytes(std::string file, const std::string& path);
 
 /// The formats by themselves, on the bytes of a file without compression; `path` serves messages, and tells TetGen's
 /// .poly from .smesh in doubt and where the .node file of one without nodes is.
@@ -50,7 +46,6 @@ Soup read_obj(std::string_view bytes, const std::string& path);
 Soup read_ply(std::string_view bytes, const std::string& path);
 Soup read_off(std::string_view bytes, const std::string& path);
 Soup read_gmsh(std::string_view bytes, const std::string& path);
-Soup read_gmsh_with_walls(std::string_view bytes, const std::string& path);
 Soup read_medit(std::string_view bytes, const std::string& path);
 Soup read_tetgen(std::string_view bytes, const std::string& path);
 Soup read_vtu(std::string_view bytes, const std::string& path);

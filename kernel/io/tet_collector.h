@@ -69,10 +69,6 @@ class TetCollector {
         if (found.overlap) refuse_overlap(soup_, *found.overlap, regions_.names, path_);
         return std::move(found.faces);
     }
-    /// Throws Error(input): a surface has one side inside, and these volumes are on both sides of it.
-    [[noreturn]] void refuse_wall(const std::string& volume, const std::string& other, const Vec3& where) const {
-        throw Error(ErrorCode::input, path_ + ": " + tell_wall(volume, other, where));
-    }
     std::vector<RegionFace> skin() const { return region_faces(soup_.vertices, tets_).faces; }
 
     /// The values of this name, one for each vertex so far.

@@ -106,12 +106,4 @@ std::string tell_overlap(const std::string& region, const std::string& other, co
         region, other, where.x(), where.y(), where.z());
 }
 
-std::string tell_wall(const std::string& volume, const std::string& other, const Vec3& where) {
-    return fmt::format(
-        "volumes '{}' and '{}' touch near ({:.9g}, {:.9g}, {:.9g}), but a surface has only one side inside. Save each "
-        "in a file of its own, or, to join them, tetrahedra without triangles, whose skin is read then (Gmsh: physical "
-        "groups of volumes alone). What lies inside of another volume is left out with --keep-largest.",
-        volume, other, where.x(), where.y(), where.z());
-}
-
 }  // namespace kerf

@@ -34,6 +34,5 @@ std::string tell_skin(std::size_t tets);
 std::string tell_regions(const std::vector<std::string>& regions, std::size_t walls, std::size_t facets);
 std::string tell_joined_volumes(std::size_t volumes, const std::string& region);
 std::string tell_overlap(const std::string& region, const std::string& other, const Vec3& where);
-std::string tell_wall(const std::string& volume, const std::string& other, const Vec3& where);
 
 }  // namespace kerf

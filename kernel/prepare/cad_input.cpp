@@ -59,7 +59,7 @@ std::string find_import_program(const ImportProgram& kind, const std::string& pa
                             kind.name, kind.run_package));
 }
 
-Soup read_unscaled(std::string bytes, const std::string& path, const CadOptions& options, Walls walls) {
+Soup read_unscaled(std::string bytes, const std::string& path, const CadOptions& options) {
     const FileHash file_hash = digest_of(bytes);
     std::string content = decompress(std::move(bytes), path);
     if (cad_format(content) != CadFormat::none) {
@@ -77,7 +77,7 @@ Soup read_unscaled(std::string bytes, const std::string& path, const CadOptions&
             throw Error(ErrorCode::usage,
                         fmt::format("{} is no CAD file, so that --{} has no meaning. Leave it out.", path, name));
     refuse_unit(path, options);
-    return read_surface_bytes(std::move(content), path, walls);
+    return read_surface_bytes(std::move(content), path);
 }
 
 }  // namespace
@@ -99,8 +99,7 @@ Soup read_surface_or_cad(const std::string& path, const InputOptions& options) {
 }
 
 Soup read_surface_or_cad(std::string bytes, const std::string& path, const InputOptions& options) {
-    const Walls walls = options.keep_largest ? Walls::kept : Walls::refused;
-    Soup soup = read_unscaled(std::move(bytes), path, options.cad, walls);
+    Soup soup = read_unscaled(std::move(bytes), path, options.cad);
     scale(soup, options.scale);
     return soup;
 }

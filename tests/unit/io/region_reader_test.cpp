@@ -212,10 +212,74 @@ TEST(RegionReader, RefusesTetrahedraThatOverlap) {
     EXPECT_NE(refusal_of({"a.mesh", to_medit(mesh)}).find("'region_7' and 'region_8' overlap"), std::string::npos);
 }
 
+// Two volumes, by their lists of surfaces, and up to three surfaces of triangles.
+std::string to_entities(const std::string& first, const std::string& second, const std::vector<Vec3>& nodes,
+                        const std::vector<std::vector<Triangle>>& surfaces) {
+    const auto count = [](const auto& list) { return std::to_string(list.size()); };
+    std::string text =
+        "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 7 \"core\"\n$EndPhysicalNames\n"
+        "$Entities\n0 0 3 2\n1 0 0 0 1 1 1 0 0\n2 0 0 0 1 1 1 0 0\n3 0 0 0 1 1 1 0 0\n"
+        "1 0 0 0 1 1 1 1 7 " +
+        first + "\n2 0 0 0 1 1 1 0 " + second + "\n$EndEntities\n$Nodes\n1 " + count(nodes) + " 1 " + count(nodes) +
+        "\n2 1 0 " + count(nodes) + "\n";
+    for (std::size_t v = 0; v < nodes.size(); ++v) text += std::to_string(v) + "\n";
+    for (const Vec3& p : nodes)
+        text += std::to_string(p.x()) + " " + std::to_string(p.y()) + " " + std::to_string(p.z()) + "\n";
+    text += "$EndNodes\n$Elements\n" + count(surfaces) + " 1 1 1\n";
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        text += "2 " + std::to_string(i + 1) + " 2 " + count(surfaces[i]) + "\n";
+        for (const auto& [a, b, c] : surfaces[i])
+            text += "1 " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(c) + "\n";
+    }
+    return text + "$EndElements\n";
+}
+
+// Around the upper of two_tets(), between the two, and around the lower one.
+const std::vector<std::vector<Triangle>> surfaces_of_two = {
+    {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, {{0, 1, 2}}, {{1, 0, 4}, {2, 1, 4}, {0, 2, 4}}};
+
+TEST(RegionReader, TakesSidesFromTheSurfacesOfVolumes) {
+    const std::vector<Vec3> nodes = two_tets().vertices;
+    for (const char* first : {"2 1 -2", "2 -1 2", "2 1 2"})
+        for (const char* second : {"2 2 3", "2 -2 -3", "2 -2 3"})
+            for (const bool is_turned : {false, true}) {
+                SCOPED_TRACE(std::string(first) + ", " + second);
+                std::vector<std::vector<Triangle>> surfaces = surfaces_of_two;
+                if (is_turned) std::swap(surfaces[1][0][0], surfaces[1][0][1]);
+                const Soup soup = read_volumes({"a.msh", to_entities(first, second, nodes, surfaces)});
+                expect_regions(soup, {3, 1.5});
+                EXPECT_EQ(soup.region_names, (Names{"volume_2", "core"}));
+                EXPECT_EQ(soup.facets.size(), 7u);
+                EXPECT_EQ(wall_count(soup), 1);
+                EXPECT_EQ(soup.patch_names, (Names{"surface_1", "surface_2", "surface_3"}));
+            }
+    const Soup one =
+        read_volumes({"a.msh", to_entities("2 1 2", "2 2 3", nodes, {surfaces_of_two[0], surfaces_of_two[1]})});
+    EXPECT_EQ(one.facets.size(), 4u);
+    EXPECT_TRUE(one.sides.empty()) << "only one of the volumes is there";
+}
+
+TEST(RegionReader, KnowsVolumesInsideOfOthersByTheirSurfaces) {
+    std::vector<Vec3> nodes = {Vec3(0, 0, 0), Vec3(8, 0, 0), Vec3(0, 8, 0), Vec3(0, 0, 8)};
+    for (int i = 0; i < 4; ++i) nodes.emplace_back(nodes[i] / 8 + Vec3(1, 1, 1));
+    nodes.emplace_back(9, 9, 9);
+    const std::vector<Triangle> outer = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}},
+                                inner = {{4, 6, 5}, {4, 5, 7}, {5, 6, 7}, {6, 4, 7}}, inside = {{0, 1, 8}};
+    const std::string bytes = to_entities("4 1 2 3 -3", "1 2", nodes, {outer, inner, inside});
+    const Soup soup = read_volumes({"a.msh", bytes});
+    expect_regions(soup, {1.0 / 6, 511.0 / 6});
+    EXPECT_EQ(soup.facets.size(), 8u);
+    EXPECT_EQ(wall_count(soup), 4);
+    EXPECT_EQ(soup.patch_names, (Names{"surface_1", "surface_2"}));
+    EXPECT_EQ(soup.notes.front(), "1 triangle at which no region ends was ignored.");
+}
+
 // Whatever is cut off or changed, a reader ends with an Error or with sides that are some.
 TEST(RegionReader, IsNotSurprisedByDamage) {
     std::mt19937 random(5);
-    for (const File& file : all_files(two_cubes()))
+    std::vector<File> files = all_files(two_cubes());
+    files.push_back({"entities.msh", to_entities("2 1 -2", "2 2 3", two_tets().vertices, surfaces_of_two)});
+    for (const File& file : files)
         for (int change = 0; change < 300; ++change) {
             SCOPED_TRACE(file.name + ", change " + std::to_string(change));
             File damaged = file;

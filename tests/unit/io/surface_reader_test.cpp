@@ -568,19 +568,6 @@ TEST(SurfaceReader, TakesTheSkinOfTetrahedraWithoutTriangles) {
     }
 }
 
-TEST(GmshReader, TellsSharedSurfacesByTheGeometryWhereThereAreNoTetrahedra) {
-    const std::string head =
-        "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 7 \"core\"\n$EndPhysicalNames\n"
-        "$Entities\n0 0 3 2\n1 0 0 0 1 1 1 0 0\n2 0 0 0 1 1 1 0 0\n3 0 0 0 1 1 1 0 0\n"
-        "1 0 0 0 1 1 1 1 7 2 1 -2\n2 0 0 0 1 1 1 0 2 2 3\n$EndEntities\n"
-        "$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n";
-    const std::string two = "2 1 2 1\n1 1 2 3\n2 2 2 1\n2 1 2 4\n", third = "2 3 2 1\n3 2 3 4\n";
-    const std::string message = message_of(head + "$Elements\n3 3 1 3\n" + two + third + "$EndElements\n");
-    EXPECT_NE(message.find("volumes 'core' and 'volume_2' touch near"), std::string::npos) << message;
-    EXPECT_EQ(read_bytes(head + "$Elements\n2 2 1 2\n" + two + "$EndElements\n").facets.size(), 2u)
-        << "only one of the volumes is there";
-}
-
 TEST(MeditReader, TakesTrianglesWithReferencesAndPassesOverTheRest) {
     const Soup soup = read_bytes(
         "# a comment\nMeshVersionFormatted\n2\n\nDimension\n3\nNormals 1\nnan -1e-3 0\nVertices\n4\n0 0 0 1\n1 0 0 1\n"
