@@ -10,6 +10,7 @@
 #include "prepare/interface_match.h"
 #include "prepare/numbering.h"
 #include "surface/mass_properties.h"
+#include "surface/touching.h"
 #include "volume/tet_forecast.h"
 
 namespace kerf {
@@ -127,6 +128,9 @@ PreparedParts prepare_parts(Communicator& ranks, const Input& input, const std::
     const VertexNumbering numbering(input.vertices, nodes);
     prepared.surface_vertices = numbering.surface_vertices();
     const std::vector<NodeId> leaves = gather_leaves(ranks, own.leaves);
+    // A part that touches itself has one vertex at a place from here on.
+    if (!sides.empty())
+        for (Leaf& leaf : own.leaves) leaf.surface = joined_by_key(std::move(leaf.surface));
     const SharedVertices shared =
         table.shared_vertices(numbering, leaves, gather_contacts(ranks, own, numbering, leaves));
     const std::span<const std::string> regions = input.complex.region_names();

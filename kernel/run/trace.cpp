@@ -13,6 +13,7 @@
 #include "io/checked_file.h"
 #include "io/file_bytes.h"
 #include "io/output_file.h"
+#include "surface/touching.h"
 
 namespace kerf {
 
@@ -113,7 +114,7 @@ SurfaceArrays Trace::outside_of_regions(NodeId node) const {
 
 Surface replay(const Trace& trace, NodeId node) {
     if (const Cut* straight = trace.find(node); straight && !straight->split_parent.facets.empty())
-        return Surface(straight->split_parent);
+        return separated_surface(straight->split_parent);
     if (std::optional<Surface> root = trace.root_surface(node)) return *std::move(root);
     const Cut* cut = trace.find(node / 2);
     if (!cut || !cut->made())
@@ -122,7 +123,7 @@ Surface replay(const Trace& trace, NodeId node) {
                                                   "are 2i and 2i+1.",
                                                   trace.input, node));
     const Surface parent = replay(trace, node / 2);
-    return Surface(std::move(split(parent, cut->side, cut->interface, cut->node)[node % 2].arrays));
+    return separated_surface(split(parent, cut->side, cut->interface, cut->node)[node % 2].arrays);
 }
 
 void write_trace(const std::string& path, const Trace& trace) {

@@ -8,6 +8,7 @@
 #include "core/check.h"
 #include "core/error.h"
 #include "surface/edge_corners.h"
+#include "surface/touching.h"
 
 namespace kerf {
 
@@ -125,7 +126,9 @@ Surface Complex::take_only_region() {
 }
 SurfaceArrays Complex::arrays() const { return names_.empty() ? only_.arrays() : facets_; }
 
-Surface Complex::surface_of(RegionIndex region) const { return names_.empty() ? only_ : Surface(arrays_of(region)); }
+Surface Complex::surface_of(RegionIndex region) const {
+    return names_.empty() ? only_ : separated_surface(arrays_of(region));
+}
 
 Contacts Complex::find_contacts() const {
     std::vector<Triangle> outer;

@@ -11,6 +11,7 @@
 #include "decompose/cap_quality.h"
 #include "decompose/cap_triangulation.h"
 #include "prepare/size_reader.h"
+#include "surface/touching.h"
 #include "viewer/model/tree_source.h"
 
 namespace kerf::view {
@@ -70,7 +71,7 @@ bool cut_straight(const Surface& surface, NodeId node, const CutPlace& place, co
     const FaceComplex::Part part = complex.part(node);
     std::vector<CutTry>& tries = made.cut.tries;
     std::optional<StraightCut> straight =
-        kerf::cut_straight(Surface(part.arrays), node, place.fraction, options, tries, part.untested);
+        kerf::cut_straight(separated_surface(part.arrays), node, place.fraction, options, tries, part.untested);
     if (!straight) return false;
     complex.divide(node, part, *straight);
     std::vector<std::int32_t> parent_vertex(part.vertex.size());  // of a vertex of the surface, and then of the complex
