@@ -167,6 +167,7 @@ void FacetDivider::divide_facet(std::size_t facet) {
     result_.kept += triangles.size() == 1;
     after.facets.insert(after.facets.end(), triangles.begin(), triangles.end());
     after.patch.resize(after.facets.size(), before_.patch[facet]);
+    result_.facet_before.resize(after.facets.size(), static_cast<std::int32_t>(facet));
     if (static_cast<std::int64_t>(after.facets.size()) > most_facets)
         throw Error(ErrorCode::memory, fmt::format("The surface would be divided into more than {} facets. Use a "
                                                    "larger size, or --surface keep.",
@@ -196,7 +197,7 @@ bool has_facets_to_divide(const SurfaceArrays& surface, const SizeField& wanted)
     for (const Triangle& t : surface.facets)
         for (int i = 0; i < 3; ++i) {
             const std::int32_t a = t[i], b = t[(i + 1) % 3];
-            if (a < b && pieces_of(lengths_along(surface.vertices[a], surface.vertices[b], wanted)) > 1) return true;
+            if (pieces_of(lengths_along(surface.vertices[a], surface.vertices[b], wanted)) > 1) return true;
         }
     return false;
 }

@@ -16,16 +16,18 @@ bool has_facets_to_divide(const SurfaceArrays& surface, const SizeField& wanted)
 double forecast_divided_facets(const SurfaceArrays& surface, const SizeField& wanted);
 
 struct DividedSurface {
-    SurfaceArrays surface;  ///< keys as a surface that was read has them
-    std::int64_t kept = 0;  ///< facets that are as they were
+    SurfaceArrays surface;                   ///< keys as a surface that was read has them
+    std::int64_t kept = 0;                   ///< facets that are as they were
+    std::vector<std::int32_t> facet_before;  ///< #F; of which it is a piece
 };
 
 /// The surface with points on its edges and inside of its facets, so that edges are about as long as wanted: at most
 /// 1.5 times that on edges of the surface, twice inside of facets. The shape is the same. The edges and corners of the
 /// facets stay, vertices keep their numbers, and what is divided has the patch of its facet. Edges have as many pieces
 /// as lengths fit in, rounded, shorter where shorter ones are wanted; inside, points are added as in interfaces
-/// (cut/triangulation.h). A facet depends on its corners and the field alone. The surface must be closed. Throws
-/// Error(memory) for more facets than a surface may have, Error(cancelled). O(n log n), n: facets of the result.
+/// (cut/triangulation.h). A facet depends on its corners and the field alone. Any
+/// number of facets may meet in an edge. Throws Error(memory) for more facets than a surface may have,
+/// Error(cancelled). O(n log n), n: facets of the result.
 DividedSurface divide_facets(const SurfaceArrays& surface, const SizeField& wanted,
                              const CancellationCheck& check_cancelled = {});
 

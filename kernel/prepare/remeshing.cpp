@@ -129,6 +129,15 @@ Input remeshed(Input input, const SurfaceArrays& before, const Slivers& slivers,
     return input;
 }
 
+// A piece has the sides of its facet.
+Complex with_pieces(const Complex& before, DividedSurface divided) {
+    if (before.region_count() == 1) return Complex(Surface(std::move(divided.surface)));
+    std::vector<FacetSides> sides;
+    sides.reserve(divided.facet_before.size());
+    for (const std::int32_t f : divided.facet_before) sides.push_back(before.sides(f));
+    return {std::move(divided.surface), std::move(sides), {before.region_names().begin(), before.region_names().end()}};
+}
+
 Input divided(Input input, const SurfaceArrays& before, const RunOptions& options, StageListener* listener,
               int processes) {
     const SizeField wanted = wanted_lengths(options, before, input);
@@ -140,7 +149,7 @@ Input divided(Input input, const SurfaceArrays& before, const RunOptions& option
                       .only_divided = true,
                       .smallest_angle_before_deg = smallest_angle(before),
                       .smallest_angle_deg = smallest_angle(result.surface)};
-    input.complex = Complex(Surface(std::move(result.surface)));
+    input.complex = with_pieces(input.complex, std::move(result));
     measure_input(input);
     return input;
 }
@@ -148,14 +157,13 @@ Input divided(Input input, const SurfaceArrays& before, const RunOptions& option
 SurfaceChange change_of(const Input& input, const SurfaceArrays& surface, const Slivers& slivers,
                         const RunOptions& options) {
     if (options.remeshing == Remeshing::never) return SurfaceChange::none;
-    if (input.complex.region_count() > 1) {
-        if (options.remeshing != Remeshing::always) return SurfaceChange::none;
+    const bool is_one = input.complex.region_count() == 1;
+    if (!is_one && options.remeshing == Remeshing::always)
         throw Error(ErrorCode::usage,
-                    fmt::format("{} has {} regions, which cannot be remeshed. Use --surface split, or "
-                                "keep, and facets of the size that is wanted.",
+                    fmt::format("{} has {} regions: their facets can be divided for smaller sizes, but not remeshed. "
+                                "Leave --surface remesh out.",
                                 input.path, input.complex.region_count()));
-    }
-    if (options.remeshing == Remeshing::always || input.is_cad || slivers.spoil_cells())
+    if (is_one && (options.remeshing == Remeshing::always || input.is_cad || slivers.spoil_cells()))
         return SurfaceChange::remeshing;
     if (options.sizes.cells > 0 || has_facets_to_divide(surface, wanted_lengths(options, surface, input)))
         return SurfaceChange::division;
@@ -206,7 +214,7 @@ Input remesh_where_asked(Input input, const RunOptions& options, StageListener* 
     const SurfaceChange change = change_of(input, before, slivers, options);
     if (change == SurfaceChange::remeshing)
         return remeshed(std::move(input), before, slivers, options, listener, processes);
-    const std::string note = sliver_note(slivers, input.path);
+    const std::string note = sliver_note(slivers, input.complex.region_count() == 1 ? input.path : "");
     if (!note.empty()) input.notes.push_back(note);
     return change == SurfaceChange::division ? divided(std::move(input), before, options, listener, processes)
                                              : std::move(input);

@@ -45,10 +45,9 @@ std::vector<char> facets_away_from_slivers(const SurfaceArrays& surface) {
 
 std::string sliver_note(const Slivers& slivers, const std::string& path) {
     if (!slivers.spoil_cells()) return "";
-    return fmt::format(
-        "{:.2g} % of the facets have angles below 10 degrees, and cells will be no better. "
-        "kerf mesh {} --surface remesh cures that.",
-        100 * slivers.share(), path);
+    return fmt::format("{:.2g} % of the facets have angles below 10 degrees, and cells will be no better.{}",
+                       100 * slivers.share(),
+                       path.empty() ? "" : fmt::format(" kerf mesh {} --surface remesh cures that.", path));
 }
 
 }  // namespace kerf

@@ -23,7 +23,7 @@ Slivers find_slivers(const std::vector<Vec3>& vertices, const std::vector<Triang
 /// is less than half of them. O(#F).
 std::vector<char> facets_away_from_slivers(const SurfaceArrays& surface);
 
-/// One sentence with the command that cures it; empty if they spoil nothing.
+/// One sentence with the command that cures it, unless `path` is empty; empty if they spoil nothing.
 std::string sliver_note(const Slivers& slivers, const std::string& path);
 
 }  // namespace kerf

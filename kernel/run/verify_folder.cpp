@@ -372,7 +372,7 @@ void FolderVerifier::check_input() {
         const auto first = next;
         for (; next != pieces_.end() && next->facet == f; ++next)
             wrong_patches += next->patch != input.complex.patch(f);
-        result_.laws.input_faces_missing += !count_missing_sides(input.complex, f, {first, next});
+        result_.laws.input_faces_missing += count_missing_sides(input.complex, f, {first, next});
     }
     if (wrong_patches > 0)
         differs(fmt::format("{} boundary triangles are in other patches than the input", wrong_patches));

@@ -141,13 +141,16 @@ class CaseReader {
                                      use.material.density = table.number(n, "density");
                                      if (use.material.density < 0) table.refuse(n, "density must not be negative.");
                                  }},
+                                {"region", [&](const toml::node& n) { use.regions = table.texts(n, "region"); }},
                                 {"parts", [&](const toml::node& n) { use.parts = part_numbers(table, n); }},
                                 {"patch", [&](const toml::node& n) { use.patches = table.texts(n, "patch"); }}});
             if (!has_young || !has_poisson)
                 table.refuse(values, fmt::format("material '{}' needs young and poisson.", title));
-            if (!use.parts.empty() && !use.patches.empty())
+            if (!use.regions.empty() + !use.parts.empty() + !use.patches.empty() > 1)
                 table.refuse(values,
-                             fmt::format("material '{}' has parts and patch; one of them says where it is.", title));
+                             fmt::format("material '{}' has several of region, parts and patch; one of them says where "
+                                         "it is.",
+                                         title));
             result_.materials.push_back(std::move(use));
         }
     }

@@ -36,11 +36,15 @@ struct Load {
     std::optional<Vec3> force;       ///< the sum, spread evenly over the area
 };
 
-/// A material, and of what: everything, parts of the run, or bodies that the patches bound.
+/// A material, and of what: regions of the mesh, parts of the run, bodies that the patches bound, or, where nothing is
+/// said, the region of its name, else everything that has no other.
 struct MaterialUse {
     Material material;
+    std::vector<std::string> regions;
     std::vector<NodeId> parts;
     std::vector<std::string> patches;
+
+    bool says_where() const { return !regions.empty() || !parts.empty() || !patches.empty(); }
 };
 
 struct SolverOptions {

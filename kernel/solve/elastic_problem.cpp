@@ -16,11 +16,19 @@ namespace {
 
 constexpr std::uint8_t no_material = 255;
 
-// The numbers of the materials of parts that are named, of bodies, and of all else.
+// The numbers of the materials of parts that are named, of regions, of bodies, and of all else.
 struct MaterialPlaces {
     std::map<NodeId, std::uint8_t> of_part;
+    std::vector<std::uint8_t> of_region;
     std::vector<std::uint8_t> of_body;
     std::uint8_t of_rest = no_material;
+
+    std::uint8_t at(NodeId part, RegionIndex region, std::int32_t body) const {
+        if (const auto named = of_part.find(part); named != of_part.end()) return named->second;
+        const auto r = static_cast<std::size_t>(region.value());
+        if (r < of_region.size() && of_region[r] != no_material) return of_region[r];
+        return of_body[body] != no_material ? of_body[body] : of_rest;
+    }
 };
 
 class ProblemMaker {
@@ -45,6 +53,8 @@ class ProblemMaker {
  private:
     void choose_materials();
     void place_material(const MaterialUse& use, MaterialPlaces& places) const;
+    void place_in_regions(const MaterialUse& use, const std::vector<std::string>& regions,
+                          MaterialPlaces& places) const;
     std::vector<char> bodies_at(const std::vector<std::string>& patches, const std::string& who) const;
     void hold();
     std::vector<double> forces_of(const std::string& load_case) const;
@@ -75,6 +85,7 @@ void ProblemMaker::choose_materials() {
     problem_.materials.clear();
     MaterialPlaces places;
     places.of_body.resize(bodies_.count, no_material);
+    places.of_region.resize(outline_.region_names.size(), no_material);
     for (const MaterialUse& use : wanted_.materials) {
         problem_.materials.push_back(use.material);
         place_material(use, places);
@@ -83,21 +94,39 @@ void ProblemMaker::choose_materials() {
     std::int64_t without = 0;
     for (std::size_t p = 0; p < space_.parts().size(); ++p) {
         const Part& part = space_.parts()[p];
-        const auto named = places.of_part.find(part.id);
         std::vector<std::uint8_t>& of_tet = problem_.material_of_tet.emplace_back();
         for (std::size_t t = 0; t < part.mesh.tets.size(); ++t) {
-            const std::uint8_t of_body = places.of_body[bodies_.of_node[space_.nodes_of(p, t)[0]]];
-            of_tet.push_back(named != places.of_part.end() ? named->second
-                             : of_body != no_material      ? of_body
-                                                           : places.of_rest);
+            of_tet.push_back(places.at(part.id, part.region_of(static_cast<std::int32_t>(t)),
+                                       bodies_.of_node[space_.nodes_of(p, t)[0]]));
             if (of_tet.back() == no_material) ++without;
         }
     }
     without = space_.ranks().all_reduce(without, Reduction::sum);
     if (without > 0)
-        throw Error(ErrorCode::usage,
-                    fmt::format("{} tetrahedra have no material. Add one without parts and patch: it is for the rest.",
-                                without));
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("{} tetrahedra have no material. Add one without region, parts and patch: it is for the "
+                        "rest.",
+                        without));
+}
+
+void ProblemMaker::place_in_regions(const MaterialUse& use, const std::vector<std::string>& regions,
+                                    MaterialPlaces& places) const {
+    const std::vector<std::string>& names = outline_.region_names;
+    for (const std::string& wanted : regions) {
+        const auto found = std::find(names.begin(), names.end(), wanted);
+        if (found == names.end())
+            throw Error(
+                ErrorCode::usage,
+                fmt::format("Material '{}' names the region '{}', but {}.", use.material.name, wanted,
+                            names.empty() ? std::string("the mesh has no regions with names")
+                                          : fmt::format("those of the mesh are '{}'", fmt::join(names, "', '"))));
+        std::uint8_t& of_region = places.of_region[static_cast<std::size_t>(found - names.begin())];
+        if (of_region != no_material)
+            throw Error(ErrorCode::usage, fmt::format("The region '{}' has two materials: '{}' and '{}'.", wanted,
+                                                      problem_.materials[of_region].name, use.material.name));
+        of_region = static_cast<std::uint8_t>(problem_.materials.size() - 1);
+    }
 }
 
 // Where the material that was added last is.
@@ -121,11 +150,16 @@ void ProblemMaker::place_material(const MaterialUse& use, MaterialPlaces& places
             places.of_body[b] = number;
         }
     }
-    if (!use.parts.empty() || !use.patches.empty()) return;
+    const std::vector<std::string>& regions = outline_.region_names;
+    const bool is_name_of_region = std::find(regions.begin(), regions.end(), use.material.name) != regions.end();
+    if (!use.says_where() && is_name_of_region) return place_in_regions(use, {use.material.name}, places);
+    place_in_regions(use, use.regions, places);
+    if (use.says_where()) return;
     if (places.of_rest != no_material)
-        throw Error(ErrorCode::usage, fmt::format("Materials '{}' and '{}' are for everything. Say with parts or patch "
-                                                  "where one of them is.",
-                                                  problem_.materials[places.of_rest].name, use.material.name));
+        throw Error(ErrorCode::usage,
+                    fmt::format("Materials '{}' and '{}' are for everything. Say with region, parts or "
+                                "patch where one of them is.",
+                                problem_.materials[places.of_rest].name, use.material.name));
     places.of_rest = number;
 }
 

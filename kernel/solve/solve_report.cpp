@@ -21,19 +21,24 @@ SolveJson case_json(const CaseReport& of_case, const std::vector<std::string>& s
     SolveJson reactions = SolveJson::array();
     for (std::size_t s = 0; s < supports.size(); ++s)
         reactions.push_back({{"support", path_text(supports[s])}, {"reaction", vector_json(of_case.reactions[s])}});
-    return {{"name", path_text(of_case.name)},
-            {"converged", of_case.outcome.converged},
-            {"reason", of_case.outcome.reason},
-            {"iterations", of_case.outcome.iterations},
-            {"residual", of_case.outcome.residual},
-            {"load", vector_json(of_case.load)},
-            {"reactions", reactions},
-            {"imbalance", of_case.imbalance},
-            {"energy_norm", of_case.norms.solution},
-            {"error_norm", of_case.norms.error},
-            {"relative_error", of_case.norms.relative()},
-            {"max_displacement", extreme_json(of_case.displacement)},
-            {"max_von_mises", extreme_json(of_case.von_mises)}};
+    SolveJson json = {{"name", path_text(of_case.name)},
+                      {"converged", of_case.outcome.converged},
+                      {"reason", of_case.outcome.reason},
+                      {"iterations", of_case.outcome.iterations},
+                      {"residual", of_case.outcome.residual},
+                      {"load", vector_json(of_case.load)},
+                      {"reactions", reactions},
+                      {"imbalance", of_case.imbalance},
+                      {"energy_norm", of_case.norms.solution},
+                      {"error_norm", of_case.norms.error},
+                      {"relative_error", of_case.norms.relative()},
+                      {"max_displacement", extreme_json(of_case.displacement)},
+                      {"max_von_mises", extreme_json(of_case.von_mises)}};
+    for (const RegionResult& region : of_case.regions)
+        json["regions"].push_back({{"name", path_text(region.name)},
+                                   {"strain_energy", region.energy},
+                                   {"max_von_mises", extreme_json(region.von_mises)}});
+    return json;
 }
 
 SolveJson materials_json(const ElasticCase& wanted) {
@@ -69,6 +74,10 @@ std::string case_text(const CaseReport& of_case, const std::vector<std::string>&
                                                 vector_text(of_case.displacement.place)));
     text += line_of("von Mises",
                     fmt::format("max {:.6g} at {}", of_case.von_mises.value, vector_text(of_case.von_mises.place)));
+    for (const RegionResult& region : of_case.regions)
+        text +=
+            line_of("region", fmt::format("{}: strain energy {:.6g}, max von Mises {:.6g} at {}", region.name,
+                                          region.energy, region.von_mises.value, vector_text(region.von_mises.place)));
     return text +
            line_of("error", fmt::format("{:.1f} % in the energy norm, estimated", 100 * of_case.norms.relative()));
 }

@@ -67,6 +67,7 @@ class SolveStages {
     void solve_case(LinearSystem& system, std::size_t number);
     void report_case(const std::vector<double>& forces, CaseReport& of_case);
     Extreme largest(double value, const Vec3& place) const;
+    std::vector<RegionResult> results_of_regions(const StressField& field) const;
     void write();
     void write_sizes_of_next();
     void finish();
@@ -154,6 +155,28 @@ Extreme SolveStages::largest(double value, const Vec3& place) const {
     return {most[0], Vec3(most[1], most[2], most[3])};
 }
 
+// A part lies in one region.
+std::vector<RegionResult> SolveStages::results_of_regions(const StressField& field) const {
+    const std::vector<std::string>& names = parts_->outline().region_names;
+    std::vector<RegionResult> results(names.size());
+    std::vector<double> energies(names.size(), 0);
+    for (std::size_t p = 0; p < space_->parts().size() && !names.empty(); ++p) {
+        const Part& part = space_->parts()[p];
+        const auto region = static_cast<std::size_t>(part.region_of(0).value());
+        energies[region] += field.parts[p].energy;
+        for (std::size_t v = 0; v < field.parts[p].at_vertex.size(); ++v) {
+            const double stress = von_mises(field.parts[p].at_vertex[v]);
+            if (stress > results[region].von_mises.value) results[region].von_mises = {stress, part.mesh.vertices[v]};
+        }
+    }
+    ranks_.all_reduce(std::span(energies), Reduction::sum);
+    for (std::size_t r = 0; r < names.size(); ++r) {
+        const Extreme& own = results[r].von_mises;
+        results[r] = {names[r], energies[r], largest(own.value, own.place)};
+    }
+    return results;
+}
+
 void SolveStages::report_case(const std::vector<double>& forces, CaseReport& of_case) {
     const CaseSolution& solution = solutions_.back();
     for (std::size_t dof = 0; dof < forces.size(); ++dof) of_case.load[dof % 3] += forces[dof];
@@ -186,6 +209,7 @@ void SolveStages::report_case(const std::vector<double>& forces, CaseReport& of_
         }
     of_case.displacement = largest(most, place);
     of_case.von_mises = largest(most_stress, place_of_stress);
+    of_case.regions = results_of_regions(solution.stress);
 }
 
 void SolveStages::solve_case(LinearSystem& system, std::size_t number) {

@@ -29,6 +29,13 @@ struct Extreme {
     Vec3 place = Vec3::Zero();
 };
 
+/// What came out for one of several regions.
+struct RegionResult {
+    std::string name;
+    double energy = 0;  ///< of the strain
+    Extreme von_mises;
+};
+
 /// What came out for one set of loads.
 struct CaseReport {
     std::string name;
@@ -38,6 +45,7 @@ struct CaseReport {
     double imbalance = 0;         ///< |loads + reactions| beside the largest of them
     EnergyNorms norms;
     Extreme displacement, von_mises;
+    std::vector<RegionResult> regions;  ///< empty if there is one
 };
 
 /// Wall clock, the longest over the ranks.

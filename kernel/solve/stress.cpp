@@ -117,6 +117,7 @@ class StressRecovery {
             PartStress& of_part = field_.parts[p];
             of_part.of_tet[t] = mean;
             of_part.error[t] = std::sqrt(of_error);
+            of_part.energy += of_solution / 2;
             field_.norms.solution += of_solution;
             field_.norms.error += of_error;
             const Tetrahedron& corners = space_.parts()[p].mesh.tets[t];

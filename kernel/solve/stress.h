@@ -13,6 +13,7 @@ struct PartStress {
     std::vector<SymmetricTensor> of_tet;     ///< #T; the mean over the tetrahedron
     std::vector<SymmetricTensor> at_vertex;  ///< #V; mean over the cells around with the same material, by volume
     std::vector<double> error;               ///< #T; estimate of the error in the energy norm
+    double energy = 0;                       ///< of the strain, of the whole part
 };
 
 /// Norms of the whole mesh.

@@ -34,6 +34,7 @@ void read_node(const Json& node, Tree& tree) {
     TreeRow& row = tree.at(node.at("id").get<NodeId>());
     row.state = node.at("children").empty() ? NodeState::waiting : NodeState::divided;
     row.leaves = node.at("leaves").get<std::int32_t>();
+    row.regions = node.value("regions", 1);
     row.vertices = node.at("vertices").get<std::int64_t>();
     row.facets = node.at("faces").get<std::int64_t>();
     row.volume = number(node, "volume");
@@ -53,6 +54,7 @@ void read_part_row(const Json& part, bool meshed, Tree& tree) {
     row.volume = number(part, "surface_volume");
     row.load = number(part, "load");
     row.rank = part.at("rank").get<std::int32_t>();
+    row.region = part.value("region", -1);
     if (!meshed) return;
     row.tets = part.at("tets").get<std::int64_t>();
     row.seconds = number(part, "seconds");
@@ -105,6 +107,8 @@ RunReportFile report_from_json(const Json& json) {
     report.input_facets = input.at("faces").get<std::int64_t>();
     report.input_vertices = input.at("vertices").get<std::int64_t>();
     report.remeshed = input.contains("remeshing");
+    for (const Json& region : input.value("regions", Json::array()))
+        report.region_names.push_back(path_of_text(region.at("name").get<std::string>()));
     report.volume = number(input, "volume");
     for (const Json& note : input.value("notes", Json::array())) report.notes.push_back(note.get<std::string>());
     for (const Json& node : json.at("tree")) read_node(node, report.tree);

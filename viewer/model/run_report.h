@@ -15,7 +15,8 @@ struct RunReportFile {
     Tree tree;
     RunOptions options;  ///< with the input's path
     std::int64_t input_facets = 0, input_vertices = 0;
-    bool remeshed = false;  ///< the surface that was cut is not that of the file
+    std::vector<std::string> region_names;  ///< of several
+    bool remeshed = false;                  ///< the surface that was cut is not that of the file
     double volume = 0;
     double seconds = 0;                          ///< of the whole run
     double cut_seconds = -1, mesh_seconds = -1;  ///< as in Document

@@ -211,6 +211,7 @@ void Session::Impl::check_soup_in_background() {
 void Session::Impl::describe_trace_input(const Trace& trace) {
     document_.box = box_of(trace.surface.vertices);
     document_.patch_names = trace.patch_names;
+    document_.region_names = trace.region_names;
     document_.input_vertices = static_cast<std::int64_t>(trace.surface.vertices.size());
     document_.input_facets = static_cast<std::int64_t>(trace.surface.facets.size());
     document_.volume = enclosed_volume(trace.surface.vertices, trace.surface.facets);
@@ -248,6 +249,7 @@ void Session::Impl::complete_from_report(OpenedRun run) {
     document_.tree = std::move(report.tree);
     document_.options = report.options;
     document_.histograms = std::move(report.histograms);
+    document_.region_names = std::move(report.region_names);
     std::erase_if(document_.notes, [&](const std::string& note) {
         const std::optional<OptionText> advice = advised_option(note);
         if (!advice) return false;

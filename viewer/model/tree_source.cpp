@@ -39,7 +39,11 @@ Tree tree_of(const Trace& trace) {
     tree.at(1);
     for (const NodeId root : trace.region_roots) {
         tree.at(root);
-        for (NodeId node = root / 2; node > 0; node /= 2) tree.at(node).state = NodeState::divided;
+        for (NodeId node = root / 2; node > 0; node /= 2) {
+            TreeRow& row = tree.at(node);
+            row.regions += row.state == NodeState::divided ? 1 : 0;
+            row.state = NodeState::divided;
+        }
     }
     for (const Cut& cut : trace.cuts) {
         describe_cut(cut, tree.at(cut.node));
@@ -47,6 +51,9 @@ Tree tree_of(const Trace& trace) {
         tree.at(2 * cut.node);
         tree.at(2 * cut.node + 1);
     }
+    for (std::size_t r = 0; r < trace.region_roots.size(); ++r)
+        for (TreeRow& row : tree.rows)
+            if (lies_below(row.id, trace.region_roots[r])) row.region = static_cast<std::int32_t>(r);
     count_leaves(tree);
     return tree;
 }

@@ -25,6 +25,7 @@ constexpr std::array<Names, color_by_count> color_texts = {{
     {"part", "Part"},
     {"rank", "Rank"},
     {"level", "Level of the tree"},
+    {"region", "Region"},
     {"patch", "Patch"},
     {"deviation", "Deviation"},
     {"size", "Wanted edge length"},

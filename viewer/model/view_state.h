@@ -47,7 +47,8 @@ void snap_to(Clip& clip, const Plane& plane, const Eigen::AlignedBox3d& box);
 enum class ColorBy {
     part,
     rank,
-    level,  ///< of the tree at which its interface was cut; of cells: the level of the part
+    level,   ///< of the tree at which its interface was cut; of cells: the level of the part
+    region,  ///< of several, in which the part lies
     patch,
     deviation,  ///< of a facet: its distance from the surface before or after remeshing
     size,       ///< edge length that the size field asks for

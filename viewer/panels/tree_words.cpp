@@ -63,6 +63,7 @@ ImVec4 color_of(const TreeRow& row, const Palette& colors) {
 std::string word_of(const TreeRow& row, bool running) {
     if (row.state == NodeState::waiting && !running) return "not meshed";
     if (row.leaf()) return name(row.state);
+    if (row.regions > 1) return fmt::format("{} regions", row.regions);
     return row.cut ? in_words(name(row.cut->strategy)) : "cut";
 }
 
@@ -70,6 +71,7 @@ std::string details(const TreeRow& row) {
     Lines lines;
     lines.add("node", static_cast<std::int64_t>(row.id));
     lines.add("state", std::string(name(row.state)));
+    if (row.regions > 1) lines.add("regions", static_cast<std::int64_t>(row.regions));
     if (row.leaves > 1) lines.add("parts below", static_cast<std::int64_t>(row.leaves));
     lines.add("facets", row.facets);
     lines.add("vertices", row.vertices);

@@ -21,6 +21,8 @@ Color SceneBuild::color_of(NodeId part) const {
     switch (state_.color) {
         case ColorBy::rank:
             return row && row->rank >= 0 ? category_color(static_cast<std::size_t>(row->rank)) : colors_.none;
+        case ColorBy::region:
+            return row && row->region >= 0 ? category_color(static_cast<std::size_t>(row->region)) : colors_.none;
         case ColorBy::level:
             return category_color(static_cast<std::size_t>(level_of(part)));
         case ColorBy::part: {
@@ -211,13 +213,17 @@ void SceneBuild::explain_patches() {
 void SceneBuild::explain_parts() {
     std::set<std::int32_t> seen;
     for (const NodeId part : drawn_parts()) {
-        const std::int32_t rank = document_.tree.find(part)->rank;
-        if (state_.color == ColorBy::rank && rank < 0) continue;
-        const std::int32_t value = state_.color == ColorBy::rank ? rank : level_of(part);
+        const TreeRow& row = *document_.tree.find(part);
+        const std::int32_t value = state_.color == ColorBy::rank     ? row.rank
+                                   : state_.color == ColorBy::region ? row.region
+                                                                     : level_of(part);
         if (state_.color == ColorBy::part)
             explain(fmt::format("part {}", part), color_of(part));
-        else if (seen.insert(value).second)
-            explain(fmt::format("{} {}", name(state_.color), value), color_of(part));
+        else if (value >= 0 && seen.insert(value).second)
+            explain(state_.color == ColorBy::region && value < std::ssize(document_.region_names)
+                        ? document_.region_names[static_cast<std::size_t>(value)]
+                        : fmt::format("{} {}", name(state_.color), value),
+                    color_of(part));
     }
 }
 
