@@ -45,7 +45,8 @@ bool contains(const std::vector<UndirectedEdge>& sorted, const UndirectedEdge& e
 
 class CapTriangulator {
  public:
-    CapTriangulator(FaceComplex& complex, const CutOptions& options) : complex_(complex), options_(options) {}
+    CapTriangulator(FaceComplex& complex, const CapEdgeLength& longest_edge)
+        : complex_(complex), longest_edge_(longest_edge) {}
 
     void find_borders();
     void measure_sizes();
@@ -70,7 +71,7 @@ class CapTriangulator {
     bool triangulate_region(std::int32_t region);
 
     FaceComplex& complex_;
-    const CutOptions& options_;
+    const CapEdgeLength& longest_edge_;
     std::vector<Region> regions_;       // ascending
     std::vector<BorderEdge> borders_;   // ascending
     std::vector<UndirectedEdge> hard_;  // border edges held by a face that is no cap, ascending
@@ -163,7 +164,7 @@ void CapTriangulator::divide(const Segment& segment, double from_first, double f
     const double ab = length({a, b}), middle = from_first + ab / 2;
     double size = std::min(first_size + growth * middle, second_size + growth * (length(segment.ends) - middle));
     const Vec3 place = (complex_.point(a) + complex_.point(b)) / 2;
-    size = std::min(size, options_.max_interface_edge(place));
+    size = std::min(size, longest_edge_(cut, place));
     if (ab <= too_long * size) return;
     const std::int32_t m = complex_.add_point(place, cut);
     divide(segment, from_first, first_size, second_size, a, m, cut, between);
@@ -232,8 +233,7 @@ bool CapTriangulator::triangulate_region(std::int32_t region) {
         planar.edges.push_back({local(e[0]), local(e[1])});
         sum += length(e);
     }
-    if (!options_.size.is_empty())
-        planar.max_edge = [&](const Vec2& p) { return options_.max_interface_edge(plane.lift(p, 0)); };
+    planar.max_edge = [&](const Vec2& p) { return longest_edge_(r.cap, plane.lift(p, 0)); };
     planar.least_edge = least_edge * sum / static_cast<double>(edges.size());
     const PlanarTriangulation result = triangulate(planar);
     if (result.refusal != Refusal::none) return false;
@@ -253,8 +253,8 @@ bool CapTriangulator::triangulate_regions() {
 
 }  // namespace
 
-void triangulate_caps(FaceComplex& complex, const CutOptions& options) {
-    CapTriangulator triangulator(complex, options);
+void triangulate_caps(FaceComplex& complex, const CapEdgeLength& longest_edge) {
+    CapTriangulator triangulator(complex, longest_edge);
     triangulator.find_borders();
     triangulator.measure_sizes();
     triangulator.find_passed_vertices();

@@ -17,6 +17,7 @@ namespace {
 struct Branch {
     NodeId id = 1;
     std::int32_t first_leaf = 0, leaves = 1;
+    RegionIndex region;
 };
 
 // Several of them, and the tree above their roots.
@@ -43,7 +44,7 @@ class Decomposer {
         if (listener_ && listener_->cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
     }
     void keep_whole(const Surface& surface, Decomposition& result) const;
-    std::array<double, 2> loads(const Halves& halves) const;
+    static std::array<double, 2> loads(const Halves& halves, const LoadModel& model);
     void tell_listener(const Surface& surface, const Cut& cut);
     void descend_halves(Halves halves, const std::array<Branch, 2>& branches, std::int32_t threads,
                         Decomposition& result);
@@ -71,8 +72,7 @@ void Decomposer::keep_whole(const Surface& surface, Decomposition& result) const
         result.leaves.push_back({node.id, node.first_leaf, node.leaves, node.mass.volume, {}, surface.arrays()});
 }
 
-std::array<double, 2> Decomposer::loads(const Halves& halves) const {
-    const LoadModel model = options_.cut.bisected_load();
+std::array<double, 2> Decomposer::loads(const Halves& halves, const LoadModel& model) {
     const auto load = [&](const Surface& half) {
         double volume = model.needs_volume() ? enclosed_volume(half) : 0;
         if (model.depends_on_place()) volume = model.volume_of(half.arrays(), volume);
@@ -89,7 +89,7 @@ void Decomposer::tell_listener(const Surface& surface, const Cut& cut) {
 
 Decomposition Decomposer::descend(Surface surface, const Branch& branch, std::int32_t threads) {
     end_if_cancelled();
-    const auto [id, first_leaf, leaves] = branch;
+    const auto [id, first_leaf, leaves, region] = branch;
     const MassProperties mass = mass_properties(surface);
     Decomposition result;
     TreeNode& node = result.nodes.emplace_back(describe_node(id, first_leaf, leaves, surface, mass));
@@ -99,7 +99,7 @@ Decomposition Decomposer::descend(Surface surface, const Branch& branch, std::in
         return result;
     }
     const auto [lower_id, upper_id] = children_of(id);
-    const CutOptions cut = options_.cut.of(surface);
+    const CutOptions of_region = options_.cut_in(region), cut = of_region.of(surface);
     const CutPlace place = choose_place(surface, mass, leaves, cut);
     Bisection bisection = bisect(surface, mass, id, place, cut, records_);
     tell_listener(surface, bisection.cut);
@@ -109,9 +109,11 @@ Decomposition Decomposer::descend(Surface surface, const Branch& branch, std::in
         return result;
     }
     surface = Surface();  // the halves hold all that is needed below
-    const std::int32_t below = leaves == 2 ? 1 : leaves_below(loads(bisection.halves), leaves, options_.cut);
+    const std::int32_t below =
+        leaves == 2 ? 1 : leaves_below(loads(bisection.halves, of_region.bisected_load()), leaves, cut);
     add_to_cut_hash(node, std::span(&below, 1));
-    const Branch lower{lower_id, first_leaf, below}, upper{upper_id, first_leaf + below, leaves - below};
+    const Branch lower{lower_id, first_leaf, below, region},
+        upper{upper_id, first_leaf + below, leaves - below, region};
     descend_halves(std::move(bisection.halves), {lower, upper}, threads, result);
     return result;
 }
@@ -142,7 +144,7 @@ Decomposition Decomposer::descend(const Regions& regions, const RegionTree::Node
     const RegionTree& tree = regions.tree;
     if (node.regions == 1) {
         Decomposition branch = descend(regions.complex.surface_of(tree.region(node)),
-                                       {node.id, tree.first_leaf(node), tree.leaves(node)}, threads);
+                                       {node.id, tree.first_leaf(node), tree.leaves(node), tree.region(node)}, threads);
         for (Leaf& leaf : branch.leaves) leaf.region = tree.region(node);
         for (TreeNode& below : branch.nodes) below.region = tree.region(node);
         return branch;
@@ -158,17 +160,23 @@ Decomposition Decomposer::descend(const Regions& regions, const RegionTree::Node
 
 }  // namespace
 
+CutOptions DecomposeOptions::cut_in(RegionIndex region) const {
+    CutOptions options = cut;
+    if (!region_sizes.empty()) options.size = options.load.size = region_sizes.of(region, cut.size);
+    return options;
+}
+
 Decomposition decompose(Surface surface, const DecomposeOptions& options, LeafRange range, CutListener* listener) {
     KERF_CHECK(surface.facet_count() > 0);
     KERF_CHECK(options.parts >= 1 && options.threads >= 1);
-    return Decomposer(options, range, listener).descend(std::move(surface), {1, 0, options.parts}, options.threads);
+    return Decomposer(options, range, listener).descend(std::move(surface), {1, 0, options.parts, {}}, options.threads);
 }
 
 Decomposition decompose(const Complex& complex, const DecomposeOptions& options, LeafRange range,
                         CutListener* listener) {
     if (complex.region_count() == 1) return decompose(complex.surface_of(RegionIndex(0)), options, range, listener);
     KERF_CHECK(options.parts >= complex.region_count() && options.threads >= 1);
-    std::vector<RegionMeasures> measures = measure_regions(complex, options.cut);
+    std::vector<RegionMeasures> measures = measure_regions(complex, options);
     const RegionTree tree(complex, measures, options.parts);
     const Regions regions{complex, std::move(measures), tree};
     Decomposition result = Decomposer(options, range, listener).descend(regions, tree.root(), options.threads);

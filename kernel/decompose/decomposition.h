@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "decompose/tree_node.h"
+#include "size/region_sizes.h"
 #include "surface/complex.h"
 
 namespace kerf {
@@ -19,7 +20,11 @@ struct DecomposeOptions {
     std::int32_t parts = 8;  ///< K >= 1, any whole number
     FacetPolicy facets = FacetPolicy::split;
     CutOptions cut;
+    RegionSizes region_sizes;  ///< of regions that have other sizes than `cut`
     std::int32_t threads = 1;  ///< at most; the result is the same for any number
+
+    /// The options of cuts in a region.
+    CutOptions cut_in(RegionIndex region) const;
 };
 
 /// No part should have fewer facets; a part below twice this number has no contour of edges that is worth it.

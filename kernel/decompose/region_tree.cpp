@@ -87,10 +87,10 @@ std::vector<std::int32_t> share_out(std::span<const RegionMeasures> measures, st
 
 }  // namespace
 
-std::vector<RegionMeasures> measure_regions(const Complex& complex, const CutOptions& options) {
+std::vector<RegionMeasures> measure_regions(const Complex& complex, const DecomposeOptions& options) {
     std::vector<RegionMeasures> all;
     for (const RegionIndex region : ids<RegionIndex>(complex.region_count())) {
-        all.push_back(measure(complex.arrays_of(region), options.bisected_load()));
+        all.push_back(measure(complex.arrays_of(region), options.cut_in(region).bisected_load()));
         if (all.back().volume > all.back().volume_error) continue;
         throw Error(ErrorCode::input,
                     fmt::format("The region '{}' has a volume of {:.6g}. Its facets must enclose some, and be turned "

@@ -4,8 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "decompose/tree_node.h"
-#include "surface/complex.h"
+#include "decompose/decomposition.h"
 
 namespace kerf {
 
@@ -18,7 +17,7 @@ struct RegionMeasures {
 
 /// Of all regions, in their order. Throws Error(input) for a region whose facets enclose no volume, or are turned
 /// inwards. O(n log n), n: facets of the complex.
-std::vector<RegionMeasures> measure_regions(const Complex& complex, const CutOptions& options);
+std::vector<RegionMeasures> measure_regions(const Complex& complex, const DecomposeOptions& options);
 
 /// How the leaves of a tree are shared out to regions, and which nodes lead there.
 ///

@@ -46,7 +46,7 @@ class StraightDivision {
 
 double StraightDivision::load(NodeId id) const {
     const SurfaceArrays part = complex_.part(id).arrays;
-    const LoadModel model = options_.cut.bisected_load();
+    const LoadModel model = options_.cut_in(region_of(id)).bisected_load();
     return model.load(static_cast<double>(part.vertices.size()), static_cast<double>(part.facets.size()),
                       model.volume_of(part, enclosed_volume(part.vertices, part.facets)));
 }
@@ -65,7 +65,8 @@ bool StraightDivision::cut(TreeNode& node) {
     std::vector<CutTry> tries;
     const Surface surface = separated_surface(part.arrays);
     std::optional<StraightCut> made =
-        cut_straight(surface, node.id, fraction_below(node.leaves), options_.cut.of(surface), tries, part.untested);
+        cut_straight(surface, node.id, fraction_below(node.leaves), options_.cut_in(region_of(node.id)).of(surface),
+                     tries, part.untested);
     node.cut_tried = true;
     if (!made) {
         node.tries += static_cast<std::int32_t>(tries.size());
@@ -102,7 +103,9 @@ void StraightDivision::divide(NodeId id) {
 }
 
 void StraightDivision::finish_interfaces() {
-    triangulate_caps(complex_, options_.cut);
+    triangulate_caps(complex_, [&](NodeId cut, const Vec3& place) {
+        return options_.cut_in(region_of(cut)).max_interface_edge(place);
+    });
     for (const auto& [id, vertices] : complex_.assign_keys()) nodes_.at(id).interface_vertices = vertices;
     for (const auto& [id, cap] : measure_caps(complex_)) {
         nodes_.at(id).interface_faces = cap.faces;

@@ -83,7 +83,7 @@ void halve_sides(const std::array<std::vector<std::int32_t>, 3>& sides, std::vec
 
 class FacetDivider {
  public:
-    FacetDivider(const SurfaceArrays& surface, const SizeField& wanted)
+    FacetDivider(const SurfaceArrays& surface, const FacetSizes& wanted)
         : before_(surface), wanted_(wanted), edge_of_corner_(3 * surface.facets.size()) {
         result_.surface.vertices = surface.vertices;
     }
@@ -95,10 +95,10 @@ class FacetDivider {
  private:
     std::vector<std::int32_t> side(std::int32_t corner) const;
     void divide_facet(std::size_t facet);
-    std::vector<Triangle> triangles_of(const Triangle& facet, const std::vector<std::int32_t>& outline);
+    std::vector<Triangle> triangles_of(std::size_t facet, const std::vector<std::int32_t>& outline);
 
     const SurfaceArrays& before_;
-    const SizeField& wanted_;
+    const FacetSizes& wanted_;
     std::vector<std::int32_t> edge_of_corner_;    // 3 #F
     std::vector<std::int32_t> first_point_ = {};  // of each edge, from its smaller end to the other, and one more
     DividedSurface result_;
@@ -109,11 +109,15 @@ void FacetDivider::divide_edges(const CancellationCheck& check_cancelled) {
     const EdgeCorners edges(before_.facets);
     edges.for_each_edge([&](std::int32_t low, const auto& corners) {
         const Vec3 a = before_.vertices[low], b = before_.vertices[corners.front().high];
-        for (const EdgeCorners::Corner& c : corners)
+        std::int32_t finest = wanted_.field_of(static_cast<std::size_t>(corners.front().corner / 3));
+        for (const EdgeCorners::Corner& c : corners) {
             edge_of_corner_[c.corner] = static_cast<std::int32_t>(first_point_.size());
+            finest = std::min(finest, wanted_.field_of(static_cast<std::size_t>(c.corner / 3)));
+        }
         first_point_.push_back(static_cast<std::int32_t>(points.size()));
         check_cancelled.at(first_point_.size());
-        for (const double share : shares_of_pieces(lengths_along(a, b, wanted_))) points.push_back(a + share * (b - a));
+        for (const double share : shares_of_pieces(lengths_along(a, b, wanted_.field(finest))))
+            points.push_back(a + share * (b - a));
     });
     first_point_.push_back(static_cast<std::int32_t>(points.size()));
 }
@@ -130,9 +134,10 @@ std::vector<std::int32_t> FacetDivider::side(std::int32_t corner) const {
 }
 
 // Empty where rounding leaves the outline no inside.
-std::vector<Triangle> FacetDivider::triangles_of(const Triangle& facet, const std::vector<std::int32_t>& outline) {
+std::vector<Triangle> FacetDivider::triangles_of(std::size_t facet, const std::vector<std::int32_t>& outline) {
     std::vector<Vec3>& points = result_.surface.vertices;
-    const Vec3 origin = points[facet[0]], along = points[facet[1]] - origin, to_third = points[facet[2]] - origin;
+    const auto& [a, b, c] = before_.facets[facet];
+    const Vec3 origin = points[a], along = points[b] - origin, to_third = points[c] - origin;
     const Vec3 x = along.normalized(), y = along.cross(to_third).cross(along).normalized();
     if (!x.allFinite() || !y.allFinite()) return {};
     PlanarRegion region;
@@ -141,7 +146,7 @@ std::vector<Triangle> FacetDivider::triangles_of(const Triangle& facet, const st
         region.contour.emplace_back(p.dot(x), p.dot(y));
         region.edges.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>((i + 1) % outline.size())});
     }
-    region.max_edge = [&](const Vec2& p) { return wanted_.at(origin + p.x() * x + p.y() * y); };
+    region.max_edge = [&](const Vec2& p) { return wanted_.of(facet).at(origin + p.x() * x + p.y() * y); };
     PlanarTriangulation planar = triangulate(region);
     if (planar.refusal != Refusal::none) return {};
     const auto first = static_cast<std::int32_t>(points.size()), sides = static_cast<std::int32_t>(outline.size());
@@ -161,7 +166,7 @@ void FacetDivider::divide_facet(std::size_t facet) {
     if (outline.size() == 3)
         triangles = {before_.facets[facet]};
     else
-        triangles = triangles_of(before_.facets[facet], outline);
+        triangles = triangles_of(facet, outline);
     if (triangles.empty()) halve_sides(sides, triangles);
     SurfaceArrays& after = result_.surface;
     result_.kept += triangles.size() == 1;
@@ -192,19 +197,26 @@ DividedSurface FacetDivider::result() && {
 
 }  // namespace
 
-bool has_facets_to_divide(const SurfaceArrays& surface, const SizeField& wanted) {
-    if (wanted.is_empty()) return false;
-    for (const Triangle& t : surface.facets)
-        for (int i = 0; i < 3; ++i) {
-            const std::int32_t a = t[i], b = t[(i + 1) % 3];
-            if (pieces_of(lengths_along(surface.vertices[a], surface.vertices[b], wanted)) > 1) return true;
+bool FacetSizes::is_empty() const {
+    return std::all_of(fields_.begin(), fields_.end(), [](const SizeField& field) { return field.is_empty(); });
+}
+
+bool has_facets_to_divide(const SurfaceArrays& surface, const FacetSizes& all) {
+    if (all.is_empty()) return false;
+    for (std::size_t f = 0; f < surface.facets.size(); ++f)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vec3 &a = surface.vertices[surface.facets[f][i]],
+                       &b = surface.vertices[surface.facets[f][(i + 1) % 3]];
+            if (pieces_of(lengths_along(a, b, all.of(f))) > 1) return true;
         }
     return false;
 }
 
-double forecast_divided_facets(const SurfaceArrays& surface, const SizeField& wanted) {
+double forecast_divided_facets(const SurfaceArrays& surface, const FacetSizes& all) {
     double facets = 0;
-    for (const Triangle& t : surface.facets) {
+    for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+        const Triangle& t = surface.facets[f];
+        const SizeField& wanted = all.of(f);
         const Vec3 centroid = (surface.vertices[t[0]] + surface.vertices[t[1]] + surface.vertices[t[2]]) / 3;
         double density = std::pow(wanted.at(centroid), -2);
         for (const std::int32_t v : t) density += std::pow(wanted.at((centroid + surface.vertices[v]) / 2), -2);
@@ -213,7 +225,7 @@ double forecast_divided_facets(const SurfaceArrays& surface, const SizeField& wa
     return facets;
 }
 
-DividedSurface divide_facets(const SurfaceArrays& surface, const SizeField& wanted,
+DividedSurface divide_facets(const SurfaceArrays& surface, const FacetSizes& wanted,
                              const CancellationCheck& check_cancelled) {
     FacetDivider divider(surface, wanted);
     divider.divide_edges(check_cancelled);

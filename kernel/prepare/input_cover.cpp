@@ -116,18 +116,24 @@ bool has_each_once(Communicator& ranks, const std::vector<char>& divided, const 
     SumOfNumbers wanted, own, there;
     for (std::int64_t side = 0; side < 2 * std::ssize(divided); ++side)
         if (!divided[static_cast<std::size_t>(side / 2)] && sides.has_region(side)) wanted.add(side);
-    bool is_right = true;
     for (const Leaf& leaf : leaves)
         for_each_input_facet(leaf, [&](std::int32_t facet, std::size_t) {
-            is_right &= sides.is_of(facet, leaf.region);
-            if (!divided[facet]) own.add(sides.side_of(facet, leaf.region));
+            if (!divided[facet] && sides.is_of(facet, leaf.region)) own.add(sides.side_of(facet, leaf.region));
         });
-    if (!is_right) own.add(-1);
     for (const SumOfNumbers& of_rank : all_gather(ranks, own)) there.add(of_rank);
     return there == wanted;
 }
 
-// How often each side is there, at most 255, by two bytes a facet from each rank; facets of a wrong region are not.
+// Facets in leaves of regions that they do not bound.
+std::int64_t count_in_wrong_regions(Communicator& ranks, const SidesOfFacets& sides, const std::vector<Leaf>& leaves) {
+    std::int64_t own = 0, all = 0;
+    for (const Leaf& leaf : leaves)
+        for_each_input_facet(leaf, [&](std::int32_t facet, std::size_t) { own += !sides.is_of(facet, leaf.region); });
+    for (const std::int64_t of_rank : all_gather(ranks, own)) all += of_rank;
+    return all;
+}
+
+// How often each side is there, at most 255, by two bytes a facet from each rank; facets in wrong regions are not.
 std::int64_t count_not_there_once(Communicator& ranks, const std::vector<char>& divided, const SidesOfFacets& sides,
                                   const std::vector<Leaf>& leaves) {
     std::vector<std::uint8_t> own(2 * divided.size(), 0);
@@ -155,8 +161,9 @@ std::int64_t count_missing_input_facets(Communicator& ranks, std::int64_t facets
                               [](const DividedFacet& a, const DividedFacet& b) { return a.facet < b.facet; }));
     for (const DividedFacet& facet : own.divided_facets) divided[facet.facet] = 1;
     const SidesOfFacets sides(sides_of_facets);
-    const std::int64_t missing =
-        has_each_once(ranks, divided, sides, own.leaves) ? 0 : count_not_there_once(ranks, divided, sides, own.leaves);
+    std::int64_t missing = count_in_wrong_regions(ranks, sides, own.leaves);
+    if (!has_each_once(ranks, divided, sides, own.leaves))
+        missing += count_not_there_once(ranks, divided, sides, own.leaves);
     return missing + count_uncovered(own.divided_facets, sides, gather_pieces(ranks, divided, sides, own.leaves));
 }
 

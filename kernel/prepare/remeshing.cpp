@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,7 @@
 #include "prepare/size_reader.h"
 #include "prepare/slivers.h"
 #include "remesh/remesh.h"
+#include "size/region_sizes.h"
 #include "surface/mass_properties.h"
 
 namespace kerf {
@@ -49,6 +51,33 @@ SizeField wanted_lengths(const RunOptions& options, const SurfaceArrays& surface
     sizes.growth = 0;
     return sizes.depends_on_place() ? read_size_field(sizes, surface, input.patch_names)
                                     : SizeField(sizes.constant_max_volume());
+}
+
+// The same on facets, of which those of a region may have a size of its own; of a wall the smaller one counts.
+FacetSizes wanted_on_facets(const RunOptions& options, const SurfaceArrays& surface, const Input& input) {
+    const SizeField all = wanted_lengths(options, surface, input);
+    const std::vector<double> volumes = options.sizes.max_volumes_of_regions(input.complex.region_names());
+    if (volumes.empty()) return all;
+    const RegionSizes sizes(volumes);
+    const auto regions = static_cast<std::int32_t>(volumes.size());
+    std::vector<std::int32_t> order(volumes.size()), place(volumes.size());  // the finest first
+    std::iota(order.begin(), order.end(), 0);
+    const auto volume_of = [&](std::int32_t r) { return sizes.of(RegionIndex(r), all).constant_volume(); };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::int32_t a, std::int32_t b) { return volume_of(a) < volume_of(b); });
+    std::vector<SizeField> fields;
+    for (std::int32_t i = 0; i < regions; ++i) {
+        place[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])] = i;
+        fields.push_back(sizes.of(RegionIndex(order[static_cast<std::size_t>(i)]), all));
+    }
+    std::vector<std::int32_t> field;
+    for (const FacetSides& sides : input.complex.all_sides()) {
+        const auto place_of = [&](std::int32_t region) {
+            return region < 0 ? regions - 1 : place[static_cast<std::size_t>(region)];
+        };
+        field.push_back(std::min(place_of(sides.back), place_of(sides.front)));
+    }
+    return {std::move(fields), std::move(field)};
 }
 
 // Edge where nothing else is wanted.
@@ -140,7 +169,7 @@ Complex with_pieces(const Complex& before, DividedSurface divided) {
 
 Input divided(Input input, const SurfaceArrays& before, const RunOptions& options, StageListener* listener,
               int processes) {
-    const SizeField wanted = wanted_lengths(options, before, input);
+    const FacetSizes wanted = wanted_on_facets(options, before, input);
     check_memory(forecast_divided_facets(before, wanted), options, longest_edge(options, input.diagonal), processes);
     DividedSurface result = divide_facets(before, wanted, CancellationCheck(step_counter(listener)));
 
@@ -165,7 +194,7 @@ SurfaceChange change_of(const Input& input, const SurfaceArrays& surface, const 
                                 input.path, input.complex.region_count()));
     if (is_one && (options.remeshing == Remeshing::always || input.is_cad || slivers.spoil_cells()))
         return SurfaceChange::remeshing;
-    if (options.sizes.cells > 0 || has_facets_to_divide(surface, wanted_lengths(options, surface, input)))
+    if (options.sizes.cells > 0 || has_facets_to_divide(surface, wanted_on_facets(options, surface, input)))
         return SurfaceChange::division;
     return SurfaceChange::none;
 }
@@ -201,7 +230,7 @@ double forecast_changed_facets(const Input& input, const RunOptions& options) {
         case SurfaceChange::none:
             break;
         case SurfaceChange::division:
-            return forecast_divided_facets(surface, wanted_lengths(options, surface, input));
+            return forecast_divided_facets(surface, wanted_on_facets(options, surface, input));
         case SurfaceChange::remeshing:
             return forecast_facets(surface, remesh_options(input, surface, options));
     }

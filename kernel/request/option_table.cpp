@@ -155,6 +155,8 @@ constexpr OptionRow<SizeOptions> size_rows[] = {
      place<&SizeOptions::inside>},
     {"size-on", "", option_group::sizes, "NAME=H",
      "Edge length H on a patch of the input, as NAME=H, or with % NAME=2%. Repeatable.", place<&SizeOptions::on>},
+    {"size-region", "", option_group::sizes, "NAME=H",
+     "Edge length H in a region, in place of --size, as NAME=H. Repeatable.", place<&SizeOptions::in_region>},
     {"size-near", "", option_group::sizes, "NAME=H:D",
      "Edge length H up to the distance D from a patch, as NAME=H:D. Repeatable.", place<&SizeOptions::near>},
     {"growth", "", option_group::sizes, "G",

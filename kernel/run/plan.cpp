@@ -49,7 +49,16 @@ RunOptions sized_on(const Input& input, RunOptions options) {
     return with_sizes_on(std::move(options), input.complex.arrays(), input.patch_names);
 }
 
+// In units of what is wanted where no region has a size of its own.
 double sized_volume_of(const Input& input, const RunOptions& options) {
+    const RegionSizes& sizes = options.decompose.region_sizes;
+    const SizeField& all = options.mesher.size;
+    if (!sizes.empty() && !all.is_empty()) {
+        double sum = 0;
+        for (std::size_t r = 0; r < input.regions.size(); ++r)
+            sum += input.regions[r].volume * all.reference_volume() / sizes.of(RegionIndex(r), all).reference_volume();
+        return sum;
+    }
     const SurfaceArrays surface = options.mesher.size.is_constant() ? SurfaceArrays() : input.complex.arrays();
     return sized_volume(options.mesher.size, surface.vertices, surface.facets, input.volume);
 }
@@ -103,6 +112,8 @@ RunPlan plan_run(const RunOptions& request, int cores_of_rank, Communicator& ran
         plan.found_size = sized.found;
         if (keeps_most_facets(input)) sized.options = with_fineness_at_kept_facets(std::move(sized.options));
         RunOptions options = sized_on(input, std::move(sized.options));
+        options.decompose.region_sizes =
+            RegionSizes(options.sizes.max_volumes_of_regions(input.complex.region_names()));
         require_patches(parse_patch_types(options.patch_types), input.patch_names);
         if (ranks.rank() != 0) return options;
         const double volume = sized_volume_of(input, options);

@@ -20,7 +20,8 @@ namespace {
 // What is known of a part before it is meshed.
 PartReport describe_part(const PartJob& job, double volume, int rank, double half_thickness,
                          const RunOptions& options) {
-    const CutOptions& cut = options.decompose.cut;
+    const CutOptions cut = options.decompose.cut_in(job.region);
+    const SizeField size = options.decompose.region_sizes.of(job.region, options.mesher.size);
     PartReport part;
     part.id = job.part;
     part.rank = rank;
@@ -40,8 +41,8 @@ PartReport describe_part(const PartJob& job, double volume, int rank, double hal
         if (job.neighbour[f] >= 0) part.neighbours.push_back(job.neighbour[f]);
         if (is_of_input(job.surface.facet_key[f])) {
             part.walls_of_others += !is_listed_triangle(job.surface.patch[f], job.part, job.neighbour[f]);
-            part.tets_at_facets += tets_at_facet(shape_of_facet(p[t[0]], p[t[1]], p[t[2]]),
-                                                 options.mesher.size.at(centroid), half_thickness, options.mesher);
+            part.tets_at_facets += tets_at_facet(shape_of_facet(p[t[0]], p[t[1]], p[t[2]]), size.at(centroid),
+                                                 half_thickness, options.mesher);
             continue;
         }
         ++part.interface_facets;
@@ -50,6 +51,8 @@ PartReport describe_part(const PartJob& job, double volume, int rank, double hal
         part.interface_in_squared_edges += area / (edge * edge);
     }
     part.sized_volume = sized_volume(cut.size, job.surface.vertices, job.surface.facets, volume);
+    if (!size.is_empty() && !options.mesher.size.is_empty())
+        part.sized_volume *= options.mesher.size.reference_volume() / size.reference_volume();
     const bool is_sized = cut.load.depends_on_place();
     part.load = cut.load.load(static_cast<double>(part.surface_vertices), static_cast<double>(part.surface_facets),
                               is_sized ? part.sized_volume : volume);

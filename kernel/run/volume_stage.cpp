@@ -129,7 +129,7 @@ void VolumeStage::hand_over(const PartJob& job, PartReport& part) {
     const std::string journal = folder_.journal_file(part.id), file = folder_.stored_part_file(part.id);
     const std::string vtu_file = folder_.part_file(part.id);
     MesherOptions mesher = plan_.options.mesher;
-    mesher.size = mesher.size.within(part.box());
+    mesher.size = plan_.options.decompose.region_sizes.of(part.region, mesher.size).within(part.box());
     part.job_hash = hash_of_job(job, mesher, plan_.options.attempts, plan_.worker_hash);
     std::error_code ignored;
     if (std::filesystem::exists(journal, ignored) && !std::filesystem::exists(file, ignored))

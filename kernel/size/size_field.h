@@ -70,6 +70,8 @@ class SizeField {
     /// max_volume_at() where the field is smallest: of a constant field, everywhere. 0: nothing is asked. Volumes are
     /// told in such units where their tetrahedra are counted, see sized_volume().
     double reference_volume() const;
+    /// Largest volume by the constant alone; infinity if there is none.
+    double constant_volume() const { return max_volume_ > 0 ? max_volume_ : infinity; }
     /// Largest change of at() by distance.
     double growth() const { return sources_ ? edge_factor_ * sources_->growth : 0; }
 

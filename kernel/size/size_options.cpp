@@ -21,6 +21,7 @@ constexpr double least_told_rel = 1e-4;  // of the diagonal: sizes that follow f
 constexpr const char* form_of_solids =
     "box:x0,y0,z0,x1,y1,z1=H, sphere:x,y,z,r=H or cylinder:x0,y0,z0,x1,y1,z1,r=H, such as sphere:0,0,0,2.5=0.1";
 constexpr const char* form_on_patch = "NAME=H, such as inlet=0.1";
+constexpr const char* form_in_region = "NAME=H, such as bone=0.1";
 constexpr const char* form_near_patch = "NAME=H:D, such as inlet=0.1:2";
 
 [[noreturn]] void refuse_text(const char* option, const std::string& text, const char* form) {
@@ -94,12 +95,14 @@ struct PatchSize {
     Length size, reach;
 };
 
-PatchSize parse_on(const std::string& text) {
+PatchSize parse_named_size(const char* option, const std::string& text, const char* form) {
     const Halves halves(text, '=');
     const PatchSize wanted{halves.before, size_in(halves.behind), 0};
-    if (wanted.name.empty() || wanted.size.number() == 0) refuse_text("size-on", text, form_on_patch);
+    if (wanted.name.empty() || wanted.size.number() == 0) refuse_text(option, text, form);
     return wanted;
 }
+PatchSize parse_on(const std::string& text) { return parse_named_size("size-on", text, form_on_patch); }
+PatchSize parse_in_region(const std::string& text) { return parse_named_size("size-region", text, form_in_region); }
 
 PatchSize parse_near(const std::string& text) {
     const Halves halves(text, '='), numbers(halves.behind, ':');
@@ -176,6 +179,7 @@ void SizeOptions::check() const {
     for (const std::string& text : inside)
         if (!add_solid(text, ignored)) refuse_text("size-in", text, form_of_solids);
     for (const std::string& text : on) parse_on(text);
+    for (const std::string& text : in_region) parse_in_region(text);
     for (const std::string& text : near) parse_near(text);
 }
 
@@ -192,7 +196,7 @@ void SizeOptions::resolve_lengths(double diagonal) {
         const std::optional<Length> length = length_in(text);
         return length && length->is_percent() ? fmt::format("{}", length->of(diagonal)) : text;
     };
-    for (std::vector<std::string>* texts : {&inside, &on})
+    for (std::vector<std::string>* texts : {&inside, &on, &in_region})
         for (std::string& text : *texts)
             if (const Halves halves(text, '='); !halves.behind.empty())
                 text = halves.before + "=" + resolved(halves.behind);
@@ -205,6 +209,24 @@ void SizeOptions::resolve_lengths(double diagonal) {
 
 double SizeOptions::constant_max_volume() const {
     return max_volume == 0 && size > 0 ? regular_tet_volume(size) : max_volume;
+}
+
+std::vector<double> SizeOptions::max_volumes_of_regions(std::span<const std::string> regions) const {
+    std::vector<double> volumes(in_region.empty() ? 0 : regions.size(), 0);
+    for (const std::string& text : in_region) {
+        const auto [name, wanted, reach] = parse_in_region(text);
+        const auto found = std::find(regions.begin(), regions.end(), name);
+        if (found == regions.end())
+            throw Error(
+                ErrorCode::usage,
+                fmt::format("--size-region names the region '{}', but {}.", name,
+                            regions.empty() ? std::string("the input is one body without regions")
+                                            : fmt::format("those of the input are {}", fmt::join(regions, ", "))));
+        double& volume = volumes[static_cast<std::size_t>(found - regions.begin())];
+        if (volume > 0) throw Error(ErrorCode::usage, fmt::format("--size-region names the region '{}' twice.", name));
+        volume = regular_tet_volume(wanted.number());
+    }
+    return volumes;
 }
 
 SizeField make_size_field(const SizeOptions& options, const SurfaceArrays& surface,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,9 +33,10 @@ struct SizeOptions {
     double max_volume = 0;                 ///< of a tetrahedron everywhere, instead of `size`
     std::int64_t cells = 0;                ///< tetrahedra of the whole mesh: `size` follows (prepare/cells.h)
     Fineness fineness = Fineness::medium;  ///< without say where one of the former three is given
-    std::vector<std::string> inside;  ///< box:x0,y0,z0,x1,y1,z1=H, sphere:x,y,z,r=H, cylinder:x0,y0,z0,x1,y1,z1,r=H
-    std::vector<std::string> on;      ///< NAME=H: on a patch
-    std::vector<std::string> near;    ///< NAME=H:D: up to the distance D from a patch
+    std::vector<std::string> inside;     ///< box:x0,y0,z0,x1,y1,z1=H, sphere:x,y,z,r=H, cylinder:x0,y0,z0,x1,y1,z1,r=H
+    std::vector<std::string> on;         ///< NAME=H: on a patch
+    std::vector<std::string> near;       ///< NAME=H:D: up to the distance D from a patch
+    std::vector<std::string> in_region;  ///< NAME=H: in a region, in place of `size`
     double growth = 0;  ///< of sizes by distance; if given, the lengths of the surface's edges are wanted there, too
     std::string field_file;  ///< a mesh of tetrahedra with a size at every node
     Length chord_error;      ///< see CurvatureSizes
@@ -50,6 +52,9 @@ struct SizeOptions {
     void resolve_lengths(double diagonal);
     /// `max_volume`, or what follows from `size`, a resolved length; 0: none.
     double constant_max_volume() const;
+    /// The same for each of these regions, 0 where `in_region`, of resolved lengths, says nothing; empty if it says
+    /// nothing at all. Throws Error(usage) for a region that is none of them, or is named twice.
+    std::vector<double> max_volumes_of_regions(std::span<const std::string> regions) const;
     /// Whether anything but a constant is asked for, so that the field follows from the surface and files.
     bool depends_on_place() const {
         return !inside.empty() || !on.empty() || !near.empty() || growth > 0 || !field_file.empty() ||

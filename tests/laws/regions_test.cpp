@@ -62,5 +62,36 @@ TEST_P(SeveralRegions, ObeyEveryLawForAnyNumberOfParts) {
     }
 }
 
+// A wall takes the smaller of the sizes on its sides, and both sides the same triangles.
+TEST(SizesOfRegions, HoldInTheirRegionAndOnItsWalls) {
+    const test::VoxelBody body = test::voxel_body({6, 3, 3}, test::refined([](Cube cube) { return cube[0]; }, 3));
+    Input input = make_input(body.facets.vertices, body.facets.facets, body.sides, body.names, body.facets.patch);
+    RunOptions options;
+    options.sizes.size = 1.5;
+    options.sizes.in_region = {"region_1=0.5"};
+    const test::TemporaryFolder folder;
+    const RunReport report = test::run_parts("", folder.file("out"), 5, input, nullptr, options);
+    test::expect_verified(report, 5);
+    const std::vector<Part> parts = test::read_parts(folder.file("out"));
+    EXPECT_EQ(test::broken_laws(parts, input.complex), "");
+    std::array<double, 2> longest = {0, 0}, tets = {0, 0};
+    for (const Part& part : parts) {
+        const auto region = static_cast<std::size_t>(part.region_of(0).value());
+        tets[region] += static_cast<double>(part.tet_count());
+        for (std::size_t f = 0; f < part.facets.size(); ++f)
+            for (std::size_t i = 0; i < 3 && (part.is_wall(f) || region == 1); ++i) {
+                const Triangle& t = part.facets[f];
+                longest[region] =
+                    std::max(longest[region], (part.mesh.vertices[t[i]] - part.mesh.vertices[t[(i + 1) % 3]]).norm());
+            }
+    }
+    EXPECT_LE(longest[0], 1.0) << "of the wall, where the other region's size is 0.5";
+    EXPECT_LE(longest[1], 1.0);
+    EXPECT_GT(tets[1], 3 * tets[0]);
+    options.sizes.in_region = {"region_2=0.5"};
+    Input again = make_input(body.facets.vertices, body.facets.facets, body.sides, body.names, body.facets.patch);
+    EXPECT_THROW(test::run_parts("", folder.file("again"), 5, again, nullptr, options), Error);
+}
+
 }  // namespace
 }  // namespace kerf

@@ -15,6 +15,7 @@
 #include "support/slice.h"
 #include "support/started_run.h"
 #include "support/temporary_folder.h"
+#include "support/voxel_regions.h"
 #include "support/write_off.h"
 
 namespace kerf {
@@ -96,6 +97,30 @@ TEST_P(MpiRuns, TracesAreTheSameForAnyRanks) {
         if (ranks == 1) expected = bytes;
         EXPECT_FALSE(bytes.empty());
         EXPECT_TRUE(bytes == expected);
+    }
+}
+
+// Ranks that hold regions of their own, and such as share one.
+TEST(MpiRegions, FilesAndTracesAreTheSameForAnyRanksAndWorkers) {
+    const test::TemporaryFolder folder;
+    const std::array<std::int32_t, 3> cubes = {7, 7, 7};
+    test::write_tets(folder.file("grains.mesh"), cubes, test::grains(cubes, 5, 2));
+    for (const char* contour : {"min-cut", "straight"}) {
+        std::map<std::string, std::string> expected;
+        std::string expected_trace;
+        using Shared = std::pair<int, int>;  // ranks, workers of each
+        for (const auto& [ranks, workers] : {Shared{1, 2}, {2, 1}, {3, 2}, {8, 1}}) {
+            SCOPED_TRACE(testing::Message() << contour << ", " << ranks << " ranks");
+            const ChildResult result = run_ranks(
+                ranks, {KERF_PROGRAM, "mesh", folder.file("grains.mesh"), "-o", folder.file("out"), "-n", "13",
+                        "--workers", std::to_string(workers), "--contour", contour, "--trace", folder.file("trace")});
+            ASSERT_EQ(result.exit_code, 0) << result.log;
+            if (ranks == 1) expected = test::result_of_run(folder.file("out"));
+            if (ranks == 1) expected_trace = test::bytes_of_file(folder.file("trace"));
+            EXPECT_TRUE(test::result_of_run(folder.file("out")) == expected);
+            EXPECT_TRUE(test::bytes_of_file(folder.file("trace")) == expected_trace);
+        }
+        EXPECT_EQ(test::run_kerf({"verify", folder.file("out")}).exit_code, 0);
     }
 }
 

@@ -73,10 +73,12 @@ TEST_F(BarOfTwo, PulledHasTheStressOfTheLoadAndTheStrainsOfItsMaterials) {
         for (const PartValues& values : part.values)
             for (std::size_t v = 0; v < part.mesh.vertices.size(); ++v) {
                 const double x = part.mesh.vertices[v].x();
-                if (values.name == "Displacement")
+                if (values.name == "Displacement") {
                     EXPECT_NEAR(values.number(3 * v), is_rubber ? 0.2 * x : 0.6 + 0.002 * (x - 3), 1e-6);
-                if (values.name == "Stress" && values.of == PartValues::Of::points)
+                }
+                if (values.name == "Stress" && values.of == PartValues::Of::points) {
                     EXPECT_NEAR(values.number(6 * v), 2, 1e-5);
+                }
             }
     }
     const auto of_case = nlohmann::json::parse(test::bytes_of_file(own_.file("out/report.json")))["solve"]["cases"][0];

@@ -169,9 +169,10 @@ void RunLaws::check_facets() {
     };
     for (const Part& part : parts_)
         for (std::size_t f = 0; f < part.facets.size(); ++f) {
-            if (part.neighbour[f] >= 0 && part.facet[f] < 0) continue;
-            const Triangle& t = part.facets[f];
             const auto facet = static_cast<std::size_t>(part.facet[f]);
+            const bool is_wall = facet < sides_.size() && sides_[facet].is_wall();
+            if (part.neighbour[f] >= 0 && !is_wall) continue;
+            const Triangle& t = part.facets[f];
             const std::int32_t region = part.region_of(0).value();
             if (facet >= input_.facets.size() || part.patch[f] != input_.patch[facet] ||
                 (region_at(2 * facet) != region && region_at(2 * facet + 1) != region))

@@ -1,6 +1,7 @@
 #include "support/voxel_regions.h"
 
 #include <algorithm>
+#include <fstream>
 #include <map>
 #include <numeric>
 #include <random>
@@ -100,6 +101,36 @@ class VoxelBodyMaker {
 
 VoxelBody voxel_body(std::array<std::int32_t, 3> cubes, const RegionOfCube& region) {
     return VoxelBodyMaker(cubes, region).make();
+}
+
+void write_tets(const std::string& path, std::array<std::int32_t, 3> cubes, const RegionOfCube& region) {
+    const auto vertex = [&](const Cube& place) {
+        return 1 + (place[0] * (cubes[1] + 1) + place[1]) * (cubes[2] + 1) + place[2];
+    };
+    std::string vertices, tets;
+    std::int32_t tet_count = 0;
+    for (std::int32_t x = 0; x <= cubes[0]; ++x)
+        for (std::int32_t y = 0; y <= cubes[1]; ++y)
+            for (std::int32_t z = 0; z <= cubes[2]; ++z) {
+                vertices += fmt::format("{} {} {} 0\n", x, y, z);
+                const bool is_cube = x < cubes[0] && y < cubes[1] && z < cubes[2];
+                const std::int32_t wanted = is_cube ? region({x, y, z}) : -1;
+                if (wanted < 0) continue;
+                // From the lowest corner to the highest one along three edges, in each order.
+                std::array<std::size_t, 3> axes = {0, 1, 2};
+                do {
+                    Cube place = {x, y, z};
+                    tets += fmt::format("{}", vertex(place));
+                    for (const std::size_t axis : axes) {
+                        ++place[axis];
+                        tets += fmt::format(" {}", vertex(place));
+                    }
+                    tets += fmt::format(" {}\n", wanted + 1);
+                    ++tet_count;
+                } while (std::next_permutation(axes.begin(), axes.end()));
+            }
+    std::ofstream(path) << fmt::format("MeshVersionFormatted 2\nDimension 3\nVertices {}\n{}Tetrahedra {}\n{}End\n",
+                                       (cubes[0] + 1) * (cubes[1] + 1) * (cubes[2] + 1), vertices, tet_count, tets);
 }
 
 RegionOfCube refined(RegionOfCube region, std::int32_t n) {

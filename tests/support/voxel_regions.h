@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "surface/complex.h"
@@ -23,6 +24,9 @@ struct VoxelBody {
     std::vector<double> volumes;  ///< of the regions
 };
 VoxelBody voxel_body(std::array<std::int32_t, 3> cubes, const RegionOfCube& region);
+
+/// The cubes as a MEDIT .mesh, six tetrahedra each, of which the reference is the region and 1.
+void write_tets(const std::string& path, std::array<std::int32_t, 3> cubes, const RegionOfCube& region);
 
 /// The grid with each cube divided into n^3, and of n times the size.
 RegionOfCube refined(RegionOfCube region, std::int32_t n);

@@ -13,6 +13,7 @@
 #include "support/assets.h"
 #include "support/decomposition_laws.h"
 #include "support/thread_ranks.h"
+#include "support/voxel_regions.h"
 
 namespace kerf {
 namespace {
@@ -241,6 +242,28 @@ TEST(VertexNumbering, SkipsNodesWithoutACut) {
     EXPECT_EQ(numbering.global_id(make_key(1, 3)), 103);
     EXPECT_EQ(numbering.global_id(make_key(3, 3)), 113);
     EXPECT_EQ(numbering.surface_vertices(), 120);
+}
+
+// Of regions each side of a facet is to be there, in a leaf of the region that lies there.
+TEST(InputCover, CountsSidesOfRegions) {
+    const test::VoxelBody body =
+        test::voxel_body({6, 3, 3}, test::refined([](std::array<std::int32_t, 3> cube) { return cube[0]; }, 3));
+    const Decomposition whole = decompose(test::to_complex(body), test::in_parts(5), {0, 5});
+    const auto missing_after = [&](const std::function<void(Decomposition&, std::vector<FacetSides>&)>& damage) {
+        SingleRank alone;
+        Decomposition damaged = whole;
+        std::vector<FacetSides> sides = body.sides;
+        damage(damaged, sides);
+        const std::int64_t facets = std::ssize(sides);
+        EXPECT_EQ(InterfaceTable(alone, whole.leaves, body.sides).unmatched(), 0);
+        return count_missing_input_facets(alone, facets, damaged, sides);
+    };
+    EXPECT_EQ(missing_after([](auto&, auto&) {}), 0);
+    EXPECT_GT(missing_after([](Decomposition& d, auto&) { d.leaves[0].region = RegionIndex(1); }), 9);
+    EXPECT_EQ(missing_after([](auto&, auto& sides) {
+                  std::find_if(sides.begin(), sides.end(), [](const FacetSides& s) { return s.is_wall(); })->front = -1;
+              }),
+              1);
 }
 
 }  // namespace

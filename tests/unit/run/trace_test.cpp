@@ -183,7 +183,7 @@ TEST_F(TraceFile, ForeignFilesAreRefused) {
     expect_refused(std::string(1000, '\0'), "no trace of Kerf");
     std::string newer = good_;
     ++newer[sizeof(std::uint64_t)];
-    expect_refused(newer, "reads format 5");
+    expect_refused(newer, "reads format 6");
     std::filesystem::remove(path_);
     EXPECT_THROW(read_trace(path_), Error);
 }
@@ -213,7 +213,7 @@ TEST(TraceLayout, NeedsANewVersionWhenItChanges) {
     Trace trace;
     trace.cuts.resize(1);
     trace.cuts[0].tries.resize(1);
-    EXPECT_EQ(to_bytes(trace).size(), 581u) << "raise trace_version in run/trace.cpp, then correct this number";
+    EXPECT_EQ(to_bytes(trace).size(), 605u) << "raise trace_version in run/trace.cpp, then correct this number";
 }
 
 }  // namespace
