@@ -20,8 +20,8 @@ struct DecomposeOptions {
     std::int32_t parts = 8;  ///< K >= 1, any whole number
     FacetPolicy facets = FacetPolicy::split;
     CutOptions cut;
-    RegionSizes region_sizes;  ///< of regions that have other sizes than `cut`
-    std::int32_t threads = 1;  ///< at most; the result is the same for any number
+    std::int32_t threads = 1;       ///< at most; the result is the same for any number
+    RegionSizes region_sizes = {};  ///< of regions that have other sizes than `cut`
 
     /// The options of cuts in a region.
     CutOptions cut_in(RegionIndex region) const;
