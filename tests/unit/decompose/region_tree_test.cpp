@@ -33,8 +33,7 @@ void visit(const RegionTree& tree, const RegionTree::Node& node, std::vector<std
 
 TEST(RegionTree, SharesLeavesOutByLoad) {
     const Complex complex = test::to_complex(bars(6));
-    CutOptions options;
-    options.criterion = Criterion::inertia;
+    const DecomposeOptions options;
     const std::vector<RegionMeasures> measures = measure_regions(complex, options);
     for (std::size_t r = 0; r < measures.size(); ++r)
         EXPECT_NEAR(measures[r].volume, 1.0 + static_cast<double>(r), 1e-12);
