@@ -1,13 +1,14 @@
 // The text format of Medit (.mesh, version 2: numbers of 32 bits, coordinates as doubles), which MMG, ParMmg, FreeFEM
-// and gmsh read. References count from 1: that of a tetrahedron is its body (part/bodies.h), which programs take for
-// its material, that of a triangle its patch, whose names are comments. Which part a tetrahedron is of is not said.
+// and gmsh read. References count from 1: that of a tetrahedron is its material (export/materials.h), that of a
+// triangle its patch; names are comments. Walls between regions are triangles, once each. Which part a tetrahedron is
+// of is not said.
 #include <fmt/format.h>
 
 #include "export/format.h"
+#include "export/materials.h"
 #include "export/text_rows.h"
 #include "export/whole_mesh.h"
 #include "export/word_names.h"
-#include "part/bodies.h"
 
 namespace kerf {
 
@@ -18,6 +19,9 @@ void write_head(const MeshOutline& outline, ExportFile& file) {
     for (std::size_t patch = 0; patch < outline.patch_names.size(); ++patch)
         file.write(
             fmt::format("# reference {} of triangles: {}\n", patch + 1, comment_text(outline.patch_names[patch])));
+    for (std::size_t region = 0; region < outline.region_names.size(); ++region)
+        file.write(
+            fmt::format("# reference {} of tetrahedra: {}\n", region + 1, comment_text(outline.region_names[region])));
 }
 
 void write_vertices(const PartSource& parts, ExportFile& file) {
@@ -32,11 +36,12 @@ void write_vertices(const PartSource& parts, ExportFile& file) {
 
 void write_tetrahedra(const PartSource& parts, ExportFile& file) {
     file.write(fmt::format("Tetrahedra\n{}\n", parts.outline().tets()));
+    const Materials materials(parts);
     for_each_part(parts, PartContent::cells, [&](PartIndex index, const Part& part) {
-        const std::vector<std::int32_t> bodies = parts.bodies().of_tets(index, part);
-        for (std::size_t t = 0; t < bodies.size(); ++t) {
+        const std::vector<std::int32_t> of_tets = materials.of_tets(index, part);
+        for (std::size_t t = 0; t < of_tets.size(); ++t) {
             const auto [a, b, c, d] = global_corners(part, part.mesh.tets[t]);
-            write_row(file, {a + 1, b + 1, c + 1, d + 1, bodies[t] + 1});
+            write_row(file, {a + 1, b + 1, c + 1, d + 1, of_tets[t] + 1});
         }
     });
 }

@@ -1,12 +1,13 @@
-// The files of TetGen (.node, .ele, .face), numbered from 0. The attribute of a tetrahedron is its body
-// (part/bodies.h), from 1; the boundary marker of a face its patch, from 1; faces between parts are not among them.
+// The files of TetGen (.node, .ele, .face), numbered from 0. The attribute of a tetrahedron is its
+// material (export/materials.h), from 1; the boundary marker of a face its patch, from 1. Faces between parts are not
+// among them, but walls between regions are, once each, as TetGen has them.
 #include <fmt/format.h>
 
 #include "export/format.h"
+#include "export/materials.h"
 #include "export/text_rows.h"
 #include "export/whole_mesh.h"
 #include "export/word_names.h"
-#include "part/bodies.h"
 
 namespace kerf {
 
@@ -26,13 +27,17 @@ void write_nodes(const PartSource& parts, ExportFile file) {
 }
 
 void write_elements(const PartSource& parts, ExportFile file) {
-    file.write(fmt::format("{} 4 1\n", parts.outline().tets()));
+    const MeshOutline& outline = parts.outline();
+    const Materials materials(parts);
+    for (std::size_t region = 0; region < outline.region_names.size(); ++region)
+        file.write(fmt::format("# attribute {}: {}\n", region + 1, comment_text(outline.region_names[region])));
+    file.write(fmt::format("{} 4 1\n", outline.tets()));
     std::int64_t number = 0;
     for_each_part(parts, PartContent::cells, [&](PartIndex index, const Part& part) {
-        const std::vector<std::int32_t> bodies = parts.bodies().of_tets(index, part);
-        for (std::size_t t = 0; t < bodies.size(); ++t) {
+        const std::vector<std::int32_t> of_tets = materials.of_tets(index, part);
+        for (std::size_t t = 0; t < of_tets.size(); ++t) {
             const auto [a, b, c, d] = global_corners(part, part.mesh.tets[t]);
-            write_row(file, {number++, a, b, c, d, bodies[t] + 1});
+            write_row(file, {number++, a, b, c, d, of_tets[t] + 1});
         }
     });
     file.close();

@@ -101,21 +101,22 @@ void for_each_part(const PartSource& parts, PartContent content,
 std::vector<std::int64_t> patch_sizes(const PartSource& parts) {
     std::vector<std::int64_t> sizes(parts.outline().patch_names.size(), 0);
     for_each_part(parts, PartContent::surface, [&](PartIndex, const Part& part) {
-        for (const std::int32_t patch : part.patch)
-            if (patch >= 0) ++sizes.at(patch);
+        for (std::size_t f = 0; f < part.facets.size(); ++f)
+            if (part.is_listed(f)) ++sizes.at(part.patch[f]);
     });
     return sizes;
 }
 
 void for_each_patch_triangle(
     const PartSource& parts, std::span<const std::int64_t> sizes,
-    const std::function<void(std::int32_t patch, std::span<const PatchTriangle> triangles)>& take) {
+    const std::function<void(std::int32_t patch, std::span<const PatchTriangle> triangles)>& take, OnPatches wanted) {
     for_each_by_patch<PatchTriangle>(
         sizes,
         [&](const auto& add) {
             for_each_part(parts, PartContent::surface, [&](PartIndex, const Part& part) {
                 for (std::size_t f = 0; f < part.facets.size(); ++f)
-                    if (part.is_listed(f)) add({part.patch[f], global_corners(part, part.facets[f])});
+                    if (part.is_listed(f) && (wanted == OnPatches::all || !part.is_wall(f)))
+                        add({part.patch[f], global_corners(part, part.facets[f])});
             });
         },
         take);

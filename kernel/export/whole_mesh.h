@@ -30,21 +30,28 @@ void for_each_vertex_value(const PartSource& parts, std::size_t k,
 void for_each_part(const PartSource& parts, PartContent content,
                    const std::function<void(PartIndex index, const Part& part)>& take);
 
-/// The number of triangles that all parts have on each patch.
+/// The number of triangles on each patch that all parts list: a wall between two regions counts once.
 std::vector<std::int64_t> patch_sizes(const PartSource& parts);
 
-/// A boundary triangle on the user's surface.
+/// A boundary triangle on the user's surface: of a wall between two regions, that of one side.
 struct PatchTriangle {
     std::int32_t patch;
-    std::array<std::int64_t, 3> corners;  ///< global numbers; seen from outside
+    std::array<std::int64_t, 3> corners;  ///< global numbers; seen from outside of its part
+};
+
+/// Which triangles on patches are asked for.
+enum class OnPatches {
+    all,    ///< that files list (Part::is_listed()); patch_sizes() has their numbers
+    outer,  ///< without the walls between regions; Bodies::boundary_sizes() has their numbers
 };
 
 /// Calls take(patch, triangles) with the triangles of patch after patch, in the order of the tree within a patch; those
-/// of a large patch come in several calls in a row. `sizes`: patch_sizes(). Surfaces are read once for each 1e6
-/// triangles.
+/// of a large patch come in several calls in a row. `sizes`: how many each patch has. Surfaces are read once for each
+/// 1e6 triangles.
 void for_each_patch_triangle(
     const PartSource& parts, std::span<const std::int64_t> sizes,
-    const std::function<void(std::int32_t patch, std::span<const PatchTriangle> triangles)>& take);
+    const std::function<void(std::int32_t patch, std::span<const PatchTriangle> triangles)>& take,
+    OnPatches wanted = OnPatches::all);
 
 /// Throws Error(usage), naming the format, if the mesh has more than `most` vertices, tetrahedra or boundary triangles.
 void require_numbers_fit(const MeshOutline& outline, std::string_view format, std::int64_t most);

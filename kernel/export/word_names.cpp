@@ -42,8 +42,8 @@ std::string to_word(std::string_view name, const WordRules& rules) {
             has_gap = true;
         }
     }
-    if (word.empty()) return "patch";
-    if (!is_letter(word.front()) || has_taken_beginning(word, rules)) word.insert(0, "patch_");
+    if (word.empty()) return rules.kind;
+    if (!is_letter(word.front()) || has_taken_beginning(word, rules)) word.insert(0, rules.kind + "_");
     return word.substr(0, rules.most_characters);
 }
 

@@ -81,10 +81,13 @@ class AllPieces {
 
 Bodies::Bodies(const PartSource& parts) {
     AllPieces all;
+    boundary_sizes_.resize(parts.outline().patch_names.size());
     const Array<PartIndex, PartExtent>& extents = parts.outline().parts;
     for (const PartIndex index : extents.ids()) {
         Part part = parts.load_only(index, PartContent::surface);
         Components pieces = pieces_of(part.mesh.boundary_vertex_count, part.facets);
+        for (std::size_t f = 0; f < part.facets.size(); ++f)
+            if (part.is_on_outer_boundary(f) && part.patch[f] >= 0) ++boundary_sizes_.at(part.patch[f]);
         std::vector<std::int64_t> tets = {extents[index].tets};
         if (pieces.count > 1) {  // several bodies, or voids
             part = parts.load_only(index, PartContent::cells);

@@ -20,12 +20,14 @@ class Bodies {
     std::int32_t count() const { return std::ssize(sizes_); }
     /// Tetrahedra of each body.
     const std::vector<std::int64_t>& sizes() const { return sizes_; }
+    /// Triangles of each patch that bound a body: a wall between two regions lies inside of one.
+    const std::vector<std::int64_t>& boundary_sizes() const { return boundary_sizes_; }
     /// The body of each tetrahedron of a part, with PartContent::cells or all. O(#T).
     std::vector<std::int32_t> of_tets(PartIndex index, const Part& part) const;
 
  private:
     Array<PartIndex, std::vector<std::int32_t>> of_pieces_;  // the bodies of what hangs together in the part
-    std::vector<std::int64_t> sizes_;
+    std::vector<std::int64_t> sizes_, boundary_sizes_;
 };
 
 }  // namespace kerf

@@ -70,6 +70,7 @@ class TwoTets : public PartSource {
         part_.neighbour.assign(8, -1);
         for (std::int64_t v = 0; v < 8; ++v) part_.global_id.push_back(v);
         outline_.parts = {{1, 8, 2, 8, 0}};
+        outline_.patch_names = {"all"};
     }
     const MeshOutline& outline() const override { return outline_; }
     Part load(PartIndex) const override { return part_; }

@@ -256,11 +256,15 @@ class AbaqusReader {
         for (std::size_t i = 0; i < 4; ++i) tet[i] = std::stoll(fields.at(i + 1)) - 1;
         mesh_.tets.push_back(tet);
     }
-    // Every element is in one of BODY_1, BODY_2, ...
+    // Every element is in one of BODY_1, BODY_2, ..., or of the regions of test bodies: REGION_0, REGION_1, ...
     void read_bodies() {
         mesh_.body.assign(mesh_.tets.size(), 0);
-        for (std::int64_t body = 1; element_sets_.contains("BODY_" + std::to_string(body)); ++body)
-            for (const std::int64_t element : element_sets_.at("BODY_" + std::to_string(body))) {
+        const bool has_regions = element_sets_.contains("REGION_0");
+        const auto name_of = [&](std::int64_t body) {
+            return has_regions ? "REGION_" + std::to_string(body - 1) : "BODY_" + std::to_string(body);
+        };
+        for (std::int64_t body = 1; element_sets_.contains(name_of(body)); ++body)
+            for (const std::int64_t element : element_sets_.at(name_of(body))) {
                 std::int64_t& of_element = mesh_.body.at(static_cast<std::size_t>(element));
                 EXPECT_EQ(of_element, 0) << "in one body";
                 of_element = body;
@@ -296,6 +300,7 @@ class VtuReader {
         data_ = bytes_.find(begin) + begin.size();
         EXPECT_TRUE(bytes_.ends_with("\n</AppendedData>\n</VTKFile>\n"));
     }
+    bool has(const std::string& name) const { return bytes_.find(" Name=\"" + name + "\"") < data_; }
     template <class T>
     std::vector<T> values(const std::string& name) {
         const std::size_t element = bytes_.find(" Name=\"" + name + "\"");
@@ -324,6 +329,7 @@ inline MergedMesh read_vtu(const std::string& path) {
     const auto corners = file.values<std::int32_t>("connectivity");
     const auto part = file.values<std::int32_t>("Part"), patch = file.values<std::int32_t>("Patch");
     const auto ids = file.values<std::int64_t>("GlobalVertexId");
+    const auto region = file.has("Region") ? file.values<std::int32_t>("Region") : std::vector<std::int32_t>();
     for (std::size_t v = 0; v < ids.size(); ++v) EXPECT_EQ(ids[v], static_cast<std::int64_t>(v));
     std::size_t begin = 0;
     for (std::size_t cell = 0; cell < types.size(); ++cell) {
@@ -332,6 +338,7 @@ inline MergedMesh read_vtu(const std::string& path) {
         if (types[cell] == 10) {
             mesh.tets.push_back({corner[0], corner[1], corner[2], corner[3]});
             mesh.part.push_back(part[cell]);
+            if (!region.empty()) mesh.body.push_back(region[cell] + 1);
             EXPECT_EQ(patch[cell], -1);
         } else {
             EXPECT_EQ(types[cell], 5);

@@ -1,0 +1,140 @@
+// Regions and the walls between them in every format: as many cells of each, and each wall once or not at all.
+#include <map>
+#include <memory>
+#include <set>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "export/format.h"
+#include "export/hdf5_arrays.h"
+#include "export/merged_readers.h"
+#include "export/msh_reader.h"
+#include "part/joined_parts.h"
+#include "part/run_parts.h"
+#include "support/all_formats.h"
+#include "support/run_in_process.h"
+#include "support/temporary_folder.h"
+#include "support/voxel_regions.h"
+
+namespace kerf::regions_export_test {
+namespace {
+
+using Cube = std::array<std::int32_t, 3>;
+using Sizes = std::vector<std::int64_t>;
+using SizeByName = std::map<std::string, std::int64_t>;
+
+struct RegionsCase {
+    const char* name;
+    Cube cubes;
+    test::RegionOfCube region;
+    std::int32_t parts;
+    std::vector<std::string> names = {};  // those of the test body if empty
+};
+
+// Three that meet at an edge; one whose walls are all that there is of patch 1.
+const std::vector<RegionsCase> cases = {
+    {"three", {2, 2, 1}, [](Cube c) { return c[0] + 2 * c[1] - 1; }, 7},
+    {"one_in_another",
+     {3, 3, 3},
+     [](Cube c) {
+         return c == Cube{1, 1, 1} ? 1 : 0;
+     },
+     5},
+};
+
+// With the formats of the list, or the default. Run once.
+class FinishedRegions {
+ public:
+    explicit FinishedRegions(const RegionsCase& wanted, const std::string& formats = "") {
+        constexpr std::int32_t fineness = 2;
+        const Cube cubes = {fineness * wanted.cubes[0], fineness * wanted.cubes[1], fineness * wanted.cubes[2]};
+        const test::VoxelBody body = test::voxel_body(cubes, test::refined(wanted.region, fineness));
+        Input input = make_input(body.facets.vertices, body.facets.facets, body.sides,
+                                 wanted.names.empty() ? body.names : wanted.names, body.facets.patch);
+        RunOptions options;
+        options.formats = formats;
+        EXPECT_EQ(test::run_parts("", path(), wanted.parts, input, nullptr, options).exit_code, 0);
+        parts_ = std::make_unique<RunParts>(path());
+        EXPECT_EQ(parts_->outline().parts.size(), static_cast<std::size_t>(wanted.parts));
+    }
+    std::string path() const { return folder_.file("out"); }
+    const RunParts& parts() const { return *parts_; }
+
+ private:
+    test::TemporaryFolder folder_;
+    std::unique_ptr<RunParts> parts_;
+};
+
+// Calls check(parts) with the parts of every case as they are, and joined into three pieces and one.
+template <class Check>
+void for_each_source(const Check& check) {
+    static std::map<std::string, std::unique_ptr<FinishedRegions>> runs;
+    for (const RegionsCase& each : cases) {
+        auto& run = runs[each.name];
+        if (!run) run = std::make_unique<FinishedRegions>(each);
+        SCOPED_TRACE(each.name);
+        check(run->parts());
+        for (const std::int32_t pieces : {3, 1}) {
+            SCOPED_TRACE(fmt::format("into {}", pieces));
+            check(JoinedParts(run->parts(), pieces));
+        }
+    }
+}
+
+// What the parts say.
+struct Expected {
+    explicit Expected(const PartSource& parts) : tets(parts.outline().region_names.size(), 0) {
+        for (const PartIndex index : parts.outline().parts.ids()) {
+            const Part part = parts.load(index);
+            for (std::int32_t t = 0; t < part.tet_count(); ++t)
+                ++tets[static_cast<std::size_t>(part.region_of(t).value())];
+            for (std::size_t f = 0; f < part.facets.size(); ++f) {
+                outer += part.is_on_outer_boundary(f);
+                walls += part.is_wall(f);
+            }
+        }
+        EXPECT_EQ(walls % 2, 0);
+        walls /= 2;
+        EXPECT_EQ(outer + walls, parts.outline().patch_facets());
+        EXPECT_EQ(walls > 0, parts.outline().parts.size() > 1);
+    }
+    // Triangles by patch, as formats count them that list walls.
+    Sizes triangles() const { return walls > 0 ? Sizes{outer, walls} : Sizes{outer}; }
+
+    Sizes tets;
+    std::int64_t outer = 0, walls = 0;
+};
+
+template <class Items>
+Sizes sizes_of(const Items& items) {
+    std::map<typename Items::value_type, std::int64_t> counts;
+    for (const auto& item : items) ++counts[item];
+    Sizes sizes;
+    for (const auto& [item, count] : counts) sizes.push_back(count);
+    return sizes;
+}
+
+test::MergedMesh merged(const PartSource& parts, const char* format, test::MergedMesh (*read)(const std::string&)) {
+    const test::TemporaryFolder folder;
+    ExportFiles files(folder.file("out"));
+    find_format(format).write_merged(parts, {}, files, "whole");
+    return read(folder.file("out/whole") + find_format(format).ending);
+}
+
+TEST(Regions, AreTheMaterialsOfMergedFiles) {
+    for_each_source([](const PartSource& parts) {
+        const Expected expected(parts);
+        const auto check = [&](const char* format, test::MergedMesh (*read)(const std::string&)) {
+            SCOPED_TRACE(format);
+            const test::MergedMesh mesh = merged(parts, format, read);
+            EXPECT_EQ(sizes_of(mesh.body), expected.tets);
+            EXPECT_EQ(sizes_of(mesh.patch), expected.triangles());
+        };
+        check("medit", test::read_medit);
+        check("tetgen", test::read_tetgen);
+    });
+}
+
+}  // namespace
+}  // namespace kerf::regions_export_test
