@@ -1,8 +1,9 @@
 // Abaqus input (.inp) as CalculiX reads it, too: nodes, linear tetrahedra, and sets; no materials, no steps. Nodes and
 // elements are numbered from 1.
 //
-// NALL and EALL hold all nodes and elements; BODY_1, BODY_2, ... the elements of the bodies (part/bodies.h), which are
-// what materials are for; SUBDOMAIN_1, SUBDOMAIN_2, ... those of the parts in the order of the tree. For a patch INLET
+// NALL and EALL hold all nodes and elements; BODY_1, BODY_2, ... the elements of the materials (export/materials.h), or
+// sets named by the regions where there are several; SUBDOMAIN_1, SUBDOMAIN_2, ... those of the parts in the order of
+// the tree. The surface of a wall between regions is of elements in the first of the two. For a patch INLET
 // there are the node set INLET, the element-based surface INLET, and the element sets INLET_S1 to INLET_S4 of which it
 // consists: those with the patch at this face. Names are words (export/word_names.h) that differ by more than case. A
 // line is shorter than the 132 characters that old readers see, and a coordinate has no more than the 20 that a reader
@@ -14,10 +15,11 @@
 
 #include "export/by_patch.h"
 #include "export/format.h"
+#include "export/materials.h"
 #include "export/text_rows.h"
+#include "export/wall_sides.h"
 #include "export/whole_mesh.h"
 #include "export/word_names.h"
-#include "part/bodies.h"
 
 namespace kerf {
 
@@ -88,8 +90,8 @@ void write_elements(const PartSource& parts, ExportFile& file) {
     file.write(fmt::format("*ELSET, ELSET=EALL, GENERATE\n1,{},1\n", element));
 }
 
-// An element of a body: for_each_by_patch() takes what has such a number.
-struct BodyElement {
+// An element of a material: for_each_by_patch() takes what has such a number.
+struct MaterialElement {
     std::int32_t patch;
     std::int64_t element;
 };
@@ -103,25 +105,28 @@ void write_list(ExportFile& file, std::span<const std::int64_t> labels) {
     file.write("\n");
 }
 
-void write_body_sets(const PartSource& parts, ExportFile& file) {
-    const Bodies& bodies = parts.bodies();
-    if (bodies.count() == 1)
-        return file.write(fmt::format("*ELSET, ELSET=BODY_1, GENERATE\n1,{},1\n", parts.outline().tets()));
+void write_material_sets(const PartSource& parts, const std::vector<std::string>& names, ExportFile& file) {
+    const Materials materials(parts);
+    if (materials.count() == 1)
+        return file.write(fmt::format("*ELSET, ELSET={}, GENERATE\n1,{},1\n", names[0], parts.outline().tets()));
     const auto visit = [&](const auto& add) {
         for_each_part(parts, PartContent::cells, [&](PartIndex index, const Part& part) {
             std::int64_t element = parts.outline().first_tet(index);
-            for (const std::int32_t body : bodies.of_tets(index, part)) add({body, ++element});
+            for (const std::int32_t material : materials.of_tets(index, part)) add({material, ++element});
         });
     };
     std::int32_t current = -1;
     std::vector<std::int64_t> elements;
-    for_each_by_patch<BodyElement>(bodies.sizes(), visit, [&](std::int32_t body, std::span<const BodyElement> of_body) {
-        if (body != current) file.write(fmt::format("*ELSET, ELSET=BODY_{}\n", body + 1));
-        current = body;
+    const auto take = [&](std::int32_t material, std::span<const MaterialElement> of_material) {
+        if (material != current && materials.are_regions())
+            file.write(fmt::format("** region {}: {}\n", material + 1, comment_text(materials.names()[material])));
+        if (material != current) file.write(fmt::format("*ELSET, ELSET={}\n", names[material]));
+        current = material;
         elements.clear();
-        for (const BodyElement& each : of_body) elements.push_back(each.element);
+        for (const MaterialElement& each : of_material) elements.push_back(each.element);
         write_list(file, elements);
-    });
+    };
+    for_each_by_patch<MaterialElement>(materials.sizes(), visit, take);
 }
 
 // The nodes of each patch, each once, ascending in each piece of a large patch.
@@ -153,11 +158,12 @@ void write_node_sets(const PartSource& parts, const Names& names, ExportFile& fi
 
 // Sets that are named again are continued.
 void write_face_sets(const PartSource& parts, const Names& names, ExportFile& file, std::vector<unsigned>& faces_of) {
+    const WallSides sides(parts);
     const auto visit = [&](const auto& add) {
         for_each_part(parts, PartContent::cells, [&](PartIndex index, const Part& part) {
             const std::int64_t first = parts.outline().first_tet(index) + 1;
             for (std::size_t f = 0; f < part.facets.size(); ++f) {
-                if (!part.is_listed(f)) continue;
+                if (part.is_wall(f) ? !sides.is_first(part, f) : !part.is_listed(f)) continue;
                 const std::int32_t t = part.tet_at_facet[f];
                 const Tetrahedron& tet = part.mesh.tets.at(t);
                 add({part.patch[f], face_of(tet, part.facets[f]), first + t});
@@ -196,13 +202,29 @@ std::vector<std::string> patch_words(const std::vector<std::string>& names) {
                       {.most_characters = longest_name - longest_ending, .ignores_case = true, .taken = {"NALL"}});
 }
 
+// No set has two meanings: regions are called unlike the sets of parts and of the faces of patches.
+std::vector<std::string> material_words(const PartSource& parts, const std::vector<std::string>& patch_words) {
+    const Materials materials(parts);
+    std::vector<std::string> words;
+    if (!materials.are_regions()) {
+        for (std::int32_t body = 0; body < materials.count(); ++body) words.push_back(fmt::format("BODY_{}", body + 1));
+        return words;
+    }
+    WordRules rules{.most_characters = longest_name, .ignores_case = true, .taken = {"EALL"}, .kind = "region"};
+    for (const PartIndex index : parts.outline().parts.ids())
+        rules.taken.push_back(fmt::format("SUBDOMAIN_{}", index.value() + 1));
+    for (const std::string& patch : patch_words)
+        for (int face = 1; face <= 4; ++face) rules.taken.push_back(fmt::format("{}_S{}", patch, face));
+    return word_names(materials.names(), rules);
+}
+
 void write_merged(const PartSource& parts, const MergeOptions&, ExportFiles& files, const std::string& stem) {
     require_numbers_fit(parts.outline(), "abaqus", most_labels);
     const Names names{patch_words(parts.outline().patch_names), patch_sizes(parts)};
     ExportFile file = files.create(stem + ".inp");
     write_nodes(parts, file);
     write_elements(parts, file);
-    write_body_sets(parts, file);
+    write_material_sets(parts, material_words(parts, names.words), file);
     write_node_sets(parts, names, file);
     write_surfaces(parts, names, file);
     file.close();

@@ -133,6 +133,37 @@ TEST(Regions, AreTheMaterialsOfMergedFiles) {
         };
         check("medit", test::read_medit);
         check("tetgen", test::read_tetgen);
+        check("abaqus", test::read_abaqus);
+    });
+}
+
+// Pressure on a wall must not turn round from one part to the next.
+TEST(Regions, SurfacesOfAbaqusLieOnOneSideOfWalls) {
+    for_each_source([](const PartSource& parts) {
+        const test::MergedMesh mesh = merged(parts, "abaqus", test::read_abaqus);
+        std::map<std::set<std::int64_t>, std::vector<std::size_t>> tets_at;
+        for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+            for (std::size_t left_out = 0; left_out < 4; ++left_out) {
+                std::set<std::int64_t> corners(mesh.tets[t].begin(), mesh.tets[t].end());
+                corners.erase(mesh.tets[t][left_out]);
+                tets_at[corners].push_back(t);
+            }
+        std::int64_t walls = 0;
+        for (const test::GlobalTriangle& triangle : mesh.triangles) {
+            const auto at = [&](std::int64_t v) { return mesh.points[static_cast<std::size_t>(v)]; };
+            const Vec3 a = at(triangle[0]), normal = (at(triangle[1]) - a).cross(at(triangle[2]) - a);
+            const auto& tets = tets_at.at({triangle.begin(), triangle.end()});
+            if (tets.size() == 1) continue;
+            ++walls;
+            const auto height = [&](std::size_t t) {
+                double sum = 0;
+                for (const std::int64_t v : mesh.tets[t]) sum += normal.dot(at(v) - a);
+                return sum;
+            };
+            const bool is_first_behind = height(tets[0]) < 0;
+            EXPECT_EQ(mesh.body[tets[0]] < mesh.body[tets[1]], is_first_behind);
+        }
+        EXPECT_EQ(walls, Expected(parts).walls);
     });
 }
 
