@@ -1,6 +1,7 @@
 // SU2's native text format: a marker for every patch that has triangles, named by a word (export/word_names.h), because
-// SU2's lists of markers separate them by commas and blanks. Which part a tetrahedron is of is not said. SU2 counts
-// with 64 bits.
+// SU2's lists of markers separate them by commas and blanks. A marker bounds the zone: walls between regions lie inside
+// of it and are no markers. Which part and which region a tetrahedron is of is not said: a zone of SU2 is a mesh for
+// itself, which would have vertices of its own. SU2 counts with 64 bits.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include "export/whole_mesh.h"
 #include "export/word_names.h"
 #include "io/vtk_cell_types.h"
+#include "part/bodies.h"
 
 namespace kerf {
 
@@ -50,17 +52,18 @@ std::vector<std::string> patch_words(const std::vector<std::string>& names) { re
 void write_markers(const PartSource& parts, ExportFile& file) {
     const std::vector<std::string>& names = parts.outline().patch_names;
     const std::vector<std::string> words = patch_words(names);
-    const std::vector<std::int64_t> sizes = patch_sizes(parts);
+    const std::vector<std::int64_t>& sizes = parts.bodies().boundary_sizes();
     file.write(
         fmt::format("NMARK= {}\n", std::count_if(sizes.begin(), sizes.end(), [](std::int64_t n) { return n > 0; })));
     std::int32_t current = -1;
-    for_each_patch_triangle(parts, sizes, [&](std::int32_t patch, std::span<const PatchTriangle> triangles) {
+    const auto take = [&](std::int32_t patch, std::span<const PatchTriangle> triangles) {
         if (patch != current)
             file.write(fmt::format("% {}\nMARKER_TAG= {}\nMARKER_ELEMS= {}\n", marker_comment(names[patch]),
                                    words[patch], sizes[patch]));
         current = patch;
         for (const auto& [of, corners] : triangles) write_row(file, {vtk_triangle, corners[0], corners[1], corners[2]});
-    });
+    };
+    for_each_patch_triangle(parts, sizes, take, OnPatches::outer);
 }
 
 void write_merged(const PartSource& parts, const MergeOptions&, ExportFiles& files, const std::string& stem) {

@@ -167,5 +167,13 @@ TEST(Regions, SurfacesOfAbaqusLieOnOneSideOfWalls) {
     });
 }
 
+TEST(Regions, WallsAreNoMarkersOfSu2) {
+    for_each_source([](const PartSource& parts) {
+        const test::MergedMesh mesh = merged(parts, "su2", test::read_su2);
+        EXPECT_EQ(static_cast<std::int64_t>(mesh.tets.size()), parts.outline().tets());
+        EXPECT_EQ(sizes_of(mesh.patch), Sizes{Expected(parts).outer});
+    });
+}
+
 }  // namespace
 }  // namespace kerf::regions_export_test
