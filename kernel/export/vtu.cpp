@@ -1,6 +1,6 @@
 // VTK XML: a file a part and one that joins them; or all as one grid, whose cells are the tetrahedra of all parts, then
-// the triangles on patches. The arrays of the grid have the names and values that they have in part files, which are
-// described in part/vtu_writer.h.
+// the triangles on patches, of a wall between regions those of one side. The arrays of the grid have the names and
+// values that they have in part files, which are described in part/vtu_writer.h.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "export/format.h"
+#include "export/wall_sides.h"
 #include "export/whole_mesh.h"
 #include "io/run_folder.h"
 #include "io/vtk_cell_types.h"
@@ -49,6 +50,27 @@ void write_of_facets(const PartSource& parts, std::vector<std::int32_t> Part::*v
     for_each_part(parts, PartContent::surface, [&](PartIndex, const Part& part) {
         for (std::size_t f = 0; f < part.facets.size(); ++f)
             if (part.is_listed(f)) file.value((part.*values)[f]);
+    });
+}
+
+void write_regions(const PartSource& parts, ExportFile& file) {
+    for_each_part(parts, PartContent::cells, [&](PartIndex, const Part& part) {
+        write_computed<std::int32_t>(file, part.tet_count(), [&](std::int64_t t) {
+            return part.region_of(static_cast<std::int32_t>(t)).value();
+        });
+    });
+    for_each_part(parts, PartContent::surface, [&](PartIndex, const Part& part) {
+        for (std::size_t f = 0; f < part.facets.size(); ++f)
+            if (part.is_listed(f)) file.value(region_behind(part, f).value());
+    });
+}
+
+// The bytes of each name and a zero byte.
+GridArray names_array(const char* array, const std::vector<std::string>& names) {
+    std::int64_t bytes = 0;
+    for (const std::string& name : names) bytes += name.size() + 1;
+    return GridArray::of<std::uint8_t>("FieldData", array, 1, bytes, [&names](ExportFile& file) {
+        for (const std::string& name : names) file.write(name.c_str(), name.size() + 1);
     });
 }
 
@@ -103,19 +125,13 @@ Grid grid_of(const PartSource& parts) {
     const MeshOutline& outline = parts.outline();
     const std::int64_t tets = outline.tets(), facets = outline.patch_facets();
     Grid grid{outline.vertices, tets + facets};
-    std::int64_t name_bytes = 0;
-    for (const std::string& name : outline.patch_names) name_bytes += name.size() + 1;
     const auto of_cells = [&](const char* name, std::vector<std::int32_t> Part::*of_facets) {
         return GridArray::of<std::int32_t>("CellData", name, 1, grid.cells, [&parts, of_facets](ExportFile& file) {
             write_of_facets(parts, of_facets, file);
         });
     };
     grid.arrays = {
-        GridArray::of<std::uint8_t>("FieldData", "PatchNames", 1, name_bytes,
-                                    [&](ExportFile& file) {
-                                        for (const std::string& name : outline.patch_names)
-                                            file.write(name.c_str(), name.size() + 1);
-                                    }),
+        names_array("PatchNames", outline.patch_names),
         GridArray::of<std::int64_t>("PointData", "GlobalVertexId", 1, outline.vertices,
                                     [&](ExportFile& file) {
                                         write_computed<std::int64_t>(file, outline.vertices,
@@ -141,6 +157,11 @@ Grid grid_of(const PartSource& parts) {
             write_computed<std::uint8_t>(file, tets + facets,
                                          [=](std::int64_t c) { return c < tets ? vtk_tetra : vtk_triangle; });
         })};
+    if (!outline.region_names.empty()) {
+        grid.add(names_array("RegionNames", outline.region_names));
+        grid.add(GridArray::of<std::int32_t>("CellData", "Region", 1, grid.cells,
+                                             [&parts](ExportFile& file) { write_regions(parts, file); }));
+    }
     for (std::size_t k = 0; k < outline.values.size(); ++k)
         outline.values[k].is_double() ? add_values_of<double>(parts, k, grid) : add_values_of<float>(parts, k, grid);
     return grid;

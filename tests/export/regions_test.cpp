@@ -134,6 +134,7 @@ TEST(Regions, AreTheMaterialsOfMergedFiles) {
         check("medit", test::read_medit);
         check("tetgen", test::read_tetgen);
         check("abaqus", test::read_abaqus);
+        check("vtu", test::read_vtu);
     });
 }
 
@@ -164,6 +165,28 @@ TEST(Regions, SurfacesOfAbaqusLieOnOneSideOfWalls) {
             EXPECT_EQ(mesh.body[tets[0]] < mesh.body[tets[1]], is_first_behind);
         }
         EXPECT_EQ(walls, Expected(parts).walls);
+    });
+}
+
+TEST(Regions, TrianglesOfVtuHaveThoseBehindThem) {
+    for_each_source([](const PartSource& parts) {
+        const test::TemporaryFolder folder;
+        ExportFiles files(folder.file("out"));
+        find_format("vtu").write_merged(parts, {}, files, "whole");
+        test::VtuReader file(folder.file("out/whole.vtu"));
+        std::vector<std::int32_t> wanted;
+        for (const PartIndex index : parts.outline().parts.ids()) {
+            const Part part = parts.load(index);
+            for (std::size_t f = 0; f < part.facets.size(); ++f)
+                if (part.is_listed(f)) wanted.push_back(part.region_of(part.tet_at_facet[f]).value());
+        }
+        const auto regions = file.values<std::int32_t>("Region");
+        ASSERT_EQ(regions.size(), static_cast<std::size_t>(parts.outline().tets()) + wanted.size());
+        EXPECT_TRUE(std::equal(wanted.begin(), wanted.end(), regions.end() - std::ssize(wanted)));
+        std::string names;
+        for (const std::string& name : parts.outline().region_names) names += name + '\0';
+        const auto bytes = file.values<char>("RegionNames");
+        EXPECT_EQ(std::string(bytes.begin(), bytes.end()), names);
     });
 }
 
