@@ -4,8 +4,9 @@
 // Nodes and elements have the same tags in all files. Tags count from 1, numbers in Kerf from 0. Nodes have their
 // global numbers; elements are all tetrahedra, in the order of the parts, and then all triangles on patches. Triangles
 // on interfaces are not written, as Gmsh leaves them out without Mesh.PartitionCreateTopology. A node belongs to its
-// first patch, or else to a volume. Every body (part/bodies.h) is a physical group, since programs take that for the
-// material, and each body of a part a volume of its own.
+// first patch, or else to a volume. Every material (export/materials.h) is a physical group, as programs expect, and
+// what a part has of one a volume of its own. Walls between regions are triangles of their patch, once each; their
+// nodes are on it in both parts.
 #include <algorithm>
 #include <array>
 
@@ -13,10 +14,10 @@
 
 #include "core/error.h"
 #include "export/format.h"
+#include "export/materials.h"
 #include "export/msh_part.h"
 #include "export/msh_writer.h"
 #include "export/whole_mesh.h"
-#include "part/bodies.h"
 
 namespace kerf {
 
@@ -35,7 +36,8 @@ struct MergedVolume {
 struct Whole {
     std::vector<Eigen::AlignedBox3d> surfaces;  // by patch
     std::vector<MergedVolume> volumes;
-    std::size_t blocks = 0;
+    std::size_t blocks = 0;         // of nodes
+    std::size_t without_cells = 0;  // of them
 };
 
 Whole survey(const PartSource& parts, const Tags& tags) {
@@ -45,8 +47,10 @@ Whole survey(const PartSource& parts, const Tags& tags) {
         const PatchPieces pieces = patch_pieces(part);
         for (const PatchPiece& piece : pieces.on_patches) whole.surfaces[piece.patch].extend(piece.box);
         whole.blocks += pieces.on_patches.size();
-        for (const BodyPiece& piece : body_pieces(parts, index, part, {})) {
-            whole.volumes.push_back({tags.merged_volume(index, piece.body), tags.physical_body(piece.body), piece.box});
+        whole.without_cells += pieces_without_facets(pieces);
+        for (const MaterialPiece& piece : material_pieces(parts, index, part, {})) {
+            whole.volumes.push_back(
+                {tags.merged_volume(index, piece.material), tags.physical_material(piece.material), piece.box});
             ++whole.blocks;
         }
     });
@@ -70,7 +74,7 @@ void write_merged_4_1(const PartSource& parts, const Tags& tags, ExportFiles& fi
     const MeshOutline& outline = parts.outline();
     const Whole whole = survey(parts, tags);
     Writer writer(files.create(name), "4.1", files.options().msh_ascii);
-    write_names(writer.file(), tags, outline.patch_names);
+    write_names(writer.file(), tags, outline);
     write_merged_entities(writer, whole);
 
     writer.begin("Nodes");
@@ -79,19 +83,19 @@ void write_merged_4_1(const PartSource& parts, const Tags& tags, ExportFiles& fi
         const PatchPieces pieces = owned_patch_pieces(part);
         for (const PatchPiece& piece : pieces.on_patches)
             writer.nodes(Tags::surface(piece.patch), part, piece.vertices);
-        for (const BodyPiece& piece : body_pieces(parts, index, part, pieces.inside))
-            writer.nodes(tags.merged_volume(index, piece.body), part, piece.inside);
+        for (const MaterialPiece& piece : material_pieces(parts, index, part, pieces.inside))
+            writer.nodes(tags.merged_volume(index, piece.material), part, piece.inside);
     });
     writer.end("Nodes");
 
     const std::int64_t elements = element_count(outline);
     writer.begin("Elements");
-    writer.extent(whole.blocks, elements, {0, elements - 1});
+    writer.extent(whole.blocks - whole.without_cells, elements, {0, elements - 1});
     for_each_part(parts, PartContent::all, [&](PartIndex index, const Part& part) {
         for (const PatchPiece& piece : patch_pieces(part).on_patches)
             writer.triangles(Tags::surface(piece.patch), part, piece, first_triangle(outline, index));
-        for (const BodyPiece& piece : body_pieces(parts, index, part, {}))
-            writer.tets(tags.merged_volume(index, piece.body), part, piece.tets, outline.first_tet(index));
+        for (const MaterialPiece& piece : material_pieces(parts, index, part, {}))
+            writer.tets(tags.merged_volume(index, piece.material), part, piece.tets, outline.first_tet(index));
     });
     writer.end("Elements");
     write_merged_values(parts, writer);
@@ -144,7 +148,7 @@ void write_merged_2_2(const PartSource& parts, const Tags& tags, ExportFiles& fi
                                 "Take MSH 4.1, or the mesh in parts.",
                                 outline.vertices, element_count(outline)));
     Writer writer(files.create(name), "2.2", files.options().msh_ascii);
-    write_names(writer.file(), tags, outline.patch_names);
+    write_names(writer.file(), tags, outline);
 
     writer.file().write(fmt::format("$Nodes\n{}\n", outline.vertices));
     for_each_vertex(parts, [&](std::int64_t first, std::span<const Vec3> points) {
@@ -156,14 +160,15 @@ void write_merged_2_2(const PartSource& parts, const Tags& tags, ExportFiles& fi
     });
     writer.end("Nodes");
 
+    const Materials materials(parts);
     writer.file().write(fmt::format("$Elements\n{}\n", element_count(outline)));
     for_each_part(parts, PartContent::cells, [&](PartIndex index, const Part& part) {
         write_triangles_2_2(writer, part, outline.parts[index], first_triangle(outline, index));
         Elements22 elements(writer, tet_type, part.tet_count());
         std::int64_t number = outline.first_tet(index);
-        const std::vector<std::int32_t> bodies = parts.bodies().of_tets(index, part);
-        for (std::size_t t = 0; t < bodies.size(); ++t)
-            elements.add(number++, tags.physical_body(bodies[t]), tags.merged_volume(index, bodies[t]),
+        const std::vector<std::int32_t> of_tets = materials.of_tets(index, part);
+        for (std::size_t t = 0; t < of_tets.size(); ++t)
+            elements.add(number++, tags.physical_material(of_tets[t]), tags.merged_volume(index, of_tets[t]),
                          global_corners(part, part.mesh.tets[t]));
     });
     writer.end("Elements");
@@ -187,7 +192,7 @@ void write_merged(const PartSource& parts, const MergeOptions& options, ExportFi
 extern const Format msh_format = {.name = "msh",
                                   .help = "Gmsh MSH: gmsh; merged also deal.II, DOLFINx, meshio",
                                   .ending = ".msh",
-                                  .patch_words = msh::names_of_patches,
+                                  .patch_words = msh::readable_names,
                                   .write_part = msh::write_part,
                                   .write_merged = msh::write_merged};
 

@@ -18,12 +18,12 @@ class PartFile {
           part_(part),
           tags_(parts),
           pieces_(patch_pieces(part)),
-          bodies_(body_pieces(parts, index, part, pieces_.inside)),
+          materials_(material_pieces(parts, index, part, pieces_.inside)),
           ghosts_(ghosts_of(parts, part)),
           ghost_volume_(tags_.ghosts_of_part(index)) {}
 
     void write(Writer writer) const {
-        write_names(writer.file(), tags_, part_.patch_names);
+        write_names(writer.file(), tags_, outline_);
         write_entities(writer);
         write_partitioned_entities(writer);
         write_nodes(writer);
@@ -39,11 +39,11 @@ class PartFile {
     // Boxes are those of this part: the whole is not known here.
     void write_entities(Writer& writer) const {
         writer.begin("Entities");
-        writer.counts_of_entities(pieces_.on_patches.size(), bodies_.size());
+        writer.counts_of_entities(pieces_.on_patches.size(), materials_.size());
         for (const PatchPiece& piece : pieces_.on_patches)
             writer.entity(Tags::surface(piece.patch), piece.box, Tags::physical_patch(piece.patch));
-        for (const BodyPiece& piece : bodies_)
-            writer.entity(Tags::whole(piece.body), piece.box, tags_.physical_body(piece.body));
+        for (const MaterialPiece& piece : materials_)
+            writer.entity(Tags::whole(piece.material), piece.box, tags_.physical_material(piece.material));
         writer.end("Entities");
     }
 
@@ -54,17 +54,17 @@ class PartFile {
         writer.size(has_ghosts());
         writer.end_row();
         if (has_ghosts()) writer.row(std::array{ghost_volume_.tag, index_.value() + 1});
-        writer.counts_of_entities(pieces_.on_patches.size(), bodies_.size());
+        writer.counts_of_entities(pieces_.on_patches.size(), materials_.size());
         for (const PatchPiece& piece : pieces_.on_patches)
             writer.entity_of_part(surface_of(piece), Tags::surface(piece.patch), index_, piece.box,
                                   Tags::physical_patch(piece.patch));
-        for (const BodyPiece& piece : bodies_)
-            writer.entity_of_part(volume_of(piece), Tags::whole(piece.body), index_, piece.box,
-                                  tags_.physical_body(piece.body));
+        for (const MaterialPiece& piece : materials_)
+            writer.entity_of_part(volume_of(piece), Tags::whole(piece.material), index_, piece.box,
+                                  tags_.physical_material(piece.material));
         writer.end("PartitionedEntities");
     }
 
-    std::size_t block_count() const { return pieces_.on_patches.size() + bodies_.size() + has_ghosts(); }
+    std::size_t block_count() const { return pieces_.on_patches.size() + materials_.size() + has_ghosts(); }
 
     void write_nodes(Writer& writer) const {
         const auto [smallest, largest] = std::minmax_element(part_.global_id.begin(), part_.global_id.end());
@@ -73,7 +73,7 @@ class PartFile {
         writer.begin("Nodes");
         writer.extent(block_count(), part_.global_id.size() + ghosts_.vertices.size(), numbers);
         for (const PatchPiece& piece : pieces_.on_patches) writer.nodes(surface_of(piece), part_, piece.vertices);
-        for (const BodyPiece& piece : bodies_) writer.nodes(volume_of(piece), part_, piece.inside);
+        for (const MaterialPiece& piece : materials_) writer.nodes(volume_of(piece), part_, piece.inside);
         if (has_ghosts()) writer.nodes(ghost_volume_, ghosts_.vertices);
         writer.end("Nodes");
     }
@@ -85,9 +85,10 @@ class PartFile {
         if (triangles > 0) numbers.add(triangle + triangles - 1);
         for (const GhostCell& cell : ghosts_.cells) numbers.add(cell.number);
         writer.begin("Elements");
-        writer.extent(block_count(), part_.mesh.tets.size() + triangles + ghosts_.cells.size(), numbers);
+        writer.extent(block_count() - pieces_without_facets(pieces_),
+                      part_.mesh.tets.size() + triangles + ghosts_.cells.size(), numbers);
         for (const PatchPiece& piece : pieces_.on_patches) writer.triangles(surface_of(piece), part_, piece, triangle);
-        for (const BodyPiece& piece : bodies_) writer.tets(volume_of(piece), part_, piece.tets, tet);
+        for (const MaterialPiece& piece : materials_) writer.tets(volume_of(piece), part_, piece.tets, tet);
         if (has_ghosts()) writer.tets(ghost_volume_, ghosts_.cells);
         writer.end("Elements");
     }
@@ -107,14 +108,14 @@ class PartFile {
     }
 
     Entity surface_of(const PatchPiece& piece) const { return tags_.surface_of_part(index_, piece.patch); }
-    Entity volume_of(const BodyPiece& piece) const { return tags_.volume_of_part(index_, piece.body); }
+    Entity volume_of(const MaterialPiece& piece) const { return tags_.volume_of_part(index_, piece.material); }
 
     const MeshOutline& outline_;
     PartIndex index_;
     const Part& part_;
     Tags tags_;
     PatchPieces pieces_;
-    std::vector<BodyPiece> bodies_;
+    std::vector<MaterialPiece> materials_;
     Ghosts ghosts_;
     Entity ghost_volume_;
 };

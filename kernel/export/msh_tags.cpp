@@ -7,21 +7,21 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "part/bodies.h"
+#include "export/materials.h"
 
 namespace kerf::msh {
 
 Tags::Tags(const PartSource& source)
     : parts_(source.outline().parts.size()),
       patches_(source.outline().patch_names.size()),
-      bodies_(source.bodies().count()) {
-    const std::int64_t volumes = (std::int64_t{parts_} + 1) * bodies_ + parts_;
+      materials_(Materials(source).count()) {
+    const std::int64_t volumes = (std::int64_t{parts_} + 1) * materials_ + parts_;
     const std::int64_t surfaces = (std::int64_t{parts_} + 1) * patches_;
     if (std::max(volumes, surfaces) >= most_int32)
         throw Error(ErrorCode::usage,
-                    fmt::format("{} patches in {} parts of {} bodies are more than Gmsh's 32-bit tags can tell "
+                    fmt::format("{} patches in {} parts of {} materials are more than Gmsh's 32-bit tags can tell "
                                 "apart. Use fewer parts, or another format.",
-                                patches_, parts_, bodies_));
+                                patches_, parts_, materials_));
 }
 
 std::int64_t first_triangle(const MeshOutline& outline, PartIndex index) {
@@ -43,12 +43,12 @@ std::string readable(std::string name, std::size_t most) {
     return name.substr(0, most);
 }
 
-std::vector<std::string> names_of_patches(const std::vector<std::string>& patch_names) {
+std::vector<std::string> readable_names(const std::vector<std::string>& given_names) {
     std::vector<std::string> names;
     std::set<std::string> used;
-    for (const std::string& given : patch_names) {
+    for (const std::string& given : given_names) {
         std::string name = readable(given, longest_name);
-        for (std::size_t number = names.size() + 1; !used.insert(name).second; number += patch_names.size()) {
+        for (std::size_t number = names.size() + 1; !used.insert(name).second; number += given_names.size()) {
             const std::string suffix = fmt::format(" ({})", number);
             name = readable(given, longest_name - suffix.size()) + suffix;
         }
@@ -57,10 +57,10 @@ std::vector<std::string> names_of_patches(const std::vector<std::string>& patch_
     return names;
 }
 
-std::vector<BodyPiece> body_pieces(const PartSource& parts, PartIndex index, const Part& part,
-                                   const std::vector<std::int32_t>& inside) {
-    const std::vector<std::int32_t> of_tets = parts.bodies().of_tets(index, part);
-    std::map<std::int32_t, BodyPiece> pieces;
+std::vector<MaterialPiece> material_pieces(const PartSource& parts, PartIndex index, const Part& part,
+                                           const std::vector<std::int32_t>& inside) {
+    const std::vector<std::int32_t> of_tets = Materials(parts).of_tets(index, part);
+    std::map<std::int32_t, MaterialPiece> pieces;
     std::vector<std::int32_t> of_vertices(part.mesh.vertices.size(), -1);
     for (std::size_t t = 0; t < of_tets.size(); ++t) {
         pieces[of_tets[t]].tets.push_back(t);
@@ -69,9 +69,9 @@ std::vector<BodyPiece> body_pieces(const PartSource& parts, PartIndex index, con
     for (std::size_t v = 0; v < of_vertices.size(); ++v)
         if (of_vertices[v] >= 0) pieces[of_vertices[v]].box.extend(part.mesh.vertices[v]);
     for (const std::int32_t v : inside) pieces[of_vertices[v]].inside.push_back(v);
-    std::vector<BodyPiece> ordered;
-    for (auto& [body, piece] : pieces) {
-        piece.body = body;
+    std::vector<MaterialPiece> ordered;
+    for (auto& [material, piece] : pieces) {
+        piece.material = material;
         ordered.push_back(std::move(piece));
     }
     return ordered;

@@ -28,26 +28,28 @@ class Tags {
     explicit Tags(const PartSource& source);
 
     static Entity surface(std::int32_t patch) { return {2, patch + 1}; }
-    static Entity whole(std::int32_t body) { return {3, body + 1}; }
+    static Entity whole(std::int32_t material) { return {3, material + 1}; }
     Entity surface_of_part(PartIndex index, std::int32_t patch) const {
         return {2, (index.value() + 1) * patches_ + patch + 1};
     }
-    Entity volume_of_part(PartIndex index, std::int32_t body) const {
-        return {3, (index.value() + 1) * bodies_ + body + 1};
+    Entity volume_of_part(PartIndex index, std::int32_t material) const {
+        return {3, (index.value() + 1) * materials_ + material + 1};
     }
-    Entity ghosts_of_part(PartIndex index) const { return {3, (parts_ + 1) * bodies_ + index.value() + 1}; }
-    /// Merged, the parts are the volumes, for each body that they have something of.
-    Entity merged_volume(PartIndex index, std::int32_t body) const { return {3, index.value() * bodies_ + body + 1}; }
+    Entity ghosts_of_part(PartIndex index) const { return {3, (parts_ + 1) * materials_ + index.value() + 1}; }
+    /// Merged, the parts are the volumes, for each material that they have something of.
+    Entity merged_volume(PartIndex index, std::int32_t material) const {
+        return {3, index.value() * materials_ + material + 1};
+    }
 
     /// Physical tags are different in all dimensions, as Gmsh chooses them itself, and GetDP needs them.
     static std::int32_t physical_patch(std::int32_t patch) { return patch + 1; }
-    std::int32_t physical_body(std::int32_t body) const { return patches_ + body + 1; }
+    std::int32_t physical_material(std::int32_t material) const { return patches_ + material + 1; }
 
     std::int32_t parts() const { return parts_; }
-    std::int32_t bodies() const { return bodies_; }
+    std::int32_t materials() const { return materials_; }
 
  private:
-    std::int32_t parts_, patches_, bodies_;
+    std::int32_t parts_, patches_, materials_;
 };
 
 constexpr std::int64_t tag_of(std::int64_t number) { return number + 1; }
@@ -59,19 +61,19 @@ std::int64_t element_count(const MeshOutline& outline);
 /// The name without what ends a name or a line, and not ending inside of a character that takes several bytes.
 std::string readable(std::string name, std::size_t most);
 
-/// Gmsh has no escapes: quotes become apostrophes. Names that are alike then get the number of their patch.
-std::vector<std::string> names_of_patches(const std::vector<std::string>& patch_names);
+/// Gmsh has no escapes: quotes become apostrophes. Names that are alike then get their number, from 1.
+std::vector<std::string> readable_names(const std::vector<std::string>& names);
 
-/// What a part has of a body.
-struct BodyPiece {
-    std::int32_t body = 0;
+/// What a part has of a material.
+struct MaterialPiece {
+    std::int32_t material = 0;
     std::vector<std::int32_t> tets;    ///< of the part, ascending
     std::vector<std::int32_t> inside;  ///< vertices on no patch
     Eigen::AlignedBox3d box;
 };
 
-/// Ascending by body. `inside`: those vertices that are asked for.
-std::vector<BodyPiece> body_pieces(const PartSource& parts, PartIndex index, const Part& part,
-                                   const std::vector<std::int32_t>& inside);
+/// Ascending by material. `inside`: those vertices that are asked for.
+std::vector<MaterialPiece> material_pieces(const PartSource& parts, PartIndex index, const Part& part,
+                                           const std::vector<std::int32_t>& inside);
 
 }  // namespace kerf::msh

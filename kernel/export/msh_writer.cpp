@@ -50,14 +50,21 @@ void write_rows_of_part(ValueSection& section, const Part& part, std::size_t k, 
 
 }  // namespace
 
-void write_names(ExportFile& file, const Tags& tags, const std::vector<std::string>& patch_names) {
-    file.write(fmt::format("$PhysicalNames\n{}\n", patch_names.size() + tags.bodies()));
-    std::int32_t patch = 0;
-    for (const std::string& name : names_of_patches(patch_names))
-        file.write(fmt::format("2 {} \"{}\"\n", Tags::physical_patch(patch++), name));
-    if (tags.bodies() == 1) file.write(fmt::format("3 {} \"volume\"\n", tags.physical_body(0)));
-    for (std::int32_t body = 0; body < tags.bodies() && tags.bodies() > 1; ++body)
-        file.write(fmt::format("3 {} \"body_{}\"\n", tags.physical_body(body), body + 1));
+void write_names(ExportFile& file, const Tags& tags, const MeshOutline& outline) {
+    // Programs look for groups by name, of whatever dimension: no region is called as a patch is.
+    std::vector<std::string> names = outline.patch_names;
+    names.insert(names.end(), outline.region_names.begin(), outline.region_names.end());
+    names = readable_names(names);
+    const std::int32_t patches = std::ssize(outline.patch_names);
+    file.write(fmt::format("$PhysicalNames\n{}\n", patches + tags.materials()));
+    for (std::int32_t patch = 0; patch < patches; ++patch)
+        file.write(fmt::format("2 {} \"{}\"\n", Tags::physical_patch(patch), names[patch]));
+    for (std::int32_t material = 0; material < tags.materials(); ++material) {
+        const std::string name = !outline.region_names.empty() ? names[patches + material]
+                                 : tags.materials() == 1       ? "volume"
+                                                               : fmt::format("body_{}", material + 1);
+        file.write(fmt::format("3 {} \"{}\"\n", tags.physical_material(material), name));
+    }
     file.write("$EndPhysicalNames\n");
 }
 

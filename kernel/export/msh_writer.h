@@ -94,6 +94,7 @@ class Writer {
         for (const GhostVertex& vertex : vertices) point_row(vertex.point);
     }
     void triangles(const Entity& entity, const Part& part, const PatchPiece& piece, std::int64_t first) {
+        if (piece.facets.empty()) return;
         block(entity, triangle_type, piece.facets.size());
         for (std::size_t i = 0; i < piece.facets.size(); ++i)
             element(first + piece.places[i], global_corners(part, part.facets[piece.facets[i]]));
@@ -148,8 +149,8 @@ class Writer {
     bool is_ascii_, is_in_row_ = false;
 };
 
-/// $PhysicalNames: those of patches and bodies.
-void write_names(ExportFile& file, const Tags& tags, const std::vector<std::string>& patch_names);
+/// $PhysicalNames: those of patches and materials.
+void write_names(ExportFile& file, const Tags& tags, const MeshOutline& outline);
 
 /// Throws Error(usage) for values of a mesh whose tags have more than the 32 bits that $NodeData and $ElementData take.
 void require_tags_fit(const MeshOutline& outline);

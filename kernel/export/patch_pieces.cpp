@@ -6,31 +6,31 @@ namespace kerf {
 
 namespace {
 
-std::vector<PatchPiece> facets_by_patch(const Part& part) {
-    std::vector<PatchPiece> pieces(part.patch_names.size());
+// `is_wanted`: of each vertex.
+PatchPieces pieces_with(const Part& part, const std::vector<bool>& is_wanted) {
+    std::vector<PatchPiece> all(part.patch_names.size());
+    std::vector<std::vector<std::int32_t>> on_patch(all.size());  // triangles, also those that others list
     std::int32_t place = 0;
     for (std::size_t f = 0; f < part.facets.size(); ++f) {
         if (part.patch[f] < 0) continue;
-        PatchPiece& piece = pieces[part.patch[f]];
-        piece.patch = part.patch[f];
-        piece.facets.push_back(f);
-        piece.places.push_back(place++);
+        on_patch[part.patch[f]].push_back(f);
+        if (!part.is_listed(f)) continue;
+        all[part.patch[f]].facets.push_back(f);
+        all[part.patch[f]].places.push_back(place++);
     }
-    std::erase_if(pieces, [](const PatchPiece& piece) { return piece.facets.empty(); });
-    return pieces;
-}
-
-// `is_wanted`: of each vertex.
-PatchPieces pieces_with(const Part& part, const std::vector<bool>& is_wanted) {
-    PatchPieces pieces{facets_by_patch(part), {}, {}};
+    PatchPieces pieces;
     std::vector<bool> is_left = is_wanted;
-    for (PatchPiece& piece : pieces.on_patches)
-        for (const std::int32_t f : piece.facets)
+    for (std::size_t patch = 0; patch < all.size(); ++patch) {
+        if (on_patch[patch].empty()) continue;
+        PatchPiece& piece = pieces.on_patches.emplace_back(std::move(all[patch]));
+        piece.patch = static_cast<std::int32_t>(patch);
+        for (const std::int32_t f : on_patch[patch])
             for (const std::int32_t v : part.facets[f]) {
                 piece.box.extend(part.mesh.vertices[v]);
                 if (is_left[v]) piece.vertices.push_back(v);
                 is_left[v] = false;
             }
+    }
     for (std::size_t v = 0; v < is_left.size(); ++v) {
         pieces.box.extend(part.mesh.vertices[v]);
         if (is_left[v]) pieces.inside.push_back(v);
@@ -39,6 +39,11 @@ PatchPieces pieces_with(const Part& part, const std::vector<bool>& is_wanted) {
 }
 
 }  // namespace
+
+std::int64_t pieces_without_facets(const PatchPieces& pieces) {
+    return std::count_if(pieces.on_patches.begin(), pieces.on_patches.end(),
+                         [](const PatchPiece& piece) { return piece.facets.empty(); });
+}
 
 PatchPieces patch_pieces(const Part& part) {
     return pieces_with(part, std::vector<bool>(part.mesh.vertices.size(), true));

@@ -10,21 +10,25 @@
 
 namespace kerf {
 
-/// The triangles of a part on one patch, and the vertices that count as lying there.
+/// The triangles that a part lists on one patch, and the vertices that count as lying there: those of both sides of a
+/// wall, of which one part lists the triangles.
 struct PatchPiece {
     std::int32_t patch = -1;
     std::vector<std::int32_t> facets;    ///< of the part, ascending
-    std::vector<std::int32_t> places;    ///< of the same among all facets of the part on patches, from 0
+    std::vector<std::int32_t> places;    ///< of the same among all facets that the part lists, from 0
     std::vector<std::int32_t> vertices;  ///< that are on no patch before this one
     Eigen::AlignedBox3d box;             ///< of the triangles
 };
 
 /// Every vertex is listed once: on its first patch, or else inside.
 struct PatchPieces {
-    std::vector<PatchPiece> on_patches;  ///< ascending by patch, none without facets
+    std::vector<PatchPiece> on_patches;  ///< ascending by patch, none that the part does not touch
     std::vector<std::int32_t> inside;    ///< vertices on no patch
     Eigen::AlignedBox3d box;             ///< of the part
 };
+
+/// How many pieces have no triangles.
+std::int64_t pieces_without_facets(const PatchPieces& pieces);
 
 /// O(#V + #F + patches).
 PatchPieces patch_pieces(const Part& part);

@@ -198,5 +198,54 @@ TEST(Regions, WallsAreNoMarkersOfSu2) {
     });
 }
 
+Sizes in_order(const SizeByName& named) {
+    Sizes sizes;
+    for (const auto& [name, size] : named) sizes.push_back(size);
+    return sizes;
+}
+
+void count_msh(const test::MshContent& file, SizeByName& tets, SizeByName& triangles) {
+    for (const auto& [tag, element] : file.elements) {
+        if (file.is_ghost(element.entity)) continue;
+        const std::int32_t physical = file.entities.at(element.entity).physicals.at(0);
+        ++(element.entity[0] == 3 ? tets : triangles)[file.names.at({element.entity[0], physical})];
+    }
+}
+
+TEST(Regions, ArePhysicalVolumesOfGmsh) {
+    for_each_source([](const PartSource& parts) {
+        const Expected expected(parts);
+        const test::TemporaryFolder folder;
+        ExportFiles files(folder.file("out"));
+        const Format& msh = find_format("msh");
+        for (const char* version : {"4.1", "2.2"}) {
+            SizeByName tets, triangles;
+            msh.write_merged(parts, {version}, files, "whole");
+            const test::MshContent file = test::read_msh(folder.file("out/whole.msh"));
+            count_msh(file, tets, triangles);
+            EXPECT_EQ(in_order(tets), expected.tets) << version;
+            EXPECT_EQ(tets.begin()->first, "region_0");
+            EXPECT_EQ(in_order(triangles), expected.triangles()) << version;
+        }
+        write_format(msh, parts, files);
+        SizeByName tets, triangles;
+        for (const PartIndex index : parts.outline().parts.ids()) {
+            const Part part = parts.load(index);
+            const bool is_one = parts.outline().parts.size() == 1;
+            const test::MshContent file = test::read_msh(
+                folder.file(is_one ? "out/mesh.msh" : fmt::format("out/mesh_{}.msh", index.value() + 1)));
+            count_msh(file, tets, triangles);
+            for (std::size_t f = 0; f < part.facets.size(); ++f)
+                for (const std::int32_t v : part.facets[f]) {
+                    if (part.patch[f] < 0) continue;
+                    const std::int64_t id = part.global_id[static_cast<std::size_t>(v)];
+                    EXPECT_EQ(file.nodes.at(id + 1).entity[0], 2) << "on a surface, on both sides of a wall";
+                }
+        }
+        EXPECT_EQ(in_order(tets), expected.tets);
+        EXPECT_EQ(in_order(triangles), expected.triangles());
+    });
+}
+
 }  // namespace
 }  // namespace kerf::regions_export_test
