@@ -10,8 +10,11 @@
 // reconstructParMesh -constant joins the processors along their patches and makes the addressing that reconstructPar
 // asks for; it needs none, so none is written.
 //
+// Walls between regions are faces between cells or processors; a patch that has no other triangles is left out. Every
+// processor lists the regions as cell zones, in the same order, also those that it has no cell of.
+//
 // A patch is named by a word (export/word_names.h) that is not one of OpenFOAM's for the patches between processors;
-// its own name is in a comment, if it is another one.
+// its own name is in a comment, if it is another one. So are zones.
 #include <algorithm>
 #include <filesystem>
 #include <limits>
@@ -21,7 +24,10 @@
 #include "core/check.h"
 #include "core/error.h"
 #include "export/format.h"
+#include "export/materials.h"
+#include "export/text_rows.h"
 #include "export/word_names.h"
+#include "part/bodies.h"
 
 namespace kerf {
 
@@ -152,6 +158,15 @@ Boundary boundary_faces_of(const Part& part, const MeshOutline& outline, std::in
     return boundary;
 }
 
+// Patches without triangles in any part go, those of processors stay.
+void leave_out_walls(const std::vector<std::int64_t>& sizes, std::vector<Patch>& patches) {
+    std::size_t number = 0;
+    std::erase_if(patches, [&](const Patch&) {
+        const std::size_t p = number++;
+        return p < sizes.size() && sizes[p] == 0;
+    });
+}
+
 // ---- Files
 
 // A list of known length that is written an entry at a time.
@@ -260,12 +275,40 @@ void write_boundary(const std::vector<Patch>& patches, std::int32_t processor, E
     file.close();
 }
 
+// As text, so that labels of any size are read.
+void write_zones(const Part& part, const std::vector<std::int32_t>& of_tets, ExportFiles& files,
+                 const std::string& folder) {
+    WordRules rules = word_rules();
+    rules.kind = "region";
+    const std::vector<std::string> words = word_names(part.region_names, rules);
+    std::vector<Labels> cells(words.size());
+    for (std::size_t t = 0; t < of_tets.size(); ++t) cells[of_tets[t]].push_back(static_cast<Label>(t));
+    ExportFile file = files.create(folder + "cellZones");
+    file.write(header("regIOobject", "cellZones", false));
+    file.write(fmt::format("{}\n(\n", words.size()));
+    for (std::size_t zone = 0; zone < words.size(); ++zone) {
+        const std::string& name = part.region_names[zone];
+        if (words[zone] != name) file.write(fmt::format("    // {}\n", comment_text(name)));
+        file.write(fmt::format("    {}\n    {{\n        type            cellZone;\n", words[zone]));
+        file.write(fmt::format("        cellLabels      List<label>\n{}\n(\n", cells[zone].size()));
+        for (const Label cell : cells[zone]) write_row(file, {cell});
+        file.write(");\n    }\n");
+    }
+    file.write(")\n");
+    file.close();
+}
+
 void write_part(const PartSource& parts, PartIndex index, const Part& part, ExportFiles& files) {
     KERF_CHECK(part.mesh.neighbours.size() == part.mesh.tets.size());
     KERF_CHECK(part.tet_at_facet.size() == part.facets.size());
     const MeshOutline& outline = parts.outline();
     const std::string folder = mesh_folder(outline.parts.size(), index.value());
-    const Boundary boundary = boundary_faces_of(part, outline, index.value(), files.options().patch_types);
+    const Materials materials(parts);
+    Boundary boundary = boundary_faces_of(part, outline, index.value(), files.options().patch_types);
+    if (materials.are_regions()) {
+        leave_out_walls(parts.bodies().boundary_sizes(), boundary.patches);
+        write_zones(part, materials.of_tets(index, part), files, folder);
+    }
     write_points(part, files, folder);
     write_faces(part, boundary, files, folder);
     write_boundary(boundary.patches, index.value(), files, folder);

@@ -247,5 +247,65 @@ TEST(Regions, ArePhysicalVolumesOfGmsh) {
     });
 }
 
+// The numbers behind "NAME { type cellZone; cellLabels List<label>", by name, in the order of the file.
+std::vector<std::pair<std::string, Sizes>> read_zones(const std::string& path) {
+    std::string text = test::bytes_of_file(path);
+    EXPECT_NE(text.find("class       regIOobject;"), text.npos);
+    std::istringstream words(text.substr(text.find("\n}\n") + 3));
+    std::size_t count = 0;
+    std::string word;
+    words >> count >> word;
+    std::vector<std::pair<std::string, Sizes>> zones(count);
+    for (auto& [name, cells] : zones) {
+        for (words >> word; word == "//"; words >> word) std::getline(words, word);
+        name = word;
+        for (const char* wanted : {"{", "type", "cellZone;", "cellLabels", "List<label>"}) {
+            words >> word;
+            EXPECT_EQ(word, wanted);
+        }
+        words >> count >> word;
+        cells.resize(count);
+        for (std::int64_t& cell : cells) words >> cell;
+        words >> word;
+        EXPECT_EQ(word, ");");
+        words >> word;
+    }
+    words >> word;
+    EXPECT_EQ(word, ")");
+    return zones;
+}
+
+TEST(Regions, AreCellZonesOfOpenFoam) {
+    for_each_source([](const PartSource& parts) {
+        const Expected expected(parts);
+        const test::TemporaryFolder folder;
+        ExportFiles files(folder.file("out"));
+        write_format(find_format("openfoam"), parts, files);
+        Sizes sizes(expected.tets.size(), 0);
+        std::int64_t outer = 0;
+        for (const PartIndex index : parts.outline().parts.ids()) {
+            const bool is_one = parts.outline().parts.size() == 1;
+            const std::string mesh =
+                folder.file(is_one ? "out" : fmt::format("out/processor{}", index.value())) + "/constant/polyMesh/";
+            const Part part = parts.load(index);
+            const auto zones = read_zones(mesh + "cellZones");
+            ASSERT_EQ(zones.size(), sizes.size());
+            for (std::size_t r = 0; r < zones.size(); ++r) {
+                EXPECT_EQ(zones[r].first, fmt::format("region_{}", r));
+                sizes[r] += std::ssize(zones[r].second);
+                for (const std::int64_t cell : zones[r].second)
+                    EXPECT_EQ(part.region_of(static_cast<std::int32_t>(cell)), RegionIndex(r));
+            }
+            const std::string boundary = test::bytes_of_file(mesh + "boundary");
+            EXPECT_EQ(boundary.find("patch_1"), boundary.npos) << "a patch of walls is none";
+            const std::size_t faces = boundary.find("nFaces", boundary.find("    patch_0\n"));
+            ASSERT_NE(faces, boundary.npos);
+            outer += std::stoll(boundary.substr(faces + 6));
+        }
+        EXPECT_EQ(sizes, expected.tets);
+        EXPECT_EQ(outer, expected.outer);
+    });
+}
+
 }  // namespace
 }  // namespace kerf::regions_export_test
