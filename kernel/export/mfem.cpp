@@ -2,16 +2,20 @@
 // groups of ranks that it shares vertices, edges or faces with, itself alone as the first. All ranks of a group list
 // its entities in the same order, and name the corners of an edge or face in the same order, too: MFEM orients the
 // unknowns of edges and faces by that. Here all are in the order of global numbers. The attribute of a tetrahedron is
-// its body (part/bodies.h), that of a triangle its patch, both from 1. Names of attributes are comments, because only
-// version 1.3 of the format has them, which older releases of MFEM refuse.
+// its material (export/materials.h), that of a triangle its patch, both from 1. Names of attributes are comments,
+// because only version 1.3 of the format has them, which older releases of MFEM refuse.
+//
+// Walls between regions are shared faces and no boundary: what holds on all of the boundary, as the conditions of
+// MFEM's examples do, would hold on them, too, and integrals over it would have one of their two sides. Regions tell
+// where walls are: between cells of two attributes.
 #include <algorithm>
 #include <map>
 
 #include <fmt/format.h>
 
 #include "export/format.h"
+#include "export/materials.h"
 #include "export/whole_mesh.h"
-#include "part/bodies.h"
 
 namespace kerf {
 
@@ -61,29 +65,35 @@ class MfemFile {
     void write_cells() {
         file_.write(fmt::format("\nelements\n{}\n", part_.mesh.tets.size()));
         const std::string tetrahedron = fmt::format(" {} ", mfem_tetrahedron);
-        const std::vector<std::int32_t> bodies = parts_.bodies().of_tets(index_, part_);
-        for (std::size_t t = 0; t < bodies.size(); ++t) {
-            file_.number(std::int64_t{bodies[t]} + 1);
+        const std::vector<std::int32_t> of_tets = Materials(parts_).of_tets(index_, part_);
+        for (std::size_t t = 0; t < of_tets.size(); ++t) {
+            file_.number(std::int64_t{of_tets[t]} + 1);
             file_.write(tetrahedron);
             write_numbers(part_.mesh.tets[t]);
         }
         file_.write("\n");
         write_names();
-        file_.write(fmt::format("boundary\n{}\n", outline_.parts[index_].patch_facets));
+        std::int64_t outer = 0;
+        for (std::size_t f = 0; f < part_.facets.size(); ++f) outer += part_.is_on_outer_boundary(f);
+        file_.write(fmt::format("boundary\n{}\n", outer));
         for (std::size_t f = 0; f < part_.facets.size(); ++f) {
-            if (!part_.is_listed(f)) continue;
+            if (!part_.is_on_outer_boundary(f)) continue;
             file_.write(fmt::format("{} {} ", part_.patch[f] + 1, mfem_triangle));
             write_numbers(part_.facets[f]);
         }
     }
 
     void write_names() {
-        for (std::size_t patch = 0; patch < part_.patch_names.size(); ++patch) {
-            std::string name = part_.patch_names[patch];
-            std::replace_if(
-                name.begin(), name.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-            file_.write(fmt::format("# boundary attribute {}: {}\n", patch + 1, name));
-        }
+        const auto write_all = [&](const char* kind, const std::vector<std::string>& names) {
+            for (std::size_t i = 0; i < names.size(); ++i) {
+                std::string name = names[i];
+                std::replace_if(
+                    name.begin(), name.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+                file_.write(fmt::format("# {} {}: {}\n", kind, i + 1, name));
+            }
+        };
+        write_all("attribute", part_.region_names);
+        write_all("boundary attribute", part_.patch_names);
     }
 
     void write_vertices() {

@@ -307,5 +307,30 @@ TEST(Regions, AreCellZonesOfOpenFoam) {
     });
 }
 
+TEST(Regions, AreAttributesOfMfemAndWallsAreInside) {
+    for_each_source([](const PartSource& parts) {
+        const Expected expected(parts);
+        const test::TemporaryFolder folder;
+        ExportFiles files(folder.file("out"));
+        write_format(find_format("mfem"), parts, files);
+        std::vector<std::int64_t> attributes, patches;
+        for (const PartIndex index : parts.outline().parts.ids()) {
+            std::istringstream text = test::text_of(folder.file(fmt::format("out/mesh.{:06}", index.value())), '#');
+            std::string word;
+            for (const auto& [section, corners, found] :
+                 {std::tuple{"elements", 4, &attributes}, std::tuple{"boundary", 3, &patches}}) {
+                while (text >> word && word != section) {
+                }
+                for (auto count = test::read_number<std::int64_t>(text); count > 0; --count) {
+                    found->push_back(test::read_number<std::int64_t>(text));
+                    for (int skipped = 0; skipped <= corners; ++skipped) text >> word;
+                }
+            }
+        }
+        EXPECT_EQ(sizes_of(attributes), expected.tets);
+        EXPECT_EQ(sizes_of(patches), Sizes{expected.outer});
+    });
+}
+
 }  // namespace
 }  // namespace kerf::regions_export_test
