@@ -1,14 +1,17 @@
 // One HDF5 file with the mesh twice: as VTKHDF 1.0 has it, a piece a part with the numbers of the part, and as one mesh
 // by global numbers, at the places where PETSc's DMPlex looks for it and as an XDMF file describes it to DOLFINx and
-// ParaView. viz/body and viz/patch, which solvers take for tags of cells and facets, count from 1, as in all formats of
-// solvers; VTKHDF's Patch is the array of that name in VTU files, a place among the names from 0. The file is made with
-// all its arrays; then parts write their rows, in any order and from any process.
+// ParaView. viz/body, viz/region (of several) and viz/patch, which solvers take for tags of cells and facets, count
+// from 1, as in all formats of solvers; VTKHDF's Patch and Region are the arrays of these names in VTU files, places
+// among the names from 0. The file is made with all its arrays; then parts write their rows, in any order and from any
+// process.
 #include <algorithm>
 #include <cmath>
 
 #include "export/format.h"
 #include "export/hdf5_arrays.h"
 #include "export/hdf5_file.h"
+#include "export/materials.h"
+#include "export/wall_sides.h"
 #include "export/whole_mesh.h"
 #include "io/vtk_cell_types.h"
 #include "part/bodies.h"
@@ -86,6 +89,7 @@ class Hdf5Piece {
         else
             write_cells<std::int64_t>();
         write_tags();
+        if (!outline_.region_names.empty()) write_regions();
         for (const PartValues& values : part_.values) write_values(values);
     }
 
@@ -211,6 +215,18 @@ class Hdf5Piece {
         patch.flush();
     }
 
+    void write_regions() const {
+        Hdf5Rows<std::int32_t> piece(file_, "VTKHDF/CellData/Region", own_.cells);
+        Hdf5Rows<std::int32_t> whole(file_, "viz/region", outline_.first_tet(index_));
+        for (const std::int32_t of_tet : Materials(parts_).of_tets(index_, part_)) {
+            piece.put(of_tet);
+            whole.put(of_tet + 1);
+        }
+        for_each_patch_facet(part_, [&](std::size_t f) { piece.put(region_behind(part_, f).value()); });
+        piece.flush();
+        whole.flush();
+    }
+
     const Hdf5Bytes& file_;
     const PartSource& parts_;
     const MeshOutline& outline_;
@@ -228,7 +244,8 @@ void make_hdf5(const MeshOutline& outline, ExportFiles& files, const std::string
     content.attributes = {{"VTKHDF", "Version", std::vector<std::int32_t>{1, 0}},
                           {"VTKHDF", "Type", "UnstructuredGrid"},
                           {"viz/topology/cells", "cell_dim", std::vector<std::int32_t>{3}}};  // for DMPlex
-    content.names = {"viz/patch_names", outline.patch_names};
+    content.names = {{"viz/patch_names", outline.patch_names}};
+    if (!outline.region_names.empty()) content.names.push_back({"viz/region_names", outline.region_names});
     make_hdf5_file(files.path_of(stem + ".h5"), content);
     files.add(stem + ".h5");
 }

@@ -65,6 +65,10 @@ std::vector<Hdf5Array> arrays_of(const MeshOutline& outline) {
         {"viz/part", Hdf5Type::int32, tets},
         {"viz/patch", Hdf5Type::int32, facets},
     };
+    if (!outline.region_names.empty()) {
+        arrays.push_back({"VTKHDF/CellData/Region", Hdf5Type::int32, all.cells});
+        arrays.push_back({"viz/region", Hdf5Type::int32, tets});
+    }
     for (const PartValues& values : outline.values) {
         const bool of_points = values.of == PartValues::Of::points;
         const std::int64_t columns = values.components == 1 ? 0 : values.components;

@@ -192,7 +192,7 @@ void make_hdf5_file(const std::string& path, const Hdf5Content& content) {
     Hdf5Creation file(path);
     file.make_groups(content.groups);
     for (const Hdf5Array& array : content.arrays) file.make(array);
-    file.make_names(content.names);
+    for (const Hdf5Names& names : content.names) file.make_names(names);
     for (const Hdf5Attribute& attribute : content.attributes) file.set(attribute);
     file.close();
 }

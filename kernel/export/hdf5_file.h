@@ -35,7 +35,7 @@ struct Hdf5Content {
     std::vector<const char*> groups;
     std::vector<Hdf5Array> arrays;
     std::vector<Hdf5Attribute> attributes;
-    Hdf5Names names;
+    std::vector<Hdf5Names> names;
 };
 
 /// Makes the file with its arrays contiguous, allocated and not filled. The bytes depend on the content alone, not on

@@ -17,21 +17,29 @@ class XdmfText {
 
     std::string text() const {
         std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n";
-        for (std::size_t patch = 0; patch < outline_.patch_names.size(); ++patch)
-            text += fmt::format("    <Information Name=\"patch {}\" Value=\"{}\"/>\n", patch + 1,
-                                xml_text(outline_.patch_names[patch]));
+        text += information("patch", outline_.patch_names) + information("region", outline_.region_names);
         std::string values;
         for (const PartValues& each : outline_.values)
             values += attribute(array_name(each), each.components, each.of == PartValues::Of::points ? "Node" : "Cell",
                                 whole_array_of(each));
         // DOLFINx takes the first attribute for the tags.
-        const std::string tags = attribute("body", 1, "Cell", "viz/body") + attribute("part", 1, "Cell", "viz/part");
+        const bool has_regions = !outline_.region_names.empty();
+        const std::string regions = has_regions ? attribute("region", 1, "Cell", "viz/region") : "";
+        const std::string tags =
+            regions + attribute("body", 1, "Cell", "viz/body") + attribute("part", 1, "Cell", "viz/part");
         text += grid("mesh", "Tetrahedron", 4, "viz/topology/cells", tags + values);
         text += grid("facets", "Triangle", 3, "viz/topology/facets", attribute("patch", 1, "Cell", "viz/patch"));
         return text + "  </Domain>\n</Xdmf>\n";
     }
 
  private:
+    static std::string information(const char* kind, const std::vector<std::string>& names) {
+        std::string text;
+        for (std::size_t i = 0; i < names.size(); ++i)
+            text += fmt::format("    <Information Name=\"{} {}\" Value=\"{}\"/>\n", kind, i + 1, xml_text(names[i]));
+        return text;
+    }
+
     std::string item(const std::string& name) const {
         const auto array =
             std::find_if(arrays_.begin(), arrays_.end(), [&](const Hdf5Array& each) { return each.name == name; });

@@ -332,5 +332,37 @@ TEST(Regions, AreAttributesOfMfemAndWallsAreInside) {
     });
 }
 
+TEST(Regions, AreArraysOfHdf5) {
+    for_each_source([](const PartSource& parts) {
+        const Expected expected(parts);
+        const test::TemporaryFolder folder;
+        ExportFiles files(folder.file("out"));
+        find_format("hdf5").write_merged(parts, {}, files, "whole");
+        const std::string path = folder.file("out/whole.h5"), bytes = test::bytes_of_file(path);
+        const Hdf5Bytes places(path, arrays_of(parts.outline()));
+        const auto counts_in = [&](const char* array, std::int64_t rows, std::int64_t first) {
+            Sizes counts(expected.tets.size(), 0);
+            for (std::int64_t row = 0; row < rows; ++row) {
+                std::int32_t value = -1;
+                std::memcpy(&value, bytes.data() + places.place_of(array, row), sizeof value);
+                ++counts.at(static_cast<std::size_t>(value - first));
+            }
+            return counts;
+        };
+        const std::int64_t tets = parts.outline().tets(), triangles = parts.outline().patch_facets();
+        EXPECT_EQ(counts_in("viz/region", tets, 1), expected.tets);
+        Sizes cells = counts_in("VTKHDF/CellData/Region", tets + triangles, 0);
+        for (const PartIndex index : parts.outline().parts.ids()) {
+            const Part part = parts.load(index);
+            for (std::size_t f = 0; f < part.facets.size(); ++f)
+                if (part.is_listed(f)) --cells[static_cast<std::size_t>(part.region_of(part.tet_at_facet[f]).value())];
+        }
+        EXPECT_EQ(cells, expected.tets);
+        const std::string xdmf = test::bytes_of_file(folder.file("out/whole.xdmf"));
+        EXPECT_NE(xdmf.find("<Information Name=\"region 2\" Value=\"region_1\"/>"), xdmf.npos);
+        EXPECT_LT(xdmf.find("Name=\"region\""), xdmf.find("Name=\"body\"")) << "DOLFINx takes the first";
+    });
+}
+
 }  // namespace
 }  // namespace kerf::regions_export_test
