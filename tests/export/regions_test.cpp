@@ -115,6 +115,12 @@ Sizes sizes_of(const Items& items) {
     return sizes;
 }
 
+Sizes in_order(const SizeByName& named) {
+    Sizes sizes;
+    for (const auto& [name, size] : named) sizes.push_back(size);
+    return sizes;
+}
+
 test::MergedMesh merged(const PartSource& parts, const char* format, test::MergedMesh (*read)(const std::string&)) {
     const test::TemporaryFolder folder;
     ExportFiles files(folder.file("out"));
@@ -196,12 +202,6 @@ TEST(Regions, WallsAreNoMarkersOfSu2) {
         EXPECT_EQ(static_cast<std::int64_t>(mesh.tets.size()), parts.outline().tets());
         EXPECT_EQ(sizes_of(mesh.patch), Sizes{Expected(parts).outer});
     });
-}
-
-Sizes in_order(const SizeByName& named) {
-    Sizes sizes;
-    for (const auto& [name, size] : named) sizes.push_back(size);
-    return sizes;
 }
 
 void count_msh(const test::MshContent& file, SizeByName& tets, SizeByName& triangles) {
@@ -362,6 +362,31 @@ TEST(Regions, AreArraysOfHdf5) {
         EXPECT_NE(xdmf.find("<Information Name=\"region 2\" Value=\"region_1\"/>"), xdmf.npos);
         EXPECT_LT(xdmf.find("Name=\"region\""), xdmf.find("Name=\"body\"")) << "DOLFINx takes the first";
     });
+}
+
+// Names that are those of something else, or no words. What a run writes is what an export writes, with walls, too.
+TEST(Regions, HaveNamesOfTheirOwnAndAreWrittenByRuns) {
+    RegionsCase odd = cases[0];
+    odd.names = {"subdomain_1", "patch_0", "Stahl (2)"};
+    const FinishedRegions run(odd, test::all_formats());
+    for (const Format* format : formats()) {
+        if (std::string_view(format->name) == "vtu") continue;  // its files are what the export reads
+        SCOPED_TRACE(format->name);
+        const test::TemporaryFolder folder;
+        ExportFiles files(folder.file(format->name));
+        write_format(*format, run.parts(), files);
+        EXPECT_TRUE(test::contents_below(folder.file(format->name)) ==
+                    test::contents_below(run.path() + "/export/" + format->name));
+    }
+    const std::string inp = test::bytes_of_file(run.path() + "/export/abaqus/mesh.inp");
+    for (const char* set : {"subdomain_1_2", "patch_0", "Stahl_2"})
+        EXPECT_NE(inp.find(fmt::format("*ELSET, ELSET={}\n", set)), inp.npos) << set;
+    const auto names = test::read_msh(run.path() + "/export/msh/mesh_1.msh").names;
+    EXPECT_EQ(names.at({3, 3}), "subdomain_1");
+    EXPECT_EQ(names.at({3, 4}), "patch_0 (4)");
+    const auto zones = read_zones(run.path() + "/export/openfoam/processor0/constant/polyMesh/cellZones");
+    EXPECT_EQ(zones.at(1).first, "patch_0");
+    EXPECT_EQ(zones.at(2).first, "Stahl_2");
 }
 
 }  // namespace
