@@ -57,7 +57,7 @@ class JoinedSurfaces {
     }
 
     /// With one array behind the other as the files have them.
-    Grid grid() const {
+    Grid grid(bool has_regions) const {
         Grid grid{points_, cells_, boundary_count_field(vtk_type<std::int64_t>, points_)};
         grid.arrays = {names("PatchNames"),
                        copied<std::int64_t>("PointData", "GlobalVertexId", 1, points_),
@@ -70,12 +70,13 @@ class JoinedSurfaces {
                                                    [this](CheckedFile& file) { write_connectivity(file); }),
                        computed<std::int64_t>("offsets", [](std::int64_t cell) { return 3 * (cell + 1); }),
                        computed<std::uint8_t>("types", [](std::int64_t) { return vtk_triangle; })};
-        if (!pieces_.empty() && pieces_.front().header.find("Region")) {
+        if (has_regions) {
             grid.add(names("RegionNames"));
             grid.add(copied<std::int32_t>("CellData", "Region", 1, cells_));
         }
         return grid;
     }
+    bool have_regions() const { return pieces_.front().header.find("Region") != nullptr; }
 
  private:
     // As the first file has them.
@@ -124,14 +125,14 @@ class JoinedSurfaces {
 
 }  // namespace
 
-std::string surfaces_pvtu_text(const std::vector<std::string>& pieces) {
-    return pvtu_text(JoinedSurfaces({}).grid().heads(), pieces);
+std::string surfaces_pvtu_text(const std::vector<std::string>& pieces, bool has_regions) {
+    return pvtu_text(JoinedSurfaces({}).grid(has_regions).heads(), pieces);
 }
 
 void write_joined_surfaces(const std::string& path, const std::vector<std::string>& pieces) {
     const JoinedSurfaces surfaces(pieces);
     CheckedFile file(path, "wb");
-    surfaces.grid().write(file);
+    surfaces.grid(surfaces.have_regions()).write(file);
     file.close();
 }
 

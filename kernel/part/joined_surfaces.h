@@ -6,8 +6,9 @@
 
 namespace kerf {
 
-/// The PVTU that joins files of write_part_surface(); `pieces` are paths relative to the PVTU's folder.
-std::string surfaces_pvtu_text(const std::vector<std::string>& pieces);
+/// The PVTU that joins files of write_part_surface(); `pieces` are paths relative to the PVTU's folder. `has_regions`:
+/// several.
+std::string surfaces_pvtu_text(const std::vector<std::string>& pieces, bool has_regions);
 
 /// Writes the triangles of files of write_part_surface() (their paths, at least one), one file after the other, as one
 /// VTU grid with their arrays. Vertices are those of each file, so that a triangle of an interface is there twice, once

@@ -144,7 +144,8 @@ void join_surfaces(const RunContext& run, const RunFolder& folder, const std::ve
             names.push_back("parts/" + part_surface_file_name(part.id));
             paths.push_back(folder.part_surface_file(part.id));
         }
-        write_text_file(folder.file("surfaces.pvtu"), surfaces_pvtu_text(names));
+        write_text_file(folder.file("surfaces.pvtu"),
+                        surfaces_pvtu_text(names, run.input.complex.region_names().size() > 1));
         write_joined_surfaces(folder.file("surfaces.vtu"), paths);
     });
 }
