@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "geometry/predicates.h"
 #include "surface/edge_corners.h"
+#include "surface/radial_order.h"
 
 namespace kerf {
 
@@ -25,78 +25,20 @@ constexpr std::size_t bits_per_key = 64;  // more would be slower than to sort
                                                  high, p.x(), p.y(), p.z(), reason));
 }
 
-// The facets at an edge from a to b, counter-clockwise seen from b.
-class FacetsAroundEdge {
- public:
-    FacetsAroundEdge(const SurfaceArrays& surface, std::int32_t low, std::span<const EdgeCorners::Corner> corners)
-        : surface_(surface),
-          low_(low),
-          high_(corners[0].high),
-          a_(surface.vertices[low_]),
-          b_(surface.vertices[high_]) {
-        for (const EdgeCorners::Corner& c : corners) {
-            const std::int32_t before = next_corner(next_corner(c.corner));
-            spokes_.push_back({c.corner, surface.vertices[start_vertex(surface.facets, before)],
-                               start_vertex(surface.facets, c.corner) != low_});
-        }
-        find_halves();
-        std::sort(spokes_.begin(), spokes_.end(),
-                  [&](const Spoke& s, const Spoke& t) { return s.half != t.half ? s.half < t.half : turn(s, t) > 0; });
+// Calls join(corner, corner) for the two sides of each wedge of the body at an edge.
+template <class Join>
+void for_each_wedge(const SurfaceArrays& surface, std::int32_t low, std::span<const EdgeCorners::Corner> corners,
+                    Join join) {
+    const auto refuse = [&](const char* reason) { refuse_edge(surface, low, corners[0].high, reason); };
+    const auto [order, defect] = radial_order(surface.vertices, surface.facets, low, corners);
+    if (defect != RadialDefect::none) refuse(defect == RadialDefect::no_area ? "have no area" : "lie on one another");
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const std::int32_t c = order[i], d = order[(i + 1) % order.size()];
+        const bool has_body_ahead = has_back_ahead(surface.facets, low, c);
+        if (has_body_ahead == has_back_ahead(surface.facets, low, d)) refuse("do not close");
+        if (has_body_ahead) join(c, d);
     }
-
-    // Calls join(corner, corner) for the two sides of each wedge of the body.
-    template <class Join>
-    void for_each_wedge(Join join) const {
-        for (std::size_t i = 0; i < spokes_.size(); ++i) {
-            const Spoke &s = spokes_[i], &t = spokes_[(i + 1) % spokes_.size()];
-            if (s.half == t.half && turn(s, t) == 0) refuse("lie on one another");
-            if (s.has_body_ahead == t.has_body_ahead) refuse("do not close");
-            if (s.has_body_ahead) join(s.corner, t.corner);
-        }
-    }
-
- private:
-    struct Spoke {
-        std::int32_t corner;
-        Vec3 apex;
-        bool has_body_ahead;  // turning on from it one is inside of the body: the facet has the edge from b to a
-        int half = 0;         // 0: as the first facet, 1: up to half a turn from it, 2: opposite, 3: beyond
-    };
-
-    [[noreturn]] void refuse(const char* reason) const { refuse_edge(surface_, low_, high_, reason); }
-    // 1 if t is less than half a turn ahead of s, 0 if both lie in one plane.
-    int turn(const Spoke& s, const Spoke& t) const { return orientation(a_, b_, s.apex, t.apex); }
-
-    void find_halves() {
-        const Vec3 beside = point_beside(spokes_[0].apex);
-        const int first_side = orientation(a_, b_, spokes_[0].apex, beside);
-        for (Spoke& s : spokes_) {
-            const int ahead = turn(spokes_[0], s);
-            if (ahead != 0) {
-                s.half = ahead > 0 ? 1 : 3;
-                continue;
-            }
-            const int side = orientation(a_, b_, s.apex, beside);
-            if (side == 0) refuse("have no area");
-            s.half = side == first_side ? 0 : 2;
-        }
-    }
-
-    // Any point off the plane of a, b and c: a with another coordinate, which is exact.
-    Vec3 point_beside(const Vec3& c) const {
-        for (int axis = 0; axis < 3; ++axis) {
-            Vec3 p = a_;
-            p[axis] = p[axis] == 0 ? 1 : -p[axis];
-            if (orientation(a_, b_, c, p) != 0) return p;
-        }
-        refuse("have no area");
-    }
-
-    const SurfaceArrays& surface_;
-    std::int32_t low_, high_;
-    const Vec3 &a_, &b_;
-    std::vector<Spoke> spokes_;
-};
+}
 
 struct WedgePairs {
     std::vector<std::int32_t> partner;  // per corner
@@ -113,7 +55,7 @@ WedgePairs pair_by_wedges(const SurfaceArrays& surface) {
     edges.for_each_edge([&](std::int32_t low, std::span<const EdgeCorners::Corner> corners) {
         if (corners.size() > 2) {
             pairs.has_shared_edge = true;
-            FacetsAroundEdge(surface, low, corners).for_each_wedge(join);
+            for_each_wedge(surface, low, corners, join);
             return;
         }
         if (corners.size() == 1 ||
