@@ -6,8 +6,6 @@
 #include "surface/orientation.h"
 
 #include <algorithm>
-#include <array>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -95,20 +93,6 @@ std::optional<bool> is_inner(const std::vector<Vec3>& vertices, const Shell& inn
         for (std::int32_t v : inner.facets[f])
             if (const auto inside = encloses(vertices, outer, vertices[v])) return inside;
     return std::nullopt;
-}
-
-// The shells by their boxes, the largest first: one that contains another one comes before it. That of their sizes
-// holds in spite of rounding, which is monotone; for equal sizes the sides decide.
-std::vector<std::int32_t> by_falling_boxes(const std::vector<Shell>& shells) {
-    const auto measure = [&](std::int32_t i) {
-        const Vec3 &low = shells[i].box.min(), &high = shells[i].box.max();
-        return std::array{(high - low).sum(), -low.x(), -low.y(), -low.z(), high.x(), high.y(), high.z()};
-    };
-    std::vector<std::int32_t> order(shells.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::int32_t i, std::int32_t j) { return measure(i) > measure(j); });
-    return order;
 }
 
 // Sets depth and parent, or contact, of shell i, once those of the shells with larger boxes are known. `rank`: of the

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "core/check.h"
@@ -97,6 +98,18 @@ BoxTree boxes_of(const std::vector<Shell>& shells) {
     std::vector<Box> boxes;
     for (const Shell& shell : shells) boxes.push_back(shell.box);
     return BoxTree(std::move(boxes));
+}
+
+std::vector<std::int32_t> by_falling_boxes(const std::vector<Shell>& shells) {
+    const auto measure = [&](std::int32_t i) {
+        const Vec3 &low = shells[i].box.min(), &high = shells[i].box.max();
+        return std::array{(high - low).sum(), -low.x(), -low.y(), -low.z(), high.x(), high.y(), high.z()};
+    };
+    std::vector<std::int32_t> order(shells.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::int32_t i, std::int32_t j) { return measure(i) > measure(j); });
+    return order;
 }
 
 std::optional<bool> encloses(const std::vector<Vec3>& vertices, const Shell& shell, const Vec3& point) {

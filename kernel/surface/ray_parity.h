@@ -30,6 +30,10 @@ std::vector<Shell> collect_shells(const std::vector<Vec3>& vertices, const std::
 /// The boxes of the shells, none of which may be without facets.
 BoxTree boxes_of(const std::vector<Shell>& shells);
 
+/// The shells by their boxes, the largest first: one that contains another one comes before it. That of their sizes
+/// holds in spite of rounding, which is monotone; for equal sizes the sides decide.
+std::vector<std::int32_t> by_falling_boxes(const std::vector<Shell>& shells);
+
 /// Whether the point lies inside of the shell: a segment from it to the outside crosses the shell an odd number of
 /// times. Crossings are decided by exact predicates; a segment that touches an edge or a vertex says nothing and is
 /// replaced by the next of a fixed sequence. Nothing is returned if none decides, as for a point on the shell. O(#F),
