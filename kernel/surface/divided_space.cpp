@@ -1,0 +1,113 @@
+#include "surface/divided_space.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/elements.h"
+
+namespace kerf {
+
+namespace {
+
+bool have_one_direction(Triangle a, Triangle b) {
+    std::rotate(a.begin(), std::min_element(a.begin(), a.end()), a.end());
+    std::rotate(b.begin(), std::min_element(b.begin(), b.end()), b.end());
+    return a == b;
+}
+
+SingleFacets single_facets(const Soup& soup) {
+    SingleFacets single;
+    single.single_of.assign(soup.facets.size(), -1);
+    single.is_turned.assign(soup.facets.size(), 0);
+    std::vector<std::pair<Triangle, std::int32_t>> sorted;
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        if (has_repeated_vertex(soup.facets[f])) continue;
+        sorted.emplace_back(soup.facets[f], static_cast<std::int32_t>(f));
+        std::sort(sorted.back().first.begin(), sorted.back().first.end());
+    }
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<std::int32_t> first_of(soup.facets.size(), -1);
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        const std::int32_t f = sorted[i].second;
+        const bool is_first = i == 0 || sorted[i].first != sorted[i - 1].first;
+        first_of[f] = is_first ? f : first_of[sorted[i - 1].second];
+        single.is_turned[f] = !have_one_direction(soup.facets[f], soup.facets[first_of[f]]);
+    }
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        if (first_of[f] < 0) continue;
+        if (first_of[f] == static_cast<std::int32_t>(f)) {
+            single.single_of[f] = static_cast<std::int32_t>(single.facets.size());
+            single.facets.push_back(soup.facets[f]);
+            single.first.push_back(static_cast<std::int32_t>(f));
+        }
+        single.single_of[f] = single.single_of[first_of[f]];
+    }
+    return single;
+}
+
+// Regions with a cell keep their order.
+void drop_empty_regions(DividedSpace& space) {
+    std::vector<std::int32_t> number(space.names.size(), -1);
+    for (const std::int32_t region : space.region_of_cell)
+        if (region >= 0) number[region] = 0;
+    std::vector<std::string> names;
+    for (std::size_t r = 0; r < number.size(); ++r) {
+        if (number[r] < 0) continue;
+        number[r] = static_cast<std::int32_t>(names.size());
+        names.push_back(space.names[r]);
+    }
+    space.names = std::move(names);
+    for (std::int32_t& region : space.region_of_cell)
+        if (region >= 0) region = number[region];
+}
+
+void note_count(Soup& soup, std::int64_t count, const char* one, const char* many) {
+    if (count > 0) soup.notes.push_back(fmt::format("{} {}.", count, count == 1 ? one : many));
+}
+
+}  // namespace
+
+std::optional<DividedSpace> divide_space(const Soup& soup) {
+    const auto is_finite = [](const Vec3& p) { return p.allFinite(); };
+    if (soup.facets.empty() || !std::all_of(soup.vertices.begin(), soup.vertices.end(), is_finite)) return {};
+    DividedSpace space{single_facets(soup), {}, {}, {}};
+    auto cells = find_cells(soup.vertices, space.single.facets);
+    if (!cells || cells->count == 0) return {};
+    space.cells = std::move(*cells);
+    space.region_of_cell.assign(space.cells.count, -1);
+    return space;
+}
+
+void give_sides(Soup& soup, DividedSpace space) {
+    drop_empty_regions(space);
+    std::vector<char> drop(soup.facets.size(), 1);
+    soup.sides.assign(soup.facets.size(), FacetSides{});
+    std::int64_t copies = 0, internal = 0;
+    for (std::size_t u = 0; u < space.single.facets.size(); ++u) {
+        const std::int32_t f = space.single.first[u];
+        const auto [front, back] = space.cells.sides[u];
+        FacetSides sides = {space.region_of(front), space.region_of(back)};
+        internal += sides.front == sides.back;
+        if (sides.front == sides.back) continue;
+        if (sides.back < 0 || (sides.front >= 0 && sides.front < sides.back)) {
+            sides = sides.turned();
+            std::swap(soup.facets[f][1], soup.facets[f][2]);
+        }
+        soup.sides[f] = sides;
+        drop[f] = 0;
+    }
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        const std::int32_t u = space.single.single_of[f];
+        copies += u >= 0 && space.single.first[u] != static_cast<std::int32_t>(f);
+    }
+    drop_facets(soup, drop);
+    soup.region_names = std::move(space.names);
+    note_count(soup, copies, "facet that was there before is a wall, once",
+               "facets that were there before are walls, once");
+    note_count(soup, internal, "facet with the same on both sides is left out",
+               "facets with the same on both sides are left out");
+}
+
+}  // namespace kerf
