@@ -15,7 +15,8 @@ namespace kerf {
 namespace {
 
 struct CheckRequest {
-    std::string path;
+    std::vector<std::string> files;
+    std::string path;  // the first of them
     InputOptions options;
     double needle_angle_deg = 1;
     bool json = false;
@@ -54,7 +55,9 @@ int check_surface(const CheckRequest& request) {
 void add_check_command(CLI::App& kerf, int& exit_code) {
     const auto request = std::make_shared<CheckRequest>();
     CLI::App* command = kerf.add_subcommand("check", "Diagnose a surface without meshing it.");
-    command->add_option("input", request->path, "Surface file.")->required()->type_name("INPUT");
+    command->add_option("input", request->files, "Surface files, a region each if there are several.")
+        ->required()
+        ->type_name("INPUT");
     add_input_options(*command, request->options);
     command->option_defaults()->group(option_group::output);
     command->add_flag("--json", request->json, "Print every defect as JSON.");
@@ -70,7 +73,10 @@ void add_check_command(CLI::App& kerf, int& exit_code) {
                                 needle_angle_range});
     put_help_last(*command, option_group::output,
                   {"json", "list-patches", "offenders", "weld", "fill-holes", "keep-largest", "feature-angle"});
-    command->callback([=, &exit_code] { exit_code = run_on_first_rank([&] { return check_surface(*request); }); });
+    command->callback([=, &exit_code] {
+        take_inputs(request->files, request->path, request->options);
+        exit_code = run_on_first_rank([&] { return check_surface(*request); });
+    });
 }
 
 }  // namespace kerf

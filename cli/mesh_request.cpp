@@ -119,6 +119,7 @@ std::string config_text(MeshRequest& request) { return to_config(config_fields(r
 void settle_request(const CLI::App& command, MeshRequest& request) {
     if (!request.config_file.empty()) apply_config(command, request);
     const bool is_new = request.resume.empty();
+    take_inputs(request.inputs, request.options.input, request.options.input_options);
     if (is_new && !request.print_config && request.options.input.empty()) throw CLI::RequiredError("input");
     if (!is_new) resume_run(command, request);
     const std::int32_t parts = request.options.decompose.parts;

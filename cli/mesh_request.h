@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -11,6 +12,7 @@ namespace kerf {
 
 struct MeshRequest {
     RunOptions options;
+    std::vector<std::string> inputs;  ///< files; those behind the first one become InputOptions::more_files
     bool quiet = false;
     bool verbose = false;       ///< print every node of the tree of cuts, and all that is known of the result
     bool print_config = false;  ///< print the effective options and end

@@ -11,13 +11,13 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "geometry/box.h"
-#include "io/file_bytes.h"
 #include "io/run_manifest.h"
-#include "prepare/cad_input.h"
+#include "prepare/input_files.h"
 #include "surface/hole_filling.h"
 #include "surface/intersections.h"
 #include "surface/mass_properties.h"
 #include "surface/optimisation.h"
+#include "surface/region_finder.h"
 #include "surface/regions.h"
 
 namespace kerf {
@@ -36,13 +36,6 @@ SurfaceArrays with_input_keys(Soup soup) {
     return arrays;
 }
 
-Complex to_complex(Soup soup) {
-    if (soup.sides.empty()) return Complex(Surface(with_input_keys(std::move(soup))));
-    std::vector<FacetSides> sides = std::move(soup.sides);
-    std::vector<std::string> names = std::move(soup.region_names);
-    return {with_input_keys(std::move(soup)), std::move(sides), std::move(names)};
-}
-
 double diagonal_of(const Soup& soup) {
     const Box box = box_around_finite(soup.vertices);
     return box.isEmpty() ? 0 : box.diagonal().norm();
@@ -58,6 +51,99 @@ double weld(Soup& soup, const Length& wanted, InputRepairs& repairs) {
                                                   tolerance, diagonal));
     if (tolerance > rounding * diagonal) repairs.merged_vertices = weld_within(soup, tolerance);
     return tolerance;
+}
+
+// What facets of several bodies look like to a diagnosis that takes them for one.
+bool may_be_several_bodies(const Diagnosis& diagnosis) {
+    constexpr std::array kinds = {DefectKind::duplicate_facet, DefectKind::coincident_shell,
+                                  DefectKind::non_manifold_edge};
+    return std::any_of(kinds.begin(), kinds.end(), [&](DefectKind kind) { return diagnosis.count(kind) > 0; });
+}
+
+void take_regions(CheckedSoup& checked, Soup divided, Diagnosis diagnosis) {
+    checked.soup = std::move(divided);
+    checked.diagnosis = std::move(diagnosis);
+}
+
+// Points of regions say what is wanted; but where facets have gaps or intersect, these are what is wrong.
+void diagnose_seeded(CheckedSoup& checked, const DiagnosisOptions& options) {
+    Soup divided = checked.soup;
+    bool is_found = false;
+    try {
+        is_found = find_seeded_regions(divided);
+    } catch (const Error&) {
+        checked.diagnosis = diagnose(checked.soup, options);
+        const Diagnosis& found = checked.diagnosis;
+        const bool is_double = found.count(DefectKind::duplicate_facet) > 0;  // and so on itself: no defect of walls
+        if (found.count(DefectKind::open_edge) > 0) return;
+        if (found.count(DefectKind::self_intersection) > 0 && !is_double) return;
+        throw;
+    }
+    if (is_found) checked.repairs.unused_vertices += drop_unused_vertices(divided);
+    Diagnosis diagnosis = diagnose(divided, options);
+    take_regions(checked, std::move(divided), std::move(diagnosis));
+}
+
+// A surface of one body costs nothing more than its diagnosis. `files`: without the soup.
+void diagnose_with_regions(CheckedSoup& checked, const InputFiles& files, const DiagnosisOptions& options) {
+    if (checked.soup.sides.empty() && !checked.soup.seeds.empty()) return diagnose_seeded(checked, options);
+    checked.diagnosis = diagnose(checked.soup, options);
+    if (!checked.soup.sides.empty()) return;
+    if (files.names.empty() && !may_be_several_bodies(checked.diagnosis)) return;
+    Soup divided = checked.soup;
+    const bool is_found = !files.names.empty() && find_given_bodies(divided, files.file_of_patch, files.names);
+    if (!is_found && !find_touching_bodies(divided)) return;
+    const std::int64_t unused = drop_unused_vertices(divided);
+    Diagnosis diagnosis = diagnose(divided, options);
+    if (!diagnosis.clean()) return;
+    checked.repairs.unused_vertices += unused;
+    take_regions(checked, std::move(divided), std::move(diagnosis));
+}
+
+// Points that the user gives are in place of those of the file.
+void take_points(Soup& soup, const InputOptions& options) {
+    if (options.regions.empty()) return;
+    if (!soup.sides.empty())
+        throw Error(ErrorCode::usage,
+                    "--region is for facets that do not say what they bound, but this file has "
+                    "regions. Leave it out.");
+    soup.seeds = seeds_of(options);
+}
+
+// Whether a shell inside of another one is a void or a second body does not matter if both are regions.
+void diagnose_filled(CheckedSoup& checked, const DiagnosisOptions& options) {
+    const std::vector<Defect>& defects = checked.diagnosis.defects;
+    const auto is_hindrance = [](const Defect& defect) {
+        return defect.severity == Severity::error && defect.kind != DefectKind::ambiguous_shell;
+    };
+    if (std::any_of(defects.begin(), defects.end(), is_hindrance)) return;
+    Soup divided = checked.soup;
+    if (!checked.diagnosis.dropped.empty()) drop_facets(divided, checked.diagnosis.dropped);
+    if (!fill_voids(divided)) return;
+    checked.repairs.unused_vertices += drop_unused_vertices(divided);
+    Diagnosis diagnosis = diagnose(divided, options);
+    take_regions(checked, std::move(divided), std::move(diagnosis));
+}
+
+CheckedSoup check_files(InputFiles files, const InputOptions& options, double needle_angle_deg = 1) {
+    CheckedSoup checked{std::move(files.soup), {}, {}, 0};
+    Soup& soup = checked.soup;
+    InputRepairs& repairs = checked.repairs;
+    repairs.welded_vertices = weld_exactly(soup);
+    if (options.weld_tolerance.number() > 0) checked.weld_tolerance = weld(soup, options.weld_tolerance, repairs);
+    if (options.keep_largest) repairs.removed_facets = keep_largest_component(soup);
+    if (options.fill_hole_edges > 0 && soup.sides.empty()) {
+        const HoleFilling filling = fill_holes(soup, options.fill_hole_edges);
+        repairs.filled_holes = filling.holes;
+        repairs.added_facets = filling.facets;
+    }
+    repairs.unused_vertices = drop_unused_vertices(soup);
+    take_points(soup, options);
+    diagnose_with_regions(checked, files, {options.voids, needle_angle_deg});
+    if (options.fill_voids) diagnose_filled(checked, {options.voids, needle_angle_deg});
+    const std::vector<char>& dropped = checked.diagnosis.dropped;
+    repairs.dropped_facets = std::count(dropped.begin(), dropped.end(), char{1});
+    return checked;
 }
 
 // Moves vertices of a surface that is known to be clean.
@@ -104,7 +190,7 @@ Input to_input(CheckedSoup checked, const std::string& path, const InputOptions&
         if (edge.sharp != 0) input.creases.push_back(edge.vertices);
     if (soup.patch_colours.size() == soup.patch_names.size()) input.patch_colours = soup.patch_colours;
     input.diagonal = diagonal_of(soup);
-    input.complex = to_complex(std::move(soup));
+    input.complex = make_complex(std::move(soup));
     measure_input(input);
     return input;
 }
@@ -231,26 +317,18 @@ Input input_of_arrays(Soup soup, const InputOptions& options) {
 }  // namespace
 
 CheckedSoup check_input(const std::string& path, const InputOptions& options, double needle_angle_deg) {
-    return check_soup(read_surface_or_cad(path, options), options, needle_angle_deg);
+    return check_files(read_input_files(path, options), options, needle_angle_deg);
 }
 
 CheckedSoup check_soup(Soup read, const InputOptions& options, double needle_angle_deg) {
-    CheckedSoup checked{std::move(read), {}, {}, 0};
-    Soup& soup = checked.soup;
-    InputRepairs& repairs = checked.repairs;
-    repairs.welded_vertices = weld_exactly(soup);
-    if (options.weld_tolerance.number() > 0) checked.weld_tolerance = weld(soup, options.weld_tolerance, repairs);
-    if (options.keep_largest) repairs.removed_facets = keep_largest_component(soup);
-    if (options.fill_hole_edges > 0 && soup.sides.empty()) {
-        const HoleFilling filling = fill_holes(soup, options.fill_hole_edges);
-        repairs.filled_holes = filling.holes;
-        repairs.added_facets = filling.facets;
-    }
-    repairs.unused_vertices = drop_unused_vertices(soup);
-    checked.diagnosis = diagnose(soup, {options.voids, needle_angle_deg});
-    const std::vector<char>& dropped = checked.diagnosis.dropped;
-    repairs.dropped_facets = std::count(dropped.begin(), dropped.end(), char{1});
-    return checked;
+    return check_files({std::move(read), {}, {}, {}}, options, needle_angle_deg);
+}
+
+Complex make_complex(Soup soup) {
+    if (soup.sides.empty()) return Complex(Surface(with_input_keys(std::move(soup))));
+    std::vector<FacetSides> sides = std::move(soup.sides);
+    std::vector<std::string> names = std::move(soup.region_names);
+    return {with_input_keys(std::move(soup)), std::move(sides), std::move(names)};
 }
 
 OrientationReport apply_repairs(CheckedSoup& checked) {
@@ -263,10 +341,10 @@ OrientationReport apply_repairs(CheckedSoup& checked) {
 }
 
 Input read_input(const std::string& path, const InputOptions& options) {
-    std::string bytes = read_file(path);
-    const std::string hash = hash_text(digest_of(bytes));
-    Input input = to_input(check_soup(read_surface_or_cad(std::move(bytes), path, options), options), path, options,
-                           " Run kerf check on it for all defects.");
+    InputFiles files = read_input_files(path, options);
+    const std::string hash = files.hash;
+    Input input =
+        to_input(check_files(std::move(files), options), path, options, " Run kerf check on it for all defects.");
     input.file_hash = hash;
     return input;
 }

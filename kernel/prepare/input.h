@@ -86,14 +86,20 @@ struct Input {
     Complex complex;
 };
 
-/// Reads (CAD files, too: prepare/cad_input.h), repairs, diagnoses. Throws Error only for a file that cannot be read.
+/// Reads (several files and CAD files, too: prepare/input_files.h), repairs, diagnoses. Throws Error only for a file
+/// that cannot be read.
 CheckedSoup check_input(const std::string& path, const InputOptions& options = {}, double needle_angle_deg = 1);
 
-/// Checks what a reader returned.
+/// Checks what a reader returned. Where facets do not say what they bound, their regions are found
+/// (surface/region_finder.h): by points, or because several bodies touch. Throws Error(input) for points that are
+/// misplaced, and Error(usage) for points where there are regions already.
 CheckedSoup check_soup(Soup soup, const InputOptions& options = {}, double needle_angle_deg = 1);
 
 /// Drops the superfluous facets of a soup without errors, and orients it.
 OrientationReport apply_repairs(CheckedSoup& checked);
+
+/// The complex of a soup that has been repaired.
+Complex make_complex(Soup soup);
 
 /// Fills the counts, volume, area and genus from the surface.
 void measure_input(Input& input);

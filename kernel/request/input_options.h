@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "core/user_number.h"
 #include "io/cad_body.h"
@@ -16,12 +18,18 @@ struct InputOptions {
     std::int32_t fill_hole_edges = 0;  ///< open loops of at most so many edges are spanned
     bool keep_largest = false;         ///< only the connected component of the largest area stays
     Voids voids = Voids::as_given;
+    std::vector<std::string> regions;      ///< NAME=x,y,z: points of regions, in units after scaling
+    std::vector<std::string> more_files;   ///< whose bodies are meshed with those of the input
+    bool fill_voids = false;               ///< what voids enclose are regions
     double feature_angle_deg = 0;          ///< patches between sharper edges where the file has one patch; 0: none
     std::int32_t optimisation_sweeps = 0;  ///< of vertices off the feature edges; 0: none moves
     CadOptions cad;                        ///< of STEP, IGES and BREP files
 
-    /// Throws Error(usage) naming option, value and range.
+    /// Throws Error(usage) naming option, value and range or form.
     void check() const;
 };
+
+/// The points of `regions`. Throws Error(usage), naming option, value and form.
+std::vector<RegionSeed> seeds_of(const InputOptions& options);
 
 }  // namespace kerf

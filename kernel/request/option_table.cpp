@@ -95,6 +95,16 @@ constexpr OptionRow<InputOptions> input_rows[] = {
      [](InputOptions& o) -> OptionField::Value {
          return choice(o.voids, {"as-given", "parity"});
      }},
+    {"with", "", option_group::input, "FILE",
+     "Another file, whose bodies are meshed together with those of INPUT, each as a region; as several INPUTs. "
+     "Repeatable.",
+     place<&InputOptions::more_files>},
+    {"fill-voids", "", option_group::input, "",
+     "Regions of their own in the voids of bodies: void_1, void_2, ... around which the body is a region, too.",
+     place<&InputOptions::fill_voids>},
+    {"region", "", option_group::input, "NAME=x,y,z",
+     "The facets are walls, and the region in which this point lies has this name; units after --scale. Repeatable.",
+     place<&InputOptions::regions>},
     {"feature-angle",
      "",
      option_group::input,
@@ -312,6 +322,7 @@ std::vector<OptionField> option_fields(RunOptions& options) {
 void InputOptions::check() const {
     InputOptions copy = *this;
     for (const OptionField& field : input_option_fields(copy)) field.check();
+    seeds_of(*this);
 }
 
 std::vector<OptionText> option_texts(RunOptions options, bool shapes_parts_only) {

@@ -1,6 +1,8 @@
 #include "request/options.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -18,6 +20,26 @@ namespace {
 constexpr std::int64_t bytes_per_interface_point = 500;
 constexpr double coarse_radius_edge = 2;
 
+// The name may have any character; the last = counts.
+RegionSeed seed_of(const std::string& text) {
+    const std::size_t mark = text.rfind('=');
+    RegionSeed seed{text.substr(0, mark), Vec3::Zero()};
+    const char *at = text.data() + (mark == std::string::npos ? text.size() : mark + 1), *const end =
+                                                                                             text.data() + text.size();
+    bool is_point = !seed.name.empty();
+    for (int i = 0; i < 3 && is_point; ++i) {
+        const auto [stop, error] = std::from_chars(at, end, seed.point[i]);
+        is_point =
+            error == std::errc() && std::isfinite(seed.point[i]) && (i < 2 ? stop < end && *stop == ',' : stop == end);
+        at = stop + (i < 2);
+    }
+    if (!is_point)
+        throw Error(ErrorCode::usage, fmt::format("'{}' is no value of --region. It has the form NAME=x,y,z, such as "
+                                                  "cement=0,1.5,-2; coordinates are in units after --scale.",
+                                                  text));
+    return seed;
+}
+
 RunOptions with_constant_size(RunOptions options) {
     options.sizes.max_volume = options.sizes.constant_max_volume();
     const SizeField field(options.sizes.max_volume);
@@ -26,8 +48,15 @@ RunOptions with_constant_size(RunOptions options) {
 
 }  // namespace
 
+std::vector<RegionSeed> seeds_of(const InputOptions& options) {
+    std::vector<RegionSeed> seeds;
+    for (const std::string& text : options.regions) seeds.push_back(seed_of(text));
+    return seeds;
+}
+
 RunOptions resolved(RunOptions options, int cores_of_rank) {
     for (const OptionField& field : option_fields(options)) field.check();
+    seeds_of(options.input_options);
     if (options.workers == 0) options.workers = std::max(1, cores_of_rank);
     options.decompose.threads = options.workers;  // they have nothing to do yet
     options.sizes.check();
@@ -40,6 +69,7 @@ RunOptions resolved(RunOptions options, int cores_of_rank) {
     parse_cell_fields(options.fields);
     parse_patch_types(options.patch_types);
     options.check_files();
+    for (std::string& file : options.input_options.more_files) file = std::filesystem::absolute(file).string();
     std::string& field_file = options.sizes.field_file;
     if (!field_file.empty()) field_file = std::filesystem::absolute(field_file).string();
     if (options.memory_mb > 0)

@@ -1,0 +1,123 @@
+#include "prepare/input_files.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/hash.h"
+#include "io/file_bytes.h"
+#include "io/run_manifest.h"
+#include "prepare/cad_input.h"
+
+namespace kerf {
+
+namespace {
+
+// bone for parts/bone.stl.gz.
+std::string stem_of(const std::string& path) {
+    std::filesystem::path name = std::filesystem::path(path).filename();
+    if (name.extension() == ".gz" || name.extension() == ".zst") name = name.stem();
+    return name.stem().string();
+}
+
+std::string unlike_others(const std::string& name, const std::vector<std::string>& others) {
+    std::string unlike = name;
+    for (int i = 2; std::find(others.begin(), others.end(), unlike) != others.end(); ++i)
+        unlike = fmt::format("{}_{}", name, i);
+    return unlike;
+}
+
+template <class T>
+void append_items(std::vector<T>& all, const std::vector<T>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+}
+
+// Numbers of a file that are those of the soup are not written out.
+void write_out(std::vector<std::int32_t>& numbers, std::size_t count) {
+    if (!numbers.empty()) return;
+    numbers.resize(count);
+    std::iota(numbers.begin(), numbers.end(), 0);
+}
+
+void append_numbers(std::vector<std::int32_t>& all, std::size_t count, std::vector<std::int32_t> more,
+                    std::size_t more_count) {
+    write_out(all, count);
+    write_out(more, more_count);
+    const std::int32_t next = all.empty() ? 0 : *std::max_element(all.begin(), all.end()) + 1;
+    for (const std::int32_t number : more) all.push_back(next + number);
+}
+
+void append_polygons(Soup& all, const Soup& more) {
+    if (all.polygon.empty() && more.polygon.empty()) return;
+    write_out(all.polygon, all.facets.size());
+    const std::int32_t next = all.polygon.empty() ? 0 : all.polygon.back() + 1;
+    for (const std::int32_t polygon : more.unfit_polygons) all.unfit_polygons.push_back(next + polygon);
+    append_numbers(all.polygon, all.facets.size(), more.polygon, more.facets.size());
+}
+
+void append_soup(Soup& all, const Soup& more, const std::string& name) {
+    append_polygons(all, more);
+    if (!all.vertex_number.empty() || !more.vertex_number.empty())
+        append_numbers(all.vertex_number, all.vertices.size(), more.vertex_number, more.vertices.size());
+    const auto first_vertex = static_cast<std::int32_t>(all.vertices.size());
+    const auto first_patch = static_cast<std::int32_t>(all.patch_names.size());
+    for (const Triangle& t : more.facets)
+        all.facets.push_back({t[0] + first_vertex, t[1] + first_vertex, t[2] + first_vertex});
+    for (const std::int32_t patch : more.patch) all.patch.push_back(first_patch + patch);
+    for (const auto& [vertices, sharp] : more.model_edges)
+        all.model_edges.push_back({{vertices[0] + first_vertex, vertices[1] + first_vertex}, sharp});
+    const bool has_colours = !all.patch_colours.empty() || !more.patch_colours.empty();
+    if (has_colours) {
+        all.patch_colours.resize(all.patch_names.size());
+        append_items(all.patch_colours, more.patch_colours);
+    }
+    for (const std::string& patch : more.patch_names)
+        all.patch_names.push_back(more.patch_names.size() == 1 ? name : name + "/" + patch);
+    if (has_colours) all.patch_colours.resize(all.patch_names.size());
+    append_items(all.vertices, more.vertices);
+    append_items(all.holes, more.holes);
+    append_items(all.seeds, more.seeds);
+    for (const std::string& note : more.notes) all.notes.push_back(fmt::format("{}: {}", name, note));
+    all.is_of_model |= more.is_of_model;
+}
+
+}  // namespace
+
+InputFiles read_input_files(const std::string& path, const InputOptions& options) {
+    InputFiles files;
+    std::string bytes = read_file(path);
+    FileHash hash = digest_of(bytes);
+    Soup first = read_surface_or_cad(std::move(bytes), path, options);
+    if (options.more_files.empty()) {
+        files.soup = std::move(first);
+        files.hash = hash_text(hash);
+        return files;
+    }
+    Hasher hasher;
+    const auto add = [&](const std::string& file, const Soup& soup) {
+        if (!soup.sides.empty())
+            throw Error(ErrorCode::usage, fmt::format("{} has regions already: mesh it alone, or give the surface of "
+                                                      "each region as a file.",
+                                                      file));
+        hasher.add(std::span<const std::uint64_t>(hash));
+        files.names.push_back(unlike_others(stem_of(file), files.names));
+        append_soup(files.soup, soup, files.names.back());
+        files.file_of_patch.resize(files.soup.patch_names.size(), static_cast<std::int32_t>(files.names.size()) - 1);
+    };
+    add(path, first);
+    for (const std::string& file : options.more_files) {
+        bytes = read_file(file);
+        hash = digest_of(bytes);
+        add(file, read_surface_or_cad(std::move(bytes), file, options));
+    }
+    files.hash = hash_text(hasher.digest());
+    return files;
+}
+
+}  // namespace kerf
