@@ -37,17 +37,42 @@ Json repairs_json(const InputRepairs& r) {
             {"facets_added", r.added_facets}};
 }
 
-Json surface_json(const std::string& path, const CheckedSoup& checked) {
+// Of a surface that can be meshed; the copies that its repairs leave out have sides, too.
+std::vector<RegionSummary> regions_of(const CheckedSoup& checked) {
+    const std::vector<char>& dropped = checked.diagnosis.dropped;
+    if (dropped.empty() || checked.soup.sides.empty()) return summarize_regions(checked.soup);
+    Soup soup = checked.soup;
+    drop_facets(soup, dropped);
+    return summarize_regions(soup);
+}
+
+Json regions_json(const std::vector<RegionSummary>& regions) {
+    Json json = Json::array();
+    for (const RegionSummary& region : regions) {
+        Json walls = Json::array();
+        for (const CommonWall& wall : region.walls) walls.push_back({{"region", wall.region}, {"area", wall.area}});
+        json.push_back({{"name", region.name},
+                        {"volume", region.volume},
+                        {"shells", region.shells},
+                        {"outer_area", region.outer_area},
+                        {"walls", std::move(walls)}});
+    }
+    return json;
+}
+
+Json surface_json(const FileDiagnosis& found) {
+    const CheckedSoup& checked = found.checked;
     const Soup& soup = checked.soup;
     Json counts = Json::object(), defects = Json::array();
     for (std::size_t k = 0; k < defect_kind_count; ++k)
         if (const std::int64_t n = checked.diagnosis.counts[k]) counts[name(static_cast<DefectKind>(k))] = n;
     for (const Defect& defect : checked.diagnosis.defects) defects.push_back(defect_json(defect, soup));
-    return {{"path", path},
+    return {{"path", found.path},
             {"can_be_meshed", checked.diagnosis.clean()},
             {"vertices", soup.vertices.size()},
             {"faces", soup.facets.size()},
             {"patches", soup.patch_names},
+            {"regions", regions_json(found.regions)},
             {"notes", soup.notes},
             {"repairs", repairs_json(checked.repairs)},
             {"counts", std::move(counts)},
@@ -114,7 +139,7 @@ int FileDiagnosis::exit_code() const {
 FileDiagnosis diagnose_file(const std::string& path, const InputOptions& options, double needle_angle_deg) {
     options.check();
     require_in(needle_angle_range, "needle-angle", needle_angle_deg);
-    FileDiagnosis found{path, {}, {}};
+    FileDiagnosis found{path, {}, {}, {}};
     try {
         found.checked = check_input(path, options, needle_angle_deg);
     } catch (const SolidDefect& defect) {
@@ -123,12 +148,17 @@ FileDiagnosis diagnose_file(const std::string& path, const InputOptions& options
         if (error.code() != ErrorCode::input) throw;
         found.refused = {"unreadable", error};
     }
+    if (!found.can_be_meshed()) return found;
+    try {
+        found.regions = regions_of(found.checked);
+    } catch (const Error& error) {
+        found.refused = {"open region", error};
+    }
     return found;
 }
 
 std::string to_json(const FileDiagnosis& found) {
-    const Json json =
-        found.refused ? refused_json(found.path, *found.refused) : surface_json(found.path, found.checked);
+    const Json json = found.refused ? refused_json(found.path, *found.refused) : surface_json(found);
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -139,6 +169,7 @@ std::string to_text(const FileDiagnosis& found) {
         fmt::format("{}: {} facets, {} vertices, {} patch{}\n", found.path, soup.facets.size(), soup.vertices.size(),
                     soup.patch_names.size(), soup.patch_names.size() == 1 ? "" : "es");
     for (const std::string& note : soup.notes) text += fmt::format("  note      {}\n", note);
+    text += to_text(found.regions);
     text += defects_text(found.checked);
     const bool clean = found.can_be_meshed();
     if (const Slivers slivers = find_slivers(soup.vertices, soup.facets);

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "prepare/input.h"
 #include "report/patch_summary.h"
+#include "report/region_summary.h"
 
 namespace kerf {
 
@@ -15,13 +16,14 @@ inline constexpr NumberRange needle_angle_range = {"0 (no needles) to 60 degrees
 
 /// Why there is no surface to be diagnosed.
 struct RefusedFile {
-    std::string kind;  ///< "unreadable", or that of a SolidDefect
+    std::string kind;  ///< "unreadable", "open region", or that of a SolidDefect
     Error error;
 };
 
 struct FileDiagnosis {
     std::string path;
     CheckedSoup checked;
+    std::vector<RegionSummary> regions;  ///< if there are any, of a surface that can be meshed
     std::optional<RefusedFile> refused;  ///< if there is one, `checked` is empty
 
     bool can_be_meshed() const { return !refused && checked.diagnosis.clean(); }

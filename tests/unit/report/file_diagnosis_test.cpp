@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -49,6 +50,32 @@ TEST_F(FileDiagnosisTest, AHoleIsOneDefectWithItsVertices) {
     EXPECT_EQ(json["defects"][0]["vertices"].size(), 3u);
     EXPECT_TRUE(to_text(found).ends_with("It cannot be meshed as it is.\n"));
     EXPECT_THROW(patches_of_run(found, patches_by_angle()), Error);
+}
+
+// Two groups that touch, with vertices and walls of their own: a cube and a box of 2 x 1 x 1 beside it.
+TEST_F(FileDiagnosisTest, RegionsAreListedWithTheirWalls) {
+    std::string obj;
+    std::size_t first = 1;
+    for (const double low : {0.0, 1.0}) {
+        const Soup box = test::box(Vec3(low, 0, 0), Vec3(1 + 2 * low, 1, 1));
+        obj += low == 0 ? "g bone\n" : "g cement\n";
+        for (const Vec3& p : box.vertices) obj += fmt::format("v {} {} {}\n", p.x(), p.y(), p.z());
+        for (const auto& [a, b, c] : box.facets) obj += fmt::format("f {} {} {}\n", a + first, b + first, c + first);
+        first += box.vertices.size();
+    }
+    write_text_file(folder_.file("two.obj"), obj);
+    const FileDiagnosis found = diagnose_file(folder_.file("two.obj"));
+    ASSERT_TRUE(found.can_be_meshed()) << to_text(found);
+    const std::string text = to_text(found);
+    EXPECT_NE(text.find("  region    bone: volume 1, 1 shell, outside 5, wall to cement 1\n"), text.npos) << text;
+    EXPECT_NE(text.find("  region    cement: volume 2, 1 shell, outside 9, wall to bone 1\n"), text.npos) << text;
+    const auto regions = nlohmann::json::parse(to_json(found))["regions"];
+    ASSERT_EQ(regions.size(), 2U);
+    EXPECT_EQ(regions[1]["name"], "cement");
+    EXPECT_EQ(regions[1]["volume"], 2);
+    EXPECT_EQ(regions[0]["walls"][0]["region"], "cement");
+    EXPECT_EQ(regions[0]["walls"][0]["area"], 1);
+    EXPECT_TRUE(nlohmann::json::parse(to_json(diagnose_file(write(test::box(), "box.stl"))))["regions"].empty());
 }
 
 TEST_F(FileDiagnosisTest, AFileThatIsNoSurfaceIsRefused) {

@@ -1,0 +1,31 @@
+// The regions of a surface, as values and text.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "surface/soup.h"
+
+namespace kerf {
+
+/// What two regions have in common.
+struct CommonWall {
+    std::string region;  ///< the other one
+    double area = 0;
+};
+
+struct RegionSummary {
+    std::string name;
+    double volume = 0;
+    std::int64_t shells = 0;
+    double outer_area = 0;          ///< of the facets with nothing on their other side
+    std::vector<CommonWall> walls;  ///< in the order of the regions
+};
+
+/// Of a soup that has been repaired, in the order of Soup::region_names; none if it has no sides. O(#F log #F).
+std::vector<RegionSummary> summarize_regions(const Soup& soup);
+
+/// A line a region, with its volume, shells and walls; at most 50.
+std::string to_text(const std::vector<RegionSummary>& regions);
+
+}  // namespace kerf
