@@ -343,8 +343,11 @@ OrientationReport apply_repairs(CheckedSoup& checked) {
 Input read_input(const std::string& path, const InputOptions& options) {
     InputFiles files = read_input_files(path, options);
     const std::string hash = files.hash;
+    const std::size_t more = options.more_files.size();
+    const std::string all = more == 0 ? path : fmt::format("{} and {} more file{}", path, more, more == 1 ? "" : "s");
     Input input =
-        to_input(check_files(std::move(files), options), path, options, " Run kerf check on it for all defects.");
+        to_input(check_files(std::move(files), options), all, options, " Run kerf check on it for all defects.");
+    input.path = path;
     input.file_hash = hash;
     return input;
 }

@@ -71,6 +71,25 @@ TEST_F(Check, CleanSurfacesEndWithZeroAndSayThatTheyCanBeMeshed) {
     EXPECT_NE(test::output_of(result).find("It can be meshed."), std::string::npos) << test::output_of(result);
 }
 
+TEST_F(Check, SeveralFilesAreARegionEachAndSoIsARun) {
+    const auto box = [&](const char* name, double low, double high) {
+        const Soup soup = test::box(Vec3(low, 0, 0), Vec3(high, 1, 1), 3);
+        test::write_off(folder_.file(name), soup.vertices, soup.facets);
+        return folder_.file(name);
+    };
+    const std::string bone = box("bone.off", 0, 1), cement = box("cement.off", 1, 3), out = folder_.file("out");
+    const std::string text = test::output_of(check(bone, {cement}));
+    EXPECT_NE(text.find("region    bone: volume 1, 1 shell, outside 5, wall to cement 1"), text.npos) << text;
+    EXPECT_EQ(check_json(bone, {"--with", cement})["regions"][1]["name"], "cement");
+    const ChildResult meshed = test::run_kerf({"mesh", bone, cement, "-o", out, "-n", "2", "--surface", "split", "-q"});
+    EXPECT_EQ(meshed.exit_code, 0) << meshed.log;
+    const Json report = Json::parse(test::bytes_of_file(out + "/report.json"));
+    EXPECT_EQ(report["input"]["regions"].size(), 2U);
+    EXPECT_EQ(report["options"]["with"], cement);
+    const ChildResult verified = test::run_kerf({"verify", out});
+    EXPECT_EQ(verified.exit_code, 0) << test::output_of(verified);
+}
+
 TEST_F(Check, TextIsShortHoweverManyDefectsThereAre) {
     const Soup sphere = test::icosphere(2);
     const ChildResult result = check(write(join(sphere, test::translated(sphere, Vec3(0.01, 0.02, 0.03)))));
