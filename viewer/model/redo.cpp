@@ -82,7 +82,7 @@ bool cut_straight(const Surface& surface, NodeId node, const CutPlace& place, co
             for (std::int32_t& v : edge) v = parent_vertex[static_cast<std::size_t>(v)];
     for (std::size_t i = parent_vertex.size(); i < straight->split.arrays.vertices.size(); ++i)
         parent_vertex.push_back(static_cast<std::int32_t>(i));
-    triangulate_caps(complex, [&](NodeId, const Vec3& place) { return options.max_interface_edge(place); });
+    triangulate_caps(complex, [&](NodeId, const Vec3& point) { return options.max_interface_edge(point); });
     straight->cut.tries = std::move(tries);
     made.cut = std::move(straight->cut);
     made.cut.place = place;
