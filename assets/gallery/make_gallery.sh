@@ -10,7 +10,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 kerf=build/kerf into=assets/gallery cad=
-groups=(cap pipe stages packing lattice reference stress bracket cad)
+groups=(cap pipe stages packing lattice regions reference stress bracket cad)
 asked=()
 while [[ $# -gt 0 ]]; do
     case $1 in
@@ -66,6 +66,11 @@ draw_packing() {
 draw_lattice() {
     "$kerf" mesh assets/bearing_cap_52k.stl -o "$work/lattice" -n 4 --max-volume 0.5 -q
     draw lattice.png "$work/lattice" --stage tetrahedra --clip z=0.35 --color origin --antialias 2 --resolution 900x520
+}
+
+draw_regions() {
+    "$kerf" mesh assets/bone.stl assets/cement.stl -o "$work/implant" -n 8 --size 0.4 -q
+    draw regions.png "$work/implant" --stage tetrahedra --color region --clip y=0.5 --antialias 2 --resolution 760x560
 }
 
 draw_reference() {
