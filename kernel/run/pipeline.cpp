@@ -145,7 +145,7 @@ void join_surfaces(const RunContext& run, const RunFolder& folder, const std::ve
             paths.push_back(folder.part_surface_file(part.id));
         }
         write_text_file(folder.file("surfaces.pvtu"),
-                        surfaces_pvtu_text(names, run.input.complex.region_names().size() > 1));
+                        surfaces_pvtu_text(names, !run.input.complex.region_names().empty()));
         write_joined_surfaces(folder.file("surfaces.vtu"), paths);
     });
 }

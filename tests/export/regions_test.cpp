@@ -11,6 +11,7 @@
 #include "export/merged_readers.h"
 #include "export/msh_reader.h"
 #include "part/joined_parts.h"
+#include "part/joined_surfaces.h"
 #include "part/run_parts.h"
 #include "support/all_formats.h"
 #include "support/run_in_process.h"
@@ -194,6 +195,11 @@ TEST(Regions, TrianglesOfVtuHaveThoseBehindThem) {
         const auto bytes = file.values<char>("RegionNames");
         EXPECT_EQ(std::string(bytes.begin(), bytes.end()), names);
     });
+}
+
+TEST(Regions, AreNamedByTheFileThatJoinsSurfaces) {
+    EXPECT_NE(surfaces_pvtu_text({"a.vtu"}, true).find("Name=\"Region\""), std::string::npos);
+    EXPECT_EQ(surfaces_pvtu_text({"a.vtu"}, false).find("Name=\"Region\""), std::string::npos);
 }
 
 TEST(Regions, WallsAreNoMarkersOfSu2) {
