@@ -70,8 +70,11 @@ void note_count(Soup& soup, std::int64_t count, const char* one, const char* man
 }  // namespace
 
 std::optional<DividedSpace> divide_space(const Soup& soup) {
-    const auto is_finite = [](const Vec3& p) { return p.allFinite(); };
-    if (soup.facets.empty() || !std::all_of(soup.vertices.begin(), soup.vertices.end(), is_finite)) return {};
+    constexpr double largest_magnitude_of_rays = 1e50;  // what is larger is a defect anyway
+    const auto is_usable = [](const Vec3& p) {
+        return p.allFinite() && p.cwiseAbs().maxCoeff() <= largest_magnitude_of_rays;
+    };
+    if (soup.facets.empty() || !std::all_of(soup.vertices.begin(), soup.vertices.end(), is_usable)) return {};
     DividedSpace space{single_facets(soup), {}, {}, {}};
     auto cells = find_cells(soup.vertices, space.single.facets);
     if (!cells || cells->count == 0) return {};
@@ -104,8 +107,8 @@ void give_sides(Soup& soup, DividedSpace space) {
     }
     drop_facets(soup, drop);
     soup.region_names = std::move(space.names);
-    note_count(soup, copies, "facet that was there before is a wall, once",
-               "facets that were there before are walls, once");
+    note_count(soup, copies, "facet is there more than once, and is kept once",
+               "facets are there more than once, and are kept once");
     note_count(soup, internal, "facet with the same on both sides is left out",
                "facets with the same on both sides are left out");
 }

@@ -28,8 +28,9 @@ struct DividedSpace {
     std::int32_t region_of(std::int32_t cell) const { return cell < 0 ? -1 : region_of_cell[cell]; }
 };
 
-/// No cell is a region yet. Nothing is returned without facets, for coordinates that are not finite, and where
-/// find_cells() finds nothing, or no bounded cell. Requires numbers in range and a welded soup. Cost as find_cells().
+/// No cell is a region yet. Nothing is returned without facets, for coordinates that are not finite or beyond 1e50, and
+/// where find_cells() finds nothing, or no bounded cell. Requires numbers in range and a welded soup. Cost as
+/// find_cells().
 std::optional<DividedSpace> divide_space(const Soup& soup);
 
 /// Sets Soup::sides and Soup::region_names, leaves out the facets that are no wall, and notes that. Regions without a
