@@ -100,11 +100,17 @@ InputFiles read_input_files(const std::string& path, const InputOptions& options
         return files;
     }
     Hasher hasher;
+    std::vector<FileHash> hashes;
     const auto add = [&](const std::string& file, const Soup& soup) {
         if (!soup.sides.empty())
             throw Error(ErrorCode::usage, fmt::format("{} has regions already: mesh it alone, or give the surface of "
                                                       "each region as a file.",
                                                       file));
+        if (std::find(hashes.begin(), hashes.end(), hash) != hashes.end())
+            throw Error(ErrorCode::usage, fmt::format("{} is given twice, or is a copy of a file that is given before "
+                                                      "it. Give each body once.",
+                                                      file));
+        hashes.push_back(hash);
         hasher.add(std::span<const std::uint64_t>(hash));
         files.names.push_back(unlike_others(stem_of(file), files.names));
         append_soup(files.soup, soup, files.names.back());

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <span>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -24,7 +23,7 @@
 #include "part/vtu_writer.h"
 #include "prepare/oriented_triangle.h"
 #include "prepare/remeshing.h"
-#include "surface/facet_cover.h"
+#include "run/input_pieces.h"
 #include "work/mesh_hash.h"
 
 namespace kerf {
@@ -39,16 +38,6 @@ struct PlacedVertex {
 struct InterfaceFacet {
     NamedTriangle vertices;  // oriented as in the part with the smaller number
     std::int32_t part, neighbour;
-};
-
-// A boundary triangle that lies on a facet of the input: the facet itself, or a piece of it, seen from outside of the
-// region.
-struct InputPiece {
-    std::int32_t facet, region, patch;
-    NamedTriangle vertices;
-    bool operator<(const InputPiece& o) const {
-        return std::tie(facet, region, vertices) < std::tie(o.facet, o.region, o.vertices);
-    }
 };
 
 std::string read_report(const std::string& folder) {
@@ -112,9 +101,7 @@ class FolderVerifier {
     void check_interfaces();
     void check_numbering();
     void check_input();
-    std::int64_t count_missing_sides(const Complex& input, std::int32_t facet,
-                                     std::span<const InputPiece> pieces) const;
-    bool is_facet(const Complex& input, const Triangle& facet, std::span<const InputPiece> pieces) const;
+    Vec3 point_of(std::int64_t vertex) const;
     void summarise();
 
     std::string folder_;
@@ -299,36 +286,11 @@ void FolderVerifier::check_numbering() {
     result_.vertices = next + unnumbered_interior_;
 }
 
-// Sides of a facet of the input that no pieces are, and pieces of regions that it does not bound. `pieces`: by region.
-std::int64_t FolderVerifier::count_missing_sides(const Complex& input, std::int32_t facet,
-                                                 std::span<const InputPiece> pieces) const {
-    const auto [front, back] = input.sides(facet);
-    const Triangle& t = input.vertices(facet);
-    std::int64_t missing = 0;
-    auto used = static_cast<std::ptrdiff_t>(pieces.size());
-    for (const std::int32_t region : {back, front}) {
-        if (region < 0) continue;
-        const auto [first, last] =
-            std::equal_range(pieces.begin(), pieces.end(), InputPiece{facet, region, 0, {}},
-                             [](const InputPiece& a, const InputPiece& b) { return a.region < b.region; });
-        used -= last - first;
-        missing += !is_facet(input, region == back ? t : Triangle{t[0], t[2], t[1]}, {first, last});
-    }
-    return missing + used;
-}
-
-// True if the pieces are the facet itself, or cover it with new vertices on the way.
-bool FolderVerifier::is_facet(const Complex& input, const Triangle& t, std::span<const InputPiece> pieces) const {
-    if (pieces.size() == 1) return pieces[0].vertices == rotated_to_smallest({t[0], t[1], t[2]});
-    std::vector<std::array<Vec3, 3>> corners;
-    for (const InputPiece& piece : pieces) {
-        std::array<Vec3, 3>& corner = corners.emplace_back();
-        for (std::size_t i = 0; i < 3; ++i)
-            corner[i] = std::lower_bound(boundary_.begin(), boundary_.end(), piece.vertices[i],
-                                         [](const PlacedVertex& v, std::int64_t id) { return v.id < id; })
-                            ->point;
-    }
-    return covers({input.point(t[0]), input.point(t[1]), input.point(t[2])}, corners);
+// Of one that the parts have on their boundaries.
+Vec3 FolderVerifier::point_of(std::int64_t vertex) const {
+    return std::lower_bound(boundary_.begin(), boundary_.end(), vertex,
+                            [](const PlacedVertex& v, std::int64_t id) { return v.id < id; })
+        ->point;
 }
 
 std::string text_of_option(const nlohmann::json& value) {
@@ -372,7 +334,8 @@ void FolderVerifier::check_input() {
         const auto first = next;
         for (; next != pieces_.end() && next->facet == f; ++next)
             wrong_patches += next->patch != input.complex.patch(f);
-        result_.laws.input_faces_missing += count_missing_sides(input.complex, f, {first, next});
+        result_.laws.input_faces_missing += count_missing_sides(
+            input.complex, f, {first, next}, [this](std::int64_t vertex) { return point_of(vertex); });
     }
     if (wrong_patches > 0)
         differs(fmt::format("{} boundary triangles are in other patches than the input", wrong_patches));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -87,6 +88,15 @@ Complex::Complex(SurfaceArrays facets, std::vector<FacetSides> sides, std::vecto
         if (first_[r] == first_[r + 1])
             throw Error(ErrorCode::input, fmt::format("The region '{}' has no facets. Leave it out.", names_[r]));
     check_closed(facets_, sides_, names_);
+    if (names_.size() == 1) become_only_region();
+}
+
+void Complex::become_only_region() {
+    std::variant<Surface, ManifoldDefect> built = Surface::build(arrays_of(RegionIndex(0)));
+    if (const auto* defect = std::get_if<ManifoldDefect>(&built))
+        throw Error(ErrorCode::input, fmt::format("The region '{}' touches itself at {}. Part its surface there.",
+                                                  names_[0], place_text(defect->where)));
+    *this = Complex(std::get<Surface>(std::move(built)));
 }
 
 // One pass over the facets for all regions.

@@ -22,7 +22,8 @@ class Complex {
     explicit Complex(Surface surface);
     /// Several regions. `sides`: of each facet, by the numbers of `region_names`. Throws Error(input), naming region
     /// and place, for a facet with the same on both sides, a region without facets, and one whose facets do not close.
-    /// O(#F log #F).
+    /// A single region loses its name: it is the complex of its surface, and Error(input) is thrown where that touches
+    /// itself. O(#F log #F).
     Complex(SurfaceArrays facets, std::vector<FacetSides> sides, std::vector<std::string> region_names);
 
     std::int32_t region_count() const { return names_.empty() ? 1 : static_cast<std::int32_t>(names_.size()); }
@@ -54,6 +55,7 @@ class Complex {
 
  private:
     void find_facets_of_regions();
+    void become_only_region();
 
     Surface only_;  // if there is one region; else what follows
     SurfaceArrays facets_;

@@ -85,9 +85,12 @@ TEST_F(Check, SeveralFilesAreARegionEachAndSoIsARun) {
     EXPECT_EQ(meshed.exit_code, 0) << meshed.log;
     const Json report = Json::parse(test::bytes_of_file(out + "/report.json"));
     EXPECT_EQ(report["input"]["regions"].size(), 2U);
-    EXPECT_EQ(report["options"]["with"], cement);
+    EXPECT_EQ(report["options"]["with"], Json::array({cement}));
     const ChildResult verified = test::run_kerf({"verify", out});
     EXPECT_EQ(verified.exit_code, 0) << test::output_of(verified);
+    const ChildResult twice = test::run_kerf({"mesh", bone, bone, "-o", out});
+    EXPECT_EQ(twice.exit_code, 2);
+    EXPECT_NE(twice.log.find("bone.off is given twice"), std::string::npos) << twice.log;
 }
 
 TEST_F(Check, TextIsShortHoweverManyDefectsThereAre) {

@@ -202,7 +202,8 @@ using Words = std::set<std::string>;
 TEST_F(BashCompletion, OffersCommandsOptionsValuesAndFiles) {
     EXPECT_EQ(offers("me"), (Words{"merge", "mesh"}));
     EXPECT_TRUE(offers("''").contains("screenshot"));
-    EXPECT_EQ(offers("mesh part.stl --size-"), (Words{"--size-field", "--size-in", "--size-near", "--size-on"}));
+    EXPECT_EQ(offers("mesh part.stl --size-"),
+              (Words{"--size-field", "--size-in", "--size-near", "--size-on", "--size-region"}));
     EXPECT_EQ(offers("mesh part.stl --cut ''"), (Words{"equidistant", "inertia", "volume"}));
     EXPECT_EQ(offers("mesh part.stl --cut = e"), (Words{"equidistant"})) << "bash takes --cut=e for three words";
     EXPECT_EQ(offers("mesh part.stl --cut ="), offers("mesh part.stl --cut ''"));
@@ -278,7 +279,7 @@ TEST(UsageErrors, SayWhatIsMissingOrTooMuch) {
     };
     expect({"mesh", cube, "--size"}, "--size needs a value: --size H. Wanted edge length");
     expect({"mesh", cube, "-o", "a", "-o", "b"}, "--output is given more than once. Choose one.");
-    expect({"mesh", cube, cube}, "kerf mesh takes no further arguments, but there is " + cube);
+    expect({"merge", "out", "out", "-o", "a.msh"}, "kerf merge takes no further arguments, but there is out");
     expect({"mesh", cube, "--resume", "out"}, "INPUT and --resume do not go together");
     expect({"mesh"}, "kerf mesh needs INPUT: Closed surface");
     expect({"verify"}, "kerf verify needs DIR: Folder of the run");

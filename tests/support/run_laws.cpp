@@ -135,8 +135,9 @@ void RunLaws::check_volume() {
     for (const Part& part : parts_)
         for (const Tetrahedron& t : part.mesh.tets) {
             const std::vector<Vec3>& p = part.mesh.vertices;
-            sums[static_cast<std::size_t>(part.region_of(0).value())] +=
-                (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).dot(p[t[3]] - p[t[0]]) / 6;
+            const auto region = static_cast<std::size_t>(part.region_of(0).value());
+            if (region >= sums.size()) return add(1, "part in a region that there is not");
+            sums[region] += (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).dot(p[t[3]] - p[t[0]]) / 6;
         }
     for (std::size_t r = 0; r < sums.size(); ++r) wrong += !(std::abs(sums[r] - volumes_[r]) <= 1e-10 * volumes_[r]);
     add(wrong, "volume that is not the enclosed one");

@@ -56,6 +56,15 @@ TEST(Complex, OfOneRegionIsItsSurface) {
     EXPECT_EQ(complex.facet_count(), 0);
 }
 
+TEST(Complex, OfOneNamedRegionIsItsSurfaceTurnedOutwards) {
+    test::VoxelBody cube = test::voxel_body({1, 1, 1}, [](Cube) { return 0; });
+    cube.sides[3] = cube.sides[3].turned();
+    std::swap(cube.facets.facets[3][1], cube.facets.facets[3][2]);
+    Complex complex = test::to_complex(cube);
+    EXPECT_TRUE(complex.region_names().empty() && complex.all_sides().empty());
+    EXPECT_NEAR(mass_properties(complex.take_only_region()).volume, 1, 1e-15);
+}
+
 TEST(Complex, RefusesRegionsThatDoNotClose) {
     test::VoxelBody open = two_cubes();
     const auto wall =
@@ -70,6 +79,9 @@ TEST(Complex, RefusesRegionsThatDoNotClose) {
     test::VoxelBody doubled = two_cubes();
     doubled.sides.front() = {0, 0};
     EXPECT_NE(refusal_of(doubled).find("has the region 'region_0' on both sides"), std::string::npos);
+
+    const test::VoxelBody touching = test::voxel_body({2, 2, 1}, [](Cube c) { return c[0] == c[1] ? 0 : -1; });
+    EXPECT_NE(refusal_of(touching).find("touches itself at (1, 1, "), std::string::npos) << refusal_of(touching);
 
     test::VoxelBody empty = two_cubes();
     empty.names.emplace_back("third");
