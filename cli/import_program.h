@@ -1,7 +1,7 @@
 // Programs that read a file for kerf in a process of their own, because of the library that they need. They are started
 // by kerf, which reads the answer from standard output (io/cad_body.h).
 //
-//     PROGRAM FILE [--solid N] [--unite] [--unit mm|cm|m|inch|ft] [--deflection D] [--output OUT]
+//     PROGRAM FILE [--solid N] [--unite] [--no-imprint] [--unit mm|cm|m|inch|ft] [--deflection D] [--output OUT]
 #pragma once
 
 #include <string>

@@ -1,10 +1,12 @@
 // Bodies first: the solids of the file, or its loose faces sewn, or all solids united. Each body is then tessellated
 // for itself (body_mesher.h), once more without moved vertices where bodies meet that way which are apart. Bodies that
-// do touch are mostly found before all of this, by coarse facets.
+// do touch are mostly found before all of this, by coarse facets: they become regions that share walls (imprint.h), and
+// all bodies are tessellated at once (assembly_mesher.h).
 #include "cad/cad_import.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -14,9 +16,11 @@
 #include <Message_Messenger.hxx>
 #include <Standard_Failure.hxx>
 
+#include "cad/assembly_mesher.h"
 #include "cad/body_mesher.h"
 #include "cad/contact.h"
 #include "cad/healing.h"
+#include "cad/imprint.h"
 #include "cad/model.h"
 #include "core/error.h"
 #include "surface/intersections.h"
@@ -25,6 +29,7 @@ namespace kerf {
 
 namespace {
 
+using cad::Assembly;
 using cad::Body;
 using cad::counted;
 using cad::MeshedBody;
@@ -33,13 +38,51 @@ using cad::place_text;
 using cad::refuse;
 using cad::Tessellation;
 
+[[noreturn]] void refuse_solids(const std::string& path, const std::string& what, const Vec3& where,
+                                std::vector<std::string> solids) {
+    refuse(path, what, SolidDefect::touching,
+           {{ElementKind::solid, {}, {{where.x(), where.y(), where.z()}}, std::move(solids)}});
+}
+
 [[noreturn]] void refuse_contact(const std::string& path, const std::string& one, const std::string& other,
                                  const Vec3& where) {
-    refuse(path,
-           fmt::format("solids '{}' and '{}' touch or overlap near {}. Join what touches by --unite, or choose one by "
-                       "--solid N.",
-                       one, other, place_text(where)),
-           SolidDefect::touching, {{ElementKind::solid, {}, {{where.x(), where.y(), where.z()}}, {one, other}}});
+    refuse_solids(path,
+                  fmt::format("solids '{}' and '{}' touch or overlap near {}. Join what touches by --unite, or choose "
+                              "one by --solid N.",
+                              one, other, place_text(where)),
+                  where, {one, other});
+}
+
+[[noreturn]] void refuse_imprint(const cad::ImprintFailure& failure, const Model& model, const std::string& path) {
+    const std::string &one = model.bodies[failure.bodies[0]].name, &other = model.bodies[failure.bodies[1]].name;
+    const std::string place = place_text(failure.where);
+    using Kind = cad::ImprintFailure::Kind;
+    if (failure.kind == Kind::overlap)
+        refuse_solids(path,
+                      fmt::format("solids '{}' and '{}' overlap near {}. Join them by --unite, or choose one by "
+                                  "--solid N.",
+                                  one, other, place),
+                      failure.where, {one, other});
+    if (failure.kind == Kind::apart)
+        refuse_solids(path,
+                      fmt::format("solids '{}' and '{}' touch or overlap near {}, but OpenCASCADE finds nothing that "
+                                  "they have in common. Join what touches by --unite, choose one by --solid N, or move "
+                                  "them apart in the CAD program.",
+                                  one, other, place),
+                      failure.where, {one, other});
+    if (one == other)
+        refuse_solids(path,
+                      fmt::format("solid '{}', near {}, does not stay what it is when solids share what they touch in. "
+                                  "Join what touches by --unite, choose one by --solid N, or repair it in the CAD "
+                                  "program.",
+                                  one, place),
+                      failure.where, {one});
+    refuse_solids(path,
+                  fmt::format("OpenCASCADE cannot make solids share what they touch in, as '{}' and '{}' do near {}. "
+                              "Join what touches by --unite, choose one by --solid N, or repair them in the CAD "
+                              "program.",
+                              one, other, place),
+                  failure.where, {one, other});
 }
 
 void select_solid(Model& model, std::int32_t number, const std::string& path) {
@@ -123,6 +166,49 @@ Bodies tessellate_bodies(Model& model, const CadOptions& options, const std::str
     return all;
 }
 
+std::vector<double> diagonals_of(const std::vector<Body>& bodies) {
+    std::vector<double> diagonals;
+    for (const Body& body : bodies) diagonals.push_back(cad::diagonal_of(body.shape));
+    return diagonals;
+}
+
+void divide_all_closed_faces(Model& model) {
+    for (Body& body : model.bodies)
+        if (cad::divide_closed_faces(body))
+            model.notes.push_back(
+                fmt::format("Closed faces of '{}' were divided, since some got no triangles.", body.name));
+}
+
+Bodies to_bodies(const Assembly& assembly, cad::MeshedAssembly meshed, Model& model) {
+    Bodies all;
+    append(all.soup, meshed.facets);
+    all.soup.sides = std::move(meshed.facets.sides);
+    all.soup.region_names = assembly.region_names;
+    for (std::size_t r = 0; r < assembly.volumes.size(); ++r) {
+        all.volume += meshed.volumes[r];
+        all.exact_volume += assembly.volumes[r];
+    }
+    model.notes.push_back(fmt::format("Solids touch: they are {} regions that share {}.", assembly.volumes.size(),
+                                      counted(static_cast<std::size_t>(assembly.wall_faces), "face", "faces")));
+    if (assembly.tolerance > 0)
+        model.notes.push_back(fmt::format("Faces within {:.3g} mm were taken as one.", assembly.tolerance));
+    model.patches = assembly.patches;
+    return all;
+}
+
+// Bodies that touch, as regions that share walls.
+Bodies tessellate_touching(Model& model, const cad::Contact& contact, const CadOptions& options,
+                           const std::string& path) {
+    for (bool is_divided = false;; is_divided = true) {
+        const cad::Imprint imprint(model.bodies, model.patches, contact);
+        if (!imprint.assembly()) refuse_imprint(imprint.failure(), model, path);
+        std::optional<cad::MeshedAssembly> meshed =
+            cad::mesh_assembly(*imprint.assembly(), diagonals_of(model.bodies), path, options.deflection, !is_divided);
+        if (meshed) return to_bodies(*imprint.assembly(), *std::move(meshed), model);
+        divide_all_closed_faces(model);
+    }
+}
+
 // Solids whose facets meet, the first of them; nothing if none do.
 std::optional<cad::Contact> contact_of(const Bodies& all) {
     if (all.first_facet.size() < 2) return {};
@@ -136,20 +222,32 @@ std::optional<cad::Contact> contact_of(const Bodies& all) {
     return cad::Contact{{body_of(f), body_of(g)}, all.soup.vertices[all.soup.facets[f][0]]};
 }
 
-void refuse_if(const std::optional<cad::Contact>& contact, const Model& model, const std::string& path) {
-    if (contact)
-        refuse_contact(path, model.bodies[contact->bodies[0]].name, model.bodies[contact->bodies[1]].name,
-                       contact->where);
+Bodies tessellate_all(Model& model, const CadOptions& options, const std::string& path) {
+    const auto touching = [&](const cad::Contact& contact) {
+        if (!options.no_imprint) return tessellate_touching(model, contact, options, path);
+        refuse_contact(path, model.bodies[contact.bodies[0]].name, model.bodies[contact.bodies[1]].name, contact.where);
+    };
+    if (const std::optional<cad::Contact> contact = cad::find_contact(model.bodies)) return touching(*contact);
+    Bodies all = tessellate_bodies(model, options, path, true);
+    std::optional<cad::Contact> contact = contact_of(all);
+    if (options.deflection == 0 && contact) {
+        all = tessellate_bodies(model, options, path, false);
+        contact = contact_of(all);
+    }
+    return contact ? touching(*contact) : all;
 }
 
-// Patches without facets are left out.
+// Patches without facets are left out, and those of one name are one.
 void set_patches(Soup& soup, const std::vector<cad::Patch>& patches) {
     std::vector<std::int32_t> number(patches.size(), -1);
     for (const std::int32_t p : soup.patch) number[p] = 0;
     bool any_colour = false;
+    std::map<std::string, std::int32_t> number_of_name;
     for (std::size_t p = 0; p < patches.size(); ++p) {
         if (number[p] < 0) continue;
-        number[p] = static_cast<std::int32_t>(soup.patch_names.size());
+        const auto next = static_cast<std::int32_t>(soup.patch_names.size());
+        number[p] = number_of_name.try_emplace(patches[p].name, next).first->second;
+        if (number[p] != next) continue;
         soup.patch_names.push_back(patches[p].name);
         soup.patch_colours.push_back(patches[p].colour);
         any_colour = any_colour || patches[p].colour[3] != 0;
@@ -182,14 +280,7 @@ CadBody import_model(Model model, const CadOptions& options, const std::string& 
     CadBody result;
     result.format = name(model.format);
     result.file_unit = model.unit;
-    refuse_if(cad::find_contact(model.bodies), model, path);
-    Bodies all = tessellate_bodies(model, options, path, true);
-    std::optional<cad::Contact> contact = contact_of(all);
-    if (options.deflection == 0 && contact) {
-        all = tessellate_bodies(model, options, path, false);
-        contact = contact_of(all);
-    }
-    refuse_if(contact, model, path);
+    Bodies all = tessellate_all(model, options, path);
     result.soup = std::move(all.soup);
     result.volume = all.volume;
     result.exact_volume = all.exact_volume;

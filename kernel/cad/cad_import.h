@@ -17,10 +17,14 @@ namespace kerf {
 /// the curved faces (cad/volume_balance.h), unless that takes more facets than some 100,000s, or 80,000 of one face. No
 /// two of them cross. Soup::notes says what was read, converted, sewn, divided or left out.
 ///
+/// Where solids touch, all of them are regions: what they touch in exists once (cad/imprint.h), Soup::sides and
+/// Soup::region_names are set, and the volume of each is right. Where none touch, these stay empty.
+///
 /// Throws Error(input), in one sentence that names the file, the solids or faces and the way out, for a file that is
-/// damaged or cut off or holds no faces, as SolidDefect for solids that are open, intersect themselves, touch or
-/// overlap; Error(usage) for a solid that the file does not have. Deterministic. Seconds for 1000 faces. Not for
-/// several threads at once: OpenCASCADE has global settings.
+/// damaged or cut off or holds no faces, as SolidDefect for solids that are open, intersect themselves or overlap, or
+/// touch where CadOptions::no_imprint forbids that or OpenCASCADE fails on it; Error(usage) for a solid that the file
+/// does not have. Deterministic. Seconds for 1000 faces. Not for several threads at once: OpenCASCADE has global
+/// settings.
 CadBody import_cad(std::string_view content, const std::string& path, const CadOptions& options = {});
 
 /// Leaves out OpenCASCADE's own messages, which go to standard output else.

@@ -27,32 +27,11 @@
 #include <TopoDS_Solid.hxx>
 #include <TopoDS_Vertex.hxx>
 
+#include "cad/face_history.h"
+
 namespace kerf::cad {
 
 namespace {
-
-// Binds what became of the faces of a body to their patches. `images(face)`: what stands in the place of the face, may
-// be null. In the order of the faces, never in that of the map, which is one of addresses.
-template <class Images>
-void follow_faces(const Body& old, const Images& images, TopTools_DataMapOfShapeInteger& patch_of) {
-    TopTools_IndexedMapOfShape faces;
-    TopExp::MapShapes(old.shape, TopAbs_FACE, faces);
-    for (int i = 1; i <= faces.Extent(); ++i) {
-        const std::int32_t patch = old.patch_of.Find(faces(i));
-        for (const TopoDS_Shape& image : images(faces(i))) {
-            if (image.IsNull()) continue;
-            for (TopExp_Explorer pieces(image, TopAbs_FACE); pieces.More(); pieces.Next())
-                if (!patch_of.IsBound(pieces.Current())) patch_of.Bind(pieces.Current(), patch);
-        }
-    }
-}
-
-// Every face of the shape has a patch.
-bool knows_all_faces(const TopoDS_Shape& shape, const TopTools_DataMapOfShapeInteger& patch_of) {
-    for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next())
-        if (!patch_of.IsBound(faces.Current())) return false;
-    return true;
-}
 
 // The shells as solids that are turned outwards.
 TopoDS_Compound solids_of_shells(const TopoDS_Shape& sewn) {
@@ -77,6 +56,7 @@ std::optional<Body> sewn_within(const Body& body, double tolerance) {
     follow_faces(
         body, [&](const TopoDS_Shape& face) { return std::array<TopoDS_Shape, 1>{sewing.ModifiedSubShape(face)}; },
         sewn.patch_of);
+    sewn.own_name = body.own_name;
     TopTools_IndexedMapOfShape faces;
     TopExp::MapShapes(sewn.shape, TopAbs_FACE, faces);
     if (faces.IsEmpty() || !knows_all_faces(sewn.shape, sewn.patch_of)) return {};
@@ -129,6 +109,7 @@ bool divide_closed_faces(Body& body) {
     follow_faces(
         body, [&](const TopoDS_Shape& face) { return std::array<TopoDS_Shape, 1>{context->Apply(face)}; },
         divided.patch_of);
+    divided.own_name = body.own_name;
     if (!knows_all_faces(divided.shape, divided.patch_of)) return false;
     body = std::move(divided);
     return true;

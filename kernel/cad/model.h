@@ -11,6 +11,7 @@
 #include <TopoDS_Shape.hxx>
 
 #include "io/cad_body.h"
+#include "surface/facet_sides.h"
 
 namespace kerf::cad {
 
@@ -22,11 +23,12 @@ struct Patch {
     Colour colour = {};
 };
 
-/// A solid in its place.
+/// A solid in its place, or several that share faces (cad/imprint.h).
 struct Body {
     std::string name;  ///< path along the assembly; unique
     TopoDS_Shape shape;
     TopTools_DataMapOfShapeInteger patch_of;  ///< face -> index into Model::patches
+    std::string own_name = {};                ///< without the path, as the file has it; empty: none
 };
 
 struct Model {

@@ -134,12 +134,15 @@ class ModelBuilder {
         TopExp::MapShapes(shape, TopAbs_SOLID, solids);
         for (int i = 1; i <= solids.Extent(); ++i) {
             std::string own = solid_name(solids(i));
-            if (own == path.substr(path.rfind('/') + 1)) own.clear();
+            const std::string part = path.substr(path.rfind('/') + 1);
+            const std::string own_name = own.empty() ? part : own;
+            if (own == part) own.clear();
             if (own.empty() && path.empty()) own = fmt::format("solid {}", model_.bodies.size() + 1);
             if (own.empty() && solids.Extent() > 1) own = fmt::format("solid {}", i);
             const std::string name = unique(joined(path, own));
             TopExp::MapShapes(solids(i), TopAbs_FACE, in_solids);
             model_.bodies.push_back(body_of(solids(i), place, name, colour));
+            model_.bodies.back().own_name = own_name;
         }
         add_loose(shape, place, in_solids, path, colour);
     }

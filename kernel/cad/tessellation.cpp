@@ -103,7 +103,7 @@ class FaceHeights {
 
 class Welder {
  public:
-    explicit Welder(const Body& body) : body_(body) {
+    Welder(const Body& body, const std::vector<FacetSides>& sides) : body_(body), sides_(sides) {
         TopExp::MapShapes(body.shape, TopAbs_VERTEX, corners_);
         TopExp::MapShapesAndUniqueAncestors(body.shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edge_);
         nodes_of_edge_.resize(static_cast<std::size_t>(faces_of_edge_.Extent()) + 1);
@@ -116,6 +116,8 @@ class Welder {
             const TopoDS_Face face = TopoDS::Face(faces.Current());
             if (face.Orientation() == TopAbs_FORWARD || face.Orientation() == TopAbs_REVERSED) add_face(face);
         }
+        if (!sides_.empty())
+            for (const std::int32_t patch : result_.patch) result_.sides.push_back(sides_[patch]);
         leave_out_collapsed();
         leave_out_twins();
         add_edges();
@@ -136,6 +138,7 @@ class Welder {
         number_.assign(static_cast<std::size_t>(triangles->NbNodes()) + 1, -1);
         for (TopExp_Explorer edges(face.Oriented(TopAbs_FORWARD), TopAbs_EDGE); edges.More(); edges.Next())
             number_edge(TopoDS::Edge(edges.Current()), triangles, place, point);
+        if (!sides_.empty()) number_inner_vertices(face, *triangles, point);
         for (int node = 1; node <= triangles->NbNodes(); ++node)
             if (number_[node] < 0) number_[node] = add_vertex(point(node));
         const bool is_turned = (face.Orientation() == TopAbs_REVERSED) != trsf.IsNegative();
@@ -149,6 +152,28 @@ class Welder {
             result_.patch.push_back(patch);
             result_.plane.push_back(plane);
             result_.rise.push_back(heights.mean_over({a, b, c}, {point(a), point(b), point(c)}));
+        }
+    }
+
+    // Where a vertex of another body lies in the face, the node at that place is it.
+    template <class Point>
+    void number_inner_vertices(const TopoDS_Face& face, const Poly_Triangulation& triangles, const Point& point) {
+        for (TopExp_Explorer inner(face, TopAbs_VERTEX, TopAbs_EDGE); inner.More(); inner.Next()) {
+            const TopoDS_Vertex vertex = TopoDS::Vertex(inner.Current());
+            const Vec3 place = to_vec3(BRep_Tool::Pnt(vertex));
+            int nearest = 0;
+            double least = BRep_Tool::Tolerance(vertex);
+            for (int node = 1; node <= triangles.NbNodes(); ++node) {
+                if (number_[node] >= 0) continue;
+                const double distance = (point(node) - place).norm();
+                if (distance > least) continue;
+                nearest = node;
+                least = distance;
+            }
+            if (nearest > 0)
+                number_[nearest] = corner(vertex);
+            else
+                result_.pierced_patches.push_back(body_.patch_of.Find(face));
         }
     }
 
@@ -185,6 +210,7 @@ class Welder {
         drop_items(result_.patch, drop);
         drop_items(result_.plane, drop);
         drop_items(result_.rise, drop);
+        if (!result_.sides.empty()) drop_items(result_.sides, drop);
     }
 
     void leave_out_collapsed() {
@@ -216,9 +242,20 @@ class Welder {
         for (std::size_t i = 1; i < sorted.size(); ++i) {
             const Sorted &one = sorted[i - 1], &other = sorted[i];
             if (one.vertices != other.vertices || one.is_even == other.is_even || drop[one.facet]) continue;
-            drop[one.facet] = drop[other.facet] = 1;
+            drop[other.facet] = 1;
+            drop[one.facet] = result_.sides.empty() || !join(result_.sides[one.facet], result_.sides[other.facet]);
         }
         keep_facets(drop);
+    }
+
+    // Gives a facet what lies behind its twin, where one region has collapsed between them. False if nothing separates
+    // two regions any more.
+    static bool join(FacetSides& sides, const FacetSides& twin) {
+        if (sides.front == twin.front)
+            sides.front = twin.back;
+        else
+            sides.back = twin.front;
+        return sides.front != sides.back;
     }
 
     // Those that bound patches, and creases inside of one.
@@ -237,6 +274,7 @@ class Welder {
     }
 
     const Body& body_;
+    const std::vector<FacetSides>& sides_;  // of patches; empty: one body
     Tessellation result_;
     TopTools_IndexedMapOfShape corners_;  // vertex i of the result is corner i + 1
     TopTools_IndexedDataMapOfShapeListOfShape faces_of_edge_;
@@ -278,17 +316,19 @@ std::vector<std::int32_t> find_open_patches(const Tessellation& mesh, const std:
 
 }  // namespace
 
-Tessellation tessellate(const Body& body, const TessellationSettings& settings) {
+Tessellation tessellate(const Body& body, const TessellationSettings& settings, const std::vector<FacetSides>& sides) {
     BRepTools::Clean(body.shape);
     IMeshTools_Parameters parameters;
     parameters.Deflection = settings.deflection;
     parameters.Angle = settings.angle;
     const BRepMesh_IncrementalMesh mesher(body.shape, parameters);
-    Tessellation mesh = Welder(body).run();
+    Tessellation mesh = Welder(body, sides).run();
     const std::vector<DirectedEdge> edges = sorted_edges(mesh.facets);
-    mesh.open_patches = find_open_patches(mesh, edges);
-    std::erase_if(mesh.edges, [&](const ModelEdge& e) { return count(edges, e.vertices[0], e.vertices[1]) == 0; });
-    mesh.volume = enclosed_volume(mesh);
+    if (sides.empty()) mesh.open_patches = find_open_patches(mesh, edges);
+    std::erase_if(mesh.edges, [&](const ModelEdge& e) {
+        return count(edges, e.vertices[0], e.vertices[1]) + count(edges, e.vertices[1], e.vertices[0]) == 0;
+    });
+    if (sides.empty()) mesh.volume = enclosed_volume(mesh);
     return mesh;
 }
 

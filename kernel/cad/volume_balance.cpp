@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -23,7 +24,8 @@ constexpr int secant_steps = 3;
 // Moves of a sagitta turn facets by a few degrees; but needles across them stand up, and become creases.
 constexpr double least_turn_cosine = 0.985;
 constexpr int most_rounds = 12;
-constexpr double precision = 1e-7;  // of the volume
+constexpr double precision = 1e-7;    // of the volume
+constexpr double least_gain = 1e-14;  // of the volume of a region by a vertex: less is rounding
 
 struct Corner {
     std::int32_t vertex, patch, facet;
@@ -125,6 +127,96 @@ bool keep_turned(const Tessellation& mesh, const std::vector<Vec3>& normals, std
     return any;
 }
 
+// Of the tetrahedra between the facets of each region and a vertex: their derivatives by the moves of vertices are
+// sums over facets. A vertex has few regions, so that the matrix of derivatives is kept by its entries.
+class RegionVolumes {
+ public:
+    RegionVolumes(const Tessellation& mesh, const std::vector<Vec3>& moves, const std::vector<double>& volumes)
+        : regions_(volumes.size()), weight_(moves.size()) {
+        std::vector<Entry> entries;
+        for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+            const Vec3 lifted = area_vector(mesh, static_cast<std::int32_t>(f)) / 3;
+            for (const std::int32_t v : mesh.facets[f]) {
+                const double gain = lifted.dot(moves[v]);
+                if (gain == 0) continue;
+                if (mesh.sides[f].back >= 0) entries.push_back({v, mesh.sides[f].back, gain});
+                if (mesh.sides[f].front >= 0) entries.push_back({v, mesh.sides[f].front, -gain});
+            }
+        }
+        std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+            return std::tie(a.vertex, a.region) < std::tie(b.vertex, b.region);
+        });
+        for (const Entry& e : entries)
+            if (!entries_.empty() && entries_.back().vertex == e.vertex && entries_.back().region == e.region)
+                entries_.back().gain += e.gain;
+            else
+                entries_.push_back(e);
+        std::erase_if(entries_, [&](const Entry& e) { return std::abs(e.gain) < least_gain * volumes[e.region]; });
+        for (const Entry& e : entries_) weight_[e.vertex] += std::abs(e.gain);
+    }
+
+    /// The smallest changes of the scales of vertices, weighted by what they change, that make up for what the regions
+    /// miss: by conjugate gradients, since there are as many ways as there are walls that two regions could use.
+    Eigen::VectorXd scales_for(const Eigen::VectorXd& missing) const {
+        Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(missing.size()), residual = missing, direction = residual;
+        double square = residual.squaredNorm();
+        const double enough = 1e-20 * square;
+        for (std::size_t i = 0; i < 2 * regions_ + most_rounds && square > enough; ++i) {
+            const Eigen::VectorXd image = gains_of(scales_of(direction));
+            const double curvature = direction.dot(image);
+            if (!(curvature > 0)) break;
+            multipliers += square / curvature * direction;
+            residual -= square / curvature * image;
+            const double next = residual.squaredNorm();
+            direction = residual + next / square * direction;
+            square = next;
+        }
+        return scales_of(multipliers);
+    }
+
+ private:
+    struct Entry {
+        std::int32_t vertex, region;
+        double gain;  // of volume by the whole move
+    };
+    Eigen::VectorXd scales_of(const Eigen::VectorXd& of_regions) const {
+        Eigen::VectorXd scales = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(weight_.size()));
+        for (const Entry& e : entries_)
+            if (weight_[e.vertex] > 0) scales[e.vertex] += e.gain / weight_[e.vertex] * of_regions[e.region];
+        return scales;
+    }
+    Eigen::VectorXd gains_of(const Eigen::VectorXd& scales) const {
+        Eigen::VectorXd gains = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(regions_));
+        for (const Entry& e : entries_) gains[e.region] += e.gain * scales[e.vertex];
+        return gains;
+    }
+
+    std::size_t regions_;
+    std::vector<Entry> entries_;
+    std::vector<double> weight_;
+};
+
+// As move_to_volume(), with a scale for each vertex.
+bool move_to_volumes(Tessellation& mesh, const std::vector<Vec3>& start, const std::vector<Vec3>& moves,
+                     const std::vector<double>& volumes) {
+    Eigen::VectorXd scales = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(moves.size()));
+    for (int step = 0; step <= secant_steps; ++step) {
+        for (std::size_t v = 0; v < moves.size(); ++v)
+            mesh.vertices[v] = start[v] + scales[static_cast<Eigen::Index>(v)] * moves[v];
+        const std::vector<double> now = region_volumes(mesh, volumes.size());
+        Eigen::VectorXd missing(static_cast<Eigen::Index>(volumes.size()));
+        bool is_right = true;
+        for (std::size_t r = 0; r < volumes.size(); ++r) {
+            const bool is_off = std::abs(volumes[r] - now[r]) > precision * volumes[r];
+            missing[static_cast<Eigen::Index>(r)] = is_off ? volumes[r] - now[r] : 0;
+            is_right = is_right && !is_off;
+        }
+        if (is_right) return scales.minCoeff() >= least_scale && scales.maxCoeff() <= most_scale;
+        scales += RegionVolumes(mesh, moves, volumes).scales_for(missing);
+    }
+    return false;
+}
+
 }  // namespace
 
 double volume_between(const Tessellation& mesh) {
@@ -145,6 +237,48 @@ bool balance_volume(Tessellation& mesh, double volume) {
         if (!is_right) break;
         mesh.volume = enclosed_volume(mesh);
         return true;
+    }
+    mesh.vertices = start;
+    return false;
+}
+
+std::vector<double> region_volumes(const Tessellation& mesh, std::size_t regions) {
+    std::vector<double> volumes(regions);
+    if (mesh.vertices.empty()) return volumes;
+    const Vec3& apex = mesh.vertices.front();
+    for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+        const auto& [a, b, c] = mesh.facets[f];
+        const double volume =
+            (mesh.vertices[a] - apex).dot((mesh.vertices[b] - apex).cross(mesh.vertices[c] - apex)) / 6;
+        const FacetSides sides = mesh.sides[f];
+        if (sides.back >= 0) volumes[static_cast<std::size_t>(sides.back)] += volume;
+        if (sides.front >= 0) volumes[static_cast<std::size_t>(sides.front)] -= volume;
+    }
+    return volumes;
+}
+
+std::vector<double> volumes_between(const Tessellation& mesh, std::size_t regions) {
+    std::vector<double> between(regions);
+    for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+        const double volume = area_vector(mesh, static_cast<std::int32_t>(f)).norm() * std::abs(mesh.rise[f]);
+        for (const std::int32_t region : {mesh.sides[f].front, mesh.sides[f].back})
+            if (region >= 0) between[static_cast<std::size_t>(region)] += volume;
+    }
+    return between;
+}
+
+bool balance_volumes(Tessellation& mesh, const std::vector<double>& volumes, const std::vector<char>& is_fixed) {
+    std::vector<Vec3> moves = find_moves(mesh), normals;
+    for (std::size_t v = 0; v < moves.size(); ++v)
+        if (is_fixed[v]) moves[v].setZero();
+    const std::vector<Vec3> start = mesh.vertices;
+    for (std::size_t f = 0; f < mesh.facets.size(); ++f)
+        normals.push_back(area_vector(mesh, static_cast<std::int32_t>(f)));
+    for (int round = 0; round < most_rounds; ++round) {
+        const bool is_right = move_to_volumes(mesh, start, moves, volumes);
+        if (keep_turned(mesh, normals, moves)) continue;
+        if (is_right) return true;
+        break;
     }
     mesh.vertices = start;
     return false;

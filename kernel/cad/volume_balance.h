@@ -1,6 +1,8 @@
 // Facets that hold what the solid holds, with few chords.
 #pragma once
 
+#include <vector>
+
 #include "cad/tessellation.h"
 
 namespace kerf::cad {
@@ -15,5 +17,16 @@ double volume_between(const Tessellation& mesh);
 /// False, and nothing is moved, if the difference is not what the facets have missed of their faces. The result may
 /// intersect itself. O(#F log #F), deterministic.
 bool balance_volume(Tessellation& mesh, double volume);
+
+/// Volumes of the regions of facets with `sides`.
+std::vector<double> region_volumes(const Tessellation& mesh, std::size_t regions);
+
+/// volume_between() for each region; facets of walls count for both.
+std::vector<double> volumes_between(const Tessellation& mesh, std::size_t regions);
+
+/// balance_volume() for facets with `sides`: `volumes` of all regions. A vertex of a wall moves for both of its
+/// regions: of all moves that give every region its volume those are taken that differ the least from what the faces
+/// ask for. `is_fixed`: of each vertex, whether it stays. O(#F (log #F + regions)).
+bool balance_volumes(Tessellation& mesh, const std::vector<double>& volumes, const std::vector<char>& is_fixed);
 
 }  // namespace kerf::cad

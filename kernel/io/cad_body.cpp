@@ -62,21 +62,22 @@ std::vector<std::string> CadOptions::arguments() const {
                                           "--unit",       length_unit_names()[static_cast<std::size_t>(unit)],
                                           "--deflection", fmt::format("{}", deflection)};
     if (unite) arguments.emplace_back("--unite");
+    if (no_imprint) arguments.emplace_back("--no-imprint");
     return arguments;
 }
 
 CadOptions CadOptions::from_arguments(std::span<const std::string> arguments) {
     CadOptions options;
     for (std::size_t i = 0; i < arguments.size(); ++i) {
-        if (arguments[i] == "--unite") {
-            options.unite = true;
+        if (arguments[i] == "--unite" || arguments[i] == "--no-imprint") {
+            (arguments[i] == "--unite" ? options.unite : options.no_imprint) = true;
             continue;
         }
         const std::string value = i + 1 < arguments.size() ? arguments[i + 1] : "";
         if (!set_cad_option(options, arguments[i], value))
             throw Error(ErrorCode::usage,
-                        fmt::format("'{} {}' is no option. There are --solid N (0: all), --unite, --unit {} and "
-                                    "--deflection D (below 1; 0: by volume).",
+                        fmt::format("'{} {}' is no option. There are --solid N (0: all), --unite, --no-imprint, "
+                                    "--unit {} and --deflection D (below 1; 0: by volume).",
                                     arguments[i], value, fmt::join(length_unit_names(), "|")));
         ++i;
     }

@@ -26,6 +26,7 @@ double millimetres_of(LengthUnit unit);
 struct CadOptions {
     std::int32_t solid = 0;            ///< only this one, counted from 1 in the order of the file; 0: all
     bool unite = false;                ///< solids that touch or overlap become one
+    bool no_imprint = false;           ///< solids that touch are refused, and do not become regions that share walls
     LengthUnit unit = LengthUnit::mm;  ///< of the result; a file that names no unit (BREP) keeps its numbers
     double deflection = 0;             ///< largest distance of a chord from its curve as a share of the diagonal of
                                        ///< the solid; 0: such that the volume is right to `volume_tolerance`,

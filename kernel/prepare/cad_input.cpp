@@ -71,8 +71,9 @@ Soup read_unscaled(std::string bytes, const std::string& path, const CadOptions&
         constexpr double timeout_seconds = 600;
         return std::move(read_cad(path, file_hash, options, "", timeout_seconds, threemf_program).soup);
     }
-    for (const auto& [name, is_given] : {std::pair("solid", options.solid > 0), std::pair("unite", options.unite),
-                                         std::pair("cad-deflection", options.deflection > 0)})
+    for (const auto& [name, is_given] :
+         {std::pair("solid", options.solid > 0), std::pair("unite", options.unite),
+          std::pair("no-imprint", options.no_imprint), std::pair("cad-deflection", options.deflection > 0)})
         if (is_given)
             throw Error(ErrorCode::usage,
                         fmt::format("{} is no CAD file, so that --{} has no meaning. Leave it out.", path, name));

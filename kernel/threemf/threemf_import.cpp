@@ -244,8 +244,8 @@ class ThreemfReader {
 }  // namespace
 
 CadBody import_threemf(std::string_view content, const std::string& path, const CadOptions& options) {
-    for (const auto& [name, is_given] :
-         {std::pair("unite", options.unite), std::pair("cad-deflection", options.deflection > 0)})
+    for (const auto& [name, is_given] : {std::pair("unite", options.unite), std::pair("no-imprint", options.no_imprint),
+                                         std::pair("cad-deflection", options.deflection > 0)})
         if (is_given)
             throw Error(ErrorCode::usage,
                         fmt::format("{} is a 3MF file, which has triangles already, so that --{} has no meaning. "

@@ -143,8 +143,10 @@ TEST_F(CadInput, ThreemfHasAProgramOfItsOwn) {
 TEST(CadFormats, AreRefusedWhereOnlyTrianglesAreRead) { EXPECT_THROW(read_surface_bytes(step, "part.step"), Error); }
 
 TEST(CadOptionsText, ComesBackAsItWas) {
-    CadOptions options{.solid = 3, .unite = true, .unit = LengthUnit::inch, .deflection = 1.0 / 3000};
+    CadOptions options{
+        .solid = 3, .unite = true, .no_imprint = true, .unit = LengthUnit::inch, .deflection = 1.0 / 3000};
     EXPECT_EQ(CadOptions::from_arguments(options.arguments()).arguments(), options.arguments());
+    EXPECT_TRUE(CadOptions::from_arguments(options.arguments()).no_imprint);
     EXPECT_EQ(CadOptions::from_arguments(CadOptions{}.arguments()).arguments(), CadOptions{}.arguments());
     using Arguments = std::vector<std::string>;
     for (const Arguments& wrong : {Arguments{"--solid"}, Arguments{"--solid", "-1"}, Arguments{"--unit", "mile"},
