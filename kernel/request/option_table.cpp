@@ -96,11 +96,9 @@ constexpr OptionRow<InputOptions> input_rows[] = {
          return choice(o.voids, {"as-given", "parity"});
      }},
     {"with", "", option_group::input, "FILE",
-     "Another file, whose bodies are meshed together with those of INPUT, each as a region; as several INPUTs. "
-     "Repeatable.",
+     "Another file, whose bodies are meshed with those of INPUT; as several INPUTs. Repeatable.",
      place<&InputOptions::more_files>},
-    {"fill-voids", "", option_group::input, "",
-     "Regions of their own in the voids of bodies: void_1, void_2, ... around which the body is a region, too.",
+    {"fill-voids", "", option_group::input, "", "Voids of bodies are regions, too: void_1, void_2, ...",
      place<&InputOptions::fill_voids>},
     {"region", "", option_group::input, "NAME=x,y,z",
      "The facets are walls, and the region in which this point lies has this name; units after --scale. Repeatable.",
@@ -123,8 +121,7 @@ constexpr OptionRow<InputOptions> input_rows[] = {
      {"a whole number, 0 (all) or that of one", 0}},
     {"unite", "", option_group::input, "", "CAD files: join solids that touch or overlap.",
      place<&InputOptions::cad, &CadOptions::unite>},
-    {"no-imprint", "", option_group::input, "",
-     "CAD files: refuse solids that touch; else they are regions that share walls.",
+    {"no-imprint", "", option_group::input, "", "CAD files: refuse solids that touch, which share walls else.",
      place<&InputOptions::cad, &CadOptions::no_imprint>},
     {"unit", "", option_group::input, "", "CAD files: unit into which lengths are converted. Default mm.",
      [](InputOptions& o) -> OptionField::Value { return choice(o.cad.unit, length_unit_names()); }},
