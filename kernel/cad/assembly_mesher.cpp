@@ -66,7 +66,9 @@ class AssemblyMesher {
 
  private:
     std::string solid_name(std::int32_t region) const { return "'" + assembly_.region_names[region] + "'"; }
-    std::string faces_text(std::vector<std::int32_t> patches) const { return names_of(patches, assembly_.patches); }
+    std::string faces_text(const std::vector<std::int32_t>& patches) const {
+        return names_of(patches, assembly_.patches);
+    }
 
     // The solids at a facet: "'a' and 'b'".
     std::string solids_at(const Tessellation& mesh, std::initializer_list<std::int32_t> facets) const {
