@@ -78,7 +78,7 @@ void append_soup(Soup& all, const Soup& more, const std::string& name) {
         append_items(all.patch_colours, more.patch_colours);
     }
     for (const std::string& patch : more.patch_names)
-        all.patch_names.push_back(more.patch_names.size() == 1 ? name : name + "/" + patch);
+        all.patch_names.push_back(more.patch_names.size() == 1 ? name : fmt::format("{}/{}", name, patch));
     if (has_colours) all.patch_colours.resize(all.patch_names.size());
     append_items(all.vertices, more.vertices);
     append_items(all.holes, more.holes);
