@@ -52,7 +52,11 @@ class BadInput : public testing::Test {
 };
 
 TEST_F(BadInput, MissingFile) { expect_refused(folder_.file("no.stl"), 7, {"no.stl", "cannot be read"}); }
-TEST_F(BadInput, Folder) { expect_refused(KERF_ASSETS, 7, {"it is a folder"}); }
+TEST_F(BadInput, Folder) {
+    const test::TemporaryFolder other;
+    std::filesystem::create_directory(other.file("inside"));
+    expect_refused(other.file("inside"), 7, {"it is a folder"});
+}
 TEST_F(BadInput, StandardInput) { expect_refused("-", 7, {"standard input is not supported"}); }
 TEST_F(BadInput, EmptyFile) { expect_refused(write("empty.stl", ""), 3, {"empty.stl", "the file is empty"}); }
 TEST_F(BadInput, NoSurface) { expect_refused(write("text.stl", "hello"), 3, {"text.stl", "not recognised"}); }
