@@ -1,9 +1,11 @@
-// Numbers as people read them.
+// Numbers and places as people read them.
 #pragma once
 
 #include <string>
 
 #include <fmt/format.h>
+
+#include "core/types.h"
 
 namespace kerf {
 
@@ -21,5 +23,8 @@ inline std::string short_number(double n) {
     if (n >= 1e6) return fmt::format("{:.1f} M", n / 1e6);
     return n >= 1e3 ? fmt::format("{:.0f} k", n / 1e3) : fmt::format("{:.0f}", n);
 }
+
+/// "(1, 2.5, 0)", by nine digits.
+inline std::string place_text(const Vec3& p) { return fmt::format("({:.9g}, {:.9g}, {:.9g})", p.x(), p.y(), p.z()); }
 
 }  // namespace kerf

@@ -31,6 +31,12 @@ using Tetrahedron = std::array<std::int32_t, 4>;
 /// Number of a node in the binary tree of the decomposition: the root is 1, the children of i are 2i and 2i+1.
 using NodeId = std::int32_t;
 
+/// Whether `node` is `ancestor` or below it.
+constexpr bool lies_below(NodeId node, NodeId ancestor) {
+    while (node > ancestor) node /= 2;
+    return node == ancestor;
+}
+
 /// Name of a vertex or facet that is the same in every part that holds it.
 ///
 /// The upper half is the node whose cut made it (0: the input surface), the lower half its index there. Parts match by

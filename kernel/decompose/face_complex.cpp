@@ -36,22 +36,13 @@ std::vector<KeyedItem> sorted_items(const std::vector<Leaf>& leaves, KeysOf keys
 
 Triangle turned(const Triangle& t) { return {t[0], t[2], t[1]}; }
 
-// Edges that are double: where a surface touches itself without copies of a vertex.
-bool has_double_edges(const SurfaceArrays& surface) {
-    bool found = false;
-    EdgeCorners(surface.facets).for_each_edge([&](std::int32_t, std::span<const EdgeCorners::Corner> corners) {
-        found |= corners.size() > 2;
-    });
-    return found;
-}
-
 }  // namespace
 
 FaceComplex::FaceComplex(const std::vector<Leaf>& leaves) {
     std::vector<std::vector<std::int32_t>> number(leaves.size());
     for (std::size_t i = 0; i < leaves.size(); ++i) {
         number[i].resize(leaves[i].surface.vertices.size());
-        touches_ |= has_double_edges(leaves[i].surface);
+        touches_ |= has_edge_of_many(leaves[i].surface.facets);  // double edges, without copies of a vertex
     }
     std::int32_t last_leaf = -1;
     for (const KeyedItem& v : sorted_items(

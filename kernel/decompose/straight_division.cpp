@@ -104,7 +104,8 @@ void StraightDivision::divide(NodeId id) {
 
 void StraightDivision::finish_interfaces() {
     triangulate_caps(complex_, [&](NodeId cut, const Vec3& place) {
-        return options_.cut_in(region_of(cut)).max_interface_edge(place);
+        return options_.region_sizes.empty() ? options_.cut.max_interface_edge(place)
+                                             : options_.cut_in(region_of(cut)).max_interface_edge(place);
     });
     for (const auto& [id, vertices] : complex_.assign_keys()) nodes_.at(id).interface_vertices = vertices;
     for (const auto& [id, cap] : measure_caps(complex_)) {

@@ -13,11 +13,6 @@ namespace kerf {
 
 namespace {
 
-bool lies_below(NodeId node, NodeId ancestor) {
-    while (node > ancestor) node /= 2;
-    return node == ancestor;
-}
-
 void divide(const std::vector<NodeId>& leaves, PieceOfTree node, std::int32_t pieces,
             std::vector<PieceOfTree>& divided) {
     if (pieces == 1) return divided.push_back(node);

@@ -14,7 +14,7 @@ namespace kerf {
 /// The lengths that are wanted on facets: of one field, or of several, the finest of which counts in an edge.
 class FacetSizes {
  public:
-    FacetSizes(SizeField all) : fields_{std::move(all)} {}  // NOLINT(google-explicit-constructor): the usual case
+    FacetSizes(SizeField all) : fields_{std::move(all)} {}
     /// `field`: of each facet by its number in `fields`, which are the finer the smaller it is.
     FacetSizes(std::vector<SizeField> fields, std::vector<std::int32_t> field)
         : fields_(std::move(fields)), field_(std::move(field)) {}
@@ -46,9 +46,8 @@ struct DividedSurface {
 /// 1.5 times that on edges of the surface, twice inside of facets. The shape is the same. The edges and corners of the
 /// facets stay, vertices keep their numbers, and what is divided has the patch of its facet. Edges have as many pieces
 /// as lengths fit in, rounded, shorter where shorter ones are wanted; inside, points are added as in interfaces
-/// (cut/triangulation.h). A facet depends on its corners and the field alone. Any
-/// number of facets may meet in an edge. Throws Error(memory) for more facets than a surface may have,
-/// Error(cancelled). O(n log n), n: facets of the result.
+/// (cut/triangulation.h). A facet depends on its corners and the field alone. Any number of facets may meet in an edge.
+/// Throws Error(memory) for more facets than a surface may have, Error(cancelled). O(n log n), n: facets of the result.
 DividedSurface divide_facets(const SurfaceArrays& surface, const FacetSizes& wanted,
                              const CancellationCheck& check_cancelled = {});
 

@@ -57,11 +57,6 @@ void check(const TraceHeader& header, std::span<const char> record, const std::s
                "run.");
 }
 
-bool is_below(NodeId node, NodeId ancestor) {
-    while (node > ancestor) node /= 2;
-    return node == ancestor;
-}
-
 // The first node of each region; all ranks have the nodes above the regions that they own.
 std::vector<NodeId> roots_of_regions(Communicator& ranks, const std::vector<TreeNode>& own, std::size_t regions) {
     std::vector<NodeId> roots(regions, std::numeric_limits<NodeId>::max());
@@ -89,12 +84,12 @@ std::optional<Surface> Trace::root_surface(NodeId node) const {
 
 bool Trace::holds_regions(NodeId node) const {
     return std::any_of(region_roots.begin(), region_roots.end(),
-                       [&](NodeId root) { return root != node && is_below(root, node); });
+                       [&](NodeId root) { return root != node && lies_below(root, node); });
 }
 
 SurfaceArrays Trace::outside_of_regions(NodeId node) const {
     const auto is_inside = [&](std::int32_t region) {
-        return region >= 0 && is_below(region_roots[static_cast<std::size_t>(region)], node);
+        return region >= 0 && lies_below(region_roots[static_cast<std::size_t>(region)], node);
     };
     SurfaceArrays outside = surface;  // of which all vertices stay
     std::size_t kept = 0;

@@ -8,6 +8,7 @@
 
 #include "core/check.h"
 #include "core/error.h"
+#include "core/number_text.h"
 #include "surface/edge_corners.h"
 #include "surface/touching.h"
 
@@ -16,8 +17,6 @@ namespace kerf {
 namespace {
 
 Triangle turned_over(const Triangle& t) { return {t[0], t[2], t[1]}; }
-
-std::string place_text(const Vec3& p) { return fmt::format("({:.9g}, {:.9g}, {:.9g})", p.x(), p.y(), p.z()); }
 
 void check_sides(const SurfaceArrays& facets, const std::vector<FacetSides>& sides,
                  const std::vector<std::string>& names) {

@@ -59,6 +59,13 @@ EdgeCorners::EdgeCorners(const std::vector<Triangle>& facets, const std::vector<
         sort_bucket(corners_.begin() + first_[v], corners_.begin() + first_[v + 1]);
 }
 
+bool has_edge_of_many(const std::vector<Triangle>& facets) {
+    bool is_found = false;
+    EdgeCorners(facets).for_each_edge(
+        [&](std::int32_t, std::span<const EdgeCorners::Corner> corners) { is_found |= corners.size() > 2; });
+    return is_found;
+}
+
 std::vector<std::int32_t> edge_partners(const std::vector<Triangle>& facets) {
     std::vector<std::int32_t> partner(3 * facets.size(), -1);
     EdgeCorners(facets).for_each_edge([&](std::int32_t, std::span<const EdgeCorners::Corner> corners) {

@@ -41,6 +41,9 @@ class EdgeCorners {
     std::vector<Corner> corners_;
 };
 
+/// Whether an edge has more than two facets. Cost as EdgeCorners.
+bool has_edge_of_many(const std::vector<Triangle>& facets);
+
 /// For every corner that of the facet on the other side of its edge, in whatever direction it has it; -1 where an edge
 /// does not have exactly two corners. Cost as EdgeCorners.
 std::vector<std::int32_t> edge_partners(const std::vector<Triangle>& facets);

@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 
 #include "core/check.h"
+#include "core/number_text.h"
 #include "surface/scaled_polygon.h"
 
 namespace kerf {
@@ -34,8 +35,6 @@ using FaceBase =
 using Cdt =
     CGAL::Constrained_Delaunay_triangulation_2<Exact, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
                                                CGAL::No_constraint_intersection_requiring_constructions_tag>;
-
-std::string text_of(const Vec3& p) { return fmt::format("({:.9g}, {:.9g}, {:.9g})", p.x(), p.y(), p.z()); }
 
 // The two coordinates that stay, in the order in which the normal points to the viewer.
 struct Projection {
@@ -185,17 +184,17 @@ FacetTriangulation triangulate_in_plane(const std::vector<Vec3>& vertices, const
     Triangulator triangulator(vertices, normal);
     triangulator.insert_corners(facet);
     if (const auto crossing = triangulator.insert_edges(edges_of(facet)))
-        return refusal("has edges that cross near " + text_of(*crossing));
+        return refusal("has edges that cross near " + place_text(*crossing));
     const Vec3& first = vertices[facet.polygons.front().front()];
-    if (!triangulator.has_faces()) return refusal("has no area near " + text_of(first));
+    if (!triangulator.has_faces()) return refusal("has no area near " + place_text(first));
     triangulator.mark_outside();
     for (const Vec3& hole : facet.holes)
-        if (!triangulator.mark_hole(hole)) return refusal("has its hole point " + text_of(hole) + " on an edge");
+        if (!triangulator.mark_hole(hole)) return refusal("has its hole point " + place_text(hole) + " on an edge");
     FacetTriangulation result{triangulator.triangles(), {}, 0};
     if (result.triangles.empty())
         return refusal(facet.holes.empty()
-                           ? "has no area near " + text_of(first)
-                           : "has the hole point " + text_of(facet.holes.front()) + ", which leaves nothing of it");
+                           ? "has no area near " + place_text(first)
+                           : "has the hole point " + place_text(facet.holes.front()) + ", which leaves nothing of it");
     result.outside = triangulator.count_outside(facet, result.triangles);
     return result;
 }
@@ -210,14 +209,14 @@ FacetTriangulation triangulate_facet(const std::vector<Vec3>& vertices, const Po
     KERF_CHECK(!corners.empty());
     const ScaledPolygon all(vertices, corners);
     for (const std::int64_t v : corners)
-        if (!vertices[v].allFinite()) return planar::refusal("has the corner " + planar::text_of(vertices[v]));
+        if (!vertices[v].allFinite()) return planar::refusal("has the corner " + place_text(vertices[v]));
     const Vec3 area = all.has_size() ? planar::largest_area(vertices, facet, all.scale()) : Vec3(Vec3::Zero());
     const Vec3 normal = area.stableNormalized(), &first = vertices[corners.front()];
-    if (normal.isZero()) return planar::refusal("has no area near " + planar::text_of(first));
+    if (normal.isZero()) return planar::refusal("has no area near " + place_text(first));
     if (const PlaneHeights heights(all, normal); !heights.is_flat(all))
         return planar::refusal(fmt::format("is not planar: its corners {} and {} are {:.3g} apart along its normal",
-                                           planar::text_of(vertices[corners[heights.lowest]]),
-                                           planar::text_of(vertices[corners[heights.highest]]),
+                                           place_text(vertices[corners[heights.lowest]]),
+                                           place_text(vertices[corners[heights.highest]]),
                                            (heights.high - heights.low) * all.scale()));
     return planar::triangulate_in_plane(vertices, facet, normal);
 }

@@ -7,12 +7,12 @@
 #include <map>
 #include <numeric>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/number_text.h"
 #include "surface/cells.h"
 #include "surface/divided_space.h"
 #include "surface/edge_corners.h"
@@ -21,8 +21,6 @@
 namespace kerf {
 
 namespace {
-
-std::string place_of(const Vec3& p) { return fmt::format("({:.9g}, {:.9g}, {:.9g})", p.x(), p.y(), p.z()); }
 
 // Cells and what is beyond each of their facets.
 class CellWalk {
@@ -128,6 +126,10 @@ bool name_by_bodies(const Soup& soup, const std::vector<std::int32_t>& body_of_p
             std::int32_t& region = space.region_of_cell[c];
             if (region < 0 || std::abs(volume[b]) < std::abs(volume[region])) region = b;
         }
+    for (std::size_t b = 0; b < facets.size(); ++b)  // one that others hide is a mistake
+        if (!facets[b].empty() && std::find(space.region_of_cell.begin(), space.region_of_cell.end(),
+                                            static_cast<std::int32_t>(b)) == space.region_of_cell.end())
+            return false;
     space.names = names;
     const auto& sides = space.cells.sides;
     return std::none_of(sides.begin(), sides.end(), [&](const FacetSides& s) {
@@ -173,13 +175,6 @@ bool name_by_directions(DividedSpace& space) {
     return has_wall(space);
 }
 
-bool has_edge_of_many(const std::vector<Triangle>& facets) {
-    bool is_found = false;
-    EdgeCorners(facets).for_each_edge(
-        [&](std::int32_t, std::span<const EdgeCorners::Corner> corners) { is_found |= corners.size() > 2; });
-    return is_found;
-}
-
 // Whether every facet is there once, and a wall between different cells or in the midst of one. What is closed,
 // directions and all, is a body that touches itself.
 bool name_between_walls(Soup& soup, DividedSpace& space) {
@@ -198,7 +193,7 @@ bool name_between_walls(Soup& soup, DividedSpace& space) {
 
 [[noreturn]] void refuse_point(const RegionSeed& seed, const std::string& what) {
     throw Error(ErrorCode::input,
-                fmt::format("The point {} of the region '{}' {}", place_of(seed.point), seed.name, what));
+                fmt::format("The point {} of the region '{}' {}", place_text(seed.point), seed.name, what));
 }
 
 // The regions in the order of their first points.
@@ -217,7 +212,7 @@ void place_seeds(const Soup& soup, const CellLocator& locator, DividedSpace& spa
             refuse_point(seed,
                          fmt::format("lies in one cell with the point {} of the region '{}': no facets are between "
                                      "them. Leave one of the points out, give both one name, or close the wall.",
-                                     place_of(soup.seeds[seed_of[*cell]].point), soup.seeds[seed_of[*cell]].name));
+                                     place_text(soup.seeds[seed_of[*cell]].point), soup.seeds[seed_of[*cell]].name));
         seed_of[*cell] = static_cast<std::int32_t>(s);
         space.region_of_cell[*cell] = found->second;
     }
@@ -234,7 +229,7 @@ void name_other_cells(Soup& soup, const CellLocator& locator, DividedSpace& spac
             throw Error(ErrorCode::input,
                         fmt::format("The point {} of a hole lies in the region '{}': no facets are between it and the "
                                     "point of the region. Leave one of them out, or close the wall.",
-                                    place_of(hole), space.names[region]));
+                                    place_text(hole), space.names[region]));
     }
     const auto is_taken = [&](const std::string& name) {
         return std::find(space.names.begin(), space.names.end(), name) != space.names.end();

@@ -47,11 +47,6 @@ constexpr int level_of(NodeId node) {
     for (; node > 1; node /= 2) ++level;
     return level;
 }
-/// Whether `node` is `ancestor` or below it.
-constexpr bool lies_below(NodeId node, NodeId ancestor) {
-    while (node > ancestor) node /= 2;
-    return node == ancestor;
-}
 
 /// What has filled a part, in words: the way that its mesher went, or the mesher where it has one way.
 std::string name_of_filler(const std::string& mesher, const std::string& strategy);

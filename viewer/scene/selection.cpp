@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
+#include "core/number_text.h"
 #include "geometry/angles.h"
 #include "mesh/quality.h"
 #include "mesh/tet_mesh.h"
@@ -16,8 +17,6 @@
 namespace kerf::view {
 
 namespace {
-
-std::string text_of(const Vec3& p) { return fmt::format("({:.9g}, {:.9g}, {:.9g})", p.x(), p.y(), p.z()); }
 
 std::string number_text(std::int64_t number) { return number < 0 ? "new" : fmt::format("{}", number); }
 
@@ -53,7 +52,7 @@ std::string owner_text(const Document& document, NodeId owner) {
 }
 
 std::string vertex_line(const char* label, std::int32_t index, std::int64_t number, const Vec3& p) {
-    return fmt::format("{} {}, global {}\n{}\n", label, index, number_text(number), text_of(p));
+    return fmt::format("{} {}, global {}\n{}\n", label, index, number_text(number), place_text(p));
 }
 
 std::string describe_facet(Session& session, const NodeSurface& surface, NodeId owner, std::size_t facet) {
@@ -87,7 +86,7 @@ std::string describe_vertex(const NodeSurface& surface, const std::string& owner
     std::string text = fmt::format("vertex {} of {}\n", vertex, owner);
     if (!surface.vertex_number.empty())
         text += fmt::format("global number {}\n", number_text(surface.vertex_number[vertex]));
-    text += text_of(surface.vertices[vertex]) + "\n";
+    text += place_text(surface.vertices[vertex]) + "\n";
     std::vector<std::size_t> facets;
     for (std::size_t f = 0; f < surface.facets.size(); ++f)
         if (std::find(surface.facets[f].begin(), surface.facets[f].end(), static_cast<std::int32_t>(vertex)) !=
@@ -201,7 +200,7 @@ std::string describe_defect(const Document& document, const Selection& s) {
 
 std::string describe_mesh(Session& session, const Selection& s) {
     if (s.kind == Selection::Kind::none) return "";
-    if (s.kind == Selection::Kind::place) return text_of(s.place) + "\n";
+    if (s.kind == Selection::Kind::place) return place_text(s.place) + "\n";
     if (s.kind == Selection::Kind::defect) return describe_defect(session.document(), s);
     const auto index = static_cast<std::size_t>(s.index);
     if (s.kind == Selection::Kind::cell) {
@@ -218,7 +217,7 @@ std::string describe_mesh(Session& session, const Selection& s) {
     const auto cells = session.cells(s.owner);
     if (!cells || index >= cells->vertices.size()) return "";
     return fmt::format("vertex {} of part {}, inside of it\nglobal number {}\n{}\n", index, s.owner,
-                       cells->vertex_number[index], text_of(cells->vertices[index]));
+                       cells->vertex_number[index], place_text(cells->vertices[index]));
 }
 
 std::vector<std::int32_t> vertices_of(Session& session, const Selection& s) {

@@ -8,6 +8,7 @@
 #include "cut/facet_split.h"
 #include "decompose/straight_division.h"
 #include "support/decomposition_laws.h"
+#include "support/slice.h"
 #include "support/voxels.h"
 #include "surface/touching.h"
 
@@ -37,7 +38,7 @@ std::vector<DividedBody> bodies_to_divide() {
         bodies.push_back(divided_body("stairs", stairs, n));
         bodies.push_back(divided_body("ring", ring, n));
         bodies.push_back(divided_body("notch with a double edge", test::notched_voxels(), n));
-        for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        for (std::uint64_t seed = 1; seed <= test::slice(8); ++seed) {
             test::SeededNumbers random(seed);
             const test::Voxels voxels = test::random_voxels(3, random.between(0.4, 0.8), random);
             bodies.push_back(divided_body("voxels of seed " + std::to_string(seed), voxels, n));

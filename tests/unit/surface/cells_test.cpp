@@ -14,6 +14,7 @@
 #include "geometry/triangle.h"
 #include "geometry/union_find.h"
 #include "support/shapes.h"
+#include "support/slice.h"
 #include "support/voxel_regions.h"
 
 namespace kerf {
@@ -151,7 +152,7 @@ test::RegionOfCube random_labels(const Cube& cubes, std::int32_t count, double s
 }
 
 TEST(Cells, OfRandomLabelsAreTheComponentsOfCubes) {
-    for (unsigned seed = 1; seed <= 200; ++seed) {
+    for (unsigned seed = 1; seed <= test::slice(200); ++seed) {
         const Cube cubes = {static_cast<int>(1 + seed % 5), static_cast<int>(2 + seed / 3 % 4), 4};
         const auto region = random_labels(cubes, static_cast<std::int32_t>(1 + seed % 4), seed % 7 * 0.15, seed);
         if (CubeComponents(cubes, region).count() > 0) expect_cells(cubes, region, seed);
@@ -159,7 +160,7 @@ TEST(Cells, OfRandomLabelsAreTheComponentsOfCubes) {
 }
 
 TEST(Cells, LieInsideOfOneAnother) {
-    for (unsigned seed = 1; seed <= 100; ++seed) {
+    for (unsigned seed = 1; seed <= test::slice(100); ++seed) {
         std::mt19937 random(seed);
         const Cube cubes = {13, 13, 13};
         // Layers around the middle with holes in them, and cubes within the layers.
@@ -176,7 +177,7 @@ TEST(Cells, LieInsideOfOneAnother) {
 }
 
 TEST(Cells, OfGrainsThatAreTurnedAndStretched) {
-    for (unsigned seed = 1; seed <= 40; ++seed) {
+    for (unsigned seed = 1; seed <= test::slice(40); ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const Cube cubes = {8, 7, 9};
         const auto grains = test::grains(cubes, 12, seed);

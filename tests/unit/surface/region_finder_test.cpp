@@ -128,6 +128,17 @@ TEST(TouchingBodies, TheInnermostOfSeveralIsTheSmallest) {
     EXPECT_EQ(volumes_of(soup), (std::map<std::string, double>{{"bone", 56}, {"cement", 8}}));
 }
 
+// None of them may vanish.
+TEST(TouchingBodies, AreNotFoundWhereOthersHideOne) {
+    Soup soup = test::join(test::box(), test::box());
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) soup.patch[f] = 2 * f < soup.facets.size() ? 0 : 1;
+    soup.patch_names = {"first", "copy"};
+    weld_exactly(soup);
+    EXPECT_FALSE(find_touching_bodies(soup));
+    EXPECT_FALSE(find_given_bodies(soup, {0, 1}, {"first", "copy"}));
+    EXPECT_TRUE(soup.sides.empty() && soup.region_names.empty());
+}
+
 TEST(TouchingBodies, AreNotFoundInOneBody) {
     for (Soup soup : {test::box(), test::icosphere(2), test::nested_boxes(3, 2), test::torus(3, 1, 12, 7)}) {
         const Soup before = soup;
