@@ -12,6 +12,7 @@
 #include "core/regular_tet.h"
 #include "parallel/process_memory.h"
 #include "prepare/facet_division.h"
+#include "prepare/labelled_facets.h"
 #include "prepare/size_reader.h"
 #include "prepare/slivers.h"
 #include "remesh/remesh.h"
@@ -93,17 +94,54 @@ double smallest_length(const SizeField& wanted, const SurfaceArrays& surface) {
     return smallest;
 }
 
-RemeshOptions remesh_options(const Input& input, const SurfaceArrays& surface, const RunOptions& options) {
+// What the remesher is given.
+struct RemeshTask {
+    LabelledFacets facets;
+    RemeshOptions options;
+};
+
+// The length that is wanted at a point of a label, and what follows from the sizes of regions.
+void want_lengths_of_regions(const RunOptions& options, const SurfaceArrays& surface, const Input& input,
+                             RemeshTask& task) {
+    const std::vector<double> volumes = options.sizes.max_volumes_of_regions(input.complex.region_names());
+    if (std::all_of(volumes.begin(), volumes.end(), [](double volume) { return volume == 0; })) return;
+    const SizeField all = wanted_lengths(options, surface, input);
+    const RegionSizes sizes(volumes);
+    double longest = 0;
+    std::vector<SizeField> fields;
+    for (std::size_t r = 0; r < volumes.size(); ++r) {
+        longest = std::max(longest, volumes[r] > 0 ? regular_tet_edge(volumes[r]) : task.options.longest);
+        fields.push_back(sizes.of(RegionIndex(static_cast<std::int32_t>(r)), all));
+    }
+    task.options.wanted = [fields = std::move(fields), labels = task.facets.labels, usual = task.options.longest](
+                              const Vec3& p, std::int32_t label) {
+        double least = std::numeric_limits<double>::infinity();
+        const auto& [front, back] = labels[static_cast<std::size_t>(label)].sides;
+        for (const std::int32_t region : {front, back}) {
+            if (region < 0) continue;
+            const SizeField& field = fields[static_cast<std::size_t>(region)];
+            least = std::min(least, field.is_empty() ? usual : field.at(p));
+        }
+        return least;
+    };
+    task.options.longest = longest;
+}
+
+RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const RunOptions& options) {
     const SizeField wanted = wanted_lengths(options, surface, input);
-    RemeshOptions result = {.longest = longest_edge(options, input.diagonal), .creases = input.creases};
+    RemeshTask task = {label_facets(input.complex),
+                       {.longest = longest_edge(options, input.diagonal), .creases = input.creases}};
+    RemeshOptions& result = task.options;
+    result.walls = task.facets.walls;
+    if (!wanted.is_empty()) result.wanted = [wanted](const Vec3& p, std::int32_t) { return wanted.at(p); };
+    want_lengths_of_regions(options, surface, input, task);
     result.deviation = options.deviation.number() > 0
                            ? deviation_for(options.deviation, input.diagonal)
                            : usual_deviation(wanted, surface, input.diagonal, options.sizes.fineness);
     if (const double growth = with_fineness_at_kept_facets(options).sizes.growth; growth > 0) result.growth = growth;
-    if (!wanted.is_empty()) result.wanted = [wanted](const Vec3& p) { return wanted.at(p); };
-    if (options.remeshing == Remeshing::where_needed && !input.is_cad && wanted.is_empty())
-        result.kept = facets_away_from_slivers(surface);
-    return result;
+    if (options.remeshing == Remeshing::where_needed && !input.is_cad && !result.wanted)
+        result.kept = facets_away_from_slivers(task.facets.surface);
+    return task;
 }
 
 void check_memory(double facets, const RunOptions& options, double edge, int processes) {
@@ -135,14 +173,19 @@ std::string note_of_remeshing(const Input& input, const Slivers& slivers, const 
         options.deviation);
 }
 
+std::vector<std::string> region_names(const Complex& complex) {
+    return {complex.region_names().begin(), complex.region_names().end()};
+}
+
 Input remeshed(Input input, const SurfaceArrays& before, const Slivers& slivers, const RunOptions& options,
                StageListener* listener, int processes) {
-    RemeshOptions wanted = remesh_options(input, before, options);
+    RemeshTask task = remesh_task(input, before, options);
+    RemeshOptions& wanted = task.options;
     if (options.remeshing == Remeshing::where_needed) input.notes.push_back(note_of_remeshing(input, slivers, wanted));
-    check_memory(forecast_facets(before, wanted), options, wanted.longest, processes);
+    check_memory(forecast_facets(task.facets.surface, wanted), options, wanted.longest, processes);
     wanted.poll = step_counter(listener);
     if (wanted.poll) wanted.poll();
-    Remeshed result = remesh(before, wanted);
+    Remeshed result = remesh(task.facets.surface, wanted);
 
     input.remeshed = {.facets_before = input.facets,
                       .facets_kept = std::count(wanted.kept.begin(), wanted.kept.end(), char{1}),
@@ -153,7 +196,7 @@ Input remeshed(Input input, const SurfaceArrays& before, const Slivers& slivers,
                       .distance_from_input = result.report.distance_from_input,
                       .feature_edges = result.report.feature_edges,
                       .finer = wanted.wanted ? result.report.finer : FinerShares()};
-    input.complex = Complex(Surface(std::move(result.surface)));
+    input.complex = task.facets.to_complex(std::move(result.surface), region_names(input.complex));
     measure_input(input);
     return input;
 }
@@ -164,7 +207,7 @@ Complex with_pieces(const Complex& before, DividedSurface divided) {
     std::vector<FacetSides> sides;
     sides.reserve(divided.facet_before.size());
     for (const std::int32_t f : divided.facet_before) sides.push_back(before.sides(f));
-    return {std::move(divided.surface), std::move(sides), {before.region_names().begin(), before.region_names().end()}};
+    return {std::move(divided.surface), std::move(sides), region_names(before)};
 }
 
 Input divided(Input input, const SurfaceArrays& before, const RunOptions& options, StageListener* listener,
@@ -186,13 +229,7 @@ Input divided(Input input, const SurfaceArrays& before, const RunOptions& option
 SurfaceChange change_of(const Input& input, const SurfaceArrays& surface, const Slivers& slivers,
                         const RunOptions& options) {
     if (options.remeshing == Remeshing::never) return SurfaceChange::none;
-    const bool is_one = input.complex.region_count() == 1;
-    if (!is_one && options.remeshing == Remeshing::always)
-        throw Error(ErrorCode::usage,
-                    fmt::format("{} has {} regions: their facets can be divided for smaller sizes, but not remeshed. "
-                                "Leave --surface remesh out.",
-                                input.path, input.complex.region_count()));
-    if (is_one && (options.remeshing == Remeshing::always || input.is_cad || slivers.spoil_cells()))
+    if (options.remeshing == Remeshing::always || input.is_cad || slivers.spoil_cells())
         return SurfaceChange::remeshing;
     if (options.sizes.cells > 0 || has_facets_to_divide(surface, wanted_on_facets(options, surface, input)))
         return SurfaceChange::division;
@@ -231,8 +268,10 @@ double forecast_changed_facets(const Input& input, const RunOptions& options) {
             break;
         case SurfaceChange::division:
             return forecast_divided_facets(surface, wanted_on_facets(options, surface, input));
-        case SurfaceChange::remeshing:
-            return forecast_facets(surface, remesh_options(input, surface, options));
+        case SurfaceChange::remeshing: {
+            const RemeshTask task = remesh_task(input, surface, options);
+            return forecast_facets(task.facets.surface, task.options);
+        }
     }
     return static_cast<double>(input.facets);
 }
@@ -243,7 +282,7 @@ Input remesh_where_asked(Input input, const RunOptions& options, StageListener* 
     const SurfaceChange change = change_of(input, before, slivers, options);
     if (change == SurfaceChange::remeshing)
         return remeshed(std::move(input), before, slivers, options, listener, processes);
-    const std::string note = sliver_note(slivers, input.complex.region_count() == 1 ? input.path : "");
+    const std::string note = sliver_note(slivers, input.path);
     if (!note.empty()) input.notes.push_back(note);
     return change == SurfaceChange::division ? divided(std::move(input), before, options, listener, processes)
                                              : std::move(input);

@@ -19,6 +19,34 @@ double smallest_sine(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 Vec3 area_normal(const EditMesh::Corners& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
 
+void EditMesh::make_copies(std::vector<VertexHandle> vertices) {
+    for (const VertexHandle v : vertices) data(v).place = static_cast<std::int32_t>(places_.size());
+    places_.push_back(std::move(vertices));
+}
+
+void EditMesh::make_seam(std::vector<EdgeHandle> edges) {
+    for (const EdgeHandle e : edges) data(e).seam = static_cast<std::int32_t>(seams_.size());
+    seams_.push_back(std::move(edges));
+}
+
+void EditMesh::list_copies(HalfedgeHandle h, std::vector<HalfedgeHandle>& list) const {
+    list.clear();
+    const std::int32_t start = data(from_vertex_handle(h)).place;
+    for_each_copy(edge_handle(h), [&](EdgeHandle e) {
+        const HalfedgeHandle first = halfedge_handle(e, 0);
+        const bool is_along = e == edge_handle(h) ? first == h : data(from_vertex_handle(first)).place == start;
+        list.push_back(is_along ? first : opposite_halfedge_handle(first));
+    });
+}
+
+bool EditMesh::are_joined(VertexHandle v, VertexHandle w) const {
+    bool is_found = false;
+    for_each_copy(v, [&](VertexHandle a) {
+        for_each_copy(w, [&](VertexHandle b) { is_found |= find_halfedge(a, b).is_valid(); });
+    });
+    return is_found;
+}
+
 EditMesh::Corners EditMesh::corners(FaceHandle f) const {
     const HalfedgeHandle h = halfedge_handle(f), next = next_halfedge_handle(h);
     return {point(from_vertex_handle(h)), point(to_vertex_handle(h)), point(to_vertex_handle(next))};
@@ -38,6 +66,15 @@ int EditMesh::feature_count(VertexHandle v) const {
 bool EditMesh::has_one_patch(VertexHandle v) const {
     const std::int32_t patch = data(*cvf_begin(v)).patch;
     return std::all_of(cvf_begin(v), cvf_end(v), [&](FaceHandle f) { return data(f).patch == patch; });
+}
+
+bool EditMesh::is_fixed(EdgeHandle e) const {
+    bool is_found = false;
+    for_each_copy(e, [&](EdgeHandle copy) {
+        const auto [f, g] = facets_at(copy);
+        is_found |= data(f).is_kept || data(g).is_kept;
+    });
+    return is_found;
 }
 
 bool EditMesh::is_flat(EdgeHandle e) const {
@@ -61,6 +98,12 @@ double EditMesh::fold_cosine(EdgeHandle e) const {
     return norms > 0 ? a.dot(b) / norms : 1;
 }
 
+std::int64_t EditMesh::last_change(VertexHandle v) const {
+    std::int64_t last = 0;
+    for_each_copy(v, [&](VertexHandle copy) { last = std::max(last, data(copy).changed); });
+    return last;
+}
+
 std::int64_t EditMesh::last_change(EdgeHandle e) const {
     const auto [f, g] = facets_at(e);
     return std::max(data(f).changed, data(g).changed);
@@ -73,15 +116,20 @@ void EditMesh::note_change(FaceHandle f, std::int64_t operation) {
 
 std::int64_t EditMesh::feature_edges() const {
     return std::count_if(edges_begin(), edges_end(),
-                         [&](const auto& e) { return !status(e).deleted() && data(e).is_feature; });
+                         [&](const auto& e) { return !status(e).deleted() && data(e).is_feature && is_first_copy(e); });
 }
 
 SurfaceArrays EditMesh::arrays() {
     garbage_collection();
+    for (auto& place : places_) place.clear();
+    for (auto& seam : seams_) seam.clear();
+    for (const auto e : edges())
+        if (data(e).seam >= 0) seams_[data(e).seam].push_back(e);
     SurfaceArrays result;
     for (const auto v : vertices()) {
+        if (has_copies(v)) places_[data(v).place].push_back(v);
         result.vertices.push_back(point(v));
-        result.vertex_key.push_back(make_key(0, v.idx()));
+        result.vertex_key.push_back(make_key(0, has_copies(v) ? places_[data(v).place].front().idx() : v.idx()));
     }
     for (const auto f : faces()) {
         const HalfedgeHandle h = halfedge_handle(f), next = next_halfedge_handle(h);

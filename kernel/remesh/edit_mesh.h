@@ -1,6 +1,9 @@
 // The half-edge mesh of the remesher, and what can be asked about it.
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 // Specialises what the header above declares.
@@ -37,6 +40,8 @@ struct EditTraits : OpenMesh::DefaultTraits {
         std::int32_t input = -1;   // vertex of the input that it is, -1: none
         std::int64_t changed = 0;  // number of the operation that last changed a facet around it
         bool is_fixed = false;     // corner of a facet that is kept
+        bool is_end = false;       // copies at which seams end, part or touch: stays where it is
+        std::int32_t place = -1;   // number of the place that it shares with copies, -1: it has none
     };
     FaceTraits {
         std::int32_t patch = 0;
@@ -45,22 +50,55 @@ struct EditTraits : OpenMesh::DefaultTraits {
         std::int32_t first_point = -1;  // of the input's vertices that it stands for
         std::int64_t changed = 0;       // number of the operation that last changed it
         bool is_kept = false;           // stays as it was given
+        bool is_wall = false;           // has a body on both sides
     };
     EdgeTraits {
         bool is_feature = false;
         std::int32_t fold = -1;  // number of the fold that it is a piece of
+        std::int32_t seam = -1;  // number of the edges that are this one in all sheets, -1: it is in one
     };
 };
 
+/// Where more than two facets meet in an edge of the surface, sheets end at a seam: the edge is there in each of them.
+/// Each fan of facets around a vertex, from seam to seam, has a copy of the vertex. What is done to one edge of a seam
+/// or to one copy is to be done to all.
 class EditMesh : public OpenMesh::TriMesh_ArrayKernelT<EditTraits> {
  public:
     using Corners = std::array<Vec3, 3>;
+
+    // --- copies ---
+
+    void make_copies(std::vector<VertexHandle> vertices);
+    /// Edges in the same direction or not; more than one.
+    void make_seam(std::vector<EdgeHandle> edges);
+    /// The edges of a seam of which others have gone.
+    void change_seam(std::int32_t seam, std::vector<EdgeHandle> edges) { seams_[seam] = std::move(edges); }
+    bool has_copies(VertexHandle v) const { return data(v).place >= 0; }
+    /// Calls visit(copy) for the vertices at the place of v, itself among them.
+    template <class Visit>
+    void for_each_copy(VertexHandle v, Visit visit) const {
+        if (!has_copies(v)) return visit(v);
+        for (const VertexHandle copy : places_[data(v).place]) visit(copy);
+    }
+    template <class Visit>
+    void for_each_copy(EdgeHandle e, Visit visit) const {
+        if (data(e).seam < 0) return visit(e);
+        for (const EdgeHandle copy : seams_[data(e).seam]) visit(copy);
+    }
+    /// The half-edges of all sheets along this one, in its direction, itself among them.
+    void list_copies(HalfedgeHandle h, std::vector<HalfedgeHandle>& list) const;
+    bool is_first_copy(VertexHandle v) const { return !has_copies(v) || places_[data(v).place].front() == v; }
+    bool is_first_copy(EdgeHandle e) const { return data(e).seam < 0 || seams_[data(e).seam].front() == e; }
+    /// Whether some edge goes from a copy of v to a copy of w.
+    bool are_joined(VertexHandle v, VertexHandle w) const;
+
+    // --- shape ---
 
     Corners corners(FaceHandle f) const;
     /// Smallest of the angles of a facet, as its sine.
     double sine(FaceHandle f) const;
     double size(VertexHandle v) const { return data(v).wanted.length; }
-    /// Features that meet at the vertex.
+    /// Features that meet at the vertex, this copy of it.
     int feature_count(VertexHandle v) const;
     /// Whether the facets around the vertex are of one patch.
     bool has_one_patch(VertexHandle v) const;
@@ -70,14 +108,13 @@ class EditMesh : public OpenMesh::TriMesh_ArrayKernelT<EditTraits> {
         const HalfedgeHandle h = halfedge_handle(e, 0);
         return {from_vertex_handle(h), to_vertex_handle(h)};
     }
+    /// Where the sheet ends, the one facet twice.
     std::array<FaceHandle, 2> facets_at(EdgeHandle e) const {
-        return {face_handle(halfedge_handle(e, 0)), face_handle(halfedge_handle(e, 1))};
+        const FaceHandle f = face_handle(halfedge_handle(e, 0)), g = face_handle(halfedge_handle(e, 1));
+        return {f.is_valid() ? f : g, g.is_valid() ? g : f};
     }
-    /// Whether a facet at the edge is kept.
-    bool is_fixed(EdgeHandle e) const {
-        const auto [f, g] = facets_at(e);
-        return data(f).is_kept || data(g).is_kept;
-    }
+    /// Whether a facet at the edge is kept, in whatever sheet.
+    bool is_fixed(EdgeHandle e) const;
     /// Whether the facets at the edge lie in one flat region, and it is no feature.
     bool is_flat(EdgeHandle e) const;
     /// Whether all facets around the vertex lie in one flat region, and no feature is there.
@@ -86,12 +123,16 @@ class EditMesh : public OpenMesh::TriMesh_ArrayKernelT<EditTraits> {
     double fold_cosine(EdgeHandle e) const;
     /// Number of the operation that last changed the facets around a vertex or at an edge: what was refused there since
     /// then is refused again.
-    std::int64_t last_change(VertexHandle v) const { return data(v).changed; }
+    std::int64_t last_change(VertexHandle v) const;
     std::int64_t last_change(EdgeHandle e) const;
     void note_change(FaceHandle f, std::int64_t operation);
     std::int64_t feature_edges() const;
-    /// The facets and vertices that are left, in order. Renumbers everything.
+    /// The facets and vertices that are left, in order; copies have one key. Renumbers everything.
     SurfaceArrays arrays();
+
+ private:
+    std::vector<std::vector<VertexHandle>> places_;  // of those that are left
+    std::vector<std::vector<EdgeHandle>> seams_;
 };
 
 /// The cross product of two edges: twice the area of the triangle, along its normal.

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "remesh/input_bound.h"
 
@@ -9,7 +11,7 @@ namespace kerf {
 
 /// The operations of the remesher. They change nothing and return false where they would change a facet that is kept,
 /// leave the bound of the input (InputBound), turn a facet over, lose a feature, change the topology or make the worst
-/// triangle worse.
+/// triangle worse. What lies on a seam changes in all its sheets, if each of them agrees.
 class EditedSurface {
  public:
     using Vertex = EditMesh::VertexHandle;
@@ -22,10 +24,12 @@ class EditedSurface {
 
     const EditMesh& mesh() const { return mesh_; }
     const InputShape& input() const { return bound_.input(); }
-    /// `asked` is what the user wants, whatever the shape needs.
+    /// Of all copies. `asked` is what the user wants, whatever the shape needs.
     void set_size(Vertex v, const WantedLength& wanted, double asked) {
-        mesh_.data(v).wanted = wanted;
-        mesh_.data(v).asked = asked;
+        mesh_.for_each_copy(v, [&](Vertex copy) {
+            mesh_.data(copy).wanted = wanted;
+            mesh_.data(copy).asked = asked;
+        });
     }
     void set_fold(Edge e, std::int32_t fold) { mesh_.data(e).fold = fold; }
     /// How many operations have changed something.
@@ -48,26 +52,37 @@ class EditedSurface {
     bool flip(Edge e) { return take_flip(e, false); }
     /// Flips the edge as flip() does, only within a flat region, by the empty circle. Cheap.
     bool make_delaunay(Edge e) { return take_flip(e, true); }
-    /// Puts a vertex on the edge at from + t (to - from), 0 < t < 1, of half-edge 0. Possible for every edge that is
-    /// not fixed.
+    /// Puts a vertex on the edge at from + t (to - from), 0 < t < 1, of half-edge 0, and returns that in the sheet of
+    /// this edge. Possible for every edge that is not fixed.
     Vertex split(Edge e, double t);
     /// Moves a vertex towards `wanted` along what it lies on: a flat region, a straight line between two, or the
     /// surface.
     bool move(Vertex v, const Vec3& wanted);
 
-    /// The facets and vertices that are left, in order.
+    /// The facets and vertices that are left, in order; copies have one key.
     SurfaceArrays arrays() { return mesh_.arrays(); }
 
  private:
-    void commit_star();
+    void find_seams();
+    bool is_on_line(std::span<const Vertex> copies) const;
+    bool joins_what_is_apart(HalfEdge h) const;
+    bool may_collapse(HalfEdge h, const CollapseRules& rules, NewFacets& star);
+    void commit_collapse(HalfEdge h, const NewFacets& star);
+    bool may_move(Vertex v, const Vec3& place, NewFacets& star);
+    void commit_move(Vertex v, const Vec3& place, const NewFacets& star);
+    Vertex split_in_sheet(HalfEdge h, const Vec3& place);
+    void commit_star(const NewFacets& star);
     void note_change(std::span<const Facet> facets);
     bool take_flip(Edge e, bool is_exact_only);
 
     InputBound bound_;
     EditMesh mesh_;
     std::int64_t changes_ = 0;
-    std::vector<std::int32_t> points_;  // scratch
-    NewFacets star_;                    // scratch
+    // Scratch; of stars one for each sheet.
+    std::vector<std::int32_t> points_;
+    std::vector<HalfEdge> along_;
+    std::vector<Vertex> copies_;
+    std::vector<NewFacets> stars_;
 };
 
 }  // namespace kerf

@@ -45,6 +45,7 @@ class RegionGrowth {
             const std::int32_t f = open_.back();
             open_.pop_back();
             for (std::int32_t corner = 3 * f; corner < 3 * f + 3; ++corner) {
+                if (partner_[corner] < 0) continue;
                 const std::int32_t g = partner_[corner] / 3;
                 if (regions_.of[g] >= 0 || options_.is_border(corner) || !lies_in(plane, g)) continue;
                 regions_.of[g] = number;

@@ -29,8 +29,8 @@ struct FlatRegionOptions {
     std::function<bool(std::int32_t)> is_border = {};  ///< of a corner: whether a region ends at its edge
 };
 
-/// Grows regions over edges from the largest facets to the smallest; every facet belongs to one. Requires a closed
-/// surface. O(#F log #F), deterministic.
+/// Grows regions over edges of two facets, from the largest facets to the smallest; every facet belongs to one.
+/// O(#F log #F), deterministic.
 FlatRegions find_flat_regions(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                               const FlatRegionOptions& options);
 

@@ -43,7 +43,7 @@ double chord_over(const EditMesh& mesh, EditedSurface::Edge e) {
 double well_shaped_length(const EditMesh& mesh, EditedSurface::Vertex v) {
     double longest = 0;
     for (const auto out : mesh.voh_range(v)) {
-        if (mesh.sine(out.face()) < well_shaped_sine) return 0;
+        if (!out.is_boundary() && mesh.sine(out.face()) < well_shaped_sine) return 0;
         longest = std::max(longest, mesh.calc_edge_length(out));
     }
     return longest;
@@ -58,7 +58,8 @@ double mean_length(const EditMesh& mesh, EditedSurface::Vertex v) {
 Vec3 vertex_normal(const EditMesh& mesh, EditedSurface::Vertex v) {
     Vec3 sum = Vec3::Zero();
     for (const auto h : mesh.voh_range(v))
-        sum += (mesh.point(h.to()) - mesh.point(v)).cross(mesh.point(h.next().to()) - mesh.point(v));
+        if (!h.is_boundary())
+            sum += (mesh.point(h.to()) - mesh.point(v)).cross(mesh.point(h.next().to()) - mesh.point(v));
     return sum.normalized();
 }
 
@@ -77,12 +78,14 @@ void limit_growth(const EditMesh& mesh, double growth, std::vector<WantedLength>
         open.pop();
         if (size > sizes[number].length) continue;
         const EditedSurface::Vertex v(number);
-        for (const auto w : mesh.vv_range(v)) {
-            const double limit = size + growth * (mesh.point(v) - mesh.point(w)).norm();
-            if (limit >= sizes[w.idx()].length) continue;
-            sizes[w.idx()] = {limit, sizes[number].rule};
-            open.push({limit, w.idx()});
-        }
+        const auto limit = [&, size = size, number = number](EditedSurface::Vertex w) {
+            const double most = size + growth * (mesh.point(v) - mesh.point(w)).norm();
+            if (most >= sizes[w.idx()].length) return;
+            sizes[w.idx()] = {most, sizes[number].rule};
+            open.push({most, w.idx()});
+        };
+        for (const auto w : mesh.vv_range(v)) limit(w);
+        mesh.for_each_copy(v, limit);
     }
 }
 
@@ -104,10 +107,24 @@ FoldSizes::FoldSizes(EditedSurface& surface, const FoldSizeOptions& options) : s
         WantedLength& size = sizes[v.idx()];
         size = at(v, own_chord, size);
         size.length = mesh.data(v).is_fixed ? mean_length(mesh, v) : std::max(size.length, well_shaped_length(mesh, v));
-        if (!mesh.data(v).is_fixed) size.shorten(asked(mesh.point(v)), LengthRule::asked);
+        if (!mesh.data(v).is_fixed) size.shorten(asked(v), LengthRule::asked);
     }
     limit_growth(mesh, options.growth, sizes);
-    for (const auto v : mesh.vertices()) surface.set_size(v, sizes[v.idx()], asked(mesh.point(v)));
+    for (const auto v : mesh.vertices()) surface.set_size(v, sizes[v.idx()], asked(v));
+}
+
+double FoldSizes::asked(EditedSurface::Vertex v) const {
+    const EditMesh& mesh = surface_.mesh();
+    double least = options_.longest;
+    if (!options_.wanted) return least;
+    mesh.for_each_copy(v, [&](EditedSurface::Vertex copy) {
+        std::int32_t last = -1;
+        for (const auto f : mesh.vf_range(copy)) {
+            const std::int32_t patch = mesh.data(f).patch;
+            if (patch != std::exchange(last, patch)) least = std::min(least, options_.wanted(mesh.point(v), patch));
+        }
+    });
+    return least;
 }
 
 void FoldSizes::find_folds(EditedSurface& surface) {
@@ -170,18 +187,29 @@ WantedLength FoldSizes::at(EditedSurface::Vertex v, double own_chord, const Want
     if (options_.edges_per_thickness > 0)
         size.shorten(std::max(across_wall(v, size.length), options_.thinnest), LengthRule::walls);
     if (grown.length <= size.length) size = grown;
-    size.shorten(asked(p), LengthRule::asked);
+    size.shorten(asked(v), LengthRule::asked);
     return size;
 }
 
-// The way inwards to a sheet that faces the other way.
+// The way inwards to a sheet that faces the other way. From a wall it goes both ways, and to sheets that face any way:
+// its own is nearer than they are, by the tolerance.
 double FoldSizes::across_wall(EditedSurface::Vertex v, double limit) const {
     const InputShape& input = surface_.input();
-    const Vec3 inwards = -vertex_normal(surface_.mesh(), v);
-    const auto faces_away = [&](std::int32_t facet) { return input.normal(facet).dot(inwards) > 0.5; };
-    return input.tree().first_hit(surface_.mesh().point(v), inwards, 1e-6 * options_.longest,
-                                  limit * options_.edges_per_thickness, faces_away) /
-           options_.edges_per_thickness;
+    const EditMesh& mesh = surface_.mesh();
+    const bool is_wall = mesh.data(*mesh.cvf_begin(v)).is_wall;
+    const double nearest = is_wall ? 2 * mesh.data(v).tolerance : 1e-6 * options_.longest;
+    const auto thickness = [&](const Vec3& inwards) {
+        const auto faces_away = [&](std::int32_t facet) {
+            const double cosine = input.normal(facet).dot(inwards);
+            return (input.is_wall(facet) ? std::abs(cosine) : cosine) > 0.5;
+        };
+        return input.tree().first_hit(mesh.point(v), inwards, nearest, limit * options_.edges_per_thickness,
+                                      faces_away);
+    };
+    const Vec3 inwards = -vertex_normal(mesh, v);
+    double least = thickness(inwards);
+    if (is_wall) least = std::min(least, thickness(-inwards));
+    return least / options_.edges_per_thickness;
 }
 
 }  // namespace kerf

@@ -11,12 +11,12 @@
 namespace kerf {
 
 struct FoldSizeOptions {
-    double longest = 0;                         ///< anywhere, > 0
-    double shortest = 0;                        ///< that folds may ask for
-    double thinnest = 0;                        ///< that walls may ask for
-    double growth = 0.4;                        ///< of the size with distance
-    double edges_per_thickness = 0;             ///< across a wall; 0: walls ask for nothing
-    std::function<double(const Vec3&)> wanted;  ///< by the user at a point, if given
+    double longest = 0;                                       ///< anywhere, > 0
+    double shortest = 0;                                      ///< that folds may ask for
+    double thinnest = 0;                                      ///< that walls may ask for
+    double growth = 0.4;                                      ///< of the size with distance
+    double edges_per_thickness = 0;                           ///< across a wall; 0: walls ask for nothing
+    std::function<double(const Vec3&, std::int32_t)> wanted;  ///< by the user at a point of a patch, if given
 };
 
 /// The distance to the nearest fold, fold to fold, and across walls: what well-shaped triangles have to be as small as.
@@ -32,10 +32,8 @@ class FoldSizes {
     /// The size at a vertex that has come onto an edge of that fold (-1: of none), given what has grown to there. Away
     /// from folds nothing is asked but what grows from them.
     WantedLength of_new(EditedSurface::Vertex v, std::int32_t fold, WantedLength grown) const;
-    /// The size that the user asks for at a point, at most the longest.
-    double asked(const Vec3& p) const {
-        return options_.wanted ? std::min(options_.wanted(p), options_.longest) : options_.longest;
-    }
+    /// The size that the user asks for at a vertex, the smallest of the patches around it, at most the longest.
+    double asked(EditedSurface::Vertex v) const;
 
  private:
     void find_folds(EditedSurface& surface);

@@ -112,6 +112,11 @@ bool InputBound::accepts_flip(EditMesh& mesh, EditMesh::EdgeHandle e, const NewF
     return is_near_input(mesh, pair.facets[0], pair.corners[0]) && is_near_input(mesh, pair.facets[1], pair.corners[1]);
 }
 
+bool InputBound::lies_on_line(const EditMesh& mesh, EditMesh::VertexHandle v) {
+    return std::count_if(mesh.cve_begin(v), mesh.cve_end(v),
+                         [&](EditMesh::EdgeHandle e) { return !mesh.is_flat(e); }) == 2;
+}
+
 std::optional<Vec3> InputBound::place_near(const EditMesh& mesh, EditMesh::VertexHandle v, const Vec3& wanted,
                                            bool is_inside) const {
     if (is_inside) {

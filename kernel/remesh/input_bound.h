@@ -45,6 +45,8 @@ class InputBound {
     bool accepts_star(EditMesh& mesh, EditMesh::VertexHandle v, bool is_inside, NewFacets& star);
     /// Whether these two facets, which keep their turns, may take the place of those at an edge that is not flat.
     bool accepts_flip(EditMesh& mesh, EditMesh::EdgeHandle e, const NewFacets& pair);
+    /// Whether two borders of flat regions meet at the vertex, along which it may go.
+    static bool lies_on_line(const EditMesh& mesh, EditMesh::VertexHandle v);
     /// Where a vertex may go: in its flat region, along the line that it lies on, or on the input.
     std::optional<Vec3> place_near(const EditMesh& mesh, EditMesh::VertexHandle v, const Vec3& wanted,
                                    bool is_inside) const;

@@ -27,40 +27,41 @@ bool share_a_vertex(const Triangle& s, const Triangle& t) {
 
 }  // namespace
 
-InputShape::InputShape(const SurfaceArrays& surface, const TriangleTree& tree, std::vector<double> tolerance,
-                       double feature_angle_deg, const std::vector<UndirectedEdge>& creases)
-    : surface_(surface),
+InputShape::InputShape(const Sheets& sheets, const TriangleTree& tree, std::vector<double> tolerance,
+                       double feature_angle_deg, const std::vector<UndirectedEdge>& creases,
+                       const std::vector<char>& walls)
+    : sheets_(sheets),
       tree_(tree),
+      walls_(walls),
       tolerance_(std::move(tolerance)),
-      vertex_tolerance_(surface_.vertices.size(), std::numeric_limits<double>::infinity()) {
-    KERF_CHECK(tolerance_.size() == surface_.facets.size());
-    for (std::size_t f = 0; f < surface_.facets.size(); ++f)
-        for (const std::int32_t v : surface_.facets[f])
-            vertex_tolerance_[v] = std::min(vertex_tolerance_[v], tolerance_[f]);
+      vertex_tolerance_(vertices().size(), std::numeric_limits<double>::infinity()) {
+    KERF_CHECK(tolerance_.size() == facets().size());
+    for (std::size_t f = 0; f < facets().size(); ++f)
+        for (const std::int32_t v : facets()[f]) vertex_tolerance_[v] = std::min(vertex_tolerance_[v], tolerance_[f]);
     largest_tolerance_ = *std::max_element(tolerance_.begin(), tolerance_.end());
-    noise_ = rounding_of_files * box_around(surface_.vertices).diagonal().norm();
+    noise_ = rounding_of_files * box_around(vertices()).diagonal().norm();
     find_features(feature_angle_deg, creases);
 }
 
 // Between the planes of regions, because the normals of needles are noise.
 void InputShape::find_features(double feature_angle_deg, std::vector<UndirectedEdge> creases) {
-    const std::vector<std::int32_t> partner = edge_partners(surface_.facets);
+    const std::vector<std::int32_t>& partner = sheets_.partner;
     for (UndirectedEdge& e : creases) e = undirected(e[0], e[1]);
     std::sort(creases.begin(), creases.end());
     const auto is_border = [&](std::int32_t corner) {
-        const Triangle& t = surface_.facets[corner / 3];
-        return surface_.patch[corner / 3] != surface_.patch[partner[corner] / 3] ||
-               std::binary_search(creases.begin(), creases.end(), undirected(t[corner % 3], t[(corner + 1) % 3]));
+        return partner[corner] < 0 || patch(corner / 3) != patch(partner[corner] / 3) ||
+               std::binary_search(creases.begin(), creases.end(), sheets_.edge_before(corner));
     };
-    regions_ =
-        find_flat_regions(surface_.vertices, surface_.facets,
-                          {.tolerance = flat_share * largest_tolerance_, .noise = noise_, .is_border = is_border});
+    regions_ = find_flat_regions(
+        vertices(), facets(), {.tolerance = flat_share * largest_tolerance_, .noise = noise_, .is_border = is_border});
     const double least_cosine = std::cos(feature_angle_deg * std::numbers::pi / 180);
     for (std::int32_t corner = 0; corner < static_cast<std::int32_t>(partner.size()); ++corner)
         feature_.push_back(is_border(corner) || normal(corner / 3).dot(normal(partner[corner] / 3)) < least_cosine);
 }
 
-std::vector<double> tolerances_of_gaps(const SurfaceArrays& surface, const TriangleTree& tree, double deviation) {
+std::vector<double> tolerances_of_gaps(const SurfaceArrays& surface, const TriangleTree& tree, double deviation,
+                                       const std::vector<char>& walls) {
+    const auto is_wall = [&](std::size_t f) { return !walls.empty() && walls[f] != 0; };
     std::vector<double> tolerance(surface.facets.size(), deviation);
     std::vector<Vec3> normal;
     for (const Triangle& t : surface.facets) normal.push_back(doubled_area_vector(surface.vertices, t).normalized());
@@ -70,7 +71,9 @@ std::vector<double> tolerances_of_gaps(const SurfaceArrays& surface, const Trian
         const Vec3 &a = surface.vertices[t[0]], &b = surface.vertices[t[1]], &c = surface.vertices[t[2]];
         double gap = std::numeric_limits<double>::infinity();
         const auto faces_it = [&](std::int32_t g) {
-            return normal[g].dot(normal[f]) < opposite_cosine && !share_a_vertex(surface.facets[g], t);
+            const double cosine = normal[g].dot(normal[f]);
+            const bool are_opposite = (is_wall(f) || is_wall(g) ? -std::abs(cosine) : cosine) < opposite_cosine;
+            return are_opposite && !share_a_vertex(surface.facets[g], t);
         };
         for (const Vec3& p : {Vec3((a + b + c) / 3), a, b, c, Vec3((a + b) / 2), Vec3((b + c) / 2), Vec3((c + a) / 2)})
             for (const Vec3& way : {normal[f], Vec3(-normal[f])})

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "remesh/flat_regions.h"
-#include "surface/surface.h"
+#include "remesh/sheets.h"
 #include "surface/triangle_tree.h"
 
 namespace kerf {
@@ -12,16 +12,19 @@ namespace kerf {
 /// The input of the remesher and its bound. Immutable.
 class InputShape {
  public:
-    /// Keeps the references; `tree` is of the facets of `surface`. `tolerance` (#F): how far from a facet the new
-    /// surface may be, units of the input. Edges of more than `feature_angle_deg` between the normals and those between
-    /// patches are features, and so are `creases`.
-    InputShape(const SurfaceArrays& surface, const TriangleTree& tree, std::vector<double> tolerance,
-               double feature_angle_deg, const std::vector<UndirectedEdge>& creases = {});
+    /// Keeps the references; `tree` is of the facets of `sheets`. `tolerance` (#F): how far from a facet the new
+    /// surface may be, units of the input. Edges of more than `feature_angle_deg` between the normals, those between
+    /// patches and seams are features, and so are `creases`, by the numbers before the sheets were taken apart.
+    /// `walls` (#F): the facets that have a body on both sides; empty: none.
+    InputShape(const Sheets& sheets, const TriangleTree& tree, std::vector<double> tolerance, double feature_angle_deg,
+               const std::vector<UndirectedEdge>& creases = {}, const std::vector<char>& walls = {});
 
-    const std::vector<Vec3>& vertices() const { return surface_.vertices; }
-    const std::vector<Triangle>& facets() const { return surface_.facets; }
+    const Sheets& sheets() const { return sheets_; }
+    const std::vector<Vec3>& vertices() const { return sheets_.surface.vertices; }
+    const std::vector<Triangle>& facets() const { return sheets_.surface.facets; }
     const TriangleTree& tree() const { return tree_; }
-    std::int32_t patch(std::int32_t facet) const { return surface_.patch[facet]; }
+    std::int32_t patch(std::int32_t facet) const { return sheets_.surface.patch[facet]; }
+    bool is_wall(std::int32_t facet) const { return !walls_.empty() && walls_[facet] != 0; }
     double tolerance(std::int32_t facet) const { return tolerance_[facet]; }
     /// The smallest tolerance of the facets around a vertex.
     double vertex_tolerance(std::int32_t vertex) const { return vertex_tolerance_[vertex]; }
@@ -39,16 +42,19 @@ class InputShape {
  private:
     void find_features(double feature_angle_deg, std::vector<UndirectedEdge> creases);
 
-    const SurfaceArrays& surface_;
+    const Sheets& sheets_;
     const TriangleTree& tree_;
+    const std::vector<char>& walls_;
     std::vector<double> tolerance_, vertex_tolerance_;
     std::vector<char> feature_;  // 3 #F
     FlatRegions regions_;
     double largest_tolerance_ = 0, noise_ = 0;
 };
 
-/// The tolerance of every facet: `deviation`, or a third of the gap to a sheet that faces the other way, so that sheets
-/// which come closer than that do not grow into each other. `tree` is of the facets of `surface`. O(#F log #F).
-std::vector<double> tolerances_of_gaps(const SurfaceArrays& surface, const TriangleTree& tree, double deviation);
+/// The tolerance of every facet: `deviation`, or a third of the gap to a sheet that faces the other way, or any way if
+/// one of them is a wall, so that sheets which come closer than that do not grow into each other. `tree` is of the
+/// facets of `surface`, `walls` as for InputShape. O(#F log #F).
+std::vector<double> tolerances_of_gaps(const SurfaceArrays& surface, const TriangleTree& tree, double deviation,
+                                       const std::vector<char>& walls = {});
 
 }  // namespace kerf

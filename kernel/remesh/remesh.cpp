@@ -14,6 +14,7 @@
 #include "remesh/feature_merger.h"
 #include "remesh/fold_sizes.h"
 #include "remesh/inspection.h"
+#include "surface/touching.h"
 
 namespace kerf {
 
@@ -201,14 +202,16 @@ class Remesher {
             size.length += options_.growth * mesh().calc_edge_length(e) / 2;
             const std::int32_t fold = mesh().data(e).fold;
             const Vertex v = surface_.split(e, 0.5);
-            surface_.set_size(v, sizes_->of_new(v, fold, size), sizes_->asked(mesh().point(v)));
-            for (const auto h : mesh().voh_range(v))
-                around.push_back(mesh().edge_handle(mesh().next_halfedge_handle(h)));
-            legalise(around, 200);
-            for (const auto h : mesh().voh_range(v)) {
-                add(mesh().edge_handle(h));
-                add(mesh().edge_handle(mesh().next_halfedge_handle(h)));
-            }
+            surface_.set_size(v, sizes_->of_new(v, fold, size), sizes_->asked(v));
+            mesh().for_each_copy(v, [&](Vertex copy) {
+                for (const auto h : mesh().voh_range(copy))
+                    if (!h.is_boundary()) around.push_back(h.next().edge());
+                legalise(around, 200);
+                for (const auto h : mesh().voh_range(copy)) {
+                    add(h.edge());
+                    if (!h.is_boundary()) add(h.next().edge());
+                }
+            });
             if (e != wanted) add(wanted);
         }
     }
@@ -217,16 +220,19 @@ class Remesher {
     Edge longest_around(Edge e) const {
         for (bool goes_on = true; goes_on;) {
             goes_on = false;
-            for (const int side : {0, 1}) {
-                const HalfEdge h = mesh().halfedge_handle(e, side);
-                for (const Edge other : {mesh().edge_handle(mesh().next_halfedge_handle(h)),
-                                         mesh().edge_handle(mesh().prev_halfedge_handle(h))})
-                    if (mesh().calc_edge_length(other) > mesh().calc_edge_length(e) * (1 + 1e-9)) {
-                        e = other;
-                        goes_on = true;
-                    }
-                if (goes_on) break;
-            }
+            const Edge start = e;
+            mesh().for_each_copy(start, [&](Edge copy) {
+                for (const int side : {0, 1}) {
+                    const HalfEdge h = mesh().halfedge_handle(copy, side);
+                    if (goes_on || mesh().is_boundary(h)) continue;
+                    for (const Edge other : {mesh().edge_handle(mesh().next_halfedge_handle(h)),
+                                             mesh().edge_handle(mesh().prev_halfedge_handle(h))})
+                        if (mesh().calc_edge_length(other) > mesh().calc_edge_length(e) * (1 + 1e-9)) {
+                            e = other;
+                            goes_on = true;
+                        }
+                }
+            });
         }
         return e;
     }
@@ -251,18 +257,21 @@ class Remesher {
         for (int pass = 0; pass < smoothings; ++pass)
             for (const auto v : mesh().vertices()) {
                 poll();
-                if (refused_moves_.knows(v.idx(), mesh().last_change(v))) continue;
+                if (!mesh().is_first_copy(v) || refused_moves_.knows(v.idx(), mesh().last_change(v))) continue;
                 Vec3 sum = Vec3::Zero();
                 double weights = 0;
-                for (const auto h : mesh().voh_range(v)) {
-                    const Vec3 &b = mesh().point(h.to()), &c = mesh().point(h.next().to());
-                    const Vec3 centre = (mesh().point(v) + b + c) / 3;
-                    const double area = (b - mesh().point(v)).cross(c - mesh().point(v)).norm();
-                    const double size = (mesh().size(v) + mesh().size(h.to()) + mesh().size(h.next().to())) / 3;
-                    const double weight = area / (size * size);
-                    sum += weight * centre;
-                    weights += weight;
-                }
+                mesh().for_each_copy(v, [&](Vertex copy) {
+                    for (const auto h : mesh().voh_range(copy)) {
+                        if (h.is_boundary()) continue;
+                        const Vec3 &b = mesh().point(h.to()), &c = mesh().point(h.next().to());
+                        const Vec3 centre = (mesh().point(v) + b + c) / 3;
+                        const double area = (b - mesh().point(v)).cross(c - mesh().point(v)).norm();
+                        const double size = (mesh().size(v) + mesh().size(h.to()) + mesh().size(h.next().to())) / 3;
+                        const double weight = area / (size * size);
+                        sum += weight * centre;
+                        weights += weight;
+                    }
+                });
                 if (weights > 0 && (sum / weights - mesh().point(v)).norm() > least_move * mesh().size(v))
                     if (surface_.move(v, sum / weights)) continue;
                 refused_moves_.note(v.idx(), surface_.changes());
@@ -319,18 +328,27 @@ FinerShares finer_shares(const EditMesh& mesh) {
     return {share(LengthRule::bound), share(LengthRule::features), share(LengthRule::walls)};
 }
 
-Remeshed remesh_once(const SurfaceArrays& surface, const TriangleTree& tree, const std::vector<double>& tolerance,
+// With the numbers of vertices as their keys.
+SurfaceArrays with_seams_joined(SurfaceArrays sheets) {
+    SurfaceArrays joined = joined_by_key(std::move(sheets));
+    for (std::size_t v = 0; v < joined.vertices.size(); ++v)
+        joined.vertex_key[v] = make_key(0, static_cast<std::int32_t>(v));
+    return joined;
+}
+
+Remeshed remesh_once(const Sheets& sheets, const TriangleTree& tree, const std::vector<double>& tolerance,
                      const RemeshOptions& options) {
-    const InputShape input(surface, tree, tolerance, options.feature_angle_deg, options.creases);
+    const InputShape input(sheets, tree, tolerance, options.feature_angle_deg, options.creases, options.walls);
     Remesher remesher(input, options);
     remesher.run();
     const EditMesh& mesh = remesher.surface().mesh();
     const RemeshReport report = {.feature_edges = mesh.feature_edges(), .finer = finer_shares(mesh)};
-    return {remesher.surface().arrays(), {}, report};
+    return {with_seams_joined(remesher.surface().arrays()), {}, report};
 }
 
 void check_remesh_options(const RemeshOptions& options, std::size_t facets) {
     KERF_CHECK(options.kept.empty() || options.kept.size() == facets);
+    KERF_CHECK(options.walls.empty() || options.walls.size() == facets);
     KERF_CHECK(options.deviation > 0 && options.longest > 0 && options.growth > 0 && options.feature_angle_deg > 0);
 }
 
@@ -349,7 +367,8 @@ double forecast_facets(const SurfaceArrays& surface, const RemeshOptions& option
         double density = 0;  // sum over the samples
         int samples = 0;
         for_each_sample(p, t, [&](const Vec3& point) {
-            const double edge = options.wanted ? std::min(options.wanted(point), options.longest) : options.longest;
+            const double edge =
+                options.wanted ? std::min(options.wanted(point, surface.patch[f]), options.longest) : options.longest;
             density += 1 / (edge * edge);
             ++samples;
         });
@@ -362,9 +381,10 @@ double forecast_facets(const SurfaceArrays& surface, const RemeshOptions& option
 Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& options) {
     check_remesh_options(options, surface.facets.size());
     const TriangleTree tree(surface.vertices, surface.facets);
-    std::vector<double> tolerance = tolerances_of_gaps(surface, tree, used_share * options.deviation);
+    const Sheets sheets = take_apart(surface);
+    std::vector<double> tolerance = tolerances_of_gaps(surface, tree, used_share * options.deviation, options.walls);
     for (int round = 1;; ++round) {
-        Remeshed result = remesh_once(surface, tree, tolerance, options);
+        Remeshed result = remesh_once(sheets, tree, tolerance, options);
         result.report.rounds = round;
         const std::vector<char> refused = inspect(surface, tree, options, result.surface, result.report);
         const auto count = std::count(refused.begin(), refused.end(), char{1});

@@ -13,11 +13,13 @@ struct RemeshOptions {
     double longest = 0;             ///< edge anywhere, > 0
     double growth = 0.4;            ///< of the size along the surface
     double feature_angle_deg = 30;  ///< between facets: their edge stays an edge
-    std::vector<UndirectedEdge> creases = {};        ///< edges of the surface that stay edges, flat as they may be
-    std::vector<char> kept = {};                     ///< facets of the surface that stay as they are; empty: none
-    double edges_per_thickness = 0.5;                ///< across thin walls; 0: they ask for nothing
-    std::function<double(const Vec3&)> wanted = {};  ///< edge length at a point, if given: besides `longest`
+    std::vector<UndirectedEdge> creases = {};  ///< edges of the surface that stay edges, flat as they may be
+    std::vector<char> kept = {};               ///< facets of the surface that stay as they are; empty: none
+    double edges_per_thickness = 0.5;          ///< across thin walls; 0: they ask for nothing
+    std::function<double(const Vec3&, std::int32_t)> wanted =
+        {};                           ///< edge length at a point of a patch, if given: besides `longest`
     std::function<void()> poll = {};  ///< called every few milliseconds, if given; ends the work by what it throws
+    std::vector<char> walls = {};     ///< facets of the surface that have a body on both sides; empty: none
 };
 
 /// Of the area of a surface, where its shape asks for smaller edges than `wanted` and `longest`, by what does.
@@ -55,12 +57,14 @@ struct Remeshed {
 /// Splits, collapses, flips and moves edges and vertices until triangles are well shaped and as long as their place
 /// asks for: as the surface folds there, as walls are thick, as `wanted` says, with growth between.
 ///
-/// Topology, features (sharp edges and the borders of patches) and the patches of facets stay. No point of either
+/// Topology, features (sharp edges and the borders of patches) and the patches of facets stay. More than two facets may
+/// meet in an edge, as walls do: such seams are features that all of their sheets have in common, changed once for all,
+/// and their ends stay. No point of either
 /// surface is further than `deviation` from the other, which is proven (Nearness), and the result has no
 /// self-intersections, by exact predicates: where one of them fails, the tolerance of the facets there is made smaller
 /// and all is done again. Keys are the numbers in the result. Throws Error(input) with the place if that
-/// does not help. Requires a closed surface without intersections. Deterministic. O(#F log #F) for the larger of both
-/// surfaces.
+/// does not help. Requires a surface without intersections and open edges; facets that meet in an edge of two have it
+/// in opposite directions. Deterministic. O(#F log #F) for the larger of both surfaces.
 ///
 /// The bound of operations instead of the whole follows Cohen et al. 1996; sizes by distance between folds are those of
 /// Ruppert 1995.

@@ -11,37 +11,8 @@ namespace {
 
 using Cube = std::array<std::int32_t, 3>;
 
-struct RegionsCase {
-    const char* name;
-    Cube cubes;
-    test::RegionOfCube region;
-};
-
-bool is_inside(const Cube& cube, std::int32_t low, std::int32_t high) {
-    return std::all_of(cube.begin(), cube.end(), [&](std::int32_t c) { return c >= low && c < high; });
-}
-
-std::vector<RegionsCase> cases() {
-    return {
-        {"two_at_a_wall", {2, 1, 1}, [](Cube c) { return c[0]; }},
-        {"three_at_an_edge", {2, 2, 1}, [](Cube c) { return c[0] + 2 * c[1] - 1; }},
-        {"eight_at_a_point", {2, 2, 2}, [](Cube c) { return c[0] + 2 * c[1] + 4 * c[2]; }},
-        {"twenty_layers", {2, 2, 20}, [](Cube c) { return c[2]; }},
-        {"one_in_another", {3, 3, 3}, [](Cube c) { return is_inside(c, 1, 2) ? 1 : 0; }},
-        {"void_in_one_in_another",
-         {5, 5, 5},
-         [](Cube c) { return is_inside(c, 2, 3)   ? -1
-                             : is_inside(c, 1, 4) ? 1
-                                                  : 0; }},
-        {"two_at_an_edge", {2, 2, 1}, [](Cube c) { return c[0] != c[1] ? -1 : c[0]; }},
-        {"two_at_a_vertex", {2, 2, 2}, [](Cube c) { return c[0] != c[1] || c[1] != c[2] ? -1 : c[0]; }},
-        {"one_twice_at_an_edge", {2, 2, 1}, [](Cube c) { return c[0] == c[1] ? 0 : 1; }},
-        {"grains", {6, 6, 6}, test::grains({6, 6, 6}, 12, 1)},
-    };
-}
-
-class SeveralRegions : public testing::TestWithParam<RegionsCase> {};
-INSTANTIATE_TEST_SUITE_P(Bodies, SeveralRegions, testing::ValuesIn(cases()),
+class SeveralRegions : public testing::TestWithParam<test::TouchingBodies> {};
+INSTANTIATE_TEST_SUITE_P(Bodies, SeveralRegions, testing::ValuesIn(test::touching_bodies()),
                          [](const auto& param) { return param.param.name; });
 
 TEST_P(SeveralRegions, ObeyEveryLawForAnyNumberOfParts) {

@@ -34,6 +34,14 @@ RegionOfCube refined(RegionOfCube region, std::int32_t n);
 /// The nearest of `count` places that depend on the seed: grains.
 RegionOfCube grains(std::array<std::int32_t, 3> cubes, std::int32_t count, std::uint32_t seed);
 
+struct TouchingBodies {
+    const char* name;
+    std::array<std::int32_t, 3> cubes;
+    RegionOfCube region;
+};
+/// Ten ways in which bodies touch each other and themselves.
+std::vector<TouchingBodies> touching_bodies();
+
 inline Complex to_complex(const VoxelBody& body) { return {body.facets, body.sides, body.names}; }
 
 }  // namespace kerf::test

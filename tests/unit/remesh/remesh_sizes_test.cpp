@@ -46,7 +46,7 @@ RemeshOptions options_for(const SurfaceArrays& surface, const SizeField& field) 
     return {.deviation = 2e-5 * diagonal,
             .longest = 0.2 * diagonal,
             .growth = field.growth() > 0 ? field.growth() : 0.4,
-            .wanted = [&](const Vec3& p) { return field.at(p); }};
+            .wanted = [&](const Vec3& p, std::int32_t) { return field.at(p); }};
 }
 
 SurfaceArrays remeshed(const SurfaceArrays& surface, const SizeField& field) {

@@ -263,13 +263,13 @@ TEST(Remesh, ObeysWantedLengths) {
     const SurfaceArrays surface = test::to_arrays(test::box(Vec3::Zero(), Vec3::Ones(), 1));
     RemeshOptions options = within(surface, 1e-4);
     options.longest = 0.3;
-    options.wanted = [](const Vec3& p) { return 0.02 + 0.3 * p.x(); };
+    options.wanted = [](const Vec3& p, std::int32_t) { return 0.02 + 0.3 * p.x(); };
     const SurfaceArrays result = remesh(surface, options).surface;
     std::size_t fitting = 0, edges = 0;
     for (const Triangle& t : result.facets)
         for (int i = 0; i < 3; ++i) {
             const Vec3 &a = result.vertices[t[i]], &b = result.vertices[t[(i + 1) % 3]];
-            const double ratio = (b - a).norm() / std::min(0.3, options.wanted((a + b) / 2));
+            const double ratio = (b - a).norm() / std::min(0.3, options.wanted((a + b) / 2, 0));
             fitting += ratio > 0.5 && ratio < 1.5;
             ++edges;
         }
