@@ -27,6 +27,8 @@ Vec3 as_it_is(const Vec3& p) { return p; }
 Vec3 bent(const Vec3& p) {
     return p + 0.3 * Vec3(std::sin(p.y() / 3 + p.z() / 4), std::sin(p.z() / 3 + p.x() / 5), std::sin(p.x() / 4));
 }
+// Layers of 0.3 that go up and down by more than that.
+Vec3 pressed(const Vec3& p) { return {p.x(), p.y(), 0.1 * p.z() + 0.3 * std::sin(p.x() + p.y() / 2)}; }
 // Facets with angles of a few degrees.
 Vec3 flattened(const Vec3& p) { return {p.x(), p.y(), 0.1 * p.z()}; }
 
@@ -94,8 +96,10 @@ std::vector<ComplexCase> complex_cases() {
     std::vector<ComplexCase> all;
     for (const test::TouchingBodies& bodies : test::touching_bodies()) {
         all.push_back({bodies, "bent", bent, 0.1, 3});
+        all.push_back({bodies, "pressed", pressed, 0.2, 2});
         if (test::in_slices()) continue;
         all.push_back({bodies, "cubes", as_it_is, 0.01, 4});
+        all.push_back({bodies, "coarse", bent, 1.5, 6});
         all.push_back({bodies, "finer", as_it_is, 0.05, 0.7});
         all.push_back({bodies, "bent_little", bent, 0.002, 3});
         all.push_back({bodies, "flattened", flattened, 0.002, 1});
