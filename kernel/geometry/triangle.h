@@ -30,4 +30,15 @@ double triangle_area(const Corners&... triangle) {
     return doubled_area_vector(triangle...).norm() / 2;
 }
 
+/// The largest circle in a triangle.
+struct InscribedCircle {
+    Vec3 centre;
+    Vec3 normal;  ///< of the triangle, as long as the radius
+};
+inline InscribedCircle inscribed_circle(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double opposite_a = (c - b).norm(), opposite_b = (a - c).norm(), opposite_c = (b - a).norm();
+    const double perimeter = opposite_a + opposite_b + opposite_c;
+    return {(opposite_a * a + opposite_b * b + opposite_c * c) / perimeter, doubled_area_vector(a, b, c) / perimeter};
+}
+
 }  // namespace kerf

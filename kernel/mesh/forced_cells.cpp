@@ -69,16 +69,13 @@ bool ForcedCells::contains(const Tetrahedron& cell, double smallest_deg) {
 // itself is there, so that it does not end before.
 bool ForcedCells::is_shallow(const Triangle& face, double cell_depth, double limit) {
     if (!tree_) tree_.emplace(vertices_, std::vector<Triangle>(boundary_.facets.begin(), boundary_.facets.end()));
-    const Vec3 &a = vertices_[face[0]], &b = vertices_[face[1]], &c = vertices_[face[2]];
-    const double opposite_a = (c - b).norm(), opposite_b = (a - c).norm(), opposite_c = (b - a).norm();
-    const double perimeter = opposite_a + opposite_b + opposite_c;
-    const Vec3 centre = (opposite_a * a + opposite_b * b + opposite_c * c) / perimeter;
-    const Vec3 radius = doubled_area_vector(vertices_, face) / -perimeter;  // inwards
+    const auto [centre, radius] = inscribed_circle(vertices_[face[0]], vertices_[face[1]], vertices_[face[2]]);
     constexpr double rounding = 1e-6;
     const double from = cell_depth * (1 - rounding);
     const auto is_interface = [&](std::int32_t f) { return boundary_.is_interface[static_cast<std::size_t>(f)] != 0; };
-    const double wall = tree_->first_hit(centre, radius, from, limit, [&](std::int32_t f) { return !is_interface(f); });
-    return wall < limit && tree_->first_hit(centre, radius, from, wall, is_interface) >= wall;
+    const double wall =
+        tree_->first_hit(centre, -radius, from, limit, [&](std::int32_t f) { return !is_interface(f); });
+    return wall < limit && tree_->first_hit(centre, -radius, from, wall, is_interface) >= wall;
 }
 
 }  // namespace kerf

@@ -15,6 +15,7 @@
 #include "prepare/labelled_facets.h"
 #include "prepare/size_reader.h"
 #include "prepare/slivers.h"
+#include "prepare/thin_layers.h"
 #include "remesh/remesh.h"
 #include "size/region_sizes.h"
 #include "surface/mass_properties.h"
@@ -94,6 +95,20 @@ double smallest_length(const SizeField& wanted, const SurfaceArrays& surface) {
     return smallest;
 }
 
+// Facets that spoil cells.
+struct BadFacets {
+    Slivers slivers;
+    std::int64_t on_thin_layers = 0;
+
+    bool are_too_wide() const { return kerf::spoil_cells(on_thin_layers, slivers.facets); }
+    bool spoil_cells() const { return slivers.spoil_cells() || are_too_wide(); }
+};
+
+BadFacets find_bad_facets(const Input& input, const SurfaceArrays& surface) {
+    const std::vector<char> is_thin = facets_on_thin_layers(label_facets(input.complex));
+    return {find_slivers(surface.vertices, surface.facets), std::count(is_thin.begin(), is_thin.end(), char{1})};
+}
+
 // What the remesher is given.
 struct RemeshTask {
     LabelledFacets facets;
@@ -127,7 +142,8 @@ void want_lengths_of_regions(const RunOptions& options, const SurfaceArrays& sur
     task.options.longest = longest;
 }
 
-RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const RunOptions& options) {
+RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const BadFacets& bad,
+                       const RunOptions& options) {
     const SizeField wanted = wanted_lengths(options, surface, input);
     RemeshTask task = {label_facets(input.complex),
                        {.longest = longest_edge(options, input.diagonal), .creases = input.creases}};
@@ -139,7 +155,7 @@ RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const R
                            ? deviation_for(options.deviation, input.diagonal)
                            : usual_deviation(wanted, surface, input.diagonal, options.sizes.fineness);
     if (const double growth = with_fineness_at_kept_facets(options).sizes.growth; growth > 0) result.growth = growth;
-    if (options.remeshing == Remeshing::where_needed && !input.is_cad && !result.wanted)
+    if (options.remeshing == Remeshing::where_needed && !input.is_cad && !result.wanted && !bad.are_too_wide())
         result.kept = facets_away_from_slivers(task.facets.surface);
     return task;
 }
@@ -163,25 +179,30 @@ std::function<void()> step_counter(StageListener* listener) {
 }
 
 // Of what nobody has asked for.
-std::string note_of_remeshing(const Input& input, const Slivers& slivers, const RemeshOptions& options) {
+std::string note_of_remeshing(const Input& input, const BadFacets& bad, const RemeshOptions& options) {
     if (input.is_cad)
         return "A CAD file has no triangles of its own: they are remeshed. --surface split keeps those of OpenCASCADE.";
-    return fmt::format(
-        "{} of {} facets have angles below 10 degrees, which would spoil the cells: {} remeshed within {:.2g} "
-        "(--deviation). --surface split keeps the facets.",
-        grouped(slivers.count), grouped(slivers.facets), options.kept.empty() ? "the surface is" : "these places are",
-        options.deviation);
+    const std::string reason =
+        !bad.are_too_wide()
+            ? fmt::format("{} of {} facets have angles below 10 degrees, which would spoil the cells",
+                          grouped(bad.slivers.count), grouped(bad.slivers.facets))
+            : fmt::format(
+                  "{} of {} facets are so wide beside a thin region that its cells would have angles below 10 "
+                  "degrees",
+                  grouped(bad.on_thin_layers), grouped(bad.slivers.facets));
+    return fmt::format("{}: {} remeshed within {:.2g} (--deviation). --surface split keeps the facets.", reason,
+                       options.kept.empty() ? "the surface is" : "these places are", options.deviation);
 }
 
 std::vector<std::string> region_names(const Complex& complex) {
     return {complex.region_names().begin(), complex.region_names().end()};
 }
 
-Input remeshed(Input input, const SurfaceArrays& before, const Slivers& slivers, const RunOptions& options,
+Input remeshed(Input input, const SurfaceArrays& before, const BadFacets& bad, const RunOptions& options,
                StageListener* listener, int processes) {
-    RemeshTask task = remesh_task(input, before, options);
+    RemeshTask task = remesh_task(input, before, bad, options);
     RemeshOptions& wanted = task.options;
-    if (options.remeshing == Remeshing::where_needed) input.notes.push_back(note_of_remeshing(input, slivers, wanted));
+    if (options.remeshing == Remeshing::where_needed) input.notes.push_back(note_of_remeshing(input, bad, wanted));
     check_memory(forecast_facets(task.facets.surface, wanted), options, wanted.longest, processes);
     wanted.poll = step_counter(listener);
     if (wanted.poll) wanted.poll();
@@ -226,11 +247,10 @@ Input divided(Input input, const SurfaceArrays& before, const RunOptions& option
     return input;
 }
 
-SurfaceChange change_of(const Input& input, const SurfaceArrays& surface, const Slivers& slivers,
+SurfaceChange change_of(const Input& input, const SurfaceArrays& surface, const BadFacets& bad,
                         const RunOptions& options) {
     if (options.remeshing == Remeshing::never) return SurfaceChange::none;
-    if (options.remeshing == Remeshing::always || input.is_cad || slivers.spoil_cells())
-        return SurfaceChange::remeshing;
+    if (options.remeshing == Remeshing::always || input.is_cad || bad.spoil_cells()) return SurfaceChange::remeshing;
     if (options.sizes.cells > 0 || has_facets_to_divide(surface, wanted_on_facets(options, surface, input)))
         return SurfaceChange::division;
     return SurfaceChange::none;
@@ -240,7 +260,7 @@ SurfaceChange change_of(const Input& input, const SurfaceArrays& surface, const 
 
 SurfaceChange surface_change(const Input& input, const RunOptions& options) {
     const SurfaceArrays surface = input.complex.arrays();
-    return change_of(input, surface, find_slivers(surface.vertices, surface.facets), options);
+    return change_of(input, surface, find_bad_facets(input, surface), options);
 }
 
 // Whoever wants a size gets it: a bound that is much smaller would ask for finer facets wherever the surface is curved.
@@ -263,13 +283,14 @@ double deviation_for(const Length& wanted, double diagonal) {
 
 double forecast_changed_facets(const Input& input, const RunOptions& options) {
     const SurfaceArrays surface = input.complex.arrays();
-    switch (change_of(input, surface, find_slivers(surface.vertices, surface.facets), options)) {
+    const BadFacets bad = find_bad_facets(input, surface);
+    switch (change_of(input, surface, bad, options)) {
         case SurfaceChange::none:
             break;
         case SurfaceChange::division:
             return forecast_divided_facets(surface, wanted_on_facets(options, surface, input));
         case SurfaceChange::remeshing: {
-            const RemeshTask task = remesh_task(input, surface, options);
+            const RemeshTask task = remesh_task(input, surface, bad, options);
             return forecast_facets(task.facets.surface, task.options);
         }
     }
@@ -278,11 +299,11 @@ double forecast_changed_facets(const Input& input, const RunOptions& options) {
 
 Input remesh_where_asked(Input input, const RunOptions& options, StageListener* listener, int processes) {
     const SurfaceArrays before = input.complex.arrays();
-    const Slivers slivers = find_slivers(before.vertices, before.facets);
-    const SurfaceChange change = change_of(input, before, slivers, options);
+    const BadFacets bad = find_bad_facets(input, before);
+    const SurfaceChange change = change_of(input, before, bad, options);
     if (change == SurfaceChange::remeshing)
-        return remeshed(std::move(input), before, slivers, options, listener, processes);
-    const std::string note = sliver_note(slivers, input.path);
+        return remeshed(std::move(input), before, bad, options, listener, processes);
+    const std::string note = sliver_note(bad.slivers, input.path);
     if (!note.empty()) input.notes.push_back(note);
     return change == SurfaceChange::division ? divided(std::move(input), before, options, listener, processes)
                                              : std::move(input);

@@ -9,13 +9,16 @@
 
 namespace kerf {
 
+/// Whether so many of the facets are more than one in a thousand: the cells there are no better than it, and a cell of
+/// a hundred or so is there.
+constexpr bool spoil_cells(std::int64_t count, std::int64_t facets) { return 1000 * count > facets; }
+
 struct Slivers {
     std::int64_t count = 0;  ///< facets with an angle below 10 degrees
     std::int64_t facets = 0;
 
     double share() const { return facets > 0 ? static_cast<double>(count) / static_cast<double>(facets) : 0; }
-    /// One facet in a thousand: the cells there are no better than it, and a cell of a hundred or so is there.
-    bool spoil_cells() const { return 1000 * count > facets; }
+    bool spoil_cells() const { return kerf::spoil_cells(count, facets); }
 };
 Slivers find_slivers(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets);
 

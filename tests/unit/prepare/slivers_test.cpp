@@ -7,8 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "prepare/remeshing.h"
+#include "prepare/thin_layers.h"
 #include "remesh/remesh.h"
 #include "support/shapes.h"
+#include "support/voxel_regions.h"
 #include "surface/intersections.h"
 
 namespace kerf {
@@ -100,6 +102,33 @@ TEST(Slivers, WellShapedFacetsAndThoseThatShallStayDoStay) {
         EXPECT_FALSE(result.remeshed);
         EXPECT_EQ(corners_of(result.complex.arrays()), corners_of(surface));
         EXPECT_EQ(result.notes.empty(), &surface == &good || find_slivers(surface.vertices, surface.facets).count == 0);
+    }
+}
+
+std::int64_t thin_count(const Complex& complex) {
+    const std::vector<char> is_thin = facets_on_thin_layers(label_facets(complex));
+    return std::count(is_thin.begin(), is_thin.end(), char{1});
+}
+
+// The largest circle in half a square has a radius of 0.29.
+TEST(ThinLayers, AreRemeshedWhereFacetsAreTooWideForThem) {
+    for (const double thickness : {0.03, 0.2}) {
+        SCOPED_TRACE(thickness);
+        test::VoxelBody body = test::voxel_body({1, 1, 3}, [](const auto& cube) { return cube[2]; });
+        for (Vec3& p : body.facets.vertices) p.z() *= thickness;
+        Input input = make_input(body.facets.vertices, body.facets.facets, body.sides, body.names, body.facets.patch);
+        const bool is_thin = thickness < 0.05;
+        EXPECT_EQ(thin_count(input.complex), is_thin ? 8 : 0);
+        const Input result = remesh_where_asked(input, {});
+        ASSERT_EQ(result.remeshed.has_value(), is_thin);
+        if (!is_thin) continue;
+        EXPECT_EQ(thin_count(result.complex), 0);
+        EXPECT_EQ(result.complex.region_count(), 3);
+        ASSERT_EQ(result.notes.size(), 1U);
+        EXPECT_NE(result.notes[0].find("so wide beside a thin region"), std::string::npos) << result.notes[0];
+        RunOptions split;
+        split.remeshing = Remeshing::never;
+        EXPECT_FALSE(remesh_where_asked(input, split).remeshed);
     }
 }
 
