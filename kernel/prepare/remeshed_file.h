@@ -19,8 +19,8 @@ struct RemeshedFile {
 };
 
 /// Remeshes options.input within options.deviation to the wanted lengths (prepare/remeshing.h) and writes it to
-/// `output`, an .obj with patches or an .stl. `listener` may be null. Throws Error, before the work where the output
-/// cannot be written.
+/// `output`, an .obj with patches or an .stl; several regions as an .obj with a closed group for each. `listener` may
+/// be null. Throws Error, before the work where the output cannot be written.
 RemeshedFile remesh_file(RunOptions options, const std::string& output, StageListener* listener = nullptr);
 
 }  // namespace kerf

@@ -33,6 +33,20 @@ TEST_P(SeveralRegions, ObeyEveryLawForAnyNumberOfParts) {
     }
 }
 
+TEST(RemeshedRegions, ObeyEveryLaw) {
+    const test::VoxelBody body = test::voxel_body({6, 6, 6}, test::grains({6, 6, 6}, 7, 2));
+    RunOptions options;
+    options.remeshing = Remeshing::always;
+    Input input = make_input(body.facets.vertices, body.facets.facets, body.sides, body.names, body.facets.patch);
+    const test::TemporaryFolder folder;
+    const RunReport report = test::run_parts("", folder.file("out"), 10, input, nullptr, options);
+    test::expect_verified(report, 10);
+    ASSERT_TRUE(input.remeshed);
+    EXPECT_NE(input.complex.facet_count(), static_cast<std::int32_t>(body.facets.facets.size()));
+    EXPECT_EQ(test::broken_laws(test::read_parts(folder.file("out")), input.complex), "");
+    EXPECT_EQ(test::broken_sharing(RunParts(folder.file("out"))), "");
+}
+
 // A wall takes the smaller of the sizes on its sides, and both sides the same triangles.
 TEST(SizesOfRegions, HoldInTheirRegionAndOnItsWalls) {
     const test::VoxelBody body = test::voxel_body({6, 3, 3}, test::refined([](Cube cube) { return cube[0]; }, 3));

@@ -12,6 +12,7 @@
 #include "prepare/remeshed_file.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"
+#include "support/voxel_regions.h"
 
 namespace kerf {
 namespace {
@@ -99,6 +100,19 @@ TEST_F(FileDiagnosisTest, ARemeshedFileHasTheFacetsThatAreTold) {
               static_cast<std::size_t>(written.facets));
     EXPECT_THROW(remesh_file(options, folder_.file("fine.vtu")), Error);
     EXPECT_FALSE(std::filesystem::exists(folder_.file("fine.vtu")));
+}
+
+TEST_F(FileDiagnosisTest, RemeshedRegionsAreReadAgainAsBodiesThatTouch) {
+    RunOptions options;
+    options.input = folder_.file("two.mesh");
+    test::write_tets(options.input, {2, 1, 1}, [](const auto& cube) { return cube[0]; });
+    options.sizes.size = Length(0.3);
+    const RemeshedFile written = remesh_file(options, folder_.file("two.obj"));
+    const Input again = read_input(folder_.file("two.obj"), {});
+    EXPECT_EQ(again.complex.region_count(), 2);
+    EXPECT_EQ(again.complex.facet_count(), written.facets);
+    EXPECT_NEAR(again.regions[0].volume, 1, 1e-12);
+    EXPECT_THROW(remesh_file(options, folder_.file("two.stl")), Error);
 }
 
 }  // namespace
