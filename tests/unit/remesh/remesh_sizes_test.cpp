@@ -14,6 +14,7 @@
 #include "size/size_options.h"
 #include "support/shapes.h"
 #include "support/size_fields.h"
+#include "support/slice.h"
 #include "support/temporary_folder.h"
 #include "support/write_off.h"
 
@@ -68,11 +69,12 @@ Soup hollow_cube(int n) {
 // Sizes of every kind in bodies whose shape asks for none.
 std::vector<Case> cases() {
     std::vector<Case> all;
-    for (const double size : {2.0, 0.71, 0.5, 0.3}) {
+    const std::vector<double> sizes = {2.0, 0.71, 0.5, 0.3}, finer = {0.5, 0.3};
+    for (const double size : slice(sizes, {2.0, 0.71})) {
         all.push_back({"constant", hollow_cube(1), {}, {}});
         all.back().options.size = size;
     }
-    for (const double size : {0.5, 0.3}) {
+    for (const double size : slice(finer, {0.5})) {
         all.push_back({"constant, on small facets", hollow_cube(13), {}, {}});
         all.back().options.size = size;
     }
@@ -113,7 +115,7 @@ TEST(RemeshedSizes, AreObeyed) {
 // What the shape asks for may be finer.
 TEST(RemeshedSizes, AreNotExceededOnCurvedBodies) {
     for (const Soup& soup : {torus(1, 0.4, 40, 16), prism(40, 1, 2), icosphere(3)})
-        for (const double size : {0.2, 0.07}) {
+        for (const double size : slice(std::vector<double>{0.2, 0.07}, {0.2})) {
             const SurfaceArrays surface = to_arrays(soup);
             SizeOptions options;
             options.size = size;
