@@ -82,12 +82,21 @@ void require_success(const RunReport& report) {
                     : fmt::format("Part {} could not be meshed: {}", failed->id, failed->result.message));
 }
 
-// Corners and patches of a part's triangles on the user's surface.
+std::vector<Vec3> to_points(std::span<const std::array<double, 3>> vertices) {
+    std::vector<Vec3> points;
+    points.reserve(vertices.size());
+    for (const auto& [x, y, z] : vertices) points.emplace_back(x, y, z);
+    return points;
+}
+
+// Corners, patches and sides of a part's triangles on the user's surface. What is in front is the number of the part
+// there, or -1.
 void add_boundary(const Part& part, MeshArrays& mesh) {
     for (std::size_t f = 0; f < part.facets.size(); ++f) {
-        if (part.is_interface(f)) continue;
+        if (!part.is_listed(f)) continue;
         mesh.triangles.push_back(global_corners(part, part.facets[f]));
         mesh.patch.push_back(part.patch[f]);
+        mesh.sides.push_back({part.region_of(0).value(), part.is_wall(f) ? part.neighbour[f] : -1});
     }
 }
 
@@ -100,6 +109,17 @@ std::int64_t ClosedSurface::facet_count() const { return input_->facets; }
 double ClosedSurface::volume() const { return input_->volume; }
 double ClosedSurface::area() const { return input_->area; }
 const std::vector<std::string>& ClosedSurface::patch_names() const { return input_->patch_names; }
+
+std::vector<std::string> ClosedSurface::region_names() const {
+    return {input_->complex.region_names().begin(), input_->complex.region_names().end()};
+}
+
+std::vector<std::array<std::int32_t, 2>> ClosedSurface::sides() const {
+    std::vector<std::array<std::int32_t, 2>> sides;
+    for (std::int32_t f = 0; f < input_->complex.facet_count(); ++f)
+        sides.push_back({input_->complex.sides(f).back, input_->complex.sides(f).front});
+    return sides;
+}
 
 std::vector<std::array<double, 3>> ClosedSurface::vertices() const {
     std::vector<std::array<double, 3>> points;
@@ -124,12 +144,22 @@ ClosedSurface surface_from_arrays(std::span<const std::array<double, 3>> vertice
                                   std::span<const std::array<std::int32_t, 3>> facets,
                                   std::span<const std::int32_t> patches, std::vector<std::string> patch_names,
                                   const NamedOptions& options) {
-    std::vector<Vec3> points;
-    points.reserve(vertices.size());
-    for (const auto& [x, y, z] : vertices) points.emplace_back(x, y, z);
-    return ClosedSurface(std::make_shared<const Input>(make_input(std::move(points), {facets.begin(), facets.end()},
+    return ClosedSurface(std::make_shared<const Input>(make_input(to_points(vertices), {facets.begin(), facets.end()},
                                                                   {patches.begin(), patches.end()},
                                                                   std::move(patch_names), input_options(options))));
+}
+
+ClosedSurface surface_of_regions(std::span<const std::array<double, 3>> vertices,
+                                 std::span<const std::array<std::int32_t, 3>> facets,
+                                 std::span<const std::array<std::int32_t, 2>> sides,
+                                 std::vector<std::string> region_names, std::span<const std::int32_t> patches,
+                                 std::vector<std::string> patch_names, const NamedOptions& options) {
+    std::vector<FacetSides> of_facets;
+    of_facets.reserve(sides.size());
+    for (const auto& [behind, in_front] : sides) of_facets.push_back({.front = in_front, .back = behind});
+    return ClosedSurface(std::make_shared<const Input>(
+        make_input(to_points(vertices), {facets.begin(), facets.end()}, std::move(of_facets), std::move(region_names),
+                   {patches.begin(), patches.end()}, std::move(patch_names), input_options(options))));
 }
 
 ClosedSurface surface_from_file(const std::string& path, const NamedOptions& options) {
@@ -148,10 +178,12 @@ ClosedSurface remeshed(const ClosedSurface& surface, double deviation, double si
     options.sizes.size = size;
     options.sizes.check();
     ProgressListener listener(progress);
-    const Input result = remesh_where_asked(surface.input(), options, &listener);
-    SurfaceArrays arrays = result.complex.arrays();
-    return ClosedSurface(std::make_shared<const Input>(
-        make_input(std::move(arrays.vertices), std::move(arrays.facets), std::move(arrays.patch), result.patch_names)));
+    const ClosedSurface result(std::make_shared<const Input>(remesh_where_asked(surface.input(), options, &listener)));
+    const std::vector<std::string> regions = result.region_names();
+    if (regions.empty())
+        return surface_from_arrays(result.vertices(), result.facets(), result.patches(), result.patch_names());
+    return surface_of_regions(result.vertices(), result.facets(), result.sides(), regions, result.patches(),
+                              result.patch_names());
 }
 
 void mesh_on_ranks(const ClosedSurface& surface, const MeshOptions& options, const std::string& folder,
@@ -181,16 +213,22 @@ MeshArrays arrays_of_run(const std::string& folder) {
     const MeshOutline& outline = parts->outline();
     MeshArrays mesh;
     mesh.patch_names = outline.patch_names;
+    mesh.region_names = outline.region_names;
     mesh.vertices.reserve(static_cast<std::size_t>(outline.vertices));
     mesh.tets.reserve(static_cast<std::size_t>(outline.tets()));
     for_each_vertex(*parts, [&](std::int64_t, std::span<const Vec3> points) {
         for (const Vec3& p : points) mesh.vertices.push_back(to_array(p));
     });
+    Array<PartIndex, std::int32_t> region_of_part;
     for_each_part(*parts, PartContent::cells, [&](PartIndex, const Part& part) {
         for (const Tetrahedron& tet : part.mesh.tets) mesh.tets.push_back(global_corners(part, tet));
         mesh.part.insert(mesh.part.end(), part.mesh.tets.size(), part.id);
+        mesh.region.insert(mesh.region.end(), part.mesh.tets.size(), part.region_of(0).value());
+        region_of_part.push_back(part.region_of(0).value());
         add_boundary(part, mesh);
     });
+    for (auto& [behind, in_front] : mesh.sides)
+        if (in_front >= 0) in_front = region_of_part[outline.index_of(in_front)];
     return mesh;
 }
 

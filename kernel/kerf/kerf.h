@@ -43,6 +43,8 @@ class ClosedSurface {
     std::vector<std::array<std::int32_t, 3>> facets() const;  ///< corners counter-clockwise, seen from outside
     std::vector<std::int32_t> patches() const;                ///< of each facet: an index into patch_names()
     const std::vector<std::string>& patch_names() const;
+    std::vector<std::string> region_names() const;           ///< empty if there is one region
+    std::vector<std::array<std::int32_t, 2>> sides() const;  ///< of each facet: see surface_of_regions()
 
     explicit ClosedSurface(std::shared_ptr<const Input> input) : input_(std::move(input)) {}
     const Input& input() const { return *input_; }  ///< for Kerf itself
@@ -61,6 +63,16 @@ ClosedSurface surface_from_arrays(std::span<const std::array<double, 3>> vertice
                                   std::span<const std::array<std::int32_t, 3>> facets,
                                   std::span<const std::int32_t> patches = {}, std::vector<std::string> patch_names = {},
                                   const NamedOptions& options = {});
+
+/// The facets of several bodies that share walls, each facet once. `sides`: of each facet the regions behind it and in
+/// front of it, where its corners are counter-clockwise, as numbers of `region_names`, or -1: outside. The others as
+/// for surface_from_arrays(); facets are not turned. Throws as that does, and Error(input) for a facet with the same on
+/// both sides and a region that its facets do not close, with its name.
+ClosedSurface surface_of_regions(std::span<const std::array<double, 3>> vertices,
+                                 std::span<const std::array<std::int32_t, 3>> facets,
+                                 std::span<const std::array<std::int32_t, 2>> sides,
+                                 std::vector<std::string> region_names, std::span<const std::int32_t> patches = {},
+                                 std::vector<std::string> patch_names = {}, const NamedOptions& options = {});
 
 /// The surface of a file of any format that `kerf mesh` reads. Throws Error(io) and as surface_from_arrays() does.
 ClosedSurface surface_from_file(const std::string& path, const NamedOptions& options = {});
@@ -95,9 +107,13 @@ struct MeshArrays {
     std::vector<std::array<double, 3>> vertices;
     std::vector<std::array<std::int64_t, 4>> tets;       ///< corners a, b, c, d with det[b-a, c-a, d-a] > 0
     std::vector<std::int32_t> part;                      ///< #tets; number of its part in the tree of cuts
-    std::vector<std::array<std::int64_t, 3>> triangles;  ///< of the boundary, counter-clockwise seen from outside
+    std::vector<std::array<std::int64_t, 3>> triangles;  ///< of the boundary, counter-clockwise seen from outside, and
+                                                         ///< of walls, each once
     std::vector<std::int32_t> patch;                     ///< #triangles; an index into patch_names
     std::vector<std::string> patch_names;
+    std::vector<std::int32_t> region;                ///< #tets; an index into region_names, 0 if there is one region
+    std::vector<std::string> region_names;           ///< empty if there is one region
+    std::vector<std::array<std::int32_t, 2>> sides;  ///< #triangles; as of facets: behind, in front
 };
 
 /// Meshes in memory, but for files of the parts in a temporary folder (TMPDIR). Every law of the mesh is verified.

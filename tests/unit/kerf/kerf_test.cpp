@@ -85,6 +85,73 @@ TEST(Facade, RemeshedSurfacesKeepPatchesAndVolume) {
     EXPECT_EQ(fine.patch_names(), cube().patch_names());
 }
 
+// Two cubes with a wall between them.
+ClosedSurface two_cubes() {
+    Points points = corners;
+    for (const auto& [x, y, z] : corners)
+        if (x == 1) points.push_back({2, y, z});  // 8 to 11: of 1, 2, 5, 6
+    Facets facets = cube_facets;
+    std::vector<std::array<std::int32_t, 2>> sides(12, {0, -1});
+    sides[6] = sides[7] = {0, 1};
+    for (const auto& facet : Facets{{1, 9, 8},
+                                    {1, 2, 9},
+                                    {5, 10, 11},
+                                    {5, 11, 6},
+                                    {1, 8, 10},
+                                    {1, 10, 5},
+                                    {8, 9, 11},
+                                    {8, 11, 10},
+                                    {9, 2, 6},
+                                    {9, 6, 11}}) {
+        facets.push_back(facet);
+        sides.push_back({1, -1});
+    }
+    return surface_of_regions(points, facets, sides, {"steel", "copper"});
+}
+
+TEST(Facade, RegionsKeepTheirNamesAndTheirWall) {
+    const ClosedSurface cubes = two_cubes();
+    EXPECT_EQ(cubes.region_names(), (std::vector<std::string>{"steel", "copper"}));
+    EXPECT_EQ(cubes.sides()[6], (std::array{0, 1}));
+    for (const ClosedSurface& surface : {cubes, remeshed(cubes, 1e-3, 0.4)}) {
+        const MeshArrays mesh = mesh_to_arrays(surface, two_parts());
+        EXPECT_EQ(mesh.region_names, cubes.region_names());
+        std::array<double, 2> volumes{};
+        for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+            volumes[static_cast<std::size_t>(mesh.region[t])] += six_volumes(mesh, mesh.tets[t]) / 6;
+        for (const double volume : volumes) EXPECT_NEAR(volume, 1, 1e-9);
+        std::size_t on_wall = 0;
+        for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+            bool is_on_wall = true;
+            for (const std::int64_t v : mesh.triangles[f])
+                is_on_wall &= mesh.vertices[static_cast<std::size_t>(v)][0] == 1;
+            EXPECT_EQ(mesh.sides[f][1], is_on_wall ? 1 - mesh.sides[f][0] : -1);
+            on_wall += is_on_wall;
+        }
+        EXPECT_GT(on_wall, 2U);
+    }
+    Facets open = cubes.facets();
+    open.pop_back();
+    auto sides = cubes.sides();
+    sides.pop_back();
+    try {
+        surface_of_regions(cubes.vertices(), open, sides, {"steel", "copper"});
+        ADD_FAILURE() << "copper is open";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::input);
+        EXPECT_NE(std::string(error.what()).find("copper"), std::string::npos) << error.what();
+    }
+}
+
+TEST(Facade, ASurfaceOfOneRegionHasItBehindItsFacets) {
+    EXPECT_TRUE(cube().region_names().empty());
+    EXPECT_EQ(cube().sides()[0], (std::array{0, -1}));
+    const MeshArrays mesh = mesh_to_arrays(cube(), two_parts());
+    EXPECT_TRUE(mesh.region_names.empty());
+    EXPECT_EQ(std::count(mesh.region.begin(), mesh.region.end(), 0), std::ssize(mesh.tets));
+    EXPECT_EQ(mesh.sides.size(), mesh.triangles.size());
+}
+
 TEST(Facade, ErrorsHaveCodesAndElements) {
     Facets facets = cube_facets;
     facets[7][2] = 99;
