@@ -3,6 +3,7 @@
 
 #include "part/run_parts.h"
 #include "support/checked_run.h"
+#include "support/region_bodies.h"
 #include "support/temporary_folder.h"
 #include "support/voxel_regions.h"
 
@@ -15,21 +16,46 @@ class SeveralRegions : public testing::TestWithParam<test::TouchingBodies> {};
 INSTANTIATE_TEST_SUITE_P(Bodies, SeveralRegions, testing::ValuesIn(test::touching_bodies()),
                          [](const auto& param) { return param.param.name; });
 
+void expect_laws(Input input, const Complex& complex, std::int32_t parts) {
+    SCOPED_TRACE(testing::Message() << parts << " parts");
+    const test::TemporaryFolder folder;
+    const RunReport report = test::run_parts("", folder.file("out"), parts, input);
+    test::expect_verified(report, std::max(parts, complex.region_count()));
+    EXPECT_EQ(test::broken_laws(test::read_parts(folder.file("out")), complex), "");
+    EXPECT_EQ(test::broken_sharing(RunParts(folder.file("out"))), "");
+}
+
 TEST_P(SeveralRegions, ObeyEveryLawForAnyNumberOfParts) {
     constexpr std::int32_t fineness = 3;
     const Cube cubes = {fineness * GetParam().cubes[0], fineness * GetParam().cubes[1], fineness * GetParam().cubes[2]};
     const test::VoxelBody body = test::voxel_body(cubes, test::refined(GetParam().region, fineness));
     const auto regions = static_cast<std::int32_t>(body.names.size());
     for (const std::int32_t parts : {1, regions + 3, 4 * regions}) {
-        SCOPED_TRACE(testing::Message() << parts << " parts");
         Input input = make_input(body.facets.vertices, body.facets.facets, body.sides, body.names, body.facets.patch);
         for (std::size_t r = 0; r < body.volumes.size(); ++r)
             EXPECT_NEAR(input.regions[r].volume, body.volumes[r], 1e-9 * body.volumes[r]);
-        const test::TemporaryFolder folder;
-        const RunReport report = test::run_parts("", folder.file("out"), parts, input);
-        test::expect_verified(report, std::max(parts, regions));
-        EXPECT_EQ(test::broken_laws(test::read_parts(folder.file("out")), test::to_complex(body)), "");
-        EXPECT_EQ(test::broken_sharing(RunParts(folder.file("out"))), "");
+        expect_laws(std::move(input), test::to_complex(body), parts);
+    }
+}
+
+// Regions around others, in others, through others, and such as end where others do.
+TEST(RoundRegions, ObeyEveryLawForAnyNumberOfParts) {
+    struct Case {
+        const char* name;
+        Soup body;
+        double volume;  // of all regions
+        std::vector<std::int32_t> parts;
+    };
+    for (const Case& c : {Case{"ball in a cube", test::ball_in_cube(1), 27, {2, 8, 64}},
+                          Case{"linked rings in a box", test::linked_rings_in_box(1), 4.5 * 3.5 * 3.5, {3, 8}},
+                          Case{"fibres in a block", test::fibres_in_block(1), 4 * 4 * 3, {5, 8}}}) {
+        SCOPED_TRACE(c.name);
+        for (const std::int32_t parts : c.parts) {
+            Input input = make_input(c.body.vertices, c.body.facets, c.body.sides, c.body.region_names, c.body.patch,
+                                     c.body.patch_names);
+            EXPECT_NEAR(input.volume, c.volume, 1e-12 * c.volume);
+            expect_laws(std::move(input), make_complex(c.body), parts);
+        }
     }
 }
 
