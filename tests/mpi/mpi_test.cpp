@@ -6,11 +6,13 @@
 #include <gtest/gtest.h>
 
 #include "core/host_name.h"
+#include "prepare/input.h"
 #include "support/all_formats.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/mpirun.h"
 #include "support/program.h"
+#include "support/region_bodies.h"
 #include "support/shapes.h"
 #include "support/slice.h"
 #include "support/started_run.h"
@@ -101,27 +103,52 @@ TEST_P(MpiRuns, TracesAreTheSameForAnyRanks) {
 }
 
 // Ranks that hold regions of their own, and such as share one.
-TEST(MpiRegions, FilesAndTracesAreTheSameForAnyRanksAndWorkers) {
-    const test::TemporaryFolder folder;
-    const std::array<std::int32_t, 3> cubes = {7, 7, 7};
-    test::write_tets(folder.file("grains.mesh"), cubes, test::grains(cubes, 5, 2));
-    for (const char* contour : {"min-cut", "straight"}) {
+class MpiRegions : public testing::Test {
+ protected:
+    void expect_same_for_any_ranks_and_workers(const std::vector<std::string>& files, const char* parts,
+                                               const char* contour) const {
         std::map<std::string, std::string> expected;
         std::string expected_trace;
         using Shared = std::pair<int, int>;  // ranks, workers of each
         for (const auto& [ranks, workers] : {Shared{1, 2}, {2, 1}, {3, 2}, {8, 1}}) {
             SCOPED_TRACE(testing::Message() << contour << ", " << ranks << " ranks");
-            const ChildResult result = run_ranks(
-                ranks, {KERF_PROGRAM, "mesh", folder.file("grains.mesh"), "-o", folder.file("out"), "-n", "13",
-                        "--workers", std::to_string(workers), "--contour", contour, "--trace", folder.file("trace")});
+            std::vector<std::string> command = {KERF_PROGRAM, "mesh"};
+            command.insert(command.end(), files.begin(), files.end());
+            for (const std::string& word :
+                 {std::string("-o"), folder_.file("out"), std::string("-n"), std::string(parts),
+                  std::string("--workers"), std::to_string(workers), std::string("--contour"), std::string(contour),
+                  std::string("--trace"), folder_.file("trace")})
+                command.push_back(word);
+            const ChildResult result = run_ranks(ranks, command);
             ASSERT_EQ(result.exit_code, 0) << result.log;
-            if (ranks == 1) expected = test::result_of_run(folder.file("out"));
-            if (ranks == 1) expected_trace = test::bytes_of_file(folder.file("trace"));
-            EXPECT_TRUE(test::result_of_run(folder.file("out")) == expected);
-            EXPECT_TRUE(test::bytes_of_file(folder.file("trace")) == expected_trace);
+            if (ranks == 1) expected = test::result_of_run(folder_.file("out"));
+            if (ranks == 1) expected_trace = test::bytes_of_file(folder_.file("trace"));
+            EXPECT_TRUE(test::result_of_run(folder_.file("out")) == expected);
+            EXPECT_TRUE(test::bytes_of_file(folder_.file("trace")) == expected_trace);
         }
-        EXPECT_EQ(test::run_kerf({"verify", folder.file("out")}).exit_code, 0);
+        EXPECT_EQ(test::run_kerf({"verify", folder_.file("out")}).exit_code, 0);
     }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(MpiRegions, FilesAndTracesAreTheSameForAnyRanksAndWorkers) {
+    const std::array<std::int32_t, 3> cubes = {7, 7, 7};
+    test::write_tets(folder_.file("grains.mesh"), cubes, test::grains(cubes, 5, 2));
+    for (const char* contour : {"min-cut", "straight"})
+        expect_same_for_any_ranks_and_workers({folder_.file("grains.mesh")}, "13", contour);
+}
+
+// A file for each region.
+TEST_F(MpiRegions, FilesAndTracesOfLinkedOnesAreTheSame) {
+    const Complex complex = make_complex(test::linked_rings_in_box(1));
+    std::vector<std::string> files;
+    for (const RegionIndex region : ids<RegionIndex>(complex.region_count())) {
+        const SurfaceArrays surface = complex.arrays_of(region);
+        files.push_back(folder_.file(complex.region_names()[static_cast<std::size_t>(region.value())] + ".off"));
+        test::write_off(files.back(), surface.vertices, surface.facets);
+    }
+    expect_same_for_any_ranks_and_workers(files, "7", "min-cut");
 }
 
 // A straight cut splits facets of neighbours, too, which other ranks hold.
