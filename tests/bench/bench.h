@@ -2,7 +2,9 @@
 #pragma once
 
 #include <malloc.h>
+#include <sys/resource.h>
 
+#include <algorithm>
 #include <exception>
 #include <fstream>
 #include <string>
@@ -11,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "mesh/quality.h"
 #include "surface/surface.h"
 
 namespace kerf::bench {
@@ -49,6 +52,32 @@ inline double memory_bytes(const std::string& label) {
 inline void forget_process_memory() {
     ::malloc_trim(0);
     std::ofstream("/proc/self/clear_refs") << 5;
+}
+
+/// Seconds of the processor that this process has taken, without the system's.
+inline double user_seconds() {
+    rusage usage = {};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_utime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
+}
+
+/// The smallest dihedral angle of every cell, ascending, in degrees.
+inline std::vector<double> sorted_min_dihedrals(const TetMesh& mesh) {
+    std::vector<double> angles(mesh.tets.size());
+    measure_min_dihedrals(mesh.vertices, mesh.tets, angles);
+    std::sort(angles.begin(), angles.end());
+    return angles;
+}
+
+inline double volume_of(const TetMesh& mesh) {
+    long double volume = 0;
+    for (const Tetrahedron& t : mesh.tets) {
+        const auto p = [&](std::size_t corner) -> const Vec3& {
+            return mesh.vertices[static_cast<std::size_t>(t[corner])];
+        };
+        volume += tet_quality(p(0), p(1), p(2), p(3)).volume;
+    }
+    return static_cast<double>(volume);
 }
 
 /// The main function of a benchmark that is called by words: its exit code, 1 for what `run` throws.

@@ -25,14 +25,13 @@ import dataclasses
 import json
 import os
 import pathlib
-import re
 import shutil
-import signal
 import statistics
 import subprocess
 import sys
 import tempfile
-import threading
+
+from measured import failure_of, output_of, run_gmsh
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CAP = "bearing_cap_52k"
@@ -77,11 +76,8 @@ class Call:
             return
         try:
             done = self.call(measured=not self.seconds, limit=args.limit)
-        except subprocess.TimeoutExpired:
-            self.failure = f"more than {args.limit:g} s"
-            return
-        except (RuntimeError, subprocess.CalledProcessError) as error:
-            self.failure = str(getattr(error, "stderr", None) or error).strip()
+        except (RuntimeError, subprocess.SubprocessError) as error:
+            self.failure = failure_of(error, args.limit)
             return
         self.seconds.append(done.pop("seconds"))
         self.bytes.append(done.pop("peak_bytes"))
@@ -93,11 +89,6 @@ class Call:
         seconds = statistics.median(self.seconds)
         return {"mesher": self.name, "seconds": seconds, "all_seconds": self.seconds, "peak_bytes": min(self.bytes),
                 "tets_per_second": self.figures["tets"] / seconds, **self.figures}
-
-
-def output_of(*command, limit=None):
-    return json.loads(subprocess.run([str(word) for word in command], stdin=subprocess.DEVNULL, capture_output=True,
-                                     text=True, timeout=limit, check=True).stdout)
 
 
 class OwnMesher(Call):
@@ -129,12 +120,8 @@ class Hxt(Call):
 
     def call(self, measured, limit):
         self.script.write_text(self.text + (f'Save "{self.mesh}";\n' if measured else ""))
-        usage, log = self.run_gmsh(limit)
-        error = re.search(r"^Error *: (.*)", log, re.MULTILINE)
-        done = re.search(r"Done meshing 3D \(Wall [\d.e+-]+s, CPU ([\d.e+-]+)s\)", log)
-        if error or not done:
-            raise RuntimeError(error[1] if error else "gmsh has failed")
-        figures = {"seconds": float(done[1]), "peak_bytes": 1024 * usage.ru_maxrss}
+        done, seconds, _ = run_gmsh(self.script, self.script.with_suffix(".log"), limit)
+        figures = {"seconds": seconds, "peak_bytes": done.peak_bytes}
         if not measured:
             return figures
         figures |= output_of(self.helper, "measure", self.mesh, self.bound)
@@ -142,20 +129,6 @@ class Hxt(Call):
         if abs(figures["volume"] - self.volume) > 1e-6 * self.volume:
             raise RuntimeError(f"the mesh has the volume {figures['volume']:g}, the surface {self.volume:g}")
         return figures
-
-    def run_gmsh(self, limit):
-        path = self.script.with_suffix(".log")
-        with open(path, "w") as out:
-            process = subprocess.Popen(["gmsh", "-nopopup", "-parse_and_exit", self.script], stdin=subprocess.DEVNULL,
-                                       stdout=out, stderr=subprocess.STDOUT)
-            watch = threading.Timer(limit, process.kill)
-            watch.start()
-            _, status, usage = os.wait4(process.pid, 0)
-            watch.cancel()
-        process.returncode = os.waitstatus_to_exitcode(status)
-        if process.returncode == -signal.SIGKILL:
-            raise subprocess.TimeoutExpired("gmsh", limit)
-        return usage, path.read_text()
 
 
 def print_row(case, row, reference):

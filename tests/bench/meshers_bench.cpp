@@ -8,8 +8,6 @@
 //
 // Figures are one line of JSON. Seconds are those of the processor, without the system's; memory is the largest
 // resident set of the process, its surface included.
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -85,21 +83,15 @@ std::string quality_json(const TetMesh& mesh, double bound) {
     return json;
 }
 
-double user_seconds() {
-    rusage usage = {};
-    ::getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_utime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
-}
-
 void fill(const std::string& mesher, const std::string& path, double bound, bool is_measured) {
     const SurfaceArrays surface = read_input(path).complex.arrays();
     MesherOptions options;
     options.name = mesher;
     options.size = SizeField(bound);
     bench::forget_process_memory();
-    const double start = user_seconds();
+    const double start = bench::user_seconds();
     const Filling filling = mesh_volume(surface, options);
-    const double seconds = user_seconds() - start, bytes = bench::memory_bytes("VmHWM");
+    const double seconds = bench::user_seconds() - start, bytes = bench::memory_bytes("VmHWM");
     fmt::print(R"({{"tets": {}, "core_tets": {}, "way": "{}", "seconds": {}, "peak_bytes": {})",
                filling.mesh.tets.size(), filling.core_tets, filling.strategy, seconds, bytes);
     if (is_measured)

@@ -15,7 +15,6 @@
 #include "bench/bench.h"
 #include "io/stl_writer.h"
 #include "io/tet_mesh_reader.h"
-#include "mesh/quality.h"
 #include "prepare/input.h"
 
 namespace kerf {
@@ -89,17 +88,10 @@ std::string lengths_json(const TetMesh& mesh, const std::vector<Edge>& edges, do
 
 void measure(const std::string& path, double size) {
     const TetMesh mesh = read_tet_file(path).mesh;
-    std::vector<double> angles(mesh.tets.size());
-    measure_min_dihedrals(mesh.vertices, mesh.tets, angles);
-    std::sort(angles.begin(), angles.end());
-    double volume = 0;
-    for (const Tetrahedron& t : mesh.tets) {
-        const auto p = [&](int corner) -> const Vec3& { return mesh.vertices[static_cast<std::size_t>(t[corner])]; };
-        volume += tet_quality(p(0), p(1), p(2), p(3)).volume;
-    }
+    const std::vector<double> angles = bench::sorted_min_dihedrals(mesh);
     fmt::print(R"({{"cells": {}, "volume": {}, "dihedral_0": {}, "dihedral_1": {}, "surface": {}, "all": {}}})"
                "\n",
-               mesh.tets.size(), volume, angles.front(), angles[angles.size() / 100],
+               mesh.tets.size(), bench::volume_of(mesh), angles.front(), angles[angles.size() / 100],
                lengths_json(mesh, boundary_edges_of(mesh.tets), size), lengths_json(mesh, edges_of(mesh.tets), size));
 }
 
