@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "core/error.h"
-#include "geometry/tetrahedron.h"
+#include "geometry/predicates.h"
 #include "io/compressed.h"
 #include "io/file_bytes.h"
 #include "io/mesh_scanners.h"
@@ -57,7 +57,8 @@ void check_extent(const std::vector<Vec3>& vertices, const std::string& path) {
 std::int64_t turn_negative_tets(TetMesh& mesh) {
     std::int64_t turned = 0;
     for (Tetrahedron& tet : mesh.tets) {
-        if (six_volumes_of(mesh.vertices, tet) >= 0) continue;
+        const std::vector<Vec3>& p = mesh.vertices;
+        if (orientation(p[tet[0]], p[tet[1]], p[tet[2]], p[tet[3]]) >= 0) continue;
         std::swap(tet[2], tet[3]);
         ++turned;
     }

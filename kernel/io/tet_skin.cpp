@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
-#include "geometry/tetrahedron.h"
+#include "geometry/predicates.h"
 #include "mesh/faces.h"
 
 namespace kerf {
@@ -24,19 +24,23 @@ class Faces {
     std::int32_t region(const FaceSide& side) const {
         return region_of_tet_.empty() ? 0 : region_of_tet_[static_cast<std::size_t>(side.tet())];
     }
-    double six_volumes(const FaceSide& side) const { return six_volumes_of(vertices_, tet(side)); }
+    // Exact: rounded, that of a flat one may tell the wrong side.
+    int sign(const FaceSide& side) const {
+        const auto& [a, b, c, d] = tet(side);
+        return orientation(vertices_[a], vertices_[b], vertices_[c], vertices_[d]);
+    }
     // Counter-clockwise seen from outside of the tetrahedron.
     Triangle outward(const FaceSide& side) const {
         Triangle face{};
         for (std::size_t i = 0; i < 3; ++i) face[i] = tet(side)[static_cast<std::size_t>(tet_faces[side.corner()][i])];
-        if (six_volumes(side) < 0) std::swap(face[1], face[2]);
+        if (sign(side) < 0) std::swap(face[1], face[2]);
         return face;
     }
-    // Of flat tetrahedra nobody knows.
+    // Of tetrahedra without volume nobody knows.
     bool are_on_same_side(const FaceSide& a, const FaceSide& b) const {
-        const double volume_a = six_volumes(a), volume_b = six_volumes(b);
-        if (volume_a == 0 || volume_b == 0) return false;
-        return (a.is_turned() != (volume_a < 0)) == (b.is_turned() != (volume_b < 0));
+        const int sign_a = sign(a), sign_b = sign(b);
+        if (sign_a == 0 || sign_b == 0) return false;
+        return (a.is_turned() != (sign_a < 0)) == (b.is_turned() != (sign_b < 0));
     }
 
  private:

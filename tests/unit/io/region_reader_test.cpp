@@ -6,10 +6,15 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "core/error.h"
+#include "geometry/predicates.h"
+#include "geometry/tetrahedron.h"
 #include "io/surface_reader.h"
+#include "io/tet_skin.h"
 #include "region_files.h"
+#include "support/seeded_numbers.h"
 
 namespace kerf {
 namespace {
@@ -210,6 +215,30 @@ TEST(RegionReader, RefusesTetrahedraThatOverlap) {
     mesh.tets.push_back({0, 2, 1, 4});
     mesh.volume_of_tet.push_back(0);
     EXPECT_NE(refusal_of({"a.mesh", to_medit(mesh)}).find("'region_7' and 'region_8' overlap"), std::string::npos);
+}
+
+// Of a cell that is nearly flat a rounded volume may have the wrong sign.
+TEST(RegionFaces, KnowTheSidesOfFlatTetrahedra) {
+    test::SeededNumbers random(1);
+    const auto point = [&] { return Vec3(random.share(), random.share(), random.share()); };
+    int misleading = 0;
+    for (int i = 0; i < 2000; ++i) {
+        std::vector<Vec3> p = {point(), point(), point()};
+        const double u = random.share(), v = random.share();
+        p.emplace_back(p[0] + u * (p[1] - p[0]) + v * (p[2] - p[0]));
+        const int side = orientation(p[0], p[1], p[2], p[3]);
+        if (side == 0) continue;
+        p.emplace_back(p[0] - side * (p[1] - p[0]).cross(p[2] - p[0]));  // on the other side
+        misleading += side * six_volumes_of(p[0], p[1], p[2], p[3]) < 0;
+        const RegionFaces found = region_faces(p, {{0, 1, 2, 3}, {0, 1, 2, 4}}, {0, 1});
+        ASSERT_FALSE(found.overlap.has_value());
+        for (const RegionFace& face : found.faces) {
+            const auto& [a, b, c] = face.corners;
+            const std::int32_t apex = face.sides.back == 1 ? 4 : 3;  // of the cell behind it, or its other corner
+            for (const std::int32_t inside : {0, 1, 2, apex}) EXPECT_LE(orientation(p[a], p[b], p[c], p[inside]), 0);
+        }
+    }
+    EXPECT_GT(misleading, 0);
 }
 
 // Two volumes, by their lists of surfaces, and up to three surfaces of triangles.
