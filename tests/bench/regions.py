@@ -7,8 +7,8 @@ usage: regions.py [all] [--kerf KERF] [--helper PROGRAM] [--cgal PROGRAM] [--onl
 All are given each facet once and what lies on its sides: Kerf and TetGen points in the regions, gmsh the surfaces that
 bound them, CGAL's Polyhedral_complex_mesh_domain_3 a surface for each pair of regions, with the pair. Kerf, TetGen and
 gmsh keep the facets; CGAL makes others. Bounds are of the volume (TetGen: -pYAQq1.4a), or edges (gmsh) and radii
-(CGAL) that make about as many cells. gmsh and CGAL make the cells better, as they do by default, and so does Kerf;
-TetGen's are as it leaves them.
+(CGAL) that make about as many cells. Kerf, gmsh and CGAL make the cells better, as they do by default; TetGen's are as
+it leaves them, and so are Kerf's once more (--no-improve).
 
 Seconds are those of the processor, medians over repetitions that take turns; who needs more than --long of them is
 called once. Kerf's are those of the whole command `kerf mesh` and of all processes that it starts, with the system's:
@@ -109,12 +109,12 @@ class Mesher(Call):
 
 
 class Kerf(Mesher):
-    def __init__(self, workers, args, stem, given, bound):
-        super().__init__(f"kerf, {workers} worker{'s' if workers > 1 else ''}", args, stem, "")
+    def __init__(self, name, options, args, stem, given, bound):
+        super().__init__(name, args, stem, "")
         size = ["--max-volume", repr(bound)] if bound else []
         parts = max(PARTS, given["regions"])
-        self.command = [args.kerf, "mesh", self.surface, "-o", self.result_file, "-n", parts, "-j", workers,
-                        "--surface", "keep", "-q", *size]
+        self.command = [args.kerf, "mesh", self.surface, "-o", self.result_file, "-n", parts, "--surface", "keep",
+                        "-q", *options, *size]
 
     def fill(self, limit):
         shutil.rmtree(self.result_file, ignore_errors=True)
@@ -177,7 +177,9 @@ def print_row(case, given, row, reference):
 
 
 def meshers_on(args, case, stem, given):
-    meshers = [Kerf(workers, args, stem, given, case.bound) for workers in (1, 2)]
+    meshers = [Kerf(name, options, args, stem, given, case.bound)
+               for name, options in (("kerf", ["-j", "1"]), ("kerf, 2 workers", ["-j", "2"]),
+                                     ("kerf, as it is", ["-j", "1", "--no-improve"]))]
     meshers.append(TetGen(args, stem, case.bound))
     if case.is_large and args.which != "all":
         return meshers
