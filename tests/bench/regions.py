@@ -85,7 +85,7 @@ CASES = [
     Case("ball, 3 M", ["ball", 15], 1.5e-5, True),
     Case("linked rings, 3 M", ["rings", 13], 3e-5, True),
     Case("fibres, 4 M", ["fibres", 9], 1.8e-5, True),
-    Case("20 layers, 3 M", ["layers", 4], 0.1, True),
+    Case("20 layers, 2 M", ["layers", 4], 0.1, True),
     Case("50 grains, 4 M", ["grains", 60], 0.1, True),
 ]
 
