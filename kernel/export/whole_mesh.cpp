@@ -36,21 +36,22 @@ IdRanges ranges_of(const Part& part) {
 }
 
 // Rows of the vertices of the whole mesh in the order of their global numbers, a piece at a time; row(part, v) has
-// those of a part.
+// those of a part. Values at walls differ on their sides: those of the first part count.
 template <class Row, class RowOf>
 void for_each_row(const PartSource& parts, PartContent content, const RowOf& row,
                   const std::function<void(std::int64_t first, std::span<const Row> rows)>& take) {
     const std::int64_t count = parts.outline().vertices;
-    Array<PartIndex, IdRanges> ranges;  // known after the first piece
+    Array<PartIndex, IdRanges> ranges(parts.outline().parts.size());  // known after the first piece
     std::vector<Row> rows(std::min(count, vertices_at_once));
     for (std::int64_t begin = 0; begin < count; begin += vertices_at_once) {
         const std::int64_t end = std::min(count, begin + vertices_at_once);
         const bool is_first = begin == 0;
-        for (const PartIndex index : parts.outline().parts.ids()) {
+        for (auto i = std::ssize(ranges); i-- > 0;) {  // so that the first part has the last word
+            const auto index = PartIndex(i);
             if (!is_first && !ranges[index].boundary.meets(begin, end) && !ranges[index].interior.meets(begin, end))
                 continue;
             const Part part = parts.load_only(index, content);
-            if (is_first) ranges.push_back(ranges_of(part));
+            if (is_first) ranges[index] = ranges_of(part);
             for (std::size_t v = 0; v < part.global_id.size(); ++v)
                 if (const std::int64_t id = part.global_id[v]; id >= begin && id < end) rows[id - begin] = row(part, v);
         }

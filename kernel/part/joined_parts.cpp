@@ -83,8 +83,8 @@ std::vector<std::size_t> facets_of_piece(const Part& part, const std::vector<Nod
     return facets;
 }
 
-// The k-th values of the parts: of cells one part behind the other, of points at vertex(p, v). Those of vertices that
-// several parts have are the same in all of them.
+// The k-th values of the parts: of cells one part behind the other, of points at vertex(p, v). A vertex that several
+// parts have gets those of the first one: at walls between materials, stresses differ.
 template <class VertexInPiece>
 PartValues join_values(const std::vector<Part>& parts, std::size_t k, const VertexInPiece& vertex) {
     PartValues joined = parts.front().values[k];
@@ -93,19 +93,20 @@ PartValues join_values(const std::vector<Part>& parts, std::size_t k, const Vert
         [&](auto& numbers) {
             using Numbers = std::decay_t<decltype(numbers)>;
             numbers.clear();
-            for (std::size_t p = 0; p < parts.size(); ++p) {
-                const auto& own = std::get<Numbers>(parts[p].values[k].numbers);
-                if (joined.of == PartValues::Of::tets) {
-                    numbers.insert(numbers.end(), own.begin(), own.end());
-                    continue;
-                }
+            const auto own_of = [&](const Part& part) -> const Numbers& {
+                return std::get<Numbers>(part.values[k].numbers);
+            };
+            if (joined.of == PartValues::Of::tets) {
+                for (const Part& part : parts) numbers.insert(numbers.end(), own_of(part).begin(), own_of(part).end());
+                return;
+            }
+            for (std::size_t p = parts.size(); p-- > 0;)  // so that the first one has the last word
                 for (std::size_t v = 0; v < parts[p].mesh.vertices.size(); ++v) {
                     const std::size_t to = width * vertex(p, v);
                     if (numbers.size() < to + width) numbers.resize(to + width);
-                    std::copy_n(own.begin() + static_cast<std::ptrdiff_t>(width * v), width,
+                    std::copy_n(own_of(parts[p]).begin() + static_cast<std::ptrdiff_t>(width * v), width,
                                 numbers.begin() + static_cast<std::ptrdiff_t>(to));
                 }
-            }
         },
         joined.numbers);
     return joined;
