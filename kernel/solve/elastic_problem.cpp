@@ -45,8 +45,7 @@ class ProblemMaker {
         choose_materials();
         hold();
         require_supported(problem_, bodies_);
-        problem_.cases = wanted_.names();
-        for (const std::string& name : problem_.cases) problem_.forces.push_back(forces_of(name));
+        for (const std::string& name : wanted_.names()) add_case(name);
         return std::move(problem_);
     }
 
@@ -57,9 +56,12 @@ class ProblemMaker {
                           MaterialPlaces& places) const;
     std::vector<char> bodies_at(const std::vector<std::string>& patches, const std::string& who) const;
     void hold();
-    std::vector<double> forces_of(const std::string& load_case) const;
-    void add_surface_load(const Load& load, std::vector<double>& forces) const;
-    void add_weight(std::vector<double>& forces) const;
+    // Of the case that was added last.
+    void add_case(const std::string& name);
+    void add_force(std::size_t p, std::int32_t node, const Vec3& force);
+    void add_load(const Load& load);
+    void add_force_at(std::int64_t row, const Vec3& force);
+    void add_weight();
 
     const FeSpace& space_;
     const MeshOutline& outline_;
@@ -190,15 +192,29 @@ void ProblemMaker::hold() {
             problem_.prescribed[dof] = *wanted_.supports[problem_.support_of[dof]].displacement[dof % 3];
 }
 
-void ProblemMaker::add_surface_load(const Load& load, std::vector<double>& forces) const {
-    const std::string who = fmt::format("Load '{}'", load.name);
-    if (load.where.point) {
-        const std::int64_t row = selector_.nearest_vertex(*load.where.point);
-        const std::int64_t own = row - space_.first_row();
-        if (own >= 0 && own < space_.owned_count())
-            for (std::size_t c = 0; c < 3; ++c) forces[3 * own + c] += (*load.force)[c];
-        return;
+// On cells of the part `p`.
+void ProblemMaker::add_force(std::size_t p, std::int32_t node, const Vec3& force) {
+    for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t dof = 3 * node + c;
+        problem_.forces.back()[dof] += force[c];
+        if (problem_.is_held(dof))
+            problem_.held_forces.back().add(problem_.support_of[dof], space_.region_of(p), c, force[c]);
     }
+}
+
+// The part that owns the node, of those that have it, takes the force.
+void ProblemMaker::add_force_at(std::int64_t row, const Vec3& force) {
+    const std::int64_t own = row - space_.first_row();
+    if (own < 0 || own >= space_.owned_count()) return;
+    for (std::size_t p = 0; p < space_.parts().size(); ++p) {
+        const std::vector<std::int32_t>& nodes = space_.nodes_of_parts()[p].of_vertex;
+        if (std::find(nodes.begin(), nodes.end(), own) != nodes.end()) return add_force(p, own, force);
+    }
+}
+
+void ProblemMaker::add_load(const Load& load) {
+    const std::string who = fmt::format("Load '{}'", load.name);
+    if (load.where.point) return add_force_at(selector_.nearest_vertex(*load.where.point), *load.force);
     const std::vector<SurfaceFacet> facets = selector_.facets(load.where, who);
     double area = 0;
     for (const SurfaceFacet& facet : facets) area += facet.area;
@@ -210,26 +226,26 @@ void ProblemMaker::add_surface_load(const Load& load, std::vector<double>& force
         const auto nodes = space_.nodes_of_facet(facet.part, facet.facet);
         const TriangleShares shares = node_areas(facet.area, space_.order());
         for (std::size_t i = 0; i < nodes.size(); ++i)
-            for (std::size_t c = 0; c < 3 && nodes[i] >= 0; ++c) forces[3 * nodes[i] + c] += shares[i] * traction[c];
+            if (nodes[i] >= 0) add_force(facet.part, nodes[i], shares[i] * traction);
     }
 }
 
-void ProblemMaker::add_weight(std::vector<double>& forces) const {
+void ProblemMaker::add_weight() {
     for_all_tets(space_, [&](std::size_t p, std::size_t t) {
         const TetElement::Shapes volumes = space_.element(p, t).node_volumes();
         const auto nodes = space_.nodes_of(p, t);
         const Vec3 density = problem_.material(p, t).density * *wanted_.gravity;
-        for (int n = 0; n < element_nodes(space_.order()); ++n)
-            for (std::size_t c = 0; c < 3; ++c) forces[3 * nodes[n] + c] += volumes[n] * density[c];
+        for (int n = 0; n < element_nodes(space_.order()); ++n) add_force(p, nodes[n], volumes[n] * density);
     });
 }
 
-std::vector<double> ProblemMaker::forces_of(const std::string& load_case) const {
-    std::vector<double> forces(3 * space_.node_count(), 0);
+void ProblemMaker::add_case(const std::string& name) {
+    problem_.cases.push_back(name);
+    problem_.forces.emplace_back(3 * space_.node_count(), 0);
+    problem_.held_forces.emplace_back(problem_.supports.size(), space_.region_count());
     for (const Load& load : wanted_.loads)
-        if (load.load_case.empty() || load.load_case == load_case) add_surface_load(load, forces);
-    if (wanted_.gravity) add_weight(forces);
-    return forces;
+        if (load.load_case.empty() || load.load_case == name) add_load(load);
+    if (wanted_.gravity) add_weight();
 }
 
 using Motion = Eigen::Matrix<double, 6, 1>;  // translation, then rotation about the body's middle, in radians x scale

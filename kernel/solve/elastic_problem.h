@@ -7,6 +7,7 @@
 
 #include "solve/elastic_case.h"
 #include "solve/fe_space.h"
+#include "solve/held_forces.h"
 #include "solve/space_bodies.h"
 #include "solve/surface_selection.h"
 
@@ -22,6 +23,7 @@ struct ElasticProblem {
     std::vector<double> prescribed;                          ///< #dof: displacement where it is held
     std::vector<std::string> cases;                          ///< names
     std::vector<std::vector<double>> forces;                 ///< of each case, #dof; ranks have shares, which add up
+    std::vector<HeldForces> held_forces;                     ///< of each case: those at what is held, likewise
 
     static constexpr std::int32_t free = INT32_MAX;
     bool is_held(std::size_t dof) const { return support_of[dof] != free; }

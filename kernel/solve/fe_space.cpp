@@ -236,7 +236,11 @@ std::vector<PartIndex> first_parts_of_ranks(const MeshOutline& outline, int rank
 
 FeSpace::FeSpace(MpiRanks& ranks, const MeshOutline& outline, const std::vector<PartIndex>& first_parts,
                  std::vector<Part> parts, int order)
-    : ranks_(&ranks), order_(order), parts_(std::move(parts)), nodes_(parts_.size()) {
+    : ranks_(&ranks),
+      order_(order),
+      region_count_(std::max<std::size_t>(1, outline.region_names.size())),
+      parts_(std::move(parts)),
+      nodes_(parts_.size()) {
     FeNumbering numbering(ranks, outline, first_parts, parts_, order);
     std::vector<NumberedPart> numbered = numbering.number();
 

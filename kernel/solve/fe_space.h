@@ -36,6 +36,9 @@ class FeSpace {
     MpiRanks& ranks() const { return *ranks_; }
     int order() const { return order_; }
     const std::vector<Part>& parts() const { return parts_; }
+    std::size_t region_count() const { return region_count_; }  ///< of the mesh
+    /// The region in which the part `p` of this rank lies.
+    std::size_t region_of(std::size_t p) const { return parts_[p].region_of(0).value(); }
     const std::vector<PartFeNodes>& nodes_of_parts() const { return nodes_; }
     const GhostExchange& exchange() const { return exchange_; }
 
@@ -59,6 +62,7 @@ class FeSpace {
  private:
     MpiRanks* ranks_;
     int order_;
+    std::size_t region_count_;
     std::vector<Part> parts_;
     std::vector<PartFeNodes> nodes_;
     std::vector<Vec3> points_;

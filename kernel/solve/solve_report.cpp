@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -17,17 +19,21 @@ SolveJson extreme_json(const Extreme& extreme) {
     return {{"value", extreme.value}, {"at", vector_json(extreme.place)}};
 }
 
-SolveJson case_json(const CaseReport& of_case, const std::vector<std::string>& supports) {
-    SolveJson reactions = SolveJson::array();
+SolveJson reactions_json(const std::vector<Vec3>& reactions, const std::vector<std::string>& supports) {
+    SolveJson json = SolveJson::array();
     for (std::size_t s = 0; s < supports.size(); ++s)
-        reactions.push_back({{"support", path_text(supports[s])}, {"reaction", vector_json(of_case.reactions[s])}});
+        json.push_back({{"support", path_text(supports[s])}, {"reaction", vector_json(reactions[s])}});
+    return json;
+}
+
+SolveJson case_json(const CaseReport& of_case, const std::vector<std::string>& supports) {
     SolveJson json = {{"name", path_text(of_case.name)},
                       {"converged", of_case.outcome.converged},
                       {"reason", of_case.outcome.reason},
                       {"iterations", of_case.outcome.iterations},
                       {"residual", of_case.outcome.residual},
                       {"load", vector_json(of_case.load)},
-                      {"reactions", reactions},
+                      {"reactions", reactions_json(of_case.reactions, supports)},
                       {"imbalance", of_case.imbalance},
                       {"energy_norm", of_case.norms.solution},
                       {"error_norm", of_case.norms.error},
@@ -36,6 +42,7 @@ SolveJson case_json(const CaseReport& of_case, const std::vector<std::string>& s
                       {"max_von_mises", extreme_json(of_case.von_mises)}};
     for (const RegionResult& region : of_case.regions)
         json["regions"].push_back({{"name", path_text(region.name)},
+                                   {"reactions", reactions_json(region.reactions, supports)},
                                    {"strain_energy", region.energy},
                                    {"max_von_mises", extreme_json(region.von_mises)}});
     return json;
@@ -61,6 +68,28 @@ std::string vector_text(const Vec3& v) { return fmt::format("({:.6g}, {:.6g}, {:
 
 std::string line_of(const char* name, const std::string& text) { return fmt::format("{:<12}{}\n", name, text); }
 
+// Of many regions those with the largest stresses.
+std::string region_lines(std::vector<RegionResult> regions) {
+    constexpr std::size_t most = 10;
+    const std::size_t count = regions.size();
+    if (count > most) {
+        std::stable_sort(regions.begin(), regions.end(), [](const RegionResult& a, const RegionResult& b) {
+            return a.von_mises.value > b.von_mises.value;
+        });
+        regions.resize(most);
+    }
+    std::string text;
+    for (const RegionResult& region : regions) {
+        Vec3 sum = Vec3::Zero();
+        for (const Vec3& reaction : region.reactions) sum += reaction;
+        text += line_of("region", fmt::format("{}: reaction {}, strain energy {:.6g}, max von Mises {:.6g} at {}",
+                                              region.name, vector_text(sum), region.energy, region.von_mises.value,
+                                              vector_text(region.von_mises.place)));
+    }
+    if (count > most) text += line_of("", fmt::format("and {} more regions: see report.json", count - most));
+    return text;
+}
+
 std::string case_text(const CaseReport& of_case, const std::vector<std::string>& supports) {
     std::string text;
     if (!of_case.name.empty()) text += line_of("case", of_case.name);
@@ -74,10 +103,7 @@ std::string case_text(const CaseReport& of_case, const std::vector<std::string>&
                                                 vector_text(of_case.displacement.place)));
     text += line_of("von Mises",
                     fmt::format("max {:.6g} at {}", of_case.von_mises.value, vector_text(of_case.von_mises.place)));
-    for (const RegionResult& region : of_case.regions)
-        text +=
-            line_of("region", fmt::format("{}: strain energy {:.6g}, max von Mises {:.6g} at {}", region.name,
-                                          region.energy, region.von_mises.value, vector_text(region.von_mises.place)));
+    text += region_lines(of_case.regions);
     return text +
            line_of("error", fmt::format("{:.1f} % in the energy norm, estimated", 100 * of_case.norms.relative()));
 }

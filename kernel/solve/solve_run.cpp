@@ -65,9 +65,9 @@ class SolveStages {
     void open_folder();
     FeSpace make_space();
     void solve_case(LinearSystem& system, std::size_t number);
-    void report_case(const std::vector<double>& forces, CaseReport& of_case);
+    void report_case(std::size_t number, CaseReport& of_case);
     Extreme largest(double value, const Vec3& place) const;
-    std::vector<RegionResult> results_of_regions(const StressField& field) const;
+    std::vector<RegionResult> results_of_regions(const StressField& field, const HeldForces& reactions) const;
     void write();
     void write_sizes_of_next();
     void finish();
@@ -156,13 +156,13 @@ Extreme SolveStages::largest(double value, const Vec3& place) const {
 }
 
 // A part lies in one region.
-std::vector<RegionResult> SolveStages::results_of_regions(const StressField& field) const {
+std::vector<RegionResult> SolveStages::results_of_regions(const StressField& field, const HeldForces& reactions) const {
     const std::vector<std::string>& names = parts_->outline().region_names;
     std::vector<RegionResult> results(names.size());
     std::vector<double> energies(names.size(), 0);
     for (std::size_t p = 0; p < space_->parts().size() && !names.empty(); ++p) {
         const Part& part = space_->parts()[p];
-        const auto region = static_cast<std::size_t>(part.region_of(0).value());
+        const std::size_t region = space_->region_of(p);
         energies[region] += field.parts[p].energy;
         for (std::size_t v = 0; v < field.parts[p].at_vertex.size(); ++v) {
             const double stress = von_mises(field.parts[p].at_vertex[v]);
@@ -172,16 +172,19 @@ std::vector<RegionResult> SolveStages::results_of_regions(const StressField& fie
     ranks_.all_reduce(std::span(energies), Reduction::sum);
     for (std::size_t r = 0; r < names.size(); ++r) {
         const Extreme& own = results[r].von_mises;
-        results[r] = {names[r], energies[r], largest(own.value, own.place)};
+        results[r] = {names[r], energies[r], largest(own.value, own.place), {}};
+        for (std::size_t s = 0; s < reactions.supports(); ++s) results[r].reactions.push_back(reactions.of(s, r));
     }
     return results;
 }
 
-void SolveStages::report_case(const std::vector<double>& forces, CaseReport& of_case) {
+void SolveStages::report_case(std::size_t number, CaseReport& of_case) {
     const CaseSolution& solution = solutions_.back();
+    const std::vector<double>& forces = problem_.forces[number];
     for (std::size_t dof = 0; dof < forces.size(); ++dof) of_case.load[dof % 3] += forces[dof];
     ranks_.all_reduce(std::span(of_case.load.data(), 3), Reduction::sum);
-    of_case.reactions = reactions(problem_, solution.displacement, forces);
+    const HeldForces held = reactions(problem_, solution.displacement, problem_.held_forces[number]);
+    for (std::size_t s = 0; s < held.supports(); ++s) of_case.reactions.push_back(held.of(s));
     Vec3 sum = of_case.load;
     double scale = of_case.load.norm();
     for (const Vec3& reaction : of_case.reactions) {
@@ -209,7 +212,7 @@ void SolveStages::report_case(const std::vector<double>& forces, CaseReport& of_
         }
     of_case.displacement = largest(most, place);
     of_case.von_mises = largest(most_stress, place_of_stress);
-    of_case.regions = results_of_regions(solution.stress);
+    of_case.regions = results_of_regions(solution.stress, held);
 }
 
 void SolveStages::solve_case(LinearSystem& system, std::size_t number) {
@@ -233,7 +236,7 @@ void SolveStages::solve_case(LinearSystem& system, std::size_t number) {
                         of_case.outcome.iterations, of_case.outcome.residual, way_out(report_.wanted.solver)));
     progress("recover", number, problem_.cases.size());
     solution.stress = recover_stress(problem_, solution.displacement);
-    report_case(problem_.forces[number], of_case);
+    report_case(number, of_case);
     report_.seconds.recover += stage_.lap();
 }
 

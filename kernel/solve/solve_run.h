@@ -34,6 +34,7 @@ struct RegionResult {
     std::string name;
     double energy = 0;  ///< of the strain
     Extreme von_mises;
+    std::vector<Vec3> reactions;  ///< of each support, to cells of the region
 };
 
 /// What came out for one set of loads.

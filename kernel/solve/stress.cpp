@@ -1,5 +1,6 @@
 #include "solve/stress.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace kerf {
@@ -36,12 +37,35 @@ class ElementStress {
     const Material& material() const { return material_; }
     SymmetricTensor strain(const Barycentric& point) const { return strain_of(element_.gradient_of(values_, point)); }
     SymmetricTensor stress(const Barycentric& point) const { return stress_of(material_, strain(point)); }
+    // What holds the nodes against the stresses.
+    std::array<Vec3, most_element_nodes> nodal_forces() const;
 
  private:
     TetElement element_;
     const Material& material_;
     std::array<Vec3, most_element_nodes> values_;
 };
+
+std::array<Vec3, most_element_nodes> ElementStress::nodal_forces() const {
+    const std::size_t points = element_.order() == 1 ? 1 : quadrature_points.size();
+    const double weight = element_.volume() / static_cast<double>(points);
+    std::array<Vec3, most_element_nodes> forces;
+    forces.fill(Vec3::Zero());
+    for (std::size_t q = 0; q < points; ++q) {
+        const SymmetricTensor s = stress(quadrature_points[q]);
+        Eigen::Matrix3d matrix;
+        matrix << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+        const TetElement::Gradients gradients = element_.gradients_at(quadrature_points[q]);
+        for (int n = 0; n < element_.node_count(); ++n) forces[n] += weight * matrix * gradients[n];
+    }
+    return forces;
+}
+
+bool holds_any(const ElasticProblem& problem, const std::array<std::int32_t, most_element_nodes>& nodes) {
+    return std::any_of(nodes.begin(), nodes.begin() + element_nodes(problem.space->order()), [&](std::int32_t node) {
+        return problem.is_held(3 * node) || problem.is_held(3 * node + 1) || problem.is_held(3 * node + 2);
+    });
+}
 
 class StressRecovery {
  public:
@@ -143,33 +167,22 @@ StressField recover_stress(const ElasticProblem& problem, const std::vector<doub
     return StressRecovery(problem, displacement).recover();
 }
 
-std::vector<Vec3> reactions(const ElasticProblem& problem, const std::vector<double>& displacement,
-                            const std::vector<double>& forces) {
+HeldForces reactions(const ElasticProblem& problem, const std::vector<double>& displacement,
+                     const HeldForces& held_forces) {
     const FeSpace& space = *problem.space;
-    std::vector<double> internal(forces.size());
-    for (std::size_t dof = 0; dof < forces.size(); ++dof) internal[dof] = -forces[dof];
-    const int nodes_each = element_nodes(space.order());
+    HeldForces sums(problem.supports.size(), space.region_count());
     for_all_tets(space, [&](std::size_t p, std::size_t t) {
-        const ElementStress element(problem, displacement, p, t);
         const auto nodes = space.nodes_of(p, t);
-        const std::size_t points = space.order() == 1 ? 1 : quadrature_points.size();
-        const double weight = element.element().volume() / static_cast<double>(points);
-        for (std::size_t q = 0; q < points; ++q) {
-            const SymmetricTensor s = element.stress(quadrature_points[q]);
-            Eigen::Matrix3d stress;
-            stress << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-            const TetElement::Gradients gradients = element.element().gradients_at(quadrature_points[q]);
-            for (int n = 0; n < nodes_each; ++n)
-                Eigen::Map<Vec3>(&internal[3 * nodes[n]]) += weight * stress * gradients[n];
-        }
+        if (!holds_any(problem, nodes)) return;
+        const std::array<Vec3, most_element_nodes> forces = ElementStress(problem, displacement, p, t).nodal_forces();
+        for (int n = 0; n < element_nodes(space.order()); ++n)
+            for (std::size_t c = 0; c < 3; ++c)
+                if (const std::size_t dof = 3 * nodes[n] + c; problem.is_held(dof))
+                    sums.add(problem.support_of[dof], space.region_of(p), c, forces[n][c]);
     });
-    std::vector<double> sums(3 * problem.supports.size(), 0);
-    for (std::size_t dof = 0; dof < internal.size(); ++dof)  // shares of ghosts belong to the same support
-        if (problem.is_held(dof)) sums[3 * problem.support_of[dof] + dof % 3] += internal[dof];
-    space.ranks().all_reduce(std::span(sums), Reduction::sum);
-    std::vector<Vec3> result;
-    for (std::size_t s = 0; s < problem.supports.size(); ++s) result.emplace_back(Eigen::Map<const Vec3>(&sums[3 * s]));
-    return result;
+    sums -= held_forces;
+    space.ranks().all_reduce(sums.numbers(), Reduction::sum);
+    return sums;
 }
 
 }  // namespace kerf

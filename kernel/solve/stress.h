@@ -34,9 +34,10 @@ struct StressField {
 /// material's average. Collective, one exchange for each material; O(n).
 StressField recover_stress(const ElasticProblem& problem, const std::vector<double>& displacement);
 
-/// What supports do to the body: internal forces less the loads at what each of them holds. Sums over
-/// all ranks. A node that two supports hold in the same direction counts for the first one. Collective; O(n).
-std::vector<Vec3> reactions(const ElasticProblem& problem, const std::vector<double>& displacement,
-                            const std::vector<double>& forces);
+/// What supports do to the body, by region: internal forces of its cells at what each of them holds, less the loads
+/// there. Sums over all ranks. A node that two supports hold in the same direction counts for the first one.
+/// `held_forces`: of the case, see ElasticProblem. Collective; O(n).
+HeldForces reactions(const ElasticProblem& problem, const std::vector<double>& displacement,
+                     const HeldForces& held_forces);
 
 }  // namespace kerf

@@ -1,10 +1,13 @@
-// Materials by the names of regions.
+// Materials by the names of regions, and what each region bears.
+#include <array>
 #include <cmath>
 #include <fstream>
+#include <map>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "io/tet_mesh_reader.h"
 #include "part/run_parts.h"
 #include "support/file_contents.h"
 #include "support/program.h"
@@ -15,30 +18,40 @@
 namespace kerf {
 namespace {
 
-// A bar of 2 x 1 x 1 cubes along x, of a region for each half, in six parts. Its ends are patches.
+// Two cubes of a region each, in six parts, one behind the other along x as a bar, or side by side. The ends along x
+// are patches.
 class BarOfTwo : public testing::Test {
  protected:
     static constexpr std::int32_t fineness = 3;
 
     static void SetUpTestSuite() {
         folder_ = std::make_unique<test::TemporaryFolder>();
-        const test::VoxelBody bar =
-            test::voxel_body({2 * fineness, fineness, fineness},
-                             test::refined([](std::array<std::int32_t, 3> cube) { return cube[0]; }, fineness));
+        mesh_cubes("bar", 0);
+        mesh_cubes("layers", 1);
+    }
+    // `axis`: along which the cubes follow each other.
+    static void mesh_cubes(const std::string& name, std::size_t axis) {
+        std::array<std::int32_t, 3> cubes = {fineness, fineness, fineness};
+        cubes[axis] *= 2;
+        const test::VoxelBody bar = test::voxel_body(
+            cubes, test::refined([axis](std::array<std::int32_t, 3> cube) { return cube[axis]; }, fineness));
         std::vector<std::int32_t> patch;
         for (const Triangle& t : bar.facets.facets) {
             const auto all_at = [&](double x) {
                 return std::all_of(t.begin(), t.end(), [&](std::int32_t v) { return bar.facets.vertices[v].x() == x; });
             };
-            patch.push_back(all_at(0) ? 0 : all_at(2 * fineness) ? 1 : 2);
+            patch.push_back(all_at(0) ? 0 : all_at(cubes[0]) ? 1 : 2);
         }
         Input input = make_input(bar.facets.vertices, bar.facets.facets, bar.sides, {"rubber", "steel"}, patch,
                                  {"held", "pulled", "sides"});
-        ASSERT_EQ(test::run_parts("", folder_->file("bar"), 6, input).exit_code, 0);
+        ASSERT_EQ(test::run_parts("", folder_->file(name), 6, input).exit_code, 0);
     }
     static void TearDownTestSuite() { folder_.reset(); }
 
     ChildResult solve(const std::string& materials) const {
+        return solve("bar", materials, "[[load]]\npatch = \"pulled\"\ntraction = [2, 0, 0]\n");
+    }
+    ChildResult solve(const std::string& name, const std::string& materials, const std::string& loads) const {
         std::ofstream(own_.file("case.toml")) << materials << R"(
 [[support]]
 patch = "held"
@@ -50,13 +63,13 @@ z = 0
 [[support]]
 point = [0, 3, 0]
 z = 0
-[[load]]
-patch = "pulled"
-traction = [2, 0, 0]
-)";
-        return test::run_kerf(
-            {"solve", folder_->file("bar"), "--case", own_.file("case.toml"), "-o", own_.file("out"), "-q"});
+)" << loads;
+        return test::run_kerf({"solve", folder_->file(name), "--case", own_.file("case.toml"), "-o", own_.file("out")});
     }
+    nlohmann::json only_case() const {
+        return nlohmann::json::parse(test::bytes_of_file(own_.file("out/report.json")))["solve"]["cases"][0];
+    }
+    static std::array<double, 3> place_of(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
     inline static std::unique_ptr<test::TemporaryFolder> folder_;
     test::TemporaryFolder own_;
 };
@@ -81,12 +94,63 @@ TEST_F(BarOfTwo, PulledHasTheStressOfTheLoadAndTheStrainsOfItsMaterials) {
                 }
             }
     }
-    const auto of_case = nlohmann::json::parse(test::bytes_of_file(own_.file("out/report.json")))["solve"]["cases"][0];
+    const nlohmann::json of_case = only_case();
     ASSERT_EQ(of_case["regions"].size(), 2U);
     EXPECT_EQ(of_case["regions"][0]["name"], "rubber");
     // Half of stress times strain times volume.
     EXPECT_NEAR(of_case["regions"][0]["strain_energy"], 0.5 * 2 * 0.2 * 27, 1e-5);
     EXPECT_NEAR(of_case["regions"][1]["strain_energy"], 0.5 * 2 * 0.002 * 27, 1e-7);
+    // Only cells of rubber are held.
+    EXPECT_EQ(of_case["regions"][0]["reactions"], of_case["reactions"]);
+    EXPECT_NEAR(of_case["regions"][0]["reactions"][0]["reaction"][0], -2 * 9, 1e-5);
+    EXPECT_EQ(of_case["regions"][1]["reactions"][0]["reaction"], nlohmann::json({0.0, 0.0, 0.0}));
+    EXPECT_NE(result.log.find("region      rubber: reaction (-18, "), std::string::npos) << result.log;
+}
+
+// Layers of equal weight for their stiffness, which hang from one end, move alike. So each end bears the weight of its
+// own layer, and vertices at the wall are held by both: elements of order 2 have that exactly.
+TEST_F(BarOfTwo, EachLayerHangsByItself) {
+    const ChildResult result = solve("layers",
+                                     "[material.rubber]\nyoung = 10\npoisson = 0\ndensity = 1\n"
+                                     "[material.steel]\nyoung = 1000\npoisson = 0\ndensity = 100\n",
+                                     "[gravity]\nacceleration = [0.1, 0, 0]\n[solver]\norder = 2\nrtol = 1e-11\n");
+    ASSERT_EQ(result.exit_code, 0) << result.log;
+    const nlohmann::json of_case = only_case();
+    const auto pull = [](const nlohmann::json& of) { return of["reactions"][0]["reaction"][0].get<double>(); };
+    EXPECT_NEAR(pull(of_case["regions"][0]), -0.1 * 27, 1e-8);
+    EXPECT_NEAR(pull(of_case["regions"][1]), -0.1 * 100 * 27, 1e-6);
+    EXPECT_NEAR(pull(of_case["regions"][0]) + pull(of_case["regions"][1]), pull(of_case), 1e-12 * 273);
+}
+
+// Layers of which the same pull makes the same strains: stresses along the wall differ on its sides.
+TEST_F(BarOfTwo, StressesAtAWallAreThoseOfEachSide) {
+    const ChildResult result =
+        solve("layers", "[material.rubber]\nyoung = 10\npoisson = 0\n[material.steel]\nyoung = 1000\npoisson = 0.3\n",
+              "[[support]]\npatch = \"pulled\"\nx = 0.3\n");
+    ASSERT_EQ(result.exit_code, 0) << result.log;
+    std::map<std::int64_t, std::array<double, 2>> at_wall;  // von Mises stress of a vertex in both regions
+    std::map<std::array<double, 3>, double> of_first;       // at a place, in the first part that has it
+    const RunParts solution(folder_->file("layers"), own_.file("out"));
+    for (const PartIndex index : solution.outline().parts.ids()) {
+        const Part part = solution.load(index);
+        const auto region = static_cast<std::size_t>(part.region_of(0).value());
+        const auto stress = std::find_if(part.values.begin(), part.values.end(), [](const PartValues& values) {
+            return values.name == "VonMises" && values.of == PartValues::Of::points;
+        });
+        for (std::size_t v = 0; v < part.mesh.vertices.size(); ++v) {
+            of_first.emplace(place_of(part.mesh.vertices[v]), stress->number(v));
+            if (part.mesh.vertices[v].y() == fineness) at_wall[part.global_id[v]][region] = stress->number(v);
+        }
+    }
+    for (const auto& [vertex, stresses] : at_wall) EXPECT_GT(stresses[1], 10 * stresses[0]) << vertex;
+    // Files of the whole have the stress of the first part.
+    for (const char* name : {"whole.vtu", "whole.msh"}) {
+        ASSERT_EQ(test::run_kerf({"merge", own_.file("out"), "-o", own_.file(name), "-q"}).exit_code, 0);
+        const TetFile whole = read_tets_with_scalars(own_.file(name));
+        for (const NodeScalar& scalar : whole.node_scalars)
+            for (std::size_t v = 0; scalar.name == "VonMises" && v < scalar.values.size(); ++v)
+                ASSERT_EQ(scalar.values[v], of_first.at(place_of(whole.mesh.vertices[v]))) << name << " vertex " << v;
+    }
 }
 
 TEST_F(BarOfTwo, MaterialsSayTheirRegionsOrAreForTheRest) {
