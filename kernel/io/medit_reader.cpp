@@ -102,12 +102,12 @@ void scan_medit(std::string_view bytes, const std::string& path, SoupBuilder& bu
                          "\". Correct the number of elements before it or export the surface again.");
         read_section(scanner, keyword, builder);
     }
+    builder.tets().name_volumes([](const VolumeKey& key) { return "region_" + std::to_string(key.second); });
 }
 
 Soup read_medit(std::string_view bytes, const std::string& path) {
     SoupBuilder builder(path);
     scan_medit(bytes, path, builder);
-    builder.tets().name_volumes([](const VolumeKey& key) { return "region_" + std::to_string(key.second); });
     builder.note_ignored_tets();
     return builder.finish();
 }

@@ -24,7 +24,7 @@ class SoupBuilder {
     enum class Wanted { surface, tets, tets_and_scalars };
     /// `path` only serves messages. A reader that meets tetrahedra adds them if they are wanted, else passes over them.
     explicit SoupBuilder(const std::string& path, Wanted wanted = Wanted::surface)
-        : path_(path), wanted_(wanted), tets_(path, soup_, !wants_tets()) {}
+        : path_(path), wanted_(wanted), tets_(path, soup_, !wants_scalars()) {}
     SoupBuilder& operator=(SoupBuilder&&) = delete;  // what collects tetrahedra refers to the soup
 
     bool wants_tets() const { return wanted_ == Wanted::tets || wants_scalars(); }

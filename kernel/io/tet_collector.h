@@ -61,11 +61,15 @@ class TetCollector {
         regions_ = regions_of(number_of_volume_, name);
     }
     const std::vector<std::string>& region_names() const { return regions_.names; }
+    /// Of volumes that have been named.
+    std::vector<std::int32_t> regions_of_tets() const {
+        std::vector<std::int32_t> regions = volume_of_tet_;
+        for (std::int32_t& region : regions) region = regions_.region_of_volume[static_cast<std::size_t>(region)];
+        return regions;
+    }
     /// Faces of the regions, of volumes that have been named; throws Error(input) if tetrahedra of two overlap.
     std::vector<RegionFace> faces_of_regions() const {
-        std::vector<std::int32_t> region_of_tet = volume_of_tet_;
-        for (std::int32_t& region : region_of_tet) region = regions_.region_of_volume[static_cast<std::size_t>(region)];
-        RegionFaces found = region_faces(soup_.vertices, tets_, region_of_tet);
+        RegionFaces found = region_faces(soup_.vertices, tets_, regions_of_tets());
         if (found.overlap) refuse_overlap(soup_, *found.overlap, regions_.names, path_);
         return std::move(found.faces);
     }

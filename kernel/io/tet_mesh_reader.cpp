@@ -74,6 +74,10 @@ std::vector<char> facets_of_interface(const Soup& soup) {
 
 TetFile finish(SoupBuilder& builder, const std::string& path) {
     TetFile file;
+    if (builder.tets().region_names().size() > 1 && !builder.wants_scalars()) {
+        file.region_names = builder.tets().region_names();
+        file.region_of_tet = builder.tets().regions_of_tets();
+    }
     file.mesh.tets = builder.tets().finish();
     file.node_scalars = builder.tets().finish_scalars();
     Soup soup = builder.finish_beside_tets();

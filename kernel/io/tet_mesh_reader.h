@@ -12,12 +12,14 @@ namespace kerf {
 
 /// What a file says of a volume mesh.
 struct TetFile {
-    TetMesh mesh;                               ///< without neighbours; no vertex counts as one of the boundary
-    std::vector<Triangle> facets;               ///< triangles of the file; none where it lists tetrahedra alone
-    std::vector<char> is_interface;             ///< #F; of a part of Kerf: another part is on the other side
-    std::int64_t turned_tets = 0;               ///< that had negative orientation in the file
-    std::vector<NodeScalar> node_scalars = {};  ///< of read_tets_with_scalars()
-    std::vector<std::string> notes = {};        ///< what was passed over: "12 hexahedra were ignored."
+    TetMesh mesh;                                  ///< without neighbours; no vertex counts as one of the boundary
+    std::vector<Triangle> facets;                  ///< triangles of the file; none where it lists tetrahedra alone
+    std::vector<char> is_interface;                ///< #F; of a part of Kerf: another part is on the other side
+    std::int64_t turned_tets = 0;                  ///< that had negative orientation in the file
+    std::vector<NodeScalar> node_scalars = {};     ///< of read_tets_with_scalars()
+    std::vector<std::string> notes = {};           ///< what was passed over: "12 hexahedra were ignored."
+    std::vector<std::string> region_names = {};    ///< as read_surface() has them; none if there is one region
+    std::vector<std::int32_t> region_of_tet = {};  ///< #T, of several regions; not of read_tets_with_scalars()
 };
 
 /// Reads Gmsh MSH 2 or 4.1 (text, binary of both orders of bytes), MEDIT .mesh (text) and VTK's VTU (see scan_vtu()),

@@ -245,7 +245,7 @@ void scan_piece(const Decoder& decoder, const Piece& piece, const std::string& r
 void scan_vtu(std::string_view bytes, const std::string& path, SoupBuilder& builder) {
     const vtu::File file = vtu::read_structure(bytes, path);
     const vtu::Decoder decoder(file, path);
-    const std::string region_array = builder.wants_tets() ? std::string() : vtu::region_array_of(file);
+    const std::string region_array = builder.wants_scalars() ? std::string() : vtu::region_array_of(file);
     for (const vtu::Piece& piece : file.pieces) vtu::scan_piece(decoder, piece, region_array, path, builder);
     if (region_array.empty()) return;
     const std::vector<std::string> names = vtu::region_names_of(file, decoder);

@@ -1,6 +1,9 @@
 #include "quality/measured_mesh.h"
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
+#include <numeric>
 #include <span>
 
 #include <Eigen/Geometry>
@@ -35,7 +38,40 @@ std::vector<Triangle> hull_of(TetMesh& mesh) {
     return hull;
 }
 
+// What is added up of the cells of a region.
+struct RegionSum {
+    double volume = 0;
+    QualityDistributions cells;
+};
+
+void add_cells(const std::vector<Vec3>& points, std::span<const Tetrahedron> cells, RegionSum& sum) {
+    constexpr std::size_t at_once = 256;
+    std::array<TetQuality, at_once> measured;
+    while (!cells.empty()) {
+        const std::span<const Tetrahedron> next = cells.first(std::min(at_once, cells.size()));
+        measure_cells(points, next, std::span(measured).first(next.size()));
+        for (const TetQuality& quality : std::span(measured).first(next.size())) {
+            sum.volume += quality.volume;
+            sum.cells.add(quality);
+        }
+        cells = cells.subspan(next.size());
+    }
+}
+
+RegionQuality region_quality(const std::string& name, const RegionSum& sum) {
+    RegionQuality region{name, sum.cells.measures.front().count(), sum.volume};
+    for (std::size_t i = 0; i < region.measures.size(); ++i) region.measures[i] = percentiles_of(sum.cells.measures[i]);
+    return region;
+}
+
 }  // namespace
+
+Percentiles percentiles_of(const Distribution& distribution) {
+    Percentiles percentiles;
+    std::transform(quality_fractions.begin(), quality_fractions.end(), percentiles.begin(),
+                   [&](double fraction) { return distribution.percentile(fraction); });
+    return percentiles;
+}
 
 MeasurableMesh::MeasurableMesh(const std::string& path) : path_(path) {
     std::error_code ignored;
@@ -68,21 +104,50 @@ void MeasurableMesh::add(const Part& part, double length_scale, MeshQuality& qua
     add_quality(part.mesh, {part.facets, is_interface}, length_scale, quality);
 }
 
+void MeasurableMesh::measure_run(double length_scale, MeshQuality& quality) const {
+    const MeshOutline& outline = run_->outline();
+    quality.parts = std::ssize(outline.parts);
+    quality.vertices = outline.vertices;
+    std::vector<RegionSum> sums(outline.region_names.size(), {0, QualityDistributions(length_scale)});
+    for (const PartIndex index : outline.parts.ids()) {
+        const Part part = run_->load(index);
+        add(part, length_scale, quality);
+        if (!sums.empty()) add_cells(part.mesh.vertices, part.mesh.tets, sums[part.region_of(0).value()]);
+    }
+    for (std::size_t r = 0; r < sums.size(); ++r)
+        quality.regions.push_back(region_quality(outline.region_names[r], sums[r]));
+}
+
+// One region after the other, since a file may have as many as cells.
+std::vector<RegionQuality> MeasurableMesh::regions_of_file(double length_scale) const {
+    std::vector<std::size_t> end(file_.region_names.size() + 1, 0);  // of the cells of each region, in the end
+    for (const std::int32_t region : file_.region_of_tet) ++end[region + 1];
+    std::partial_sum(end.begin(), end.end(), end.begin());
+    std::vector<Tetrahedron> sorted(file_.region_of_tet.size());
+    for (std::size_t t = 0; t < sorted.size(); ++t) sorted[end[file_.region_of_tet[t]]++] = file_.mesh.tets[t];
+    std::vector<RegionQuality> regions;
+    for (std::size_t r = 0; r < file_.region_names.size(); ++r) {
+        RegionSum sum{0, QualityDistributions(length_scale)};
+        const std::size_t begin = r == 0 ? 0 : end[r - 1];
+        add_cells(file_.mesh.vertices, std::span(sorted).subspan(begin, end[r] - begin), sum);
+        regions.push_back(region_quality(file_.region_names[r], sum));
+    }
+    return regions;
+}
+
 MeshQuality MeasurableMesh::measure(double length_scale) const {
     MeshQuality quality;
     quality.name = path_;
     quality.cells = PartQuality(length_scale);
     if (run_) {
-        const MeshOutline& outline = run_->outline();
-        quality.parts = std::ssize(outline.parts);
-        quality.vertices = outline.vertices;
-        for (const PartIndex part : run_->outline().parts.ids()) add(run_->load(part), length_scale, quality);
+        measure_run(length_scale, quality);
         return quality;
     }
     quality.vertices = std::ssize(file_.mesh.vertices);
     quality.turned_tets = file_.turned_tets;
     quality.notes = file_.notes;
     add_quality(file_.mesh, {file_.facets, file_.is_interface}, length_scale, quality);
+    quality.regions = regions_of_file(length_scale);
     return quality;
 }
 

@@ -1,6 +1,7 @@
 // The quality of a whole mesh: of a run, or of a file of any program.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -12,19 +13,34 @@
 
 namespace kerf {
 
+/// The percentiles that reports have of a distribution, from the least value to the largest.
+inline constexpr std::array<double, 7> quality_fractions = {0, 0.001, 0.01, 0.05, 0.5, 0.95, 1};
+using Percentiles = std::array<double, quality_fractions.size()>;
+Percentiles percentiles_of(const Distribution& distribution);
+
+/// The cells of one of several regions.
+struct RegionQuality {
+    std::string name;
+    std::int64_t tets = 0;
+    double volume = 0;
+    std::array<Percentiles, quality_measures.size()> measures{};  ///< in the order of quality_measures
+};
+
 struct MeshQuality {
     std::string name;  ///< for people
     std::int64_t parts = 1;
     std::int64_t vertices = 0;  ///< distinct ones
     PartQuality cells;
-    TriangleDistributions boundary;       ///< of the triangles on the user's surface; may be empty
-    std::int64_t turned_tets = 0;         ///< that had negative orientation in their file
-    std::vector<std::string> notes = {};  ///< what the file held besides
+    TriangleDistributions boundary;           ///< of the triangles on the user's surface; may be empty
+    std::int64_t turned_tets = 0;             ///< that had negative orientation in their file
+    std::vector<std::string> notes = {};      ///< what the file held besides
+    std::vector<RegionQuality> regions = {};  ///< in the order of their numbers; empty if there is one
 
     std::int64_t tets() const { return cells.all.measures.front().count(); }
 };
 
-/// A mesh that is known to be one, but not measured yet. Memory: of a run one part at a time, of a file the whole.
+/// A mesh that is known to be one, but not measured yet. Memory: of a run one part at a time and 92 kB for each of
+/// several regions, of a file the whole.
 class MeasurableMesh {
  public:
     /// The folder of a finished run, or a file as read_tet_file() reads them. Throws Error(io) or Error(input).
@@ -39,6 +55,8 @@ class MeasurableMesh {
 
  private:
     void add(const Part& part, double length_scale, MeshQuality& quality) const;
+    void measure_run(double length_scale, MeshQuality& quality) const;
+    std::vector<RegionQuality> regions_of_file(double length_scale) const;
     void open_run();
     void open_file();
 

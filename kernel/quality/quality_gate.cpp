@@ -66,6 +66,18 @@ QualityLimit parse_limit(std::string_view text, BadEnd end) {
     return limit;
 }
 
+// Where the worst cell is, if there are several regions: " It is in the region 'bone'."
+std::string region_of_worst(const MeshQuality& quality, const Measure& measure, double worst) {
+    const auto found = std::find_if(quality_measures.begin(), quality_measures.end(),
+                                    [&](const Measure& each) { return &each == &measure; });
+    if (found == quality_measures.end()) return "";
+    const auto i = static_cast<std::size_t>(found - quality_measures.begin());
+    for (const RegionQuality& region : quality.regions)
+        if ((measure.small_is_bad ? region.measures[i].front() : region.measures[i].back()) == worst)
+            return fmt::format(" It is in the region '{}'.", region.name);
+    return "";
+}
+
 }  // namespace
 
 std::string limit_names(BadEnd end) {
@@ -95,7 +107,8 @@ std::vector<std::string> missed_limits(const MeshQuality& quality, const std::ve
         if (named.distribution->count() == 0 || holds) continue;
         missed.push_back(fmt::format("The worst {} is {:.6g}{}{}, {} the limit {:.6g}.", named.measure->title, worst,
                                      *named.measure->unit ? " " : "", named.measure->unit,
-                                     end == BadEnd::small ? "below" : "above", limit.value));
+                                     end == BadEnd::small ? "below" : "above", limit.value) +
+                         region_of_worst(quality, *named.measure, worst));
     }
     return missed;
 }

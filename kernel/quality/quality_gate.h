@@ -25,7 +25,8 @@ std::string limit_names(BadEnd end);
 /// and for a measure that is bad at the other end.
 std::vector<QualityLimit> parse_limits(std::string_view list, BadEnd end);
 
-/// A sentence for every limit that the mesh misses: "The smallest dihedral angle is 3.21 deg, below the limit 5."
+/// A sentence for every limit that the mesh misses: "The worst smallest dihedral angle is 3.21 deg, below the limit
+/// 5."; of several regions another one says in which the cell is.
 std::vector<std::string> missed_limits(const MeshQuality& quality, const std::vector<QualityLimit>& limits, BadEnd end);
 
 }  // namespace kerf

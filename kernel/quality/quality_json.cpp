@@ -1,5 +1,6 @@
 #include "quality/quality_json.h"
 
+#include <array>
 #include <span>
 
 #include <nlohmann/json.hpp>
@@ -12,16 +13,26 @@ using Json = nlohmann::ordered_json;
 
 constexpr int json_bins = 36;
 
+Json percentiles_json(const Percentiles& percentiles) {
+    constexpr std::array<const char*, quality_fractions.size()> names = {"min",    "p0_1", "p1", "p5",
+                                                                         "median", "p95",  "max"};
+    Json json = Json::object();
+    for (std::size_t i = 0; i < names.size(); ++i) json[names[i]] = percentiles[i];
+    return json;
+}
+
 Json distribution_json(const Distribution& d) {
     const Distribution::Histogram histogram = d.histogram(json_bins);
-    return {{"min", d.min()},
-            {"p0_1", d.percentile(0.001)},
-            {"p1", d.percentile(0.01)},
-            {"p5", d.percentile(0.05)},
-            {"median", d.percentile(0.5)},
-            {"p95", d.percentile(0.95)},
-            {"max", d.max()},
-            {"histogram", {{"edges", histogram.edges}, {"counts", histogram.counts}}}};
+    Json json = percentiles_json(percentiles_of(d));
+    json["histogram"] = {{"edges", histogram.edges}, {"counts", histogram.counts}};
+    return json;
+}
+
+Json region_json(const RegionQuality& region) {
+    Json measures = Json::object();
+    for (std::size_t i = 0; i < region.measures.size(); ++i)
+        measures[quality_measures[i].name] = percentiles_json(region.measures[i]);
+    return {{"name", region.name}, {"tets", region.tets}, {"volume", region.volume}, {"quality", measures}};
 }
 
 Json distributions_json(std::span<const Measure> measures, const std::vector<Distribution>& distributions) {
@@ -49,17 +60,19 @@ Json forced_json(const ForcedDistributions& angles) {
 }
 
 Json quality_json(const MeshQuality& quality) {
-    return {{"path", quality.name},
-            {"parts", quality.parts},
-            {"vertices", quality.vertices},
-            {"tets", quality.tets()},
-            {"interface_tets", quality.cells.interface.measures.front().count()},
-            {"boundary_triangles", quality.boundary.measures.front().count()},
-            {"turned_tets", quality.turned_tets},
-            {"notes", quality.notes},
-            {"quality", quality_json(quality.cells)},
-            {"forced", forced_json(quality.cells.angles)},
-            {"boundary", distributions_json(triangle_measures, quality.boundary.measures)}};
+    Json json = {{"path", quality.name},
+                 {"parts", quality.parts},
+                 {"vertices", quality.vertices},
+                 {"tets", quality.tets()},
+                 {"interface_tets", quality.cells.interface.measures.front().count()},
+                 {"boundary_triangles", quality.boundary.measures.front().count()},
+                 {"turned_tets", quality.turned_tets},
+                 {"notes", quality.notes},
+                 {"quality", quality_json(quality.cells)},
+                 {"forced", forced_json(quality.cells.angles)},
+                 {"boundary", distributions_json(triangle_measures, quality.boundary.measures)}};
+    for (const RegionQuality& region : quality.regions) json["regions"].push_back(region_json(region));
+    return json;
 }
 
 }  // namespace kerf

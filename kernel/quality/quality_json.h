@@ -19,7 +19,7 @@ nlohmann::ordered_json quality_json(const PartQuality& quality);
 nlohmann::ordered_json forced_json(const ForcedDistributions& angles);
 
 /// Name, counts, the number of turned tetrahedra, notes, the quality of cells, which are forced, and the angles of
-/// boundary triangles.
+/// boundary triangles. Of several regions a list of them: name, cells, volume, and the measures without histograms.
 nlohmann::ordered_json quality_json(const MeshQuality& quality);
 
 }  // namespace kerf

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <span>
 
 #include <fmt/format.h>
@@ -14,8 +15,8 @@ namespace kerf {
 
 namespace {
 
-constexpr std::array<double, 7> fractions = {0, 0.001, 0.01, 0.05, 0.5, 0.95, 1};
-constexpr std::array<const char*, 7> fraction_names = {"min", "0.1 %", "1 %", "5 %", "median", "95 %", "max"};
+constexpr std::array<const char*, quality_fractions.size()> fraction_names = {"min",    "0.1 %", "1 %", "5 %",
+                                                                              "median", "95 %",  "max"};
 
 std::string title_of(const Measure& measure) {
     return *measure.unit ? fmt::format("{}, {}", measure.title, measure.unit) : measure.title;
@@ -31,11 +32,13 @@ std::string percentile_head(const std::string& title) {
     return head + "\n";
 }
 
-std::string percentile_row(const std::string& title, const Distribution& distribution) {
+std::string percentile_row(const std::string& title, const Percentiles& percentiles) {
     std::string row = fmt::format("  {:<46}", title);
-    for (const double fraction : fractions)
-        row += fmt::format("{:>11}", four_digits(distribution.percentile(fraction)));
+    for (const double value : percentiles) row += fmt::format("{:>11}", four_digits(value));
     return row + "\n";
+}
+std::string percentile_row(const std::string& title, const Distribution& distribution) {
+    return percentile_row(title, percentiles_of(distribution));
 }
 
 std::string percentile_table(const std::string& title, std::span<const Measure> measures,
@@ -60,6 +63,36 @@ std::string forced_table(const ForcedDistributions& angles, std::int64_t of) {
     if (count == 0) return "\n" + head + "\n";
     return "\n" + percentile_head(head) + percentile_row(title_of(forced_measure), angles.forced) +
            percentile_row(title_of(unforced_measure), angles.unforced);
+}
+
+std::string region_row(const std::string& name, std::int64_t tets, double volume, const Percentiles& percentiles) {
+    return percentile_row(fmt::format("{:<22}{:>12}{:>12}", name, grouped(tets), four_digits(volume)), percentiles);
+}
+
+// The smallest dihedral angles of each region; in brief, of those with the worst cells, the worst first.
+std::string region_table(const MeshQuality& quality, QualityDetail detail, const std::string& of = "") {
+    if (quality.regions.empty()) return "";
+    constexpr std::size_t most = 10;
+    std::vector<RegionQuality> regions = quality.regions;
+    const bool is_cut = detail == QualityDetail::brief && regions.size() > most;
+    if (is_cut) {
+        const auto least = [](const RegionQuality& region) { return region.measures.front().front(); };
+        std::stable_sort(regions.begin(), regions.end(),
+                         [&](const RegionQuality& a, const RegionQuality& b) { return least(a) < least(b); });
+        regions.resize(most);
+    }
+    std::string text =
+        fmt::format("\n{}{} by region, {}\n", quality_measures.front().title, of, quality_measures.front().unit);
+    text[1] = static_cast<char>(std::toupper(text[1]));
+    text += percentile_head(fmt::format("  {:<22}{:>12}{:>12}", "", "cells", "volume"));
+    double volume = 0;
+    for (const RegionQuality& region : quality.regions) volume += region.volume;
+    for (const RegionQuality& region : regions)
+        text += region_row(region.name, region.tets, region.volume, region.measures.front());
+    if (is_cut)
+        text += fmt::format("  and {} more, none with worse cells: -v and --json have all\n",
+                            grouped(quality.regions.size() - most));
+    return text + region_row("all", quality.tets(), volume, percentiles_of(quality.cells.all.measures.front()));
 }
 
 std::string interval_text(double low, double high) {
@@ -148,6 +181,7 @@ std::string quality_text(const MeshQuality& quality, QualityDetail detail) {
     text += cells_table("All cells", quality.cells.all, quality.tets());
     if (quality.cells.angles.forced.count() > 0 || (detail == QualityDetail::all && quality.tets() > 0))
         text += forced_table(quality.cells.angles, quality.tets());
+    text += region_table(quality, detail);
     if (detail == QualityDetail::brief) return text;
     text += cells_table("Cells with a vertex on an interface", quality.cells.interface, quality.tets());
     if (quality.cells.interface.measures.front().count() > 0)
@@ -172,6 +206,7 @@ std::string comparison_text(const MeshQuality& first, const MeshQuality& second,
     if (a.forced.count() > 0 || b.forced.count() > 0) text += compared_rows(unforced_measure, a.unforced, b.unforced);
     if (have_boundaries)
         text += compared_percentiles(triangle_measures, first.boundary.measures, second.boundary.measures);
+    text += region_table(first, detail, " of A") + region_table(second, detail, " of B");
     if (detail == QualityDetail::brief) return text;
     text += "\nPercentages of cells, or of boundary triangles: in the interval, then accumulated up to its end.\n";
     text += compared_histograms(quality_measures, first.cells.all.measures, second.cells.all.measures);

@@ -8,7 +8,8 @@
 namespace kerf {
 
 enum class QualityDetail {
-    brief,  ///< counts, and percentiles over all cells and of the angles that are forced, if any
+    brief,  ///< counts, and percentiles over all cells, of the angles that are forced, if any, and of the smallest
+            ///< angles of several regions, of more than ten those with the worst cells
     all
 };
 

@@ -14,6 +14,7 @@
 #include "support/program.h"
 #include "support/surface_files.h"
 #include "support/temporary_folder.h"
+#include "support/voxel_regions.h"
 
 namespace kerf {
 namespace {
@@ -113,6 +114,45 @@ TEST_F(Quality, OfAPartIsTheSameInEveryFormat) {
         EXPECT_EQ(found.at("interface_tets"), 0);
         EXPECT_EQ(found.at("turned_tets"), 0);
     }
+}
+
+// Of a file, of its run, and of that merged.
+TEST_F(Quality, OfRegionsAddsUpToThatOfTheWhole) {
+    const std::array<std::int32_t, 3> cubes = {4, 4, 4};
+    const test::RegionOfCube grain = test::grains(cubes, 14, 5);
+    const std::vector<double> volumes = test::voxel_body(cubes, grain).volumes;
+    ASSERT_GT(volumes.size(), 10U);
+    const std::string file = path("grains.mesh"), run = path("grains"), merged = path("grains.vtu");
+    test::write_tets(file, cubes, grain);
+    ASSERT_EQ(test::run_kerf({"mesh", file, "-o", run, "-n", "1", "-q"}).exit_code, 0);
+    ASSERT_EQ(test::run_kerf({"merge", run, "-o", merged, "-q"}).exit_code, 0);
+    for (const std::string& mesh : {file, run, merged}) {
+        SCOPED_TRACE(mesh);
+        const Json found = quality_json({mesh});
+        const Json& regions = found.at("regions");
+        ASSERT_EQ(regions.size(), volumes.size());
+        std::int64_t tets = 0;
+        double least = 180;
+        for (std::size_t r = 0; r < volumes.size(); ++r) {
+            EXPECT_NEAR(regions[r].at("volume"), volumes[r], 1e-12 * 64);
+            tets += regions[r].at("tets").get<std::int64_t>();
+            least = std::min(least, regions[r].at("quality").at("min_dihedral_deg").at("min").get<double>());
+        }
+        EXPECT_EQ(tets, found.at("tets"));
+        EXPECT_EQ(least, found.at("quality").at("all").at("min_dihedral_deg").at("min"));
+    }
+    const Json of_run = quality_json({run}).at("regions"), of_merged = quality_json({merged}).at("regions");
+    for (std::size_t r = 0; r < volumes.size(); ++r) {
+        EXPECT_EQ(of_merged[r].at("name"), of_run[r].at("name"));
+        EXPECT_EQ(of_merged[r].at("tets"), of_run[r].at("tets"));
+        EXPECT_EQ(of_merged[r].at("quality"), of_run[r].at("quality"));
+    }
+    EXPECT_NE(output_of(quality({run})).find(" more, none with worse cells"), std::string::npos);
+    EXPECT_EQ(output_of(quality({run, "-v"})).find("none with worse cells"), std::string::npos);
+    const ChildResult missed = quality({run, "--fail-below", "min-dihedral=60"});
+    EXPECT_EQ(missed.exit_code, 6);
+    EXPECT_NE(missed.log.find("It is in the region 'region_"), std::string::npos) << missed.log;
+    EXPECT_FALSE(quality_json({path("run")}).contains("regions"));
 }
 
 TEST_F(Quality, OfAMergedMeshIsThatOfItsParts) {
