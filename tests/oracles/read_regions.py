@@ -1,5 +1,5 @@
 """Makes a body of three regions with Gmsh, and counts the cells of each region in what Kerf has written of it: with VTK,
-meshio, Gmsh, h5py, and by the words of OpenFOAM's checkMesh and TetGen.
+meshio, Gmsh, h5py, DOLFINx, and by the words of OpenFOAM's checkMesh and TetGen.
 
 usage: python3 read_regions.py make FILE.msh
        python3 read_regions.py judge DIR
@@ -19,6 +19,8 @@ import h5py
 import meshio
 import numpy as np
 import vtk
+from dolfinx.io import XDMFFile
+from mpi4py import MPI
 from vtk.util.numpy_support import vtk_to_numpy
 
 VTK_TETRA, VTK_TRIANGLE = 10, 5
@@ -125,6 +127,12 @@ def judge_meshio(folder, regions, patches, names):
     require_same({"outside": triangles}, {"outside": patches["outside"]}, "whole.su2")
 
 
+def judge_dolfinx(path, regions):
+    with XDMFFile(MPI.COMM_SELF, str(path), "r") as file:
+        tags = file.read_meshtags(file.read_mesh(name="mesh"), name="mesh")
+    require_same(by_number(tags.values, list(REGIONS)), regions, f"{path} as DOLFINx reads it")
+
+
 def judge(folder):
     regions, patches, names = counts_of_parts(folder / "run")
     names = [name for name in names if name]
@@ -138,6 +146,7 @@ def judge(folder):
     with h5py.File(folder / "whole.h5") as file:
         called = [name.decode() for name in file["viz/region_names"]]
         require_same(by_number(file["viz/region"][:], called), regions, "whole.h5")
+    judge_dolfinx(folder / "hdf5" / "mesh.xdmf", regions)
     for case in ("foam", "serial"):
         log = (folder / f"{case}.log").read_text()
         zones = {name: int(re.search(rf"^ *{word} +(\d+) ", log, re.MULTILINE)[1]) for name, word in REGIONS.items()}

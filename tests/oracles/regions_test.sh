@@ -20,6 +20,7 @@ logged() {
 for ending in vtu msh mesh inp su2 node h5; do "$kerf" merge "$folder/run" -o "$folder/whole.$ending"; done
 "$kerf" merge "$folder/run" -o "$folder/whole22.msh" --msh-version 2.2
 "$kerf" export "$folder/run" --format msh -o "$folder/parts"
+"$kerf" export "$folder/run" --format hdf5 -o "$folder/hdf5"
 tetgen -r "$folder/whole.node" >"$folder/log" || { cat "$folder/log" && exit 1; }
 "$kerf" export "$folder/run" --format openfoam -o "$folder/foam"
 "$kerf" export "$folder/run" --format openfoam --into 1 -o "$folder/serial"
