@@ -24,11 +24,4 @@ void add_run_options(CLI::App& app, RunOptions& options);
 CLI::Validator suggest_formats();
 CLI::Validator suggest_cell_fields();
 
-/// The first of the files of a command line is its input, others are InputOptions::more_files.
-inline void take_inputs(const std::vector<std::string>& files, std::string& input, InputOptions& options) {
-    if (files.empty()) return;
-    input = files[0];
-    options.more_files.insert(options.more_files.begin(), files.begin() + 1, files.end());
-}
-
 }  // namespace kerf

@@ -12,7 +12,6 @@
 #include "core/hash.h"
 #include "geometry/box.h"
 #include "io/run_manifest.h"
-#include "prepare/input_files.h"
 #include "surface/hole_filling.h"
 #include "surface/intersections.h"
 #include "surface/mass_properties.h"
@@ -123,27 +122,6 @@ void diagnose_filled(CheckedSoup& checked, const DiagnosisOptions& options) {
     checked.repairs.unused_vertices += drop_unused_vertices(divided);
     Diagnosis diagnosis = diagnose(divided, options);
     take_regions(checked, std::move(divided), std::move(diagnosis));
-}
-
-CheckedSoup check_files(InputFiles files, const InputOptions& options, double needle_angle_deg = 1) {
-    CheckedSoup checked{std::move(files.soup), {}, {}, 0};
-    Soup& soup = checked.soup;
-    InputRepairs& repairs = checked.repairs;
-    repairs.welded_vertices = weld_exactly(soup);
-    if (options.weld_tolerance.number() > 0) checked.weld_tolerance = weld(soup, options.weld_tolerance, repairs);
-    if (options.keep_largest) repairs.removed_facets = keep_largest_component(soup);
-    if (options.fill_hole_edges > 0 && soup.sides.empty()) {
-        const HoleFilling filling = fill_holes(soup, options.fill_hole_edges);
-        repairs.filled_holes = filling.holes;
-        repairs.added_facets = filling.facets;
-    }
-    repairs.unused_vertices = drop_unused_vertices(soup);
-    take_points(soup, options);
-    diagnose_with_regions(checked, files, {options.voids, needle_angle_deg});
-    if (options.fill_voids) diagnose_filled(checked, {options.voids, needle_angle_deg});
-    const std::vector<char>& dropped = checked.diagnosis.dropped;
-    repairs.dropped_facets = std::count(dropped.begin(), dropped.end(), char{1});
-    return checked;
 }
 
 // Moves vertices of a surface that is known to be clean.
@@ -315,6 +293,27 @@ Input input_of_arrays(Soup soup, const InputOptions& options) {
 }
 
 }  // namespace
+
+CheckedSoup check_files(InputFiles files, const InputOptions& options, double needle_angle_deg) {
+    CheckedSoup checked{std::move(files.soup), {}, {}, 0};
+    Soup& soup = checked.soup;
+    InputRepairs& repairs = checked.repairs;
+    repairs.welded_vertices = weld_exactly(soup);
+    if (options.weld_tolerance.number() > 0) checked.weld_tolerance = weld(soup, options.weld_tolerance, repairs);
+    if (options.keep_largest) repairs.removed_facets = keep_largest_component(soup);
+    if (options.fill_hole_edges > 0 && soup.sides.empty()) {
+        const HoleFilling filling = fill_holes(soup, options.fill_hole_edges);
+        repairs.filled_holes = filling.holes;
+        repairs.added_facets = filling.facets;
+    }
+    repairs.unused_vertices = drop_unused_vertices(soup);
+    take_points(soup, options);
+    diagnose_with_regions(checked, files, {options.voids, needle_angle_deg});
+    if (options.fill_voids) diagnose_filled(checked, {options.voids, needle_angle_deg});
+    const std::vector<char>& dropped = checked.diagnosis.dropped;
+    repairs.dropped_facets = std::count(dropped.begin(), dropped.end(), char{1});
+    return checked;
+}
 
 CheckedSoup check_input(const std::string& path, const InputOptions& options, double needle_angle_deg) {
     return check_files(read_input_files(path, options), options, needle_angle_deg);

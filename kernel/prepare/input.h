@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "prepare/input_files.h"
 #include "remesh/remesh.h"
 #include "request/input_options.h"
 #include "surface/complex.h"
@@ -94,6 +95,9 @@ CheckedSoup check_input(const std::string& path, const InputOptions& options = {
 /// (surface/region_finder.h): by points, or because several bodies touch. Throws Error(input) for points that are
 /// misplaced, and Error(usage) for points where there are regions already.
 CheckedSoup check_soup(Soup soup, const InputOptions& options = {}, double needle_angle_deg = 1);
+
+/// Checks files that have been read: each is a body of its own, and those of several are regions.
+CheckedSoup check_files(InputFiles files, const InputOptions& options = {}, double needle_angle_deg = 1);
 
 /// Drops the superfluous facets of a soup without errors, and orients it.
 OrientationReport apply_repairs(CheckedSoup& checked);

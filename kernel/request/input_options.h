@@ -29,6 +29,12 @@ struct InputOptions {
     void check() const;
 };
 
+/// The first of the files of a command line is its input, others are InputOptions::more_files.
+void take_inputs(const std::vector<std::string>& files, std::string& input, InputOptions& options);
+
+/// The input and the files that are meshed with it.
+std::vector<std::string> files_of(const std::string& input, const InputOptions& options);
+
 /// The points of `regions`. Throws Error(usage), naming option, value and form.
 std::vector<RegionSeed> seeds_of(const InputOptions& options);
 

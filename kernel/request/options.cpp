@@ -48,6 +48,18 @@ RunOptions with_constant_size(RunOptions options) {
 
 }  // namespace
 
+void take_inputs(const std::vector<std::string>& files, std::string& input, InputOptions& options) {
+    if (files.empty()) return;
+    input = files[0];
+    options.more_files.insert(options.more_files.begin(), files.begin() + 1, files.end());
+}
+
+std::vector<std::string> files_of(const std::string& input, const InputOptions& options) {
+    std::vector<std::string> files = {input};
+    files.insert(files.end(), options.more_files.begin(), options.more_files.end());
+    return files;
+}
+
 std::vector<RegionSeed> seeds_of(const InputOptions& options) {
     std::vector<RegionSeed> seeds;
     for (const std::string& text : options.regions) seeds.push_back(seed_of(text));

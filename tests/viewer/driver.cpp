@@ -84,9 +84,9 @@ void Driver::settle() {
     } while (!app_->settled());
 }
 
-void Driver::open(const std::string& path) {
-    app_->open(path);
-    await("the run of " + path, [&] {
+void Driver::open_files(const std::vector<std::string>& paths) {
+    app_->open_files(paths);
+    await("the run of " + paths.front(), [&] {
         const view::Document& d = document();
         if (!d.error.empty()) return true;
         if (d.kind == view::Document::Kind::surface && (!d.checked || app_->session().busy())) return false;

@@ -34,7 +34,9 @@ class Driver {
     const view::Document& document() { return app_->session().document(); }
 
     /// Opens a file and waits until it, and the run that it starts, are there.
-    void open(const std::string& path);
+    void open(const std::string& path) { open_files({path}); }
+    /// Several at once.
+    void open_files(const std::vector<std::string>& paths);
     /// One frame, for the viewer so much later than the last.
     void frame(float seconds = 1.f / 60);
     /// Frames until nothing changes any more.

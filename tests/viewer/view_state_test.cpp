@@ -43,6 +43,10 @@ ViewState unusual_state() {
     s.deform = 2.5;
     s.hidden = {4, 11};
     s.isolated = 3;
+    s.hidden_regions = {"bone", "cement \xe4"};
+    s.glass_regions = {"void_1"};
+    s.isolated_region = "cement";
+    s.walls = s.explode_regions = true;
     s.pick = PickMode::vertex;
     s.selection = {Selection::Kind::cell, 12, 34, {5, 6, 7}};
     s.theme = Theme::dark;
@@ -54,10 +58,12 @@ ViewState unusual_state() {
 auto fields(const ViewState& s) {
     const auto& [node, step, camera, shading, edges, context, plane, axes, contour, features, surface, interfaces,
                  explode, shrink, clip, color, color_range, filter, neighbours, percentile, isolines, load_case, deform,
-                 legend, numbers, times, hidden, isolated, pick, selection, theme, panels] = s;
+                 legend, numbers, times, hidden, isolated, hidden_regions, glass_regions, isolated_region, walls,
+                 explode_regions, pick, selection, theme, panels] = s;
     return std::tie(node, step, camera, shading, edges, context, plane, axes, contour, features, surface, interfaces,
                     explode, shrink, clip, color, color_range, filter, neighbours, percentile, isolines, load_case,
-                    deform, legend, numbers, times, hidden, isolated, pick, selection, theme, panels);
+                    deform, legend, numbers, times, hidden, isolated, hidden_regions, glass_regions, isolated_region,
+                    walls, explode_regions, pick, selection, theme, panels);
 }
 auto fields(const Camera& c) {
     const auto& [target, turn, height, perspective] = c;

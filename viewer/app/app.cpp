@@ -54,9 +54,11 @@ std::string App::window_title() const {
     return document.title.empty() ? "Kerf" : document.title + " - Kerf";
 }
 
-void App::open(const std::string& path) {
-    session_.open(path, options_.run);
-    remember(settings_, path);
+void App::open_files(const std::vector<std::string>& paths) {
+    RunOptions run = options_.run;
+    run.input_options.more_files.assign(paths.begin() + 1, paths.end());
+    session_.open(paths.front(), run);
+    for (auto path = paths.rbegin(); path != paths.rend(); ++path) remember(settings_, *path);
     save_settings(options_.config_folder, settings_);
     const ViewState before = state_;
     state_ = {};

@@ -44,7 +44,8 @@ class App : private Actions {
     App(const Gl& gl, AppOptions options);
     ~App() override;
 
-    void open(const std::string& path) override;
+    void open(const std::string& path) override { open_files({path}); }
+    void open_files(const std::vector<std::string>& paths) override;
     ViewState& state() { return state_; }
     void show(const ViewState& state, const ChosenView& chosen);
     Session& session() { return session_; }

@@ -69,8 +69,12 @@ void read_run_config(const std::string& path, RunOptions& run) {
     if (parts > 0) run.decompose.parts = parts;
 }
 
+void add_inputs(CLI::App& app, SceneOptions& options, const std::string& what) {
+    app.add_option("input", options.inputs, what + " Several surfaces are opened together.")->type_name("INPUT");
+}
+
 void add_screenshot_options(CLI::App& app, ViewCommand& command, SceneOptions& options) {
-    app.add_option("input", command.input, "What to open. Default: what --state was made of.")->type_name("INPUT");
+    add_inputs(app, options, "What to open. Default: what --state was made of.");
     app.option_defaults()->group("Picture");
     app.add_option("-o,--output", command.output, "PNG file.")->type_name("FILE")->required();
     app.add_option("--resolution", options.resolution, "Pixels of the picture. Default 1280x800.")->type_name("WxH");
@@ -94,7 +98,7 @@ void add_screenshot_options(CLI::App& app, ViewCommand& command, SceneOptions& o
 }
 
 void add_view_options(CLI::App& app, ViewCommand& command, SceneOptions& options) {
-    app.add_option("input", command.input, "What to open.")->type_name("INPUT");
+    add_inputs(app, options, "What to open.");
     add_scene_options(app, command, options);
     app.add_flag_callback(
            "--no-run", [&command] { command.auto_run = false; }, "Only show a surface: it is cut and meshed else.")
@@ -104,10 +108,12 @@ void add_view_options(CLI::App& app, ViewCommand& command, SceneOptions& options
 
 // Sets what the options say of the scene, and of a run for it. Throws Error.
 void apply_options(const SceneOptions& options, ViewCommand& command) {
+    if (!options.inputs.empty()) command.input = options.inputs.front();
     apply(options, command);
     if (command.screenshot && command.input.empty())
         throw Error(ErrorCode::usage, "Say what to draw: an INPUT, or a --state that knows what it was made of.");
     read_run_config(options.config, command.run);
+    take_inputs(options.inputs, command.input, command.run.input_options);
     if (!options.surface.empty()) set_options(command.run, {{"surface", options.surface}}, "The command line");
     if (!options.input_scale.empty()) set_options(command.run, {{"scale", options.input_scale}}, "The command line");
     command.run.input_options.check();

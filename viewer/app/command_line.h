@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "viewer/app/app.h"
 #include "viewer/render/offscreen.h"
@@ -29,6 +30,8 @@ struct ViewCommand {
     RunOptions run;
     std::string print;  ///< text to print instead (help, a usage error); empty: none
     int exit_code = 0;  ///< of that
+
+    std::vector<std::string> files() const { return files_of(input, run.input_options); }
 };
 
 /// Never throws: what is wrong becomes `print` and exit code 2.

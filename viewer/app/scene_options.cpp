@@ -88,11 +88,11 @@ void add_look_options(CLI::App& app, SceneOptions& options) {
 
 void add_color_options(CLI::App& app, ViewCommand& command, SceneOptions& options) {
     app.option_defaults()->group("Colours");
-    app.add_option(
-           "--color", options.color,
-           "part, rank, level, patch, deviation, size, kind, origin (core, shell or other mesher), min-dihedral, "
-           "radius-edge, aspect, shape, volume or edge-length; of a solution error, displacement, von-mises, "
-           "stress-xx, stress-yy, stress-zz, stress-xy, stress-yz or stress-xz.")
+    app.add_option("--color", options.color,
+                   "part, rank, level, region, patch, deviation, size, kind, origin (core, shell or other mesher), "
+                   "min-dihedral, "
+                   "radius-edge, aspect, shape, volume or edge-length; of a solution error, displacement, von-mises, "
+                   "stress-xx, stress-yy, stress-zz, stress-xy, stress-yz or stress-xz.")
         ->type_name("NAME")
         ->check(suggest(names_of_colors()));
     add_numbers(app, "--range", options.range, 2, {},
@@ -124,6 +124,23 @@ void add_clip_options(CLI::App& app, ViewCommand& command, SceneOptions& options
         ->type_name("X");
     add_number(app, "--shrink", options.shrink, {"0 to 1", 0, 1}, "Shrink cells about their centres; 0 to 1.")
         ->type_name("X");
+}
+
+void add_names(CLI::App& app, const char* option, std::vector<std::string>& names, const char* help) {
+    app.add_option(option, names, help)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->expected(1)
+        ->type_name("NAME");
+}
+
+void add_region_options(CLI::App& app, SceneOptions& options) {
+    app.option_defaults()->group("Regions");
+    add_names(app, "--hide-region", options.hidden_regions, "Region that is not shown. Repeatable.");
+    app.add_option("--isolate-region", options.isolated_region, "Only this region.")->type_name("NAME");
+    add_names(app, "--glass-region", options.glass_regions,
+              "Region that is translucent, so that what it holds is seen. Repeatable.");
+    app.add_flag("--walls", options.walls, "Only facets between two regions.");
+    app.add_flag("--explode-regions", options.explode_regions, "--explode moves regions as wholes.");
 }
 
 void add_run_options(CLI::App& app, ViewCommand& command, SceneOptions& options) {
@@ -170,6 +187,19 @@ void apply_view(const SceneOptions& options, ViewCommand& command) {
     command.state.camera.reset();
 }
 
+bool is_of_regions(const SceneOptions& options) {
+    return options.walls || options.explode_regions || !options.isolated_region.empty() ||
+           !options.hidden_regions.empty() || !options.glass_regions.empty();
+}
+
+void apply_regions(const SceneOptions& options, ViewState& state) {
+    for (const std::string& region : options.hidden_regions) set_member(state.hidden_regions, region, true);
+    for (const std::string& region : options.glass_regions) set_member(state.glass_regions, region, true);
+    if (!options.isolated_region.empty()) state.isolated_region = options.isolated_region;
+    if (options.walls) state.walls = true;
+    if (options.explode_regions) state.explode_regions = true;
+}
+
 void apply_colors(const SceneOptions& options, ViewCommand& command) {
     ViewState& state = command.state;
     if (!options.filter.empty()) {
@@ -200,6 +230,7 @@ void add_scene_options(CLI::App& app, ViewCommand& command, SceneOptions& option
     add_look_options(app, options);
     add_color_options(app, command, options);
     add_clip_options(app, command, options);
+    add_region_options(app, options);
     add_run_options(app, command, options);
 }
 
@@ -215,7 +246,7 @@ void apply(const SceneOptions& options, ViewCommand& command) {
     if (options.node > 0) state.node = options.node;
     // What only cells have is not to be asked for in vain.
     const bool is_of_cells = !options.color.empty() || options.explode > 0 || options.shrink > 0 ||
-                             !options.filter.empty() || !options.deform.empty();
+                             !options.filter.empty() || !options.deform.empty() || is_of_regions(options);
     if (!options.stage.empty())
         state.step = step_from_name(options.stage);
     else if (is_of_cells && options.state_file.empty() && !is_seen_on_surfaces(options.color))
@@ -232,6 +263,7 @@ void apply(const SceneOptions& options, ViewCommand& command) {
     if (options.shrink >= 0) state.shrink = options.shrink;
     for (const NodeId node : options.hidden) state.set_hidden(node, true);
     if (options.isolated > 0) state.isolated = options.isolated;
+    apply_regions(options, state);
     if (options.features) state.features = true;
     if (options.smooth) state.shading = Shading::smooth;
     if (options.no_edges) state.edges = false;

@@ -1,5 +1,6 @@
 #include "viewer/app/screenshot.h"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 
@@ -70,6 +71,22 @@ void wait_for_document(App& app, const ViewCommand& command, const Deadline& dea
     throw Error(ErrorCode::usage, message);
 }
 
+void check_regions(const Document& document, const ViewState& state) {
+    std::vector<std::string> wanted = state.hidden_regions;
+    wanted.insert(wanted.end(), state.glass_regions.begin(), state.glass_regions.end());
+    if (state.isolated_region) wanted.push_back(*state.isolated_region);
+    const std::vector<std::string>& names = document.region_names;
+    if (names.empty() && (!wanted.empty() || state.walls || state.explode_regions))
+        refuse(document, fmt::format("{} has one region, not several.", document.path));
+    constexpr std::size_t most = 20;
+    const auto end = names.begin() + static_cast<std::ptrdiff_t>(std::min(most, names.size()));
+    for (const std::string& region : wanted)
+        if (std::find(names.begin(), names.end(), region) == names.end())
+            refuse(document, fmt::format("{} has no region '{}', but '{}'{}.", document.path, region,
+                                         fmt::join(names.begin(), end, "', '"),
+                                         names.size() > most ? fmt::format(" and {} more", names.size() - most) : ""));
+}
+
 // A wish that cannot be met is an error here; in the window it is only a wish.
 void check_wishes(const Document& document, const ViewState& state, bool with_panels) {
     if (!document.error.empty() && !with_panels) throw Error(document.error_code, document.error);
@@ -85,6 +102,7 @@ void check_wishes(const Document& document, const ViewState& state, bool with_pa
     for (const NodeId node : nodes)
         if (!document.tree.find(node))
             refuse(document, fmt::format("The tree of {} has no node {}.", document.path, node));
+    check_regions(document, state);
     if (const char* why = why_without_values(document, state.color)) refuse(document, why);
     if (document.has_surfaces_alone() && is_of_cells(state.color))
         refuse(document,
@@ -103,7 +121,7 @@ void check_wishes(const Document& document, const ViewState& state, bool with_pa
 
 void take_screenshot(const ViewCommand& command, const AppOptions& options) {
     const Deadline deadline(command.timeout_seconds);
-    refuse_to_overwrite(command.input, "--output", command.output);
+    for (const std::string& file : command.files()) refuse_to_overwrite(file, "--output", command.output);
     if (std::error_code ignored;
         std::filesystem::is_directory(command.input, ignored) && lies_inside(command.output, command.input))
         throw Error(ErrorCode::io, fmt::format("--output is {}, which lies in the run {}. Choose another place.",
@@ -119,7 +137,7 @@ void take_screenshot(const ViewCommand& command, const AppOptions& options) {
     AppOptions own = options;
     own.auto_run = false;
     App app(context->gl(), own);
-    app.open(command.input);
+    app.open_files(command.files());
     wait_for_document(app, command, deadline);
     const Document& document = app.session().document();
     app.show(command.state, command.chosen);

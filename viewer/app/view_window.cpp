@@ -39,7 +39,7 @@ void view_in_window(const ViewCommand& command, const AppOptions& options) {
     const WindowSize last = load_settings(options.config_folder).window;
     Window window("Kerf", at_scale_1(last.width, last.scale), at_scale_1(last.height, last.scale));
     App app(window.gl(), options);
-    if (!command.input.empty()) app.open(command.input);
+    if (!command.input.empty()) app.open_files(command.files());
     const Theme theme = app.state().theme;
     app.show(command.state, command.chosen);
     app.state().theme = command.theme.value_or(theme);
@@ -47,7 +47,8 @@ void view_in_window(const ViewCommand& command, const AppOptions& options) {
     std::string title;
     while (!window.should_close() && !app.wants_to_quit() && !was_interrupted()) {
         if (window.take_events(seconds_to_wait(app))) app.wake();
-        for (const std::string& path : window.take_dropped_files()) app.open(path);
+        if (const std::vector<std::string> dropped = window.take_dropped_files(); !dropped.empty())
+            app.open_files(dropped);
         for (const KeyEvent& event : window.take_key_events()) app.press(event);
         if (!is_applied) is_applied = apply_when_known(app, command);
         if (!app.wants_frame()) continue;

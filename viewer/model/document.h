@@ -12,6 +12,7 @@
 #include "prepare/input.h"
 #include "request/options.h"
 #include "run/trace.h"
+#include "viewer/model/region_places.h"
 #include "viewer/model/solution.h"
 #include "viewer/model/tree.h"
 
@@ -107,7 +108,8 @@ struct Document {
     std::optional<Solution> solution;            ///< that was opened, and stands on these parts
     RunOptions options;                          ///< of the run, or those of the next one
     bool remeshed = false;  ///< the surface that was cut is not that of the file, which is there to compare with
-    std::vector<std::string> region_names;  ///< of several
+    std::vector<std::string> region_names;   ///< of several
+    std::vector<RegionPlace> region_places;  ///< of these; empty: not known (yet)
     std::vector<std::string> patch_names;
     std::vector<std::array<std::uint8_t, 4>> patch_colours;  ///< as Soup has them; empty: none
     Eigen::AlignedBox3d box;                                 ///< of the body

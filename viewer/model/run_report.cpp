@@ -38,6 +38,7 @@ void read_node(const Json& node, Tree& tree) {
     row.vertices = node.at("vertices").get<std::int64_t>();
     row.facets = node.at("faces").get<std::int64_t>();
     row.volume = number(node, "volume");
+    if (row.regions > 1) return;  // which have axes, and are not cut
     row.centroid = vector_of(node.at("centroid"));
     row.eigenvalues = vector_of(node.at("eigenvalues"));
     for (int i = 0; i < 3; ++i) row.axes.col(i) = vector_of(node.at("axes").at(static_cast<std::size_t>(i)));
@@ -62,6 +63,13 @@ void read_part_row(const Json& part, bool meshed, Tree& tree) {
     row.core_tets = part.value("core_tets", std::int64_t{0});
     row.state = part.contains("error") ? NodeState::failed : NodeState::done;
     row.message = part.value("error", "");
+}
+
+// The report says it of parts. Children have larger numbers than their parents.
+void set_regions_of_nodes(Tree& tree) {
+    for (auto row = tree.rows.rbegin(); row != tree.rows.rend(); ++row)
+        if (!row->leaf() && row->regions == 1)
+            if (const TreeRow* child = tree.find(2 * row->id)) row->region = child->region;
 }
 
 std::string option_text(const Json& value) {
@@ -117,6 +125,7 @@ RunReportFile report_from_json(const Json& json) {
                         std::any_of(parts.begin(), parts.end(), [](const Json& p) { return p.contains("error"); });
     report.options.volume = meshed;
     for (const Json& part : parts) read_part_row(part, meshed, report.tree);
+    set_regions_of_nodes(report.tree);
     for (std::size_t i = 0; i < quality_measures.size(); ++i)
         report.histograms[i] = read_histogram(json.at("quality"), quality_measures[i].name);
     report.seconds = number(json.at("totals"), "wall_seconds");
@@ -163,7 +172,7 @@ RunReportFile read_report(const std::string& folder) {
 bool is_trace_of(const Trace& trace, const Tree& tree) {
     std::size_t divided = 0;
     for (const TreeRow& row : tree.rows) {
-        if (row.leaf()) continue;
+        if (row.leaf() || row.regions > 1) continue;
         ++divided;
         const Cut* cut = trace.find(row.id);
         if (!cut || !cut->made()) return false;

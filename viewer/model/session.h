@@ -24,7 +24,8 @@ class Session {
     Session& operator=(const Session&) = delete;
 
     /// Opens a surface file, a trace, a run folder, a solution on one (find_solution()), the folder of a run that is
-    /// under way (DIR or DIR.kerf-partial), or its events (a file of --events). Cancels what was open. Never throws:
+    /// under way (DIR or DIR.kerf-partial), or its events (a file of --events). With InputOptions::more_files these are
+    /// opened with it, and all are surfaces. Cancels what was open. Never throws:
     /// what fails is in document().error. `options`: those of the next run of a surface, by which it is read and
     /// checked; a run and a trace bring theirs.
     void open(const std::string& path, const RunOptions& options = {});

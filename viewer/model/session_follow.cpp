@@ -94,7 +94,7 @@ void Session::Impl::show_input_of_run() {
     if (!exists(followed_->input)) return;
     const auto read = [this, path = followed_->input,
                        input = followed_->options.input_options]() -> Loader::Completion {
-        const auto soup = std::make_shared<const Soup>(read_surface_or_cad(path, input));
+        const auto soup = std::make_shared<const Soup>(read_input_files(path, input).soup);
         Eigen::AlignedBox3d box;
         for (const Vec3& p : soup->vertices)
             if (p.allFinite()) box.extend(p);

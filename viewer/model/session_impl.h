@@ -91,6 +91,7 @@ class Session::Impl {
         std::string folder, trace;         // the trace: where it is, if there is one
         std::vector<std::string> patch_names;
         Eigen::AlignedBox3d box;
+        std::vector<RegionPlace> region_places;
     };
     struct OpenedPartialRun {
         RunOptions options;
@@ -105,8 +106,8 @@ class Session::Impl {
     static OpenedRun read_run(const std::string& folder);
     static OpenedPartialRun read_partial_run(const OpenedPath& path);
     void show_error(ErrorCode code, const std::string& message);
-    void show_soup(const std::shared_ptr<const Soup>& soup, const std::shared_ptr<const NodeSurface>& surface);
-    void check_soup_in_background();
+    void show_files(const std::shared_ptr<const InputFiles>& files, const std::shared_ptr<const NodeSurface>& surface);
+    void check_files_in_background();
     void show_trace(std::shared_ptr<const Trace> trace, const RunOptions& options);
     void show_run(OpenedRun run);
     void complete_from_report(OpenedRun run);
@@ -199,6 +200,7 @@ class Session::Impl {
     std::string kerf_program_;
     Document document_;
     bool opening_ = false;
+    std::shared_ptr<const InputFiles> files_;  // of a surface that was opened; document_.soup is in it
     std::vector<std::string> failures_;
 
     Group open_, data_;

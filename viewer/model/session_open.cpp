@@ -29,9 +29,12 @@ Eigen::AlignedBox3d box_of(const std::vector<Vec3>& points) {
     return box;
 }
 
-std::string title_of(const std::string& path) {
-    const fs::path clean(path);
-    return (clean.has_filename() ? clean : clean.parent_path()).filename().string();
+std::string title_of(const std::string& path, const std::vector<std::string>& more) {
+    const auto name_of = [](const fs::path& clean) {
+        return (clean.has_filename() ? clean : clean.parent_path()).filename().string();
+    };
+    if (more.empty()) return name_of(path);
+    return name_of(path) + " + " + (more.size() == 1 ? name_of(more[0]) : fmt::format("{} files", more.size()));
 }
 
 std::string existing_path(const std::string& path, const std::string& beside) {
@@ -54,21 +57,26 @@ RunOptions options_for(const Trace& trace, const std::string& path) {
     return options;
 }
 
-// What a run would cut, and its mass properties.
+// What a run would cut; mass properties are those of one region.
 struct Oriented {
-    std::int64_t vertices, facets;
-    MassProperties mass;
+    std::int64_t vertices = 0, facets = 0;
+    double volume = 0;
+    std::optional<MassProperties> mass = {};
+    std::vector<std::string> region_names = {};
 };
 Oriented orient_copy(CheckedSoup checked) {
     apply_repairs(checked);
-    SurfaceArrays arrays;
-    arrays.vertices = std::move(checked.soup.vertices);
-    arrays.facets = std::move(checked.soup.facets);
-    arrays.patch = std::move(checked.soup.patch);
-    arrays.vertex_key.assign(arrays.vertices.size(), 0);
-    arrays.facet_key.assign(arrays.facets.size(), 0);
-    const Surface surface(std::move(arrays));
-    return {surface.vertex_count(), surface.facet_count(), mass_properties(surface)};
+    Complex complex = make_complex(std::move(checked.soup));
+    Oriented oriented{complex.vertex_count(), complex.facet_count()};
+    if (complex.region_count() == 1) {
+        oriented.mass = mass_properties(complex.take_only_region());
+        oriented.volume = oriented.mass->volume;
+        return oriented;
+    }
+    for (std::int32_t r = 0; r < complex.region_count(); ++r)
+        oriented.volume += enclosed_volume(complex.surface_of(RegionIndex(r)));
+    oriented.region_names.assign(complex.region_names().begin(), complex.region_names().end());
+    return oriented;
 }
 
 // Surfaces of CAD models are remeshed without being asked.
@@ -90,7 +98,7 @@ std::shared_ptr<const Soup> read_soup_if_there(const std::string& path, const In
     std::error_code ignored;
     if (!fs::exists(path, ignored)) return nullptr;
     try {
-        return std::make_shared<const Soup>(read_surface_or_cad(path, options));
+        return std::make_shared<const Soup>(read_input_files(path, options).soup);
     } catch (const Error&) {
         return nullptr;
     }
@@ -112,6 +120,7 @@ void Session::Impl::close() {
     shows_before_ = false;
     failures_.clear();
     document_ = {};
+    files_.reset();
     opening_ = false;
 }
 
@@ -119,7 +128,7 @@ void Session::Impl::open(const std::string& path, const RunOptions& options) {
     close();
     document_.path = path;
     document_.options = options;
-    document_.title = title_of(path);
+    document_.title = title_of(path, options.input_options.more_files);
     opening_ = true;
     const auto read = [this, path, input = options.input_options]() -> Loader::Completion {
         try {
@@ -132,16 +141,27 @@ void Session::Impl::open(const std::string& path, const RunOptions& options) {
 }
 
 void Session::Impl::reload() {
-    if (!document_.path.empty()) open(std::string(document_.path), RunOptions(document_.options));
+    if (document_.path.empty()) return;
+    RunOptions options = document_.options;
+    const bool is_result = document_.kind == Document::Kind::trace || document_.kind == Document::Kind::run;
+    if (is_result) options.input_options.more_files.clear();  // of the files that it was made of
+    open(std::string(document_.path), options);
 }
 
 Loader::Completion Session::Impl::read_what_is_there(const std::string& path, const InputOptions& input) {
     const OpenedPath what = tell_kind(path);
+    if (!input.more_files.empty())
+        for (const std::string& file : files_of(path, input))
+            if (tell_kind(file).kind != OpenedPath::Kind::surface)
+                throw Error(ErrorCode::usage,
+                            fmt::format("{} is no surface: open it alone. Several files are opened together where each "
+                                        "is the surface of a body.",
+                                        file));
     switch (what.kind) {
         case OpenedPath::Kind::surface: {
-            auto soup = std::make_shared<const Soup>(read_surface_or_cad(path, input));
-            auto surface = std::make_shared<const NodeSurface>(node_surface_of(*soup));
-            return [this, soup, surface] { show_soup(soup, surface); };
+            auto files = std::make_shared<const InputFiles>(read_input_files(path, input));
+            auto surface = std::make_shared<const NodeSurface>(node_surface_of(files->soup));
+            return [this, files, surface] { show_files(files, surface); };
         }
         case OpenedPath::Kind::trace: {
             auto trace = std::make_shared<const Trace>(read_trace(path));
@@ -170,11 +190,13 @@ void Session::Impl::show_error(ErrorCode code, const std::string& message) {
 }
 
 // The surface is there at once: it would wait for the check else.
-void Session::Impl::show_soup(const std::shared_ptr<const Soup>& soup,
-                              const std::shared_ptr<const NodeSurface>& surface) {
+void Session::Impl::show_files(const std::shared_ptr<const InputFiles>& files,
+                               const std::shared_ptr<const NodeSurface>& surface) {
+    const Soup* soup = &files->soup;
     opening_ = false;
+    files_ = files;
     document_.kind = Document::Kind::surface;
-    document_.soup = soup;
+    document_.soup = {files, soup};
     document_.box = box_of(soup->vertices);
     document_.patch_names = soup->patch_names;
     document_.patch_colours = soup->patch_colours;
@@ -186,13 +208,13 @@ void Session::Impl::show_soup(const std::shared_ptr<const Soup>& soup,
     root.vertices = document_.input_vertices;
     root.facets = document_.input_facets;
     store_.insert({Store::Kind::surface, 1}, surface, bytes_of(*surface));
-    check_soup_in_background();
+    check_files_in_background();
 }
 
-void Session::Impl::check_soup_in_background() {
-    const auto check = [this, soup = document_.soup, path = document_.options.input,
+void Session::Impl::check_files_in_background() {
+    const auto check = [this, files = files_, path = document_.options.input,
                         repairs = document_.options.input_options]() -> Loader::Completion {
-        const auto checked = std::make_shared<const CheckedSoup>(check_soup(*soup, repairs));
+        const auto checked = std::make_shared<const CheckedSoup>(check_files(*files, repairs));
         std::optional<Oriented> oriented;
         if (checked->diagnosis.clean()) oriented = orient_copy(*checked);
         const std::string note = oriented ? note_of_slivers(*checked, path) : "";
@@ -201,8 +223,11 @@ void Session::Impl::check_soup_in_background() {
             if (!note.empty() && !is_set(document_.options, *advised_option(note))) add_note(note);
             TreeRow* root = document_.tree.find(1);
             if (!oriented || !root || !root->leaf() || document_.trace) return;  // a run has told more since
-            describe_surface(oriented->vertices, oriented->facets, oriented->mass, *root);
-            document_.volume = oriented->mass.volume;
+            root->vertices = oriented->vertices;
+            root->facets = oriented->facets;
+            root->volume = document_.volume = oriented->volume;
+            if (oriented->mass) describe_surface(oriented->vertices, oriented->facets, *oriented->mass, *root);
+            document_.region_names = oriented->region_names;
         };
     };
     post(open_, check, [this](const std::string& message) { note_failure(message); });
@@ -212,6 +237,7 @@ void Session::Impl::describe_trace_input(const Trace& trace) {
     document_.box = box_of(trace.surface.vertices);
     document_.patch_names = trace.patch_names;
     document_.region_names = trace.region_names;
+    document_.region_places = region_places(trace);
     document_.input_vertices = static_cast<std::int64_t>(trace.surface.vertices.size());
     document_.input_facets = static_cast<std::int64_t>(trace.surface.facets.size());
     document_.volume = enclosed_volume(trace.surface.vertices, trace.surface.facets);
@@ -236,6 +262,8 @@ Session::Impl::OpenedRun Session::Impl::read_run(const std::string& path) {
     run.trace = take_files(run.report.options, folder);
     const std::vector<NodeId> parts = run.report.tree.parts_below(1);
     run.box = box_of_parts(folder, parts);
+    if (const std::size_t count = run.report.region_names.size(); count > 0)
+        run.region_places = region_places(folder, run.report.tree, count);
     if (!parts.empty()) read_part_surface(folder, parts.front(), &run.patch_names);
     return run;
 }
@@ -250,6 +278,7 @@ void Session::Impl::complete_from_report(OpenedRun run) {
     document_.options = report.options;
     document_.histograms = std::move(report.histograms);
     document_.region_names = std::move(report.region_names);
+    document_.region_places = std::move(run.region_places);
     std::erase_if(document_.notes, [&](const std::string& note) {
         const std::optional<OptionText> advice = advised_option(note);
         if (!advice) return false;

@@ -54,7 +54,7 @@ void Session::Impl::start_run(RunOptions options, bool volume) {
     failures_.clear();
     document_.progress = {};
     const std::string input = input_of_next_run();
-    if (input.empty() && !document_.trace) {
+    if (input.empty() && (!document_.trace || !document_.trace->sides.empty())) {
         document_.progress.message = "The surface of the run is not there any more. Open a surface first.";
         return;
     }
@@ -73,9 +73,9 @@ void Session::Impl::start_run(RunOptions options, bool volume) {
     followed_->has_scratch_output = options.output.empty();
     followed_->before = std::move(before);
     const bool checks_again =
-        document_.soup && document_.checked && !same_repairs(options.input_options, document_.options.input_options);
+        files_ && document_.checked && !same_repairs(options.input_options, document_.options.input_options);
     document_.options = options;
-    if (checks_again) check_soup_in_background();
+    if (checks_again) check_files_in_background();
     store_.erase_if([](const Store::Key& key) { return key.kind == Store::Kind::on_surface; });  // of other sizes
     options.input = input.empty() ? scratch.file("surface.mesh") : input;
     follow_files_of(options);

@@ -220,7 +220,8 @@ std::string describe_step(const Document& document, NodeId node, const Step& ste
 
 bool has_no_stages(const Document& document, NodeId node) {
     const TreeRow* row = document.tree.find(node);
-    return !document.progress.running && !document.trace && row && row->state == NodeState::divided;
+    return !document.progress.running && !document.trace && row && row->state == NodeState::divided &&
+           row->regions == 1;
 }
 
 std::vector<FailurePlace> failure_places(const Document& document, NodeId node, const Step& step) {

@@ -27,7 +27,7 @@ struct TreeRow {
     double volume = -1, load = -1;
     double seconds = -1;         ///< of meshing a part, of cutting an inner node
     std::int32_t rank = -1;      ///< that meshed it
-    std::int32_t region = -1;    ///< of several, in which a part lies
+    std::int32_t region = -1;    ///< of several, in which all of it lies
     std::int32_t regions = 1;    ///< in it: a node of several is divided without a cut
     std::string filled_by;       ///< of a part: see name_of_filler()
     std::int64_t core_tets = 0;  ///< of a part: Filling::core_tets

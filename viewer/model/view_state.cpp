@@ -75,6 +75,16 @@ ValueRange range_from(const OrderedJson& json) {
     return {numbers[0], numbers[1]};
 }
 
+OrderedJson write_names(const std::vector<std::string>& names) {
+    OrderedJson json = OrderedJson::array();
+    for (const std::string& name : names) json.push_back(path_text(name));
+    return json;
+}
+
+void read_names(const OrderedJson& json, std::vector<std::string>& names) {
+    for (const OrderedJson& name : json) set_member(names, path_of_text(name.get<std::string>()), true);
+}
+
 OrderedJson write(const Camera& camera) {
     return {{"target", write(camera.target)},
             {"turn", {camera.turn.w(), camera.turn.x(), camera.turn.y(), camera.turn.z()}},
@@ -182,13 +192,21 @@ Selection selection_from(const OrderedJson& json, const std::string& source) {
 
 // The switches of a value, by name: written and read by the same list.
 std::vector<std::pair<const char*, bool*>> switches(ViewState& s) {
-    return {{"edges", &s.edges},           {"context", &s.context},
-            {"plane", &s.plane},           {"axes", &s.axes},
-            {"contour", &s.contour},       {"surface", &s.surface},
-            {"interfaces", &s.interfaces}, {"legend", &s.legend},
-            {"features", &s.features},     {"times", &s.times},
-            {"isolines", &s.isolines},     {"neighbours", &s.neighbours},
-            {"numbers", &s.numbers}};
+    return {{"edges", &s.edges},
+            {"context", &s.context},
+            {"plane", &s.plane},
+            {"axes", &s.axes},
+            {"contour", &s.contour},
+            {"surface", &s.surface},
+            {"interfaces", &s.interfaces},
+            {"legend", &s.legend},
+            {"features", &s.features},
+            {"times", &s.times},
+            {"isolines", &s.isolines},
+            {"neighbours", &s.neighbours},
+            {"numbers", &s.numbers},
+            {"walls", &s.walls},
+            {"explode_regions", &s.explode_regions}};
 }
 std::vector<std::pair<const char*, bool*>> switches(Panels& p) {
     return {{"tree", &p.tree},        {"display", &p.display},       {"timeline", &p.timeline},
@@ -251,32 +269,6 @@ OrderedJson parse(const std::string& text, const std::string& source) {
 
 }  // namespace
 
-ValueRange extent_along(const Eigen::AlignedBox3d& box, const Vec3& n) {
-    const double middle = n.dot(box.center()), half = n.cwiseAbs().dot(box.sizes()) / 2;
-    return {middle - half, middle + half};
-}
-
-void snap_to(Clip& clip, const Plane& plane, const Eigen::AlignedBox3d& box) {
-    const ValueRange range = extent_along(box, plane.normal);
-    clip.on = true;
-    clip.normal = plane.normal;
-    if (range.high > range.low)
-        clip.position = std::clamp((plane.normal.dot(plane.origin) - range.low) / (range.high - range.low), 0., 1.);
-}
-
-bool ViewState::is_hidden(NodeId wanted) const {
-    for (; wanted > 0; wanted /= 2)
-        if (std::binary_search(hidden.begin(), hidden.end(), wanted)) return true;
-    return false;
-}
-
-void ViewState::set_hidden(NodeId changed, bool hide) {
-    const auto place = std::lower_bound(hidden.begin(), hidden.end(), changed);
-    const bool is_there = place != hidden.end() && *place == changed;
-    if (hide && !is_there) hidden.insert(place, changed);
-    if (!hide && is_there) hidden.erase(place);
-}
-
 const char* name(ColorBy color) { return color_texts[static_cast<std::size_t>(color)].name; }
 const char* title(ColorBy color) { return color_texts[static_cast<std::size_t>(color)].title; }
 
@@ -322,6 +314,9 @@ std::string to_json(const ViewState& state, const ViewOrigin& origin) {
     json["deform"] = state.deform;
     json["hidden"] = state.hidden;
     if (state.isolated) json["isolated"] = *state.isolated;
+    json["hidden_regions"] = write_names(state.hidden_regions);
+    json["glass_regions"] = write_names(state.glass_regions);
+    if (state.isolated_region) json["isolated_region"] = path_text(*state.isolated_region);
     json["pick"] = pick_names[static_cast<std::size_t>(state.pick)];
     json["selection"] = write(state.selection);
     json["theme"] = theme_names[static_cast<std::size_t>(state.theme)];
@@ -367,6 +362,9 @@ ViewState state_from_json(const std::string& text, const std::string& source, Vi
              for (const NodeId node : j.get<std::vector<NodeId>>()) s.set_hidden(node, true);
          }},
         {"isolated", [&](const OrderedJson& j) { s.isolated = j.get<NodeId>(); }},
+        {"hidden_regions", [&](const OrderedJson& j) { read_names(j, s.hidden_regions); }},
+        {"glass_regions", [&](const OrderedJson& j) { read_names(j, s.glass_regions); }},
+        {"isolated_region", [&](const OrderedJson& j) { s.isolated_region = path_of_text(j.get<std::string>()); }},
         {"pick",
          [&](const OrderedJson& j) {
              s.pick = static_cast<PickMode>(index_of(pick_names, j.get<std::string>(), "pick mode"));

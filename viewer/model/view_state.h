@@ -1,6 +1,7 @@
 // What is shown and how, as one value: the window, the command line and the tests share it, and it is a JSON file.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -87,6 +88,15 @@ inline constexpr double least_percentile = 60;  ///< of ViewState::percentile
 
 enum class Theme { light, dark };
 
+/// Puts an item into an ascending list, or takes it out.
+template <class T>
+void set_member(std::vector<T>& ascending, const T& item, bool is_member) {
+    const auto place = std::lower_bound(ascending.begin(), ascending.end(), item);
+    const bool is_there = place != ascending.end() && *place == item;
+    if (is_member && !is_there) ascending.insert(place, item);
+    if (!is_member && is_there) ascending.erase(place);
+}
+
 /// What a click selects.
 enum class PickMode { facet, cell, vertex };
 
@@ -138,13 +148,18 @@ struct ViewState {
     bool times = true;           ///< seconds in the tree
     std::vector<NodeId> hidden;  ///< ascending; what lies below them is not shown
     std::optional<NodeId> isolated;
+    std::vector<std::string> hidden_regions;     ///< names, ascending; a document without them shows all it has
+    std::vector<std::string> glass_regions;      ///< the same: translucent, so that what they hold is seen
+    std::optional<std::string> isolated_region;  ///< the only one that is shown, where there is one of this name
+    bool walls = false;                          ///< of parts: only facets between two regions
+    bool explode_regions = false;                ///< `explode` moves regions as wholes
     PickMode pick = PickMode::facet;
     Selection selection;
     Theme theme = Theme::light;
     Panels panels;
 
     bool is_hidden(NodeId node) const;
-    void set_hidden(NodeId node, bool hidden);
+    void set_hidden(NodeId changed, bool hide) { set_member(hidden, changed, hide); }
 
     bool operator==(const ViewState&) const = default;
 };

@@ -9,6 +9,7 @@
 
 #include "core/number_text.h"
 #include "core/words.h"
+#include "viewer/model/shown_parts.h"
 #include "viewer/panels/parts.h"
 
 namespace kerf::view {
@@ -46,7 +47,7 @@ Content content_of(const Document& document, const ViewState& state) {
     for (const NodeId part : document.tree.parts_below(state.node)) {
         const TreeRow& row = *document.tree.find(part);
         ++content.parts;
-        if (state.is_hidden(part) || (state.isolated && !lies_below(part, *state.isolated))) continue;
+        if (!shows_node(state, document, part)) continue;
         ++content.shown;
         content.filled += row.tets > 0 ? 1 : 0;
         content.tets += std::max<std::int64_t>(row.tets, 0);
@@ -101,6 +102,27 @@ std::string size_text(const Eigen::AlignedBox3d& box) {
                        rounded(size.z()));
 }
 
+// Which regions are shown, and how, where that is not as usual.
+std::vector<std::string> region_lines(const Document& document, const ViewState& state) {
+    std::vector<std::string> lines, glass, hidden;
+    for (const std::string& region : document.region_names) {
+        if (state.isolated_region == region) lines.push_back("Only region " + region);
+        if (is_hidden(state, region)) hidden.push_back(region);
+        if (is_glass(state, region)) glass.push_back(region);
+    }
+    if (state.walls) lines.emplace_back("Only walls between regions");
+    const auto add = [&](const char* what, const std::vector<std::string>& names) {
+        constexpr std::size_t most = 6;
+        if (names.size() > most)
+            lines.push_back(fmt::format("{} {} regions", what, names.size()));
+        else if (!names.empty())
+            lines.push_back(fmt::format("{} region{} {}", what, names.size() > 1 ? "s" : "", fmt::join(names, ", ")));
+    };
+    add("Without", hidden);
+    add("As glass:", glass);
+    return lines;
+}
+
 // In lines that are no wider, broken between words alone: ImGui breaks numbers at their commas.
 std::string broken(const std::string& text, float width) {
     std::string all, line, word;
@@ -149,6 +171,8 @@ std::vector<CaptionLine> caption_of(const UiContext& context, float room) {
     std::vector<std::string> hidden;
     for (const NodeId node : state.hidden) hidden.push_back(beginning_small(body_of(document, node)));
     if (!hidden.empty()) add(fmt::format("Without {}", fmt::join(hidden, ", ")), colors.dim);
+    if (document.region_names.size() > 1)
+        for (const std::string& line : region_lines(document, state)) add(line, colors.dim);
     return lines;
 }
 

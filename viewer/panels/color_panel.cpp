@@ -98,7 +98,7 @@ void fly_to_cell(UiContext& context, const WorstCell& cell) {
     ViewState& state = context.state;
     if (!lies_below(cell.part, state.node)) state.node = cell.part;
     state.step = {Stage::tetrahedra, -1};
-    reveal(state, cell.part);
+    reveal(context, cell.part);
     context.actions.fly_to(cell.center, 0.02 * diagonal_of(context.session.document()), Vec3::Zero());
     state.selection = {Selection::Kind::cell, cell.part, cell.cell, cell.center};
     context.actions.turn_to_selection();

@@ -71,6 +71,9 @@ void draw_icon(ImDrawList& list, Icon icon, const ImVec2& center, float size, Im
         case Icon::isolate:
             pen.circle(0.72f);
             return pen.disc(0.32f);
+        case Icon::glass:  // one thing seen through another
+            pen.frame(-0.8f, -0.8f, 0.35f, 0.35f);
+            return pen.frame(-0.35f, -0.35f, 0.8f, 0.8f);
         case Icon::play:
             return pen.triangle({0.8f, 0}, {-0.55f, -0.8f}, {-0.55f, 0.8f});
         case Icon::pause:

@@ -9,7 +9,23 @@ namespace kerf::view {
 
 class Widgets;
 
-enum class Icon { eye, eye_closed, isolate, play, pause, left, right, up, down, folder, run, surface, trace, file };
+enum class Icon {
+    eye,
+    eye_closed,
+    isolate,
+    glass,
+    play,
+    pause,
+    left,
+    right,
+    up,
+    down,
+    folder,
+    run,
+    surface,
+    trace,
+    file
+};
 
 /// Within a square of side `size` about `center`.
 void draw_icon(ImDrawList& list, Icon icon, const ImVec2& center, float size, ImU32 color);

@@ -17,6 +17,8 @@ class Actions {
  public:
     virtual ~Actions() = default;
     virtual void open(const std::string& path) = 0;
+    virtual void open_files(
+        const std::vector<std::string>& paths) = 0;  ///< together, at least one; see Session::open()
     virtual void reload() = 0;
     virtual void open_again(const RunOptions& options) = 0;  ///< what is open, read by them
     virtual void fit_all() = 0;

@@ -83,6 +83,8 @@ void draw_tree(UiContext& context, Memory& memory);
 void draw_selection(UiContext& context);
 void draw_problems(UiContext& context, Memory& memory);
 void draw_display(UiContext& context);
+/// Of bodies of several regions: what is shown of each, and whether they move as wholes.
+void draw_regions(UiContext& context);
 void draw_clip(UiContext& context, Memory& memory);
 void draw_color(UiContext& context, Memory& memory);
 void draw_color_bar(UiContext& context, Memory& memory);
@@ -108,10 +110,12 @@ void draw_plane_handles(UiContext& context, Memory& memory, const Rectangle& sce
 
 /// Shows another node, at the step nearest to the one that is shown.
 void go_to_node(UiContext& context, NodeId node);
-/// Shows a node again, and what it lies below.
-void reveal(ViewState& state, NodeId node);
+/// Shows a node again, its region, and what it lies below.
+void reveal(UiContext& context, NodeId node);
 /// The colour of a part in the scene, where parts have one.
 const Color* part_color(const SceneFacts& facts, const ViewState& state, NodeId part);
+/// The colour that the legend explains by this text; null if there is none.
+const Color* color_in_legend(const SceneFacts& facts, const std::string& text);
 /// Where Document::histograms has a measure; -1: it is none.
 int histogram_number(ColorBy color);
 /// Of the colouring: of all cells as far as is known, else of what is shown.

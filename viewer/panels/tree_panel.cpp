@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "viewer/model/shown_parts.h"
 #include "viewer/panels/icons.h"
 #include "viewer/panels/parts.h"
 #include "viewer/panels/tree_columns.h"
@@ -12,9 +13,9 @@ namespace kerf::view {
 
 namespace {
 
-bool is_shown(const ViewState& state, NodeId node) {
+bool is_shown(const ViewState& state, const Document& document, NodeId node) {
     if (state.is_hidden(node)) return false;
-    return !state.isolated || lies_below(node, *state.isolated) || lies_below(*state.isolated, node);
+    return shows_node(state, document, node) || (state.isolated && lies_below(*state.isolated, node));
 }
 
 // Two digits behind the point as long as they mean anything.
@@ -130,7 +131,7 @@ class TreeTable {
     }
 
     void draw_row(const TreeRow& row) {
-        const float alpha = is_shown(context_.state, row.id) ? 1 : 0.45f;
+        const float alpha = is_shown(context_.state, context_.session.document(), row.id) ? 1 : 0.45f;
         text_ = faded(colors_.text, alpha);
         ImGui::PushID(row.id);
         ImGui::TableNextRow(0, row_height());
@@ -216,7 +217,7 @@ class TreeTable {
         if (icon_button(context_.widgets, fmt::format("show {}", row.id), hidden ? Icon::eye_closed : Icon::eye,
                         line_height(), hidden ? packed(colors_.warning) : quiet,
                         hidden ? "Hidden: show it again" : "Hide it and what lies below"))
-            hidden ? reveal(state, row.id) : state.set_hidden(row.id, true);
+            hidden ? reveal(context_, row.id) : state.set_hidden(row.id, true);
         ImGui::SameLine(0, 0.1f * em());
         if (icon_button(context_.widgets, fmt::format("isolate {}", row.id), Icon::isolate, line_height(),
                         isolated ? packed(colors_.accent) : quiet,
@@ -292,7 +293,8 @@ void draw_column_menu(UiContext& context, Memory& memory) {
 void draw_tree_head(UiContext& context, Memory& memory) {
     ViewState& state = context.state;
     const float gap = 0.4f * em(), right = ImGui::GetContentRegionMax().x;
-    const bool some_hidden = !state.hidden.empty() || state.isolated;
+    const bool some_hidden =
+        !state.hidden.empty() || state.isolated || !state.hidden_regions.empty() || state.isolated_region;
     const float all = some_hidden ? width_of_button("Show all") + gap : 0, columns = width_of_button("Columns");
     ImGui::AlignTextToFramePadding();
     const std::string text = summary(context.session.document());
@@ -305,6 +307,8 @@ void draw_tree_head(UiContext& context, Memory& memory) {
     if (context.widgets.button("Show all", "Hides nothing and isolates nothing any more")) {
         state.hidden.clear();
         state.isolated.reset();
+        state.hidden_regions.clear();
+        state.isolated_region.reset();
     }
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <imgui_internal.h>  // whether any popup is open
 
+#include "viewer/model/shown_parts.h"
 #include "viewer/panels/parts.h"
 
 namespace kerf::view {
@@ -61,6 +62,7 @@ void draw_right(UiContext& context, Memory& memory, const Layout& layout) {
     const Panels panels = context.state.panels;
     if (panels.display) {
         draw_display(context);
+        draw_regions(context);
         draw_clip(context, memory);
     }
     if (panels.display || panels.quality) draw_color(context, memory);
@@ -164,8 +166,9 @@ void go_to_node(UiContext& context, NodeId node) {
     if (!steps.empty()) context.state.step = steps[nearest_step(steps, context.state.step)];
 }
 
-void reveal(ViewState& state, NodeId node) {
-    for (; node > 0; node /= 2) state.set_hidden(node, false);
+void reveal(UiContext& context, NodeId node) {
+    if (const std::string* region = region_of(context.session.document(), node)) reveal_region(context.state, *region);
+    for (; node > 0; node /= 2) context.state.set_hidden(node, false);
 }
 
 void scroll_to_row(float top, float height) {
@@ -193,10 +196,12 @@ bool input_on_leaving(Widgets& widgets, const char* label, float width, double v
 }
 
 const Color* part_color(const SceneFacts& facts, const ViewState& state, NodeId part) {
-    if (state.color != ColorBy::part) return nullptr;
-    const std::string name = "part " + std::to_string(part);
+    return state.color == ColorBy::part ? color_in_legend(facts, "part " + std::to_string(part)) : nullptr;
+}
+
+const Color* color_in_legend(const SceneFacts& facts, const std::string& text) {
     for (const LegendEntry& entry : facts.categories)
-        if (entry.text == name) return &entry.color;
+        if (entry.text == text) return &entry.color;
     return nullptr;
 }
 

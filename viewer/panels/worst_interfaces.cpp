@@ -77,7 +77,7 @@ class WorstInterfaces {
     void choose(NodeId node) {
         memory_.chosen_interface = memory_.awaited_interface = node;
         context_.state.step = {Stage::interface, -1};
-        reveal(context_.state, node);
+        reveal(context_, node);
         go_to_node(context_, node);
     }
 

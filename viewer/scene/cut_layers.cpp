@@ -57,7 +57,7 @@ Color SceneBuild::color_of(Stage stage) const {
 
 // Along each axis twice the standard deviation of the vertices.
 void SceneBuild::add_axes(const TreeRow& row) {
-    if (!state_.axes) return;
+    if (!state_.axes || row.regions > 1) return;
     built_.pending |= !row.centroid;
     if (!row.centroid || row.vertices <= 0) return;
     const double half_trace = row.eigenvalues.sum() / 2;

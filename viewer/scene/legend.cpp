@@ -214,16 +214,11 @@ void SceneBuild::explain_parts() {
     std::set<std::int32_t> seen;
     for (const NodeId part : drawn_parts()) {
         const TreeRow& row = *document_.tree.find(part);
-        const std::int32_t value = state_.color == ColorBy::rank     ? row.rank
-                                   : state_.color == ColorBy::region ? row.region
-                                                                     : level_of(part);
+        const std::int32_t value = state_.color == ColorBy::rank ? row.rank : level_of(part);
         if (state_.color == ColorBy::part)
             explain(fmt::format("part {}", part), color_of(part));
         else if (value >= 0 && seen.insert(value).second)
-            explain(state_.color == ColorBy::region && value < std::ssize(document_.region_names)
-                        ? document_.region_names[static_cast<std::size_t>(value)]
-                        : fmt::format("{} {}", name(state_.color), value),
-                    color_of(part));
+            explain(fmt::format("{} {}", name(state_.color), value), color_of(part));
     }
 }
 
@@ -238,6 +233,8 @@ void SceneBuild::explain_coloring() {
         if (drawn.contains(1)) explain("cells at an interface", category_color(1));
     } else if (state_.color == ColorBy::origin) {
         explain_origins();
+    } else if (state_.color == ColorBy::region) {
+        explain_regions();
     } else {
         explain_parts();
     }

@@ -60,6 +60,7 @@ void SceneBuild::add_part(NodeId part) {
     const std::vector<Vec3> moved = moved_places(surface->vertices, solution.get());
     const Eigen::AlignedBox3d box = box_of(moved.empty() ? surface->vertices : moved);
     if (ring_ && !touches(*surface, *ring_) && part != state_.selection.owner) return;
+    const PartFacets chosen = ring_ ? PartFacets() : chosen_facets(part, *surface);
     bool by_cells = state_.shrink > 0 || has_filter() || ring_;
     if (side_) {
         const double middle = side_->distance(box.center());
@@ -68,9 +69,15 @@ void SceneBuild::add_part(NodeId part) {
         by_cells |= middle + half > 0;
     }
     extend_by_facets(moved.empty() ? surface->vertices : moved, surface->facets, offset);
+    by_cells &= chosen.all;
     if (by_cells && add_cells(part, *surface, offset)) return;
     if (by_cells) built_.pending = true;
+    add_part_facets(part, surface, chosen, moved, solution);
+}
 
+void SceneBuild::add_part_facets(NodeId part, const std::shared_ptr<const NodeSurface>& surface,
+                                 const PartFacets& chosen, const std::vector<Vec3>& moved,
+                                 const std::shared_ptr<const PartSolution>& solution) {
     std::shared_ptr<const std::vector<float>> values;
     if (needs_values()) {
         values = session_.facet_values(part, state_.color);
@@ -87,16 +94,20 @@ void SceneBuild::add_part(NodeId part) {
     if (!at_vertices.empty()) choice.vertex_value = at_vertices;
     if (shows_error) choice.value = solution->error_at_facet;
     choice.places = moved;
+    if (!chosen.all) choice.wanted = [&](std::int32_t f) { return chosen.wants(*surface, f); };
     const std::shared_ptr<const void> source = solution     ? std::shared_ptr<const void>(solution)
                                                : values     ? std::shared_ptr<const void>(values)
                                                : on_surface ? std::shared_ptr<const void>(on_surface)
                                                             : surface;
     const bool is_colored = values || on_surface || !patches.empty() || !at_vertices.empty() || shows_error;
-    const std::string key =
-        fmt::format("part {} {} {}{}", part, shading_key(), is_colored ? name(state_.color) : "plain", solution_key());
+    const std::string key = fmt::format("part {} {} {}{}{}", part, shading_key(),
+                                        is_colored ? name(state_.color) : "plain", solution_key(), chosen.key());
     const auto geometry = cache_.get(key, source, [&] { return facet_triangles(*surface, built_.frame, choice); });
-    Layer& layer = add(fmt::format("part {}", part), geometry, color_of(part), part, offset);
-    layer.closed = true;
+    if (geometry->corners.empty()) return;
+    Layer& layer = add(fmt::format("part {}", part), geometry, color_of(part), part, offset_of(part, state_.node));
+    layer.closed = chosen.all;
+    layer.two_sided = !chosen.all;
+    if (is_glass(state_, document_, part)) make_glass(layer);
     if (values) layer.fill = fill_of_values();
     if (on_surface || shows_error || !at_vertices.empty()) layer.fill = Fill::scale;
     if (!patches.empty()) layer.fill = Fill::categories;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "viewer/model/shown_parts.h"
 #include "viewer/model/surface_values.h"
 #include "viewer/model/timeline.h"
 #include "viewer/scene/cell_shapes.h"
@@ -21,7 +22,8 @@ inline constexpr float contour_pixels = 3.5f, thin_pixels = 1.5f, feature_pixels
 
 inline constexpr float context_opacity = 0.22f, glass_opacity = 0.3f;
 
-/// One scene under construction. Its layers come from several files: cut_layers, part_layers, defect_layers, legend.
+/// One scene under construction. Its layers come from several files: cut_layers, part_layers, region_layers,
+/// defect_layers, legend.
 class SceneBuild {
  public:
     SceneBuild(const ViewState& state, Session& session, GeometryCache& cache)
@@ -47,6 +49,21 @@ class SceneBuild {
         std::shared_ptr<const void> source;
         Fill fill = Fill::plain;
         CellChoice choice;
+    };
+
+    // Which facets of a part's surface are drawn where not all are: walls alone, or those of a region of glass.
+    struct PartFacets {
+        bool all = true;
+        bool outer = true;          // what no other part lies behind
+        std::set<NodeId> left_out;  // parts, of which those in front are not drawn
+
+        bool wants(const NodeSurface& surface, std::int32_t facet) const {
+            const std::int32_t neighbour = surface.neighbour[static_cast<std::size_t>(facet)];
+            return neighbour < 0 ? outer : !left_out.contains(neighbour);
+        }
+        std::string key() const {
+            return all ? "" : fmt::format(" {}without {}", outer ? "" : "outer, ", fmt::join(left_out, " "));
+        }
     };
 
     Layer& add(const std::string& name, std::shared_ptr<const Geometry> geometry, const Color& color, NodeId owner = 0,
@@ -83,6 +100,12 @@ class SceneBuild {
     void add_parts();
     void add_part_surfaces();
     void add_part(NodeId part);
+    void add_part_facets(NodeId part, const std::shared_ptr<const NodeSurface>& surface, const PartFacets& chosen,
+                         const std::vector<Vec3>& moved, const std::shared_ptr<const PartSolution>& solution);
+    PartFacets chosen_facets(NodeId part, const NodeSurface& surface) const;
+    bool is_met(NodeId part, NodeId neighbour) const;
+    void make_glass(Layer& layer) const;
+    void explain_regions();
     bool add_cells(NodeId part, const NodeSurface& surface, const Vec3& offset);
     bool find_cell_colors(const std::shared_ptr<const PartCells>& cells, const NodeSurface& surface,
                           CellColors& colors);
@@ -112,9 +135,7 @@ class SceneBuild {
     void explain_axes();
     void explain_interfaces();
 
-    bool is_shown(NodeId part) const {
-        return !state_.is_hidden(part) && (!state_.isolated || lies_below(part, *state_.isolated));
-    }
+    bool is_shown(NodeId node) const { return shows_node(state_, document_, node); }
     bool shows_parts() const { return step_.stage == Stage::parts || step_.stage == Stage::tetrahedra; }
     // Colours follow from numbers, for which there is a scale.
     bool shows_values() const {
@@ -126,9 +147,7 @@ class SceneBuild {
                       FacetChoice& choice) const;
     bool has_filter() const { return state_.filter && is_measure(state_.color) && !ring_; }
     bool needs_values() const { return is_measure(state_.color) || is_kind(state_.color); }
-    Vec3 offset_of(NodeId part, NodeId root) const {
-        return explosion_offset(document_.tree, part, root, state_.explode, document_.box.diagonal().norm());
-    }
+    Vec3 offset_of(NodeId part, NodeId root) const;
     Color color_of(NodeId part) const;
     Color color_of(Stage stage) const;
     Fill fill_of_values() const { return is_kind(state_.color) ? Fill::categories : Fill::scale; }
@@ -174,6 +193,7 @@ class SceneBuild {
     std::optional<std::array<std::int64_t, 4>> ring_;  // global numbers of the cell whose neighbours are shown
     std::map<NodeId, std::size_t> part_order_;
     std::vector<float> palette_of_patch_;  // where colours are those of the file
+    std::vector<Vec3> moves_of_regions_;   // where these are pulled apart
     Step step_;
 };
 

@@ -11,7 +11,6 @@ namespace kerf::view {
 namespace {
 
 constexpr float shell_opacity = 0.55f, shell_front_share = 0.12f;  // of the node's surface around what is inside
-constexpr float context_front_share = 0.4f;
 
 bool is_facet_shown(const NodeSurface& surface, std::int32_t facet, const ShownSide& side, ClipStyle style) {
     const Triangle& t = surface.facets[static_cast<std::size_t>(facet)];
@@ -112,14 +111,18 @@ Layer* SceneBuild::add_surface(const std::string& name, const std::shared_ptr<co
     choice.smooth = state_.shading == Shading::smooth;
     choice.shrink = state_.shrink;
     const bool by_facets = side_ && state_.clip.style != ClipStyle::smooth;
-    if (by_facets)
-        choice.wanted = [&](std::int32_t f) { return is_facet_shown(*surface, f, *side_, state_.clip.style); };
+    const PartFacets chosen = chosen_facets(owner, *surface);
+    if (by_facets || !chosen.all)
+        choice.wanted = [&](std::int32_t f) {
+            return (!by_facets || is_facet_shown(*surface, f, *side_, state_.clip.style)) &&
+                   (chosen.all || chosen.wants(*surface, f));
+        };
     const std::vector<float> patches = patch_values(*surface);
     const auto values = values_on(surface);
     color_facets(*surface, values.get(), patches, choice);
-    const std::string key = fmt::format("{} of {} {} {} {}", name, owner, shading_key(),
+    const std::string key = fmt::format("{} of {} {} {} {}{}", name, owner, shading_key(),
                                         by_facets ? clip_key(state_.shrink) : fmt::format("shrink {}", state_.shrink),
-                                        values || !patches.empty() ? view::name(state_.color) : "plain");
+                                        values || !patches.empty() ? view::name(state_.color) : "plain", chosen.key());
     const std::shared_ptr<const void> source = values ? std::shared_ptr<const void>(values) : surface;
     auto geometry = cache_.get(key, source, [&] { return facet_triangles(*surface, built_.frame, choice); });
     extend_by_facets(surface->vertices, surface->facets, offset);
@@ -142,7 +145,9 @@ Layer* SceneBuild::add_surface(const std::string& name, const std::shared_ptr<co
     if (state_.interfaces && interface.count > 0) layer.ranges.push_back(interface);
     std::size_t shown = 0;
     for (const Range& range : layer.ranges) shown += range.count;
-    layer.closed = shown == surface->facets.size() && state_.shrink == 0 && is_outward(document_);
+    layer.closed = chosen.all && shown == surface->facets.size() && state_.shrink == 0 && is_outward(document_);
+    layer.two_sided = !chosen.all;
+    if (shows_parts() && is_glass(state_, document_, owner)) make_glass(layer);
     return &layer;
 }
 
@@ -215,11 +220,8 @@ void SceneBuild::add_context() {
                                    [&] { return facet_triangles(*surface, built_.frame, choice); });
         if (geometry->corners.empty()) continue;
         Layer& layer = add(fmt::format("context {}", other), geometry, colors_.context);
-        layer.opacity = context_opacity;
-        layer.front_share = context_front_share;
-        layer.edges = false;
+        make_glass(layer);
         layer.smooth = true;
-        layer.two_sided = true;
         extend(document_.box);
     }
 }
@@ -251,6 +253,7 @@ BuiltScene SceneBuild::run() {
         side_ = shown_side(state_.clip, document_.box);
         built_.scene.clip = clip_plane(*side_, built_.frame);
     }
+    if (state_.explode > 0) moves_of_regions_ = moves_apart(document_.region_places);
     set_colors();
     if (document_.kind == Document::Kind::none || document_.box.isEmpty()) return std::move(built_);
 
