@@ -75,8 +75,7 @@ TEST_F(RegionsShown, TheRunIsOpenedWithItsTrace) {
     const TreeRow& root = document().tree.rows.front();
     EXPECT_EQ(root.regions, 2);
     EXPECT_FALSE(root.centroid) << "several regions have none";
-    for (const TreeRow& row : document().tree.rows)
-        EXPECT_EQ(row.region >= 0, row.id > 1) << "node " << row.id;
+    for (const TreeRow& row : document().tree.rows) EXPECT_EQ(row.region >= 0, row.id > 1) << "node " << row.id;
 }
 
 TEST_F(RegionsShown, AreHiddenIsolatedAndShownByTheirButtons) {
