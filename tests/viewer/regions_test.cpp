@@ -1,4 +1,5 @@
 // Bodies of several regions in the viewer: opened, shown, made glass, and pulled apart.
+#include <algorithm>
 #include <array>
 #include <map>
 #include <set>
@@ -174,6 +175,23 @@ TEST_F(RegionsShown, MoveAsWholes) {
         if (!wholes) continue;
         const float apart = (*offsets["cement"].begin())[2] - (*offsets["bone"].begin())[2];
         EXPECT_NEAR(apart, document().box.sizes().z() * 2 / document().box.diagonal().norm(), 1e-5);
+    }
+}
+
+TEST_F(RegionsShown, WhatIsPickedNamesThem) {
+    for (const NodeId part : document().tree.parts_below(1)) {
+        const auto surface = driver_->app().session().part_surface(part);
+        ASSERT_TRUE(surface);
+        const auto wall = std::find_if(surface->neighbour.begin(), surface->neighbour.end(), [&](std::int32_t other) {
+            return other >= 0 && region_of(document(), other) != region_of(document(), part);
+        });
+        if (wall == surface->neighbour.end()) continue;
+        const auto facet = static_cast<std::int32_t>(wall - surface->neighbour.begin());
+        state().selection = {Selection::Kind::facet, part, facet, {}};
+        driver_->settle();
+        const std::string& text = driver_->app().facts().selection;
+        for (const std::string region : regions)
+            EXPECT_NE(text.find(" in region '" + region + "'"), std::string::npos) << text;
     }
 }
 

@@ -141,6 +141,7 @@ class LegendBox {
         list_.AddRect(from, {from.x + width, from.y + bar_height_}, packed(colors_.dim));
     }
 
+    static std::string more_text(std::size_t count) { return fmt::format("+ {} more", count); }
     float line_height() const { return ImGui::GetTextLineHeight() + 0.15f * em(); }
     static float sample_width() { return 1.1f * em(); }
 
@@ -156,11 +157,13 @@ class LegendBox {
             column_width_ = std::max(column_width_, sample + width_of(names_.back()));
             if (names_.size() == most_categories) break;
         }
+        if (entries.size() > names_.size())
+            column_width_ = std::max(column_width_, sample + width_of(more_text(entries.size())));
         const float columns = is_wide(scene_) ? 1 : std::max(1.f, std::floor(widest_ / (column_width_ + e)));
         shown_ = std::min(names_.size(), rows * static_cast<std::size_t>(columns));
         if (entries.size() > shown_) {
             shown_ = std::min(shown_, rows * static_cast<std::size_t>(columns) - (rows > 1 ? 1 : 0));
-            more_ = fmt::format("+ {} more", entries.size() - shown_);
+            more_ = more_text(entries.size() - shown_);
         }
         const std::size_t cells = shown_ + (more_.empty() ? 0 : 1);
         rows_ = std::min(rows, cells);

@@ -169,7 +169,7 @@ class TreeTable {
         const float number = cell.x + tree_indent * em() * static_cast<float>(level) + em();  // right of what folds it
         context_.widgets.record(fmt::format("node {}", row.id), {number, from.y},
                                 {from.x + width, ImGui::GetItemRectMax().y});
-        if (ImGui::IsItemHovered()) explain(details(row));
+        if (ImGui::IsItemHovered()) explain(details(row, region_of(context_.session.document(), row.id)));
         draw_guides(cell, level);
         ImGui::SameLine(left, 0);
         const ImVec2 at = ImGui::GetCursorScreenPos();

@@ -67,11 +67,12 @@ std::string word_of(const TreeRow& row, bool running) {
     return row.cut ? in_words(name(row.cut->strategy)) : "cut";
 }
 
-std::string details(const TreeRow& row) {
+std::string details(const TreeRow& row, const std::string* region) {
     Lines lines;
     lines.add("node", static_cast<std::int64_t>(row.id));
     lines.add("state", std::string(name(row.state)));
     if (row.regions > 1) lines.add("regions", static_cast<std::int64_t>(row.regions));
+    if (region) lines.add("region", *region);
     if (row.leaves > 1) lines.add("parts below", static_cast<std::int64_t>(row.leaves));
     lines.add("facets", row.facets);
     lines.add("vertices", row.vertices);

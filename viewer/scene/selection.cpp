@@ -13,6 +13,7 @@
 #include "mesh/quality.h"
 #include "mesh/tet_mesh.h"
 #include "viewer/model/line_of_sight.h"
+#include "viewer/model/shown_parts.h"
 
 namespace kerf::view {
 
@@ -46,9 +47,15 @@ bool is_leaf(const Document& document, NodeId node) {
     return row && row->leaf();
 }
 
+// Where there are several.
+std::string in_region(const Document& document, NodeId node) {
+    const std::string* region = region_of(document, node);
+    return region ? fmt::format(" in region '{}'", *region) : "";
+}
+
 std::string owner_text(const Document& document, NodeId owner) {
     if (owner == 0) return "the surface before remeshing";
-    return fmt::format("{} {}", is_leaf(document, owner) ? "part" : "node", owner);
+    return fmt::format("{} {}{}", is_leaf(document, owner) ? "part" : "node", owner, in_region(document, owner));
 }
 
 std::string vertex_line(const char* label, std::int32_t index, std::int64_t number, const Vec3& p) {
@@ -65,7 +72,8 @@ std::string describe_facet(Session& session, const NodeSurface& surface, NodeId 
             fmt::format("facet {} of the {}\n", number, document.remeshed && owner > 0 ? "remeshed surface" : "input");
     if (interface > 0) text += fmt::format("interface of the cut of node {}\n", interface);
     if (!surface.neighbour.empty() && surface.neighbour[facet] >= 0)
-        text += fmt::format("part {} behind it\n", surface.neighbour[facet]);
+        text += fmt::format("part {} behind it{}\n", surface.neighbour[facet],
+                            in_region(document, surface.neighbour[facet]));
     const std::int32_t patch = surface.patch.empty() ? -1 : surface.patch[facet];
     if (patch >= 0 && static_cast<std::size_t>(patch) < document.patch_names.size())
         text += fmt::format("patch '{}'\n", document.patch_names[static_cast<std::size_t>(patch)]);
@@ -95,8 +103,8 @@ std::string describe_vertex(const NodeSurface& surface, const std::string& owner
     return text + fmt::format("{} facets around it: {}\n", facets.size(), fmt::join(facets, ", "));
 }
 
-std::string describe_cell(const PartCells& cells, std::size_t cell) {
-    std::string text = fmt::format("cell {} of part {}\n", cell, cells.part);
+std::string describe_cell(const Document& document, const PartCells& cells, std::size_t cell) {
+    std::string text = fmt::format("cell {} of {}\n", cell, owner_text(document, cells.part));
     std::array<Vec3, 4> p;
     for (std::size_t k = 0; k < 4; ++k) {
         const auto v = static_cast<std::size_t>(cells.tets[cell][k]);
@@ -205,7 +213,7 @@ std::string describe_mesh(Session& session, const Selection& s) {
     const auto index = static_cast<std::size_t>(s.index);
     if (s.kind == Selection::Kind::cell) {
         const auto cells = session.cells(s.owner);
-        return cells && index < cells->tets.size() ? describe_cell(*cells, index) : "";
+        return cells && index < cells->tets.size() ? describe_cell(session.document(), *cells, index) : "";
     }
     const auto surface = surface_of(session, s.owner);
     if (!surface) return "";
