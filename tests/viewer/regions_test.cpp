@@ -12,6 +12,7 @@
 #include "support/program.h"
 #include "support/temporary_folder.h"
 #include "viewer/driver.h"
+#include "viewer/golden_image.h"
 #include "viewer/model/shown_parts.h"
 
 namespace kerf::test {
@@ -206,6 +207,17 @@ TEST_F(RegionsShown, PicturesNameWhatThereIs) {
     };
     EXPECT_EQ(answer({run_folder(), "--hide-region", "bone", "--glass-region", "cement", "--walls"}), "0 ");
     EXPECT_EQ(answer({run_folder(), "--isolate-region", "cement", "--explode", "1", "--explode-regions"}), "0 ");
+    // Patches are seen on surfaces, too, but walls on parts alone.
+    const auto blue = [&] {
+        std::int64_t count = 0;
+        const Image picture = read_png(folder_->file("a.png"));
+        for (std::size_t i = 0; i < picture.rgb.size(); i += 3) count += picture.rgb[i] + 60 < picture.rgb[i + 2];
+        return count;
+    };
+    EXPECT_EQ(answer({run_folder(), "--color", "patch"}), "0 ");
+    const std::int64_t of_surface = blue();
+    EXPECT_EQ(answer({run_folder(), "--color", "patch", "--walls"}), "0 ");
+    EXPECT_LT(blue(), of_surface / 2) << "the wall is inside";
     const std::string unknown = answer({run_folder(), "--glass-region", "bone", "--hide-region", "bane"});
     EXPECT_EQ(unknown, "2 kerf: " + run_folder() + " has no region 'bane', but 'bone', 'cement'.\n");
     const std::string one = answer({asset_path("cube"), "-n", "2", "--walls"});

@@ -246,10 +246,11 @@ void apply(const SceneOptions& options, ViewCommand& command) {
     if (options.node > 0) state.node = options.node;
     // What only cells have is not to be asked for in vain.
     const bool is_of_cells = !options.color.empty() || options.explode > 0 || options.shrink > 0 ||
-                             !options.filter.empty() || !options.deform.empty() || is_of_regions(options);
+                             !options.filter.empty() || !options.deform.empty();
     if (!options.stage.empty())
         state.step = step_from_name(options.stage);
-    else if (is_of_cells && options.state_file.empty() && !is_seen_on_surfaces(options.color))
+    else if (options.state_file.empty() &&
+             (is_of_regions(options) || (is_of_cells && !is_seen_on_surfaces(options.color))))
         state.step.stage = Stage::tetrahedra;
     if (!options.color.empty()) state.color = color_by_from_name(options.color);
     const bool is_whole = !options.state_file.empty();

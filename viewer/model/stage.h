@@ -24,6 +24,7 @@ enum class Stage {
     parts,             ///< the surfaces of the parts below the node, of a run that has not filled them
     tetrahedra,        ///< the parts below the node
 };
+constexpr bool shows_parts(Stage stage) { return stage == Stage::parts || stage == Stage::tetrahedra; }
 inline constexpr int stage_count = static_cast<int>(Stage::tetrahedra) + 1;
 
 /// One stop of the timeline: a stage, or one of the tries that were refused before.

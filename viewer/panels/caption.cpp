@@ -171,7 +171,7 @@ std::vector<CaptionLine> caption_of(const UiContext& context, float room) {
     std::vector<std::string> hidden;
     for (const NodeId node : state.hidden) hidden.push_back(beginning_small(body_of(document, node)));
     if (!hidden.empty()) add(fmt::format("Without {}", fmt::join(hidden, ", ")), colors.dim);
-    if (document.region_names.size() > 1)
+    if (document.region_names.size() > 1 && shows_parts(state.step.stage))
         for (const std::string& line : region_lines(document, state)) add(line, colors.dim);
     return lines;
 }

@@ -41,9 +41,8 @@ void draw_switches(UiContext& context) {
 void draw_explode(UiContext& context) {
     const Document& document = context.session.document();
     const Step& step = context.state.step;
-    const bool has_pieces =
-        document.tree.rows.size() > 1 && step.refused_try < 0 &&
-        (step.stage == Stage::split || step.stage == Stage::parts || step.stage == Stage::tetrahedra);
+    const bool has_pieces = document.tree.rows.size() > 1 && step.refused_try < 0 &&
+                            (step.stage == Stage::split || shows_parts(step.stage));
     ImGui::BeginDisabled(!has_pieces);
     context.widgets.slider("Explode", &context.state.explode, 0, 1);
     ImGui::EndDisabled();

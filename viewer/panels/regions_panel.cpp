@@ -108,8 +108,7 @@ void draw_regions(UiContext& context) {
     const Document& document = context.session.document();
     if (document.region_names.size() < 2) return;
     if (!context.widgets.header("Regions", true)) return;
-    const Stage stage = context.state.step.stage;
-    const bool has_parts = stage == Stage::parts || stage == Stage::tetrahedra;
+    const bool has_parts = shows_parts(context.state.step.stage);
     ImGui::BeginDisabled(!has_parts);
     RegionList(context).draw();
     context.widgets.checkbox("Walls alone", &context.state.walls,

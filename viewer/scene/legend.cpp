@@ -216,9 +216,9 @@ void SceneBuild::explain_parts() {
         const TreeRow& row = *document_.tree.find(part);
         const std::int32_t value = state_.color == ColorBy::rank ? row.rank : level_of(part);
         if (state_.color == ColorBy::part)
-            explain(fmt::format("part {}", part), color_of(part));
+            explain(fmt::format("part {}", part), drawn_color_of(part));
         else if (value >= 0 && seen.insert(value).second)
-            explain(fmt::format("{} {}", name(state_.color), value), color_of(part));
+            explain(fmt::format("{} {}", name(state_.color), value), drawn_color_of(part));
     }
 }
 

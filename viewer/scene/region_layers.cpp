@@ -62,6 +62,13 @@ Vec3 SceneBuild::offset_of(NodeId part, NodeId root) const {
     return state_.explode_regions ? of_region : Vec3(of_region + of_cuts);
 }
 
+// Of glass, with its opacity.
+Color SceneBuild::drawn_color_of(NodeId part) const {
+    Color color = color_of(part);
+    if (is_glass(state_, document_, part)) color.a = context_opacity;
+    return color;
+}
+
 void SceneBuild::explain_regions() {
     std::map<std::int32_t, NodeId> part_of_region;
     for (const NodeId part : drawn_parts())
@@ -69,10 +76,8 @@ void SceneBuild::explain_regions() {
             part_of_region.emplace(region, part);
     for (const auto& [region, part] : part_of_region) {
         const std::string* name = region_of(document_, part);
-        Color color = color_of(part);
-        if (is_glass(state_, document_, part)) color.a = context_opacity;
         const std::string text = name ? *name : fmt::format("region {}", region);
-        explain(state_.walls ? "walls of " + text : text, color);
+        explain(state_.walls ? "walls of " + text : text, drawn_color_of(part));
     }
 }
 

@@ -106,6 +106,7 @@ class SceneBuild {
     bool is_met(NodeId part, NodeId neighbour) const;
     void make_glass(Layer& layer) const;
     void explain_regions();
+    Color drawn_color_of(NodeId part) const;
     bool add_cells(NodeId part, const NodeSurface& surface, const Vec3& offset);
     bool find_cell_colors(const std::shared_ptr<const PartCells>& cells, const NodeSurface& surface,
                           CellColors& colors);
@@ -136,7 +137,7 @@ class SceneBuild {
     void explain_interfaces();
 
     bool is_shown(NodeId node) const { return shows_node(state_, document_, node); }
-    bool shows_parts() const { return step_.stage == Stage::parts || step_.stage == Stage::tetrahedra; }
+    bool shows_parts() const { return view::shows_parts(step_.stage); }
     // Colours follow from numbers, for which there is a scale.
     bool shows_values() const {
         const bool is_of_cells = is_measure(state_.color) || (is_of_solution(state_.color) && document_.solution);
