@@ -21,6 +21,8 @@
 
 #include "cad/face_history.h"
 #include "cad/healing.h"
+#include "core/unique_name.h"
+#include "surface/region_patches.h"
 
 namespace kerf::cad {
 
@@ -54,12 +56,6 @@ TopTools_ListOfShape images_of(BOPAlgo_Builder& builder, const TopoDS_Shape& sha
     TopTools_ListOfShape images = builder.Modified(shape);
     if (images.IsEmpty() && !builder.IsDeleted(shape)) images.Append(shape);
     return images;
-}
-
-std::string unique_name(const std::string& name, std::set<std::string>& taken) {
-    std::string tried = name;
-    for (std::int32_t n = 2; !taken.insert(tried).second; ++n) tried = fmt::format("{}_{}", name, n);
-    return tried;
 }
 
 // One general fuse and what becomes of the bodies in it.
@@ -211,7 +207,7 @@ class GeneralFuse {
     Assembly assembly_;
 };
 
-void name_walls(Assembly& assembly, const std::vector<Patch>& of_file) {
+void name_wall_patches(Assembly& assembly, const std::vector<Patch>& of_file) {
     std::set<std::string> taken;
     for (const Patch& patch : of_file) taken.insert(patch.name);
     std::map<std::pair<std::int32_t, std::int32_t>, std::string> name_of;
@@ -219,9 +215,7 @@ void name_walls(Assembly& assembly, const std::vector<Patch>& of_file) {
         const FacetSides sides = assembly.sides[p];
         if (!sides.is_wall()) continue;
         std::string& name = name_of[{sides.back, sides.front}];
-        if (name.empty())
-            name = unique_name(
-                fmt::format("{}_to_{}", assembly.region_names[sides.back], assembly.region_names[sides.front]), taken);
+        if (name.empty()) name = unique_name(wall_name(assembly.region_names, sides), taken);
         assembly.patches[p].name = name;
     }
 }
@@ -246,7 +240,7 @@ Imprint::Imprint(const std::vector<Body>& bodies, const std::vector<Patch>& patc
             if (fuse.run(contact)) {
                 assembly_ = fuse.take();
                 assembly_->region_names = region_names(bodies);
-                name_walls(*assembly_, patches);
+                name_wall_patches(*assembly_, patches);
                 return;
             }
             if (share == 0) failure_ = fuse.failure;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "surface/region_patches.h"
 
 namespace kerf {
 
@@ -110,21 +111,7 @@ void append_faces(Soup& soup, std::size_t face_count, std::int32_t polygon_count
 std::string patch_name(const FacetSides& sides, const std::vector<std::string>& names) {
     if (names.size() == 1) return "surface";
     if (!sides.is_wall()) return "outer";
-    return names[static_cast<std::size_t>(sides.back)] + "_to_" + names[static_cast<std::size_t>(sides.front)];
-}
-
-void drop_unused_patches(Soup& soup) {
-    std::vector<std::int32_t> number(soup.patch_names.size(), -1);
-    std::vector<std::string> names;
-    for (std::int32_t& patch : soup.patch) {
-        std::int32_t& own = number[static_cast<std::size_t>(patch)];
-        if (own < 0) {
-            own = static_cast<std::int32_t>(names.size());
-            names.push_back(std::move(soup.patch_names[static_cast<std::size_t>(patch)]));
-        }
-        patch = own;
-    }
-    soup.patch_names = std::move(names);
+    return wall_name(names, sides);
 }
 
 // Polygons none of whose facets is left need no fit.

@@ -10,6 +10,7 @@
 #include "io/program_finder.h"
 #include "io/surface_reader.h"
 #include "io/threemf_file.h"
+#include "surface/region_patches.h"
 #include "volume/child_process.h"
 
 namespace kerf {
@@ -102,6 +103,7 @@ Soup read_surface_or_cad(const std::string& path, const InputOptions& options) {
 Soup read_surface_or_cad(std::string bytes, const std::string& path, const InputOptions& options) {
     Soup soup = read_unscaled(std::move(bytes), path, options.cad);
     scale(soup, options.scale);
+    name_walls(soup);
     return soup;
 }
 

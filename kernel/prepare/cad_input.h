@@ -34,7 +34,7 @@ CadBody read_cad(const std::string& path, const FileHash& file_hash, const CadOp
                  const ImportProgram& kind = cad_program);
 
 /// read_surface() that knows CAD files and 3MF, too, obeys InputOptions::cad and multiplies all coordinates by
-/// InputOptions::scale.
+/// InputOptions::scale. Where the file has regions, patches are named as name_walls() does.
 Soup read_surface_or_cad(const std::string& path, const InputOptions& options = {});
 
 /// Reads the bytes of the file at `path` in the same way. Throws Error(usage) for options of CAD files on another one,

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <numeric>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -11,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/unique_name.h"
 #include "io/file_bytes.h"
 #include "io/run_manifest.h"
 #include "prepare/cad_input.h"
@@ -24,13 +26,6 @@ std::string stem_of(const std::string& path) {
     std::filesystem::path name = std::filesystem::path(path).filename();
     if (name.extension() == ".gz" || name.extension() == ".zst") name = name.stem();
     return name.stem().string();
-}
-
-std::string unlike_others(const std::string& name, const std::vector<std::string>& others) {
-    std::string unlike = name;
-    for (int i = 2; std::find(others.begin(), others.end(), unlike) != others.end(); ++i)
-        unlike = fmt::format("{}_{}", name, i);
-    return unlike;
 }
 
 template <class T>
@@ -101,6 +96,7 @@ InputFiles read_input_files(const std::string& path, const InputOptions& options
     }
     Hasher hasher;
     std::vector<FileHash> hashes;
+    std::set<std::string> taken_names;
     const auto add = [&](const std::string& file, const Soup& soup) {
         if (!soup.sides.empty())
             throw Error(ErrorCode::usage, fmt::format("{} has regions already: mesh it alone, or give the surface of "
@@ -112,7 +108,7 @@ InputFiles read_input_files(const std::string& path, const InputOptions& options
                                                       file));
         hashes.push_back(hash);
         hasher.add(std::span<const std::uint64_t>(hash));
-        files.names.push_back(unlike_others(stem_of(file), files.names));
+        files.names.push_back(unique_name(stem_of(file), taken_names));
         append_soup(files.soup, soup, files.names.back());
         files.file_of_patch.resize(files.soup.patch_names.size(), static_cast<std::int32_t>(files.names.size()) - 1);
     };

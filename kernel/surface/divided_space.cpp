@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/elements.h"
+#include "surface/region_patches.h"
 
 namespace kerf {
 
@@ -107,6 +108,7 @@ void give_sides(Soup& soup, DividedSpace space) {
     }
     drop_facets(soup, drop);
     soup.region_names = std::move(space.names);
+    name_walls(soup);
     note_count(soup, copies, "facet is there more than once, and is kept once",
                "facets are there more than once, and are kept once");
     note_count(soup, internal, "facet with the same on both sides is left out",

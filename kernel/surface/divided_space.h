@@ -34,7 +34,8 @@ struct DividedSpace {
 std::optional<DividedSpace> divide_space(const Soup& soup);
 
 /// Sets Soup::sides and Soup::region_names, leaves out the facets that are no wall, and notes that. Regions without a
-/// cell are left out, the others keep their order; each facet has the smaller number behind it. O(#F).
+/// cell are left out, the others keep their order; each facet has the smaller number behind it. Patches are named as
+/// name_walls() does. O(#F log n) for n patches.
 void give_sides(Soup& soup, DividedSpace space);
 
 }  // namespace kerf

@@ -124,7 +124,8 @@ TEST_F(RegionFiles, EachIsARegionOfItsName) {
     EXPECT_EQ(input.regions[1].volume, 1);
     EXPECT_EQ(input.regions[2].volume, 64);
     EXPECT_EQ(input.regions[3].volume, 1);
-    EXPECT_EQ(input.patch_names, (std::vector<std::string>{"bone", "cement", "metal", "screw"}));
+    EXPECT_EQ(input.patch_names, (std::vector<std::string>{"bone_outer", "bone_to_metal", "bone_to_cement",
+                                                           "metal_outer", "screw_outer"}));
     EXPECT_NE(input.file_hash, read_input(bone).file_hash);
     std::swap(options.more_files[0], options.more_files[1]);
     EXPECT_NE(read_input(bone, options).file_hash, input.file_hash);
