@@ -83,6 +83,8 @@ void add_options(CLI::App& command, ExportLine& line) {
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->type_name("NAME=TYPE");
+    command.add_flag("--split-regions", request.split_regions,
+                     "OpenFOAM: one mesh for each region, their walls mapped to each other.");
     add_number(command, "--into", request.into, {"a whole number, 1 or more", 1},
                "Join the parts along the tree into so many pieces.")
         ->type_name("N");

@@ -60,6 +60,7 @@ void refuse_what_no_file_holds(const RunOptions& options, const std::string& fil
     if (options.reference) refuse("--reference writes a comparison, too");
     if (!options.fields.empty()) refuse("--fields are those of the files of parts");
     if (!options.patch_types.empty()) refuse("--patch-type is for a case of OpenFOAM");
+    if (options.split_regions) refuse("--split-regions is for a case of OpenFOAM");
     if (!options.formats.empty() && options.formats != format.name)
         refuse(fmt::format("--format {} asks for other files", options.formats));
 }

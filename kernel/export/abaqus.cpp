@@ -17,9 +17,9 @@
 #include "export/format.h"
 #include "export/materials.h"
 #include "export/text_rows.h"
-#include "export/wall_sides.h"
 #include "export/whole_mesh.h"
 #include "export/word_names.h"
+#include "part/region_walls.h"
 
 namespace kerf {
 
@@ -158,7 +158,7 @@ void write_node_sets(const PartSource& parts, const Names& names, ExportFile& fi
 
 // Sets that are named again are continued.
 void write_face_sets(const PartSource& parts, const Names& names, ExportFile& file, std::vector<unsigned>& faces_of) {
-    const WallSides sides(parts);
+    const RegionWalls& sides = parts.walls();
     const auto visit = [&](const auto& add) {
         for_each_part(parts, PartContent::cells, [&](PartIndex index, const Part& part) {
             const std::int64_t first = parts.outline().first_tet(index) + 1;

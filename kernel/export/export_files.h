@@ -23,6 +23,7 @@ struct FormatOptions {
     CellFieldSet fields = default_cell_fields;  ///< what vtu says of cells
     bool msh_ascii = false;                     ///< msh as text
     std::vector<PatchType> patch_types = {};    ///< of openfoam; other patches are of the type `patch`
+    bool split_regions = false;                 ///< openfoam: one mesh for each region
 };
 
 class ExportFiles;

@@ -11,10 +11,10 @@
 #include "export/hdf5_arrays.h"
 #include "export/hdf5_file.h"
 #include "export/materials.h"
-#include "export/wall_sides.h"
 #include "export/whole_mesh.h"
 #include "io/vtk_cell_types.h"
 #include "part/bodies.h"
+#include "part/region_walls.h"
 
 namespace kerf {
 

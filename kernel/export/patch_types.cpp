@@ -42,6 +42,12 @@ void require_patches(std::span<const PatchType> types, std::span<const std::stri
     }
 }
 
+void require_regions(std::size_t count) {
+    if (count < 2)
+        throw Error(ErrorCode::usage,
+                    "--split-regions makes one mesh of each region, but the surface has one region. Leave it out.");
+}
+
 std::string type_of_patch(std::span<const PatchType> types, const std::string& patch) {
     const auto found =
         std::find_if(types.rbegin(), types.rend(), [&](const PatchType& each) { return each.patch == patch; });

@@ -1,6 +1,7 @@
 // The types of patches where a format has such: OpenFOAM's boundaries.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ std::vector<PatchType> parse_patch_types(std::span<const std::string> texts);
 
 /// Throws Error(usage), with the names that there are, for a patch that the mesh does not have.
 void require_patches(std::span<const PatchType> types, std::span<const std::string> patch_names);
+
+/// What --split-regions asks for. Throws Error(usage) if there are less than two regions.
+void require_regions(std::size_t count);
 
 /// The type of the patch: the last one given, else `patch`.
 std::string type_of_patch(std::span<const PatchType> types, const std::string& patch);

@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 
 #include "export/format.h"
-#include "export/wall_sides.h"
 #include "export/whole_mesh.h"
 #include "io/run_folder.h"
 #include "io/vtk_cell_types.h"
 #include "part/appended_vtu.h"
+#include "part/region_walls.h"
 #include "part/vtu_writer.h"
 
 namespace kerf {

@@ -33,6 +33,8 @@ class JoinedParts : public PartSource {
 
     const MeshOutline& outline() const override { return outline_; }
     Part load(PartIndex index) const override;
+    /// Those of the parts: what lies inside of a piece has no triangles there.
+    const RegionWalls& walls() const override { return parts_.walls(); }
 
  private:
     std::vector<NodeId> pieces_of(const std::vector<NodeId>& leaves) const;

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "part/bodies.h"
+#include "part/region_walls.h"
 
 namespace kerf {
 
@@ -75,9 +76,15 @@ PartSource::PartSource() = default;
 PartSource::~PartSource() = default;
 
 const Bodies& PartSource::bodies() const {
-    const std::lock_guard lock(finding_bodies_);
+    const std::lock_guard lock(finding_);
     if (!bodies_) bodies_ = std::make_unique<const Bodies>(*this);
     return *bodies_;
+}
+
+const RegionWalls& PartSource::walls() const {
+    const std::lock_guard lock(finding_);
+    if (!walls_) walls_ = std::make_unique<const RegionWalls>(*this);
+    return *walls_;
 }
 
 }  // namespace kerf

@@ -153,6 +153,7 @@ enum class PartContent {
 };
 
 class Bodies;
+class RegionWalls;
 
 /// Parts of one mesh that can be had one at a time.
 class PartSource {
@@ -171,10 +172,13 @@ class PartSource {
     /// Which bodies the parts belong to (part/bodies.h): found when they are first asked for. From any thread. Throws
     /// Error(io).
     const Bodies& bodies() const;
+    /// What the regions have in common (part/region_walls.h); in the same way.
+    virtual const RegionWalls& walls() const;
 
  private:
-    mutable std::mutex finding_bodies_;
+    mutable std::mutex finding_;
     mutable std::unique_ptr<const Bodies> bodies_;
+    mutable std::unique_ptr<const RegionWalls> walls_;
 };
 
 }  // namespace kerf

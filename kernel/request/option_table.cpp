@@ -282,6 +282,8 @@ constexpr OptionRow<RunOptions> output_rows[] = {
     {"patch-type", "", option_group::output, "NAME=TYPE",
      "OpenFOAM's type of a patch: patch (default), wall, symmetry, symmetryPlane. Repeatable.",
      place<&RunOptions::patch_types>, false},
+    {"split-regions", "", option_group::output, "",
+     "OpenFOAM: one mesh for each region, their walls mapped to each other.", place<&RunOptions::split_regions>, false},
     {"reference", "", option_group::output, "",
      "Mesh the whole in one piece, too, and compare: comparison.svg, and a table with -v.",
      place<&RunOptions::reference>, false},

@@ -76,10 +76,12 @@ RunOptions resolved(RunOptions options, int cores_of_rank) {
     if (options.decompose.facets == FacetPolicy::keep && options.decompose.cut.contour == ContourMethod::straight)
         throw Error(ErrorCode::usage, "--contour straight splits facets, and --surface keep forbids it. Drop one.");
     if (options.formats.empty()) options.formats = "vtu";
-    parse_formats(options.formats);
+    const std::vector<const Format*> formats = parse_formats(options.formats);
     if (options.fields.empty()) options.fields = "min-dihedral";
     parse_cell_fields(options.fields);
     parse_patch_types(options.patch_types);
+    if (options.split_regions && std::find(formats.begin(), formats.end(), &find_format("openfoam")) == formats.end())
+        throw Error(ErrorCode::usage, "--split-regions is for the format openfoam, which --format does not name.");
     options.check_files();
     for (std::string& file : options.input_options.more_files) file = std::filesystem::absolute(file).string();
     std::string& field_file = options.sizes.field_file;

@@ -49,6 +49,7 @@ struct RunOptions {
     bool volume = true;                    ///< false: stop at the closed surfaces of the parts
     std::int32_t least_parts = 1;          ///< where K follows: one for each rank that takes whole parts later
     bool dry_run = false;                  ///< stop at the plan, and write nothing
+    bool split_regions = false;            ///< OpenFOAM's case has one mesh for each region
 
     /// Throws Error(usage) or Error(io) for input and outputs that are in each other's way: what resolved() asks of
     /// files, for who writes one of them before the run.

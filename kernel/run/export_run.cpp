@@ -143,7 +143,9 @@ FormatOptions options_of(const ExportRequest& request, const std::vector<const F
     };
     require(request.msh_ascii, "--msh-ascii", "msh");
     require(!request.patch_types.empty(), "--patch-type", "openfoam");
-    return {parse_cell_fields(request.fields), request.msh_ascii, parse_patch_types(request.patch_types)};
+    require(request.split_regions, "--split-regions", "openfoam");
+    return {parse_cell_fields(request.fields), request.msh_ascii, parse_patch_types(request.patch_types),
+            request.split_regions};
 }
 
 void check_request(const ExportRequest& request) {
@@ -175,6 +177,7 @@ ExportSummary export_run(const ExportRequest& asked, Communicator& ranks, RunLis
         options = options_of(request, formats);
         parts = open_parts(request.folder);
         require_patches(options.patch_types, parts->outline().patch_names);  // before there is a folder
+        if (options.split_regions) require_regions(parts->outline().region_names.size());
         if (request.into != 0) joined = std::make_unique<JoinedParts>(*parts, request.into);
         if (ranks.rank() != 0) return std::string();
         const bool is_of_run = request.output.empty();

@@ -18,6 +18,7 @@ struct ExportRequest {
     bool msh_ascii = false;  ///< msh as text
     std::vector<std::string> patch_types;  ///< of parse_patch_types(), for openfoam
     int threads = 1;                       ///< of each rank
+    bool split_regions = false;            ///< openfoam: one mesh for each region
 };
 
 /// What an export has written.

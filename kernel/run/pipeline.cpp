@@ -205,7 +205,8 @@ std::vector<RunFile> write_formats(const RunContext& run, const RunFolder& folde
                                return f->asks_for_one_part;
                            });
     const FormatOptions options{.fields = parse_cell_fields(run.options.fields),
-                                .patch_types = parse_patch_types(run.options.patch_types)};
+                                .patch_types = parse_patch_types(run.options.patch_types),
+                                .split_regions = run.options.split_regions};
     const WriteTarget target{.folder = folder.partial_path(), .options = options};
     return write_parts(run.ranks, parts, places_in_run_folder(formats), target, run.options.workers, run.listener,
                        [&](PartIndex part) {

@@ -115,6 +115,7 @@ RunPlan plan_run(const RunOptions& request, int cores_of_rank, Communicator& ran
         options.decompose.region_sizes =
             RegionSizes(options.sizes.max_volumes_of_regions(input.complex.region_names()));
         require_patches(parse_patch_types(options.patch_types), input.patch_names);
+        if (options.split_regions) require_regions(input.complex.region_names().size());
         if (ranks.rank() != 0) return options;
         const double volume = sized_volume_of(input, options);
         options.decompose.parts = part_count(input, options, volume, ranks.size());

@@ -107,6 +107,12 @@ TEST_F(Export, SaysWhatIsWrong) {
     expect(export_to("out", "su2", {"--msh-ascii"}), 2, "--msh-ascii is for the format msh");
     expect(export_to("out", "su2", {"--patch-type", "all=wall"}), 2, "--patch-type is for the format openfoam");
     expect(export_to("out", "openfoam", {"--patch-type", "none=wall"}), 2, "no such patch. It has ");
+    expect(export_to("out", "su2", {"--split-regions"}), 2, "--split-regions is for the format openfoam");
+    expect(export_to("out", "openfoam", {"--split-regions"}), 2, "the surface has one region");
+    for (const char* format : {"vtu", "openfoam"})
+        expect(test::run_kerf({"mesh", test::asset_path("cube"), "-o", folder_.file("out"), "--format", format,
+                               "--split-regions"}),
+               2, "--split-regions");
     expect(test::run_kerf({"merge", run_, "-o", folder_.file("a.su2"), "--msh-ascii"}), 2, "end with .msh");
     expect(test::run_kerf({"mesh", test::asset_path("cube"), "-o", folder_.file("out"), "--patch-type", "none=wall"}),
            2, "no such patch. It has ");

@@ -13,128 +13,15 @@
 #include "core/error.h"
 #include "export/cases.h"
 #include "export/format.h"
+#include "export/openfoam_laws.h"
 #include "part/run_parts.h"
 #include "support/file_contents.h"
 #include "support/temporary_folder.h"
 
-namespace kerf {
+namespace kerf::openfoam_export_test {
 namespace {
-namespace openfoam {
 
-struct Patch {
-    std::string name, type;
-    std::size_t faces = 0, start = 0;
-    int self = -1, other = -1;
-};
-
-struct PolyMesh {
-    std::vector<Vec3> points;
-    std::vector<std::array<std::int32_t, 3>> faces;
-    std::vector<std::int32_t> owner, neighbour;
-    std::vector<Patch> patches;
-    std::string note;
-
-    // A cell may be the higher one at all of its faces.
-    std::size_t cells() const {
-        std::int32_t last = -1;
-        for (const auto* list : {&owner, &neighbour})
-            for (const std::int32_t cell : *list) last = std::max(last, cell);
-        return static_cast<std::size_t>(last + 1);
-    }
-    const Vec3& corner(std::size_t face, std::size_t i) const {
-        return points.at(static_cast<std::size_t>(faces[face].at(i)));
-    }
-    Vec3 area(std::size_t f) const { return 0.5 * (corner(f, 1) - corner(f, 0)).cross(corner(f, 2) - corner(f, 0)); }
-    Vec3 centre(std::size_t f) const { return (corner(f, 0) + corner(f, 1) + corner(f, 2)) / 3; }
-};
-
-// What follows the header, whose entries must be these.
-std::string body(const std::string& path, const std::string& kind, const std::string& format,
-                 PolyMesh* mesh = nullptr) {
-    const std::string bytes = test::bytes_of_file(path);
-    const std::size_t end = bytes.find("\n}\n");
-    if (!bytes.starts_with("FoamFile\n{") || end == bytes.npos) {
-        ADD_FAILURE() << path << " has no header";
-        return "";
-    }
-    std::map<std::string, std::string> entries;
-    const std::string header = bytes.substr(0, end + 1);
-    const std::regex entry(R"(\n\s+(\w+)\s+(?:"(.*)\"|(\S+));)");
-    for (std::sregex_iterator it(header.begin(), header.end(), entry); it != std::sregex_iterator(); ++it)
-        entries[(*it)[1]] = (*it)[2].str() + (*it)[3].str();
-    EXPECT_EQ(entries["class"], kind) << path;
-    EXPECT_EQ(entries["format"], format) << path;
-    EXPECT_EQ(entries["object"], std::filesystem::path(path).filename()) << path;
-    EXPECT_EQ(entries["arch"], format == "binary" ? "LSB;label=32;scalar=64" : "") << path;
-    if (mesh) mesh->note = entries["note"];
-    return bytes.substr(end + 3);
-}
-
-// The next list of a binary body, from where `at` stands.
-template <class T>
-std::vector<T> list(const std::string& body, std::size_t& at) {
-    std::size_t digits = 0;
-    const std::size_t count = std::stoul(body.substr(at, 40), &digits);  // skips blanks
-    at += digits;
-    EXPECT_EQ(body.substr(at, 2), "\n(");
-    at += 2;
-    std::vector<T> values(count);
-    EXPECT_LE(at + count * sizeof(T) + 1, body.size());
-    if (count > 0 && at + count * sizeof(T) < body.size())
-        std::memcpy(static_cast<void*>(values.data()), body.data() + at, count * sizeof(T));
-    at += count * sizeof(T);
-    EXPECT_EQ(body.substr(at, 2), ")\n");
-    at += 2;
-    return values;
-}
-
-template <class T>
-std::vector<T> only_list(const std::string& body) {
-    std::size_t at = 0;
-    std::vector<T> values = list<T>(body, at);
-    EXPECT_EQ(at, body.size());
-    return values;
-}
-
-std::vector<Patch> read_patches(const std::string& path) {
-    std::string text = body(path, "polyBoundaryMesh", "ascii");
-    text = std::regex_replace(text, std::regex("//[^\n]*"), "");
-    std::vector<Patch> patches;
-    const std::regex block(R"((\S+)\s*\{([^}]*)\})");
-    for (std::sregex_iterator it(text.begin(), text.end(), block); it != std::sregex_iterator(); ++it) {
-        std::map<std::string, std::string> entries;
-        const std::string inner = (*it)[2];
-        const std::regex entry(R"((\w+)\s+(\S+);)");
-        for (std::sregex_iterator e(inner.begin(), inner.end(), entry); e != std::sregex_iterator(); ++e)
-            entries[(*e)[1]] = (*e)[2];
-        Patch patch{(*it)[1], entries.at("type"), std::stoul(entries.at("nFaces")),
-                    std::stoul(entries.at("startFace"))};
-        if (entries.contains("myProcNo")) patch.self = std::stoi(entries["myProcNo"]);
-        if (entries.contains("neighbProcNo")) patch.other = std::stoi(entries["neighbProcNo"]);
-        patches.push_back(patch);
-    }
-    EXPECT_EQ(std::stoul(text), patches.size()) << path;
-    return patches;
-}
-
-PolyMesh read_mesh(const std::string& folder) {
-    PolyMesh mesh;
-    mesh.points = only_list<Vec3>(body(folder + "points", "vectorField", "binary"));
-    mesh.owner = only_list<std::int32_t>(body(folder + "owner", "labelList", "binary", &mesh));
-    mesh.neighbour = only_list<std::int32_t>(body(folder + "neighbour", "labelList", "binary"));
-    const std::string faces = body(folder + "faces", "faceCompactList", "binary");
-    std::size_t at = 0;
-    const auto offsets = list<std::int32_t>(faces, at);
-    const auto corners = list<std::int32_t>(faces, at);
-    EXPECT_EQ(at, faces.size());
-    EXPECT_EQ(offsets.size(), mesh.owner.size() + 1);
-    for (std::size_t f = 0; f < offsets.size(); ++f) EXPECT_EQ(offsets[f], 3 * f);
-    EXPECT_EQ(corners.size(), 3 * mesh.owner.size());
-    for (std::size_t c = 0; c + 2 < corners.size(); c += 3)
-        mesh.faces.push_back({corners[c], corners[c + 1], corners[c + 2]});
-    mesh.patches = read_patches(folder + "boundary");
-    return mesh;
-}
+using namespace test::openfoam;
 
 // An exported run.
 struct Case {
@@ -197,48 +84,11 @@ TEST(OpenFoam, CountsAreThoseOfTheParts) {
     });
 }
 
-TEST(OpenFoam, CellsHaveFourFacesOfFourPoints) {
-    for_each_mesh([](const PolyMesh& mesh) {
-        std::vector<std::multiset<std::int32_t>> corners(mesh.cells());
-        const auto add = [&](std::int32_t cell, std::size_t f) {
-            corners.at(static_cast<std::size_t>(cell)).insert(mesh.faces[f].begin(), mesh.faces[f].end());
-        };
-        for (std::size_t f = 0; f < mesh.faces.size(); ++f) add(mesh.owner[f], f);
-        for (std::size_t f = 0; f < mesh.neighbour.size(); ++f) add(mesh.neighbour[f], f);
-        for (const auto& cell : corners) {
-            EXPECT_EQ(cell.size(), 12);
-            for (const std::int32_t v : cell) EXPECT_EQ(cell.count(v), 3);
-        }
-    });
-}
+TEST(OpenFoam, CellsHaveFourFacesOfFourPoints) { for_each_mesh(expect_four_faces); }
 
-TEST(OpenFoam, FacesBetweenCellsAreUpperTriangular) {
-    for_each_mesh([](const PolyMesh& mesh) {
-        for (std::size_t f = 0; f < mesh.neighbour.size(); ++f) {
-            EXPECT_LT(mesh.owner[f], mesh.neighbour[f]);
-            if (f == 0) continue;
-            EXPECT_LT(std::pair(mesh.owner[f - 1], mesh.neighbour[f - 1]), std::pair(mesh.owner[f], mesh.neighbour[f]));
-        }
-    });
-}
+TEST(OpenFoam, FacesBetweenCellsAreUpperTriangular) { for_each_mesh(expect_upper_triangular); }
 
-TEST(OpenFoam, NormalsPointOutOfTheOwner) {
-    for_each_mesh([](const PolyMesh& mesh) {
-        std::vector<Vec3> centres(mesh.cells(), Vec3::Zero());
-        const auto add = [&](std::int32_t cell, std::size_t f) {
-            centres[static_cast<std::size_t>(cell)] += mesh.centre(f) / 4;
-        };
-        for (std::size_t f = 0; f < mesh.faces.size(); ++f) add(mesh.owner[f], f);
-        for (std::size_t f = 0; f < mesh.neighbour.size(); ++f) add(mesh.neighbour[f], f);
-        for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-            const Vec3& from = centres[static_cast<std::size_t>(mesh.owner[f])];
-            EXPECT_GT(mesh.area(f).dot(mesh.centre(f) - from), 0);
-            if (f >= mesh.neighbour.size()) continue;
-            const Vec3& to = centres[static_cast<std::size_t>(mesh.neighbour[f])];
-            EXPECT_GT(mesh.area(f).dot(to - mesh.centre(f)), 0);
-        }
-    });
-}
+TEST(OpenFoam, NormalsPointOutOfTheOwner) { for_each_mesh(expect_normals_out_of_owner); }
 
 // Patches of one name are one.
 double area_of(const Soup& soup, const std::string& patch) {
@@ -279,16 +129,7 @@ TEST(OpenFoam, VolumeAndAreasAreThoseOfTheSurface) {
     });
 }
 
-TEST(OpenFoam, PatchesFollowEachOtherToTheEnd) {
-    for_each_mesh([](const PolyMesh& mesh) {
-        std::size_t start = mesh.neighbour.size();
-        for (const Patch& patch : mesh.patches) {
-            EXPECT_EQ(patch.start, start) << patch.name;
-            start += patch.faces;
-        }
-        EXPECT_EQ(start, mesh.faces.size());
-    });
-}
+TEST(OpenFoam, PatchesFollowEachOtherToTheEnd) { for_each_mesh(expect_patches_follow_each_other); }
 
 TEST(OpenFoam, EveryProcessorHasAllPatchesAndThenItsNeighbours) {
     for_each_case([](const Case& each) {
@@ -319,20 +160,7 @@ TEST(OpenFoam, EveryProcessorHasAllPatchesAndThenItsNeighbours) {
 
 TEST(OpenFoam, BothSidesOfAProcessorPatchAgree) {
     for_each_case([](const Case& each) {
-        std::size_t pairs = 0;
-        for (const PolyMesh& mesh : each.meshes)
-            for (const Patch& here : mesh.patches) {
-                if (here.other < 0) continue;
-                const PolyMesh& other = each.meshes.at(static_cast<std::size_t>(here.other));
-                const auto there = std::find_if(other.patches.begin(), other.patches.end(),
-                                                [&](const Patch& patch) { return patch.other == here.self; });
-                ASSERT_NE(there, other.patches.end());
-                ASSERT_EQ(here.faces, there->faces);
-                for (std::size_t f = 0; f < here.faces; ++f)
-                    for (std::size_t i = 0; i < 3; ++i)
-                        EXPECT_EQ(mesh.corner(here.start + f, i), other.corner(there->start + f, (3 - i) % 3));
-                ++pairs;
-            }
+        const std::size_t pairs = expect_both_sides_agree(each.meshes);
         EXPECT_EQ(pairs > 0, each.meshes.size() > 1);
     });
 }
@@ -487,6 +315,5 @@ TEST(OpenFoam, FoldersOfMoreProcessorsAreRefused) {
     EXPECT_NO_THROW(write(run, folder.file("case")));
 }
 
-}  // namespace openfoam
 }  // namespace
-}  // namespace kerf
+}  // namespace kerf::openfoam_export_test

@@ -1,6 +1,5 @@
 // Regions and the walls between them in every format: as many cells of each, and each wall once or not at all.
 #include <map>
-#include <memory>
 #include <set>
 
 #include <fmt/format.h>
@@ -10,78 +9,17 @@
 #include "export/hdf5_arrays.h"
 #include "export/merged_readers.h"
 #include "export/msh_reader.h"
-#include "part/joined_parts.h"
+#include "export/regions_cases.h"
 #include "part/joined_surfaces.h"
-#include "part/run_parts.h"
 #include "support/all_formats.h"
-#include "support/run_in_process.h"
 #include "support/temporary_folder.h"
-#include "support/voxel_regions.h"
 
 namespace kerf::regions_export_test {
 namespace {
 
-using Cube = std::array<std::int32_t, 3>;
+using test::FinishedRegions, test::RegionsCase;
 using Sizes = std::vector<std::int64_t>;
 using SizeByName = std::map<std::string, std::int64_t>;
-
-struct RegionsCase {
-    const char* name;
-    Cube cubes;
-    test::RegionOfCube region;
-    std::int32_t parts;
-    std::vector<std::string> names = {};  // those of the test body if empty
-};
-
-// Three that meet at an edge; one whose walls are all that there is of patch 1.
-const std::vector<RegionsCase> cases = {
-    {"three", {2, 2, 1}, [](Cube c) { return c[0] + 2 * c[1] - 1; }, 7},
-    {"one_in_another",
-     {3, 3, 3},
-     [](Cube c) {
-         return c == Cube{1, 1, 1} ? 1 : 0;
-     },
-     5},
-};
-
-// With the formats of the list, or the default. Run once.
-class FinishedRegions {
- public:
-    explicit FinishedRegions(const RegionsCase& wanted, const std::string& formats = "") {
-        constexpr std::int32_t fineness = 2;
-        const Cube cubes = {fineness * wanted.cubes[0], fineness * wanted.cubes[1], fineness * wanted.cubes[2]};
-        const test::VoxelBody body = test::voxel_body(cubes, test::refined(wanted.region, fineness));
-        Input input = make_input(body.facets.vertices, body.facets.facets, body.sides,
-                                 wanted.names.empty() ? body.names : wanted.names, body.facets.patch);
-        RunOptions options;
-        options.formats = formats;
-        EXPECT_EQ(test::run_parts("", path(), wanted.parts, input, nullptr, options).exit_code, 0);
-        parts_ = std::make_unique<RunParts>(path());
-        EXPECT_EQ(parts_->outline().parts.size(), static_cast<std::size_t>(wanted.parts));
-    }
-    std::string path() const { return folder_.file("out"); }
-    const RunParts& parts() const { return *parts_; }
-
- private:
-    test::TemporaryFolder folder_;
-    std::unique_ptr<RunParts> parts_;
-};
-
-// Calls check(parts) with the parts of every case as they are, and joined into three pieces and one.
-template <class Check>
-void for_each_source(const Check& check) {
-    static std::map<std::string, std::unique_ptr<FinishedRegions>> runs;
-    for (const RegionsCase& each : cases) {
-        auto& run = runs[each.name];
-        if (!run) run = std::make_unique<FinishedRegions>(each);
-        SCOPED_TRACE(each.name);
-        check(run->parts());
-        for (const std::int32_t pieces : {3, 1}) {
-            SCOPED_TRACE(fmt::format("into {}", pieces));
-            check(JoinedParts(run->parts(), pieces));
-        }
-    }
-}
 
 // What the parts say.
 struct Expected {
@@ -130,7 +68,7 @@ test::MergedMesh merged(const PartSource& parts, const char* format, test::Merge
 }
 
 TEST(Regions, AreTheMaterialsOfMergedFiles) {
-    for_each_source([](const PartSource& parts) {
+    test::for_each_regions_source([](const PartSource& parts) {
         const Expected expected(parts);
         const auto check = [&](const char* format, test::MergedMesh (*read)(const std::string&)) {
             SCOPED_TRACE(format);
@@ -147,7 +85,7 @@ TEST(Regions, AreTheMaterialsOfMergedFiles) {
 
 // Pressure on a wall must not turn round from one part to the next.
 TEST(Regions, SurfacesOfAbaqusLieOnOneSideOfWalls) {
-    for_each_source([](const PartSource& parts) {
+    test::for_each_regions_source([](const PartSource& parts) {
         const test::MergedMesh mesh = merged(parts, "abaqus", test::read_abaqus);
         std::map<std::set<std::int64_t>, std::vector<std::size_t>> tets_at;
         for (std::size_t t = 0; t < mesh.tets.size(); ++t)
@@ -176,7 +114,7 @@ TEST(Regions, SurfacesOfAbaqusLieOnOneSideOfWalls) {
 }
 
 TEST(Regions, TrianglesOfVtuHaveThoseBehindThem) {
-    for_each_source([](const PartSource& parts) {
+    test::for_each_regions_source([](const PartSource& parts) {
         const test::TemporaryFolder folder;
         ExportFiles files(folder.file("out"));
         find_format("vtu").write_merged(parts, {}, files, "whole");
@@ -203,7 +141,7 @@ TEST(Regions, AreNamedByTheFileThatJoinsSurfaces) {
 }
 
 TEST(Regions, WallsAreNoMarkersOfSu2) {
-    for_each_source([](const PartSource& parts) {
+    test::for_each_regions_source([](const PartSource& parts) {
         const test::MergedMesh mesh = merged(parts, "su2", test::read_su2);
         EXPECT_EQ(static_cast<std::int64_t>(mesh.tets.size()), parts.outline().tets());
         EXPECT_EQ(sizes_of(mesh.patch), Sizes{Expected(parts).outer});
@@ -219,7 +157,7 @@ void count_msh(const test::MshContent& file, SizeByName& tets, SizeByName& trian
 }
 
 TEST(Regions, ArePhysicalVolumesOfGmsh) {
-    for_each_source([](const PartSource& parts) {
+    test::for_each_regions_source([](const PartSource& parts) {
         const Expected expected(parts);
         const test::TemporaryFolder folder;
         ExportFiles files(folder.file("out"));
@@ -282,7 +220,7 @@ std::vector<std::pair<std::string, Sizes>> read_zones(const std::string& path) {
 }
 
 TEST(Regions, AreCellZonesOfOpenFoam) {
-    for_each_source([](const PartSource& parts) {
+    test::for_each_regions_source([](const PartSource& parts) {
         const Expected expected(parts);
         const test::TemporaryFolder folder;
         ExportFiles files(folder.file("out"));
@@ -314,7 +252,7 @@ TEST(Regions, AreCellZonesOfOpenFoam) {
 }
 
 TEST(Regions, AreAttributesOfMfemAndWallsAreInside) {
-    for_each_source([](const PartSource& parts) {
+    test::for_each_regions_source([](const PartSource& parts) {
         const Expected expected(parts);
         const test::TemporaryFolder folder;
         ExportFiles files(folder.file("out"));
@@ -339,7 +277,7 @@ TEST(Regions, AreAttributesOfMfemAndWallsAreInside) {
 }
 
 TEST(Regions, AreArraysOfHdf5) {
-    for_each_source([](const PartSource& parts) {
+    test::for_each_regions_source([](const PartSource& parts) {
         const Expected expected(parts);
         const test::TemporaryFolder folder;
         ExportFiles files(folder.file("out"));
@@ -372,7 +310,7 @@ TEST(Regions, AreArraysOfHdf5) {
 
 // Names that are those of something else, or no words. What a run writes is what an export writes, with walls, too.
 TEST(Regions, HaveNamesOfTheirOwnAndAreWrittenByRuns) {
-    RegionsCase odd = cases[0];
+    RegionsCase odd = test::regions_cases[0];
     odd.names = {"subdomain_1", "patch_0", "Stahl (2)"};
     const FinishedRegions run(odd, test::all_formats());
     for (const Format* format : formats()) {
