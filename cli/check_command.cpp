@@ -20,8 +20,8 @@ struct CheckRequest {
     InputOptions options;
     double needle_angle_deg = 1;
     bool json = false;
-    bool list_patches = false;   // in place of the diagnosis
-    std::string offenders_file;  // empty: none
+    bool list_patches = false, list_regions = false;  // in place of the diagnosis
+    std::string offenders_file;                       // empty: none
 };
 
 int print_patches(FileDiagnosis found, const InputOptions& options) {
@@ -37,6 +37,10 @@ int check_surface(const CheckRequest& request) {
     refuse_to_overwrite(request.path, "--offenders", request.offenders_file);
     require_writable("--offenders", request.offenders_file);
     FileDiagnosis found = diagnose_file(request.path, request.options, request.needle_angle_deg);
+    if (request.list_regions) {
+        print_data(tables_of_regions(found));
+        return 0;
+    }
     if (request.list_patches && !found.refused) return print_patches(std::move(found), request.options);
     const Diagnosis& diagnosis = found.checked.diagnosis;
     if (!request.offenders_file.empty() && !found.refused)
@@ -61,18 +65,22 @@ void add_check_command(CLI::App& kerf, int& exit_code) {
     add_input_options(*command, request->options);
     command->option_defaults()->group(option_group::output);
     command->add_flag("--json", request->json, "Print every defect as JSON.");
-    command->add_flag(
-        "--list-patches", request->list_patches,
-        "Print name, area, centroid and normal of each patch, and how formats spell its name; no diagnosis.");
+    command->add_flag("--list-patches", request->list_patches,
+                      "Print patches, and how formats spell them; no diagnosis.");
+    command->add_flag("--list-regions", request->list_regions,
+                      "Print regions and their walls as tables; no diagnosis.");
     command->add_option("--offenders", request->offenders_file, "Write the offending facets, edges and places as VTU.")
         ->type_name("FILE");
     for (const char* name : {"--json", "--offenders"})
-        command->get_option("--list-patches")->excludes(command->get_option(name));
+        for (const char* list : {"--list-patches", "--list-regions"})
+            command->get_option(list)->excludes(command->get_option(name));
+    command->get_option("--list-regions")->excludes(command->get_option("--list-patches"));
     add_option_field(*command, {"needle-angle", "", option_group::output, "DEG",
                                 "Degrees below which a facet is a needle. Default 1.", &request->needle_angle_deg, true,
                                 needle_angle_range});
-    put_help_last(*command, option_group::output,
-                  {"json", "list-patches", "offenders", "weld", "fill-holes", "keep-largest", "feature-angle"});
+    put_help_last(
+        *command, option_group::output,
+        {"json", "list-patches", "list-regions", "offenders", "weld", "fill-holes", "keep-largest", "feature-angle"});
     command->callback([=, &exit_code] {
         take_inputs(request->files, request->path, request->options);
         exit_code = run_on_first_rank([&] { return check_surface(*request); });

@@ -182,6 +182,14 @@ std::string to_text(const FileDiagnosis& found) {
     return text + (clean ? "It can be meshed.\n" : "It cannot be meshed as it is.\n");
 }
 
+std::string tables_of_regions(const FileDiagnosis& found) {
+    if (found.refused) throw found.refused->error;
+    if (!found.can_be_meshed())
+        throw Error(ErrorCode::input,
+                    fmt::format("{}: {}", found.path, found.checked.diagnosis.summary(found.checked.soup)));
+    return region_tables(found.regions);
+}
+
 std::vector<PatchSummary> patches_of_run(FileDiagnosis found, const InputOptions& options) {
     if (found.refused) throw found.refused->error;
     CheckedSoup& checked = found.checked;

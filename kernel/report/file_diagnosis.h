@@ -42,6 +42,9 @@ std::string to_json(const FileDiagnosis& found);
 /// Lines for people: counts, the ten worst defects of each kind, what to do, the verdict.
 std::string to_text(const FileDiagnosis& found);
 
+/// What region_tables() says of them. Throws Error: why the file was refused, or cannot be meshed.
+std::string tables_of_regions(const FileDiagnosis& found);
+
 /// The patches that a run would have: those of the file, or those that InputOptions::feature_angle_deg makes. Throws
 /// Error: why the file was refused, or that only a surface that can be meshed is divided by an angle.
 std::vector<PatchSummary> patches_of_run(FileDiagnosis found, const InputOptions& options);

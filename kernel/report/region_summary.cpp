@@ -38,8 +38,23 @@ std::vector<RegionSummary> summarize_regions(const Soup& soup) {
     }
     for (const auto& [sides, area] : walls)
         regions[static_cast<std::size_t>(sides.first)].walls.push_back(
-            {soup.region_names[static_cast<std::size_t>(sides.second)], area});
+            {soup.region_names[static_cast<std::size_t>(sides.second)], area, sides.second});
     return regions;
+}
+
+std::string region_tables(const std::vector<RegionSummary>& regions) {
+    if (regions.empty()) return "The surface bounds one region, which has no name.\n";
+    std::string text = fmt::format("{:>12} {:>6} {:>12}  {}\n", "volume", "shells", "outside", "name");
+    std::string walls;
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+        const RegionSummary& region = regions[r];
+        text += fmt::format("{:>12.6g} {:>6} {:>12.6g}  {}\n", region.volume, region.shells, region.outer_area,
+                            region.name);
+        for (const CommonWall& wall : region.walls)
+            if (wall.number > static_cast<std::int32_t>(r))
+                walls += fmt::format("{:>12.6g}  {}  {}\n", wall.area, region.name, wall.region);
+    }
+    return text + (walls.empty() ? "" : fmt::format("\n{:>12}  wall between\n{}", "area", walls));
 }
 
 std::string to_text(const std::vector<RegionSummary>& regions) {

@@ -1,6 +1,7 @@
 // The regions of a surface, as values and text.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace kerf {
 struct CommonWall {
     std::string region;  ///< the other one
     double area = 0;
+    std::int32_t number = 0;  ///< of the other one
 };
 
 struct RegionSummary {
@@ -24,6 +26,9 @@ struct RegionSummary {
 
 /// Of a soup that has been repaired, in the order of Soup::region_names; none if it has no sides. O(#F log #F).
 std::vector<RegionSummary> summarize_regions(const Soup& soup);
+
+/// A table with a line for each region, and one with a line for each wall; names are last.
+std::string region_tables(const std::vector<RegionSummary>& regions);
 
 /// A line a region, with its volume, shells and walls; at most 50.
 std::string to_text(const std::vector<RegionSummary>& regions);

@@ -81,6 +81,13 @@ TEST_F(Check, SeveralFilesAreARegionEachAndSoIsARun) {
     const std::string text = test::output_of(check(bone, {cement}));
     EXPECT_NE(text.find("region    bone: volume 1, 1 shell, outside 5, wall to cement 1"), text.npos) << text;
     EXPECT_EQ(check_json(bone, {"--with", cement})["regions"][1]["name"], "cement");
+    const std::string list = test::output_of(check(bone, {cement, "--list-regions"}));
+    EXPECT_NE(list.find("           2      1            9  cement\n"), list.npos) << list;
+    EXPECT_NE(list.find("           1  bone  cement\n"), list.npos) << list;
+    EXPECT_NE(test::output_of(check(bone, {"--list-regions"})).find("one region"), std::string::npos);
+    const std::string patches = test::output_of(check(bone, {cement, "--list-patches"}));
+    for (const char* patch : {"  bone_outer\n", "  bone_to_cement\n", "  cement_outer\n"})
+        EXPECT_NE(patches.find(patch), patches.npos) << patches;
     const ChildResult meshed = test::run_kerf({"mesh", bone, cement, "-o", out, "-n", "2", "--surface", "split", "-q"});
     EXPECT_EQ(meshed.exit_code, 0) << meshed.log;
     const Json report = Json::parse(test::bytes_of_file(out + "/report.json"));
