@@ -44,6 +44,9 @@ struct Piece {
 // makes of other formats.
 inline constexpr std::array<const char*, 4> region_arrays = {"Region", "gmsh:physical", "medit:ref", "attribute"};
 
+// Arrays that tell the regions on the two sides of a triangle, -1: outside.
+inline constexpr const char *front_array = "front", *back_array = "back";
+
 struct File {
     bool has_long_headers = false, is_compressed = false, is_appended_base64 = false;
     std::endian order = std::endian::little;

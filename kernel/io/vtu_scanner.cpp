@@ -1,13 +1,16 @@
 // VTU is XML around arrays: FieldData and Piece > Points, Cells, CellData > DataArray. For their values see
 // vtu_arrays.h.
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "io/mesh_scanners.h"
+#include "io/region_facets.h"
 #include "io/soup_builder.h"
 #include "io/surface_reader.h"
 #include "io/text_scanner.h"
@@ -90,10 +93,14 @@ Array read_array(std::string_view text, const Tag& tag, std::size_t end, const s
     return array;
 }
 
-bool is_of_cells(std::string_view name, std::string_view type) {
-    if (name == "Neighbour") return true;
-    const bool is_whole = type.starts_with("Int") || type.starts_with("UInt");
-    return is_whole && std::find(region_arrays.begin(), region_arrays.end(), name) != region_arrays.end();
+// What an array of cells is called here; empty: it is none that is read. Those of sides are written in any case.
+std::string cell_array_of(std::string_view name, std::string_view type) {
+    if (name == "Neighbour") return "Neighbour";
+    if (!type.starts_with("Int") && !type.starts_with("UInt")) return {};
+    if (std::find(region_arrays.begin(), region_arrays.end(), name) != region_arrays.end()) return std::string(name);
+    std::string lower(name);
+    std::transform(lower.begin(), lower.end(), lower.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
+    return lower == front_array || lower == back_array ? lower : std::string();
 }
 
 // An array that the tag begins; the end of its content is known by the next tag.
@@ -106,9 +113,10 @@ void read_data_array(std::string_view text, const Tag& tag, std::string_view sec
     Piece& piece = file.pieces.back();
     const std::string_view components = tag.value("NumberOfComponents");
     const bool is_scalar = components.empty() || components == "1";
-    if (section == "Points" || section == "Cells" ||
-        (section == "CellData" && is_scalar && is_of_cells(name, tag.value("type"))))
-        piece.arrays.try_emplace(name, read_array(text, tag, end, path));
+    const std::string of_cells =
+        section == "CellData" && is_scalar ? cell_array_of(name, tag.value("type")) : std::string();
+    if (section == "Points" || section == "Cells" || !of_cells.empty())
+        piece.arrays.try_emplace(of_cells.empty() ? name : of_cells, read_array(text, tag, end, path));
     if (section == "PointData" && is_scalar) piece.scalars.try_emplace(name, read_array(text, tag, end, path));
 }
 
@@ -139,8 +147,11 @@ File read_structure(std::string_view text, const std::string& path) {
 }
 
 struct Cells {
-    std::vector<std::int64_t> corners, ends, types, neighbours, regions;
+    std::vector<std::int64_t> corners, ends, types, neighbours, regions, front, back;
 };
+
+// What is on the sides of triangles, by the numbers of the file.
+using FileSides = std::vector<std::array<std::int64_t, 2>>;
 
 Cells read_cells(const Decoder& decoder, const Piece& piece, const std::string& region_array, const std::string& path) {
     Cells cells;
@@ -151,6 +162,10 @@ Cells read_cells(const Decoder& decoder, const Piece& piece, const std::string& 
         cells.neighbours = decoder.values<std::int64_t>(piece, "Neighbour", piece.cells);
     if (!region_array.empty() && piece.cells > 0)
         cells.regions = decoder.values<std::int64_t>(piece, region_array, piece.cells);
+    if (piece.cells > 0 && piece.arrays.contains(front_array) && piece.arrays.contains(back_array)) {
+        cells.front = decoder.values<std::int64_t>(piece, front_array, piece.cells);
+        cells.back = decoder.values<std::int64_t>(piece, back_array, piece.cells);
+    }
     std::int64_t begin = 0;
     for (const std::int64_t end : cells.ends) {
         if (end < begin || end > static_cast<std::int64_t>(cells.corners.size()))
@@ -167,6 +182,13 @@ std::string region_array_of(const File& file) {
         if (std::all_of(file.pieces.begin(), file.pieces.end(), has_it)) return name;
     }
     return {};
+}
+
+// Whether triangles say what is on their sides, all of them.
+bool has_sides(const File& file) {
+    return std::all_of(file.pieces.begin(), file.pieces.end(), [](const Piece& piece) {
+        return piece.cells == 0 || (piece.arrays.contains(front_array) && piece.arrays.contains(back_array));
+    });
 }
 
 // In the order of their numbers, a zero byte behind each.
@@ -210,8 +232,9 @@ bool add_cell(const Cells& cells, std::size_t cell, const std::vector<std::int64
     return true;
 }
 
+// `sides`: those of the triangles are added.
 void scan_piece(const Decoder& decoder, const Piece& piece, const std::string& region_array, const std::string& path,
-                SoupBuilder& builder) {
+                SoupBuilder& builder, FileSides& sides) {
     const std::int64_t first_vertex = builder.vertex_count();
     const std::vector<double> coordinates = decoder.values<double>(piece, "Points", 3 * piece.points);
     for (std::size_t i = 0; i < coordinates.size(); i += 3)
@@ -233,9 +256,34 @@ void scan_piece(const Decoder& decoder, const Piece& piece, const std::string& r
         ignored += !add_cell(cells, cell, corners, builder, [&](const std::string& what) {
             fail(path, "cell " + std::to_string(cell) + ": " + what);
         });
+        if (!cells.front.empty() && cells.types[cell] == vtk_triangle)
+            sides.push_back({cells.front[cell], cells.back[cell]});
     }
     builder.note_ignored(ignored, "cell that is no tetrahedron or triangle",
                          "cells that are no tetrahedra or triangles");
+}
+
+std::string region_name(const std::vector<std::string>& names, std::int64_t number) {
+    const auto place = static_cast<std::uint64_t>(number);
+    return place < names.size() && !names[place].empty() ? names[place] : "region_" + std::to_string(number);
+}
+
+// Regions of the numbers that occur, in their order.
+void set_sides(const FileSides& file_sides, const std::vector<std::string>& names, SoupBuilder& builder) {
+    std::map<VolumeKey, std::int32_t> regions;
+    for (const auto& pair : file_sides)
+        for (const std::int64_t number : pair)
+            if (number >= 0) regions.try_emplace({0, number}, 0);
+    std::int32_t count = 0;
+    for (auto& [key, place] : regions) place = count++;
+    const VolumeRegions found =
+        regions_of(regions, [&](const VolumeKey& key) { return region_name(names, key.second); });
+    const auto region = [&](std::int64_t number) {
+        return number < 0 ? -1 : found.region_of_volume[static_cast<std::size_t>(regions.at({0, number}))];
+    };
+    std::vector<FacetSides> sides;
+    for (const auto& [front, back] : file_sides) sides.push_back({region(front), region(back)});
+    builder.set_sides(std::move(sides), found.names);
 }
 
 }  // namespace
@@ -246,13 +294,13 @@ void scan_vtu(std::string_view bytes, const std::string& path, SoupBuilder& buil
     const vtu::File file = vtu::read_structure(bytes, path);
     const vtu::Decoder decoder(file, path);
     const std::string region_array = builder.wants_scalars() ? std::string() : vtu::region_array_of(file);
-    for (const vtu::Piece& piece : file.pieces) vtu::scan_piece(decoder, piece, region_array, path, builder);
-    if (region_array.empty()) return;
+    vtu::FileSides sides;
+    for (const vtu::Piece& piece : file.pieces) vtu::scan_piece(decoder, piece, region_array, path, builder, sides);
+    if (builder.wants_scalars()) return;
     const std::vector<std::string> names = vtu::region_names_of(file, decoder);
-    builder.tets().name_volumes([&](const VolumeKey& key) {
-        const auto place = static_cast<std::uint64_t>(key.second);
-        return place < names.size() && !names[place].empty() ? names[place] : "region_" + std::to_string(key.second);
-    });
+    if (!builder.wants_tets() && !sides.empty() && vtu::has_sides(file)) vtu::set_sides(sides, names, builder);
+    if (!region_array.empty())
+        builder.tets().name_volumes([&](const VolumeKey& key) { return vtu::region_name(names, key.second); });
 }
 
 Soup read_vtu(std::string_view bytes, const std::string& path) {

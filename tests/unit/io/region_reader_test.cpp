@@ -203,6 +203,36 @@ TEST(RegionReader, TakesTheArrayOfVtuThatTellsRegions) {
               (Names{"shell of steel", "region_2"}));
 }
 
+// Two tetrahedra on a common triangle, the arrays named in any case.
+TEST(RegionReader, TakesTheSidesOfTrianglesOfVtu) {
+    const auto vtu = [](const std::string& front, const std::string& back, const std::string& names) {
+        return "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><FieldData>" + names +
+               "</FieldData><Piece NumberOfPoints=\"5\" NumberOfCells=\"7\"><Points><DataArray type=\"Float64\" "
+               "NumberOfComponents=\"3\">0 0 0 3 0 0 0 3 0 0 0 1 0 0 -2</DataArray></Points><Cells><DataArray "
+               "type=\"Int64\" Name=\"connectivity\">0 1 2 0 1 3 1 2 3 2 0 3 1 0 4 2 1 4 0 2 4</DataArray><DataArray "
+               "type=\"Int64\" Name=\"offsets\">3 6 9 12 15 18 21</DataArray><DataArray type=\"UInt8\" "
+               "Name=\"types\">5 5 5 5 5 5 5</DataArray></Cells><CellData>" +
+               front + back + "</CellData></Piece></UnstructuredGrid></VTKFile>";
+    };
+    const auto array = [](const char* type, const char* name, const char* values) {
+        return std::string("<DataArray type=\"") + type + "\" Name=\"" + name + "\">" + values + "</DataArray>";
+    };
+    const std::string front = array("Int32", "Front", "1 -1 -1 -1 -1 -1 -1"),
+                      back = array("Int64", "BACK", "3 1 1 1 3 3 3");
+    const Soup soup = read_surface_bytes(vtu(front, back, ""), "surface.vtu");
+    EXPECT_EQ(soup.region_names, (std::vector<std::string>{"region_1", "region_3"}));
+    ASSERT_EQ(soup.sides.size(), 7U);
+    EXPECT_EQ(soup.sides[0], (FacetSides{1, 0}));  // the smaller one is behind it
+    EXPECT_EQ(soup.sides[1], (FacetSides{-1, 0}));
+    EXPECT_EQ(soup.sides[4], (FacetSides{-1, 1}));
+    const std::string names = array("Int8", "RegionNames", "0 97 0 0 98 0");
+    EXPECT_EQ(read_surface_bytes(vtu(front, back, names), "surface.vtu").region_names,
+              (std::vector<std::string>{"a", "b"}));
+    EXPECT_TRUE(read_surface_bytes(vtu(front, "", ""), "surface.vtu").sides.empty());
+    const std::string real = array("Float64", "back", "3 1 1 1 3 3 3");
+    EXPECT_TRUE(read_surface_bytes(vtu(front, real, ""), "surface.vtu").sides.empty());
+}
+
 TEST(RegionReader, RefusesTetrahedraThatOverlap) {
     Mesh mesh = two_tets();
     mesh.tets[1] = {0, 1, 2, 3};
