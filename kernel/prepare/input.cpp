@@ -12,11 +12,11 @@
 #include "core/hash.h"
 #include "geometry/box.h"
 #include "io/run_manifest.h"
+#include "prepare/region_diagnosis.h"
 #include "surface/hole_filling.h"
 #include "surface/intersections.h"
 #include "surface/mass_properties.h"
 #include "surface/optimisation.h"
-#include "surface/region_finder.h"
 #include "surface/regions.h"
 
 namespace kerf {
@@ -52,53 +52,6 @@ double weld(Soup& soup, const Length& wanted, InputRepairs& repairs) {
     return tolerance;
 }
 
-// What facets of several bodies look like to a diagnosis that takes them for one.
-bool may_be_several_bodies(const Diagnosis& diagnosis) {
-    constexpr std::array kinds = {DefectKind::duplicate_facet, DefectKind::coincident_shell,
-                                  DefectKind::non_manifold_edge};
-    return std::any_of(kinds.begin(), kinds.end(), [&](DefectKind kind) { return diagnosis.count(kind) > 0; });
-}
-
-void take_regions(CheckedSoup& checked, Soup divided, Diagnosis diagnosis) {
-    checked.soup = std::move(divided);
-    checked.diagnosis = std::move(diagnosis);
-}
-
-// Points of regions say what is wanted; but where facets have gaps or intersect, these are what is wrong.
-void diagnose_seeded(CheckedSoup& checked, const DiagnosisOptions& options) {
-    Soup divided = checked.soup;
-    bool is_found = false;
-    try {
-        is_found = find_seeded_regions(divided);
-    } catch (const Error&) {
-        checked.diagnosis = diagnose(checked.soup, options);
-        const Diagnosis& found = checked.diagnosis;
-        const bool is_double = found.count(DefectKind::duplicate_facet) > 0;  // and so on itself: no defect of walls
-        if (found.count(DefectKind::open_edge) > 0) return;
-        if (found.count(DefectKind::self_intersection) > 0 && !is_double) return;
-        throw;
-    }
-    if (is_found) checked.repairs.unused_vertices += drop_unused_vertices(divided);
-    Diagnosis diagnosis = diagnose(divided, options);
-    take_regions(checked, std::move(divided), std::move(diagnosis));
-}
-
-// A surface of one body costs nothing more than its diagnosis. `files`: without the soup.
-void diagnose_with_regions(CheckedSoup& checked, const InputFiles& files, const DiagnosisOptions& options) {
-    if (checked.soup.sides.empty() && !checked.soup.seeds.empty()) return diagnose_seeded(checked, options);
-    checked.diagnosis = diagnose(checked.soup, options);
-    if (!checked.soup.sides.empty()) return;
-    if (files.names.empty() && !may_be_several_bodies(checked.diagnosis)) return;
-    Soup divided = checked.soup;
-    const bool is_found = !files.names.empty() && find_given_bodies(divided, files.file_of_patch, files.names);
-    if (!is_found && !find_touching_bodies(divided)) return;
-    const std::int64_t unused = drop_unused_vertices(divided);
-    Diagnosis diagnosis = diagnose(divided, options);
-    if (!diagnosis.clean()) return;
-    checked.repairs.unused_vertices += unused;
-    take_regions(checked, std::move(divided), std::move(diagnosis));
-}
-
 // Points that the user gives are in place of those of the file.
 void take_points(Soup& soup, const InputOptions& options) {
     if (options.regions.empty()) return;
@@ -107,21 +60,6 @@ void take_points(Soup& soup, const InputOptions& options) {
                     "--region is for facets that do not say what they bound, but this file has "
                     "regions. Leave it out.");
     soup.seeds = seeds_of(options);
-}
-
-// Whether a shell inside of another one is a void or a second body does not matter if both are regions.
-void diagnose_filled(CheckedSoup& checked, const DiagnosisOptions& options) {
-    const std::vector<Defect>& defects = checked.diagnosis.defects;
-    const auto is_hindrance = [](const Defect& defect) {
-        return defect.severity == Severity::error && defect.kind != DefectKind::ambiguous_shell;
-    };
-    if (std::any_of(defects.begin(), defects.end(), is_hindrance)) return;
-    Soup divided = checked.soup;
-    if (!checked.diagnosis.dropped.empty()) drop_facets(divided, checked.diagnosis.dropped);
-    if (!fill_voids(divided)) return;
-    checked.repairs.unused_vertices += drop_unused_vertices(divided);
-    Diagnosis diagnosis = diagnose(divided, options);
-    take_regions(checked, std::move(divided), std::move(diagnosis));
 }
 
 // Moves vertices of a surface that is known to be clean.
@@ -142,6 +80,20 @@ void optimise(Soup& soup, std::int32_t sweeps, Input& input) {
     soup.vertices = std::move(moved);
 }
 
+// Of points with one name the smallest bound counts.
+std::vector<double> largest_cells_of(const Soup& soup) {
+    std::vector<double> largest(soup.region_names.size(), 0);
+    bool is_any = false;
+    for (const RegionSeed& seed : soup.seeds) {
+        const auto found = std::find(soup.region_names.begin(), soup.region_names.end(), seed.name);
+        if (found == soup.region_names.end() || !(seed.largest_cell > 0)) continue;
+        double& own = largest[static_cast<std::size_t>(found - soup.region_names.begin())];
+        own = own > 0 ? std::min(own, seed.largest_cell) : seed.largest_cell;
+        is_any = true;
+    }
+    return is_any ? largest : std::vector<double>();
+}
+
 // Of a surface that was read or given. `advice`: what else to do where it cannot be meshed.
 Input to_input(CheckedSoup checked, const std::string& path, const InputOptions& options, const char* advice) {
     Input input;
@@ -150,10 +102,12 @@ Input to_input(CheckedSoup checked, const std::string& path, const InputOptions&
     if (!checked.diagnosis.clean())
         throw Error(ErrorCode::input, fmt::format("{}: {}{}", path, checked.diagnosis.summary(soup), advice),
                     checked.diagnosis.elements(soup));
+    const std::vector<std::string> gap_notes = notes_on_gaps(checked);
     input.orientation = apply_repairs(checked);
     input.repairs = checked.repairs;
     input.weld_tolerance = checked.weld_tolerance;
     input.notes = soup.notes;
+    for (const std::string& note : gap_notes) input.notes.push_back(note);
     if (!soup.sides.empty() && (options.feature_angle_deg > 0 || options.optimisation_sweeps > 0))
         throw Error(ErrorCode::usage,
                     fmt::format("{} has several regions, whose surfaces are neither optimised nor "
@@ -168,6 +122,7 @@ Input to_input(CheckedSoup checked, const std::string& path, const InputOptions&
         if (edge.sharp != 0) input.creases.push_back(edge.vertices);
     if (soup.patch_colours.size() == soup.patch_names.size()) input.patch_colours = soup.patch_colours;
     input.diagonal = diagonal_of(soup);
+    input.largest_cells = largest_cells_of(soup);
     input.complex = make_complex(std::move(soup));
     measure_input(input);
     return input;
@@ -308,8 +263,7 @@ CheckedSoup check_files(InputFiles files, const InputOptions& options, double ne
     }
     repairs.unused_vertices = drop_unused_vertices(soup);
     take_points(soup, options);
-    diagnose_with_regions(checked, files, {options.voids, needle_angle_deg});
-    if (options.fill_voids) diagnose_filled(checked, {options.voids, needle_angle_deg});
+    diagnose_regions(checked, files, {options.voids, needle_angle_deg}, options.fill_voids);
     const std::vector<char>& dropped = checked.diagnosis.dropped;
     repairs.dropped_facets = std::count(dropped.begin(), dropped.end(), char{1});
     return checked;
@@ -337,6 +291,15 @@ OrientationReport apply_repairs(CheckedSoup& checked) {
     }
     checked.diagnosis = {};  // its numbers have lost their meaning
     return checked.soup.sides.empty() ? orient(checked.soup) : OrientationReport();
+}
+
+std::vector<double> max_volumes_of_regions(const SizeOptions& sizes, const Input& input) {
+    std::vector<double> volumes = sizes.max_volumes_of_regions(input.complex.region_names());
+    if (input.largest_cells.empty()) return volumes;
+    volumes.resize(input.largest_cells.size(), 0);
+    for (std::size_t r = 0; r < volumes.size(); ++r)
+        if (volumes[r] == 0) volumes[r] = input.largest_cells[r];
+    return volumes;
 }
 
 Input read_input(const std::string& path, const InputOptions& options) {

@@ -10,6 +10,7 @@
 #include "prepare/input_files.h"
 #include "remesh/remesh.h"
 #include "request/input_options.h"
+#include "size/size_options.h"
 #include "surface/complex.h"
 #include "surface/diagnosis.h"
 #include "surface/orientation.h"
@@ -85,6 +86,8 @@ struct Input {
     /// Edges of the surface as it was read that are creases of a CAD model, flat as they may be.
     std::vector<UndirectedEdge> creases;
     Complex complex;
+    /// Volume that cells may have at most, as the file says it for each region; 0: it does not. Empty: for none.
+    std::vector<double> largest_cells = {};
 };
 
 /// Reads (several files and CAD files, too: prepare/input_files.h), repairs, diagnoses. Throws Error only for a file
@@ -107,6 +110,10 @@ Complex make_complex(Soup soup);
 
 /// Fills the counts, volume, area and genus from the surface.
 void measure_input(Input& input);
+
+/// Bounds of volumes of cells for each region of the input: what SizeOptions::in_region says, else the file; 0:
+/// nothing. Empty if nothing is said at all. Throws as SizeOptions::max_volumes_of_regions().
+std::vector<double> max_volumes_of_regions(const SizeOptions& sizes, const Input& input);
 
 /// What stands for the path of a surface that no file has.
 inline constexpr const char* name_of_arrays = "surface in memory";

@@ -14,6 +14,7 @@
 #include "core/hash.h"
 #include "core/unique_name.h"
 #include "io/file_bytes.h"
+#include "io/named_walls.h"
 #include "io/run_manifest.h"
 #include "prepare/cad_input.h"
 
@@ -82,7 +83,25 @@ void append_soup(Soup& all, const Soup& more, const std::string& name) {
     all.is_of_model |= more.is_of_model;
 }
 
+void read_walls_beside(const std::string& path, const FileHash& hash, InputFiles& files) {
+    const std::string beside = walls_path(path);
+    if (!std::filesystem::exists(beside)) return;
+    if (!files.soup.sides.empty())
+        throw Error(
+            ErrorCode::input,
+            fmt::format("{}: {} says what lies on the sides of its facets itself. Take the JSON away.", beside, path));
+    const std::string bytes = read_file(beside);
+    files.walls_file = beside;
+    files.walls = read_named_walls(bytes, beside, files.soup.patch_names);
+    Hasher hasher;
+    hasher.add(std::span<const std::uint64_t>(hash));
+    hasher.add(std::span<const char>(bytes));
+    files.hash = hash_text(hasher.digest());
+}
+
 }  // namespace
+
+std::string walls_path(const std::string& path) { return path + ".regions.json"; }
 
 InputFiles read_input_files(const std::string& path, const InputOptions& options) {
     InputFiles files;
@@ -92,12 +111,17 @@ InputFiles read_input_files(const std::string& path, const InputOptions& options
     if (options.more_files.empty()) {
         files.soup = std::move(first);
         files.hash = hash_text(hash);
+        read_walls_beside(path, hash, files);
         return files;
     }
     Hasher hasher;
     std::vector<FileHash> hashes;
     std::set<std::string> taken_names;
     const auto add = [&](const std::string& file, const Soup& soup) {
+        if (std::filesystem::exists(walls_path(file)))
+            throw Error(ErrorCode::input, fmt::format("{}: such a JSON is for a file alone, but here are several, a "
+                                                      "region each. Mesh {} alone, or take the JSON away.",
+                                                      walls_path(file), file));
         if (!soup.sides.empty())
             throw Error(ErrorCode::usage, fmt::format("{} has regions already: mesh it alone, or give the surface of "
                                                       "each region as a file.",

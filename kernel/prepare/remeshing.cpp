@@ -58,7 +58,7 @@ SizeField wanted_lengths(const RunOptions& options, const SurfaceArrays& surface
 // The same on facets, of which those of a region may have a size of its own; of a wall the smaller one counts.
 FacetSizes wanted_on_facets(const RunOptions& options, const SurfaceArrays& surface, const Input& input) {
     const SizeField all = wanted_lengths(options, surface, input);
-    const std::vector<double> volumes = options.sizes.max_volumes_of_regions(input.complex.region_names());
+    const std::vector<double> volumes = max_volumes_of_regions(options.sizes, input);
     if (volumes.empty()) return all;
     const RegionSizes sizes(volumes);
     const auto regions = static_cast<std::int32_t>(volumes.size());

@@ -9,6 +9,7 @@
 
 #include "core/number_text.h"
 #include "io/cad_body.h"
+#include "prepare/region_diagnosis.h"
 #include "prepare/slivers.h"
 #include "surface/regions.h"
 
@@ -27,6 +28,8 @@ Json defect_json(const Defect& defect, const Soup& soup) {
                  {"what_to_do", advice(defect)}};
     if (defect.kind == DefectKind::needle) json["angle_deg"] = defect.measure;
     if (defect.kind == DefectKind::open_edge || defect.kind == DefectKind::short_edge) json["length"] = defect.measure;
+    if (!defect.bodies.empty()) json["regions"] = defect.bodies;
+    if (is_between_bodies(defect)) json["distance"] = defect.measure;
     return json;
 }
 
@@ -144,6 +147,8 @@ FileDiagnosis diagnose_file(const std::string& path, const InputOptions& options
         found.checked = check_input(path, options, needle_angle_deg);
     } catch (const SolidDefect& defect) {
         found.refused = {defect.kind(), defect};
+    } catch (const MisplacedRegion& error) {
+        found.refused = {MisplacedRegion::kind, error};
     } catch (const Error& error) {
         if (error.code() != ErrorCode::input) throw;
         found.refused = {"unreadable", error};

@@ -16,7 +16,7 @@ inline constexpr NumberRange needle_angle_range = {"0 (no needles) to 60 degrees
 
 /// Why there is no surface to be diagnosed.
 struct RefusedFile {
-    std::string kind;  ///< "unreadable", "open region", or that of a SolidDefect
+    std::string kind;  ///< "unreadable", "open region", "misplaced region", or that of a SolidDefect
     Error error;
 };
 

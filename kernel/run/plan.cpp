@@ -112,8 +112,7 @@ RunPlan plan_run(const RunOptions& request, int cores_of_rank, Communicator& ran
         plan.found_size = sized.found;
         if (keeps_most_facets(input)) sized.options = with_fineness_at_kept_facets(std::move(sized.options));
         RunOptions options = sized_on(input, std::move(sized.options));
-        options.decompose.region_sizes =
-            RegionSizes(options.sizes.max_volumes_of_regions(input.complex.region_names()));
+        options.decompose.region_sizes = RegionSizes(max_volumes_of_regions(options.sizes, input));
         require_patches(parse_patch_types(options.patch_types), input.patch_names);
         if (options.split_regions) require_regions(input.complex.region_names().size());
         if (ranks.rank() != 0) return options;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -48,6 +49,16 @@ constexpr std::array<KindTexts, defect_kind_count> texts_of_kinds = {{
     {"self-intersection", "unite the parts that overlap where the surface was made"},
     {"needle", "remesh the surface with --surface remesh where good cells are needed"},
     {"short edge", "move the part closer to the origin or collapse the edges"},
+    {"wall of unlike facets",
+     "give both bodies the same triangles where they touch, as solids of one CAD file have them, or merge vertices "
+     "that "
+     "are nearly equal with --weld"},
+    {"overlap of bodies",
+     "cut one body out of the other where they were made; where their triangles are the same but for a small distance, "
+     "merge their vertices with --weld"},
+    {"gap between bodies",
+     "where their triangles are the same but for that distance, merge their vertices with --weld, else give both the "
+     "same triangles; bodies that do not touch can be meshed each by itself"},
 }};
 static_assert(texts_of_kinds.back().name != nullptr);
 
@@ -56,6 +67,15 @@ const KindTexts& texts_of(DefectKind kind) { return texts_of_kinds[static_cast<s
 // The corners of a facet say nothing that its number does not say.
 bool are_vertices_told(const Defect& defect) {
     return !defect.vertices.empty() && (defect.facets.empty() || defect.vertices.size() < 3);
+}
+
+// " of 'bone' and 'cement', up to 0.01 apart".
+std::string bodies_text(const Defect& defect) {
+    if (defect.bodies.empty()) return "";
+    const std::string text = fmt::format(" of '{}'", fmt::join(defect.bodies, "' and '"));
+    if (!is_between_bodies(defect) || defect.measure == 0) return text;
+    return fmt::format("{}, up to {:.6g} {}", text, defect.measure,
+                       defect.kind == DefectKind::body_overlap ? "deep" : "apart");
 }
 
 ErrorElements elements_at(const Defect& defect, ElementKind kind, const std::vector<std::int32_t>& ids) {
@@ -77,10 +97,24 @@ const char* advice(const Defect& defect) {
     return defect.severity == Severity::repaired && texts.when_repaired ? texts.when_repaired : texts.advice;
 }
 
+bool is_between_bodies(const Defect& defect) {
+    return defect.kind == DefectKind::unlike_walls || defect.kind == DefectKind::body_overlap ||
+           defect.kind == DefectKind::body_gap;
+}
+
+void sort_defects(std::vector<Defect>& defects) {
+    const auto first_facet = [](const Defect& d) { return d.facets.empty() ? -1 : d.facets.front(); };
+    std::stable_sort(defects.begin(), defects.end(), [&](const Defect& a, const Defect& b) {
+        return std::pair(a.kind, first_facet(a)) < std::pair(b.kind, first_facet(b));
+    });
+}
+
 std::string counted(std::int64_t n, DefectKind kind) {
     std::string noun = name(kind);
-    if (n != 1 && noun.ends_with("vertex")) noun.replace(noun.size() - 2, 2, "ice");
-    return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
+    if (n == 1) return fmt::format("1 {}", noun);
+    if (noun.ends_with("vertex")) noun.replace(noun.size() - 2, 2, "ice");
+    const std::size_t end = std::min({noun.size(), noun.find(" of "), noun.find(" between ")});  // of the noun itself
+    return fmt::format("{} {}s{}", n, noun.substr(0, end), noun.substr(end));
 }
 
 std::string place(const Defect& defect, const Soup& soup) {
@@ -88,7 +122,8 @@ std::string place(const Defect& defect, const Soup& soup) {
     if (!defect.facets.empty()) text = list("facet", "facets", soup.file_facets(defect.facets));
     if (are_vertices_told(defect))
         text += (text.empty() ? "" : ", ") + list("vertex", "vertices", soup.file_vertices(defect.vertices));
-    return fmt::format("{} near ({:.9g}, {:.9g}, {:.9g})", text, defect.where.x(), defect.where.y(), defect.where.z());
+    return fmt::format("{}{} near ({:.9g}, {:.9g}, {:.9g})", text, bodies_text(defect), defect.where.x(),
+                       defect.where.y(), defect.where.z());
 }
 
 std::vector<ErrorElements> elements_of(const Defect& defect, const Soup& soup) {

@@ -30,8 +30,11 @@ enum class DefectKind {
     self_intersection,         ///< two facets meet outside of what they share
     needle,                    ///< a facet with an angle below the threshold
     short_edge,                ///< an edge near the rounding limit of its coordinates
+    unlike_walls,              ///< two bodies lie upon each other with other facets on both sides
+    body_overlap,              ///< two bodies overlap
+    body_gap,                  ///< two bodies nearly touch
 };
-inline constexpr std::size_t defect_kind_count = static_cast<std::size_t>(DefectKind::short_edge) + 1;
+inline constexpr std::size_t defect_kind_count = static_cast<std::size_t>(DefectKind::body_gap) + 1;
 
 enum class Severity {
     error,     ///< the surface cannot be meshed
@@ -45,7 +48,9 @@ struct Defect {
     std::vector<std::int32_t> facets;    ///< numbers as in the soup
     std::vector<std::int32_t> vertices;  ///< numbers as in the soup; of a loop in the order of going around
     Vec3 where = Vec3::Zero();           ///< a point at the defect
-    double measure = 0;                  ///< length of an open loop or a short edge; a needle's angle in degrees
+    /// Length of an open loop or a short edge; a needle's angle in degrees; the largest distance between two bodies.
+    double measure = 0;
+    std::vector<std::string> bodies = {};  ///< the body or region that has it, or the two; empty if there is only one
 };
 
 const char* name(DefectKind kind);
@@ -57,7 +62,14 @@ const char* advice(const Defect& defect);
 /// "3 open edge loops", "1 needle".
 std::string counted(std::int64_t n, DefectKind kind);
 
-/// Where it is, as one phrase: "facets 3, 8, vertex 4 near (0, 0, 1)". Facets have the numbers that the file gives them
+/// Whether it lies between two bodies, Defect::measure being a distance.
+bool is_between_bodies(const Defect& defect);
+
+/// In the order of kinds, then of first facets.
+void sort_defects(std::vector<Defect>& defects);
+
+/// Where it is, as one phrase: "facets 3, 8, vertex 4 near (0, 0, 1)", "facets 3, 8 of 'bone' and 'cement', up to 0.01
+/// apart near (0, 0, 1)". Facets have the numbers that the file gives them
 /// (Soup::polygon), counted from 0; vertices those that the file gives them (Soup::vertex_number).
 std::string place(const Defect& defect, const Soup& soup);
 

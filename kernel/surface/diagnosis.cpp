@@ -338,10 +338,7 @@ Diagnosis Examination::run() {
         find_intersections();
     find_needles();
     find_short_edges();
-    const auto first_facet = [](const Defect& d) { return d.facets.empty() ? -1 : d.facets.front(); };
-    std::stable_sort(result_.defects.begin(), result_.defects.end(), [&](const Defect& a, const Defect& b) {
-        return std::pair(a.kind, first_facet(a)) < std::pair(b.kind, first_facet(b));
-    });
+    sort_defects(result_.defects);
     return std::move(result_);
 }
 

@@ -13,6 +13,7 @@
 
 #include "core/error.h"
 #include "core/number_text.h"
+#include "surface/cell_walk.h"
 #include "surface/cells.h"
 #include "surface/divided_space.h"
 #include "surface/edge_corners.h"
@@ -21,41 +22,6 @@
 namespace kerf {
 
 namespace {
-
-// Cells and what is beyond each of their facets.
-class CellWalk {
- public:
-    explicit CellWalk(const Cells& cells) : cells_(cells), first_(cells.count + 2, 0) {
-        for (const auto [front, back] : cells.sides)
-            for (const std::int32_t cell : {front, back}) ++first_[cell + 2];
-        std::partial_sum(first_.begin(), first_.end(), first_.begin());
-        facets_.resize(2 * cells.sides.size());
-        std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
-        for (std::size_t f = 0; f < cells.sides.size(); ++f)
-            for (const std::int32_t cell : {cells.sides[f].front, cells.sides[f].back})
-                facets_[next[cell + 1]++] = static_cast<std::int32_t>(f);
-    }
-
-    // Calls enter(from, facet, to) for each bounded cell once, the cell that one comes from before.
-    template <class Enter>
-    void run(Enter enter) const {
-        std::vector<char> is_seen(cells_.count + 1, 0);
-        std::vector<std::int32_t> order = {-1};
-        is_seen[0] = 1;
-        for (std::size_t i = 0; i < order.size(); ++i)
-            for (std::int32_t k = first_[order[i] + 1]; k < first_[order[i] + 2]; ++k) {
-                const auto [front, back] = cells_.sides[facets_[k]];
-                const std::int32_t to = front == order[i] ? back : front;
-                if (std::exchange(is_seen[to + 1], char{1})) continue;
-                enter(order[i], facets_[k], to);
-                order.push_back(to);
-            }
-    }
-
- private:
-    const Cells& cells_;
-    std::vector<std::int32_t> first_, facets_;  // those of cell c: from first_[c + 1] on
-};
 
 // How often a body is around a cell, by ascending bodies, none of them 0 times.
 using Windings = std::vector<std::pair<std::int32_t, std::int32_t>>;
@@ -250,7 +216,88 @@ void name_other_cells(Soup& soup, const CellLocator& locator, DividedSpace& spac
                                      added.size() == 1 ? added[0] : added.front() + " to " + added.back()));
 }
 
+// The regions of walls in the order in which they are named; each wall by their numbers, -1 for the outside.
+std::vector<std::array<std::int32_t, 2>> number_walls(const std::vector<NamedWall>& walls,
+                                                      std::vector<std::string>& names) {
+    std::vector<std::array<std::int32_t, 2>> numbers;
+    for (const NamedWall& wall : walls) {
+        std::array<std::int32_t, 2>& own = numbers.emplace_back(std::array<std::int32_t, 2>{-1, -1});
+        for (std::size_t side = 0; side < 2; ++side) {
+            if (wall.regions[side].empty()) continue;
+            const auto found = std::find(names.begin(), names.end(), wall.regions[side]);
+            own[side] = static_cast<std::int32_t>(found - names.begin());
+            if (found == names.end()) names.push_back(wall.regions[side]);
+        }
+    }
+    return numbers;
+}
+
+std::string quoted_region(const std::string& name) { return name.empty() ? "the outside" : fmt::format("'{}'", name); }
+
+[[noreturn]] void refuse_wall(const NamedWall& wall, const Vec3& place, const std::string& what) {
+    throw Error(ErrorCode::input,
+                fmt::format("The patch '{}' is to lie between {} and {}, but at {} {}", wall.patch,
+                            quoted_region(wall.regions[0]), quoted_region(wall.regions[1]), place_text(place), what));
+}
+
+// What a facet leads to from a region; refused where it is none of its two.
+void place_walls(const Soup& soup, const std::vector<NamedWall>& walls, DividedSpace& space) {
+    const std::vector<std::array<std::int32_t, 2>> numbers = number_walls(walls, space.names);
+    const auto place_of = [&](std::int32_t facet) {
+        const auto& [a, b, c] = space.single.facets[facet];
+        return Vec3((soup.vertices[a] + soup.vertices[b] + soup.vertices[c]) / 3);
+    };
+    const auto patch_of = [&](std::int32_t facet) { return soup.patch[space.single.first[facet]]; };
+    const auto refuse_side = [&](std::int32_t facet, std::int32_t region) {
+        refuse_wall(walls[patch_of(facet)], place_of(facet),
+                    fmt::format("{} lies on one of its sides. Correct the regions of the patch, or of those around it.",
+                                quoted_region(region < 0 ? std::string() : space.names[region])));
+    };
+    const auto count = static_cast<std::int32_t>(space.single.facets.size());
+    for (std::int32_t f = 0; f < count; ++f)
+        if (space.cells.sides[f].front == space.cells.sides[f].back)
+            refuse_wall(walls[patch_of(f)], place_of(f),
+                        "no facets part them: the same cell is on both sides. Close the walls around it.");
+    CellWalk(space.cells).run([&](std::int32_t from, std::int32_t facet, std::int32_t to) {
+        const auto& [one, other] = numbers[patch_of(facet)];
+        const std::int32_t region = space.region_of(from);
+        if (region != one && region != other) refuse_side(facet, region);
+        space.region_of_cell[to] = region == one ? other : one;
+    });
+    for (std::int32_t f = 0; f < count; ++f) {
+        const auto& [one, other] = numbers[patch_of(f)];
+        const std::int32_t front = space.region_of(space.cells.sides[f].front),
+                           back = space.region_of(space.cells.sides[f].back);
+        for (const std::int32_t side : {front, back})
+            if (side != one && side != other) refuse_side(f, side);
+        if (front == back) refuse_side(f, front);
+    }
+    for (std::size_t r = 0; r < space.names.size(); ++r)
+        if (std::find(space.region_of_cell.begin(), space.region_of_cell.end(), static_cast<std::int32_t>(r)) ==
+            space.region_of_cell.end())
+            throw Error(ErrorCode::input, fmt::format("The region '{}' is nowhere: no facets of its patches close "
+                                                      "around it. Correct the regions of patches.",
+                                                      space.names[r]));
+}
+
+// One region needs no sides.
+void leave_out_single_region(Soup& soup) {
+    if (soup.region_names.size() > 1) return;
+    soup.sides.clear();
+    soup.region_names.clear();
+}
+
 }  // namespace
+
+bool find_walled_regions(Soup& soup, const std::vector<NamedWall>& walls) {
+    if (!soup.sides.empty()) return false;
+    std::optional<DividedSpace> space = divide_space(soup);
+    if (!space) return false;
+    place_walls(soup, walls, *space);
+    give_sides(soup, std::move(*space));
+    leave_out_single_region(soup);
+    return true;
+}
 
 bool find_seeded_regions(Soup& soup) {
     if (!soup.sides.empty() || soup.seeds.empty()) return false;
@@ -260,9 +307,7 @@ bool find_seeded_regions(Soup& soup) {
     place_seeds(soup, locator, *space);
     name_other_cells(soup, locator, *space);
     give_sides(soup, std::move(*space));
-    if (soup.region_names.size() > 1) return true;
-    soup.sides.clear();
-    soup.region_names.clear();
+    leave_out_single_region(soup);
     return true;
 }
 

@@ -1,9 +1,19 @@
 // What lies on the sides of facets, where the file does not say it.
 #pragma once
 
+#include <array>
+#include <string>
+#include <vector>
+
 #include "surface/soup.h"
 
 namespace kerf {
+
+/// What a patch lies between; an empty name: the outside.
+struct NamedWall {
+    std::string patch;
+    std::array<std::string, 2> regions;
+};
 
 // All of these set Soup::sides and Soup::region_names. Facets of different regions have the smaller number behind them;
 // a facet that is there several times is kept once, the first one; those with the same on both sides, and those with a
@@ -17,6 +27,12 @@ namespace kerf {
 /// naming points and places, for a point outside of all cells or on a facet, for two of different names in one cell,
 /// and for one in a cell with a hole.
 bool find_seeded_regions(Soup& soup);
+
+/// By what lies between: from the outside on, each facet leads from one region of its patch into the other, so that
+/// neither normals nor the order of two names count. `walls`: for every patch, in their order. Throws Error(input),
+/// naming patch, regions and place, where a facet has one cell on both sides or a side that is none of its two regions,
+/// and for a region that is nowhere.
+bool find_walled_regions(Soup& soup, const std::vector<NamedWall>& walls);
 
 /// Without points, in this order; false if none of them holds:
 /// - All patches are closed by themselves, with normals that all point out or all point in, and some have a facet in

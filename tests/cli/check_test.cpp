@@ -1,6 +1,7 @@
 // kerf check as a user sees it, and the repairs that are asked for: what check calls clean with them is meshed with
 // them.
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <regex>
@@ -98,6 +99,32 @@ TEST_F(Check, SeveralFilesAreARegionEachAndSoIsARun) {
     const ChildResult twice = test::run_kerf({"mesh", bone, bone, "-o", out});
     EXPECT_EQ(twice.exit_code, 2);
     EXPECT_NE(twice.log.find("bone.off is given twice"), std::string::npos) << twice.log;
+}
+
+TEST_F(Check, BodiesThatDoNotFitAreToldByBothNamesAndAPlace) {
+    const auto box = [&](const char* name, double low, double high, int n) {
+        const Soup soup = test::box(Vec3(low, 0, 0), Vec3(high, 1, 1), n);
+        test::write_off(folder_.file(name), soup.vertices, soup.facets);
+        return folder_.file(name);
+    };
+    const std::string bone = box("bone.off", 0, 1, 2);
+    const std::map<std::string, std::string> cements = {{"gap between bodies", box("gap.off", 1 + 1e-5, 2, 2)},
+                                                        {"overlap of bodies", box("over.off", 0.9, 2, 2)},
+                                                        {"wall of unlike facets", box("other.off", 1, 2, 3)}};
+    for (const auto& [kind, cement] : cements) {
+        const ChildResult result = check(bone, {cement});
+        EXPECT_EQ(result.exit_code, 3);
+        const std::string text = test::output_of(result), name = std::filesystem::path(cement).stem();
+        for (const std::string& part : {"1 " + kind, "'bone' and '" + name + "'", std::string(" near (")})
+            EXPECT_NE(text.find(part), text.npos) << text;
+        const Json defects = check_json(bone, {"--with", cement})["defects"];
+        ASSERT_EQ(defects.size(), 1U) << defects;
+        EXPECT_EQ(defects[0]["kind"], kind);
+        EXPECT_EQ(defects[0]["regions"], Json::array({"bone", name}));
+        EXPECT_GE(defects[0]["distance"], 0);
+        EXPECT_EQ(defects[0]["where"].size(), 3U);
+        EXPECT_GE(defects[0]["facets"].size(), 2U);
+    }
 }
 
 TEST_F(Check, TextIsShortHoweverManyDefectsThereAre) {

@@ -124,6 +124,10 @@ std::string usual_value(const std::string& option, const RunOptions& options, co
         return edges > 0 ? fmt::format("{}", edges) : "";
     }
     if (option == "weld" && checked) {
+        double distance = 0;  // a little more than is between bodies
+        for (const Defect& defect : checked->diagnosis.defects)
+            if (is_between_bodies(defect)) distance = std::max(distance, defect.measure);
+        if (distance > 0) return fmt::format("{:.2g}", 1.2 * distance);
         const double diagonal = diagonal_of_soup(checked->soup);
         return diagonal > 0 ? power_of_ten_below(1e-5 * diagonal) : "";
     }

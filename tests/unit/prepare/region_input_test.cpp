@@ -143,7 +143,7 @@ TEST_F(RegionFiles, ThatIntersectAreRefused) {
     const std::string bone = write("bone.off", big_);
     InputOptions options;
     options.more_files = {write("cement.off", test::box(Vec3(3, 3, 3), Vec3(5, 5, 5)))};
-    expect_error(ErrorCode::input, "intersection", [&] { read_input(bone, options); });
+    expect_error(ErrorCode::input, "overlap of bodies", [&] { read_input(bone, options); });
     options.more_files = {folder_.file("none.off")};
     EXPECT_THROW(read_input(bone, options), Error);
 }

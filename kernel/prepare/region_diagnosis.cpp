@@ -1,0 +1,150 @@
+#include "prepare/region_diagnosis.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/number_text.h"
+#include "surface/bodies.h"
+#include "surface/region_finder.h"
+
+namespace kerf {
+
+namespace {
+
+// What facets of several bodies look like to a diagnosis that takes them for one.
+bool may_be_several_bodies(const Diagnosis& diagnosis) {
+    constexpr std::array kinds = {DefectKind::duplicate_facet, DefectKind::coincident_shell,
+                                  DefectKind::non_manifold_edge};
+    return std::any_of(kinds.begin(), kinds.end(), [&](DefectKind kind) { return diagnosis.count(kind) > 0; });
+}
+
+void take_regions(CheckedSoup& checked, Soup divided, Diagnosis diagnosis) {
+    checked.soup = std::move(divided);
+    checked.diagnosis = std::move(diagnosis);
+}
+
+// What was said of regions counts, and what is wrong with that; but where facets have gaps or intersect, these are what
+// is wrong. `find(soup)`: sets the sides. `file`: where it was said, empty for the file of the surface.
+template <class Find>
+void diagnose_said(CheckedSoup& checked, const DiagnosisOptions& options, const std::string& file, const Find& find) {
+    Soup divided = checked.soup;
+    bool is_found = false;
+    try {
+        is_found = find(divided);
+    } catch (const Error& error) {
+        checked.diagnosis = diagnose(checked.soup, options);
+        const Diagnosis& found = checked.diagnosis;
+        const bool is_double = found.count(DefectKind::duplicate_facet) > 0;  // and so on itself: no defect of walls
+        if (found.count(DefectKind::open_edge) > 0) return;
+        if (found.count(DefectKind::self_intersection) > 0 && !is_double) return;
+        throw MisplacedRegion(file.empty() ? error.what() : fmt::format("{}: {}", file, error.what()));
+    }
+    if (is_found) checked.repairs.unused_vertices += drop_unused_vertices(divided);
+    Diagnosis diagnosis = diagnose(divided, options);
+    take_regions(checked, std::move(divided), std::move(diagnosis));
+}
+
+void diagnose_seeded(CheckedSoup& checked, const DiagnosisOptions& options) {
+    diagnose_said(checked, options, "", [](Soup& soup) { return find_seeded_regions(soup); });
+}
+
+void diagnose_named_walls(CheckedSoup& checked, const InputFiles& files, const DiagnosisOptions& options) {
+    diagnose_said(checked, options, files.walls_file,
+                  [&](Soup& soup) { return find_walled_regions(soup, files.walls); });
+}
+
+// Files, or else patches that are closed by themselves. None: it is not known what the bodies are.
+Bodies known_bodies(const Soup& soup, const InputFiles& files) {
+    if (files.names.empty()) return closed_patches(soup);
+    Bodies bodies{{}, files.names};
+    for (const std::int32_t patch : soup.patch) bodies.of_facet.push_back(files.file_of_patch[patch]);
+    return bodies;
+}
+
+// Whether the soup is one of several regions now.
+bool take_found_regions(CheckedSoup& checked, const InputFiles& files, const DiagnosisOptions& options) {
+    if (files.names.empty() && !may_be_several_bodies(checked.diagnosis)) return false;
+    Soup divided = checked.soup;
+    const bool is_given = !files.names.empty() && find_given_bodies(divided, files.file_of_patch, files.names);
+    if (!is_given && !find_touching_bodies(divided)) return false;
+    const std::int64_t unused = drop_unused_vertices(divided);
+    Diagnosis diagnosis = diagnose(divided, options);
+    if (!diagnosis.clean()) return false;
+    checked.repairs.unused_vertices += unused;
+    take_regions(checked, std::move(divided), std::move(diagnosis));
+    return true;
+}
+
+// A surface of one body costs nothing more than its diagnosis. `files`: without the soup.
+void diagnose_with_regions(CheckedSoup& checked, const InputFiles& files, const DiagnosisOptions& options) {
+    if (!files.walls.empty()) return diagnose_named_walls(checked, files, options);
+    if (checked.soup.sides.empty() && !checked.soup.seeds.empty()) return diagnose_seeded(checked, options);
+    checked.diagnosis = diagnose(checked.soup, options);
+    if (!checked.soup.sides.empty() || take_found_regions(checked, files, options) || checked.diagnosis.clean()) return;
+    const Bodies bodies = known_bodies(checked.soup, files);
+    if (bodies.names.empty()) return;
+    if (Diagnosis by_body = diagnose_bodies(checked.soup, bodies, options); !by_body.clean())
+        checked.diagnosis = std::move(by_body);
+}
+
+// Whether a shell inside of another one is a void or a second body does not matter if both are regions.
+void diagnose_filled(CheckedSoup& checked, const DiagnosisOptions& options) {
+    const std::vector<Defect>& defects = checked.diagnosis.defects;
+    const auto is_hindrance = [](const Defect& defect) {
+        return defect.severity == Severity::error && defect.kind != DefectKind::ambiguous_shell;
+    };
+    if (std::any_of(defects.begin(), defects.end(), is_hindrance)) return;
+    Soup divided = checked.soup;
+    if (!checked.diagnosis.dropped.empty()) drop_facets(divided, checked.diagnosis.dropped);
+    if (!fill_voids(divided)) return;
+    checked.repairs.unused_vertices += drop_unused_vertices(divided);
+    Diagnosis diagnosis = diagnose(divided, options);
+    take_regions(checked, std::move(divided), std::move(diagnosis));
+}
+
+// Between regions, or between patches that are bodies of their own.
+void look_for_gaps(CheckedSoup& checked) {
+    if (!checked.diagnosis.clean()) return;
+    if (!checked.soup.sides.empty()) return add_gaps(checked.diagnosis, checked.soup, {});
+    if (checked.soup.patch_names.size() < 2) return;
+    const Bodies bodies = separate_patches(checked.soup);
+    const std::set<std::int32_t> different(bodies.of_facet.begin(), bodies.of_facet.end());
+    if (different.size() < 2) return;
+    CheckedSoup turned = checked;
+    apply_repairs(turned);
+    Bodies kept{{}, bodies.names};
+    std::vector<std::int32_t> number;
+    for (std::size_t f = 0; f < checked.soup.facets.size(); ++f) {
+        if (!checked.diagnosis.dropped.empty() && checked.diagnosis.dropped[f] != 0) continue;
+        kept.of_facet.push_back(bodies.of_facet[f]);
+        number.push_back(static_cast<std::int32_t>(f));
+    }
+    add_gaps(checked.diagnosis, turned.soup, kept, number);
+}
+
+}  // namespace
+
+void diagnose_regions(CheckedSoup& checked, const InputFiles& files, const DiagnosisOptions& options,
+                      bool voids_are_regions) {
+    diagnose_with_regions(checked, files, options);
+    if (voids_are_regions) diagnose_filled(checked, options);
+    look_for_gaps(checked);
+}
+
+std::vector<std::string> notes_on_gaps(const CheckedSoup& checked) {
+    std::vector<std::string> notes;
+    for (const Defect& defect : checked.diagnosis.defects)
+        if (defect.kind == DefectKind::body_gap)
+            notes.push_back(fmt::format(
+                "'{}' and '{}' do not touch: they are up to {:.6g} apart at {}. If they should, "
+                "{}.",
+                defect.bodies[0], defect.bodies[1], defect.measure, place_text(defect.where), advice(defect)));
+    return notes;
+}
+
+}  // namespace kerf

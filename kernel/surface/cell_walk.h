@@ -1,0 +1,48 @@
+// From cell to cell, from the outside on.
+#pragma once
+
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "surface/cells.h"
+
+namespace kerf {
+
+/// Cells and what is beyond each of their facets. Keeps the reference.
+class CellWalk {
+ public:
+    explicit CellWalk(const Cells& cells) : cells_(cells), first_(cells.count + 2, 0) {
+        for (const auto [front, back] : cells.sides)
+            for (const std::int32_t cell : {front, back}) ++first_[cell + 2];
+        std::partial_sum(first_.begin(), first_.end(), first_.begin());
+        facets_.resize(2 * cells.sides.size());
+        std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
+        for (std::size_t f = 0; f < cells.sides.size(); ++f)
+            for (const std::int32_t cell : {cells.sides[f].front, cells.sides[f].back})
+                facets_[next[cell + 1]++] = static_cast<std::int32_t>(f);
+    }
+
+    /// Calls enter(from, facet, to) for each bounded cell once, the cell that one comes from before; O(#F).
+    template <class Enter>
+    void run(Enter enter) const {
+        std::vector<char> is_seen(cells_.count + 1, 0);
+        std::vector<std::int32_t> order = {-1};
+        is_seen[0] = 1;
+        for (std::size_t i = 0; i < order.size(); ++i)
+            for (std::int32_t k = first_[order[i] + 1]; k < first_[order[i] + 2]; ++k) {
+                const auto [front, back] = cells_.sides[facets_[k]];
+                const std::int32_t to = front == order[i] ? back : front;
+                if (std::exchange(is_seen[to + 1], char{1})) continue;
+                enter(order[i], facets_[k], to);
+                order.push_back(to);
+            }
+    }
+
+ private:
+    const Cells& cells_;
+    std::vector<std::int32_t> first_, facets_;  // those of cell c: from first_[c + 1] on
+};
+
+}  // namespace kerf
