@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "geometry/box.h"
+#include "geometry/triangle.h"
 #include "io/run_manifest.h"
 #include "prepare/region_diagnosis.h"
 #include "surface/hole_filling.h"
