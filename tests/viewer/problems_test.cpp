@@ -43,6 +43,15 @@ TEST(Problems, EveryOptionThatARemedyNamesIsAdvised) {
     EXPECT_EQ(all, (std::set<std::string>{"fill-holes", "keep-largest", "surface", "voids", "weld"}));
 }
 
+TEST(Problems, BodiesThatNearlyTouchAreWeldedByALittleMoreThanTheirDistance) {
+    CheckedSoup checked{box(), {}, {}, 0};
+    checked.diagnosis.defects.push_back(
+        {DefectKind::body_gap, Severity::error, {0, 1}, {}, Vec3::Zero(), 1e-4, {"bone", "cement"}});
+    EXPECT_EQ(usual_value("weld", {}, &checked), "0.00012");
+    EXPECT_NE(place(checked.diagnosis.defects[0], checked.soup).find("'bone' and 'cement', up to 0.0001 apart"),
+              std::string::npos);
+}
+
 class ProblemButtons : public testing::Test {
  protected:
     void open(const Soup& soup) {
