@@ -118,7 +118,7 @@ struct RemeshTask {
 // The length that is wanted at a point of a label, and what follows from the sizes of regions.
 void want_lengths_of_regions(const RunOptions& options, const SurfaceArrays& surface, const Input& input,
                              RemeshTask& task) {
-    const std::vector<double> volumes = options.sizes.max_volumes_of_regions(input.complex.region_names());
+    const std::vector<double> volumes = max_volumes_of_regions(options.sizes, input);
     if (std::all_of(volumes.begin(), volumes.end(), [](double volume) { return volume == 0; })) return;
     const SizeField all = wanted_lengths(options, surface, input);
     const RegionSizes sizes(volumes);
