@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "core/number_text.h"
-#include "surface/bodies.h"
+#include "surface/given_bodies.h"
 #include "surface/region_finder.h"
 
 namespace kerf {
@@ -59,9 +59,9 @@ void diagnose_named_walls(CheckedSoup& checked, const InputFiles& files, const D
 }
 
 // Files, or else patches that are closed by themselves. None: it is not known what the bodies are.
-Bodies known_bodies(const Soup& soup, const InputFiles& files) {
+GivenBodies known_bodies(const Soup& soup, const InputFiles& files) {
     if (files.names.empty()) return closed_patches(soup);
-    Bodies bodies{{}, files.names};
+    GivenBodies bodies{{}, files.names};
     for (const std::int32_t patch : soup.patch) bodies.of_facet.push_back(files.file_of_patch[patch]);
     return bodies;
 }
@@ -86,7 +86,7 @@ void diagnose_with_regions(CheckedSoup& checked, const InputFiles& files, const 
     if (checked.soup.sides.empty() && !checked.soup.seeds.empty()) return diagnose_seeded(checked, options);
     checked.diagnosis = diagnose(checked.soup, options);
     if (!checked.soup.sides.empty() || take_found_regions(checked, files, options) || checked.diagnosis.clean()) return;
-    const Bodies bodies = known_bodies(checked.soup, files);
+    const GivenBodies bodies = known_bodies(checked.soup, files);
     if (bodies.names.empty()) return;
     if (Diagnosis by_body = diagnose_bodies(checked.soup, bodies, options); !by_body.clean())
         checked.diagnosis = std::move(by_body);
@@ -112,12 +112,12 @@ void look_for_gaps(CheckedSoup& checked) {
     if (!checked.diagnosis.clean()) return;
     if (!checked.soup.sides.empty()) return add_gaps(checked.diagnosis, checked.soup, {});
     if (checked.soup.patch_names.size() < 2) return;
-    const Bodies bodies = separate_patches(checked.soup);
+    const GivenBodies bodies = separate_patches(checked.soup);
     const std::set<std::int32_t> different(bodies.of_facet.begin(), bodies.of_facet.end());
     if (different.size() < 2) return;
     CheckedSoup turned = checked;
     apply_repairs(turned);
-    Bodies kept{{}, bodies.names};
+    GivenBodies kept{{}, bodies.names};
     std::vector<std::int32_t> number;
     for (std::size_t f = 0; f < checked.soup.facets.size(); ++f) {
         if (!checked.diagnosis.dropped.empty() && checked.diagnosis.dropped[f] != 0) continue;

@@ -18,9 +18,9 @@ class MisplacedRegion : public Error {
 };
 
 /// Diagnoses the soup, finds its regions where it does not say what it bounds (surface/region_finder.h), and looks for
-/// gaps between bodies (surface/bodies.h). Where bodies that are known, by files or because each patch is closed by
-/// itself, cannot be regions, each of them is diagnosed by itself, and where two do not fit. `files`: without its soup.
-/// Throws MisplacedRegion, naming regions and places, for points of regions and for names of walls.
+/// gaps between bodies (surface/given_bodies.h). Where bodies that are known, by files or because each patch is closed
+/// by itself, cannot be regions, each of them is diagnosed by itself, and where two do not fit. `files`: without its
+/// soup. Throws MisplacedRegion, naming regions and places, for points of regions and for names of walls.
 void diagnose_regions(CheckedSoup& checked, const InputFiles& files, const DiagnosisOptions& options,
                       bool voids_are_regions);
 

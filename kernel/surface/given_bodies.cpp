@@ -1,4 +1,4 @@
-#include "surface/bodies.h"
+#include "surface/given_bodies.h"
 
 #include <algorithm>
 #include <numeric>
@@ -23,7 +23,7 @@ struct OwnSoup {
     std::vector<std::int32_t> facet_number, vertex_number;
 };
 
-OwnSoup soup_of_body(const Soup& all, const Bodies& bodies, std::int32_t body) {
+OwnSoup soup_of_body(const Soup& all, const GivenBodies& bodies, std::int32_t body) {
     OwnSoup own;
     own.soup.patch_names = all.patch_names;
     own.soup.unfit_polygons = all.unfit_polygons;
@@ -87,7 +87,7 @@ void add_mismatch(Diagnosis& diagnosis, const WallMismatch& mismatch, Severity s
 
 }  // namespace
 
-Bodies closed_patches(const Soup& soup) {
+GivenBodies closed_patches(const Soup& soup) {
     const std::size_t count = soup.patch_names.size();
     std::vector<std::vector<Triangle>> facets(count);
     for (std::size_t f = 0; f < soup.facets.size(); ++f)
@@ -97,10 +97,10 @@ Bodies closed_patches(const Soup& soup) {
     bool is_closed = true;
     for (std::size_t p = 0; p < count && is_closed; ++p)
         EdgeCorners(facets[p]).for_each_edge([&](std::int32_t, auto corners) { is_closed &= corners.size() % 2 == 0; });
-    return is_closed ? Bodies{soup.patch, soup.patch_names} : Bodies{};
+    return is_closed ? GivenBodies{soup.patch, soup.patch_names} : GivenBodies{};
 }
 
-Bodies separate_patches(const Soup& soup) {
+GivenBodies separate_patches(const Soup& soup) {
     UnionFind groups(soup.patch_names.size());
     std::vector<std::int32_t> patch_of_vertex(soup.vertices.size(), -1);
     for (std::size_t f = 0; f < soup.facets.size(); ++f)
@@ -109,12 +109,12 @@ Bodies separate_patches(const Soup& soup) {
             if (patch >= 0) groups.join(patch, soup.patch[f]);
             patch = soup.patch[f];
         }
-    Bodies bodies{{}, soup.patch_names};
+    GivenBodies bodies{{}, soup.patch_names};
     for (const std::int32_t patch : soup.patch) bodies.of_facet.push_back(groups.root(patch));
     return bodies;
 }
 
-Diagnosis diagnose_bodies(const Soup& soup, const Bodies& bodies, const DiagnosisOptions& options) {
+Diagnosis diagnose_bodies(const Soup& soup, const GivenBodies& bodies, const DiagnosisOptions& options) {
     KERF_CHECK(bodies.of_facet.size() == soup.facets.size());
     Diagnosis all;
     for (std::size_t b = 0; b < bodies.names.size(); ++b) {
@@ -138,7 +138,7 @@ Diagnosis diagnose_bodies(const Soup& soup, const Bodies& bodies, const Diagnosi
     return all;
 }
 
-void add_gaps(Diagnosis& diagnosis, const Soup& soup, const Bodies& bodies,
+void add_gaps(Diagnosis& diagnosis, const Soup& soup, const GivenBodies& bodies,
               const std::vector<std::int32_t>& facet_number) {
     std::vector<Triangle> facets;
     std::vector<std::int32_t> body, number;

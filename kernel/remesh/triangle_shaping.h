@@ -1,0 +1,13 @@
+// The order in which the remesher uses its operations.
+#pragma once
+
+#include "remesh/edited_surface.h"
+#include "remesh/remesh.h"
+
+namespace kerf {
+
+/// Leaves out what the bound does not need, finds sizes (FoldSizes), then splits, collapses, flips and moves until
+/// triangles are well shaped and of these sizes. Deterministic. O(n log n), n: facets before and after.
+void shape_triangles(EditedSurface& surface, const RemeshOptions& options);
+
+}  // namespace kerf
