@@ -286,8 +286,9 @@ Complex make_complex(Soup soup) {
 }
 
 OrientationReport apply_repairs(CheckedSoup& checked) {
-    if (checked.repairs.dropped_facets > 0) {
-        drop_facets(checked.soup, checked.diagnosis.dropped);
+    const std::vector<char>& dropped = checked.diagnosis.dropped;
+    if (std::find(dropped.begin(), dropped.end(), char{1}) != dropped.end()) {
+        drop_facets(checked.soup, dropped);
         checked.repairs.unused_vertices += drop_unused_vertices(checked.soup);
     }
     checked.diagnosis = {};  // its numbers have lost their meaning

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -80,6 +81,21 @@ bool take_found_regions(CheckedSoup& checked, const InputFiles& files, const Dia
     return true;
 }
 
+// Of the solids of one file all that is wrong stays listed, intersections with the names of both; what two of them have
+// between them comes first.
+void tell_mismatches(CheckedSoup& checked, const GivenBodies& bodies, const Diagnosis& by_body) {
+    std::vector<Defect>& defects = checked.diagnosis.defects;
+    for (Defect& defect : defects) {
+        if (defect.kind != DefectKind::self_intersection || defect.facets.size() != 2) continue;
+        const std::int32_t a = bodies.of_facet[defect.facets[0]], b = bodies.of_facet[defect.facets[1]];
+        if (a != b) defect.bodies = {bodies.names[std::min(a, b)], bodies.names[std::max(a, b)]};
+    }
+    std::vector<Defect> between;
+    std::copy_if(by_body.defects.begin(), by_body.defects.end(), std::back_inserter(between), is_between_bodies);
+    for (const Defect& defect : between) ++checked.diagnosis.counts[static_cast<std::size_t>(defect.kind)];
+    defects.insert(defects.begin(), between.begin(), between.end());
+}
+
 // A surface of one body costs nothing more than its diagnosis. `files`: without the soup.
 void diagnose_with_regions(CheckedSoup& checked, const InputFiles& files, const DiagnosisOptions& options) {
     if (!files.walls.empty()) return diagnose_named_walls(checked, files, options);
@@ -88,7 +104,10 @@ void diagnose_with_regions(CheckedSoup& checked, const InputFiles& files, const 
     if (!checked.soup.sides.empty() || take_found_regions(checked, files, options) || checked.diagnosis.clean()) return;
     const GivenBodies bodies = known_bodies(checked.soup, files);
     if (bodies.names.empty()) return;
-    if (Diagnosis by_body = diagnose_bodies(checked.soup, bodies, options); !by_body.clean())
+    Diagnosis by_body = diagnose_bodies(checked.soup, bodies, options);
+    if (files.names.empty())
+        tell_mismatches(checked, bodies, by_body);
+    else if (!by_body.clean())
         checked.diagnosis = std::move(by_body);
 }
 

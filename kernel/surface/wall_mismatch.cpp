@@ -1,6 +1,6 @@
 // A gap: what of one facet lies over the other is a convex polygon, so that its corners have the largest and the
 // smallest distance. An overlap: the pairs of facets that intersect tell where it is and whether they lie flat upon
-// each other, the corners that lie in the other body how deep it is.
+// each other, the points that lie in the other body how deep it is.
 #include "surface/wall_mismatch.h"
 
 #include <algorithm>
@@ -124,7 +124,7 @@ double passage(const FacetCorners& f, const FacetCorners& g) {
 
 struct ClosedBody {
     Shell shell;
-    std::vector<std::int32_t> corners;  // ascending
+    std::vector<Vec3> points;  // the corners of its facets, each once, and their centroids
     std::unique_ptr<TriangleTree> tree;
 };
 
@@ -136,14 +136,18 @@ class DepthGauge {
         const std::int32_t count = *std::max_element(body.begin(), body.end()) + 1;
         for (Shell& shell : collect_shells(vertices, facets, body, count)) {
             ClosedBody& own = bodies_.emplace_back();
-            for (const Triangle& t : shell.facets) own.corners.insert(own.corners.end(), t.begin(), t.end());
-            std::sort(own.corners.begin(), own.corners.end());
-            own.corners.erase(std::unique(own.corners.begin(), own.corners.end()), own.corners.end());
+            std::vector<std::int32_t> corners;
+            for (const Triangle& t : shell.facets) corners.insert(corners.end(), t.begin(), t.end());
+            std::sort(corners.begin(), corners.end());
+            corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+            for (const std::int32_t v : corners) own.points.push_back(vertices[v]);
+            for (const auto& [a, b, c] : shell.facets)
+                own.points.emplace_back((vertices[a] + vertices[b] + vertices[c]) / 3);
             own.shell = std::move(shell);
         }
     }
 
-    // Of bodies side by side: how deep corners of one lie in the other. Of one that is meant to lie in the other: how
+    // Of bodies side by side: how deep points of one lie in the other. Of one that is meant to lie in the other: how
     // far its corners lie outside of it.
     double depth(std::int32_t a, std::int32_t b) { return std::max(depth_of(a, b), depth_of(b, a)); }
 
@@ -157,9 +161,8 @@ class DepthGauge {
         ClosedBody& other = bodies_[b];
         if (!other.tree) other.tree = std::make_unique<TriangleTree>(vertices_, other.shell.facets);
         double furthest = 0;
-        for (const std::int32_t v : bodies_[a].corners) {
+        for (const Vec3& p : bodies_[a].points) {
             if (furthest >= enough) break;
-            const Vec3& p = vertices_[v];
             const bool may_be = other.shell.box.contains(p);
             const std::optional<bool> is_there = may_be ? encloses(vertices_, other.shell, p) : false;
             if (is_there != is_inside) continue;
@@ -245,8 +248,8 @@ std::vector<WallMismatch> find_overlaps(const std::vector<Vec3>& vertices, const
     DepthGauge gauge(vertices, facets, body);
     for (WallMismatch& mismatch : all) {
         const Findings& own = findings[mismatch.bodies];
-        // That an edge passes through a facet says less than corners do, where some are inside.
-        if (const double depth = gauge.depth(mismatch.bodies[0], mismatch.bodies[1]); depth > 0)
+        // That an edge passes through a facet says less than points do, where some are inside.
+        if (const double depth = gauge.depth(mismatch.bodies[0], mismatch.bodies[1]); depth > rounding * own.longest)
             mismatch.distance = depth;
         if (mismatch.distance <= (own.lie_flat ? of_facets : rounding) * own.longest)
             mismatch.kind = WallMismatch::Kind::unlike;

@@ -35,7 +35,8 @@ const std::vector<Damage>& mendable_damages();
 
 /// One line per defect with kind, severity, facets and vertices; sorted.
 std::vector<std::string> lines(const std::vector<ExpectedDefect>& expected);
-/// The same for what was found, with the numbers that facets and vertices had before the check.
+/// The same for what was found, with the numbers that facets and vertices had before the check; without overlaps and
+/// unlike walls of bodies, which sum up defects that have lines of their own.
 std::vector<std::string> lines(const CheckedSoup& checked);
 
 /// The pairs that triangles_intersect() finds among all pairs.
