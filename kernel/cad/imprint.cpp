@@ -30,9 +30,9 @@ namespace {
 
 // Of the smallest diagonal, as tolerances: what programs round leaves gaps where none is meant.
 constexpr std::array<double, 3> shares = {1e-6, 0, 1e-5};
-constexpr double integration_precision = 1e-6;             // as body_mesher.cpp has it
-constexpr double least_volume = 1e-12;                     // of the box around a body
-constexpr double most_change = 1e-4;                       // of the volume of a body
+constexpr double integration_precision = 1e-6;  // as body_mesher.cpp has it
+constexpr double least_volume = 1e-12;          // of the box around a body
+constexpr double most_change = 1e-4;            // of the volume of a body
 
 struct Mass {
     double volume;  // negative: turned inside out

@@ -54,9 +54,21 @@ void diagnose_seeded(CheckedSoup& checked, const DiagnosisOptions& options) {
     diagnose_said(checked, options, "", [](Soup& soup) { return find_seeded_regions(soup); });
 }
 
+// The regions that the patch of the first facet is said to lie between.
+void name_by_walls(Defect& defect, const Soup& soup, const std::vector<NamedWall>& walls) {
+    if (defect.facets.empty()) return;
+    const std::string& patch = soup.patch_names[soup.patch[defect.facets.front()]];
+    const auto wall = std::find_if(walls.begin(), walls.end(), [&](const auto& other) { return other.patch == patch; });
+    if (wall == walls.end()) return;
+    for (const std::string& region : wall->regions)
+        if (!region.empty()) defect.bodies.push_back(region);
+}
+
 void diagnose_named_walls(CheckedSoup& checked, const InputFiles& files, const DiagnosisOptions& options) {
     diagnose_said(checked, options, files.walls_file,
                   [&](Soup& soup) { return find_walled_regions(soup, files.walls); });
+    if (!checked.soup.sides.empty()) return;
+    for (Defect& defect : checked.diagnosis.defects) name_by_walls(defect, checked.soup, files.walls);
 }
 
 // Files, or else patches that are closed by themselves. None: it is not known what the bodies are.

@@ -33,9 +33,10 @@ std::vector<WallMismatch> find_gaps(const std::vector<Vec3>& vertices, const std
 
 /// Bodies whose facets intersect. Those that lie flat upon each other but for a tenth of their longest edge, as the two
 /// triangulations of a curved face do, are unlike walls, all else are overlaps; how deep these are is measured at the
-/// corners and centroids of facets and where edges pass through facets. Facets that both bodies have are no mismatch. `facets`: those
-/// of each body are closed and free of intersections. One result for each two bodies, ascending. O(#F log #F) plus the
-/// time of find_self_intersections(), and a question to a body for each of these points in its box; deterministic.
+/// corners and centroids of facets and where edges pass through facets. Facets that both bodies have are no mismatch.
+/// `facets`: those of each body are closed and free of intersections. One result for each two bodies, ascending. O(#F
+/// log #F) plus the time of find_self_intersections(), and a question to a body for each of these points in its box;
+/// deterministic.
 std::vector<WallMismatch> find_overlaps(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                                         const std::vector<std::int32_t>& body);
 

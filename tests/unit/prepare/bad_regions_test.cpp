@@ -1,4 +1,5 @@
 // Three bad inputs of each kind: what is wrong is told with the names of both regions and a place.
+#include <algorithm>
 #include <fstream>
 #include <functional>
 
@@ -222,6 +223,40 @@ TEST_F(WallsBeside, ThatDoNotFitAreRefusedWithAPlace) {
     with_sheet.facets.push_back({first, first + 1, first + 2});
     with_sheet.patch.push_back(2);
     EXPECT_THROW(read(with_sheet, usual_walls), Error);
+}
+
+// One facet of each patch is not there.
+TEST_F(WallsBeside, ThatAreOpenAreRefusedWithTheirRegions) {
+    const std::vector<std::vector<std::string>> names = {{"'bone'"}, {"'cement'"}, {"'bone' and 'cement'"}};
+    for (std::int32_t patch = 0; patch < 3; ++patch) {
+        Soup open = rooms();
+        const auto found = std::find(open.patch.begin(), open.patch.end(), patch) - open.patch.begin();
+        open.facets.erase(open.facets.begin() + found);
+        open.patch.erase(open.patch.begin() + found);
+        std::vector<std::string> parts = names[static_cast<std::size_t>(patch)];
+        parts.insert(parts.end(), {"open edge loop", "near ("});
+        refuses(open, usual_walls, parts);
+    }
+}
+
+// Sides that do not close a region, or say that there is none.
+TEST(BadRegions, WithoutVolume) {
+    const test::VoxelBody body = test::voxel_body({2, 1, 1}, [](std::array<std::int32_t, 3> c) { return c[0]; });
+    const auto refuse = [&](const std::vector<FacetSides>& sides, const std::vector<std::string>& parts) {
+        expect_refused([&] { make_input(body.facets.vertices, body.facets.facets, sides, {"bone", "cement"}); }, parts);
+    };
+    std::vector<FacetSides> sides = body.sides;
+    for (FacetSides& facet : sides)
+        if (facet.is_wall()) facet = {-1, 0};  // cement is open
+    refuse(sides, {"'cement'", "("});
+    expect_refused(
+        [&] {
+            make_input(body.facets.vertices, body.facets.facets, body.sides, {"bone", "cement", "metal"});
+        },
+        {"'metal'", "no facets"});
+    sides = body.sides;
+    sides.front() = {0, 0};
+    refuse(sides, {"'bone'", "("});
 }
 
 TEST(RegionInput, LargestCellsOfAFileAreItsRegionsSizes) {
