@@ -219,7 +219,7 @@ std::vector<WallMismatch> find_overlaps(const std::vector<Vec3>& vertices, const
     constexpr std::size_t most_pairs = 10'000;
     constexpr double flat = -0.86;     // cosine of normals that are opposite but for 30 degrees
     constexpr double of_facets = 0.1;  // that facets upon each other may be apart
-    constexpr double rounding = 1e-6;
+    constexpr double next_to_nothing = 1e-6;
     const std::vector<std::int32_t> number = different_facets(facets);
     std::vector<Triangle> different;
     for (const std::int32_t f : number) different.push_back(facets[f]);
@@ -249,9 +249,10 @@ std::vector<WallMismatch> find_overlaps(const std::vector<Vec3>& vertices, const
     for (WallMismatch& mismatch : all) {
         const Findings& own = findings[mismatch.bodies];
         // That an edge passes through a facet says less than points do, where some are inside.
-        if (const double depth = gauge.depth(mismatch.bodies[0], mismatch.bodies[1]); depth > rounding * own.longest)
+        if (const double depth = gauge.depth(mismatch.bodies[0], mismatch.bodies[1]);
+            depth > next_to_nothing * own.longest)
             mismatch.distance = depth;
-        if (mismatch.distance <= (own.lie_flat ? of_facets : rounding) * own.longest)
+        if (mismatch.distance <= (own.lie_flat ? of_facets : next_to_nothing) * own.longest)
             mismatch.kind = WallMismatch::Kind::unlike;
     }
     return all;
