@@ -9,11 +9,11 @@
 #include <Eigen/Geometry>
 
 #include "core/error.h"
-#include "geometry/predicates.h"
 #include "io/compressed.h"
 #include "io/file_bytes.h"
 #include "io/mesh_scanners.h"
 #include "io/soup_builder.h"
+#include "io/tet_sign.h"
 #include "io/text_scanner.h"
 
 namespace kerf {
@@ -57,8 +57,7 @@ void check_extent(const std::vector<Vec3>& vertices, const std::string& path) {
 std::int64_t turn_negative_tets(TetMesh& mesh) {
     std::int64_t turned = 0;
     for (Tetrahedron& tet : mesh.tets) {
-        const std::vector<Vec3>& p = mesh.vertices;
-        if (orientation(p[tet[0]], p[tet[1]], p[tet[2]], p[tet[3]]) >= 0) continue;
+        if (tet_sign(mesh.vertices, tet) >= 0) continue;
         std::swap(tet[2], tet[3]);
         ++turned;
     }

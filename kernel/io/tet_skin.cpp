@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
-#include "geometry/predicates.h"
+#include "io/tet_sign.h"
 #include "mesh/faces.h"
 
 namespace kerf {
@@ -25,10 +25,7 @@ class Faces {
         return region_of_tet_.empty() ? 0 : region_of_tet_[static_cast<std::size_t>(side.tet())];
     }
     // Exact: rounded, that of a flat one may tell the wrong side.
-    int sign(const FaceSide& side) const {
-        const auto& [a, b, c, d] = tet(side);
-        return orientation(vertices_[a], vertices_[b], vertices_[c], vertices_[d]);
-    }
+    int sign(const FaceSide& side) const { return tet_sign(vertices_, tet(side)); }
     // Counter-clockwise seen from outside of the tetrahedron.
     Triangle outward(const FaceSide& side) const {
         Triangle face{};

@@ -334,6 +334,17 @@ TEST(RegionReader, KnowsVolumesInsideOfOthersByTheirSurfaces) {
 }
 
 // Whatever is cut off or changed, a reader ends with an Error or with sides that are some.
+// The least of the damage below that an exact sign of it made undefined.
+TEST(RegionReader, TakesCoordinatesThatAreNotFiniteAsTheyAre) {
+    for (const char* number : {"nan", "inf", "-inf", "1e308"}) {
+        SCOPED_TRACE(number);
+        const std::string bytes = "MeshVersionFormatted 2\nDimension 3\nVertices 5\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 " +
+                                  std::string(number) + " 0\n0 0 -1 0\nTetrahedra 2\n1 2 3 4 1\n1 3 2 5 2\nEnd\n";
+        const Soup soup = read_volumes({"damaged.mesh", bytes});
+        EXPECT_EQ(soup.vertices.size(), 5U);
+    }
+}
+
 TEST(RegionReader, IsNotSurprisedByDamage) {
     std::mt19937 random(5);
     std::vector<File> files = all_files(two_cubes());
