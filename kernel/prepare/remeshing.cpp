@@ -105,6 +105,7 @@ struct BadFacets {
 };
 
 BadFacets find_bad_facets(const Input& input, const SurfaceArrays& surface) {
+    if (input.complex.region_count() == 1) return {find_slivers(surface.vertices, surface.facets)};
     const std::vector<char> is_thin = facets_on_thin_layers(label_facets(input.complex));
     return {find_slivers(surface.vertices, surface.facets), std::count(is_thin.begin(), is_thin.end(), char{1})};
 }
