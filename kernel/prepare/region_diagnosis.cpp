@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -144,8 +143,8 @@ void look_for_gaps(CheckedSoup& checked) {
     if (!checked.soup.sides.empty()) return add_gaps(checked.diagnosis, checked.soup, {});
     if (checked.soup.patch_names.size() < 2) return;
     const GivenBodies bodies = separate_patches(checked.soup);
-    const std::set<std::int32_t> different(bodies.of_facet.begin(), bodies.of_facet.end());
-    if (different.size() < 2) return;
+    const auto is_of_first = [&](std::int32_t body) { return body == bodies.of_facet.front(); };
+    if (std::all_of(bodies.of_facet.begin(), bodies.of_facet.end(), is_of_first)) return;
     CheckedSoup turned = checked;
     apply_repairs(turned);
     GivenBodies kept{{}, bodies.names};

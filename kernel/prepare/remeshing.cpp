@@ -116,12 +116,10 @@ struct RemeshTask {
     RemeshOptions options;
 };
 
-// The length that is wanted at a point of a label, and what follows from the sizes of regions.
-void want_lengths_of_regions(const RunOptions& options, const SurfaceArrays& surface, const Input& input,
-                             RemeshTask& task) {
+// The length that is wanted at a point of a label, and what follows from the sizes of regions. `all`: of the others.
+void want_lengths_of_regions(const RunOptions& options, const SizeField& all, const Input& input, RemeshTask& task) {
     const std::vector<double> volumes = max_volumes_of_regions(options.sizes, input);
     if (std::all_of(volumes.begin(), volumes.end(), [](double volume) { return volume == 0; })) return;
-    const SizeField all = wanted_lengths(options, surface, input);
     const RegionSizes sizes(volumes);
     double longest = 0;
     std::vector<SizeField> fields;
@@ -151,7 +149,7 @@ RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const B
     RemeshOptions& result = task.options;
     result.walls = task.facets.walls;
     if (!wanted.is_empty()) result.wanted = [wanted](const Vec3& p, std::int32_t) { return wanted.at(p); };
-    want_lengths_of_regions(options, surface, input, task);
+    want_lengths_of_regions(options, wanted, input, task);
     result.deviation = options.deviation.number() > 0
                            ? deviation_for(options.deviation, input.diagonal)
                            : usual_deviation(wanted, surface, input.diagonal, options.sizes.fineness);

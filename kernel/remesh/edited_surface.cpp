@@ -270,18 +270,19 @@ bool EditedSurface::move(Vertex v, const Vec3& wanted) {
     if (mesh_.data(v).is_fixed || mesh_.data(v).is_end) return false;
     const int features = mesh_.feature_count(v);
     if (features != 0 && features != 2) return false;
-    const std::optional<Vec3> place = bound_.place_near(mesh_, v, wanted, mesh_.is_inside_region(v));
+    const bool is_inside = mesh_.is_inside_region(v);  // and has no copies
+    const std::optional<Vec3> place = bound_.place_near(mesh_, v, wanted, is_inside);
     if (!place || *place == mesh_.point(v)) return false;
     copies_.clear();
     mesh_.for_each_copy(v, [&](Vertex copy) { copies_.push_back(copy); });
     if (stars_.size() < copies_.size()) stars_.resize(copies_.size());
     for (std::size_t i = 0; i < copies_.size(); ++i)
-        if (!may_move(copies_[i], *place, stars_[i])) return false;
-    for (std::size_t i = 0; i < copies_.size(); ++i) commit_move(copies_[i], *place, stars_[i]);
+        if (!may_move(copies_[i], *place, is_inside, stars_[i])) return false;
+    for (std::size_t i = 0; i < copies_.size(); ++i) commit_move(copies_[i], *place, is_inside, stars_[i]);
     return true;
 }
 
-bool EditedSurface::may_move(Vertex v, const Vec3& place, NewFacets& star) {
+bool EditedSurface::may_move(Vertex v, const Vec3& place, bool is_inside, NewFacets& star) {
     if (mesh_.has_copies(v) && !bound_.lies_on_line(mesh_, v)) return false;
     star.clear();
     double worst = 1;
@@ -296,13 +297,13 @@ bool EditedSurface::may_move(Vertex v, const Vec3& place, NewFacets& star) {
     const double least = std::min(worst, good_move_sine);
     for (const EditMesh::Corners& t : star.corners)
         if (sine_of(t) < least) return false;
-    return bound_.accepts_star(mesh_, v, mesh_.is_inside_region(v), star);
+    return bound_.accepts_star(mesh_, v, is_inside, star);
 }
 
-void EditedSurface::commit_move(Vertex v, const Vec3& place, const NewFacets& star) {
+void EditedSurface::commit_move(Vertex v, const Vec3& place, bool is_inside, const NewFacets& star) {
     points_.clear();
     for (const Facet f : star.facets) bound_.list_points(mesh_.data(f).first_point, points_);
-    if (!mesh_.is_inside_region(v)) bound_.list_vertex(mesh_, v, points_);
+    if (!is_inside) bound_.list_vertex(mesh_, v, points_);
     mesh_.set_point(v, place);
     commit_star(star);
 }

@@ -68,8 +68,8 @@ class EditedSurface {
     bool joins_what_is_apart(HalfEdge h) const;
     bool may_collapse(HalfEdge h, const CollapseRules& rules, NewFacets& star);
     void commit_collapse(HalfEdge h, const NewFacets& star);
-    bool may_move(Vertex v, const Vec3& place, NewFacets& star);
-    void commit_move(Vertex v, const Vec3& place, const NewFacets& star);
+    bool may_move(Vertex v, const Vec3& place, bool is_inside, NewFacets& star);
+    void commit_move(Vertex v, const Vec3& place, bool is_inside, const NewFacets& star);
     Vertex split_in_sheet(HalfEdge h, const Vec3& place);
     void commit_star(const NewFacets& star);
     void note_change(std::span<const Facet> facets);

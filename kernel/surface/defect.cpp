@@ -51,8 +51,7 @@ constexpr std::array<KindTexts, defect_kind_count> texts_of_kinds = {{
     {"short edge", "move the part closer to the origin or collapse the edges"},
     {"wall of unlike facets",
      "give both bodies the same triangles where they touch, as solids of one CAD file have them, or merge vertices "
-     "that "
-     "are nearly equal with --weld"},
+     "that are nearly equal with --weld"},
     {"overlap of bodies",
      "cut one body out of the other where they were made; where their triangles are the same but for a small distance, "
      "merge their vertices with --weld"},
