@@ -1,6 +1,7 @@
 #include "kerf/kerf.h"
 
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -60,15 +61,17 @@ RunOptions run_options(const Input& input, const MeshOptions& options, const std
 
 class ProgressListener : public RunListener {
  public:
-    explicit ProgressListener(const Progress& progress) : progress_(progress) {}
+    ProgressListener(const Progress& progress, const IsCancelled& is_cancelled)
+        : progress_(progress), is_cancelled_(is_cancelled) {}
     void on_progress(const char* stage, std::size_t done, std::size_t total) override {
-        if (progress_) is_cancelled_ = is_cancelled_ || !progress_(stage, done, total);
+        if (progress_ && !progress_(stage, done, total)) was_ended_ = true;
     }
-    bool cancelled() const override { return is_cancelled_; }
+    bool cancelled() const override { return was_ended_ || (is_cancelled_ && is_cancelled_()); }
 
  private:
     const Progress& progress_;
-    bool is_cancelled_ = false;
+    const IsCancelled& is_cancelled_;
+    std::atomic<bool> was_ended_ = false;
 };
 
 // What keeps a run from being a result.
@@ -171,13 +174,14 @@ FileCheck check_file(const std::string& path, const NamedOptions& options) {
     return {found.can_be_meshed(), to_text(found), to_json(found)};
 }
 
-ClosedSurface remeshed(const ClosedSurface& surface, double deviation, double size, const Progress& progress) {
+ClosedSurface remeshed(const ClosedSurface& surface, double deviation, double size, const Progress& progress,
+                       const IsCancelled& is_cancelled) {
     RunOptions options;
     options.remeshing = Remeshing::always;
     options.deviation = deviation;
     options.sizes.size = size;
     options.sizes.check();
-    ProgressListener listener(progress);
+    ProgressListener listener(progress, is_cancelled);
     const ClosedSurface result(std::make_shared<const Input>(remesh_where_asked(surface.input(), options, &listener)));
     const std::vector<std::string> regions = result.region_names();
     if (regions.empty())
@@ -190,7 +194,7 @@ void mesh_on_ranks(const ClosedSurface& surface, const MeshOptions& options, con
                    int cores_of_rank, Communicator& ranks) {
     Input input = surface.input();
     input.is_ready = true;
-    ProgressListener listener(options.progress);
+    ProgressListener listener(options.progress, options.is_cancelled);
     const RunOptions request = in_agreement(ranks, [&] { return run_options(input, options, folder); });
     require_success(run(request, cores_of_rank, ranks, input, &listener));
 }

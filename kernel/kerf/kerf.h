@@ -89,9 +89,14 @@ FileCheck check_file(const std::string& path, const NamedOptions& options = {});
 /// Error(cancelled) by returning false. Must not throw.
 using Progress = std::function<bool(const char* stage, std::size_t done, std::size_t total)>;
 
+/// Asked often while a call goes on, from any thread, also where there is nothing to tell of; ends it with
+/// Error(cancelled) by returning true. Must not throw, and should be quick.
+using IsCancelled = std::function<bool()>;
+
 /// A surface with triangles worth meshing, nowhere farther than `deviation` from the given one, 0: a twentieth of
 /// `size`. `size`: wanted edge length, 0: as long as the deviation allows. Both in units of the surface. Patches stay.
-ClosedSurface remeshed(const ClosedSurface& surface, double deviation, double size = 0, const Progress& progress = {});
+ClosedSurface remeshed(const ClosedSurface& surface, double deviation, double size = 0, const Progress& progress = {},
+                       const IsCancelled& is_cancelled = {});
 
 struct MeshOptions {
     double size = 0;                              ///< wanted edge length, in units of the surface; 0: none
@@ -100,6 +105,7 @@ struct MeshOptions {
     NamedOptions others = {};                     ///< of `kerf mesh` (docs/options.md), but none of the surface
     std::string programs = KERF_PROGRAMS_FOLDER;  ///< folder of kerf-worker, looked at first
     Progress progress = {};
+    IsCancelled is_cancelled = {};
 };
 
 /// One mesh of all parts.

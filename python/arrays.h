@@ -1,0 +1,40 @@
+// Arrays of numpy as rows, and rows as arrays of numpy.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <pybind11/numpy.h>
+
+namespace kerf::python {
+
+namespace py = pybind11;
+
+/// An array that shares the memory of `owner`, read-only.
+template <class T>
+py::array_t<T> view(const T* data, std::vector<py::ssize_t> shape, py::handle owner) {
+    py::array_t<T> result(std::move(shape), data, owner);
+    result.attr("flags").attr("writeable") = false;
+    return result;
+}
+template <class T, std::size_t N>
+py::array_t<T> view(const std::vector<std::array<T, N>>& rows, py::handle owner) {
+    return view(rows.empty() ? nullptr : rows.front().data(),
+                {static_cast<py::ssize_t>(rows.size()), static_cast<py::ssize_t>(N)}, owner);
+}
+template <class T>
+py::array_t<T> view(const std::vector<T>& values, py::handle owner) {
+    return view(values.data(), {static_cast<py::ssize_t>(values.size())}, owner);
+}
+
+/// Whatever numpy makes an array of, as rows of N numbers; N = 1: as numbers. Throws ValueError or TypeError, naming
+/// the argument, its shape or type and, for whole numbers that do not fit in 32 bits, the row.
+std::vector<std::array<double, 3>> points_of(const py::object& array, const char* name);
+std::vector<std::array<std::int32_t, 3>> triangles_of(const py::object& array, const char* name);
+std::vector<std::array<std::int32_t, 2>> pairs_of(const py::object& array, const char* name);
+std::vector<std::int32_t> numbers_of(const py::object& array, const char* name);
+
+}  // namespace kerf::python

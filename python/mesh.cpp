@@ -1,0 +1,70 @@
+#include "python/mesh.h"
+
+#include <pybind11/stl.h>
+
+#include "python/arrays.h"
+#include "python/options.h"
+#include "python/surface_object.h"
+
+namespace kerf::python {
+
+namespace py = pybind11;
+
+namespace {
+
+MeshOptions mesh_options(std::int32_t parts, double size, std::int32_t workers, const std::string& programs,
+                         const py::kwargs& options, Watch& watch) {
+    return {.size = size,
+            .parts = parts,
+            .workers = workers,
+            .others = named_options(options),
+            .programs = programs,
+            .progress = watch.progress(),
+            .is_cancelled = watch.is_cancelled()};
+}
+
+std::shared_ptr<MeshArrays> mesh(const SurfaceObject& surface, std::int32_t parts, double size, std::int32_t workers,
+                                 const py::object& progress, const std::string& programs, const py::kwargs& options) {
+    Watch watch(progress);
+    const MeshOptions wanted = mesh_options(parts, size, workers, programs, options, watch);
+    return without_lock(watch, [&] { return std::make_shared<MeshArrays>(mesh_to_arrays(surface.surface, wanted)); });
+}
+
+void mesh_into(const SurfaceObject& surface, const std::string& folder, std::int32_t parts, double size,
+               std::int32_t workers, const py::object& progress, const std::string& programs,
+               const py::kwargs& options) {
+    Watch watch(progress);
+    const MeshOptions wanted = mesh_options(parts, size, workers, programs, options, watch);
+    without_lock(watch, [&] { mesh_to_folder(surface.surface, wanted, folder); });
+}
+
+template <class Member>
+auto array_of(Member member) {
+    return [member](const py::object& self) { return view(self.cast<MeshArrays&>().*member, self); };
+}
+
+}  // namespace
+
+void register_mesh(py::module_& module) {
+    py::class_<MeshArrays, std::shared_ptr<MeshArrays>>(module, "Mesh")
+        .def_property_readonly("points", array_of(&MeshArrays::vertices))
+        .def_property_readonly("tetrahedra", array_of(&MeshArrays::tets))
+        .def_property_readonly("part", array_of(&MeshArrays::part))
+        .def_property_readonly("region", array_of(&MeshArrays::region))
+        .def_property_readonly("triangles", array_of(&MeshArrays::triangles))
+        .def_property_readonly("patch", array_of(&MeshArrays::patch))
+        .def_property_readonly("sides", array_of(&MeshArrays::sides))
+        .def_property_readonly("patch_names", [](const MeshArrays& self) { return self.patch_names; })
+        .def_property_readonly("region_names", [](const MeshArrays& self) { return self.region_names; });
+    module.def("mesh", &mesh, py::arg("surface"), py::arg("parts") = 0, py::arg("size") = 0., py::arg("workers") = 0,
+               py::arg("progress") = py::none(), py::arg("programs") = "");
+    module.def("mesh_into", &mesh_into, py::arg("surface"), py::arg("folder"), py::arg("parts") = 0,
+               py::arg("size") = 0., py::arg("workers") = 0, py::arg("progress") = py::none(),
+               py::arg("programs") = "");
+    module.def("mesh_of_run", [](const std::string& folder) {
+        const py::gil_scoped_release released;
+        return std::make_shared<MeshArrays>(arrays_of_run(folder));
+    });
+}
+
+}  // namespace kerf::python

@@ -1,0 +1,15 @@
+// The module kerf._kerf: the facade (kerf/kerf.h) with arrays of numpy.
+#include "python/errors.h"
+#include "python/mesh.h"
+#include "python/surface.h"
+
+#include "io/program_finder.h"
+#include "kerf/kerf.h"
+
+PYBIND11_MODULE(_kerf, module) {
+    module.attr("__version__") = kerf::library_version();
+    module.def("find_program", &kerf::find_kerf_program, pybind11::arg("name"), pybind11::arg("first_folder") = "");
+    kerf::python::register_errors(module);
+    kerf::python::register_surface(module);
+    kerf::python::register_mesh(module);
+}

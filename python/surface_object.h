@@ -1,0 +1,20 @@
+// What kerf.Surface holds.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "kerf/kerf.h"
+
+namespace kerf::python {
+
+/// Its arrays are made once; what numpy sees shares them.
+struct SurfaceObject {
+    ClosedSurface surface;
+    std::vector<std::array<double, 3>> points = surface.vertices();
+    std::vector<std::array<std::int32_t, 3>> triangles = surface.facets();
+    std::vector<std::int32_t> patches = surface.patches();
+    std::vector<std::array<std::int32_t, 2>> sides = surface.sides();
+};
+
+}  // namespace kerf::python
