@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "core/cancellation.h"
 #include "remesh/edited_surface.h"
 
 namespace kerf {
@@ -17,6 +18,7 @@ struct FoldSizeOptions {
     double growth = 0.4;                                      ///< of the size with distance
     double edges_per_thickness = 0;                           ///< across a wall; 0: walls ask for nothing
     std::function<double(const Vec3&, std::int32_t)> wanted;  ///< by the user at a point of a patch, if given
+    CancellationCheck poll = {};                              ///< asked while sizes are found
 };
 
 /// The distance to the nearest fold, fold to fold, and across walls: what well-shaped triangles have to be as small as.

@@ -60,13 +60,14 @@ void InputShape::find_features(double feature_angle_deg, std::vector<UndirectedE
 }
 
 std::vector<double> tolerances_of_gaps(const SurfaceArrays& surface, const TriangleTree& tree, double deviation,
-                                       const std::vector<char>& walls) {
+                                       const std::vector<char>& walls, const CancellationCheck& poll) {
     const auto is_wall = [&](std::size_t f) { return !walls.empty() && walls[f] != 0; };
     std::vector<double> tolerance(surface.facets.size(), deviation);
     std::vector<Vec3> normal;
     for (const Triangle& t : surface.facets) normal.push_back(doubled_area_vector(surface.vertices, t).normalized());
     const double smallest = least_share * deviation;
     for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+        poll.at(f);
         const Triangle& t = surface.facets[f];
         const Vec3 &a = surface.vertices[t[0]], &b = surface.vertices[t[1]], &c = surface.vertices[t[2]];
         double gap = std::numeric_limits<double>::infinity();

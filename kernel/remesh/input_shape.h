@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/cancellation.h"
 #include "remesh/flat_regions.h"
 #include "remesh/sheets.h"
 #include "surface/triangle_tree.h"
@@ -55,6 +56,6 @@ class InputShape {
 /// one of them is a wall, so that sheets which come closer than that do not grow into each other. `tree` is of the
 /// facets of `surface`, `walls` as for InputShape. O(#F log #F).
 std::vector<double> tolerances_of_gaps(const SurfaceArrays& surface, const TriangleTree& tree, double deviation,
-                                       const std::vector<char>& walls = {});
+                                       const std::vector<char>& walls = {}, const CancellationCheck& poll = {});
 
 }  // namespace kerf

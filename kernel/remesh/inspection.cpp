@@ -1,5 +1,6 @@
 #include "remesh/inspection.h"
 
+#include "core/cancellation.h"
 #include "surface/intersections.h"
 #include "surface/nearness.h"
 
@@ -21,7 +22,6 @@ struct Side {
 };
 
 bool is_near(const std::vector<Vec3>& vertices, const Triangle& t, const RemeshOptions& options, Side& side) {
-    if (options.poll) options.poll();
     const auto holds = [&] {
         return side.nearness.holds(
             {vertices[t[0]], vertices[t[1]], vertices[t[2]]}, side.bound, [&](std::int32_t) { return side.bound; },
@@ -45,14 +45,20 @@ std::vector<char> inspect(const SurfaceArrays& input, const TriangleTree& input_
     };
     for (const auto& [f, g] : find_self_intersections(result.vertices, result.facets))
         for (const std::int32_t facet : {f, g}) for_each_sample(result.vertices, result.facets[facet], refuse_around);
+    const CancellationCheck poll(options.poll);
     Side to_input(input_tree, input.facets, options.deviation);
-    for (const Triangle& t : result.facets)
+    for (std::size_t f = 0; f < result.facets.size(); ++f) {
+        poll.at(f);
+        const Triangle& t = result.facets[f];
         if (!is_near(result.vertices, t, options, to_input))
             for_each_sample(result.vertices, t, [&](const Vec3& p) { refused[input_tree.closest(p).facet] = 1; });
+    }
     const TriangleTree tree(result.vertices, result.facets);
     Side from_input(tree, result.facets, options.deviation);
-    for (std::size_t f = 0; f < input.facets.size(); ++f)
+    for (std::size_t f = 0; f < input.facets.size(); ++f) {
+        poll.at(f);
         if (!is_near(input.vertices, input.facets[f], options, from_input)) refused[f] = 1;
+    }
     report.distance_to_input = to_input.nearness.directed_distance();
     report.distance_from_input = from_input.nearness.directed_distance();
     return refused;

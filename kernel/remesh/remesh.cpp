@@ -110,7 +110,8 @@ Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& options) {
     check_remesh_options(options, surface.facets.size());
     const TriangleTree tree(surface.vertices, surface.facets);
     const Sheets sheets = take_apart(surface);
-    std::vector<double> tolerance = tolerances_of_gaps(surface, tree, used_share * options.deviation, options.walls);
+    std::vector<double> tolerance = tolerances_of_gaps(surface, tree, used_share * options.deviation, options.walls,
+                                                       CancellationCheck(options.poll));
     for (int round = 1;; ++round) {
         Remeshed result = remesh_once(sheets, tree, tolerance, options);
         result.report.rounds = round;

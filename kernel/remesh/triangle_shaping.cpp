@@ -60,7 +60,8 @@ class Shaping {
                                                  .thinnest = thinnest_over_deviation * options_.deviation,
                                                  .growth = options_.growth,
                                                  .edges_per_thickness = options_.edges_per_thickness,
-                                                 .wanted = options_.wanted});
+                                                 .wanted = options_.wanted,
+                                                 .poll = CancellationCheck(options_.poll)});
         for (int pass = 0; pass < passes; ++pass) {
             split_long_edges();
             smooth();
