@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <numeric>
 
@@ -171,10 +172,10 @@ void check_memory(double facets, const RunOptions& options, double edge, int pro
                             short_number(facets), short_number(most), way_out));
 }
 
-// Tells of steps, of nobody knows how many.
+// Tells of steps, of nobody knows how many. Copies count together.
 std::function<void()> step_counter(StageListener* listener) {
     if (!listener) return {};
-    return [listener, steps = std::size_t{0}]() mutable { tell_progress(listener, "remesh", steps++, 0); };
+    return [listener, steps = std::make_shared<std::size_t>(0)] { tell_progress(listener, "remesh", (*steps)++, 0); };
 }
 
 // Of what nobody has asked for.
