@@ -72,7 +72,7 @@ def compare(args, label, size):
         text = pathlib.Path(scratch) / f"{label}.stl"
         given = output_of(*PREPARE, ROOT / f"assets/{label}.stl", text)
         size = size or given["diagonal"] / EDGES_OF_DIAGONAL
-        modules = [Module(name, text, size, given["volume"]) for name in MODULES if importlib.util.find_spec(name)]
+        modules = [Module(name, text, size, given["volume"]) for name in MODULES if name == MODULES[0] or importlib.util.find_spec(name)]
         for _ in range(args.repetitions):
             for module in modules:
                 module.run(args)
