@@ -26,17 +26,28 @@ std::vector<OffscreenLibrary> offscreen_libraries() {
     return libraries;
 }
 
+namespace {
+
+// The first whose library is there.
+OffscreenLibrary usual_library() {
+#if defined(KERF_HAS_OSMESA) && defined(KERF_HAS_EGL)
+    if (!has_osmesa()) return OffscreenLibrary::egl;
+#endif
+    return offscreen_libraries().front();
+}
+
+}  // namespace
+
 std::unique_ptr<OffscreenContext> make_offscreen_context(std::optional<OffscreenLibrary> library) {
-    const std::vector<OffscreenLibrary> built = offscreen_libraries();
-    const OffscreenLibrary wanted = library.value_or(built.front());
+    const OffscreenLibrary wanted = library ? *library : usual_library();
 #ifdef KERF_HAS_OSMESA
     if (wanted == OffscreenLibrary::osmesa) return make_osmesa_context();
 #endif
 #ifdef KERF_HAS_EGL
     if (wanted == OffscreenLibrary::egl) return make_egl_context();
 #endif
-    throw Error(ErrorCode::usage,
-                fmt::format("This program was built without {}. It has {}.", name(wanted), name(built.front())));
+    throw Error(ErrorCode::usage, fmt::format("This program was built without {}. It has {}.", name(wanted),
+                                              name(offscreen_libraries().front())));
 }
 
 }  // namespace kerf::view

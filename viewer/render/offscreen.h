@@ -31,9 +31,10 @@ class OffscreenContext {
     virtual const Gl& gl() const = 0;
 };
 
-/// Without a library: the default. EGL sets the variable LIBGL_ALWAYS_SOFTWARE to 1 where it is not set, so that it is
-/// to be called before there are threads. Throws Error(usage) for a library that the program was built without,
-/// Error(internal) if it cannot make a 3.3 core context.
+/// Without a library: the default, or EGL where OSMesa is not installed. EGL sets the variable LIBGL_ALWAYS_SOFTWARE to
+/// 1 where it is not set, so that it is to be called before there are threads. Throws Error(usage) for a library that
+/// the program was built without, Error(io) for OSMesa where it is not installed, Error(internal) if it cannot make
+/// a 3.3 core context.
 std::unique_ptr<OffscreenContext> make_offscreen_context(std::optional<OffscreenLibrary> library = {});
 
 }  // namespace kerf::view

@@ -7,6 +7,8 @@
 
 namespace kerf::view {
 
+/// Whether its library is there, which is loaded when it is asked for.
+bool has_osmesa();
 std::unique_ptr<OffscreenContext> make_osmesa_context();
 std::unique_ptr<OffscreenContext> make_egl_context();
 
