@@ -1,5 +1,9 @@
 """Exceptions of Kerf, one for each exit code of its programs."""
 
+from __future__ import annotations
+
+from typing import Any, Iterable
+
 
 class Error(Exception):
     """Anything that Kerf refuses. `code` is the exit code that the programs would have, `elements` what it is about:
@@ -7,7 +11,7 @@ class Error(Exception):
 
     code = 1
 
-    def __init__(self, message, elements=()):
+    def __init__(self, message: str, elements: Iterable[dict[str, Any]] = ()) -> None:
         super().__init__(message)
         self.elements = list(elements)
 
@@ -70,6 +74,6 @@ _classes = {each.code: each for each in (UsageError, InputError, MeshingError, O
                                          VerificationError, ConvergenceError, Cancelled)}
 
 
-def error_of(code, message, elements):
+def error_of(code: int, message: str, elements: Iterable[dict[str, Any]]) -> Error:
     """The exception of an exit code."""
     return _classes.get(code, Error)(message, elements)

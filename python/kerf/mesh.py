@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple, Union
+from typing import Any, NamedTuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -55,6 +55,7 @@ class Mesh:
 
     @property
     def patch_names(self) -> list[str]:
+        """Names of the patches, in the order of their numbers."""
         return self._native.patch_names
 
     @property
@@ -92,7 +93,7 @@ class Tetrahedralization(NamedTuple):
     tets: np.ndarray
 
 
-def tetrahedralize(vertices: ArrayLike, faces: ArrayLike, size: float = 0, **options: object) -> Tetrahedralization:
+def tetrahedralize(vertices: ArrayLike, faces: ArrayLike, size: float = 0, **options: Any) -> Tetrahedralization:
     """nodes (n, 3) float64 and tets (m, 4) int64 of a closed surface of triangles; mesh() tells of the options."""
     result = mesh(Surface(vertices, faces), size=size, **options)
     return Tetrahedralization(result.points, result.tetrahedra)

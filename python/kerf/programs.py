@@ -9,12 +9,14 @@ from pathlib import Path
 def folder() -> str:
     """Their folder; empty: where the kernel looks for them by itself.
 
-    Those that the environment variable KERF_PROGRAMS names come first, then those of a wheel, then those of a build.
+    Those that the environment variable KERF_PROGRAMS names come first, then those of a wheel, of a build, and of an
+    installed tree.
     """
     if os.environ.get("KERF_PROGRAMS"):
         return ""
     package = Path(__file__).resolve().parent
-    for candidate in (package / "bin", package.parents[1]):
+    for place in ("bin", "../..", "../../../../bin"):
+        candidate = (package / place).resolve()
         if (candidate / "kerf-worker").is_file():
             return str(candidate)
     return ""

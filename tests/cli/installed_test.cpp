@@ -80,6 +80,18 @@ TEST_F(Installed, Solves) {
 }
 #endif
 
+#ifdef KERF_PYTHON_FOLDER
+TEST_F(Installed, HasAPackageOfPython) {
+    const ChildResult meshed = test::run_program(
+        "/usr/bin/env",
+        {"-i", "PYTHONPATH=" + file("a copy/" KERF_PYTHON_FOLDER), KERF_PYTHON, "-B", "-c",
+         "import kerf; print(kerf.__file__, len(kerf.mesh('" + file("elsewhere/cube.stl") + "').points))"});
+    EXPECT_EQ(meshed.exit_code, 0) << meshed.log;
+    EXPECT_EQ(test::output_of(meshed).find(file("a copy/" KERF_PYTHON_FOLDER "/kerf/__init__.py ")), 0u)
+        << test::output_of(meshed);
+}
+#endif
+
 TEST_F(Installed, HasManualAndCompletionForEveryProgram) {
     std::set<std::string> pages;
     for (const auto& [name, text] : test::contents(file("a copy/share/man/man1"))) {
