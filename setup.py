@@ -54,6 +54,9 @@ def configure(tree):
         options.append(f"-Dpybind11_DIR={pybind11.get_cmake_dir()}")
     options += shlex.split(os.environ.get("CMAKE_ARGS", ""))
     subprocess.run(["cmake", "-S", str(ROOT), "-B", str(tree), *options], check=True)
+    if not serves_this_python(tree):
+        raise SystemExit("setup.py: CMake has not found pybind11 or the headers of this Python. Install pybind11-dev "
+                         "and python3-dev, or what your system calls them, and remove " + str(tree))
 
 
 class BuildByCMake(build_ext):
