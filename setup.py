@@ -11,6 +11,7 @@ import sysconfig
 from pathlib import Path
 
 from setuptools import Extension, setup
+from setuptools.command.build import build
 from setuptools.command.build_ext import build_ext
 
 ROOT = Path(__file__).resolve().parent
@@ -59,6 +60,14 @@ def configure(tree):
                          "and python3-dev, or what your system calls them, and remove " + str(tree))
 
 
+class FreshBuild(build):
+    """Nothing of an earlier one stays in the package."""
+
+    def run(self):
+        shutil.rmtree(self.build_lib, ignore_errors=True)
+        super().run()
+
+
 class BuildByCMake(build_ext):
     """Puts the module and the programs that it starts into the package."""
 
@@ -78,7 +87,7 @@ setup(
     version=version(),
     # Without sources: it makes a wheel one of this platform and this Python.
     ext_modules=[Extension("kerf._kerf", sources=[])],
-    cmdclass={"build_ext": BuildByCMake},
+    cmdclass={"build": FreshBuild, "build_ext": BuildByCMake},
     # build/ is CMake's; setuptools shall not share it.
     options={"build": {"build_base": "build/setuptools"}},
     setup_requires=missing_tools(),

@@ -60,14 +60,14 @@ def check_mesh(environment: Path, folder: Path, build: Path) -> None:
 
 def check_picture(environment: Path, folder: Path, surface: Path) -> None:
     picture = folder / "picture.png"
-    run(package_of(environment) / "bin/kerf", "screenshot", surface, "--resolution", "320x240", "-o", picture,
+    run(environment / "bin/python", "-m", "kerf", "screenshot", surface, "--resolution", "320x240", "-o", picture,
         cwd=folder)
     if not picture.read_bytes().startswith(b"\x89PNG"):
         raise SystemExit("wheel.py: that is no picture")
 
 
 def check_solution(environment: Path, folder: Path, assets: Path) -> None:
-    run(package_of(environment) / "bin/kerf", "solve", assets / "l_bracket.stl", "--case",
+    run(environment / "bin/python", "-m", "kerf", "solve", assets / "l_bracket.stl", "--case",
         assets / "l_bracket_case.toml", "-o", folder / "bracket", "-n", "2", "-q", cwd=folder)
     if not (folder / "bracket/solution/report.json").is_file():
         raise SystemExit("wheel.py: there is no solution")
@@ -95,6 +95,7 @@ def try_wheel(wheel: Path, build: Path, folder: Path) -> None:
     run("/usr/bin/python3", "-m", "venv", "--system-site-packages", folder / "first", cwd=folder)
     run(folder / "first/bin/python", "-m", "pip", "install", "--no-index", "--no-deps", "--disable-pip-version-check",
         wheel, cwd=folder)
+    run(folder / "first/bin/kerf", "--version", cwd=folder)
     steps.done("installed")
     environment = (folder / "first").rename(folder / "another place")
     check_libraries(package_of(environment), build)
