@@ -48,8 +48,8 @@ def configure(tree):
     """A build tree without tests; the variable CMAKE_ARGS has more options for CMake, in a shell's words."""
     options = ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=0",
                "-DKERF_TESTS=OFF", "-DKERF_BENCHMARKS=OFF", f"-DPython3_EXECUTABLE={sys.executable}"]
-    if shutil.which("ninja"):
-        options += ["-G", "Ninja"]
+    if shutil.which("ninja"):  # another one each time, where it comes from the index
+        options += ["-G", "Ninja", f"-DCMAKE_MAKE_PROGRAM={shutil.which('ninja')}"]
     if importlib.util.find_spec("pybind11") is not None:
         import pybind11
         options.append(f"-Dpybind11_DIR={pybind11.get_cmake_dir()}")
