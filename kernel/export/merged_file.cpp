@@ -32,7 +32,7 @@ const Format& format_of(const fs::path& file) {
 // Where a file goes: behind links, to a place that is free or has a file, and outside of the run.
 fs::path place_for(const fs::path& file, const std::string& run) {
     const fs::path place = behind_links(file.string());
-    if (lies_inside(place.string(), run))
+    if (!run.empty() && lies_inside(place.string(), run))
         throw Error(ErrorCode::io, fmt::format("--output is {}, which lies in the run {}, whose files it would mix "
                                                "with others. Choose another place.",
                                                file.string(), run));
@@ -54,6 +54,17 @@ void move_to(const fs::path& from, const fs::path& place) {
                                                from.string(), place.string(), error.message()));
 }
 
+// Returns the format of the file.
+const Format& check_merged_request(const MergeRequest& request) {
+    const Format& format = format_of(request.output);
+    if (request.msh_ascii && &format != &find_format("msh"))
+        throw Error(ErrorCode::usage, fmt::format("--msh-ascii is for files that end with .msh, and --output is {}. "
+                                                  "Drop one.",
+                                                  request.output));
+    place_for(request.output, request.folder);
+    return format;
+}
+
 }  // namespace
 
 const Format* find_merged_format(const std::string& file) {
@@ -62,10 +73,7 @@ const Format* find_merged_format(const std::string& file) {
     return nullptr;
 }
 
-void check_merged_file(const MergeRequest& request) {
-    format_of(request.output);
-    place_for(request.output, request.folder);
-}
+void check_merged_file(const MergeRequest& request) { check_merged_request(request); }
 
 std::string run_folder_beside(const std::string& merged_file) { return merged_file + std::string(run_ending); }
 
@@ -77,17 +85,10 @@ std::string merged_file_of(const std::string& run_folder) {
     return find_merged_format(file) ? file : "";
 }
 
-MergedFile merge_run(const MergeRequest& request) {
+MergedFile merge_parts(const PartSource& parts, const MergeRequest& request) {
     const fs::path output = request.output;
-    const Format& format = format_of(output);
-    if (request.msh_ascii && &format != &find_format("msh"))
-        throw Error(ErrorCode::usage, fmt::format("--msh-ascii is for files that end with .msh, and --output is {}. "
-                                                  "Drop one.",
-                                                  request.output));
+    const Format& format = check_merged_request(request);
     const fs::path main_place = place_for(output, request.folder);
-    if (const auto solution = find_solution_folder(request.folder)) place_for(output, mesh_of_solution(*solution));
-    const std::unique_ptr<PartSource> source = open_parts(request.folder);
-    const PartSource& parts = *source;
     // On the disk where the files will lie, for as long as they are not complete.
     const TemporaryFolder beside(main_place.string(), "write beside " + main_place.string(),
                                  "Choose another place for --output.");
@@ -106,6 +107,13 @@ MergedFile merge_run(const MergeRequest& request) {
         merged.bytes += static_cast<std::int64_t>(fs::file_size(places[i]));
     }
     return merged;
+}
+
+MergedFile merge_run(const MergeRequest& request) {
+    check_merged_request(request);
+    if (const auto solution = find_solution_folder(request.folder))
+        place_for(request.output, mesh_of_solution(*solution));
+    return merge_parts(*open_parts(request.folder), request);
 }
 
 }  // namespace kerf

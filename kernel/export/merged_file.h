@@ -9,7 +9,7 @@
 namespace kerf {
 
 struct MergeRequest {
-    std::string folder;  ///< of the run
+    std::string folder;  ///< of the run; empty: none
     std::string output;  ///< file, whose ending chooses the format
     MergeOptions options;
     bool msh_ascii = false;  ///< Gmsh's files as text
@@ -36,5 +36,8 @@ std::string merged_file_of(const std::string& run_folder);
 /// Writes all files of the mesh beside their places and moves them there when they are complete. Refuses places inside
 /// of the run's folder. Throws Error.
 MergedFile merge_run(const MergeRequest& request);
+
+/// The same of parts that are no run: the request has no folder.
+MergedFile merge_parts(const PartSource& parts, const MergeRequest& request);
 
 }  // namespace kerf

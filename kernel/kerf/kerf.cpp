@@ -7,10 +7,13 @@
 #include <fmt/format.h>
 
 #include "core/version.h"
+#include "export/merged_file.h"
 #include "export/whole_mesh.h"
 #include "io/program_finder.h"
 #include "io/temporary_folder.h"
+#include "kerf/array_parts.h"
 #include "kerf/mesh_on_ranks.h"
+#include "kerf/progress_listener.h"
 #include "parallel/processors.h"
 #include "part/solution_parts.h"
 #include "prepare/remeshing.h"
@@ -39,51 +42,50 @@ InputOptions input_options(const NamedOptions& options) {
     return result;
 }
 
-RunOptions run_options(const Input& input, const MeshOptions& options, const std::string& folder) {
-    RunOptions run;
-    const std::vector<OptionField> of_surface = input_option_fields(run.input_options);
-    std::vector<OptionText> texts;
-    for (const auto& option : options.others) {
-        if (std::any_of(of_surface.begin(), of_surface.end(), [&](const auto& f) { return f.name == option.first; }))
+void refuse_options_of_surface(const NamedOptions& options) {
+    InputOptions of_surface;
+    const std::vector<OptionField> fields = input_option_fields(of_surface);
+    for (const auto& option : options)
+        if (std::any_of(fields.begin(), fields.end(), [&](const auto& field) { return field.name == option.first; }))
             throw Error(ErrorCode::usage,
                         fmt::format("--{} is an option of the surface: give it where that is made.", option.first));
-        texts.push_back({option.first, option.second});
-    }
+}
+
+RunOptions run_options(const std::string& input, const MeshOptions& options, const std::string& folder) {
+    RunOptions run;
+    std::vector<OptionText> texts;
+    for (const auto& option : options.others) texts.push_back({option.first, option.second});
     run.sizes.size = options.size;
     run.decompose.parts = options.parts;
     run.workers = options.workers;
     set_options(run, texts, "MeshOptions::others");
     run.output = folder;
-    run.input = input.path;
+    run.input = input;
     run.worker_program = find_kerf_program("kerf-worker", options.programs);
     return run;
 }
 
-class ProgressListener : public RunListener {
- public:
-    ProgressListener(const Progress& progress, const IsCancelled& is_cancelled)
-        : progress_(progress), is_cancelled_(is_cancelled) {}
-    void on_progress(const char* stage, std::size_t done, std::size_t total) override {
-        if (progress_ && !progress_(stage, done, total)) was_ended_ = true;
-    }
-    bool cancelled() const override { return was_ended_ || (is_cancelled_ && is_cancelled_()); }
-
- private:
-    const Progress& progress_;
-    const IsCancelled& is_cancelled_;
-    std::atomic<bool> was_ended_ = false;
-};
+FailedPart failed_part(const RunReport& report, const PartReport& part) {
+    const auto node = std::find_if(report.nodes.begin(), report.nodes.end(),
+                                   [&](const TreeNode& candidate) { return candidate.id == part.id; });
+    return {part.id, to_array(node->mass.centroid), part.result.message,
+            fmt::format("{}/failed/part_{:04}.txt", report.folder, part.id)};
+}
 
 // What keeps a run from being a result.
 void require_success(const RunReport& report) {
     if (report.exit_code == 0) return;
-    const auto failed = std::find_if(report.parts.begin(), report.parts.end(),
-                                     [](const PartReport& part) { return part.result.code != 0; });
-    throw Error(static_cast<ErrorCode>(report.exit_code),
-                failed == report.parts.end()
-                    ? "A law of the mesh does not hold."
-                    : fmt::format("Part {} could not be meshed: {}", failed->id, failed->result.message));
+    std::vector<FailedPart> failed;
+    for (const PartReport& part : report.parts)
+        if (part.result.code != 0) failed.push_back(failed_part(report, part));
+    const auto code = static_cast<ErrorCode>(report.exit_code);
+    if (failed.empty()) throw Error(code, "A law of the mesh does not hold.");
+    const std::string message =
+        fmt::format("Part {} could not be meshed: {}", failed.front().number, failed.front().message);
+    throw PartsFailed(code, message, std::move(failed));
 }
+
+int all_processors() { return static_cast<int>(std::max<std::size_t>(1, allowed_processors().size())); }
 
 std::vector<Vec3> to_points(std::span<const std::array<double, 3>> vertices) {
     std::vector<Vec3> points;
@@ -195,14 +197,23 @@ void mesh_on_ranks(const ClosedSurface& surface, const MeshOptions& options, con
     Input input = surface.input();
     input.is_ready = true;
     ProgressListener listener(options.progress, options.is_cancelled);
-    const RunOptions request = in_agreement(ranks, [&] { return run_options(input, options, folder); });
+    const RunOptions request = in_agreement(ranks, [&] {
+        refuse_options_of_surface(options.others);
+        return run_options(input.path, options, folder);
+    });
     require_success(run(request, cores_of_rank, ranks, input, &listener));
 }
 
 void mesh_to_folder(const ClosedSurface& surface, const MeshOptions& options, const std::string& folder) {
     SingleRank alone;
-    const auto processors = static_cast<int>(std::max<std::size_t>(1, allowed_processors().size()));
-    mesh_on_ranks(surface, options, folder, processors, alone);
+    mesh_on_ranks(surface, options, folder, all_processors(), alone);
+}
+
+void mesh_file_to_folder(const std::string& path, const MeshOptions& options, const std::string& folder) {
+    SingleRank alone;
+    Input input;
+    ProgressListener listener(options.progress, options.is_cancelled);
+    require_success(run(run_options(path, options, folder), all_processors(), alone, input, &listener));
 }
 
 MeshArrays mesh_to_arrays(const ClosedSurface& surface, const MeshOptions& options) {
@@ -234,6 +245,13 @@ MeshArrays arrays_of_run(const std::string& folder) {
     for (auto& [behind, in_front] : mesh.sides)
         if (in_front >= 0) in_front = region_of_part[outline.index_of(in_front)];
     return mesh;
+}
+
+void mesh_to_file(const MeshArrays& mesh, const std::string& path, const MeshFileOptions& options) {
+    const MergeRequest request{
+        .folder = "", .output = path, .options = {options.msh_version}, .msh_ascii = options.msh_ascii};
+    check_merged_file(request);
+    merge_parts(ArrayParts(mesh), request);
 }
 
 }  // namespace kerf

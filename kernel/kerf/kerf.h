@@ -108,6 +108,25 @@ struct MeshOptions {
     IsCancelled is_cancelled = {};
 };
 
+/// A part that could not be meshed.
+struct FailedPart {
+    std::int32_t number = 1;        ///< in the tree of cuts
+    std::array<double, 3> place{};  ///< its centre of mass
+    std::string message;            ///< why
+    std::string reproducer;         ///< file of the run folder that says how to repeat it; gone with a temporary one
+};
+
+/// What is thrown where parts could not be meshed: Error(subdomain), or Error(memory) if all ran out of it.
+class PartsFailed : public Error {
+ public:
+    PartsFailed(ErrorCode code, const std::string& message, std::vector<FailedPart> parts)
+        : Error(code, message), parts_(std::make_shared<const std::vector<FailedPart>>(std::move(parts))) {}
+    const std::vector<FailedPart>& parts() const { return *parts_; }
+
+ private:
+    std::shared_ptr<const std::vector<FailedPart>> parts_;  // copies of an exception must not throw
+};
+
 /// One mesh of all parts.
 struct MeshArrays {
     std::vector<std::array<double, 3>> vertices;
@@ -122,16 +141,29 @@ struct MeshArrays {
     std::vector<std::array<std::int32_t, 2>> sides;  ///< #triangles; as of facets: behind, in front
 };
 
+struct MeshFileOptions {
+    std::string msh_version = "4.1";  ///< of Gmsh's files: 4.1 or 2.2
+    bool msh_ascii = false;           ///< Gmsh's files as text
+};
+
 /// Meshes in memory, but for files of the parts in a temporary folder (TMPDIR). Every law of the mesh is verified.
-/// Throws Error(subdomain) if a part could not be meshed, and as mesh_to_folder() does.
+/// Throws PartsFailed if a part could not be meshed, and as mesh_to_folder() does.
 MeshArrays mesh_to_arrays(const ClosedSurface& surface, const MeshOptions& options = {});
 
 /// The same as a run folder (docs/output.md), which replaces an older run there. Throws Error(usage) for an option out
 /// of range, Error(io) for a folder that cannot be written or holds anything else, Error(subdomain) if parts could not
-/// be meshed: the others are in the folder then.
+/// be meshed (PartsFailed): the others are in the folder then. What an interrupted run into that folder has finished is
+/// taken over, if it is the same run.
 void mesh_to_folder(const ClosedSurface& surface, const MeshOptions& options, const std::string& folder);
+
+/// The same of a file of any format that `kerf mesh` reads, as that does: `others` may be options of the surface, too.
+void mesh_file_to_folder(const std::string& path, const MeshOptions& options, const std::string& folder);
 
 /// The mesh of a finished run. Throws Error(io).
 MeshArrays arrays_of_run(const std::string& folder);
+
+/// Writes a mesh into a file, whose ending chooses the format, as `kerf merge` does. Its arrays must be as the
+/// functions above return them. Throws Error(usage) for another ending, naming those that there are, and Error(io).
+void mesh_to_file(const MeshArrays& mesh, const std::string& path, const MeshFileOptions& options = {});
 
 }  // namespace kerf

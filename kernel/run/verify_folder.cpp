@@ -77,7 +77,11 @@ class FolderVerifier {
 
     FolderVerification run() {
         check_files();
-        for (const auto& part : report_.at("parts")) check_part(part);
+        for (const auto& part : report_.at("parts")) {
+            if (options_.is_cancelled && options_.is_cancelled())
+                throw Error(ErrorCode::cancelled, "The verification was cancelled.");
+            check_part(part);
+        }
         check_pvtu();
         check_shared_vertices();
         check_interfaces();
@@ -316,9 +320,9 @@ void FolderVerifier::check_input() {
     try {
         const RunOptions options = options_of(report_.at("options"));
         const std::string path = options_.input.empty() ? path_of_text(of_report.at("path")) : options_.input;
-        input = read_input(path, options.input_options);
+        input = options_.surface ? *options_.surface : read_input(path, options.input_options);
         if (of_report.at("hash") != input.file_hash) {
-            result_.not_compared = input.path + " is not the file that the run has read: its bytes are others.";
+            result_.not_compared = input.path + " is not what the run has read: its bytes are others.";
             return;
         }
         input = remesh_where_asked(std::move(input), options);

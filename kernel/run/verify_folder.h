@@ -1,6 +1,7 @@
 // A finished run, checked from its files alone.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -9,8 +10,10 @@
 namespace kerf {
 
 struct VerifyOptions {
-    std::string input;           ///< where the surface is now; empty: where the run has read it
-    bool without_input = false;  ///< the laws of the mesh are enough
+    std::string input;                        ///< where the surface is now; empty: where the run has read it
+    bool without_input = false;               ///< the laws of the mesh are enough
+    const Input* surface = nullptr;           ///< in place of a file: what make_input() or read_input() has made
+    std::function<bool()> is_cancelled = {};  ///< asked between parts: true ends it with Error(cancelled)
 };
 
 /// What kerf verify found.

@@ -1,0 +1,32 @@
+// A mesh in memory as parts that can be written.
+#pragma once
+
+#include <vector>
+
+#include "kerf/kerf.h"
+#include "part/part.h"
+#include "part/shared_vertices.h"
+
+namespace kerf {
+
+/// The regions of a mesh of arrays, a part each, with walls between them. Facets of the input are triangles of the mesh
+/// by their rows. What a part shares with others is known of its vertices, not of its edges. Memory: the vertices on
+/// walls, and the parts that are loaded. The mesh must outlive it.
+class ArrayParts : public PartSource {
+ public:
+    explicit ArrayParts(const MeshArrays& mesh);
+
+    const MeshOutline& outline() const override { return outline_; }
+    Part load(PartIndex index) const override;
+
+ private:
+    std::vector<std::int64_t> boundary_vertices_of(RegionIndex region) const;
+
+    const MeshArrays& mesh_;
+    MeshOutline outline_;
+    Array<PartIndex, RegionIndex> regions_;      // of the parts
+    Array<RegionIndex, NodeId> part_of_region_;  // -1: none
+    SharedVertices shared_;
+};
+
+}  // namespace kerf
