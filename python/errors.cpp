@@ -2,7 +2,7 @@
 
 #include <pybind11/stl.h>
 
-#include "core/error.h"
+#include "kerf/kerf.h"
 
 namespace kerf::python {
 
@@ -28,17 +28,30 @@ py::list elements_of(const Error& error) {
     return list;
 }
 
+py::list parts_of(const PartsFailed& error) {
+    py::list list;
+    for (const FailedPart& each : error.parts())
+        list.append(py::make_tuple(each.number, each.place, each.message, each.reproducer));
+    return list;
+}
+
+void raise(const Error& error, const py::list& failed_parts) {
+    const py::object made =
+        py::module_::import("kerf.errors")
+            .attr("error_of")(static_cast<int>(error.code()), error.what(), elements_of(error), failed_parts);
+    PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(made.ptr())), made.ptr());
+}
+
 }  // namespace
 
 void register_errors(py::module_&) {
     py::register_exception_translator([](std::exception_ptr pointer) {
         try {
             if (pointer) std::rethrow_exception(pointer);
+        } catch (const PartsFailed& error) {
+            raise(error, parts_of(error));
         } catch (const Error& error) {
-            const py::object made =
-                py::module_::import("kerf.errors")
-                    .attr("error_of")(static_cast<int>(error.code()), error.what(), elements_of(error));
-            PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(made.ptr())), made.ptr());
+            raise(error, py::list());
         }
     });
 }

@@ -30,12 +30,19 @@ std::shared_ptr<MeshArrays> mesh(const SurfaceObject& surface, std::int32_t part
     return without_lock(watch, [&] { return std::make_shared<MeshArrays>(mesh_to_arrays(surface.surface, wanted)); });
 }
 
-void mesh_into(const SurfaceObject& surface, const std::string& folder, std::int32_t parts, double size,
+// `surface`: a Surface, or the path of a file.
+void mesh_into(const py::object& surface, const std::string& folder, std::int32_t parts, double size,
                std::int32_t workers, const py::object& progress, const std::string& programs,
                const py::kwargs& options) {
     Watch watch(progress);
     const MeshOptions wanted = mesh_options(parts, size, workers, programs, options, watch);
-    without_lock(watch, [&] { mesh_to_folder(surface.surface, wanted, folder); });
+    if (py::isinstance<SurfaceObject>(surface)) {
+        const ClosedSurface& closed = surface.cast<SurfaceObject&>().surface;
+        without_lock(watch, [&] { mesh_to_folder(closed, wanted, folder); });
+    } else {
+        const std::string path = py::str(surface);
+        without_lock(watch, [&] { mesh_file_to_folder(path, wanted, folder); });
+    }
 }
 
 template <class Member>
@@ -55,7 +62,14 @@ void register_mesh(py::module_& module) {
         .def_property_readonly("patch", array_of(&MeshArrays::patch))
         .def_property_readonly("sides", array_of(&MeshArrays::sides))
         .def_property_readonly("patch_names", [](const MeshArrays& self) { return self.patch_names; })
-        .def_property_readonly("region_names", [](const MeshArrays& self) { return self.region_names; });
+        .def_property_readonly("region_names", [](const MeshArrays& self) { return self.region_names; })
+        .def(
+            "save",
+            [](const MeshArrays& self, const std::string& path, const std::string& msh_version, bool msh_ascii) {
+                const py::gil_scoped_release released;
+                mesh_to_file(self, path, {msh_version, msh_ascii});
+            },
+            py::arg("path"), py::arg("msh_version"), py::arg("msh_ascii"));
     module.def("mesh", &mesh, py::arg("surface"), py::arg("parts") = 0, py::arg("size") = 0., py::arg("workers") = 0,
                py::arg("progress") = py::none(), py::arg("programs") = "");
     module.def("mesh_into", &mesh_into, py::arg("surface"), py::arg("folder"), py::arg("parts") = 0,

@@ -1,6 +1,8 @@
 // The module kerf._kerf: the facade (kerf/kerf.h) with arrays of numpy.
 #include "python/errors.h"
 #include "python/mesh.h"
+#include "python/part.h"
+#include "python/run.h"
 #include "python/surface.h"
 
 #include "io/program_finder.h"
@@ -12,4 +14,6 @@ PYBIND11_MODULE(_kerf, module) {
     kerf::python::register_errors(module);
     kerf::python::register_surface(module);
     kerf::python::register_mesh(module);
+    kerf::python::register_part(module);
+    kerf::python::register_run(module);
 }

@@ -5,16 +5,25 @@
     surface = kerf.read("pump.stl")
     mesh = kerf.mesh(surface, parts=8, size=0.5)
     mesh.points, mesh.tetrahedra, mesh.part, mesh.region, mesh.triangles, mesh.patch
+
+    run = kerf.mesh("pump.stl", parts=64, size=0.05, output="pump")     # larger than memory
+    for part in run.parts:
+        part.points, part.tetrahedra, part.global_ids, part.shared
 """
 
 from ._kerf import __version__
-from .errors import (Cancelled, ConvergenceError, Error, FileError, InputError, MeshingError, OutOfMemory,
+from .errors import (Cancelled, ConvergenceError, Error, FailedPart, FileError, InputError, MeshingError, OutOfMemory,
                      QualityError, UsageError, VerificationError)
 from .mesh import Mesh, Tetrahedralization, mesh, tetrahedralize
+from .part import Part, Parts, SharedPoints
+from .quality import Distribution, Quality, RegionQuality
+from .run import Run, open
 from .surface import Surface, read
+from .verification import Verification
 
 __all__ = [
-    "Cancelled", "ConvergenceError", "Error", "FileError", "InputError", "Mesh", "MeshingError", "OutOfMemory",
-    "QualityError", "Surface", "Tetrahedralization", "UsageError", "VerificationError", "__version__", "mesh",
+    "Cancelled", "ConvergenceError", "Distribution", "Error", "FailedPart", "FileError", "InputError", "Mesh",
+    "MeshingError", "OutOfMemory", "Part", "Parts", "Quality", "QualityError", "RegionQuality", "Run", "SharedPoints",
+    "Surface", "Tetrahedralization", "UsageError", "Verification", "VerificationError", "__version__", "mesh", "open",
     "read", "tetrahedralize",
 ]

@@ -2,7 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Any, Iterable
+import os
+from dataclasses import dataclass
+from typing import Any, Iterable, Optional
+
+
+@dataclass(frozen=True)
+class FailedPart:
+    """A part that could not be meshed."""
+
+    number: int
+    """In the tree of cuts."""
+    place: tuple[float, float, float]
+    """Its centre of mass."""
+    message: str
+    """Why."""
+    reproducer: Optional[str] = None
+    """File in the folder of the run with the command that repeats it; None if the run had no folder of its own."""
+
+    @classmethod
+    def _of(cls, number: int, place: list[float], message: str, reproducer: str) -> FailedPart:
+        return cls(number, tuple(place), message, reproducer if os.path.exists(reproducer) else None)
 
 
 class Error(Exception):
@@ -29,15 +49,18 @@ class InputError(Error, ValueError):
 
 
 class MeshingError(Error, RuntimeError):
-    """A part could not be meshed."""
+    """Parts could not be meshed: `failed_parts` has them. With output= the others are in the folder, and the same call
+    tries those that failed again."""
 
     code = 4
+    failed_parts: list[FailedPart] = []
 
 
 class OutOfMemory(Error, MemoryError):
-    """Out of memory, or over the budget."""
+    """Out of memory, or over the budget; `failed_parts` has the parts that were too large, if it was theirs."""
 
     code = 5
+    failed_parts: list[FailedPart] = []
 
 
 class QualityError(Error):
@@ -74,6 +97,10 @@ _classes = {each.code: each for each in (UsageError, InputError, MeshingError, O
                                          VerificationError, ConvergenceError, Cancelled)}
 
 
-def error_of(code: int, message: str, elements: Iterable[dict[str, Any]]) -> Error:
+def error_of(code: int, message: str, elements: Iterable[dict[str, Any]],
+             failed_parts: Iterable[tuple[int, list[float], str, str]] = ()) -> Error:
     """The exception of an exit code."""
-    return _classes.get(code, Error)(message, elements)
+    error = _classes.get(code, Error)(message, elements)
+    if failed_parts:
+        error.failed_parts = [FailedPart._of(*each) for each in failed_parts]
+    return error

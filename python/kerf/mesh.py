@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, Union
+import os
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _kerf, programs
+from .errors import UsageError
 from .progress import Progress, caller
 from .surface import Path, Surface, read
+
+if TYPE_CHECKING:
+    import meshio
+    import pyvista
+    import vtkmodules.vtkCommonDataModel as vtk
+
+    from .run import Run
 
 
 class Mesh:
@@ -63,12 +72,59 @@ class Mesh:
         """Empty if there is one region."""
         return self._native.region_names
 
+    def save(self, path: Path, msh_version: str = "4.1", msh_ascii: bool = False) -> None:
+        """Writes a file, whose ending chooses the format: .msh, .vtu, .mesh, .inp, .su2, .node, ... as `kerf merge`.
+
+        msh_version    of Gmsh's files: "4.1" or "2.2"
+        msh_ascii      Gmsh's files as text
+
+        Patches and regions have their names there. Raises UsageError for another ending, naming those that there are.
+        """
+        self._native.save(os.fspath(path), msh_version, msh_ascii)
+
+    def to_meshio(self) -> meshio.Mesh:
+        """A mesh of meshio: a block of tetrahedra for each region, one of triangles for each patch.
+
+        Cell data `part`, `region` and `patch` (-1 where a cell has none). Names are those of cell sets and, with the
+        numbers that `kerf merge` gives them, of field data, so that they survive a write to .msh. A write to .vtu has
+        one array, named by all sets, whose values are their numbers: meshio has no other place for them there.
+        """
+        from . import interchange
+
+        return interchange.to_meshio(self)
+
+    def to_vtk(self) -> vtk.vtkUnstructuredGrid:
+        """A grid of VTK: the tetrahedra, then the triangles, with the arrays that the files of Kerf have
+        (docs/output.md): Part, Region, Patch of cells; RegionNames, PatchNames of the field.
+
+        The points are not copied: the grid shares them.
+        """
+        from . import interchange
+
+        return interchange.to_vtk(self)
+
+    def to_pyvista(self) -> pyvista.UnstructuredGrid:
+        """to_vtk(), wrapped by PyVista. Raises ImportError without PyVista."""
+        from . import interchange
+
+        return interchange.to_pyvista(self)
+
     def __repr__(self) -> str:
         return f"<kerf.Mesh: {len(self.points)} points, {len(self.tetrahedra)} tetrahedra>"
 
 
+@overload
 def mesh(surface: Union[Surface, Path], parts: int = 0, size: float = 0, progress: Progress = None, workers: int = 0,
-         **options: object) -> Mesh:
+         output: None = None, **options: object) -> Mesh: ...
+
+
+@overload
+def mesh(surface: Union[Surface, Path], parts: int = 0, size: float = 0, progress: Progress = None, workers: int = 0,
+         *, output: Path, **options: object) -> Run: ...
+
+
+def mesh(surface: Union[Surface, Path], parts: int = 0, size: float = 0, progress: Progress = None, workers: int = 0,
+         output: Optional[Path] = None, **options: object) -> Union[Mesh, Run]:
     """The mesh of a surface, or of a file.
 
     surface    a Surface, or the path of a file
@@ -76,14 +132,31 @@ def mesh(surface: Union[Surface, Path], parts: int = 0, size: float = 0, progres
     size       wanted edge length, in units of the surface; 0: none
     progress   True: a line on standard error; or called with (stage, done, total): returning False ends the work
     workers    processes that mesh parts; 0: one for each processor
+    output     None: a Mesh in memory; else a folder, for what is larger than memory: a Run, whose parts are the same
+               files that `kerf mesh -o` writes. An older run there is replaced; one that was interrupted, or has failed
+               parts, goes on where it was
     options    those of `kerf mesh`, with underscores
 
     The result depends on the surface and the options alone. Raises UsageError, InputError, MeshingError, OutOfMemory,
     FileError, Cancelled; KeyboardInterrupt ends the workers.
     """
+    if output is not None:
+        return _run(surface, os.fspath(output), parts, size, workers, progress, options)
     if not isinstance(surface, Surface):
         surface = read(surface)
     return Mesh(_kerf.mesh(surface._native, parts, size, workers, caller(progress), programs.folder(), **options))
+
+
+def _run(surface: Union[Surface, Path], folder: str, parts: int, size: float, workers: int, progress: Progress,
+         options: dict[str, object]) -> Run:
+    from .run import Run
+
+    if _kerf.has_merged_format(folder):
+        raise UsageError(f"output is {folder}, a file of one mesh, but kerf.mesh() writes a folder. Name one, and give "
+                         "the file to the merge() of the result; or leave output out, and give it to save().")
+    given = surface._native if isinstance(surface, Surface) else os.fspath(surface)
+    _kerf.mesh_into(given, folder, parts, size, workers, caller(progress), programs.folder(), **options)
+    return Run(folder)
 
 
 class Tetrahedralization(NamedTuple):

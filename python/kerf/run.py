@@ -1,0 +1,173 @@
+"""Runs in folders: meshes that are larger than memory, and solutions on them."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path as FilePath
+from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, Union
+
+from . import _kerf
+from .mesh import Mesh
+from .part import Parts
+from .progress import Progress, caller
+from .quality import Quality
+from .surface import Path, Surface
+from .verification import Verification
+
+if TYPE_CHECKING:
+    import meshio
+    import pyvista
+    import vtkmodules.vtkCommonDataModel as vtk
+
+
+class Run:
+    """A finished run in a folder, as kerf.mesh(output=...), `kerf mesh -o` and kerf.open() give it, or a solution.
+
+        run = kerf.mesh("pump.stl", parts=64, size=0.2, output="pump")
+        for part in run.parts:                  # one at a time in memory
+            work_on(part.points, part.tetrahedra, part.global_ids)
+        run.export("openfoam", "case")
+
+    Opening reads the surfaces of the parts; memory is that of the points on interfaces. Of a solution, parts have its
+    values, and what asks for cells alone asks its mesh.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        """Raises FileError for what is no finished run, naming the way out."""
+        self._folder = os.path.abspath(os.fspath(folder))
+        self._native = _kerf.Run(self._folder)
+
+    @property
+    def folder(self) -> str:
+        """Absolute path."""
+        return self._folder
+
+    @property
+    def mesh_folder(self) -> str:
+        """That of the mesh on which a solution stands; of a run `folder`."""
+        return self._native.mesh
+
+    @property
+    def parts(self) -> Parts:
+        """A sequence that reads a part when it is asked for: run.parts[0].points."""
+        return Parts(self._native, range(len(self)))
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """report.json as it is in the folder now: options, tree of cuts, parts, totals, quality, verification."""
+        folder = self._native.solution or self._native.mesh
+        return json.loads(FilePath(folder, "report.json").read_text(encoding="utf-8"))
+
+    @property
+    def patch_names(self) -> list[str]:
+        return self._native.patch_names
+
+    @property
+    def region_names(self) -> list[str]:
+        """Empty if there is one region."""
+        return self._native.region_names
+
+    @property
+    def tetrahedra_count(self) -> int:
+        """Of all parts."""
+        return int(self._native.tetrahedra.sum())
+
+    @property
+    def points_count(self) -> int:
+        """Of the whole mesh: one that several parts have counts once."""
+        return self._native.points
+
+    def __len__(self) -> int:
+        """How many parts there are."""
+        return len(self._native.numbers)
+
+    def mesh(self) -> Mesh:
+        """All parts as one mesh in memory."""
+        return Mesh(_kerf.mesh_of_run(self._native.mesh))
+
+    def verify(self, input: Union[Surface, Path, None] = None, without_input: bool = False) -> Verification:
+        """Reads everything again and checks every law of the mesh, one part at a time, as `kerf verify`.
+
+        input          the surface, or where its file is now; None: where the run has read it. Of a run on arrays, the
+                       Surface is needed for the comparison with it
+        without_input  the laws of the mesh are enough
+
+        A law that does not hold is told by the result. Raises FileError for a part that cannot be read.
+        """
+        if input is not None and not isinstance(input, Surface):
+            input = os.fspath(input)
+        given = input._native if isinstance(input, Surface) else input
+        found = _kerf.verify(self._native.mesh, given, without_input)
+        return Verification._of(json.loads(found["json"]), found["text"])
+
+    def quality(self) -> Quality:
+        """How good the cells are, as `kerf quality`, one part at a time."""
+        found = _kerf.quality(self._native.mesh)
+        return Quality(json.loads(found["json"]), found["text"])
+
+    def export(self, format: Union[str, Sequence[str]], path: Optional[Path] = None, *, into: int = 0,
+               fields: Union[str, Sequence[str]] = "", msh_ascii: bool = False,
+               patch_type: Union[Mapping[str, str], Sequence[str], str] = (), split_regions: bool = False,
+               workers: int = 0, progress: Progress = None) -> list[str]:
+        """Writes the parts in the formats of solvers, as `kerf export`, and returns the paths of the files.
+
+        format         one of vtu, msh, openfoam, mfem, hdf5, medit, tetgen, abaqus, su2, or several
+        path           a folder: one format goes into it, several into sub-folders; None: they become part of the run,
+                       in export/FORMAT
+        into           pieces into which the parts are joined; 0: as they are
+        fields         qualities of the cells in vtu files: "all", "none", or names
+        msh_ascii      msh as text
+        patch_type     OpenFOAM's types of patches: {"inlet": "patch", "hull": "wall"}
+        split_regions  OpenFOAM: one mesh for each region
+        workers        parts that are written at once; 0: one for each processor
+
+        Raises UsageError for what a format cannot hold, FileError for a file of somebody else in the way.
+        """
+        if isinstance(patch_type, Mapping):
+            patch_type = [f"{name}={kind}" for name, kind in patch_type.items()]
+        types = [patch_type] if isinstance(patch_type, str) else list(patch_type)
+        return _kerf.export(self._folder, _list(format), "" if path is None else os.fspath(path), into, _list(fields),
+                            msh_ascii, types, split_regions, workers, caller(progress))
+
+    def merge(self, path: Path, msh_version: str = "4.1", msh_ascii: bool = False) -> None:
+        """Writes one mesh into a file, whose ending chooses the format, without ever holding it in memory.
+
+        msh_version    of Gmsh's files: "4.1" or "2.2"
+        msh_ascii      Gmsh's files as text
+
+        Raises UsageError for another ending, naming those that there are.
+        """
+        _kerf.merge(self._folder, os.fspath(path), msh_version, msh_ascii)
+
+    def to_meshio(self) -> meshio.Mesh:
+        """Mesh.to_meshio() of all parts, with the values of a solution."""
+        from . import interchange
+
+        return interchange.to_meshio(self.mesh(), interchange.values_of(self))
+
+    def to_vtk(self) -> vtk.vtkUnstructuredGrid:
+        """Mesh.to_vtk() of all parts, with the values of a solution."""
+        from . import interchange
+
+        return interchange.to_vtk(self.mesh(), interchange.values_of(self))
+
+    def to_pyvista(self) -> pyvista.UnstructuredGrid:
+        """Mesh.to_pyvista() of all parts, with the values of a solution."""
+        from . import interchange
+
+        return interchange.to_pyvista(self.mesh(), interchange.values_of(self))
+
+    def __repr__(self) -> str:
+        kind = "solution" if self._native.solution else "run"
+        return (f"<kerf.Run: {kind} in {self._folder}, {len(self)} parts, {self.points_count} points, "
+                f"{self.tetrahedra_count} tetrahedra>")
+
+
+def open(folder: Path) -> Run:
+    """The run, or the solution of `kerf solve`, in a folder. Raises FileError for what is none, naming the way out."""
+    return Run(folder)
+
+
+def _list(names: Union[str, Sequence[str]]) -> str:
+    return names if isinstance(names, str) else ",".join(names)

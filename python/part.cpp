@@ -1,0 +1,89 @@
+#include "python/part.h"
+
+#include <algorithm>
+
+#include <pybind11/stl.h>
+
+#include "part/part.h"
+#include "python/arrays.h"
+
+namespace kerf::python {
+
+namespace py = pybind11;
+
+namespace {
+
+py::array points_of_part(const py::object& self) {
+    const std::vector<Vec3>& vertices = self.cast<Part&>().mesh.vertices;
+    return view(vertices.empty() ? nullptr : vertices.front().data(), {std::ssize(vertices), 3}, self);
+}
+
+py::array_t<std::int32_t> regions_of(const Part& part) {
+    py::array_t<std::int32_t> regions(part.tet_count());
+    std::fill_n(regions.mutable_data(), part.tet_count(), 0);
+    for (const RegionRun& run : part.regions)
+        std::fill(regions.mutable_data() + run.first_tet, regions.mutable_data() + part.tet_count(),
+                  run.region.value());
+    return regions;
+}
+
+py::array_t<NodeId> owners_of(const Part& part) {
+    const std::vector<NodeId> owners = owners_of_vertices(part);
+    return py::array_t<NodeId>(std::ssize(owners), owners.data());
+}
+
+py::list shared_of(const py::object& self) {
+    py::list list;
+    for (const SharedGroup& group : self.cast<Part&>().shared)
+        list.append(py::make_tuple(group.parts, view(group.vertices, self)));
+    return list;
+}
+
+// The values of a solution, of points or of tetrahedra, by name: (n,) or (n, components).
+py::dict values_of(const py::object& self, PartValues::Of of) {
+    py::dict values;
+    for (const PartValues& each : self.cast<Part&>().values) {
+        if (each.of != of) continue;
+        values[py::str(each.name)] = std::visit(
+            [&](const auto& numbers) -> py::array {
+                std::vector<py::ssize_t> shape = {std::ssize(numbers) / each.components};
+                if (each.components > 1) shape.push_back(each.components);
+                return view(numbers.data(), shape, self);
+            },
+            each.numbers);
+    }
+    return values;
+}
+
+template <class Member>
+auto array_of(Member member) {
+    return [member](const py::object& self) { return view(self.cast<Part&>().*member, self); };
+}
+
+}  // namespace
+
+void register_part(py::module_& module) {
+    py::class_<Part, std::shared_ptr<Part>>(module, "Part")
+        .def_readonly("number", &Part::id)
+        .def_property_readonly("points", &points_of_part)
+        .def_property_readonly("boundary_points", [](const Part& self) { return self.mesh.boundary_vertex_count; })
+        .def_property_readonly("tetrahedra",
+                               [](const py::object& self) { return view(self.cast<Part&>().mesh.tets, self); })
+        .def_property_readonly("global_ids", array_of(&Part::global_id))
+        .def_property_readonly("region", &regions_of)
+        .def_property_readonly("triangles", array_of(&Part::facets))
+        .def_property_readonly("patch", array_of(&Part::patch))
+        .def_property_readonly("facet", array_of(&Part::facet))
+        .def_property_readonly("neighbour", array_of(&Part::neighbour))
+        .def_property_readonly("behind", array_of(&Part::tet_at_facet))
+        .def_property_readonly("owner", &owners_of)
+        .def_property_readonly("shared", &shared_of)
+        .def_property_readonly("point_data",
+                               [](const py::object& self) { return values_of(self, PartValues::Of::points); })
+        .def_property_readonly("cell_data",
+                               [](const py::object& self) { return values_of(self, PartValues::Of::tets); })
+        .def_readonly("patch_names", &Part::patch_names)
+        .def_readonly("region_names", &Part::region_names);
+}
+
+}  // namespace kerf::python

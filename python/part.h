@@ -1,0 +1,10 @@
+// kerf.Part.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace kerf::python {
+
+void register_part(pybind11::module_& module);
+
+}  // namespace kerf::python

@@ -1,0 +1,135 @@
+#include "python/run.h"
+
+#include <pybind11/stl.h>
+
+#include "export/merged_file.h"
+#include "kerf/progress_listener.h"
+#include "parallel/processors.h"
+#include "part/run_parts.h"
+#include "part/solution_parts.h"
+#include "python/arrays.h"
+#include "python/options.h"
+#include "python/surface_object.h"
+#include "quality/compared_quality.h"
+#include "run/export_run.h"
+#include "run/verify_folder.h"
+
+namespace kerf::python {
+
+namespace py = pybind11;
+
+namespace {
+
+/// A finished run, or a solution on one.
+struct RunObject {
+    explicit RunObject(const std::string& folder)
+        : solution(find_solution_folder(folder).value_or("")),
+          mesh(solution.empty() ? folder : mesh_of_solution(solution)),
+          parts(std::make_unique<RunParts>(mesh, solution)) {}
+
+    std::string solution;  // empty: none
+    std::string mesh;
+    std::unique_ptr<PartSource> parts;
+};
+
+std::shared_ptr<RunObject> open_run(const std::string& folder) {
+    const py::gil_scoped_release released;
+    return std::make_shared<RunObject>(folder);
+}
+
+template <class Count>
+py::array_t<Count> of_parts(const RunObject& run, Count PartExtent::*count) {
+    py::array_t<Count> counts(std::ssize(run.parts->outline().parts));
+    Count* to = counts.mutable_data();
+    for (const PartExtent& part : run.parts->outline().parts) *to++ = part.*count;
+    return counts;
+}
+
+std::shared_ptr<Part> load_part_of(const RunObject& run, std::size_t index) {
+    const py::gil_scoped_release released;
+    return std::make_shared<Part>(run.parts->load(PartIndex(index)));
+}
+
+py::dict verify(const std::string& folder, const py::object& input, bool without_input) {
+    Watch watch{py::none()};
+    VerifyOptions options;
+    options.without_input = without_input;
+    options.is_cancelled = watch.is_cancelled();
+    if (py::isinstance<SurfaceObject>(input))
+        options.surface = &input.cast<SurfaceObject&>().surface.input();
+    else if (!input.is_none())
+        options.input = input.cast<std::string>();
+    const FolderVerification found = without_lock(watch, [&] { return verify_folder(folder, options); });
+    py::dict result;
+    result["json"] = to_json(found, folder, options);
+    result["text"] = to_text(found, folder, options);
+    return result;
+}
+
+py::dict quality(const std::string& path) {
+    std::string json, text;
+    {
+        const py::gil_scoped_release released;
+        const ComparedQuality measured = compare_quality(path);
+        json = to_json(measured, {});
+        text = to_text(measured, QualityDetail::all);
+    }
+    py::dict result;
+    result["json"] = json;
+    result["text"] = text;
+    return result;
+}
+
+std::vector<std::string> export_parts(const std::string& folder, const std::string& formats, const std::string& output,
+                                      std::int32_t into, const std::string& fields, bool msh_ascii,
+                                      const std::vector<std::string>& patch_types, bool split_regions,
+                                      std::int32_t workers, const py::object& progress) {
+    const int all = static_cast<int>(std::max<std::size_t>(1, allowed_processors().size()));
+    const ExportRequest request{.folder = folder,
+                                .formats = formats,
+                                .output = output,
+                                .into = into,
+                                .fields = fields,
+                                .msh_ascii = msh_ascii,
+                                .patch_types = patch_types,
+                                .threads = workers > 0 ? workers : all,
+                                .split_regions = split_regions};
+    Watch watch(progress);
+    const Progress told = watch.progress();
+    const IsCancelled is_cancelled = watch.is_cancelled();
+    ProgressListener listener(told, is_cancelled);
+    SingleRank alone;
+    const ExportSummary summary = without_lock(watch, [&] { return export_run(request, alone, &listener); });
+    std::vector<std::string> files;
+    for (const RunFile& file : summary.files) files.push_back(summary.folder + "/" + file.path);
+    return files;
+}
+
+void merge(const std::string& folder, const std::string& output, const std::string& msh_version, bool msh_ascii) {
+    const py::gil_scoped_release released;
+    merge_run({.folder = folder, .output = output, .options = {msh_version}, .msh_ascii = msh_ascii});
+}
+
+}  // namespace
+
+void register_run(py::module_& module) {
+    py::class_<RunObject, std::shared_ptr<RunObject>>(module, "Run")
+        .def(py::init(&open_run), py::arg("folder"))
+        .def_readonly("solution", &RunObject::solution)
+        .def_readonly("mesh", &RunObject::mesh)
+        .def_property_readonly("points", [](const RunObject& self) { return self.parts->outline().vertices; })
+        .def_property_readonly("numbers", [](const RunObject& self) { return of_parts(self, &PartExtent::id); })
+        .def_property_readonly("tetrahedra", [](const RunObject& self) { return of_parts(self, &PartExtent::tets); })
+        .def_property_readonly("patch_names", [](const RunObject& self) { return self.parts->outline().patch_names; })
+        .def_property_readonly("region_names", [](const RunObject& self) { return self.parts->outline().region_names; })
+        .def("load", &load_part_of, py::arg("index"));
+    module.def("verify", &verify, py::arg("folder"), py::arg("input"), py::arg("without_input"));
+    module.def("quality", &quality, py::arg("path"));
+    module.def("export", &export_parts, py::arg("folder"), py::arg("formats"), py::arg("output"), py::arg("into"),
+               py::arg("fields"), py::arg("msh_ascii"), py::arg("patch_types"), py::arg("split_regions"),
+               py::arg("workers"), py::arg("progress"));
+    module.def("merge", &merge, py::arg("folder"), py::arg("output"), py::arg("msh_version"), py::arg("msh_ascii"));
+    module.def("has_merged_format", [](const std::string& path) { return find_merged_format(path) != nullptr; });
+}
+
+}  // namespace kerf::python
