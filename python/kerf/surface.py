@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import os
-from typing import Optional, Sequence, Union
+from typing import TYPE_CHECKING, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _kerf
 from .progress import Progress, caller
+
+if TYPE_CHECKING:
+    import meshio
+    import pyvista
+    import vtkmodules.vtkCommonDataModel as vtk
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -40,6 +45,31 @@ class Surface:
         surface = cls.__new__(cls)
         surface._native = native
         return surface
+
+    @classmethod
+    def from_meshio(cls, mesh: meshio.Mesh, patches: Optional[str] = None, **options: object) -> Surface:
+        """The triangles of a mesh of meshio.
+
+        patches    name of the cell data with the patch of each triangle; None: that of Gmsh's physical groups, with
+                   their names, or of Mesh.to_meshio(); else the cell sets, if each triangle is in one; else one patch
+        options    as above
+        """
+        from . import interchange
+
+        return interchange.surface_of_meshio(mesh, patches, options)
+
+    @classmethod
+    def from_pyvista(cls, polydata: Union[pyvista.PolyData, vtk.vtkPolyData], patches: Optional[str] = None,
+                     **options: object) -> Surface:
+        """The polygons of a data set of PyVista, or of VTK itself, which need not be there: triangles alone.
+
+        patches    name of the cell data with the patch of each triangle, whole numbers; None: "Patch" with its names in
+                   "PatchNames", as files of Kerf have them, if it is there; else one patch
+        options    as above
+        """
+        from . import interchange
+
+        return interchange.surface_of_polydata(polydata, patches, options)
 
     @property
     def points(self) -> np.ndarray:

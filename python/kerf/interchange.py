@@ -1,0 +1,256 @@
+"""Meshes and surfaces of other libraries: meshio, VTK, PyVista. They are imported when they are asked for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Mapping, Optional, Union
+
+import numpy as np
+
+from .surface import Surface
+
+if TYPE_CHECKING:
+    import meshio
+    import pyvista
+    import vtkmodules.vtkCommonDataModel as vtk
+
+    from .mesh import Mesh
+    from .run import Run
+
+
+@dataclass
+class Values:
+    """Arrays of a solution by name: of the points of a mesh, and of its tetrahedra."""
+
+    points: dict[str, np.ndarray] = field(default_factory=dict)
+    cells: dict[str, np.ndarray] = field(default_factory=dict)
+
+
+def values_of(run: Run) -> Values:
+    """Of a solution, in the order of run.mesh(): of a point in several parts those of the first. Of a run none."""
+    values = Values()
+    if run.mesh_folder == run.folder:
+        return values
+    first = 0
+    is_set = np.zeros(run.points_count, bool)
+    for part in run.parts:
+        new = ~is_set[part.global_ids]
+        for name, own in part.point_data.items():
+            whole = values.points.setdefault(name, np.empty((run.points_count, *own.shape[1:]), own.dtype))
+            whole[part.global_ids[new]] = own[new]
+        for name, own in part.cell_data.items():
+            whole = values.cells.setdefault(name, np.empty((run.tetrahedra_count, *own.shape[1:]), own.dtype))
+            whole[first:first + len(own)] = own
+        is_set[part.global_ids] = True
+        first += len(part.tetrahedra)
+    return values
+
+
+@dataclass
+class _Block:
+    """Cells of one region or patch."""
+
+    dimension: int
+    number: int
+    name: Optional[str]
+    rows: np.ndarray
+    cells: np.ndarray
+
+    @property
+    def kind(self) -> str:
+        return "tetra" if self.dimension == 3 else "triangle"
+
+
+def _blocks_of(mesh: Mesh) -> list[_Block]:
+    blocks = []
+    for region in range(max(1, len(mesh.region_names))):
+        rows = np.flatnonzero(mesh.region == region)
+        name = mesh.region_names[region] if mesh.region_names else None
+        blocks.append(_Block(3, region, name, rows, mesh.tetrahedra[rows]))
+    for patch, name in enumerate(mesh.patch_names):
+        if name in mesh.region_names:  # a set has one name for both
+            name += "_patch"
+        rows = np.flatnonzero(mesh.patch == patch)
+        blocks.append(_Block(2, patch, name, rows, mesh.triangles[rows]))
+    return [block for block in blocks if len(block.rows) > 0]
+
+
+def _entities_of_points(count: int, blocks: list[_Block]) -> np.ndarray:
+    """(count, 2): dimension and tag of the entity of Gmsh that has each point, the first of its patches, or else its
+    region. A writer knows no entity without a point, so each gets one that it does not lose."""
+    entities = np.zeros((count, 2), np.int32)
+    ids = [np.unique(block.cells) for block in blocks]
+    in_order = sorted(range(len(blocks)), key=lambda b: (-blocks[b].dimension, -blocks[b].number))
+    for b in in_order:
+        entities[ids[b]] = blocks[b].dimension, blocks[b].number + 1
+    is_kept = np.zeros(count, bool)
+    for b in sorted(in_order, key=lambda b: len(ids[b])):
+        free = ids[b][~is_kept[ids[b]]]
+        if len(free) > 0:
+            is_kept[free[0]] = True
+            entities[free[0]] = blocks[b].dimension, blocks[b].number + 1
+    return entities
+
+
+def to_meshio(mesh: Mesh, values: Optional[Values] = None) -> meshio.Mesh:
+    """Mesh.to_meshio(), with the values of a solution."""
+    import meshio
+
+    values = values or Values()
+    blocks = _blocks_of(mesh)
+
+    def of_cells(array: np.ndarray, dimension: int) -> list[np.ndarray]:
+        none = np.nan if array.dtype.kind == "f" else -1
+        return [array[block.rows] if block.dimension == dimension else
+                np.full((len(block.rows), *array.shape[1:]), none, array.dtype) for block in blocks]
+
+    tags = [np.full(len(block.rows), block.number + 1, np.int32) for block in blocks]
+    cell_data = {"part": of_cells(mesh.part, 3), "region": of_cells(mesh.region, 3), "patch": of_cells(mesh.patch, 2),
+                 "gmsh:physical": tags, "gmsh:geometrical": list(tags)}
+    cell_data.update((name, of_cells(array, 3)) for name, array in values.cells.items())
+    named = [block for block in blocks if block.name is not None]
+    sets = {each.name: [np.arange(len(block.rows) if block is each else 0) for block in blocks] for each in named}
+    return meshio.Mesh(mesh.points, [(block.kind, block.cells) for block in blocks], cell_data=cell_data,
+                       point_data={"gmsh:dim_tags": _entities_of_points(len(mesh.points), blocks), **values.points},
+                       field_data={each.name: np.array([each.number + 1, each.dimension]) for each in named},
+                       cell_sets=sets)
+
+
+def to_vtk(mesh: Mesh, values: Optional[Values] = None) -> vtk.vtkUnstructuredGrid:
+    """Mesh.to_vtk(), with the values of a solution."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import VTK_TETRA, VTK_TRIANGLE, vtkCellArray, vtkUnstructuredGrid
+
+    values = values or Values()
+    tets, triangles = mesh.tetrahedra, mesh.triangles
+    grid, points, cells = vtkUnstructuredGrid(), vtkPoints(), vtkCellArray()
+    points.SetData(numpy_to_vtk(mesh.points))
+    cells.SetData(_vtk_ids(np.arange(0, tets.size, 4), np.arange(tets.size, tets.size + triangles.size + 1, 3)),
+                  _vtk_ids(tets.ravel(), triangles.ravel()))
+    types = np.repeat(np.array([VTK_TETRA, VTK_TRIANGLE], np.uint8), [len(tets), len(triangles)])
+    grid.SetPoints(points)
+    grid.SetCells(numpy_to_vtk(types, deep=True), cells)
+
+    def add(data: Any, name: str, array: np.ndarray) -> None:
+        converted = numpy_to_vtk(array, deep=True)
+        converted.SetName(name)
+        data.AddArray(converted)
+
+    def of_cells(of_tets: np.ndarray, of_triangles: Optional[np.ndarray] = None) -> np.ndarray:
+        if of_triangles is None:
+            none = np.nan if of_tets.dtype.kind == "f" else -1
+            of_triangles = np.full((len(triangles), *of_tets.shape[1:]), none, of_tets.dtype)
+        return np.concatenate([of_tets, of_triangles])
+
+    add(grid.GetCellData(), "Part", of_cells(mesh.part))
+    add(grid.GetCellData(), "Patch", of_cells(np.full(len(tets), -1, np.int32), mesh.patch))
+    add(grid.GetFieldData(), "PatchNames", _bytes_of_names(mesh.patch_names))
+    if mesh.region_names:
+        add(grid.GetCellData(), "Region", of_cells(mesh.region, mesh.sides[:, 0]))
+        add(grid.GetFieldData(), "RegionNames", _bytes_of_names(mesh.region_names))
+    for name, array in values.points.items():
+        add(grid.GetPointData(), name, array)
+    for name, array in values.cells.items():
+        add(grid.GetCellData(), name, of_cells(array))
+    return grid
+
+
+def _vtk_ids(*pieces: np.ndarray) -> Any:
+    """One array in memory of VTK's own: a vtkCellArray keeps the numbers that it is given, but not their owner."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkCommonCore import vtkIdTypeArray
+
+    ids = vtkIdTypeArray()
+    ids.SetNumberOfValues(sum(len(piece) for piece in pieces))
+    np.concatenate(pieces, out=vtk_to_numpy(ids))
+    return ids
+
+
+def to_pyvista(mesh: Mesh, values: Optional[Values] = None) -> pyvista.UnstructuredGrid:
+    """Mesh.to_pyvista(), with the values of a solution."""
+    try:
+        import pyvista
+    except ImportError as error:
+        raise ImportError("PyVista is not installed: pip install pyvista. to_vtk() gives the same grid without "
+                          "it.") from error
+    return pyvista.wrap(to_vtk(mesh, values))
+
+
+def _bytes_of_names(names: list[str]) -> np.ndarray:
+    """As files of Kerf have them: a zero byte behind each."""
+    return np.frombuffer("".join(name + "\0" for name in names).encode(), np.uint8)
+
+
+def _names_of_bytes(array: np.ndarray) -> list[str]:
+    return array.tobytes().decode().split("\0")[:-1]
+
+
+def _surface(points: np.ndarray, triangles: np.ndarray, patches: Optional[np.ndarray],
+             names: Union[Mapping[int, str], list[str], None], options: Mapping[str, Any]) -> Surface:
+    """Without points that no triangle has; patches numbered from 0 in the order of their numbers."""
+    used, corners = np.unique(triangles, return_inverse=True)
+    points, triangles = np.asarray(points)[used], corners.reshape(-1, 3)
+    if patches is None or isinstance(names, list):
+        return Surface(points, triangles, patches, names, **options)
+    numbers, patches = np.unique(patches, return_inverse=True)
+    of_number = dict(names or {})
+    return Surface(points, triangles, patches, [of_number.get(int(n), f"patch_{n}") for n in numbers], **options)
+
+
+def surface_of_meshio(mesh: meshio.Mesh, patches: Optional[str], options: Mapping[str, Any]) -> Surface:
+    """Surface.from_meshio()."""
+    rows = [i for i, block in enumerate(mesh.cells) if block.type == "triangle"]
+    others = sorted({block.type for block in mesh.cells if block.type.startswith(("quad", "polygon", "triangle"))})
+    if others not in ([], ["triangle"]):
+        raise ValueError(f"The mesh has cells of the types {', '.join(others)}, but a surface is made of plain "
+                         "triangles.")
+    if not rows:
+        raise ValueError("The mesh has no triangles.")
+    triangles = np.concatenate([mesh.cells[i].data for i in rows])
+    if patches is not None and patches not in mesh.cell_data:
+        raise ValueError(f"The mesh has no cell data {patches!r}; there are {', '.join(mesh.cell_data) or 'none'}.")
+    key = patches or ("gmsh:physical" if "gmsh:physical" in mesh.cell_data else None)
+    if key is not None:
+        names = {int(value[0]): name for name, value in mesh.field_data.items()
+                 if key == "gmsh:physical" and np.size(value) == 2 and value[1] == 2}
+        return _surface(mesh.points, triangles, np.concatenate([mesh.cell_data[key][i] for i in rows]), names, options)
+    return _surface(mesh.points, triangles, *_patches_of_sets(mesh, rows, len(triangles)), options)
+
+
+def _patches_of_sets(mesh: meshio.Mesh, rows: list[int],
+                     count: int) -> tuple[Optional[np.ndarray], Optional[list[str]]]:
+    """The sets as patches, with their names, if each triangle is in one."""
+    patches, names = np.full(count, -1), []
+    first = np.cumsum([0] + [len(mesh.cells[i].data) for i in rows])
+    for name, members in mesh.cell_sets.items():
+        inside = [first[k] + np.asarray(members[i], int) for k, i in enumerate(rows) if members[i] is not None]
+        inside = np.concatenate(inside) if inside else np.empty(0, int)
+        if len(inside) > 0:
+            patches[inside] = len(names)
+            names.append(name)
+    return (patches, names) if names and patches.min() >= 0 else (None, None)
+
+
+def surface_of_polydata(polydata: Union[pyvista.PolyData, vtk.vtkPolyData], patches: Optional[str],
+                        options: Mapping[str, Any]) -> Surface:
+    """Surface.from_pyvista()."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    if polydata.GetNumberOfPolys() == 0:
+        raise ValueError("The data set has no polygons.")
+    polygons = polydata.GetPolys()
+    if polygons.GetMaxCellSize() != 3 or polydata.GetNumberOfStrips() > 0:
+        raise ValueError("The data set has polygons that are no triangles. triangulate() of PyVista, or "
+                         "vtkTriangleFilter, makes triangles of them.")
+    triangles = vtk_to_numpy(polygons.GetConnectivityArray()).reshape(-1, 3)
+    points = vtk_to_numpy(polydata.GetPoints().GetData())
+    found = polydata.GetCellData().GetArray(patches or "Patch")
+    if found is None and patches is not None:
+        raise ValueError(f"The data set has no cell data {patches!r}.")
+    if found is None:
+        return _surface(points, triangles, None, None, options)
+    first = polydata.GetNumberOfVerts() + polydata.GetNumberOfLines()
+    names = polydata.GetFieldData().GetArray("PatchNames") if patches is None else None
+    return _surface(points, triangles, vtk_to_numpy(found)[first:first + len(triangles)],
+                    _names_of_bytes(vtk_to_numpy(names)) if names is not None else None, options)
