@@ -11,7 +11,7 @@
 #ifdef KERF_WITH_MPI
 #include <unistd.h>
 
-#include "mpi/mpi_ranks.h"
+#include "mpi/host_processors.h"
 #endif
 
 namespace kerf {
@@ -31,13 +31,10 @@ Ranks join_mpi_ranks() {
     auto ranks = std::make_unique<MpiRanks>();
     Ranks joined;
     joined.launched = true;
-    std::size_t own = 0;
-    std::vector<std::vector<int>> allowed;
-    for (const Bytes& bytes : ranks->gather_on_host(to_bytes(allowed_processors()), own))
-        allowed.push_back(from_bytes<std::vector<int>>(bytes));
-    joined.cores_of_rank = share_of_processors(allowed, own);
-    joined.unbound_share = count_of(allowed_processors(::getppid())) / static_cast<int>(allowed.size());
-    joined.bound_to = count_of(allowed[own]);
+    const HostProcessors host = host_processors(*ranks);
+    joined.cores_of_rank = host.share();
+    joined.unbound_share = count_of(allowed_processors(::getppid())) / static_cast<int>(host.allowed.size());
+    joined.bound_to = count_of(host.allowed[host.own]);
     for (const int processors : all_gather(*ranks, joined.bound_to))
         joined.bound_to = std::min(joined.bound_to, processors);
     joined.mpi = ranks.get();
