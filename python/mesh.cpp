@@ -12,17 +12,6 @@ namespace py = pybind11;
 
 namespace {
 
-MeshOptions mesh_options(std::int32_t parts, double size, std::int32_t workers, const std::string& programs,
-                         const py::kwargs& options, Watch& watch) {
-    return {.size = size,
-            .parts = parts,
-            .workers = workers,
-            .others = named_options(options),
-            .programs = programs,
-            .progress = watch.progress(),
-            .is_cancelled = watch.is_cancelled()};
-}
-
 std::shared_ptr<MeshArrays> mesh(const SurfaceObject& surface, std::int32_t parts, double size, std::int32_t workers,
                                  const py::object& progress, const std::string& programs, const py::kwargs& options) {
     Watch watch(progress);

@@ -1,4 +1,5 @@
 // The module kerf._kerf: the facade (kerf/kerf.h) with arrays of numpy.
+#include "python/distributed.h"
 #include "python/errors.h"
 #include "python/mesh.h"
 #include "python/part.h"
@@ -16,4 +17,5 @@ PYBIND11_MODULE(_kerf, module) {
     kerf::python::register_mesh(module);
     kerf::python::register_part(module);
     kerf::python::register_run(module);
+    kerf::python::register_distributed(module);
 }

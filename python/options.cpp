@@ -34,6 +34,17 @@ NamedOptions named_options(const py::kwargs& options) {
     return named;
 }
 
+MeshOptions mesh_options(std::int32_t parts, double size, std::int32_t workers, const std::string& programs,
+                         const py::kwargs& options, Watch& watch) {
+    return {.size = size,
+            .parts = parts,
+            .workers = workers,
+            .others = named_options(options),
+            .programs = programs,
+            .progress = watch.progress(),
+            .is_cancelled = watch.is_cancelled()};
+}
+
 template <class Question>
 bool Watch::goes_on(Question question) {
     if (has_raised_) return false;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <exception>
+#include <string>
 #include <utility>
 
 #include <pybind11/pybind11.h>
@@ -36,6 +37,10 @@ class Watch {
     std::exception_ptr raised_;                // written and read with the interpreter's lock
     std::atomic<bool> has_raised_ = false;
 };
+
+/// Those of mesh(), told to a watch that must outlive them.
+MeshOptions mesh_options(std::int32_t parts, double size, std::int32_t workers, const std::string& programs,
+                         const pybind11::kwargs& options, Watch& watch);
 
 /// Runs work() without the interpreter's lock; what the watch has raised comes before Error(cancelled).
 template <class Work>

@@ -12,8 +12,11 @@
 """
 
 from ._kerf import __version__
+from .distributed import DistributedMesh, distributed
 from .errors import (Cancelled, ConvergenceError, Error, FailedPart, FileError, InputError, MeshingError, OutOfMemory,
                      QualityError, UsageError, VerificationError)
+from .ghost_cells import GhostCells
+from .local_mesh import LocalMesh
 from .mesh import Mesh, Tetrahedralization, mesh, tetrahedralize
 from .part import Part, Parts, SharedPoints
 from .quality import Distribution, Quality, RegionQuality
@@ -22,8 +25,35 @@ from .surface import Surface, read
 from .verification import Verification
 
 __all__ = [
-    "Cancelled", "ConvergenceError", "Distribution", "Error", "FailedPart", "FileError", "InputError", "Mesh",
-    "MeshingError", "OutOfMemory", "Part", "Parts", "Quality", "QualityError", "RegionQuality", "Run", "SharedPoints",
-    "Surface", "Tetrahedralization", "UsageError", "Verification", "VerificationError", "__version__", "mesh", "open",
-    "read", "tetrahedralize",
+    "Cancelled",
+    "ConvergenceError",
+    "DistributedMesh",
+    "Distribution",
+    "Error",
+    "FailedPart",
+    "FileError",
+    "GhostCells",
+    "InputError",
+    "LocalMesh",
+    "Mesh",
+    "MeshingError",
+    "OutOfMemory",
+    "Part",
+    "Parts",
+    "Quality",
+    "QualityError",
+    "RegionQuality",
+    "Run",
+    "SharedPoints",
+    "Surface",
+    "Tetrahedralization",
+    "UsageError",
+    "Verification",
+    "VerificationError",
+    "__version__",
+    "distributed",
+    "mesh",
+    "open",
+    "read",
+    "tetrahedralize",
 ]

@@ -17,7 +17,9 @@ if TYPE_CHECKING:
     import meshio
     import pyvista
     import vtkmodules.vtkCommonDataModel as vtk
+    from mpi4py.MPI import Comm
 
+    from .distributed import DistributedMesh
     from .run import Run
 
 
@@ -115,16 +117,22 @@ class Mesh:
 
 @overload
 def mesh(surface: Union[Surface, Path], parts: int = 0, size: float = 0, progress: Progress = None, workers: int = 0,
-         output: None = None, **options: object) -> Mesh: ...
+         output: None = None, comm: None = None, **options: object) -> Mesh: ...
 
 
 @overload
 def mesh(surface: Union[Surface, Path], parts: int = 0, size: float = 0, progress: Progress = None, workers: int = 0,
-         *, output: Path, **options: object) -> Run: ...
+         *, output: Path, comm: None = None, **options: object) -> Run: ...
+
+
+@overload
+def mesh(surface: Union[Surface, Path], parts: int = 0, size: float = 0, progress: Progress = None, workers: int = 0,
+         output: Optional[Path] = None, *, comm: Comm, **options: object) -> DistributedMesh: ...
 
 
 def mesh(surface: Union[Surface, Path], parts: int = 0, size: float = 0, progress: Progress = None, workers: int = 0,
-         output: Optional[Path] = None, **options: object) -> Union[Mesh, Run]:
+         output: Optional[Path] = None, comm: Optional[Comm] = None,
+         **options: object) -> Union[Mesh, Run, DistributedMesh]:
     """The mesh of a surface, or of a file.
 
     surface    a Surface, or the path of a file
@@ -135,11 +143,16 @@ def mesh(surface: Union[Surface, Path], parts: int = 0, size: float = 0, progres
     output     None: a Mesh in memory; else a folder, for what is larger than memory: a Run, whose parts are the same
                files that `kerf mesh -o` writes. An older run there is replaced; one that was interrupted, or has failed
                parts, goes on where it was
+    comm       a communicator of mpi4py, all ranks of which call: each gets its own parts (help(kerf.DistributedMesh))
     options    those of `kerf mesh`, with underscores
 
     The result depends on the surface and the options alone. Raises UsageError, InputError, MeshingError, OutOfMemory,
     FileError, Cancelled; KeyboardInterrupt ends the workers.
     """
+    if comm is not None:
+        from .distributed import mesh_on_ranks
+
+        return mesh_on_ranks(surface, comm, parts, size, progress, workers, output, **options)
     if output is not None:
         return _run(surface, os.fspath(output), parts, size, workers, progress, options)
     if not isinstance(surface, Surface):

@@ -1,0 +1,239 @@
+"""Meshes on the ranks of an MPI job: each rank has the arrays of its own parts, and no rank ever has all of them.
+
+    from mpi4py import MPI
+
+    mesh = kerf.mesh("pump.stl", parts=64, size=0.5, comm=MPI.COMM_WORLD)   # under mpirun -n P python3 script.py
+    mesh.local.points, mesh.local.tetrahedra, mesh.local.global_points, mesh.local.owner
+    mesh.neighbours[0].rank, mesh.neighbours[0].points
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+from dataclasses import dataclass
+from operator import index
+from typing import TYPE_CHECKING, List, Optional, Union
+
+import numpy as np
+
+from . import _kerf, programs
+from .errors import FileError, UsageError
+from .ghost_cells import GhostCells, ghost_cells_of
+from .local_mesh import LocalMesh
+from .progress import Progress, caller
+from .ranks import check_communicator, swap, together
+from .surface import Path, Surface, read
+
+if TYPE_CHECKING:
+    from mpi4py.MPI import Comm
+
+
+@dataclass(frozen=True)
+class Neighbour:
+    """Another rank that has some of the same points."""
+
+    rank: int
+    #: (s,) int64: rows of the local points, ascending by their global numbers: the same order on both sides.
+    points: np.ndarray
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Numbers of the points in which each rank's own ones follow each other: rows of vectors and matrices."""
+
+    #: Those of this rank: [first, last).
+    first: int
+    last: int
+    #: (n,) int64: of each local point; those that this rank owns ascend.
+    of_points: np.ndarray
+
+
+class DistributedMesh:
+    """A mesh of which each rank has some of the parts, joined, and no rank has all of them.
+
+        mesh = kerf.mesh("pump.stl", parts=64, size=0.5, comm=MPI.COMM_WORLD)   # under mpirun -n P python3 script.py
+        mesh = kerf.distributed("out", MPI.COMM_WORLD)                          # of a finished run
+
+    Both are collective: all ranks of the communicator, which may be any, call with the same arguments. The mesh is the
+    same for any number of ranks, and without them. Beside the arguments of kerf.mesh() without ranks there is
+
+    output   run folder, where all ranks reach it; None: a temporary one in TMPDIR of the first rank, which all of them
+             must reach, too; it is gone when the call ends
+    workers  processes of each rank; 0: one for each processor, shared with the other ranks of the host
+
+    and `progress=True` has the first rank tell. Each rank reads and checks the surface, and has neighbouring parts in
+    the tree of cuts; with more ranks than parts some have none.
+
+    What is raised on one rank is raised on all of them, with the `elements` of the rank that has found them, or without
+    where it had to end the others. Methods that are called collective are so in the same way.
+    """
+
+    def __init__(self, comm: Comm, native: _kerf.RankMesh) -> None:
+        self._native = native
+        self._comm = comm
+        self._local = LocalMesh(native)
+        self._neighbours = [Neighbour(rank, points) for rank, points in native.neighbours]
+
+    @property
+    def comm(self) -> Comm:
+        """The communicator that was given."""
+        return self._comm
+
+    @property
+    def local(self) -> LocalMesh:
+        """What this rank has."""
+        return self._local
+
+    @property
+    def neighbours(self) -> List[Neighbour]:
+        """The ranks that share points with this one, ascending."""
+        return self._neighbours
+
+    @property
+    def point_count(self) -> int:
+        """Of the whole mesh, each point once."""
+        return self._native.point_count
+
+    @property
+    def cell_count(self) -> int:
+        """Of the whole mesh."""
+        return self._native.cell_count
+
+    @property
+    def patch_names(self) -> List[str]:
+        """The same on every rank."""
+        return self._native.patch_names
+
+    @property
+    def region_names(self) -> List[str]:
+        """The same on every rank; empty if there is one region."""
+        return self._native.region_names
+
+    def rows(self) -> Rows:
+        """Rows of the points in vectors and matrices that are distributed as the points are owned. Collective."""
+        is_own = self.local.owner == self.comm.rank
+        last = self.comm.scan(int(is_own.sum()))
+        first = last - int(is_own.sum())
+        of_points = np.full(len(is_own), -1, np.int64)
+        of_points[is_own] = np.arange(first, last)
+        return Rows(first, last, self.from_owners(of_points))
+
+    def from_owners(self, values: np.ndarray) -> np.ndarray:
+        """A copy in which each point has the value that its owner has given. Collective.
+
+        values  (n, ...) of any dtype of numbers, the same on all ranks: of the local points
+        """
+        result, owner = self._of_points(values), self.local.owner
+        own = {each.rank: result[each.points[owner[each.points] == self.comm.rank]] for each in self.neighbours}
+        for rank, rows in swap(self.comm, own, result[:0]).items():
+            shared = self._shared_with(rank)
+            result[shared[owner[shared] == rank]] = rows
+        return result
+
+    def sum_over_ranks(self, values: np.ndarray) -> np.ndarray:
+        """A copy in which each point has the sum of what all ranks have given it, added in the order of the ranks: the
+        same bits on each. Collective. `values` are as those of from_owners()."""
+        own = self._of_points(values)
+        shares = swap(self.comm, {each.rank: own[each.points] for each in self.neighbours}, own[:0])
+        shares[self.comm.rank] = own
+        result = np.zeros_like(own)
+        for rank in sorted(shares):
+            rows = slice(None) if rank == self.comm.rank else self._shared_with(rank)
+            result[rows] += shares[rank]
+        return result
+
+    def ghost_cells(self, layers: int = 1) -> GhostCells:
+        """The cells of other ranks around those of this one: with one layer those that share a point. Collective.
+
+        layers  1; more are not there
+
+        Raises UsageError for others. Cost: messages to the neighbours with the cells that touch them.
+        """
+        if layers != 1:
+            raise UsageError(f"layers is {layers!r}, but there is one layer of ghost cells: take 1.")
+        return ghost_cells_of(self)
+
+    def _of_points(self, values: np.ndarray) -> np.ndarray:
+        values = np.array(values, order="C")
+        if values.ndim == 0 or len(values) != len(self.local.points):
+            raise UsageError(f"values has the shape {values.shape}, but a row for each of the "
+                             f"{len(self.local.points)} local points is wanted.")
+        return values
+
+    def _shared_with(self, rank: int) -> np.ndarray:
+        return next(each.points for each in self.neighbours if each.rank == rank)
+
+    def __repr__(self) -> str:
+        return (f"<kerf.DistributedMesh: {self.point_count} points, {self.cell_count} tetrahedra, "
+                f"{len(self.local.tetrahedra)} of them on rank {self.comm.rank} of {self.comm.size}>")
+
+
+def distributed(folder: Path, comm: Comm) -> DistributedMesh:
+    """The mesh of a finished run, shared out among the ranks of a communicator. Collective.
+
+    folder  where all ranks reach it: that `output` or `kerf mesh -o` was given
+    comm    any communicator of mpi4py, of which all ranks call
+
+    Each rank gets neighbouring parts of the tree of cuts, about as many as the others; with more ranks than parts some
+    have none. It reads these, and the surfaces of all parts. Raises FileError, on all ranks.
+    """
+    check_communicator(comm)
+    path = comm.bcast(together(comm, lambda: os.fspath(folder)))
+    return DistributedMesh(comm, together(comm, lambda: _kerf.mesh_of_rank(path, comm.rank, comm.size)))
+
+
+def mesh_on_ranks(surface: Union[Surface, Path], comm: Comm, parts: int = 0, size: float = 0, progress: Progress = None,
+                  workers: int = 0, output: Optional[Path] = None, **options: object) -> DistributedMesh:
+    """kerf.mesh() with a communicator; DistributedMesh tells of it."""
+    check_communicator(comm)
+    if not isinstance(surface, Surface):
+        surface = together(comm, lambda: read(surface))
+    numbers = together(comm, lambda: (index(parts), float(size), index(workers)))
+    temporary = together(comm, lambda: tempfile.mkdtemp(prefix="kerf.") if output is None and comm.rank == 0 else None)
+    try:
+        folder = comm.bcast(together(comm, lambda: _run_folder(output, temporary)))
+        shown = comm.bcast(temporary)
+        together(comm, lambda: _require_seen(shown))
+        together(comm, lambda: _mesh_into(surface, comm, folder, *numbers, progress, options))
+        return distributed(folder, comm)
+    finally:
+        if temporary:
+            shutil.rmtree(temporary, ignore_errors=True)
+
+
+def _run_folder(output: Optional[Path], temporary: Optional[str]) -> Optional[str]:
+    if output is None:
+        return temporary and os.path.join(temporary, "run")
+    return os.fspath(output)
+
+
+def _require_seen(temporary: Optional[str]) -> None:
+    if temporary and not os.path.isdir(temporary):
+        raise FileError(f"The temporary folder {temporary} of the first rank is not there for all ranks. Give `output` "
+                        "on a file system that the hosts share, or set TMPDIR to one.")
+
+
+def _mesh_into(surface: Surface, comm: Comm, folder: str, parts: int, size: float, workers: int, progress: Progress,
+               options: dict) -> None:
+    """Ends on all ranks where it fails on one."""
+    from mpi4py import MPI
+
+    told = caller(progress) if progress is not True or comm.rank == 0 else None
+    _mpi().with_ranks(MPI._addressof(comm), lambda ranks, processors: _kerf.mesh_on_ranks(
+        ranks, processors, surface._native, folder, parts, size, workers, told, programs.folder(), **options))
+
+
+def _mpi() -> object:
+    """The module that knows MPI, by the same library as mpi4py."""
+    from mpi4py import MPI
+
+    try:
+        from . import _mpi as module
+    except ImportError as error:
+        raise UsageError(f"This Kerf cannot mesh on ranks: {error}. Build it where Open MPI is, or leave comm out.")
+    own, other = module.library_version().rstrip("\0"), MPI.Get_library_version().rstrip("\0")
+    if own != other:
+        raise UsageError(f"mpi4py uses {other}, but Kerf was built with {own}. Use an mpi4py of the same MPI.")
+    return module
