@@ -34,7 +34,8 @@ auto array_of(Member member) {
 py::list neighbours_of(const py::object& self) {
     py::list neighbours;
     for (const RankNeighbour& each : self.cast<RankMesh&>().neighbours)
-        neighbours.append(py::make_tuple(each.rank, view(each.vertices, self)));
+        neighbours.append(py::make_tuple(each.rank, view(each.vertices, self), view(each.triangles, self),
+                                         view(each.tet_behind, self)));
     return neighbours;
 }
 

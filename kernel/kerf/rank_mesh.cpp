@@ -22,16 +22,18 @@ class RankMeshMaker {
     void add_shared(const Part& part);
     void add_tets(const Part& part);
     void add_triangles(const Part& part);
+    void add_interfaces(const Part& part);
+    void sort_interface(RankNeighbour& neighbour) const;
     std::int32_t region_in_front(const Part& part, std::size_t f) const;
     bool is_own(NodeId part) const { return rank_of_.at(part) == rank_; }
 
     const PartSource& parts_;
     int rank_;
-    PartIndex first_, end_;                                          // of the own parts
-    std::unordered_map<NodeId, std::int32_t> rank_of_;               // of every part
-    std::unordered_map<std::int64_t, std::int64_t> row_of_shared_;   // of vertices of several parts, by global numbers
-    std::map<std::int32_t, std::vector<std::int64_t>> shared_with_;  // rows, by the rank that has them, too
-    std::vector<std::int64_t> row_;                                  // of each vertex of the part at hand
+    PartIndex first_, end_;                                         // of the own parts
+    std::unordered_map<NodeId, std::int32_t> rank_of_;              // of every part
+    std::unordered_map<std::int64_t, std::int64_t> row_of_shared_;  // of vertices of several parts, by global numbers
+    std::map<std::int32_t, RankNeighbour> neighbours_;              // by rank
+    std::vector<std::int64_t> row_;                                 // of each vertex of the part at hand
     RankMesh mesh_;
 };
 
@@ -61,14 +63,37 @@ RankMesh RankMeshMaker::make() {
         add_vertices(part);
         add_shared(part);
         add_triangles(part);
+        add_interfaces(part);
         add_tets(part);
     }
-    for (auto& [rank, rows] : shared_with_) {
-        std::sort(rows.begin(), rows.end(),
-                  [&](std::int64_t a, std::int64_t b) { return mesh_.global_vertices[a] < mesh_.global_vertices[b]; });
-        mesh_.neighbours.push_back({rank, std::move(rows)});
+    const std::vector<std::int64_t>& ids = mesh_.global_vertices;
+    for (auto& [rank, neighbour] : neighbours_) {
+        neighbour.rank = rank;
+        std::sort(neighbour.vertices.begin(), neighbour.vertices.end(),
+                  [&](std::int64_t a, std::int64_t b) { return ids[a] < ids[b]; });
+        sort_interface(neighbour);
+        mesh_.neighbours.push_back(std::move(neighbour));
     }
     return std::move(mesh_);
+}
+
+void RankMeshMaker::sort_interface(RankNeighbour& neighbour) const {
+    struct Face {
+        std::array<std::int64_t, 3> ids, corners;
+        std::int64_t tet;
+    };
+    std::vector<Face> faces;
+    for (std::size_t f = 0; f < neighbour.triangles.size(); ++f) {
+        const auto& [a, b, c] = neighbour.triangles[f];
+        const std::vector<std::int64_t>& ids = mesh_.global_vertices;
+        faces.push_back({{ids[a], ids[b], ids[c]}, neighbour.triangles[f], neighbour.tet_behind[f]});
+        std::sort(faces.back().ids.begin(), faces.back().ids.end());
+    }
+    std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.ids < b.ids; });
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        neighbour.triangles[f] = faces[f].corners;
+        neighbour.tet_behind[f] = faces[f].tet;
+    }
 }
 
 // A vertex that an earlier part has brought stays where it is.
@@ -98,7 +123,7 @@ void RankMeshMaker::add_shared(const Part& part) {
             if (!row_of_shared_.emplace(part.global_id[v], row_[v]).second) continue;
             mesh_.owner[row_[v]] = ranks.front();
             for (const std::int32_t rank : ranks)
-                if (rank != rank_) shared_with_[rank].push_back(row_[v]);
+                if (rank != rank_) neighbours_[rank].vertices.push_back(row_[v]);
         }
     }
 }
@@ -127,6 +152,17 @@ void RankMeshMaker::add_triangles(const Part& part) {
         mesh_.patch.push_back(part.patch[f]);
         mesh_.sides.push_back({part.region_of(0).value(), region_in_front(part, f)});
         mesh_.triangle_owner.push_back(is_listed ? rank_ : rank_of_.at(part.neighbour[f]));
+    }
+}
+
+void RankMeshMaker::add_interfaces(const Part& part) {
+    const std::int64_t first_tet = std::ssize(mesh_.tets);
+    for (std::size_t f = 0; f < part.facets.size(); ++f) {
+        if (!part.is_interface(f) || is_own(part.neighbour[f])) continue;
+        const Triangle& facet = part.facets[f];
+        RankNeighbour& neighbour = neighbours_[rank_of_.at(part.neighbour[f])];
+        neighbour.triangles.push_back({row_[facet[0]], row_[facet[1]], row_[facet[2]]});
+        neighbour.tet_behind.push_back(first_tet + part.tet_at_facet[f]);
     }
 }
 

@@ -8,11 +8,14 @@
 
 namespace kerf {
 
-/// Vertices that another rank has, too.
+/// What lies between the parts of a rank and those of another one: in the same order on both.
 struct RankNeighbour {
     std::int32_t rank = 0;
-    std::vector<std::int64_t>
-        vertices;  ///< rows of RankMesh::vertices, ascending by global number: the same order there
+    std::vector<std::int64_t> vertices;  ///< that both have, rows of RankMesh::vertices; ascending by global number
+    /// Faces of a tetrahedron of each, rows of RankMesh::vertices, seen from outside of the own one; ascending by the
+    /// sorted global numbers of their corners.
+    std::vector<std::array<std::int64_t, 3>> triangles;
+    std::vector<std::int64_t> tet_behind;  ///< #triangles; a row of RankMesh::tets
 };
 
 struct RankMesh {

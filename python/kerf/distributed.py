@@ -32,11 +32,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Neighbour:
-    """Another rank that has some of the same points."""
+    """Another rank that has some of the same points. Everything is in the same order on both sides."""
 
     rank: int
-    #: (s,) int64: rows of the local points, ascending by their global numbers: the same order on both sides.
+    #: (s,) int64: rows of the local points, ascending by their global numbers.
     points: np.ndarray
+    #: (t, 3) int64: faces between cells of both, rows of the local points, counter-clockwise seen from the other side.
+    triangles: np.ndarray
+    #: (t,) int64: rows of the local tetrahedra that have these faces.
+    cells: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -74,7 +78,7 @@ class DistributedMesh:
         self._native = native
         self._comm = comm
         self._local = LocalMesh(native)
-        self._neighbours = [Neighbour(rank, points) for rank, points in native.neighbours]
+        self._neighbours = [Neighbour(*each) for each in native.neighbours]
 
     @property
     def comm(self) -> Comm:
@@ -180,7 +184,7 @@ def distributed(folder: Path, comm: Comm) -> DistributedMesh:
     have none. It reads these, and the surfaces of all parts. Raises FileError, on all ranks.
     """
     check_communicator(comm)
-    path = comm.bcast(together(comm, lambda: os.fspath(folder)))
+    path = comm.bcast(together(comm, lambda: os.fsdecode(folder)))
     return DistributedMesh(comm, together(comm, lambda: _kerf.mesh_of_rank(path, comm.rank, comm.size)))
 
 
@@ -191,6 +195,8 @@ def mesh_on_ranks(surface: Union[Surface, Path], comm: Comm, parts: int = 0, siz
     if not isinstance(surface, Surface):
         surface = together(comm, lambda: read(surface))
     numbers = together(comm, lambda: (index(parts), float(size), index(workers)))
+    _require_same(comm, {"parts": parts, "size": size, **options},
+                  {"surface.points": len(surface.points), "surface.volume": surface.volume})
     temporary = together(comm, lambda: tempfile.mkdtemp(prefix="kerf.") if output is None and comm.rank == 0 else None)
     try:
         folder = comm.bcast(together(comm, lambda: _run_folder(output, temporary)))
@@ -203,10 +209,22 @@ def mesh_on_ranks(surface: Union[Surface, Path], comm: Comm, parts: int = 0, siz
             shutil.rmtree(temporary, ignore_errors=True)
 
 
+def _require_same(comm: Comm, options: dict, surface: dict) -> None:
+    """Raises UsageError on all ranks for the first number or text that is not the same on one."""
+    told_by = comm.allgather({name: value for name, value in {**options, **surface}.items()
+                              if isinstance(value, (int, float, str))})
+    for name in sorted(set().union(*told_by)):
+        values = [each.get(name) for each in told_by]
+        other = next((rank for rank, value in enumerate(values) if value != values[0]), None)
+        if other is not None:
+            raise UsageError(f"{name} is {values[0]} on rank 0, but {values[other]} on rank {other}: all ranks of a "
+                             "communicator give the same.")
+
+
 def _run_folder(output: Optional[Path], temporary: Optional[str]) -> Optional[str]:
     if output is None:
         return temporary and os.path.join(temporary, "run")
-    return os.fspath(output)
+    return os.fsdecode(output)
 
 
 def _require_seen(temporary: Optional[str]) -> None:

@@ -42,7 +42,7 @@ class LocalMesh:
 
     @property
     def global_cells(self) -> np.ndarray:
-        """(m,) int64: numbers of the tetrahedra in the whole mesh, ascending from `first_cell` without gaps: rows of the
+        """(m,) int64: numbers of the tetrahedra in the whole mesh, from `first_cell` on without gaps: rows of the
         `tetrahedra` that kerf.mesh() gives without ranks."""
         return np.arange(self.first_cell, self.first_cell + len(self.tetrahedra))
 
