@@ -60,8 +60,8 @@ class DistributedMesh:
         mesh = kerf.mesh("pump.stl", parts=64, size=0.5, comm=MPI.COMM_WORLD)   # under mpirun -n P python3 script.py
         mesh = kerf.distributed("out", MPI.COMM_WORLD)                          # of a finished run
 
-    Both are collective: all ranks of the communicator, which may be any, call with the same arguments. The mesh is the
-    same for any number of ranks, and without them. Beside the arguments of kerf.mesh() without ranks there is
+    Both are collective: all ranks of the communicator, which may be any, call with the same arguments. With `parts`
+    given the mesh is the same for any number of ranks, and without them. Beside the arguments of kerf.mesh() there is
 
     output   run folder, where all ranks reach it; None: a temporary one in TMPDIR of the first rank, which all of them
              must reach, too; it is gone when the call ends
@@ -155,12 +155,20 @@ class DistributedMesh:
 
         Raises UsageError for others. Cost: messages to the neighbours with the cells that touch them.
         """
-        if layers != 1:
-            raise UsageError(f"layers is {layers!r}, but there is one layer of ghost cells: take 1.")
+        together(self.comm, lambda: _require_one(layers))
         return ghost_cells_of(self)
 
     def _of_points(self, values: np.ndarray) -> np.ndarray:
+        values = together(self.comm, lambda: self._checked(values))
+        kinds = self.comm.allgather(f"{values.dtype} of the shape (n, {str(values.shape[1:])[1:]}")
+        if len(set(kinds)) > 1:
+            raise UsageError(f"values differ between ranks: {', '.join(sorted(set(kinds)))}.")
+        return values
+
+    def _checked(self, values: np.ndarray) -> np.ndarray:
         values = np.array(values, order="C")
+        if values.dtype.kind not in "biufc":
+            raise TypeError(f"values has the dtype {values.dtype}, but numbers are wanted.")
         if values.ndim == 0 or len(values) != len(self.local.points):
             raise UsageError(f"values has the shape {values.shape}, but a row for each of the "
                              f"{len(self.local.points)} local points is wanted.")
@@ -207,6 +215,11 @@ def mesh_on_ranks(surface: Union[Surface, Path], comm: Comm, parts: int = 0, siz
     finally:
         if temporary:
             shutil.rmtree(temporary, ignore_errors=True)
+
+
+def _require_one(layers: int) -> None:
+    if layers != 1:
+        raise UsageError(f"layers is {layers!r}, but there is one layer of ghost cells: take 1.")
 
 
 def _require_same(comm: Comm, options: dict, surface: dict) -> None:

@@ -62,6 +62,12 @@ require_everywhere(lambda: kerf.distributed("/nowhere/run", "world"), TypeError,
 require_everywhere(lambda: kerf.distributed("/nowhere/run", MPI.COMM_NULL), kerf.UsageError, "COMM_NULL")
 good = mesh()
 assert np.all(good.local.part > 0), "they go on"
+values = np.zeros((len(good.local.points), 2))
+require_everywhere(lambda: good.from_owners(values[1:] if is_last else values), kerf.UsageError, "local points")
+require_everywhere(lambda: good.sum_over_ranks(values.astype(int) if is_last else values), kerf.UsageError, "float64")
+require_everywhere(lambda: good.from_owners([{}] if is_last else values), TypeError, "object")
+require_everywhere(lambda: good.ghost_cells(2 if is_last else 1), kerf.UsageError, "layer")
+assert np.array_equal(good.from_owners(values), values)
 comm.Barrier()
 left = {name for name in os.listdir(tempfile.gettempdir()) if name.startswith("kerf.")} - temporary
 assert not left, left
