@@ -1,5 +1,7 @@
 #include "python/errors.h"
 
+#include <utility>
+
 #include <pybind11/stl.h>
 
 #include "kerf/kerf.h"
@@ -47,7 +49,7 @@ void raise(const Error& error, const py::list& failed_parts) {
 void register_errors(py::module_&) {
     py::register_exception_translator([](std::exception_ptr pointer) {
         try {
-            if (pointer) std::rethrow_exception(pointer);
+            if (pointer) std::rethrow_exception(std::move(pointer));
         } catch (const PartsFailed& error) {
             raise(error, parts_of(error));
         } catch (const Error& error) {

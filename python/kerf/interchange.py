@@ -66,7 +66,8 @@ def _blocks_of(mesh: Mesh) -> list[_Block]:
     for region in range(max(1, len(mesh.region_names))):
         rows = np.flatnonzero(mesh.region == region)
         name = mesh.region_names[region] if mesh.region_names else None
-        blocks.append(_Block(3, region, name, rows, mesh.tetrahedra[rows]))
+        is_all = len(rows) == len(mesh.tetrahedra)
+        blocks.append(_Block(3, region, name, rows, mesh.tetrahedra if is_all else mesh.tetrahedra[rows]))
     for patch, name in enumerate(mesh.patch_names):
         if name in mesh.region_names:  # a set has one name for both
             name += "_patch"
@@ -75,11 +76,18 @@ def _blocks_of(mesh: Mesh) -> list[_Block]:
     return [block for block in blocks if len(block.rows) > 0]
 
 
+def _used(count: int, cells: np.ndarray) -> np.ndarray:
+    """The points, 0 to count - 1, that are corners of cells; ascending."""
+    is_used = np.zeros(count, bool)
+    is_used[cells.ravel()] = True
+    return np.flatnonzero(is_used)
+
+
 def _entities_of_points(count: int, blocks: list[_Block]) -> np.ndarray:
     """(count, 2): dimension and tag of the entity of Gmsh that has each point, the first of its patches, or else its
     region. A writer knows no entity without a point, so each gets one that it does not lose."""
     entities = np.zeros((count, 2), np.int32)
-    ids = [np.unique(block.cells) for block in blocks]
+    ids = [_used(count, block.cells) for block in blocks]
     in_order = sorted(range(len(blocks)), key=lambda b: (-blocks[b].dimension, -blocks[b].number))
     for b in in_order:
         entities[ids[b]] = blocks[b].dimension, blocks[b].number + 1
