@@ -55,8 +55,9 @@ void register_mesh(py::module_& module) {
         .def(
             "save",
             [](const MeshArrays& self, const std::string& path, const std::string& msh_version, bool msh_ascii) {
-                const py::gil_scoped_release released;
-                mesh_to_file(self, path, {msh_version, msh_ascii});
+                Watch watch{py::none()};
+                const MeshFileOptions options{msh_version, msh_ascii, watch.is_cancelled()};
+                without_lock(watch, [&] { mesh_to_file(self, path, options); });
             },
             py::arg("path"), py::arg("msh_version"), py::arg("msh_ascii"));
     module.def("mesh", &mesh, py::arg("surface"), py::arg("parts") = 0, py::arg("size") = 0., py::arg("workers") = 0,

@@ -106,8 +106,13 @@ std::vector<std::string> export_parts(const std::string& folder, const std::stri
 }
 
 void merge(const std::string& folder, const std::string& output, const std::string& msh_version, bool msh_ascii) {
-    const py::gil_scoped_release released;
-    merge_run({.folder = folder, .output = output, .options = {msh_version}, .msh_ascii = msh_ascii});
+    Watch watch{py::none()};
+    const MergeRequest request{.folder = folder,
+                               .output = output,
+                               .options = {msh_version},
+                               .msh_ascii = msh_ascii,
+                               .is_cancelled = watch.is_cancelled()};
+    without_lock(watch, [&] { merge_run(request); });
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "io/run_folder.h"
 #include "io/temporary_folder.h"
 #include "part/solution_parts.h"
+#include "part/watched_parts.h"
 
 namespace kerf {
 
@@ -93,7 +94,7 @@ MergedFile merge_parts(const PartSource& parts, const MergeRequest& request) {
     const TemporaryFolder beside(main_place.string(), "write beside " + main_place.string(),
                                  "Choose another place for --output.");
     ExportFiles files(beside.path(), "", {}, {.msh_ascii = request.msh_ascii});
-    format.write_merged(parts, request.options, files, output.stem().string());
+    format.write_merged(WatchedParts(parts, request.is_cancelled), request.options, files, output.stem().string());
 
     const std::vector<RunFile> written = files.list();
     std::vector<fs::path> places;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "export/format.h"
@@ -12,7 +13,8 @@ struct MergeRequest {
     std::string folder;  ///< of the run; empty: none
     std::string output;  ///< file, whose ending chooses the format
     MergeOptions options;
-    bool msh_ascii = false;  ///< Gmsh's files as text
+    bool msh_ascii = false;                   ///< Gmsh's files as text
+    std::function<bool()> is_cancelled = {};  ///< asked before parts are read: true ends it with Error(cancelled)
 };
 
 /// What merge_run() has written.

@@ -248,8 +248,11 @@ MeshArrays arrays_of_run(const std::string& folder) {
 }
 
 void mesh_to_file(const MeshArrays& mesh, const std::string& path, const MeshFileOptions& options) {
-    const MergeRequest request{
-        .folder = "", .output = path, .options = {options.msh_version}, .msh_ascii = options.msh_ascii};
+    const MergeRequest request{.folder = "",
+                               .output = path,
+                               .options = {options.msh_version},
+                               .msh_ascii = options.msh_ascii,
+                               .is_cancelled = options.is_cancelled};
     check_merged_file(request);
     merge_parts(ArrayParts(mesh), request);
 }

@@ -141,11 +141,6 @@ struct MeshArrays {
     std::vector<std::array<std::int32_t, 2>> sides;  ///< #triangles; as of facets: behind, in front
 };
 
-struct MeshFileOptions {
-    std::string msh_version = "4.1";  ///< of Gmsh's files: 4.1 or 2.2
-    bool msh_ascii = false;           ///< Gmsh's files as text
-};
-
 /// Meshes in memory, but for files of the parts in a temporary folder (TMPDIR). Every law of the mesh is verified.
 /// Throws PartsFailed if a part could not be meshed, and as mesh_to_folder() does.
 MeshArrays mesh_to_arrays(const ClosedSurface& surface, const MeshOptions& options = {});
@@ -161,6 +156,12 @@ void mesh_file_to_folder(const std::string& path, const MeshOptions& options, co
 
 /// The mesh of a finished run. Throws Error(io).
 MeshArrays arrays_of_run(const std::string& folder);
+
+struct MeshFileOptions {
+    std::string msh_version = "4.1";  ///< of Gmsh's files: 4.1 or 2.2
+    bool msh_ascii = false;           ///< Gmsh's files as text
+    IsCancelled is_cancelled = {};    ///< asked now and then
+};
 
 /// Writes a mesh into a file, whose ending chooses the format, as `kerf merge` does. Its arrays must be as the
 /// functions above return them. Throws Error(usage) for another ending, naming those that there are, and Error(io).
