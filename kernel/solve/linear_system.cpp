@@ -98,20 +98,46 @@ RoomForRows room_for(const FeSpace& space, const BlockRows& rows) {
 
 }  // namespace
 
-PetscSession::PetscSession(const MpiRanks& ranks, const std::string& options) {
+void PetscSession::initialise(const MpiRanks& ranks) {
     PETSC_COMM_WORLD = ranks.handle();
     std::array<char*, 3> arguments = {const_cast<char*>("kerf-solve"), const_cast<char*>("-skip_petscrc"), nullptr};
     int count = 2;
     char** list = arguments.data();
     check(PetscInitialize(&count, &list, nullptr, nullptr));
     check(PetscPopSignalHandler());
-    check(PetscPushErrorHandler(remember_failure, nullptr));
-    const bool are_options = options.empty() || options[0] == '-';
-    if (!are_options || PetscOptionsInsertString(nullptr, options.c_str()) != 0)
-        throw Error(ErrorCode::usage, fmt::format("PETSc does not take the options '{}'.", options));
 }
 
-PetscSession::~PetscSession() { PetscFinalize(); }
+void PetscSession::use_own_options() {
+    check(PetscOptionsCreate(&options_));
+    check(PetscOptionsPush(options_));
+}
+
+PetscSession::PetscSession(const MpiRanks& ranks, const std::string& options) {
+    PetscBool is_running = PETSC_FALSE;
+    check(PetscInitialized(&is_running));
+    is_own_ = !is_running;
+    if (is_own_)
+        initialise(ranks);
+    else
+        use_own_options();
+    check(PetscPushErrorHandler(remember_failure, nullptr));
+    const bool are_options = options.empty() || options[0] == '-';
+    if (are_options && PetscOptionsInsertString(nullptr, options.c_str()) == 0) return;
+    end();
+    throw Error(ErrorCode::usage, fmt::format("PETSc does not take the options '{}'.", options));
+}
+
+PetscSession::~PetscSession() { end(); }
+
+void PetscSession::end() {
+    if (is_own_) {
+        PetscFinalize();
+        return;
+    }
+    PetscPopErrorHandler();
+    PetscOptionsPop();
+    PetscOptionsDestroy(&options_);
+}
 
 namespace {
 

@@ -10,6 +10,8 @@
 #include "core/error.h"
 #include "solve/elastic_problem.h"
 
+struct _n_PetscOptions;  // PETSc's
+
 namespace kerf {
 
 /// What PETSc says that it cannot do: other ranks may wait for this one, so that all have to be ended.
@@ -36,15 +38,24 @@ struct AssemblySeconds {
     double insert = 0;    ///< into PETSc's matrix
 };
 
-/// Initialises PETSc on the communicator of the ranks; finalises it at the end. Neither .petscrc nor the program's
-/// arguments are read; programs that want that of PETSC_OPTIONS, too, take it out of their environment. Throws
-/// Error(usage) for `options` that PETSc does not take.
+/// Initialises PETSc on the communicator of the ranks, which may be some of those of the program; finalises it at the
+/// end. Where the program has done that already, PETSc goes on as it is, and has `options` for the session alone.
+/// Neither .petscrc nor the program's arguments are read; programs that want that of PETSC_OPTIONS, too, take it out of
+/// their environment. Throws Error(usage) for `options` that PETSc does not take.
 class PetscSession {
  public:
     explicit PetscSession(const MpiRanks& ranks, const std::string& options = "");
     ~PetscSession();
     PetscSession(const PetscSession&) = delete;
     PetscSession& operator=(const PetscSession&) = delete;
+
+ private:
+    void initialise(const MpiRanks& ranks);
+    void use_own_options();
+    void end();
+
+    bool is_own_ = true;                  // else the program's
+    _n_PetscOptions* options_ = nullptr;  // of the session, where PETSc is the program's
 };
 
 /// Stiffness with rows and columns of held degrees of freedom replaced by a diagonal as large as the others. Conjugate

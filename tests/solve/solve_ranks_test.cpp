@@ -141,6 +141,27 @@ TEST_P(Solution, PassesThePatchTest) {
     }
 }
 
+// PETSc is the program's, and runs on all ranks; each of two groups of them has a space and a solution of its own.
+TEST_P(Solution, IsOneOnSomeOfTheRanksOfAProgramWithPetsc) {
+    MPI_Comm half = MPI_COMM_NULL;
+    MPI_Comm_split(MPI_COMM_WORLD, rank() % 2, -rank(), &half);
+    {
+        MpiRanks some(half);
+        EXPECT_THROW(PetscSession(some, "no option"), Error);
+        const PetscSession session(some);
+        const auto field = [](const Vec3& p) -> Vec3 { return 1e-3 * Vec3(p.y(), 2 * p.z(), p.x()); };
+        space_ = space_on(some, GetParam());
+        ElasticProblem problem = make_free_problem(*space_, steel_);
+        hold_surface(problem, field);
+        std::vector<double> u;
+        const std::vector<double> no_forces(3 * space_->node_count(), 0);
+        EXPECT_TRUE(LinearSystem(problem, exact("gamg")).solve(no_forces, u).converged);
+        EXPECT_LT(difference(u, field), 1e-10 * 2e-3);
+        space_.reset();
+    }
+    MPI_Comm_free(&half);
+}
+
 // What a quadratic field wants as forces is constant: these elements have it exactly.
 class SolutionOfOrderTwo : public Solution {};
 INSTANTIATE_TEST_SUITE_P(Orders, SolutionOfOrderTwo, testing::Values(2));
