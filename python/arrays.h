@@ -9,6 +9,8 @@
 
 #include <pybind11/numpy.h>
 
+#include "core/types.h"
+
 namespace kerf::python {
 
 namespace py = pybind11;
@@ -28,6 +30,10 @@ py::array_t<T> view(const std::vector<std::array<T, N>>& rows, py::handle owner)
 template <class T>
 py::array_t<T> view(const std::vector<T>& values, py::handle owner) {
     return view(values.data(), {static_cast<py::ssize_t>(values.size())}, owner);
+}
+
+inline py::array_t<double> view(const std::vector<Vec3>& points, py::handle owner) {
+    return view(points.empty() ? nullptr : points.front().data(), {std::ssize(points), 3}, owner);
 }
 
 /// Whatever numpy makes an array of, as rows of N numbers; N = 1: as numbers. Throws ValueError or TypeError, naming

@@ -5,6 +5,7 @@
 #include "python/part.h"
 #include "python/run.h"
 #include "python/surface.h"
+#include "python/tree.h"
 
 #include "io/program_finder.h"
 #include "kerf/kerf.h"
@@ -18,4 +19,5 @@ PYBIND11_MODULE(_kerf, module) {
     kerf::python::register_part(module);
     kerf::python::register_run(module);
     kerf::python::register_distributed(module);
+    kerf::python::register_tree(module);
 }

@@ -14,6 +14,7 @@
 #include "kerf/array_parts.h"
 #include "kerf/mesh_on_ranks.h"
 #include "kerf/progress_listener.h"
+#include "kerf/run_request.h"
 #include "parallel/processors.h"
 #include "part/solution_parts.h"
 #include "prepare/remeshing.h"
@@ -40,29 +41,6 @@ InputOptions input_options(const NamedOptions& options) {
     }
     result.check();
     return result;
-}
-
-void refuse_options_of_surface(const NamedOptions& options) {
-    InputOptions of_surface;
-    const std::vector<OptionField> fields = input_option_fields(of_surface);
-    for (const auto& option : options)
-        if (std::any_of(fields.begin(), fields.end(), [&](const auto& field) { return field.name == option.first; }))
-            throw Error(ErrorCode::usage,
-                        fmt::format("--{} is an option of the surface: give it where that is made.", option.first));
-}
-
-RunOptions run_options(const std::string& input, const MeshOptions& options, const std::string& folder) {
-    RunOptions run;
-    std::vector<OptionText> texts;
-    for (const auto& option : options.others) texts.push_back({option.first, option.second});
-    run.sizes.size = options.size;
-    run.decompose.parts = options.parts;
-    run.workers = options.workers;
-    set_options(run, texts, "MeshOptions::others");
-    run.output = folder;
-    run.input = input;
-    run.worker_program = find_kerf_program("kerf-worker", options.programs);
-    return run;
 }
 
 FailedPart failed_part(const RunReport& report, const PartReport& part) {
@@ -106,6 +84,29 @@ void add_boundary(const Part& part, MeshArrays& mesh) {
 }
 
 }  // namespace
+
+void refuse_options_of_surface(const NamedOptions& options) {
+    InputOptions of_surface;
+    const std::vector<OptionField> fields = input_option_fields(of_surface);
+    for (const auto& option : options)
+        if (std::any_of(fields.begin(), fields.end(), [&](const auto& field) { return field.name == option.first; }))
+            throw Error(ErrorCode::usage,
+                        fmt::format("--{} is an option of the surface: give it where that is made.", option.first));
+}
+
+RunOptions run_options(const std::string& input, const MeshOptions& options, const std::string& folder) {
+    RunOptions run;
+    std::vector<OptionText> texts;
+    for (const auto& option : options.others) texts.push_back({option.first, option.second});
+    run.sizes.size = options.size;
+    run.decompose.parts = options.parts;
+    run.workers = options.workers;
+    set_options(run, texts, "MeshOptions::others");
+    run.output = folder;
+    run.input = input;
+    run.worker_program = find_kerf_program("kerf-worker", options.programs);
+    return run;
+}
 
 const char* library_version() { return version; }
 

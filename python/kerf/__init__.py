@@ -22,6 +22,7 @@ from .part import Part, Parts, SharedPoints
 from .quality import Distribution, Quality, RegionQuality
 from .run import Run, open
 from .surface import Surface, read
+from .tree import Tree, decompose
 from .verification import Verification
 
 __all__ = [
@@ -47,10 +48,12 @@ __all__ = [
     "SharedPoints",
     "Surface",
     "Tetrahedralization",
+    "Tree",
     "UsageError",
     "Verification",
     "VerificationError",
     "__version__",
+    "decompose",
     "distributed",
     "mesh",
     "open",
