@@ -21,6 +21,8 @@ from .mesh import Mesh, Tetrahedralization, mesh, tetrahedralize
 from .part import Part, Parts, SharedPoints
 from .quality import Distribution, Quality, RegionQuality
 from .run import Run, open
+from .solution import Solution
+from .solve import solve
 from .surface import Surface, read
 from .tree import Tree, decompose
 from .verification import Verification
@@ -46,6 +48,7 @@ __all__ = [
     "RegionQuality",
     "Run",
     "SharedPoints",
+    "Solution",
     "Surface",
     "Tetrahedralization",
     "Tree",
@@ -58,5 +61,6 @@ __all__ = [
     "mesh",
     "open",
     "read",
+    "solve",
     "tetrahedralize",
 ]
