@@ -3,6 +3,7 @@
 #include "python/errors.h"
 #include "python/mesh.h"
 #include "python/part.h"
+#include "python/plotting.h"
 #include "python/run.h"
 #include "python/surface.h"
 #include "python/tree.h"
@@ -20,4 +21,5 @@ PYBIND11_MODULE(_kerf, module) {
     kerf::python::register_run(module);
     kerf::python::register_distributed(module);
     kerf::python::register_tree(module);
+    kerf::python::register_plotting(module);
 }

@@ -19,6 +19,7 @@ from .ghost_cells import GhostCells
 from .local_mesh import LocalMesh
 from .mesh import Mesh, Tetrahedralization, mesh, tetrahedralize
 from .part import Part, Parts, SharedPoints
+from .plotting import Picture, plot
 from .quality import Distribution, Quality, RegionQuality
 from .run import Run, open
 from .solution import Solution
@@ -43,6 +44,7 @@ __all__ = [
     "OutOfMemory",
     "Part",
     "Parts",
+    "Picture",
     "Quality",
     "QualityError",
     "RegionQuality",
@@ -60,6 +62,7 @@ __all__ = [
     "distributed",
     "mesh",
     "open",
+    "plot",
     "read",
     "solve",
     "tetrahedralize",

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from . import _kerf, programs
 from .errors import UsageError
+from .notebook import html_of
 from .progress import Progress, caller
 from .surface import Path, Surface, read
 
@@ -113,6 +114,12 @@ class Mesh:
 
     def __repr__(self) -> str:
         return f"<kerf.Mesh: {len(self.points)} points, {len(self.tetrahedra)} tetrahedra>"
+
+    def _repr_html_(self) -> str:
+        rows = {"points": len(self.points), "tetrahedra": len(self.tetrahedra), "parts": len(np.unique(self.part)),
+                "regions": max(1, len(self.region_names)), "triangles": len(self.triangles),
+                "patches": len(self.patch_names)}
+        return html_of(self, "kerf.Mesh", rows, len(self.tetrahedra))
 
 
 @overload

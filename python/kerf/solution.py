@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _kerf
 from .errors import FileError
+from .notebook import html_of
 from .surface import Path
 
 
@@ -281,6 +282,13 @@ class Solution:
 
     def __repr__(self) -> str:
         return f"<kerf.Solution: {self._run.points} points, {len(self.part_numbers)} parts, {self.folder}>"
+
+    def _repr_html_(self) -> str:
+        totals, first = self.report["totals"], self.cases[0]
+        rows = {"points": totals["vertices"], "tetrahedra": totals["tets"], "parts": totals["parts"],
+                "load cases": len(self.cases), "max displacement": first.max_displacement.value,
+                "max von Mises": first.max_von_mises.value, "energy": first.energy}
+        return html_of(self, "kerf.Solution", rows, totals["tets"], color="von-mises")
 
 
 def _extreme(report: dict[str, Any]) -> Extreme:

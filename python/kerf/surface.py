@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _kerf
+from .notebook import html_of
 from .progress import Progress, caller
 
 if TYPE_CHECKING:
@@ -122,6 +123,11 @@ class Surface:
     def __repr__(self) -> str:
         regions = f", {len(self.regions)} regions" if self.regions else ""
         return f"<kerf.Surface: {len(self.points)} points, {len(self.triangles)} triangles{regions}>"
+
+    def _repr_html_(self) -> str:
+        rows = {"points": len(self.points), "triangles": len(self.triangles), "patches": len(self.names),
+                "regions": max(1, len(self.regions)), "volume": self.volume, "area": self.area}
+        return html_of(self, "kerf.Surface", rows, len(self.triangles))
 
 
 def read(path: Path, **options: object) -> Surface:

@@ -88,6 +88,12 @@ def test_a_temporary_solution_goes(run, tmp_path, monkeypatch):
     assert os.listdir(tmp_path) == []
 
 
+def test_notebooks_show_the_largest_values(solution, monkeypatch):
+    monkeypatch.setattr("kerf.notebook.MOST_ELEMENTS_OF_PICTURE", 0)
+    page = solution._repr_html_()
+    assert f"{len(solution.tetrahedra):,}" in page and "max von Mises" in page and "data:image" not in page
+
+
 def test_what_is_wrong_is_said(run, solution, tmp_path):
     with pytest.raises(kerf.UsageError, match="the case, line 1: .* has no 'yuong'"):
         kerf.solve(run, {"material": {"rubber": {"yuong": 1}}}, tmp_path / "out")

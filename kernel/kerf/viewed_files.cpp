@@ -1,0 +1,179 @@
+#include "kerf/viewed_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "core/unique_name.h"
+#include "io/obj_writer.h"
+#include "io/path_text.h"
+#include "io/run_folder.h"
+#include "io/text_file.h"
+#include "kerf/parts_of_arrays.h"
+#include "part/vtu_writer.h"
+#include "prepare/input.h"
+#include "prepare/input_files.h"
+#include "quality/quality_json.h"
+#include "report/cut_json.h"
+#include "surface/mass_properties.h"
+
+namespace kerf {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// What is told of a part, and added up over those below a node.
+struct ViewedCounts {
+    std::int64_t vertices = 0, facets = 0, tets = 0;
+    double volume = 0;
+    std::int32_t parts = 0;
+    std::set<std::int32_t> regions;
+    Vec3 sum = Vec3::Zero();  // of the points on the surfaces
+
+    Vec3 centroid() const { return sum / static_cast<double>(vertices); }
+
+    void add(const ViewedCounts& other) {
+        vertices += other.vertices;
+        facets += other.facets;
+        tets += other.tets;
+        volume += other.volume;
+        parts += other.parts;
+        regions.insert(other.regions.begin(), other.regions.end());
+        sum += other.sum;
+    }
+};
+
+ViewedCounts counts_of(const Part& part) {
+    Vec3 sum = Vec3::Zero();
+    for (std::int32_t v = 0; v < part.mesh.boundary_vertex_count; ++v) sum += part.mesh.vertices[v];
+    return {part.mesh.boundary_vertex_count,
+            std::ssize(part.facets),
+            part.tet_count(),
+            enclosed_volume(part.mesh.vertices, part.facets),
+            1,
+            {part.region_of(0).value()},
+            sum};
+}
+
+Json part_to_view(NodeId id, const ViewedCounts& part, bool has_regions) {
+    Json json = {{"id", id},
+                 {"rank", 0},
+                 {"surface_vertices", part.vertices},
+                 {"surface_faces", part.facets},
+                 {"surface_volume", part.volume},
+                 {"tets", part.tets}};
+    if (has_regions) json["region"] = *part.regions.begin();
+    return json;
+}
+
+// A mesh does not know its cuts: where they may have been, so that parts can be pulled apart.
+CutSummary cut_between(const ViewedCounts& below, const ViewedCounts& above) {
+    CutSummary cut;
+    const Vec3 from = below.centroid(), to = above.centroid();
+    cut.strategy = CutStrategy::first_try;
+    cut.plane = Plane((from + to) / 2, from == to ? Vec3(Vec3::UnitX()) : Vec3((to - from).normalized()));
+    return cut;
+}
+
+Json node_to_view(NodeId id, const std::map<NodeId, ViewedCounts>& nodes) {
+    const ViewedCounts& below = nodes.at(id);
+    const Vec3 centroid = below.centroid();
+    const bool is_part = !nodes.contains(2 * id);
+    Json json = {{"id", id},
+                 {"children", is_part ? Json::array() : Json({2 * id, 2 * id + 1})},
+                 {"leaves", below.parts},
+                 {"regions", below.regions.size()},
+                 {"vertices", below.vertices},
+                 {"faces", below.facets},
+                 {"volume", below.volume},
+                 {"centroid", {centroid.x(), centroid.y(), centroid.z()}},
+                 {"eigenvalues", {0, 0, 0}},
+                 {"axes", {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
+    if (!is_part) json["cut"] = json_of_cut(cut_between(nodes.at(2 * id), nodes.at(2 * id + 1)));
+    return json;
+}
+
+Json report_to_view(const MeshArrays& mesh, const std::map<NodeId, ViewedCounts>& parts) {
+    std::map<NodeId, ViewedCounts> nodes;
+    for (const auto& [id, part] : parts)
+        for (NodeId node = id; node >= 1; node /= 2) nodes[node].add(part);
+    Json tree = Json::array(), of_parts = Json::array(), regions = Json::array();
+    for (const auto& [id, counts] : nodes) tree.push_back(node_to_view(id, nodes));
+    for (const auto& [id, part] : parts) of_parts.push_back(part_to_view(id, part, !mesh.region_names.empty()));
+    for (const std::string& name : mesh.region_names) regions.push_back({{"name", path_text(name)}});
+    const Json input = {{"path", name_of_arrays},
+                        {"faces", mesh.triangles.size()},
+                        {"vertices", mesh.vertices.size()},
+                        {"volume", nodes.at(1).volume},
+                        {"regions", regions}};
+    return {{"input", input},
+            {"options", Json::object()},
+            {"tree", tree},
+            {"parts", of_parts},
+            {"totals", {{"tets", mesh.tets.size()}, {"vertices", mesh.vertices.size()}}},
+            {"quality", quality_json(PartQuality(1))},
+            {"exit_code", 0}};
+}
+
+// Patches, divided where they bound several pairs of regions, and what each then bounds.
+struct WallGroups {
+    std::vector<std::int32_t> group;  // of each facet
+    std::vector<std::string> names;   // of groups; without blanks, which OBJ cannot hold
+    Json regions = Json::object();    // as read_named_walls() takes it
+};
+
+WallGroups group_walls(const Complex& complex, const std::vector<std::string>& patch_names) {
+    WallGroups walls;
+    std::map<std::array<std::int32_t, 3>, std::int32_t> known;  // patch and regions
+    std::set<std::string> taken;
+    const auto side = [&](std::int32_t region) {
+        return region < 0 ? Json(nullptr) : Json(complex.region_names()[static_cast<std::size_t>(region)]);
+    };
+    for (std::int32_t f = 0; f < complex.facet_count(); ++f) {
+        const auto [low, high] = std::minmax({complex.sides(f).back, complex.sides(f).front});
+        const auto next = static_cast<std::int32_t>(walls.names.size());
+        const auto [group, is_new] = known.insert({{complex.patch(f), low, high}, next});
+        walls.group.push_back(group->second);
+        if (!is_new) continue;
+        std::string name = patch_names[static_cast<std::size_t>(complex.patch(f))];
+        std::replace(name.begin(), name.end(), ' ', '_');
+        walls.names.push_back(unique_name(name, taken));
+        walls.regions[walls.names.back()] = {side(low), side(high)};
+    }
+    return walls;
+}
+
+}  // namespace
+
+void write_surface_to_view(const ClosedSurface& surface, const std::string& path) {
+    const Complex& complex = surface.input().complex;
+    SurfaceArrays arrays = complex.arrays();
+    std::vector<std::string> names = surface.patch_names();
+    if (complex.region_count() > 1) {
+        WallGroups walls = group_walls(complex, names);
+        write_text_file(walls_path(path), walls.regions.dump(-1, ' ', false, Json::error_handler_t::replace));
+        arrays.patch = std::move(walls.group);
+        names = std::move(walls.names);
+    }
+    write_obj(path, arrays.vertices, arrays.facets, arrays.patch, names);
+}
+
+void write_mesh_to_view(const MeshArrays& mesh, const std::string& folder) {
+    if (mesh.tets.empty()) throw Error(ErrorCode::usage, "The mesh has no tetrahedra: there is nothing to be seen.");
+    std::error_code error;
+    std::filesystem::create_directories(folder + "/parts", error);
+    if (error) throw Error(ErrorCode::io, folder + ": the folder cannot be made: " + error.message() + ".");
+    std::map<NodeId, ViewedCounts> parts;
+    for_each_part_of(mesh, [&](const Part& part) {
+        parts[part.id] = counts_of(part);
+        write_part(folder + "/parts/" + part_file_name(part.id), part, {.has_regions = !mesh.region_names.empty()});
+        write_part_surface(folder + "/parts/" + part_surface_file_name(part.id), part);
+    });
+    write_text_file(folder + "/report.json", report_to_view(mesh, parts).dump());
+}
+
+}  // namespace kerf
