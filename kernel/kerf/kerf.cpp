@@ -17,8 +17,7 @@
 #include "kerf/run_request.h"
 #include "parallel/processors.h"
 #include "part/solution_parts.h"
-#include "prepare/remeshing.h"
-#include "report/file_diagnosis.h"
+#include "prepare/remeshed_file.h"
 #include "run/pipeline.h"
 
 namespace kerf {
@@ -26,21 +25,12 @@ namespace kerf {
 namespace {
 
 namespace fs = std::filesystem;
+using Sides = std::vector<std::array<std::int32_t, 2>>;
 
 std::array<double, 3> to_array(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
-InputOptions input_options(const NamedOptions& options) {
-    InputOptions result;
-    const std::vector<OptionField> fields = input_option_fields(result);
-    for (const auto& option : options) {
-        const auto field =
-            std::find_if(fields.begin(), fields.end(), [&](const auto& f) { return f.name == option.first; });
-        if (field == fields.end())
-            throw Error(ErrorCode::usage, fmt::format("--{} is no option of a surface.", option.first));
-        field->set_text(option.second);
-    }
-    result.check();
-    return result;
+bool has_option(const std::vector<OptionField>& fields, const std::string& name) {
+    return std::any_of(fields.begin(), fields.end(), [&](const OptionField& field) { return field.name == name; });
 }
 
 FailedPart failed_part(const RunReport& report, const PartReport& part) {
@@ -65,13 +55,6 @@ void require_success(const RunReport& report) {
 
 int all_processors() { return static_cast<int>(std::max<std::size_t>(1, allowed_processors().size())); }
 
-std::vector<Vec3> to_points(std::span<const std::array<double, 3>> vertices) {
-    std::vector<Vec3> points;
-    points.reserve(vertices.size());
-    for (const auto& [x, y, z] : vertices) points.emplace_back(x, y, z);
-    return points;
-}
-
 // Corners, patches and sides of a part's triangles on the user's surface. What is in front is the number of the part
 // there, or -1.
 void add_boundary(const Part& part, MeshArrays& mesh) {
@@ -83,21 +66,36 @@ void add_boundary(const Part& part, MeshArrays& mesh) {
     }
 }
 
+ClosedSurface remeshed_as(const ClosedSurface& surface, const RunOptions& options, const Progress& progress,
+                          const IsCancelled& is_cancelled) {
+    options.sizes.check();
+    ProgressListener listener(progress, is_cancelled);
+    SizedInput sized = remesh_always(surface.input(), options, &listener);
+    const ClosedSurface result(std::make_shared<const Input>(std::move(sized.input)));
+    const std::vector<std::string> regions = result.region_names();
+    return surface_of_regions(result.vertices(), result.facets(), regions.empty() ? Sides() : result.sides(), regions,
+                              result.patches(), result.patch_names());
+}
+
 }  // namespace
 
 void refuse_options_of_surface(const NamedOptions& options) {
     InputOptions of_surface;
     const std::vector<OptionField> fields = input_option_fields(of_surface);
-    for (const auto& option : options)
-        if (std::any_of(fields.begin(), fields.end(), [&](const auto& field) { return field.name == option.first; }))
+    for (const auto& [name, text] : options)
+        if (has_option(fields, name))
             throw Error(ErrorCode::usage,
-                        fmt::format("--{} is an option of the surface: give it where that is made.", option.first));
+                        fmt::format("--{} is an option of the surface: give it where that is made.", name));
 }
 
 RunOptions run_options(const std::string& input, const MeshOptions& options, const std::string& folder) {
     RunOptions run;
+    const std::vector<OptionField> all = option_fields(run);
     std::vector<OptionText> texts;
-    for (const auto& option : options.others) texts.push_back({option.first, option.second});
+    for (const auto& [name, text] : options.others) {
+        if (!has_option(all, name)) throw Error(ErrorCode::usage, fmt::format("--{} is no option of a mesh.", name));
+        texts.push_back({name, text});
+    }
     run.sizes.size = options.size;
     run.decompose.parts = options.parts;
     run.workers = options.workers;
@@ -146,51 +144,26 @@ std::vector<std::int32_t> ClosedSurface::patches() const {
     return patches;
 }
 
-ClosedSurface surface_from_arrays(std::span<const std::array<double, 3>> vertices,
-                                  std::span<const std::array<std::int32_t, 3>> facets,
-                                  std::span<const std::int32_t> patches, std::vector<std::string> patch_names,
-                                  const NamedOptions& options) {
-    return ClosedSurface(std::make_shared<const Input>(make_input(to_points(vertices), {facets.begin(), facets.end()},
-                                                                  {patches.begin(), patches.end()},
-                                                                  std::move(patch_names), input_options(options))));
-}
-
-ClosedSurface surface_of_regions(std::span<const std::array<double, 3>> vertices,
-                                 std::span<const std::array<std::int32_t, 3>> facets,
-                                 std::span<const std::array<std::int32_t, 2>> sides,
-                                 std::vector<std::string> region_names, std::span<const std::int32_t> patches,
-                                 std::vector<std::string> patch_names, const NamedOptions& options) {
-    std::vector<FacetSides> of_facets;
-    of_facets.reserve(sides.size());
-    for (const auto& [behind, in_front] : sides) of_facets.push_back({.front = in_front, .back = behind});
-    return ClosedSurface(std::make_shared<const Input>(
-        make_input(to_points(vertices), {facets.begin(), facets.end()}, std::move(of_facets), std::move(region_names),
-                   {patches.begin(), patches.end()}, std::move(patch_names), input_options(options))));
-}
-
-ClosedSurface surface_from_file(const std::string& path, const NamedOptions& options) {
-    return ClosedSurface(std::make_shared<const Input>(read_input(path, input_options(options))));
-}
-
-FileCheck check_file(const std::string& path, const NamedOptions& options) {
-    const FileDiagnosis found = diagnose_file(path, input_options(options));
-    return {found.can_be_meshed(), to_text(found), to_json(found)};
-}
-
 ClosedSurface remeshed(const ClosedSurface& surface, double deviation, double size, const Progress& progress,
                        const IsCancelled& is_cancelled) {
     RunOptions options;
-    options.remeshing = Remeshing::always;
     options.deviation = deviation;
     options.sizes.size = size;
-    options.sizes.check();
-    ProgressListener listener(progress, is_cancelled);
-    const ClosedSurface result(std::make_shared<const Input>(remesh_where_asked(surface.input(), options, &listener)));
-    const std::vector<std::string> regions = result.region_names();
-    if (regions.empty())
-        return surface_from_arrays(result.vertices(), result.facets(), result.patches(), result.patch_names());
-    return surface_of_regions(result.vertices(), result.facets(), result.sides(), regions, result.patches(),
-                              result.patch_names());
+    return remeshed_as(surface, options, progress, is_cancelled);
+}
+
+ClosedSurface remeshed(const ClosedSurface& surface, const NamedOptions& options, const Progress& progress,
+                       const IsCancelled& is_cancelled) {
+    RunOptions wanted;
+    const std::vector<OptionField> of_sizes = size_option_fields(wanted.sizes);
+    std::vector<OptionText> texts;
+    for (const auto& [name, text] : options) {
+        if (name != "deviation" && !has_option(of_sizes, name))
+            throw Error(ErrorCode::usage, fmt::format("--{} is no option of remeshing a surface.", name));
+        texts.push_back({name, text});
+    }
+    set_options(wanted, texts, "options");
+    return remeshed_as(surface, wanted, progress, is_cancelled);
 }
 
 void mesh_on_ranks(const ClosedSurface& surface, const MeshOptions& options, const std::string& folder,

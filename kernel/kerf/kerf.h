@@ -53,11 +53,35 @@ class ClosedSurface {
     std::shared_ptr<const Input> input_;
 };
 
+/// One thing that is wrong with a surface, or will give bad cells.
+struct SurfaceDefect {
+    std::string kind;                    ///< "open edge loop", ... (docs/output.md)
+    std::string severity;                ///< "error", "repaired": before meshing, or "warning": cells may be bad there
+    std::vector<std::int64_t> facets;    ///< numbers as the input has them, counted from 0
+    std::vector<std::int64_t> vertices;  ///< likewise; of a loop in the order of going around
+    std::vector<std::array<double, 3>> points;  ///< of the vertices; a place at the defect if there are none
+    double measure = 0;                ///< length of a loop or an edge, a needle's angle in degrees, a distance
+    std::vector<std::string> regions;  ///< that have it, or between which it is; empty if there is only one
+    std::string advice;                ///< what to do about it
+    std::string text;                  ///< all that as a sentence
+};
+
+/// Error(input) of a surface that cannot be meshed as it is, with all its defects, in the order of kinds.
+class SurfaceError : public Error {
+ public:
+    SurfaceError(const Error& error, std::vector<SurfaceDefect> defects)
+        : Error(error), defects_(std::make_shared<const std::vector<SurfaceDefect>>(std::move(defects))) {}
+    const std::vector<SurfaceDefect>& defects() const { return *defects_; }
+
+ private:
+    std::shared_ptr<const std::vector<SurfaceDefect>> defects_;  // copies of an exception must not throw
+};
+
 /// The surface of arrays. `facets`: corners as numbers of vertices, counted from 0; turned, where they are turned
 /// against each other. `patches`: a number from 0 for each facet, or empty: one patch. `patch_names`: a name for each
 /// number, or empty. `options`: those of the surface, as "weld", "voids", "fill-holes" (docs/options.md).
 ///
-/// Everything is checked. Throws Error(usage) for sizes that do not fit, Error(input) for a row that is wrong and for a
+/// Everything is checked. Throws Error(usage) for sizes that do not fit, SurfaceError for a row that is wrong and for a
 /// surface that is not closed or intersects itself: elements() has the numbers of vertices and facets.
 ClosedSurface surface_from_arrays(std::span<const std::array<double, 3>> vertices,
                                   std::span<const std::array<std::int32_t, 3>> facets,
@@ -66,7 +90,7 @@ ClosedSurface surface_from_arrays(std::span<const std::array<double, 3>> vertice
 
 /// The facets of several bodies that share walls, each facet once. `sides`: of each facet the regions behind it and in
 /// front of it, where its corners are counter-clockwise, as numbers of `region_names`, or -1: outside. The others as
-/// for surface_from_arrays(); facets are not turned. Throws as that does, and Error(input) for a facet with the same on
+/// for surface_from_arrays(); facets are not turned. Throws as that does, and SurfaceError for a facet with the same on
 /// both sides and a region that its facets do not close, with its name.
 ClosedSurface surface_of_regions(std::span<const std::array<double, 3>> vertices,
                                  std::span<const std::array<std::int32_t, 3>> facets,
@@ -77,13 +101,31 @@ ClosedSurface surface_of_regions(std::span<const std::array<double, 3>> vertices
 /// The surface of a file of any format that `kerf mesh` reads. Throws Error(io) and as surface_from_arrays() does.
 ClosedSurface surface_from_file(const std::string& path, const NamedOptions& options = {});
 
-/// What `kerf check` says of a file.
-struct FileCheck {
+/// Writes an .obj with patches, of several regions with a closed group for each instead, or an .stl, whose coordinates
+/// have 7 digits. Throws Error(usage) for another ending, and for regions in an .stl, Error(io).
+void surface_to_file(const ClosedSurface& surface, const std::string& path);
+
+/// What `kerf check` says of a surface.
+struct SurfaceCheck {
     bool can_be_meshed = false;
-    std::string text;  ///< lines for people
-    std::string json;  ///< every defect
+    std::string text;                    ///< lines for people
+    std::string json;                    ///< every defect, and counts
+    std::vector<SurfaceDefect> defects;  ///< if there is no surface, why: one without facets or vertices
 };
-FileCheck check_file(const std::string& path, const NamedOptions& options = {});
+using FileCheck = SurfaceCheck;
+
+/// Of a file. `needle_angle`: degrees below which a facet is a needle, 0 to 60. Throws Error(io) for a file that cannot
+/// be opened, Error(usage) for options out of range.
+SurfaceCheck check_file(const std::string& path, const NamedOptions& options = {}, double needle_angle = 1);
+
+/// Of arrays as surface_of_regions() takes them; `sides` and `region_names` empty: as surface_from_arrays() does.
+/// Throws Error(usage) for sizes that do not fit, and options out of range.
+SurfaceCheck check_arrays(std::span<const std::array<double, 3>> vertices,
+                          std::span<const std::array<std::int32_t, 3>> facets,
+                          std::span<const std::array<std::int32_t, 2>> sides = {},
+                          std::vector<std::string> region_names = {}, std::span<const std::int32_t> patches = {},
+                          std::vector<std::string> patch_names = {}, const NamedOptions& options = {},
+                          double needle_angle = 1);
 
 /// Is told of the stages of a call, with steps that are done of all, 0 if nobody knows how many; ends it with
 /// Error(cancelled) by returning false. Must not throw.
@@ -96,6 +138,10 @@ using IsCancelled = std::function<bool()>;
 /// A surface with triangles worth meshing, nowhere farther than `deviation` from the given one, 0: a twentieth of
 /// `size`. `size`: wanted edge length, 0: as long as the deviation allows. Both in units of the surface. Patches stay.
 ClosedSurface remeshed(const ClosedSurface& surface, double deviation, double size = 0, const Progress& progress = {},
+                       const IsCancelled& is_cancelled = {});
+/// The same with options of `kerf remesh` on sizes, by their names: "size", "deviation", "cells", "size-on", ... Throws
+/// Error(usage) for others.
+ClosedSurface remeshed(const ClosedSurface& surface, const NamedOptions& options, const Progress& progress = {},
                        const IsCancelled& is_cancelled = {});
 
 struct MeshOptions {

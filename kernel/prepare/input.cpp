@@ -100,9 +100,10 @@ Input to_input(CheckedSoup checked, const std::string& path, const InputOptions&
     Input input;
     input.path = path;
     Soup& soup = checked.soup;
-    if (!checked.diagnosis.clean())
-        throw Error(ErrorCode::input, fmt::format("{}: {}{}", path, checked.diagnosis.summary(soup), advice),
-                    checked.diagnosis.elements(soup));
+    if (!checked.diagnosis.clean()) {
+        const std::string message = fmt::format("{}: {}{}", path, checked.diagnosis.summary(soup), advice);
+        throw UnfitSurface(message, std::move(checked));
+    }
     const std::vector<std::string> gap_notes = notes_on_gaps(checked);
     input.orientation = apply_repairs(checked);
     input.repairs = checked.repairs;
@@ -150,10 +151,9 @@ class RefusedRows {
         if (elements_.ids.empty()) return;
         const auto first = static_cast<std::size_t>(elements_.ids.front());
         const std::size_t more = elements_.ids.size() - 1;
-        throw Error(ErrorCode::input,
-                    fmt::format("{}[{}] {}.{}", array_, first, describe(first),
-                                more > 0 ? fmt::format(" {} more rows are wrong alike.", more) : ""),
-                    {elements_});
+        throw WrongRow(fmt::format("{}[{}] {}.{}", array_, first, describe(first),
+                                   more > 0 ? fmt::format(" {} more rows are wrong alike.", more) : ""),
+                       elements_);
     }
 
  private:
@@ -230,7 +230,7 @@ std::string hash_of(const Soup& soup) {
 }
 
 // What was not given gets its default.
-Input input_of_arrays(Soup soup, const InputOptions& options) {
+void check_given(Soup& soup) {
     if (soup.patch.empty()) soup.patch.assign(soup.facets.size(), 0);
     check_sizes(soup);
     if (soup.patch_names.empty()) {
@@ -240,6 +240,10 @@ Input input_of_arrays(Soup soup, const InputOptions& options) {
             soup.patch_names.push_back(fmt::format("patch_{}", p));
     }
     check_rows(soup);
+}
+
+Input input_of_arrays(Soup soup, const InputOptions& options) {
+    check_given(soup);
     const std::string hash = hash_of(soup);
     scale(soup, options.scale);
     Input input = to_input(check_soup(std::move(soup), options), name_of_arrays, options, "");
@@ -276,6 +280,12 @@ CheckedSoup check_input(const std::string& path, const InputOptions& options, do
 
 CheckedSoup check_soup(Soup read, const InputOptions& options, double needle_angle_deg) {
     return check_files({std::move(read), {}, {}, {}}, options, needle_angle_deg);
+}
+
+CheckedSoup check_arrays(Soup soup, const InputOptions& options, double needle_angle_deg) {
+    check_given(soup);
+    scale(soup, options.scale);
+    return check_soup(std::move(soup), options, needle_angle_deg);
 }
 
 Complex make_complex(Soup soup) {

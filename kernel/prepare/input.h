@@ -3,10 +3,13 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/error.h"
 #include "prepare/input_files.h"
 #include "remesh/remesh.h"
 #include "request/input_options.h"
@@ -34,6 +37,25 @@ struct CheckedSoup {
     Diagnosis diagnosis;  ///< of `soup`, in which dropped facets still are
     InputRepairs repairs;
     double weld_tolerance = 0;  ///< that was used, units of the file
+};
+
+/// Error(input) of a surface that cannot be meshed as it is, with all that was found.
+class UnfitSurface : public Error {
+ public:
+    UnfitSurface(const std::string& message, CheckedSoup checked)
+        : Error(ErrorCode::input, message, checked.diagnosis.elements(checked.soup)),
+          checked_(std::make_shared<const CheckedSoup>(std::move(checked))) {}
+    const CheckedSoup& checked() const { return *checked_; }
+
+ private:
+    std::shared_ptr<const CheckedSoup> checked_;  // copies of an exception must not throw
+};
+
+/// Error(input) of a row of an array.
+class WrongRow : public Error {
+ public:
+    static constexpr const char* kind = "wrong row";
+    WrongRow(const std::string& message, const ErrorElements& rows) : Error(ErrorCode::input, message, {rows}) {}
 };
 
 /// What remeshing, or division, did to a surface (prepare/remeshing.h).
@@ -118,13 +140,17 @@ std::vector<double> max_volumes_of_regions(const SizeOptions& sizes, const Input
 /// What stands for the path of a surface that no file has.
 inline constexpr const char* name_of_arrays = "surface in memory";
 
+/// Checks arrays as make_input() takes them, `soup`: nothing but its vertices, facets, patches, names and sides. Throws
+/// as that does, but not for a surface that cannot be meshed.
+CheckedSoup check_arrays(Soup soup, const InputOptions& options = {}, double needle_angle_deg = 1);
+
 /// The input that read_input() makes of a file, of arrays. `patch`: a number from 0 for each facet, or empty: one
 /// patch. `patch_names`: a name for each number, or empty: "patch_0", "patch_1", ... Vertices of equal coordinates are
 /// one.
 ///
-/// All is checked, in every build. Throws Error(usage) for sizes that do not fit, and Error(input) for a coordinate
-/// that is not finite, a corner that is no vertex, a facet with a repeated corner, a patch without a name, and for all
-/// that read_input() refuses: the message names the first row, Error::elements() all of them. O(#F log #F).
+/// All is checked, in every build. Throws Error(usage) for sizes that do not fit, WrongRow for a coordinate that is not
+/// finite, a corner that is no vertex, a facet with a repeated corner, and a patch without a name, and Error(input) for
+/// all that read_input() refuses: the message names the first row, Error::elements() all of them. O(#F log #F).
 Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::vector<std::int32_t> patch = {},
                  std::vector<std::string> patch_names = {}, const InputOptions& options = {});
 
@@ -134,7 +160,7 @@ Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::
                  std::vector<std::string> region_names, std::vector<std::int32_t> patch = {},
                  std::vector<std::string> patch_names = {}, const InputOptions& options = {});
 
-/// check_input() and apply_repairs(), then builds the surface. Throws Error(input), naming the file, the
+/// check_input() and apply_repairs(), then builds the surface. Throws UnfitSurface, naming the file, the
 /// first offenders and what to do, if the surface has errors; Error::elements() has all. Throws Error(usage) if the
 /// sweeps of the optimisation would make it intersect itself; else that surface takes the place of the file's in all
 /// that follows.

@@ -1,4 +1,4 @@
-// A surface file remeshed into another one.
+// A surface remeshed for its own sake, and a file of one into another file.
 #pragma once
 
 #include <optional>
@@ -11,6 +11,10 @@
 
 namespace kerf {
 
+/// Remeshes a surface within options.deviation to the wanted lengths (prepare/remeshing.h), or those that give the
+/// wanted number of tetrahedra (prepare/cells.h). `listener` may be null. Throws Error.
+SizedInput remesh_always(Input input, RunOptions options, StageListener* listener = nullptr);
+
 /// What remesh_file() has written.
 struct RemeshedFile {
     std::int64_t facets = 0;
@@ -18,9 +22,8 @@ struct RemeshedFile {
     std::optional<FoundSize> found_size;  ///< for the number of tetrahedra that was asked for
 };
 
-/// Remeshes options.input within options.deviation to the wanted lengths (prepare/remeshing.h) and writes it to
-/// `output`, an .obj with patches or an .stl; several regions as an .obj with a closed group for each. `listener` may
-/// be null. Throws Error, before the work where the output cannot be written.
+/// remesh_always() of options.input, written to `output` as write_surface() does. Throws Error, before the work where
+/// the output cannot be written.
 RemeshedFile remesh_file(RunOptions options, const std::string& output, StageListener* listener = nullptr);
 
 }  // namespace kerf

@@ -132,26 +132,27 @@ std::string defects_text(const CheckedSoup& checked) {
     return text;
 }
 
-}  // namespace
-
-int FileDiagnosis::exit_code() const {
-    if (refused) return static_cast<int>(refused->error.code());
-    return can_be_meshed() ? 0 : static_cast<int>(ErrorCode::input);
-}
-
-FileDiagnosis diagnose_file(const std::string& path, const InputOptions& options, double needle_angle_deg) {
+void require_good(const InputOptions& options, double needle_angle_deg) {
     options.check();
     require_in(needle_angle_range, "needle-angle", needle_angle_deg);
+}
+
+// RefusedFile::kind of an error of the input.
+std::string kind_of_refusal(const Error& error) {
+    if (const auto* solid = dynamic_cast<const SolidDefect*>(&error)) return solid->kind();
+    if (dynamic_cast<const MisplacedRegion*>(&error)) return MisplacedRegion::kind;
+    return dynamic_cast<const WrongRow*>(&error) ? WrongRow::kind : "unreadable";
+}
+
+// `check`: returns what it has found in the surface, or throws why it cannot.
+template <class Check>
+FileDiagnosis diagnosed(const std::string& path, const Check& check) {
     FileDiagnosis found{path, {}, {}, {}};
     try {
-        found.checked = check_input(path, options, needle_angle_deg);
-    } catch (const SolidDefect& defect) {
-        found.refused = {defect.kind(), defect};
-    } catch (const MisplacedRegion& error) {
-        found.refused = {MisplacedRegion::kind, error};
+        found.checked = check();
     } catch (const Error& error) {
         if (error.code() != ErrorCode::input) throw;
-        found.refused = {"unreadable", error};
+        found.refused = {kind_of_refusal(error), error};
     }
     if (!found.can_be_meshed()) return found;
     try {
@@ -160,6 +161,27 @@ FileDiagnosis diagnose_file(const std::string& path, const InputOptions& options
         found.refused = {"open region", error};
     }
     return found;
+}
+
+}  // namespace
+
+int FileDiagnosis::exit_code() const {
+    if (refused) return static_cast<int>(refused->error.code());
+    return can_be_meshed() ? 0 : static_cast<int>(ErrorCode::input);
+}
+
+FileDiagnosis diagnose_file(const std::string& path, const InputOptions& options, double needle_angle_deg) {
+    require_good(options, needle_angle_deg);
+    return diagnosed(path, [&] { return check_input(path, options, needle_angle_deg); });
+}
+
+FileDiagnosis diagnose_arrays(Soup soup, const InputOptions& options, double needle_angle_deg) {
+    require_good(options, needle_angle_deg);
+    return diagnosed(name_of_arrays, [&] { return check_arrays(std::move(soup), options, needle_angle_deg); });
+}
+
+std::string defect_text(const Defect& defect, const Soup& soup) {
+    return fmt::format("{}: {}; {}.", name(defect.kind), place_and_measure(defect, soup), advice(defect));
 }
 
 std::string to_json(const FileDiagnosis& found) {

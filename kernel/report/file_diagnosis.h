@@ -16,7 +16,7 @@ inline constexpr NumberRange needle_angle_range = {"0 (no needles) to 60 degrees
 
 /// Why there is no surface to be diagnosed.
 struct RefusedFile {
-    std::string kind;  ///< "unreadable", "open region", "misplaced region", or that of a SolidDefect
+    std::string kind;  ///< "unreadable", "wrong row", "open region", "misplaced region", or that of a SolidDefect
     Error error;
 };
 
@@ -35,6 +35,12 @@ struct FileDiagnosis {
 /// make a surface: the file is refused then. Throws Error for a file that cannot be opened, and Error(usage) for
 /// options out of range.
 FileDiagnosis diagnose_file(const std::string& path, const InputOptions& options = {}, double needle_angle_deg = 1);
+
+/// The same of arrays, see check_arrays(). Throws Error(usage) for sizes that do not fit, too.
+FileDiagnosis diagnose_arrays(Soup soup, const InputOptions& options = {}, double needle_angle_deg = 1);
+
+/// What it is, where, and what to do about it, in one sentence.
+std::string defect_text(const Defect& defect, const Soup& soup);
 
 /// An object with every defect, its numbers those of the file, and what to do about it.
 std::string to_json(const FileDiagnosis& found);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -76,6 +77,45 @@ TEST(Facade, AFileIsTheSurfaceOfItsArrays) {
     EXPECT_EQ(made.facets(), read.facets());
     EXPECT_EQ(made.volume(), read.volume());
     EXPECT_TRUE(check_file(test::asset_path("cube")).can_be_meshed);
+}
+
+TEST(Facade, AnErrorHasTheDefectsThatACheckTells) {
+    for (const double z : {1.0, std::numeric_limits<double>::quiet_NaN()}) {
+        Points points = corners;
+        points[6][2] = z;
+        const Facets open(cube_facets.begin() + 1, cube_facets.end());
+        const SurfaceCheck check = check_arrays(points, open);
+        EXPECT_FALSE(check.can_be_meshed);
+        try {
+            surface_from_arrays(points, open);
+            ADD_FAILURE() << "a surface with a hole";
+        } catch (const SurfaceError& error) {
+            ASSERT_EQ(error.defects().size(), 1u);
+            ASSERT_EQ(check.defects.size(), 1u);
+            EXPECT_EQ(error.defects()[0].text, check.defects[0].text);
+            EXPECT_EQ(check.defects[0].kind, z == 1 ? "open edge loop" : "wrong row");
+            EXPECT_EQ(check.defects[0].vertices.size(), z == 1 ? 3u : 1u);
+            EXPECT_EQ(check.defects[0].points.size(), z == 1 ? 3u : 0u);
+        }
+    }
+    EXPECT_TRUE(check_arrays(corners, cube_facets).can_be_meshed);
+}
+
+TEST(Facade, ASurfaceIsWrittenAndReadAgain) {
+    const test::TemporaryFolder folder;
+    for (const std::string name : {"cube.obj", "cube.stl"}) {
+        surface_to_file(cube(), folder.file(name));
+        EXPECT_EQ(surface_from_file(folder.file(name)).volume(), 1);
+    }
+    EXPECT_EQ(surface_from_file(folder.file("cube.obj")).patch_names(), cube().patch_names());
+    EXPECT_THROW(surface_to_file(cube(), folder.file("cube.vtk")), Error);
+}
+
+TEST(Facade, RemeshingTakesOptionsOfSizesAlone) {
+    EXPECT_EQ(remeshed(cube(), {{"size", "0.2"}, {"deviation", "1e-3"}}).vertices(),
+              remeshed(cube(), 1e-3, 0.2).vertices());
+    EXPECT_NO_THROW(remeshed(cube(), {{"cells", "1k"}}));
+    EXPECT_THROW(remeshed(cube(), {{"radius-edge", "2"}}), Error);
 }
 
 TEST(Facade, RemeshedSurfacesKeepPatchesAndVolume) {

@@ -1,0 +1,158 @@
+// Surfaces of arrays and files, and what is wrong with them.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "kerf/kerf.h"
+#include "prepare/surface_file.h"
+#include "report/file_diagnosis.h"
+
+namespace kerf {
+
+namespace {
+
+InputOptions input_options(const NamedOptions& options) {
+    InputOptions result;
+    const std::vector<OptionField> fields = input_option_fields(result);
+    for (const auto& option : options) {
+        const auto field =
+            std::find_if(fields.begin(), fields.end(), [&](const auto& f) { return f.name == option.first; });
+        if (field == fields.end())
+            throw Error(ErrorCode::usage, fmt::format("--{} is no option of a surface.", option.first));
+        field->set_text(option.second);
+        if (option.first == "unit") result.cad.unit_is_asked = true;
+    }
+    result.check();
+    return result;
+}
+
+SurfaceDefect surface_defect(const Defect& defect, const Soup& soup) {
+    SurfaceDefect result{.kind = name(defect.kind),
+                         .severity = name(defect.severity),
+                         .facets = {},
+                         .vertices = {},
+                         .points = {},
+                         .measure = defect.measure,
+                         .regions = defect.bodies,
+                         .advice = advice(defect),
+                         .text = defect_text(defect, soup)};
+    for (const std::int32_t f : soup.file_facets(defect.facets)) result.facets.push_back(f);
+    for (const std::int32_t v : soup.file_vertices(defect.vertices)) result.vertices.push_back(v);
+    for (const std::int32_t v : defect.vertices) {
+        const Vec3& p = soup.vertices[static_cast<std::size_t>(v)];
+        result.points.push_back({p.x(), p.y(), p.z()});
+    }
+    if (result.points.empty()) result.points = {{defect.where.x(), defect.where.y(), defect.where.z()}};
+    return result;
+}
+
+std::vector<SurfaceDefect> defects_of(const CheckedSoup& checked) {
+    std::vector<SurfaceDefect> defects;
+    for (const Defect& defect : checked.diagnosis.defects) defects.push_back(surface_defect(defect, checked.soup));
+    return defects;
+}
+
+// Why there is no surface that could have defects.
+SurfaceDefect refusal(const std::string& kind, const Error& error) {
+    SurfaceDefect result{.kind = kind,
+                         .severity = name(Severity::error),
+                         .facets = {},
+                         .vertices = {},
+                         .points = {},
+                         .measure = 0,
+                         .regions = {},
+                         .advice = {},
+                         .text = error.what()};
+    for (const ErrorElements& elements : error.elements()) {
+        if (elements.kind == ElementKind::facet)
+            result.facets.insert(result.facets.end(), elements.ids.begin(), elements.ids.end());
+        else if (elements.kind != ElementKind::solid)
+            result.vertices.insert(result.vertices.end(), elements.ids.begin(), elements.ids.end());
+        result.points.insert(result.points.end(), elements.points.begin(), elements.points.end());
+    }
+    return result;
+}
+
+SurfaceCheck surface_check(const FileDiagnosis& found) {
+    return {found.can_be_meshed(), to_text(found), to_json(found),
+            found.refused ? std::vector<SurfaceDefect>{refusal(found.refused->kind, found.refused->error)}
+                          : defects_of(found.checked)};
+}
+
+// `diagnose`: finds out what `make` has thrown an Error(input) for, where that does not say it.
+template <class Make, class Diagnose>
+ClosedSurface surface_of(const Make& make, const Diagnose& diagnose) {
+    try {
+        return ClosedSurface(std::make_shared<const Input>(make()));
+    } catch (const UnfitSurface& error) {
+        throw SurfaceError(error, defects_of(error.checked()));
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::input) throw;
+        const std::vector<SurfaceDefect> defects = surface_check(diagnose()).defects;
+        throw SurfaceError(error, !defects.empty() ? defects : std::vector{refusal("refused surface", error)});
+    }
+}
+
+Soup to_soup(std::span<const std::array<double, 3>> vertices, std::span<const std::array<std::int32_t, 3>> facets,
+             std::span<const std::array<std::int32_t, 2>> sides, std::vector<std::string> region_names,
+             std::span<const std::int32_t> patches, std::vector<std::string> patch_names) {
+    Soup soup{{}, {facets.begin(), facets.end()}, {patches.begin(), patches.end()}, std::move(patch_names)};
+    soup.vertices.reserve(vertices.size());
+    for (const auto& [x, y, z] : vertices) soup.vertices.emplace_back(x, y, z);
+    soup.sides.reserve(sides.size());
+    for (const auto& [behind, in_front] : sides) soup.sides.push_back({.front = in_front, .back = behind});
+    soup.region_names = std::move(region_names);
+    return soup;
+}
+
+}  // namespace
+
+ClosedSurface surface_from_arrays(std::span<const std::array<double, 3>> vertices,
+                                  std::span<const std::array<std::int32_t, 3>> facets,
+                                  std::span<const std::int32_t> patches, std::vector<std::string> patch_names,
+                                  const NamedOptions& options) {
+    return surface_of_regions(vertices, facets, {}, {}, patches, std::move(patch_names), options);
+}
+
+ClosedSurface surface_of_regions(std::span<const std::array<double, 3>> vertices,
+                                 std::span<const std::array<std::int32_t, 3>> facets,
+                                 std::span<const std::array<std::int32_t, 2>> sides,
+                                 std::vector<std::string> region_names, std::span<const std::int32_t> patches,
+                                 std::vector<std::string> patch_names, const NamedOptions& options) {
+    const InputOptions wanted = input_options(options);
+    const auto soup_of_all = [&] { return to_soup(vertices, facets, sides, region_names, patches, patch_names); };
+    return surface_of(
+        [&] {
+            Soup soup = soup_of_all();
+            return make_input(std::move(soup.vertices), std::move(soup.facets), std::move(soup.sides),
+                              std::move(soup.region_names), std::move(soup.patch), std::move(soup.patch_names), wanted);
+        },
+        [&] { return diagnose_arrays(soup_of_all(), wanted); });
+}
+
+ClosedSurface surface_from_file(const std::string& path, const NamedOptions& options) {
+    const InputOptions wanted = input_options(options);
+    return surface_of([&] { return read_input(path, wanted); }, [&] { return diagnose_file(path, wanted); });
+}
+
+void surface_to_file(const ClosedSurface& surface, const std::string& path) {
+    const Complex& complex = surface.input().complex;
+    require_surface_file("path", path, complex.region_count());
+    write_surface(path, complex, surface.patch_names());
+}
+
+SurfaceCheck check_file(const std::string& path, const NamedOptions& options, double needle_angle) {
+    return surface_check(diagnose_file(path, input_options(options), needle_angle));
+}
+
+SurfaceCheck check_arrays(std::span<const std::array<double, 3>> vertices,
+                          std::span<const std::array<std::int32_t, 3>> facets,
+                          std::span<const std::array<std::int32_t, 2>> sides, std::vector<std::string> region_names,
+                          std::span<const std::int32_t> patches, std::vector<std::string> patch_names,
+                          const NamedOptions& options, double needle_angle) {
+    return surface_check(
+        diagnose_arrays(to_soup(vertices, facets, sides, std::move(region_names), patches, std::move(patch_names)),
+                        input_options(options), needle_angle));
+}
+
+}  // namespace kerf
