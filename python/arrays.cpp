@@ -1,6 +1,7 @@
 #include "python/arrays.h"
 
 #include <cstring>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,13 +11,20 @@ namespace {
 
 std::string shape_text(const py::array& array) { return py::str(array.attr("shape")); }
 
+// Whatever numpy makes an array of. `kinds`: of dtypes that are good.
 py::array as_array(const py::object& object, const char* name, const char* kinds, const char* wanted) {
+    const py::module_ numpy = py::module_::import("numpy");
+    if (numpy.attr("ma").attr("is_masked")(object).cast<bool>())
+        throw py::value_error(fmt::format("{} has values that are masked: fill them, or leave their rows out.", name));
     py::array array;
     try {
-        array = py::module_::import("numpy").attr("asarray")(object);
+        array = numpy.attr("asarray")(object);
     } catch (py::error_already_set& error) {
         if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
-        throw py::type_error(fmt::format("{} is no array: its rows have different lengths, or are no numbers.", name));
+        const std::string text =
+            fmt::format("{} is no array: its rows have different lengths, or are no numbers.", name);
+        py::raise_from(error, PyExc_TypeError, text.c_str());
+        throw py::error_already_set();
     }
     const std::string kind = py::str(array.dtype().attr("kind"));
     if (array.size() > 0 && std::strchr(kinds, kind[0]) == nullptr)
@@ -27,6 +35,9 @@ py::array as_array(const py::object& object, const char* name, const char* kinds
 
 // Rows of `columns`, or single numbers where that is 0.
 void check_shape(const py::array& array, py::ssize_t columns, const char* name) {
+    if (array.ndim() > 0 && array.shape(0) > std::numeric_limits<std::int32_t>::max())
+        throw py::value_error(fmt::format("{} has {} rows, but at most {} are possible.", name, array.shape(0),
+                                          std::numeric_limits<std::int32_t>::max()));
     const bool is_empty = array.size() == 0 && array.ndim() <= 2;
     if (columns == 0 ? array.ndim() == 1 : array.ndim() == 2 && array.shape(1) == columns) return;
     if (is_empty && array.ndim() > 0) return;
@@ -34,25 +45,40 @@ void check_shape(const py::array& array, py::ssize_t columns, const char* name) 
                                       columns == 0 ? std::string("(n,)") : fmt::format("(n, {})", columns)));
 }
 
-std::vector<std::int64_t> whole_numbers(const py::object& object, py::ssize_t columns, const char* name) {
-    const py::array array = as_array(object, name, "iu", "whole numbers");
-    check_shape(array, columns, name);
-    const auto numbers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>::ensure(array);
-    if (!numbers) throw py::error_already_set();
-    std::vector<std::int64_t> result(numbers.data(), numbers.data() + numbers.size());
-    for (std::size_t i = 0; i < result.size(); ++i)
-        if (result[i] > std::numeric_limits<std::int32_t>::max() ||
-            result[i] < std::numeric_limits<std::int32_t>::min())
-            throw py::value_error(fmt::format("{} has {} in row {}, which is no number of 32 bits.", name, result[i],
-                                              columns == 0 ? i : i / static_cast<std::size_t>(columns)));
-    return result;
+// The same numbers in one piece of memory, as T.
+template <class T>
+py::array_t<T> in_one_piece(const py::array& array) {
+    return py::module_::import("numpy").attr("require")(array, py::dtype::of<T>(), "CA");
 }
 
+// Adds them to `rows`, N in each. Throws ValueError for the first that is no number of 32 bits.
+template <class Wide, std::size_t N>
+void append_rows(std::vector<std::array<std::int32_t, N>>& rows, const py::array& array, const char* name) {
+    using Limits = std::numeric_limits<std::int32_t>;
+    const py::array_t<Wide> numbers = in_one_piece<Wide>(array);
+    const auto count = static_cast<std::size_t>(numbers.size());
+    rows.resize(count / N);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Wide number = numbers.data()[i];
+        if (std::cmp_greater(number, Limits::max()) || std::cmp_less(number, Limits::min()))
+            throw py::value_error(
+                fmt::format("{} has {} in row {}, which is no number of 32 bits.", name, number, i / N));
+        rows[i / N][i % N] = static_cast<std::int32_t>(number);
+    }
+}
+
+// `is_flat`: N is 1, and the array has one dimension.
 template <std::size_t N>
-std::vector<std::array<std::int32_t, N>> rows_of(const py::object& object, const char* name) {
-    const std::vector<std::int64_t> numbers = whole_numbers(object, N, name);
-    std::vector<std::array<std::int32_t, N>> rows(numbers.size() / N);
-    for (std::size_t i = 0; i < numbers.size(); ++i) rows[i / N][i % N] = static_cast<std::int32_t>(numbers[i]);
+std::vector<std::array<std::int32_t, N>> rows_of(const py::object& object, const char* name, bool is_flat = false) {
+    const py::array array = as_array(object, name, "iu", "whole numbers");
+    check_shape(array, is_flat ? 0 : N, name);
+    std::vector<std::array<std::int32_t, N>> rows;
+    if (array.size() == 0) return rows;
+    const bool is_unsigned = array.dtype().kind() == 'u';
+    if (is_unsigned)
+        append_rows<std::uint64_t>(rows, array, name);
+    else
+        append_rows<std::int64_t>(rows, array, name);
     return rows;
 }
 
@@ -61,10 +87,10 @@ std::vector<std::array<std::int32_t, N>> rows_of(const py::object& object, const
 std::vector<std::array<double, 3>> points_of(const py::object& object, const char* name) {
     const py::array array = as_array(object, name, "fiu", "numbers");
     check_shape(array, 3, name);
-    const auto numbers = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(array);
-    if (!numbers) throw py::error_already_set();
-    std::vector<std::array<double, 3>> rows(static_cast<std::size_t>(numbers.size()) / 3);
-    if (!rows.empty()) std::memcpy(rows.data(), numbers.data(), rows.size() * sizeof(rows[0]));
+    std::vector<std::array<double, 3>> rows(static_cast<std::size_t>(array.size()) / 3);
+    if (rows.empty()) return rows;
+    const py::array_t<double> numbers = in_one_piece<double>(array);
+    std::memcpy(rows.data(), numbers.data(), rows.size() * sizeof(rows[0]));
     return rows;
 }
 
@@ -75,8 +101,10 @@ std::vector<std::array<std::int32_t, 2>> pairs_of(const py::object& array, const
     return rows_of<2>(array, name);
 }
 std::vector<std::int32_t> numbers_of(const py::object& array, const char* name) {
-    const std::vector<std::int64_t> numbers = whole_numbers(array, 0, name);
-    return {numbers.begin(), numbers.end()};
+    const std::vector<std::array<std::int32_t, 1>> rows = rows_of<1>(array, name, true);
+    std::vector<std::int32_t> numbers(rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) numbers[i] = rows[i][0];
+    return numbers;
 }
 
 }  // namespace kerf::python

@@ -63,9 +63,9 @@ void register_distributed(py::module_& module) {
         .def_readonly("region_names", &RankMesh::region_names);
     module.def("mesh_of_rank", &mesh_of_rank, py::call_guard<py::gil_scoped_release>(), py::arg("folder"),
                py::arg("rank"), py::arg("ranks"));
-    module.def("mesh_on_ranks", &mesh_on_ranks_into, py::arg("ranks"), py::arg("processors"), py::arg("surface"),
-               py::arg("folder"), py::arg("parts") = 0, py::arg("size") = 0., py::arg("workers") = 0,
-               py::arg("progress") = py::none(), py::arg("programs") = "");
+    module.def("mesh_on_ranks", &mesh_on_ranks_into, py::arg("ranks"), py::arg("processors"), py::arg("of"),
+               py::arg("folder"), py::arg("k"), py::arg("edge"), py::arg("w"), py::arg("progress") = py::none(),
+               py::arg("programs") = "");
 }
 
 }  // namespace kerf::python

@@ -4,7 +4,10 @@
 
 #include <pybind11/stl.h>
 
+#include "core/error.h"
 #include "kerf/kerf.h"
+#include "python/defects.h"
+#include "python/text.h"
 
 namespace kerf::python {
 
@@ -24,7 +27,7 @@ py::list elements_of(const Error& error) {
         element["kind"] = kind_name(each.kind);
         element["ids"] = each.ids;
         element["points"] = each.points;
-        element["names"] = each.names;
+        element["names"] = decoded(each.names);
         list.append(element);
     }
     return list;
@@ -33,15 +36,18 @@ py::list elements_of(const Error& error) {
 py::list parts_of(const PartsFailed& error) {
     py::list list;
     for (const FailedPart& each : error.parts())
-        list.append(py::make_tuple(each.number, each.place, each.message, each.reproducer));
+        list.append(py::make_tuple(each.number, each.place, decoded(each.message), decoded(each.reproducer)));
     return list;
 }
 
-void raise(const Error& error, const py::list& failed_parts) {
-    const py::object made =
-        py::module_::import("kerf.errors")
-            .attr("error_of")(static_cast<int>(error.code()), error.what(), elements_of(error), failed_parts);
-    PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(made.ptr())), made.ptr());
+// All that Python is told of it.
+py::object exception_of(const Error& error) {
+    const auto* of_surface = dynamic_cast<const SurfaceError*>(&error);
+    const auto* of_parts = dynamic_cast<const PartsFailed*>(&error);
+    return py::module_::import("kerf.errors")
+        .attr("error_of")(static_cast<int>(error.code()), decoded(error.what()), elements_of(error),
+                          of_parts ? parts_of(*of_parts) : py::list(),
+                          of_surface ? defects_of(of_surface->defects()) : py::list());
 }
 
 }  // namespace
@@ -50,10 +56,9 @@ void register_errors(py::module_&) {
     py::register_exception_translator([](std::exception_ptr pointer) {
         try {
             if (pointer) std::rethrow_exception(std::move(pointer));
-        } catch (const PartsFailed& error) {
-            raise(error, parts_of(error));
         } catch (const Error& error) {
-            raise(error, py::list());
+            const py::object made = exception_of(error);
+            PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(made.ptr())), made.ptr());
         }
     });
 }

@@ -60,11 +60,11 @@ void register_mesh(py::module_& module) {
                 without_lock(watch, [&] { mesh_to_file(self, path, options); });
             },
             py::arg("path"), py::arg("msh_version"), py::arg("msh_ascii"));
-    module.def("mesh", &mesh, py::arg("surface"), py::arg("parts") = 0, py::arg("size") = 0., py::arg("workers") = 0,
+    // Names that no option has: "surface" and the others are among the options.
+    module.def("mesh", &mesh, py::arg("of"), py::arg("k"), py::arg("edge"), py::arg("w"),
                py::arg("progress") = py::none(), py::arg("programs") = "");
-    module.def("mesh_into", &mesh_into, py::arg("surface"), py::arg("folder"), py::arg("parts") = 0,
-               py::arg("size") = 0., py::arg("workers") = 0, py::arg("progress") = py::none(),
-               py::arg("programs") = "");
+    module.def("mesh_into", &mesh_into, py::arg("of"), py::arg("folder"), py::arg("k"), py::arg("edge"), py::arg("w"),
+               py::arg("progress") = py::none(), py::arg("programs") = "");
     module.def("mesh_of_run", [](const std::string& folder) {
         const py::gil_scoped_release released;
         return std::make_shared<MeshArrays>(arrays_of_run(folder));

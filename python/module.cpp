@@ -1,7 +1,9 @@
 // The module kerf._kerf: the facade (kerf/kerf.h) with arrays of numpy.
+#include "python/defects.h"
 #include "python/distributed.h"
 #include "python/errors.h"
 #include "python/mesh.h"
+#include "python/options.h"
 #include "python/part.h"
 #include "python/plotting.h"
 #include "python/run.h"
@@ -15,6 +17,8 @@ PYBIND11_MODULE(_kerf, module) {
     module.attr("__version__") = kerf::library_version();
     module.def("find_program", &kerf::find_kerf_program, pybind11::arg("name"), pybind11::arg("first_folder") = "");
     kerf::python::register_errors(module);
+    kerf::python::register_options(module);
+    kerf::python::register_check(module);
     kerf::python::register_surface(module);
     kerf::python::register_mesh(module);
     kerf::python::register_part(module);

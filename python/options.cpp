@@ -3,35 +3,61 @@
 #include <algorithm>
 #include <chrono>
 
+#include <pybind11/stl.h>
+
+#include "help/nearest.h"
+#include "request/options.h"
+
 namespace kerf::python {
 
 namespace py = pybind11;
 
 namespace {
 
-std::string text_of(const py::handle& value) { return py::str(value); }
+const char* kind_of(const OptionField& field) {
+    struct Kinds {
+        const char* operator()(std::int32_t*) const { return "whole number"; }
+        const char* operator()(OptionField::Memory) const { return "memory"; }
+        const char* operator()(OptionField::Count) const { return "count"; }
+        const char* operator()(double*) const { return "number"; }
+        const char* operator()(Length*) const { return "length"; }
+        const char* operator()(bool*) const { return "flag"; }
+        const char* operator()(std::string*) const { return "text"; }
+        const char* operator()(OptionField::List) const { return "list"; }
+        const char* operator()(const OptionField::Choice&) const { return "choice"; }
+    };
+    return std::visit(Kinds(), field.value);
+}
 
-void add_option(NamedOptions& options, const std::string& name, const py::handle& value) {
-    if (value.is_none()) return;
-    if (py::isinstance<py::bool_>(value)) {
-        options.emplace_back(name, value.cast<bool>() ? "true" : "false");
-    } else if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
-        for (const py::handle each : value) options.emplace_back(name, text_of(each));
-    } else {
-        options.emplace_back(name, text_of(value));
-    }
+py::dict row_of(const OptionField& field, bool is_of_surface) {
+    using namespace py::literals;
+    const auto* choice = std::get_if<OptionField::Choice>(&field.value);
+    return py::dict("name"_a = field.name, "group"_a = field.group, "kind"_a = kind_of(field),
+                    "form"_a = field.value_name, "help"_a = field.help, "default"_a = field.text(),
+                    "choices"_a = choice ? choice->names : std::vector<std::string>(),
+                    "is_of_surface"_a = is_of_surface);
+}
+
+// The table of the command line, in its order, with the values of options that are not given.
+py::list option_rows() {
+    RunOptions options;
+    py::list rows;
+    const std::vector<OptionField> of_surface = input_option_fields(options.input_options);
+    for (const OptionField& field : option_fields(options))
+        rows.append(row_of(field, std::any_of(of_surface.begin(), of_surface.end(),
+                                              [&](const OptionField& each) { return each.name == field.name; })));
+    return rows;
 }
 
 }  // namespace
 
 NamedOptions named_options(const py::kwargs& options) {
-    NamedOptions named;
-    for (const auto& [key, value] : options) {
-        std::string name = py::str(key);
-        std::replace(name.begin(), name.end(), '_', '-');
-        add_option(named, name, value);
-    }
-    return named;
+    return py::module_::import("kerf.options").attr("texts")(options).cast<NamedOptions>();
+}
+
+void register_options(py::module_& module) {
+    module.def("option_rows", &option_rows);
+    module.def("did_you_mean", &did_you_mean, py::arg("word"), py::arg("candidates"));
 }
 
 MeshOptions mesh_options(std::int32_t parts, double size, std::int32_t workers, const std::string& programs,

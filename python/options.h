@@ -13,9 +13,12 @@
 
 namespace kerf::python {
 
-/// `max_volume=0.1` as {"max-volume", "0.1"}: a list gives the option several times, True and None are what a flag and
-/// no option are, and everything else is the text that Python has for it.
+/// `max_volume=0.1` as {"max-volume", "0.1"}, see kerf/options.py. Throws UsageError for a name that is no option, and
+/// TypeError for a value that has no text.
 NamedOptions named_options(const pybind11::kwargs& options);
+
+/// The table of options, and what a wrong name may have been meant to be.
+void register_options(pybind11::module_& module);
 
 /// What a long call asks and tells of Python: `progress`, which is called with (stage, done, total), and whether the
 /// user has pressed Ctrl-C. Ends the work where `progress` returns False or raises. Any thread may ask.

@@ -2,9 +2,13 @@
 
 #include <pybind11/stl.h>
 
+#include "prepare/input.h"
 #include "python/arrays.h"
 #include "python/options.h"
+#include "python/surface_arrays.h"
 #include "python/surface_object.h"
+#include "python/text.h"
+#include "surface/solid_properties.h"
 
 namespace kerf::python {
 
@@ -12,38 +16,43 @@ namespace py = pybind11;
 
 namespace {
 
-std::vector<std::string> names_of(const py::object& names) {
-    return names.is_none() ? std::vector<std::string>() : names.cast<std::vector<std::string>>();
+std::shared_ptr<SurfaceObject> made(ClosedSurface surface) {
+    return std::make_shared<SurfaceObject>(SurfaceObject{std::move(surface)});
 }
 
 std::shared_ptr<SurfaceObject> make_surface(const py::object& points, const py::object& triangles,
                                             const py::object& patches, const py::object& names, const py::object& sides,
                                             const py::object& regions, const py::kwargs& options) {
-    const auto vertices = points_of(points, "points");
-    const auto facets = triangles_of(triangles, "triangles");
-    const auto of_facets = patches.is_none() ? std::vector<std::int32_t>() : numbers_of(patches, "patches");
+    const SurfaceArguments all = surface_arguments(points, triangles, patches, names, sides, regions);
     const NamedOptions named = named_options(options);
-    if (sides.is_none() != regions.is_none())
-        throw py::value_error("sides and regions belong together: give both, or none of them.");
-    if (sides.is_none()) {
-        const auto patch_names = names_of(names);
-        const py::gil_scoped_release released;
-        return std::make_shared<SurfaceObject>(
-            SurfaceObject{surface_from_arrays(vertices, facets, of_facets, patch_names, named)});
-    }
-    const auto of_sides = pairs_of(sides, "sides");
-    const auto patch_names = names_of(names), region_names = names_of(regions);
     const py::gil_scoped_release released;
-    return std::make_shared<SurfaceObject>(
-        SurfaceObject{surface_of_regions(vertices, facets, of_sides, region_names, of_facets, patch_names, named)});
+    return made(surface_of_regions(all.points, all.triangles, all.sides, all.regions, all.patches, all.names, named));
 }
 
-std::shared_ptr<SurfaceObject> read(const py::object& path, const py::kwargs& options) {
-    const std::string name = py::str(py::module_::import("os").attr("fspath")(path));
+std::shared_ptr<SurfaceObject> read(const std::string& path, const py::kwargs& options) {
     const NamedOptions named = named_options(options);
     const py::gil_scoped_release released;
-    return std::make_shared<SurfaceObject>(SurfaceObject{surface_from_file(name, named)});
+    return made(surface_from_file(path, named));
 }
+
+std::shared_ptr<SurfaceObject> remesh(const SurfaceObject& self, const py::object& progress,
+                                      const py::kwargs& options) {
+    Watch watch(progress);
+    const NamedOptions named = named_options(options);
+    return without_lock(watch,
+                        [&] { return made(remeshed(self.surface, named, watch.progress(), watch.is_cancelled())); });
+}
+
+void save(const SurfaceObject& self, const std::string& path) {
+    const py::gil_scoped_release released;
+    surface_to_file(self.surface, path);
+}
+
+SolidProperties solid_of(const SurfaceObject& self) { return solid_properties(self.surface.input().complex); }
+
+py::array array_of(const Vec3& vector) { return py::array_t<double>(3, vector.data()); }
+// Columns as rows, because those are in one piece of memory here, and these there.
+py::array array_of(const Eigen::Matrix3d& columns) { return py::array_t<double>({3, 3}, columns.data()); }
 
 }  // namespace
 
@@ -57,19 +66,19 @@ void register_surface(py::module_& module) {
         .def_property_readonly("patches",
                                [](py::object self) { return view(self.cast<SurfaceObject&>().patches, self); })
         .def_property_readonly("sides", [](py::object self) { return view(self.cast<SurfaceObject&>().sides, self); })
-        .def_property_readonly("names", [](const SurfaceObject& self) { return self.surface.patch_names(); })
-        .def_property_readonly("regions", [](const SurfaceObject& self) { return self.surface.region_names(); })
+        .def_property_readonly("names", [](const SurfaceObject& self) { return decoded(self.surface.patch_names()); })
+        .def_property_readonly("regions",
+                               [](const SurfaceObject& self) { return decoded(self.surface.region_names()); })
         .def_property_readonly("volume", [](const SurfaceObject& self) { return self.surface.volume(); })
         .def_property_readonly("area", [](const SurfaceObject& self) { return self.surface.area(); })
-        .def(
-            "remesh",
-            [](const SurfaceObject& self, double size, double deviation, const py::object& progress) {
-                Watch watch(progress);
-                return std::make_shared<SurfaceObject>(SurfaceObject{without_lock(watch, [&] {
-                    return remeshed(self.surface, deviation, size, watch.progress(), watch.is_cancelled());
-                })});
-            },
-            py::arg("size") = 0., py::arg("deviation") = 0., py::arg("progress") = py::none());
+        .def_property_readonly("centroid", [](const SurfaceObject& self) { return array_of(solid_of(self).centroid); })
+        .def_property_readonly("inertia", [](const SurfaceObject& self) { return array_of(solid_of(self).inertia); })
+        .def_property_readonly("principal_moments",
+                               [](const SurfaceObject& self) { return array_of(solid_of(self).principal.moments); })
+        .def_property_readonly("principal_axes",
+                               [](const SurfaceObject& self) { return array_of(solid_of(self).principal.axes); })
+        .def("remesh", &remesh, py::arg("progress"))
+        .def("save", &save, py::arg("path"));
     module.def("read", &read, py::arg("path"));
 }
 

@@ -12,12 +12,15 @@
 """
 
 from ._kerf import __version__
+from .check import Check, check
+from .defect import Defect
 from .distributed import DistributedMesh, distributed
 from .errors import (Cancelled, ConvergenceError, Error, FailedPart, FileError, InputError, MeshingError, OutOfMemory,
                      QualityError, UsageError, VerificationError)
 from .ghost_cells import GhostCells
 from .local_mesh import LocalMesh
 from .mesh import Mesh, Tetrahedralization, mesh, tetrahedralize
+from .options import Option, options
 from .part import Part, Parts, SharedPoints
 from .plotting import Picture, plot
 from .quality import Distribution, Quality, RegionQuality
@@ -30,7 +33,9 @@ from .verification import Verification
 
 __all__ = [
     "Cancelled",
+    "Check",
     "ConvergenceError",
+    "Defect",
     "DistributedMesh",
     "Distribution",
     "Error",
@@ -41,6 +46,7 @@ __all__ = [
     "LocalMesh",
     "Mesh",
     "MeshingError",
+    "Option",
     "OutOfMemory",
     "Part",
     "Parts",
@@ -58,10 +64,12 @@ __all__ = [
     "Verification",
     "VerificationError",
     "__version__",
+    "check",
     "decompose",
     "distributed",
     "mesh",
     "open",
+    "options",
     "plot",
     "read",
     "solve",

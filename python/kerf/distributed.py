@@ -22,9 +22,10 @@ from . import _kerf, programs
 from .errors import FileError, UsageError
 from .ghost_cells import GhostCells, ghost_cells_of
 from .local_mesh import LocalMesh
+from .mesh import surface_and_options
 from .progress import Progress, caller
 from .ranks import check_communicator, swap, together
-from .surface import Path, Surface, read
+from .surface import Path, Surface
 
 if TYPE_CHECKING:
     from mpi4py.MPI import Comm
@@ -196,12 +197,11 @@ def distributed(folder: Path, comm: Comm) -> DistributedMesh:
     return DistributedMesh(comm, together(comm, lambda: _kerf.mesh_of_rank(path, comm.rank, comm.size)))
 
 
-def mesh_on_ranks(surface: Union[Surface, Path], comm: Comm, parts: int = 0, size: float = 0, progress: Progress = None,
-                  workers: int = 0, output: Optional[Path] = None, **options: object) -> DistributedMesh:
+def mesh_on_ranks(surface: Union[Surface, Path], comm: Comm, /, parts: int = 0, size: float = 0,
+                  progress: Progress = None, workers: int = 0, output: Optional[Path] = None, **options: object) -> DistributedMesh:
     """kerf.mesh() with a communicator; DistributedMesh tells of it."""
     check_communicator(comm)
-    if not isinstance(surface, Surface):
-        surface = together(comm, lambda: read(surface))
+    surface, options = together(comm, lambda: surface_and_options(surface, options))
     numbers = together(comm, lambda: (index(parts), float(size), index(workers)))
     _require_same(comm, {"parts": parts, "size": size, **options},
                   {"surface.points": len(surface.points), "surface.volume": surface.volume})

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import Any, Iterable, Optional
+from typing import TYPE_CHECKING, Any, Iterable, Optional
+
+if TYPE_CHECKING:
+    from .defect import Defect
 
 
 @dataclass(frozen=True)
@@ -43,9 +46,14 @@ class UsageError(Error, ValueError):
 
 
 class InputError(Error, ValueError):
-    """The surface cannot be meshed as it is; `elements` has the facets and vertices."""
+    """The surface cannot be meshed as it is. `defects` has all that is wrong with it, as kerf.check() tells them: never
+    empty; `elements` the facets and vertices of those that the message is about."""
 
     code = 3
+
+    def __init__(self, message: str, elements: Iterable[dict[str, Any]] = (), defects: Iterable[Defect] = ()) -> None:
+        super().__init__(message, elements)
+        self.defects = list(defects) or [_defect_of(message, self.elements)]
 
 
 class MeshingError(Error, RuntimeError):
@@ -97,10 +105,27 @@ _classes = {each.code: each for each in (UsageError, InputError, MeshingError, O
                                          VerificationError, ConvergenceError, Cancelled)}
 
 
+def _defect_of(message: str, elements: list[dict[str, Any]]) -> Defect:
+    """The only one of an error that is not about the defects of a surface."""
+    import numpy as np
+
+    from .defect import Defect
+
+    def ids(*kinds: str) -> np.ndarray:
+        return np.array([i for each in elements if each["kind"] in kinds for i in each["ids"]], np.int64)
+
+    points = np.array([point for each in elements for point in each["points"]], float).reshape(-1, 3)
+    return Defect("refused surface", "error", message, ids("facet"), ids("vertex", "edge"), points)
+
+
 def error_of(code: int, message: str, elements: Iterable[dict[str, Any]],
-             failed_parts: Iterable[tuple[int, list[float], str, str]] = ()) -> Error:
-    """The exception of an exit code."""
-    error = _classes.get(code, Error)(message, elements)
+             failed_parts: Iterable[tuple[int, list[float], str, str]] = (), defects: Iterable[Defect] = ()) -> Error:
+    """The exception of an exit code; its message has the names of Python for options and arrays."""
+    from .options import in_python
+
+    kind = _classes.get(code, Error)
+    message = in_python(message)
+    error = kind(message, elements, defects) if kind is InputError else kind(message, elements)
     if failed_parts:
         error.failed_parts = [FailedPart._of(*each) for each in failed_parts]
     return error

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from . import _kerf, programs
 from .errors import UsageError
 from .notebook import html_of
+from .options import refuse_in_memory, split
 from .progress import Progress, caller
 from .surface import Path, Surface, read
 
@@ -123,35 +124,36 @@ class Mesh:
 
 
 @overload
-def mesh(surface: Union[Surface, Path], parts: int = 0, size: float = 0, progress: Progress = None, workers: int = 0,
-         output: None = None, comm: None = None, **options: object) -> Mesh: ...
+def mesh(surface: Union[Surface, Path], /, parts: int = 0, size: Union[float, str] = 0, progress: Progress = None,
+         workers: int = 0, output: None = None, comm: None = None, **options: object) -> Mesh: ...
 
 
 @overload
-def mesh(surface: Union[Surface, Path], parts: int = 0, size: float = 0, progress: Progress = None, workers: int = 0,
-         *, output: Path, comm: None = None, **options: object) -> Run: ...
+def mesh(surface: Union[Surface, Path], /, parts: int = 0, size: Union[float, str] = 0, progress: Progress = None,
+         workers: int = 0, *, output: Path, comm: None = None, **options: object) -> Run: ...
 
 
 @overload
-def mesh(surface: Union[Surface, Path], parts: int = 0, size: float = 0, progress: Progress = None, workers: int = 0,
-         output: Optional[Path] = None, *, comm: Comm, **options: object) -> DistributedMesh: ...
+def mesh(surface: Union[Surface, Path], /, parts: int = 0, size: Union[float, str] = 0, progress: Progress = None,
+         workers: int = 0, output: Optional[Path] = None, *, comm: Comm, **options: object) -> DistributedMesh: ...
 
 
-def mesh(surface: Union[Surface, Path], parts: int = 0, size: float = 0, progress: Progress = None, workers: int = 0,
-         output: Optional[Path] = None, comm: Optional[Comm] = None,
+def mesh(surface: Union[Surface, Path], /, parts: int = 0, size: Union[float, str] = 0, progress: Progress = None,
+         workers: int = 0, output: Optional[Path] = None, comm: Optional[Comm] = None,
          **options: object) -> Union[Mesh, Run, DistributedMesh]:
     """The mesh of a surface, or of a file.
 
     surface    a Surface, or the path of a file
     parts      into which the surface is cut; 0: as many as are of use here
-    size       wanted edge length, in units of the surface; 0: none
+    size       wanted edge length, in units of the surface, or as "2%" of the diagonal of its bounds; 0: none
     progress   True: a line on standard error; or called with (stage, done, total): returning False ends the work
     workers    processes that mesh parts; 0: one for each processor
     output     None: a Mesh in memory; else a folder, for what is larger than memory: a Run, whose parts are the same
                files that `kerf mesh -o` writes. An older run there is replaced; one that was interrupted, or has failed
                parts, goes on where it was
     comm       a communicator of mpi4py, all ranks of which call: each gets its own parts (help(kerf.DistributedMesh))
-    options    those of `kerf mesh`, with underscores
+    options    all others of `kerf mesh`, with underscores: kerf.options() lists them. Those of the surface, as
+               fill_holes, belong to where that is made, so here only to a file
 
     The result depends on the surface and the options alone. Raises UsageError, InputError, MeshingError, OutOfMemory,
     FileError, Cancelled; KeyboardInterrupt ends the workers.
@@ -162,9 +164,21 @@ def mesh(surface: Union[Surface, Path], parts: int = 0, size: float = 0, progres
         return mesh_on_ranks(surface, comm, parts, size, progress, workers, output, **options)
     if output is not None:
         return _run(surface, os.fspath(output), parts, size, workers, progress, options)
+    refuse_in_memory(options)
+    surface, options = surface_and_options(surface, options)
+    return Mesh(_kerf.mesh(surface._native, 0, 0.0, 0, caller(progress), programs.folder(), parts=parts, size=size,
+                           workers=workers, **options))
+
+
+def surface_and_options(surface: Union[Surface, Path], options: dict[str, Any]) -> tuple[Surface, dict[str, Any]]:
+    """The surface, if it is a file read with those of the options that are of it, and the others."""
+    of_surface, of_mesh = split(options)
     if not isinstance(surface, Surface):
-        surface = read(surface)
-    return Mesh(_kerf.mesh(surface._native, parts, size, workers, caller(progress), programs.folder(), **options))
+        return read(surface, **of_surface), of_mesh
+    if of_surface:
+        raise UsageError(f"{next(iter(of_surface))} is an option of the surface: give it to kerf.Surface(), kerf.read() "
+                         "or Surface.repair().")
+    return surface, of_mesh
 
 
 def _run(surface: Union[Surface, Path], folder: str, parts: int, size: float, workers: int, progress: Progress,
@@ -175,7 +189,8 @@ def _run(surface: Union[Surface, Path], folder: str, parts: int, size: float, wo
         raise UsageError(f"output is {folder}, a file of one mesh, but kerf.mesh() writes a folder. Name one, and give "
                          "the file to the merge() of the result; or leave output out, and give it to save().")
     given = surface._native if isinstance(surface, Surface) else os.fspath(surface)
-    _kerf.mesh_into(given, folder, parts, size, workers, caller(progress), programs.folder(), **options)
+    _kerf.mesh_into(given, folder, 0, 0.0, 0, caller(progress), programs.folder(), parts=parts, size=size,
+                    workers=workers, **options)
     return Run(folder)
 
 
@@ -186,7 +201,12 @@ class Tetrahedralization(NamedTuple):
     tets: np.ndarray
 
 
-def tetrahedralize(vertices: ArrayLike, faces: ArrayLike, size: float = 0, **options: Any) -> Tetrahedralization:
-    """nodes (n, 3) float64 and tets (m, 4) int64 of a closed surface of triangles; mesh() tells of the options."""
-    result = mesh(Surface(vertices, faces), size=size, **options)
+def tetrahedralize(vertices: ArrayLike, faces: ArrayLike, size: Union[float, str] = 0, progress: Progress = None,
+                   **options: Any) -> Tetrahedralization:
+    """nodes (n, 3) float64 and tets (m, 4) int64 of a closed surface of triangles.
+
+    options    those of Surface() and of mesh(), which tell what is raised
+    """
+    of_surface, of_mesh = split(options)
+    result = mesh(Surface(vertices, faces, **of_surface), size=size, progress=progress, **of_mesh)
     return Tetrahedralization(result.points, result.tetrahedra)

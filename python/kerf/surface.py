@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Optional, Sequence, Union
 
 import numpy as np
@@ -16,8 +17,30 @@ if TYPE_CHECKING:
     import meshio
     import pyvista
     import vtkmodules.vtkCommonDataModel as vtk
+    from .check import Check
 
 Path = Union[str, "os.PathLike[str]"]
+
+
+def encoded(path: Path) -> bytes:
+    """As the file system has it. Raises TypeError for what is no path, ValueError for a NUL in it."""
+    name = os.fsencode(path)
+    if b"\0" in name:
+        raise ValueError("The path has a character NUL in it.")
+    return name
+
+
+def encoded_names(what: str, names: Optional[Sequence[str]]) -> Optional[list[bytes]]:
+    """Names of patches or regions for the module. Raises TypeError for what is no sequence of str."""
+    if names is None:
+        return None
+    if isinstance(names, (str, bytes)) or not isinstance(names, Iterable):
+        raise TypeError(f"{what} is {names!r:.60}, but a list of str is wanted.")
+    names = list(names)
+    for name in names:
+        if not isinstance(name, str):
+            raise TypeError(f"{what} has {name!r:.60}, but a list of str is wanted.")
+    return [name.encode("utf-8", "surrogateescape") for name in names]
 
 
 class Surface:
@@ -30,16 +53,20 @@ class Surface:
     names      of the patches, or None: patch_0, patch_1, ...
     sides      (m, 2) whole numbers: the regions behind and in front of each triangle, as rows of `regions`, -1: outside
     regions    names of the regions; given together with `sides`
-    options    those of `kerf mesh` on the surface, with underscores: weld, voids, fill_holes, ...
+    options    those of the surface: scale, weld, fill_holes, keep_largest, voids, ... (kerf.options() lists them)
 
-    Raises UsageError, TypeError or ValueError for arrays that do not fit, and InputError for a surface that is not
-    closed or intersects itself. Everything is copied; its own arrays are read-only views.
+    Everything is copied and checked; points of equal coordinates become one. Its own arrays are read-only views: they
+    may have fewer rows than what was given. Raises TypeError or ValueError, naming the argument, for arrays with wrong
+    dtypes, shapes or lengths; UsageError for options; InputError, naming the row, for corners out of range, points that
+    are not finite, and triangles that have a corner twice; and InputError for a surface that is not closed, intersects
+    itself or bounds no body: its `defects` has all of them, as check() does. Cost: O(m log m), 0.4 M triangles in 4 s.
     """
 
     def __init__(self, points: ArrayLike, triangles: ArrayLike, patches: Optional[ArrayLike] = None,
                  names: Optional[Sequence[str]] = None, sides: Optional[ArrayLike] = None,
                  regions: Optional[Sequence[str]] = None, **options: object) -> None:
-        self._native = _kerf.Surface(points, triangles, patches, names, sides, regions, **options)
+        self._native = _kerf.Surface(points, triangles, patches, encoded_names("names", names), sides,
+                                     encoded_names("regions", regions), **options)
 
     @classmethod
     def _of(cls, native: _kerf.Surface) -> Surface:
@@ -112,13 +139,68 @@ class Surface:
         """Each triangle once, in squared units of the points."""
         return self._native.area
 
-    def remesh(self, size: float = 0, deviation: float = 0, progress: Progress = None) -> Surface:
-        """A surface with triangles worth meshing, nowhere farther than `deviation` from this one.
+    @property
+    def bounds(self) -> np.ndarray:
+        """(2, 3) float64: the smallest coordinates, and the largest."""
+        return np.stack([self.points.min(axis=0), self.points.max(axis=0)])
+
+    @property
+    def centroid(self) -> np.ndarray:
+        """(3,) float64: of the volume of all regions. O(m), as the inertia and the axes."""
+        return self._native.centroid
+
+    @property
+    def inertia(self) -> np.ndarray:
+        """(3, 3) float64: of the volume of all regions about the centroid, with a density of 1, so in units^5."""
+        return self._native.inertia
+
+    @property
+    def principal_axes(self) -> np.ndarray:
+        """(3, 3) float64: unit vectors as rows, in the order of `principal_moments`: the first is the long direction of
+        the body. The largest component of each is positive; of equal moments they are the coordinate axes, if can be.
+        """
+        return self._native.principal_axes
+
+    @property
+    def principal_moments(self) -> np.ndarray:
+        """(3,) float64: of the inertia, ascending."""
+        return self._native.principal_moments
+
+    def check(self, needle_angle: float = 1) -> Check:
+        """What may give bad cells: needles, short edges. There are no errors, or there would be no Surface: for arrays
+        and files that may be broken there is kerf.check()."""
+        from .check import check
+
+        return check(self, needle_angle=needle_angle)
+
+    def repair(self, **options: object) -> Surface:
+        """A surface of this one's arrays with options of the surface: keep_largest=True, weld=1e-3, scale=0.001, ...
+
+        What is broken cannot be a Surface: give the options where it is made, as Surface(points, triangles,
+        fill_holes=10) or read(path, weld="0.01%"). Raises as Surface() does.
+        """
+        of_regions = self.regions or None
+        return Surface(self.points, self.triangles, self.patches, self.names, self.sides if of_regions else None,
+                       of_regions, **options)
+
+    def remesh(self, size: Union[float, str] = 0, deviation: Union[float, str] = 0, progress: Progress = None,
+               **options: object) -> Surface:
+        """A surface with triangles worth meshing, nowhere farther than `deviation` from this one. Patches stay.
 
         size       wanted edge length; 0: as long as the deviation allows
-        deviation  in units of the points; 0: a twentieth of `size`
+        deviation  in units of the points; 0: a twentieth of `size`, or 0.05 % of the diagonal
+        progress   as of kerf.mesh()
+        options    the others on sizes: cells, fineness, size_on, size_in, size_region, chord_error, growth, ...
+
+        Lengths may be texts such as "2%", of the diagonal of the bounds. Raises UsageError for options, InputError
+        where the bound cannot be kept, OutOfMemory, Cancelled.
         """
-        return Surface._of(self._native.remesh(size, deviation, caller(progress)))
+        return Surface._of(self._native.remesh(caller(progress), size=size, deviation=deviation, **options))
+
+    def save(self, path: Path) -> None:
+        """Writes an .obj: all digits and the patches, or of several regions a closed group for each; or an .stl, of one
+        region, without patches and with 7 digits. Raises UsageError for another ending, FileError."""
+        self._native.save(encoded(path))
 
     def __repr__(self) -> str:
         regions = f", {len(self.regions)} regions" if self.regions else ""
@@ -133,8 +215,9 @@ class Surface:
 def read(path: Path, **options: object) -> Surface:
     """The surface of a file of any format that `kerf mesh` reads: STL, OBJ, PLY, OFF, MSH, MEDIT, VTU, .poly, 3MF, CAD.
 
-    options    those of `kerf mesh` on the surface, with underscores
+    options    those of the surface: scale, weld, fill_holes, keep_largest, voids, unit, ... (kerf.options() lists them);
+               with_=["other.stl"] reads other files, too: a region each
 
-    Raises FileError if it cannot be read, and InputError as Surface does.
+    Raises FileError if it cannot be opened, UsageError for options, and InputError as Surface() does.
     """
-    return Surface._of(_kerf.read(path, **options))
+    return Surface._of(_kerf.read(encoded(path), **options))

@@ -1,0 +1,188 @@
+"""The options of the command line as keyword arguments."""
+
+from __future__ import annotations
+
+import functools
+import keyword
+import numbers
+import os
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Optional
+
+import numpy as np
+
+from . import _kerf
+from .errors import UsageError
+
+#: Options of `kerf mesh` that a mesh in memory has no use for, and why.
+NOT_IN_MEMORY = {
+    "format": "says which files are written",
+    "fields": "says what the files of parts hold",
+    "patch_type": "is for a case of OpenFOAM",
+    "split_regions": "is for a case of OpenFOAM",
+    "stl": "writes files of the parts' surfaces",
+    "reference": "writes a comparison of two meshes",
+    "events": "writes what the program tells, as progress does here",
+}
+
+
+@dataclass(frozen=True)
+class Option:
+    """An option of `kerf mesh`.
+
+    name          as a keyword argument: max_volume for --max-volume
+    flag          on the command line: "--max-volume"
+    group         under which the help lists it: "Input", "Cuts", "Sizes", "Meshing", "Output", "Running", "Expert"
+    kind          "flag", "whole number", "number", "length" (with % of the diagonal, too), "memory" (as "2G"),
+                  "count" (as "50k"), "text", "choice" or "list"
+    form          of a value, as "NAME=H"; empty for flags and choices
+    help          one sentence, in the words of the command line
+    default       its value, as text, where it is not given; empty: none
+    choices       of a choice
+    is_of_surface whether it belongs to kerf.Surface() and kerf.read(), and not to the mesh
+    """
+
+    name: str
+    flag: str
+    group: str
+    kind: str
+    form: str
+    help: str
+    default: str
+    choices: tuple[str, ...]
+    is_of_surface: bool
+
+
+def options() -> list[Option]:
+    """All options of `kerf mesh`, in the order of its table. kerf.mesh() takes them as keyword arguments.
+
+    A flag is True or False; a length is a number or a text such as "2%"; a list is a list, a tuple, a single value or,
+    where its form has a =, a dict: size_region={"bone": 0.1}, region={"bone": (0, 1, 0)}, size_near={"top": (0.1, 2)}.
+    Paths may be os.PathLike. None is as if the option was not given.
+    """
+    return list(_table().values())
+
+
+@functools.lru_cache(maxsize=None)
+def _table() -> dict[str, Option]:
+    """By the names on the command line, without dashes."""
+    table = {}
+    for row in _kerf.option_rows():
+        flag = row.pop("name")
+        name = flag.replace("-", "_")
+        table[flag] = Option(name=name + "_" if keyword.iskeyword(name) else name, flag="--" + flag,
+                             choices=tuple(row.pop("choices")), **row)
+    return table
+
+
+def find(name: str) -> Option:
+    """The option with this keyword. Raises UsageError, with what it may have been meant to be, if there is none."""
+    option = _table().get(name.rstrip("_").replace("_", "-"))
+    if option is None:
+        meant = _kerf.did_you_mean(name, [each.name for each in _table().values()])
+        raise UsageError(f"{name} is no option.{meant} kerf.options() lists them all.")
+    return option
+
+
+def split(given: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Those of the surface, and the others."""
+    of_surface = {name: value for name, value in given.items() if find(name).is_of_surface}
+    return of_surface, {name: value for name, value in given.items() if name not in of_surface}
+
+
+def refuse_in_memory(given: Mapping[str, Any]) -> None:
+    """Raises UsageError for options of NOT_IN_MEMORY."""
+    for name, value in given.items():
+        reason = NOT_IN_MEMORY.get(find(name).name)
+        if reason and value is not None and value is not False:
+            raise UsageError(f"{name} {reason}: leave it out for a mesh in memory.")
+
+
+def texts(given: Mapping[str, Any]) -> list[tuple[str, bytes]]:
+    """Names and values as the command line has them; what is None is left out."""
+    result = []
+    for name, value in given.items():
+        option = find(name)
+        text = _text(option, value)
+        if text is not None:
+            if "\0" in text:
+                raise ValueError(f"{option.name} has a character NUL in it.")
+            result.append((option.flag[2:], os.fsencode(text)))
+    return result
+
+
+def _text(option: Option, value: Any) -> Optional[str]:
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    if value is None:
+        return None
+    if isinstance(value, Mapping):
+        if option.kind != "list" or "=" not in option.form:
+            raise TypeError(f"{option.name} takes no dict.")
+        value = [f"{_word(option, key)}={_joined(option, each)}" for key, each in value.items()]
+    is_several = isinstance(value, (list, tuple))
+    if option.kind == "list":
+        items = [_word(option, each) for each in (value if is_several else [value])]
+        return ";".join(re.sub(r"([;\\])", r"\\\1", item) for item in items)
+    if not is_several:
+        return _word(option, value)
+    if option.form != "LIST":
+        raise TypeError(f"{option.name} takes one value, but {_short(value)} has several.")
+    return ",".join(_word(option, each) for each in value)
+
+
+def _joined(option: Option, value: Any) -> str:
+    """What follows the = of a form such as NAME=H:D or NAME=x,y,z."""
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    if not isinstance(value, (list, tuple)):
+        return _word(option, value)
+    return (":" if ":" in option.form.rpartition("=")[2] else ",").join(_word(option, each) for each in value)
+
+
+def _word(option: Option, value: Any) -> str:
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, str):
+        return value
+    if isinstance(value, os.PathLike):
+        return os.fsdecode(value)
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, numbers.Integral):
+        return str(int(value))
+    if isinstance(value, numbers.Real) or type(value).__name__ == "Decimal":
+        number = float(value)
+        return str(int(number)) if number.is_integer() and abs(number) < 2**53 else repr(number)
+    wanted = f"a {option.kind}" if option.kind != "list" else "a list of " + option.form
+    raise TypeError(f"{option.name} is {_short(value)}, but it must be {wanted}.")
+
+
+def _short(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+#: What the kernel calls the arrays.
+_ARRAYS = {"facets": "triangles", "vertices": "points", "patch": "patches"}
+
+
+def in_python(text: str) -> str:
+    """A text of the command line with the names of Python: --max-volume is max_volume, --voids parity voids="parity"."""
+    text = re.sub(r"--([a-z]+(?:-[a-z]+)*)(?: ([a-z]+(?:-[a-z]+)*|\d+))?", _name_in_python, text)
+    return re.sub(r"\b(facets|vertices|patch)\[", lambda found: _ARRAYS[found[1]] + "[", text)
+
+
+def _name_in_python(found: re.Match[str]) -> str:
+    option, value = _table().get(found[1]), found[2]
+    if found[1] == "needle-angle":
+        return found[0][2:].replace("-", "_", 1)
+    if option is None:
+        return found[0]
+    if value in option.choices:
+        return f'{option.name}="{value}"'
+    if value and value.isdigit():
+        return f"{option.name}={value}"
+    return option.name + (f" {value}" if value else "")
