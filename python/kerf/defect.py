@@ -17,7 +17,7 @@ class Defect:
     text       what it is, where, and what to do about it
     facets     (f,) int64: rows of the triangles; of a file, numbers of its faces, counted from 0
     vertices   (k,) int64: rows of the points, or numbers of the file's; of a loop in the order of going around
-    points     (k, 3) float64: coordinates of the vertices; without vertices, or of a rejected file, places at the defect
+    points     (k, 3) float64: coordinates of the vertices; places at the defect where there are none, or no surface
     measure    length of an open loop or a short edge, angle of a needle in degrees, distance between two bodies, else 0
     regions    names of the regions that have it, or between which it is; empty if there is only one
     advice     what to do about it; empty where the text is all that is known

@@ -198,7 +198,8 @@ def distributed(folder: Path, comm: Comm) -> DistributedMesh:
 
 
 def mesh_on_ranks(surface: Union[Surface, Path], comm: Comm, /, parts: int = 0, size: float = 0,
-                  progress: Progress = None, workers: int = 0, output: Optional[Path] = None, **options: object) -> DistributedMesh:
+                  progress: Progress = None, workers: int = 0, output: Optional[Path] = None,
+                  **options: object) -> DistributedMesh:
     """kerf.mesh() with a communicator; DistributedMesh tells of it."""
     check_communicator(comm)
     surface, options = together(comm, lambda: surface_and_options(surface, options))

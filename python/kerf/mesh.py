@@ -176,8 +176,8 @@ def surface_and_options(surface: Union[Surface, Path], options: dict[str, Any]) 
     if not isinstance(surface, Surface):
         return read(surface, **of_surface), of_mesh
     if of_surface:
-        raise UsageError(f"{next(iter(of_surface))} is an option of the surface: give it to kerf.Surface(), kerf.read() "
-                         "or Surface.repair().")
+        raise UsageError(f"{next(iter(of_surface))} is an option of the surface: give it to kerf.Surface(), "
+                         "kerf.read() or Surface.repair().")
     return surface, of_mesh
 
 

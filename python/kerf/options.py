@@ -170,7 +170,7 @@ _ARRAYS = {"facets": "triangles", "vertices": "points", "patch": "patches"}
 
 
 def in_python(text: str) -> str:
-    """A text of the command line with the names of Python: --max-volume is max_volume, --voids parity voids="parity"."""
+    """A text of the command line as Python has it: --max-volume is max_volume, --voids parity is voids="parity"."""
     text = re.sub(r"--([a-z]+(?:-[a-z]+)*)(?: ([a-z]+(?:-[a-z]+)*|\d+))?", _name_in_python, text)
     return re.sub(r"\b(facets|vertices|patch)\[", lambda found: _ARRAYS[found[1]] + "[", text)
 

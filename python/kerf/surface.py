@@ -215,7 +215,7 @@ class Surface:
 def read(path: Path, **options: object) -> Surface:
     """The surface of a file of any format that `kerf mesh` reads: STL, OBJ, PLY, OFF, MSH, MEDIT, VTU, .poly, 3MF, CAD.
 
-    options    those of the surface: scale, weld, fill_holes, keep_largest, voids, unit, ... (kerf.options() lists them);
+    options    those of the surface: scale, weld, fill_holes, keep_largest, voids, unit, ...: kerf.options() lists them;
                with_=["other.stl"] reads other files, too: a region each
 
     Raises FileError if it cannot be opened, UsageError for options, and InputError as Surface() does.
