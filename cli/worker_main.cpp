@@ -76,7 +76,7 @@ int main(int argc, char** argv) {
         const auto attempt = from_bytes<PartAttempt>(read_all(STDIN_FILENO));
         const PartJob job = read_job(attempt.job_file);
         const double load_seconds = loading.seconds();
-        result = run_part_job(job, attempt.call, attempt.part_file);
+        result = run_part_job(job, attempt.call, attempt.part_file, attempt.durable);
         result.load_seconds = load_seconds;
     } catch (const Error& e) {
         result.code = static_cast<int>(e.code());

@@ -82,20 +82,34 @@ std::vector<std::array<std::int32_t, N>> rows_of(const py::object& object, const
     return rows;
 }
 
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+Doubles doubles_of(const py::object& object, py::ssize_t columns, const char* name) {
+    const py::array array = as_array(object, name, "fiu", "numbers");
+    check_shape(array, columns, name);
+    Doubles numbers = Doubles::ensure(array);
+    if (!numbers) throw py::error_already_set();
+    return numbers;
+}
+
 }  // namespace
 
 std::vector<std::array<double, 3>> points_of(const py::object& object, const char* name) {
-    const py::array array = as_array(object, name, "fiu", "numbers");
-    check_shape(array, 3, name);
-    std::vector<std::array<double, 3>> rows(static_cast<std::size_t>(array.size()) / 3);
-    if (rows.empty()) return rows;
-    const py::array_t<double> numbers = in_one_piece<double>(array);
-    std::memcpy(rows.data(), numbers.data(), rows.size() * sizeof(rows[0]));
+    const Doubles numbers = doubles_of(object, 3, name);
+    std::vector<std::array<double, 3>> rows(static_cast<std::size_t>(numbers.size()) / 3);
+    if (!rows.empty()) std::memcpy(rows.data(), numbers.data(), rows.size() * sizeof(rows[0]));
     return rows;
 }
 
 std::vector<std::array<std::int32_t, 3>> triangles_of(const py::object& array, const char* name) {
     return rows_of<3>(array, name);
+}
+std::vector<std::array<std::int32_t, 4>> tetrahedra_of(const py::object& array, const char* name) {
+    return rows_of<4>(array, name);
+}
+std::vector<double> lengths_of(const py::object& array, const char* name) {
+    const Doubles numbers = doubles_of(array, 0, name);
+    return {numbers.data(), numbers.data() + numbers.size()};
 }
 std::vector<std::array<std::int32_t, 2>> pairs_of(const py::object& array, const char* name) {
     return rows_of<2>(array, name);

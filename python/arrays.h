@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -36,11 +37,22 @@ inline py::array_t<double> view(const std::vector<Vec3>& points, py::handle owne
     return view(points.empty() ? nullptr : points.front().data(), {std::ssize(points), 3}, owner);
 }
 
+/// A read-only array that keeps the rows itself.
+template <class Rows>
+py::array owned(Rows rows) {
+    auto kept = std::make_unique<Rows>(std::move(rows));
+    Rows* const data = kept.get();
+    const py::capsule owner(kept.release(), [](void* pointer) { delete static_cast<Rows*>(pointer); });
+    return view(*data, owner);
+}
+
 /// Whatever numpy makes an array of, as rows of N numbers; N = 1: as numbers. Throws ValueError or TypeError, naming
 /// the argument, its shape or type and, for whole numbers that do not fit in 32 bits, the row.
 std::vector<std::array<double, 3>> points_of(const py::object& array, const char* name);
 std::vector<std::array<std::int32_t, 3>> triangles_of(const py::object& array, const char* name);
 std::vector<std::array<std::int32_t, 2>> pairs_of(const py::object& array, const char* name);
+std::vector<std::array<std::int32_t, 4>> tetrahedra_of(const py::object& array, const char* name);
+std::vector<double> lengths_of(const py::object& array, const char* name);
 std::vector<std::int32_t> numbers_of(const py::object& array, const char* name);
 
 }  // namespace kerf::python

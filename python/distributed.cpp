@@ -17,10 +17,10 @@ namespace {
 
 // Knows ranks as messages alone: kerf._mpi makes them of a communicator of MPI.
 void mesh_on_ranks_into(Communicator& ranks, std::int32_t processors, const SurfaceObject& surface,
-                        const std::string& folder, std::int32_t parts, double size, std::int32_t workers,
-                        const py::object& progress, const std::string& programs, const py::kwargs& options) {
+                        const std::string& folder, const py::object& sizes, const py::object& progress,
+                        const std::string& programs, const py::kwargs& options) {
     Watch watch(progress);
-    const MeshOptions wanted = mesh_options(parts, size, workers, programs, options, watch);
+    const MeshOptions wanted = mesh_options(sizes, programs, options, watch);
     without_lock(watch, [&] {
         run_together(ranks, [&] { mesh_on_ranks(surface.surface, wanted, folder, processors, ranks); });
     });
@@ -64,8 +64,7 @@ void register_distributed(py::module_& module) {
     module.def("mesh_of_rank", &mesh_of_rank, py::call_guard<py::gil_scoped_release>(), py::arg("folder"),
                py::arg("rank"), py::arg("ranks"));
     module.def("mesh_on_ranks", &mesh_on_ranks_into, py::arg("ranks"), py::arg("processors"), py::arg("of"),
-               py::arg("folder"), py::arg("k"), py::arg("edge"), py::arg("w"), py::arg("progress") = py::none(),
-               py::arg("programs") = "");
+               py::arg("folder"), py::arg("sizes"), py::arg("progress"), py::arg("programs"), py::pos_only());
 }
 
 }  // namespace kerf::python

@@ -4,6 +4,7 @@
 
 #include "python/arrays.h"
 #include "python/options.h"
+#include "python/sizes.h"
 #include "python/surface_object.h"
 
 namespace kerf::python {
@@ -12,19 +13,18 @@ namespace py = pybind11;
 
 namespace {
 
-std::shared_ptr<MeshArrays> mesh(const SurfaceObject& surface, std::int32_t parts, double size, std::int32_t workers,
-                                 const py::object& progress, const std::string& programs, const py::kwargs& options) {
+std::shared_ptr<MeshArrays> mesh(const SurfaceObject& surface, const py::object& sizes, const py::object& progress,
+                                 const std::string& programs, const py::kwargs& options) {
     Watch watch(progress);
-    const MeshOptions wanted = mesh_options(parts, size, workers, programs, options, watch);
+    const MeshOptions wanted = mesh_options(sizes, programs, options, watch);
     return without_lock(watch, [&] { return std::make_shared<MeshArrays>(mesh_to_arrays(surface.surface, wanted)); });
 }
 
 // `surface`: a Surface, or the path of a file.
-void mesh_into(const py::object& surface, const std::string& folder, std::int32_t parts, double size,
-               std::int32_t workers, const py::object& progress, const std::string& programs,
-               const py::kwargs& options) {
+void mesh_into(const py::object& surface, const std::string& folder, const py::object& sizes,
+               const py::object& progress, const std::string& programs, const py::kwargs& options) {
     Watch watch(progress);
-    const MeshOptions wanted = mesh_options(parts, size, workers, programs, options, watch);
+    const MeshOptions wanted = mesh_options(sizes, programs, options, watch);
     if (py::isinstance<SurfaceObject>(surface)) {
         const ClosedSurface& closed = surface.cast<SurfaceObject&>().surface;
         without_lock(watch, [&] { mesh_to_folder(closed, wanted, folder); });
@@ -32,6 +32,13 @@ void mesh_into(const py::object& surface, const std::string& folder, std::int32_
         const std::string path = py::str(surface);
         without_lock(watch, [&] { mesh_file_to_folder(path, wanted, folder); });
     }
+}
+
+// What follows from a mesh, without the interpreter's lock.
+template <class Measure>
+auto measured(const MeshArrays& mesh, Measure measure) {
+    const py::gil_scoped_release released;
+    return measure(mesh);
 }
 
 template <class Member>
@@ -50,6 +57,20 @@ void register_mesh(py::module_& module) {
         .def_property_readonly("triangles", array_of(&MeshArrays::triangles))
         .def_property_readonly("patch", array_of(&MeshArrays::patch))
         .def_property_readonly("sides", array_of(&MeshArrays::sides))
+        .def_property_readonly("report", [](const MeshArrays& self) { return self.report; })
+        .def("neighbours",
+             [](const MeshArrays& self) {
+                 return owned(measured(self, [](const auto& mesh) { return neighbours_of(mesh); }));
+             })
+        .def("cell_quality",
+             [](const MeshArrays& self, const std::string& measure) {
+                 return owned(measured(self, [&](const auto& mesh) { return cell_quality(mesh, measure); }));
+             })
+        .def("quality",
+             [](const MeshArrays& self) {
+                 const QualityTexts texts = measured(self, [](const auto& mesh) { return quality_texts(mesh); });
+                 return py::make_tuple(texts.json, texts.text);
+             })
         .def_property_readonly("patch_names", [](const MeshArrays& self) { return self.patch_names; })
         .def_property_readonly("region_names", [](const MeshArrays& self) { return self.region_names; })
         .def(
@@ -60,11 +81,10 @@ void register_mesh(py::module_& module) {
                 without_lock(watch, [&] { mesh_to_file(self, path, options); });
             },
             py::arg("path"), py::arg("msh_version"), py::arg("msh_ascii"));
-    // Names that no option has: "surface" and the others are among the options.
-    module.def("mesh", &mesh, py::arg("of"), py::arg("k"), py::arg("edge"), py::arg("w"),
-               py::arg("progress") = py::none(), py::arg("programs") = "");
-    module.def("mesh_into", &mesh_into, py::arg("of"), py::arg("folder"), py::arg("k"), py::arg("edge"), py::arg("w"),
-               py::arg("progress") = py::none(), py::arg("programs") = "");
+    module.def("mesh", &mesh, py::arg("of"), py::arg("sizes"), py::arg("progress"), py::arg("programs"),
+               py::pos_only());
+    module.def("mesh_into", &mesh_into, py::arg("of"), py::arg("folder"), py::arg("sizes"), py::arg("progress"),
+               py::arg("programs"), py::pos_only());
     module.def("mesh_of_run", [](const std::string& folder) {
         const py::gil_scoped_release released;
         return std::make_shared<MeshArrays>(arrays_of_run(folder));

@@ -7,6 +7,7 @@
 #include "python/part.h"
 #include "python/plotting.h"
 #include "python/run.h"
+#include "python/sizes.h"
 #include "python/surface.h"
 #include "python/tree.h"
 
@@ -20,6 +21,7 @@ PYBIND11_MODULE(_kerf, module) {
     kerf::python::register_options(module);
     kerf::python::register_check(module);
     kerf::python::register_surface(module);
+    kerf::python::register_sizes(module);
     kerf::python::register_mesh(module);
     kerf::python::register_part(module);
     kerf::python::register_run(module);

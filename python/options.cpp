@@ -6,6 +6,7 @@
 #include <pybind11/stl.h>
 
 #include "help/nearest.h"
+#include "python/sizes.h"
 #include "request/options.h"
 
 namespace kerf::python {
@@ -60,15 +61,13 @@ void register_options(py::module_& module) {
     module.def("did_you_mean", &did_you_mean, py::arg("word"), py::arg("candidates"));
 }
 
-MeshOptions mesh_options(std::int32_t parts, double size, std::int32_t workers, const std::string& programs,
-                         const py::kwargs& options, Watch& watch) {
-    return {.size = size,
-            .parts = parts,
-            .workers = workers,
-            .others = named_options(options),
+MeshOptions mesh_options(const py::object& sizes, const std::string& programs, const py::kwargs& options,
+                         Watch& watch) {
+    return {.others = named_options(options),
             .programs = programs,
             .progress = watch.progress(),
-            .is_cancelled = watch.is_cancelled()};
+            .is_cancelled = watch.is_cancelled(),
+            .sizes = sizes.is_none() ? nullptr : sizes.cast<SizesObject&>().sizes};
 }
 
 template <class Question>

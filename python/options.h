@@ -41,9 +41,9 @@ class Watch {
     std::atomic<bool> has_raised_ = false;
 };
 
-/// Those of mesh(), told to a watch that must outlive them.
-MeshOptions mesh_options(std::int32_t parts, double size, std::int32_t workers, const std::string& programs,
-                         const pybind11::kwargs& options, Watch& watch);
+/// Those of mesh(), all by their names, with a SizeField or None; told to a watch that must outlive them.
+MeshOptions mesh_options(const pybind11::object& sizes, const std::string& programs, const pybind11::kwargs& options,
+                         Watch& watch);
 
 /// Runs work() without the interpreter's lock; what the watch has raised comes before Error(cancelled).
 template <class Work>

@@ -129,15 +129,10 @@ void register_parts(py::module_& module) {
         .def_readonly("names", &PartJob::patch_names);
 }
 
-std::shared_ptr<CutTree> decompose(const SurfaceObject& surface, std::int32_t parts, double size,
-                                   const py::object& progress, const std::string& programs, const py::kwargs& options) {
+std::shared_ptr<CutTree> decompose(const SurfaceObject& surface, const py::object& sizes, const py::object& progress,
+                                   const std::string& programs, const py::kwargs& options) {
     Watch watch(progress);
-    const MeshOptions wanted = {.size = size,
-                                .parts = parts,
-                                .others = named_options(options),
-                                .programs = programs,
-                                .progress = watch.progress(),
-                                .is_cancelled = watch.is_cancelled()};
+    const MeshOptions wanted = mesh_options(sizes, programs, options, watch);
     return without_lock(watch, [&] { return std::make_shared<CutTree>(cut_to_tree(surface.surface, wanted)); });
 }
 
@@ -163,8 +158,8 @@ void register_tree(py::module_& module) {
         .def(
             "text", [](const CutTree& self, bool every_node) { return tree_text(self.nodes, every_node); },
             py::arg("every_node"));
-    module.def("decompose", &decompose, py::arg("closed_surface"), py::arg("parts") = 8, py::arg("size") = 0.,
-               py::arg("progress") = py::none(), py::arg("programs") = "");
+    module.def("decompose", &decompose, py::arg("of"), py::arg("sizes"), py::arg("progress"), py::arg("programs"),
+               py::pos_only());
 }
 
 }  // namespace kerf::python

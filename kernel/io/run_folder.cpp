@@ -292,6 +292,12 @@ RunFolder RunFolder::create(const std::string& path,
     return folder;
 }
 
+RunFolder RunFolder::create_transient(const std::string& path) {
+    RunFolder folder(path, path, false);
+    for (const char* name : {"parts", "work/jobs"}) create_folder(folder.file(name));
+    return folder;
+}
+
 void RunFolder::keep_only(const std::vector<int>& leaves) const {
     std::set<std::string> kept;
     for (const int leaf : leaves) {

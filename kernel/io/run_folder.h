@@ -52,6 +52,9 @@ class RunFolder {
     /// system without locks keeps nobody out.
     static RunFolder create(const std::string& path,
                             const std::function<bool(const std::string& saved_run)>& continues = {});
+    /// A folder for a run that leaves none: `path` itself, new, without locks and whatever continues a run. Who has
+    /// made the folder above removes it. Throws Error(io).
+    static RunFolder create_transient(const std::string& path);
     /// Opens the partial folder that another rank has created. Throws Error(io) if this host does not see it.
     static RunFolder join(const std::string& partial_path);
     /// saved_run_file() of a run into `path` that was interrupted or has failed parts; where it would lie if there is

@@ -2,16 +2,19 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include "core/version.h"
 #include "export/merged_file.h"
-#include "export/whole_mesh.h"
+#include "io/file_bytes.h"
 #include "io/program_finder.h"
 #include "io/temporary_folder.h"
 #include "kerf/array_parts.h"
+#include "kerf/array_points.h"
+#include "kerf/arrays_of_parts.h"
 #include "kerf/mesh_on_ranks.h"
 #include "kerf/progress_listener.h"
 #include "kerf/run_request.h"
@@ -40,6 +43,15 @@ FailedPart failed_part(const RunReport& report, const PartReport& part) {
             fmt::format("{}/failed/part_{:04}.txt", report.folder, part.id)};
 }
 
+[[noreturn]] void refuse_sizes(const std::string& what) { throw Error(ErrorCode::input, "The sizes given: " + what); }
+
+// Null for none.
+std::shared_ptr<const SizedMesh> sized_mesh_of(const GivenSizes* given) {
+    if (!given) return nullptr;
+    check_sizes(*given);
+    return std::make_shared<const SizedMesh>(SizedMesh{to_points(given->vertices), given->tets, given->sizes});
+}
+
 // What keeps a run from being a result.
 void require_success(const RunReport& report) {
     if (report.exit_code == 0) return;
@@ -53,17 +65,36 @@ void require_success(const RunReport& report) {
     throw PartsFailed(code, message, std::move(failed));
 }
 
+// Makes the arrays of what a transient run has meshed.
+class ArraysListener : public ProgressListener {
+ public:
+    ArraysListener(const MeshOptions& options, int threads)
+        : ProgressListener(options.progress, options.is_cancelled), threads_(threads) {}
+    void on_meshes(const StoredParts& parts) override { mesh = arrays_of_parts(parts, threads_); }
+
+    MeshArrays mesh;
+
+ private:
+    int threads_;
+};
+
+void refuse_files(const RunOptions& options) {
+    const auto refuse = [](const char* option) {
+        throw Error(ErrorCode::usage, fmt::format("--{} asks for files of a run folder, but the mesh is wanted in "
+                                                  "memory. Leave it out, or name a folder for the run.",
+                                                  option));
+    };
+    if (!options.formats.empty()) refuse("format");
+    if (options.stl) refuse("stl");
+}
+
 int all_processors() { return static_cast<int>(std::max<std::size_t>(1, allowed_processors().size())); }
 
-// Corners, patches and sides of a part's triangles on the user's surface. What is in front is the number of the part
-// there, or -1.
-void add_boundary(const Part& part, MeshArrays& mesh) {
-    for (std::size_t f = 0; f < part.facets.size(); ++f) {
-        if (!part.is_listed(f)) continue;
-        mesh.triangles.push_back(global_corners(part, part.facets[f]));
-        mesh.patch.push_back(part.patch[f]);
-        mesh.sides.push_back({part.region_of(0).value(), part.is_wall(f) ? part.neighbour[f] : -1});
-    }
+// A copy that may be cut as it is.
+Input ready_input(const ClosedSurface& surface) {
+    Input input = surface.input();
+    input.is_ready = true;
+    return input;
 }
 
 ClosedSurface remeshed_as(const ClosedSurface& surface, const RunOptions& options, const Progress& progress,
@@ -100,6 +131,7 @@ RunOptions run_options(const std::string& input, const MeshOptions& options, con
     run.decompose.parts = options.parts;
     run.workers = options.workers;
     set_options(run, texts, "MeshOptions::others");
+    run.sizes.background = sized_mesh_of(options.sizes.get());
     run.output = folder;
     run.input = input;
     run.worker_program = find_kerf_program("kerf-worker", options.programs);
@@ -166,10 +198,29 @@ ClosedSurface remeshed(const ClosedSurface& surface, const NamedOptions& options
     return remeshed_as(surface, wanted, progress, is_cancelled);
 }
 
+void check_sizes(const GivenSizes& given) {
+    const auto& [vertices, tets, sizes] = given;
+    if (sizes.size() != vertices.size())
+        refuse_sizes(fmt::format("there are {} for {} points.", sizes.size(), vertices.size()));
+    if (tets.empty()) refuse_sizes("they have no tetrahedra.");
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+        const auto& [x, y, z] = vertices[v];
+        if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
+            refuse_sizes(fmt::format("point {} (counted from 0) is ({}, {}, {}), which is no place.", v, x, y, z));
+        if (!(sizes[v] > 0) || !std::isfinite(sizes[v]))
+            refuse_sizes(
+                fmt::format("that of point {} (counted from 0) is {}, but edge lengths are positive.", v, sizes[v]));
+    }
+    for (std::size_t t = 0; t < tets.size(); ++t)
+        for (const std::int32_t v : tets[t])
+            if (v < 0 || std::cmp_greater_equal(v, vertices.size()))
+                refuse_sizes(fmt::format("tetrahedron {} (counted from 0) has the corner {}, but there are {} points.",
+                                         t, v, vertices.size()));
+}
+
 void mesh_on_ranks(const ClosedSurface& surface, const MeshOptions& options, const std::string& folder,
                    int cores_of_rank, Communicator& ranks) {
-    Input input = surface.input();
-    input.is_ready = true;
+    Input input = ready_input(surface);
     ProgressListener listener(options.progress, options.is_cancelled);
     const RunOptions request = in_agreement(ranks, [&] {
         refuse_options_of_surface(options.others);
@@ -193,31 +244,24 @@ void mesh_file_to_folder(const std::string& path, const MeshOptions& options, co
 MeshArrays mesh_to_arrays(const ClosedSurface& surface, const MeshOptions& options) {
     const std::string stem = (fs::temp_directory_path() / "kerf").string();
     const TemporaryFolder folder(stem, "make a folder " + stem + ".XXXXXX", "Set TMPDIR.");
-    mesh_to_folder(surface, options, folder.path() + "/run");
-    return arrays_of_run(folder.path() + "/run");
+    Input input = ready_input(surface);
+    refuse_options_of_surface(options.others);
+    RunOptions request = run_options(input.path, options, folder.path() + "/run");
+    refuse_files(request);
+    request.transient = true;
+    SingleRank alone;
+    ArraysListener listener(options, all_processors());
+    const RunReport report = run(request, all_processors(), alone, input, &listener);
+    require_success(report);
+    listener.mesh.report = to_json(report);
+    return std::move(listener.mesh);
 }
 
 MeshArrays arrays_of_run(const std::string& folder) {
-    const std::unique_ptr<PartSource> parts = open_parts(folder);
-    const MeshOutline& outline = parts->outline();
-    MeshArrays mesh;
-    mesh.patch_names = outline.patch_names;
-    mesh.region_names = outline.region_names;
-    mesh.vertices.reserve(static_cast<std::size_t>(outline.vertices));
-    mesh.tets.reserve(static_cast<std::size_t>(outline.tets()));
-    for_each_vertex(*parts, [&](std::int64_t, std::span<const Vec3> points) {
-        for (const Vec3& p : points) mesh.vertices.push_back(to_array(p));
-    });
-    Array<PartIndex, std::int32_t> region_of_part;
-    for_each_part(*parts, PartContent::cells, [&](PartIndex, const Part& part) {
-        for (const Tetrahedron& tet : part.mesh.tets) mesh.tets.push_back(global_corners(part, tet));
-        mesh.part.insert(mesh.part.end(), part.mesh.tets.size(), part.id);
-        mesh.region.insert(mesh.region.end(), part.mesh.tets.size(), part.region_of(0).value());
-        region_of_part.push_back(part.region_of(0).value());
-        add_boundary(part, mesh);
-    });
-    for (auto& [behind, in_front] : mesh.sides)
-        if (in_front >= 0) in_front = region_of_part[outline.index_of(in_front)];
+    MeshArrays mesh = arrays_of_parts(*open_parts(folder));
+    std::error_code ignored;
+    if (const std::string report = folder + "/report.json"; fs::exists(report, ignored))
+        mesh.report = read_file(report);
     return mesh;
 }
 

@@ -144,6 +144,17 @@ ClosedSurface remeshed(const ClosedSurface& surface, double deviation, double si
 ClosedSurface remeshed(const ClosedSurface& surface, const NamedOptions& options, const Progress& progress = {},
                        const IsCancelled& is_cancelled = {});
 
+/// Wanted edge lengths at the vertices of tetrahedra that cover the surface: linear in these, and growing away from
+/// them outside. Cells may have any orientation and overlap: then the smaller size counts.
+struct GivenSizes {
+    std::vector<std::array<double, 3>> vertices;
+    std::vector<std::array<std::int32_t, 4>> tets;
+    std::vector<double> sizes;  ///< #vertices; positive, in units of the surface
+};
+
+/// Throws Error(input), naming the row, for what is no place, no positive length, or no corner; else does nothing.
+void check_sizes(const GivenSizes& sizes);
+
 struct MeshOptions {
     double size = 0;                              ///< wanted edge length, in units of the surface; 0: none
     std::int32_t parts = 0;                       ///< into which the surface is cut; 0: as many as are of use here
@@ -152,6 +163,7 @@ struct MeshOptions {
     std::string programs = KERF_PROGRAMS_FOLDER;  ///< folder of kerf-worker, looked at first
     Progress progress = {};
     IsCancelled is_cancelled = {};
+    std::shared_ptr<const GivenSizes> sizes = {};  ///< beside `size`: the smallest that is wanted at a point counts
 };
 
 /// A part that could not be meshed.
@@ -185,10 +197,13 @@ struct MeshArrays {
     std::vector<std::int32_t> region;                ///< #tets; an index into region_names, 0 if there is one region
     std::vector<std::string> region_names;           ///< empty if there is one region
     std::vector<std::array<std::int32_t, 2>> sides;  ///< #triangles; as of facets: behind, in front
+    std::string report = {};                         ///< report.json of the run (docs/output.md); may be empty
 };
 
-/// Meshes in memory, but for files of the parts in a temporary folder (TMPDIR). Every law of the mesh is verified.
-/// Throws PartsFailed if a part could not be meshed, and as mesh_to_folder() does.
+/// Meshes in memory, but for files of the parts in a temporary folder (TMPDIR), which is gone when this returns or
+/// throws. Every law of the mesh is verified. Memory: that of the result and a few megabytes for each worker, once the
+/// surface is cut. Throws PartsFailed if a part could not be meshed, Error(input) for given sizes that are no
+/// sizes, Error(usage) for options that ask for files of formats, and as mesh_to_folder() does.
 MeshArrays mesh_to_arrays(const ClosedSurface& surface, const MeshOptions& options = {});
 
 /// The same as a run folder (docs/output.md), which replaces an older run there. Throws Error(usage) for an option out
@@ -212,5 +227,20 @@ struct MeshFileOptions {
 /// Writes a mesh into a file, whose ending chooses the format, as `kerf merge` does. Its arrays must be as the
 /// functions above return them. Throws Error(usage) for another ending, naming those that there are, and Error(io).
 void mesh_to_file(const MeshArrays& mesh, const std::string& path, const MeshFileOptions& options = {});
+/// Of each tetrahedron those on the other sides of the faces opposite to its corners, -1 outside. O(n), some 110 ns a
+/// tetrahedron. Throws Error(usage) for more than 2^31 vertices or tetrahedra, and so do the functions below.
+std::vector<std::array<std::int64_t, 4>> neighbours_of(const MeshArrays& mesh);
+
+/// A measure of each tetrahedron: min-dihedral, max-dihedral (degrees), radius-edge, aspect, shape, volume, min-edge,
+/// max-edge. Some 60 ns each. Throws Error(usage) for a name that is none of them.
+std::vector<double> cell_quality(const MeshArrays& mesh, const std::string& measure);
+
+/// What `kerf quality` says of a run with this mesh, but for its path.
+struct QualityTexts {
+    std::string text;  ///< its tables
+    std::string json;  ///< of --json
+};
+/// Some 200 ns a tetrahedron; memory: of one part at a time.
+QualityTexts quality_texts(const MeshArrays& mesh);
 
 }  // namespace kerf

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "kerf/array_points.h"
 #include "mesh/adjacency.h"
 
 namespace kerf {
@@ -47,8 +48,7 @@ TetMesh joined_mesh(const MeshArrays& mesh) {
                     "The mesh is too large to be taken apart: it has more than 2^31 vertices or "
                     "tetrahedra. Mesh into a folder.");
     TetMesh whole;
-    whole.vertices.reserve(mesh.vertices.size());
-    for (const auto& [x, y, z] : mesh.vertices) whole.vertices.emplace_back(x, y, z);
+    whole.vertices = to_points(mesh.vertices);
     whole.tets.reserve(mesh.tets.size());
     for (const auto& tet : mesh.tets)
         whole.tets.push_back({static_cast<std::int32_t>(tet[0]), static_cast<std::int32_t>(tet[1]),

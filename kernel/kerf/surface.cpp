@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "kerf/array_points.h"
 #include "kerf/kerf.h"
 #include "prepare/surface_file.h"
 #include "report/file_diagnosis.h"
@@ -96,9 +97,8 @@ ClosedSurface surface_of(const Make& make, const Diagnose& diagnose) {
 Soup to_soup(std::span<const std::array<double, 3>> vertices, std::span<const std::array<std::int32_t, 3>> facets,
              std::span<const std::array<std::int32_t, 2>> sides, std::vector<std::string> region_names,
              std::span<const std::int32_t> patches, std::vector<std::string> patch_names) {
-    Soup soup{{}, {facets.begin(), facets.end()}, {patches.begin(), patches.end()}, std::move(patch_names)};
-    soup.vertices.reserve(vertices.size());
-    for (const auto& [x, y, z] : vertices) soup.vertices.emplace_back(x, y, z);
+    Soup soup{
+        to_points(vertices), {facets.begin(), facets.end()}, {patches.begin(), patches.end()}, std::move(patch_names)};
     soup.sides.reserve(sides.size());
     for (const auto& [behind, in_front] : sides) soup.sides.push_back({.front = in_front, .back = behind});
     soup.region_names = std::move(region_names);

@@ -44,6 +44,7 @@ struct Boundary {
                                            path));
 }
 
+// But for the corners of its tetrahedra.
 bool is_consistent(const Part& part, std::size_t ids, std::uint64_t vertices, std::uint64_t tets) {
     const std::size_t facets = part.facets.size();
     const std::size_t boundary = part.mesh.boundary_vertex_count;
@@ -51,7 +52,6 @@ bool is_consistent(const Part& part, std::size_t ids, std::uint64_t vertices, st
     bool holds = part.mesh.boundary_vertex_count >= 0 && boundary <= vertices && ids == boundary &&
                  part.patch.size() == facets && part.facet.size() == facets && part.neighbour.size() == facets &&
                  part.tet_at_facet.size() == facets && are_in_range(part.facets, boundary) &&
-                 are_in_range(part.mesh.tets, vertices) &&
                  std::all_of(part.tet_at_facet.begin(), part.tet_at_facet.end(), is_tet);
     for (const SharedGroup& group : part.shared)
         for (const std::int32_t v : group.vertices)
@@ -73,6 +73,32 @@ void read_all(CheckedFile& file, const std::string& path, std::vector<T>& values
     if (file.read_into(static_cast<void*>(values.data()), count * sizeof(T)) != count * sizeof(T)) fail_damaged(path);
 }
 
+// All that comes before the points.
+Head read_beginning(CheckedFile& file, const std::string& path, Boundary& boundary) {
+    Head head;
+    if (file.read_into(&head, sizeof head) != sizeof head || head.kind != magic) fail_damaged(path);
+    if (!has_size_of(head, file.size())) fail_damaged(path);
+    Bytes bytes;
+    read_all(file, path, bytes, head.boundary_bytes);
+    try {
+        ByteReader{bytes}(boundary);
+    } catch (const Error&) {
+        fail_damaged(path);
+    }
+    return head;
+}
+
+// Calls take(first, piece) with all that follow.
+template <class T, class Take>
+void read_pieces(CheckedFile& file, const std::string& path, std::uint64_t count, const Take& take) {
+    constexpr std::uint64_t at_once = (std::uint64_t{2} << 20) / sizeof(T);
+    std::vector<T> piece;
+    for (std::uint64_t first = 0; first < count; first += piece.size()) {
+        read_all(file, path, piece, std::min(at_once, count - first));
+        take(first, piece);
+    }
+}
+
 void number_vertices(Part& part, std::vector<std::int64_t> boundary_ids, std::uint64_t vertices,
                      std::int64_t first_interior_id) {
     const auto boundary = static_cast<std::ptrdiff_t>(boundary_ids.size());
@@ -83,7 +109,7 @@ void number_vertices(Part& part, std::vector<std::int64_t> boundary_ids, std::ui
 
 }  // namespace
 
-FileHash write_stored_part(const std::string& path, const Part& part) {
+FileHash write_stored_part(const std::string& path, const Part& part, bool durable) {
     const auto boundary_count = static_cast<std::ptrdiff_t>(part.mesh.boundary_vertex_count);
     const Bytes boundary =
         to_bytes(Boundary{const_cast<Part&>(part), {part.global_id.begin(), part.global_id.begin() + boundary_count}});
@@ -95,7 +121,7 @@ FileHash write_stored_part(const std::string& path, const Part& part) {
     file.write(boundary.data(), boundary.size());
     file.write(part.mesh.vertices.data(), part.mesh.vertices.size() * sizeof(Vec3));
     file.write(part.mesh.tets.data(), part.mesh.tets.size() * sizeof(Tetrahedron));
-    file.sync();
+    if (durable) file.sync();
     file.close();
     return hasher.digest();
 }
@@ -104,24 +130,16 @@ Part read_stored_part(const std::string& path, std::int64_t first_interior_id, P
     Hasher hasher;
     CheckedFile file(path, "rb");
     file.hash_into(hasher);
-    Head head;
-    if (file.read_into(&head, sizeof head) != sizeof head || head.kind != magic) fail_damaged(path);
-    if (!has_size_of(head, file.size())) fail_damaged(path);
     Part part;
-    Bytes bytes;
-    read_all(file, path, bytes, head.boundary_bytes);
     Boundary boundary{part, {}};
-    try {
-        ByteReader{bytes}(boundary);
-    } catch (const Error&) {
-        fail_damaged(path);
-    }
+    const Head head = read_beginning(file, path, boundary);
     const std::uint64_t vertices = content == PartContent::surface ? boundary.ids.size() : head.vertices;
     if (vertices > head.vertices) fail_damaged(path);
     if (content != PartContent::cells) read_all(file, path, part.mesh.vertices, vertices);
     if (content == PartContent::cells) file.seek(sizeof head + head.boundary_bytes + head.vertices * sizeof(Vec3));
     if (content == PartContent::all || content == PartContent::cells) read_all(file, path, part.mesh.tets, head.tets);
-    if (!is_consistent(part, boundary.ids.size(), vertices, head.tets)) fail_damaged(path);
+    if (!is_consistent(part, boundary.ids.size(), vertices, head.tets) || !are_in_range(part.mesh.tets, vertices))
+        fail_damaged(path);
     if (hash) *hash = hasher.digest();
     number_vertices(part, std::move(boundary.ids), vertices, first_interior_id);
     return part;
@@ -133,6 +151,26 @@ Part StoredParts::load(PartIndex index) const {
     Part part = read_stored_part(place.path, place.first_interior_id, PartContent::all, &hash);
     if (hash != place.hash) fail_damaged(place.path);
     return part;
+}
+
+void StoredParts::load_in_pieces(PartIndex index, const PartPieces& take) const {
+    const Place& place = places_[index];
+    Hasher hasher;
+    CheckedFile file(place.path, "rb");
+    file.hash_into(hasher);
+    Part part;
+    Boundary boundary{part, {}};
+    const Head head = read_beginning(file, place.path, boundary);
+    if (!is_consistent(part, boundary.ids.size(), head.vertices, head.tets)) fail_damaged(place.path);
+    number_vertices(part, std::move(boundary.ids), head.vertices, place.first_interior_id);
+    take.boundary(part);
+    read_pieces<Vec3>(file, place.path, head.vertices,
+                      [&](std::size_t first, const std::vector<Vec3>& points) { take.points(part, first, points); });
+    read_pieces<Tetrahedron>(file, place.path, head.tets, [&](std::size_t first, const std::vector<Tetrahedron>& tets) {
+        if (!are_in_range(tets, head.vertices)) fail_damaged(place.path);
+        take.cells(part, first, tets);
+    });
+    if (hasher.digest() != place.hash) fail_damaged(place.path);
 }
 
 void StoredParts::remove(PartIndex index) const {

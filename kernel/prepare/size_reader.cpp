@@ -46,6 +46,7 @@ SizeField read_size_field(const SizeOptions& options, const SurfaceArrays& surfa
                           const std::vector<std::string>& patch_names) {
     std::optional<SizedMesh> background;
     if (!options.field_file.empty()) background = read_sized_mesh(options.field_file);
+    if (options.background) background = *options.background;
     return make_size_field(options, surface, patch_names, std::move(background));
 }
 

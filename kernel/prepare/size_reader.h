@@ -9,8 +9,8 @@
 
 namespace kerf {
 
-/// make_size_field() with the background mesh that the options name. Throws Error(io) or Error(input) for a file that
-/// cannot be read or has no positive scalar at each of its nodes, Error(usage) as make_size_field() does.
+/// make_size_field() with the background mesh that the options name or hold. Throws Error(io) or Error(input) for a
+/// file that cannot be read or has no positive scalar at each of its nodes, Error(usage) as make_size_field() does.
 SizeField read_size_field(const SizeOptions& options, const SurfaceArrays& surface,
                           const std::vector<std::string>& patch_names);
 

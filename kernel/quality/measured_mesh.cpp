@@ -81,6 +81,9 @@ MeasurableMesh::MeasurableMesh(const std::string& path) : path_(path) {
         open_file();
 }
 
+MeasurableMesh::MeasurableMesh(std::unique_ptr<const PartSource> parts, std::string name, double diagonal)
+    : path_(std::move(name)), run_(std::move(parts)), diagonal_(diagonal) {}
+
 void MeasurableMesh::open_file() {
     file_ = read_tet_file(path_);
     if (file_.facets.empty()) {

@@ -45,6 +45,8 @@ class MeasurableMesh {
  public:
     /// The folder of a finished run, or a file as read_tet_file() reads them. Throws Error(io) or Error(input).
     explicit MeasurableMesh(const std::string& path);
+    /// Parts of any origin, with the diagonal of all of them; `name` for people.
+    MeasurableMesh(std::unique_ptr<const PartSource> parts, std::string name, double diagonal);
 
     /// The diagonal of the bounding box. Distributions that are to be compared need one length scale: the larger
     /// diagonal.
@@ -61,7 +63,7 @@ class MeasurableMesh {
     void open_file();
 
     std::string path_;
-    std::unique_ptr<RunParts> run_;
+    std::unique_ptr<const PartSource> run_;
     TetFile file_;  // if it is no run
     double diagonal_ = 0;
 };

@@ -11,15 +11,14 @@
 
 namespace kerf {
 
-namespace {
-
-// A measure as options name it: "min_dihedral_deg" is min-dihedral.
 std::string option_name(const Measure& measure) {
     std::string name = measure.name;
     if (name.ends_with("_deg")) name.resize(name.size() - 4);
     std::replace(name.begin(), name.end(), '_', '-');
     return name;
 }
+
+namespace {
 
 struct Named {
     std::string name;

@@ -15,6 +15,9 @@ struct QualityLimit {
     double value = 0;
 };
 
+/// A measure as options name it: "min_dihedral_deg" is min-dihedral.
+std::string option_name(const Measure& measure);
+
 /// Which end of a measure is bad.
 enum class BadEnd { small, large };
 

@@ -1,6 +1,7 @@
 // How a run tells of its progress.
 #pragma once
 
+#include "part/part_store.h"
 #include "prepare/stage_listener.h"
 #include "report/report.h"
 
@@ -26,6 +27,8 @@ class RunListener : public StageListener {
     virtual void on_parts(const std::vector<PartReport>&, const std::string& /*plan*/) {}
     /// After every part: only on the root rank.
     virtual void on_part(const PartEvent&) {}
+    /// The parts of a transient run when all are meshed: on every rank, in agreement. Their files go when the run ends.
+    virtual void on_meshes(const StoredParts&) {}
     /// After every iteration of a solver: its number, the residual beside that of the start, and the one that ends it;
     /// only on the root rank. Must not throw.
     virtual void on_iteration(int /*iteration*/, double /*residual*/, double /*wanted*/) {}

@@ -50,6 +50,8 @@ struct RunOptions {
     std::int32_t least_parts = 1;          ///< where K follows: one for each rank that takes whole parts later
     bool dry_run = false;                  ///< stop at the plan, and write nothing
     bool split_regions = false;            ///< OpenFOAM's case has one mesh for each region
+    bool transient = false;  ///< the listener gets the parts (RunListener::on_meshes()), and `output` is a folder that
+                             ///< its owner removes: nothing is written for others, or to outlive a power cut
 
     /// Throws Error(usage) or Error(io) for input and outputs that are in each other's way: what resolved() asks of
     /// files, for who writes one of them before the run.

@@ -4,6 +4,7 @@
 #include "run/pipeline.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -63,12 +64,18 @@ struct RunContext {
     bool is_root() const { return ranks.rank() == 0; }
 };
 
+// Who continues a run by the name of its folder has nothing but what is written there.
 void save(const RunContext& run, const RunFolder& folder) {
-    save_run(folder.saved_run_file(), run.options, run.input.file_hash);
+    std::error_code ignored;
+    if (run.options.sizes.background)
+        std::filesystem::remove(folder.saved_run_file(), ignored);
+    else
+        save_run(folder.saved_run_file(), run.options, run.input.file_hash);
 }
 
 RunFolder open_folder(const RunContext& run) {
     return open_together(run.ranks, [&] {
+        if (run.options.transient) return RunFolder::create_transient(run.options.output);
         return RunFolder::create(run.options.output, [&](const std::string& saved) {
             return run.options.volume && is_same_run(saved, run.options, run.input.file_hash);
         });
@@ -78,7 +85,7 @@ RunFolder open_folder(const RunContext& run) {
 // From the beginning on the run can be continued by the name of its folder, however it ends.
 void keep_folder(const RunContext& run, RunFolder& folder) {
     in_agreement(run.ranks, [&] {
-        if (!run.is_root() || !run.options.volume) return;
+        if (!run.is_root() || !run.options.volume || run.options.transient) return;
         if (folder.finished_parts() == 0) save(run, folder);  // else the options are those of the finished parts, until
         folder.keep();                                        // this run knows its own
     });
@@ -100,7 +107,7 @@ void announce_parts(const RunContext& run, const std::vector<PartReport>& parts,
 // Leaves of the folder what this run can use, and returns how many parts an interrupted one had finished.
 std::size_t clear_folder(const RunContext& run, RunFolder& folder, const std::vector<PartReport>& parts) {
     return in_agreement(run.ranks, [&] {
-        if (!run.is_root()) return std::size_t{0};
+        if (!run.is_root() || run.options.transient) return std::size_t{0};
         const std::size_t finished = folder.finished_parts();
         std::vector<int> leaves;
         if (run.options.volume)
@@ -121,7 +128,8 @@ std::vector<PartReport> hand_over_parts(const RunContext& run, RunFolder& folder
             tell_progress(run.listener, "prepare", i, own.size());
             PartReport& report = own[i].report;
             const PartJob job = std::exchange(own[i].job, {});
-            report.surface_hash = write_part_surface(folder.part_surface_file(job.part), part_of_job(job));
+            if (!run.options.transient)
+                report.surface_hash = write_part_surface(folder.part_surface_file(job.part), part_of_job(job));
             if (run.options.stl) write_stl(folder.part_stl_file(job.part), job.surface.vertices, job.surface.facets);
             if (volume) volume->hand_over(job, report);
         }
@@ -214,6 +222,16 @@ std::vector<RunFile> write_formats(const RunContext& run, const RunFolder& folde
                        });
 }
 
+// What becomes of the parts: files, or what the listener makes of them.
+std::vector<RunFile> pass_on_meshes(const RunContext& run, const RunFolder& folder, const StoredParts& parts,
+                                    const std::vector<PartReport>& reports) {
+    if (!run.options.transient) return write_formats(run, folder, parts, reports);
+    in_agreement(run.ranks, [&] {
+        if (run.listener && parts.outline().is_whole) run.listener->on_meshes(parts);
+    });
+    return {};
+}
+
 // Files of vtu hold all that those of the store do; a run with failed parts is continued from the latter.
 void remove_stored_parts(const RunContext& run, const RunFolder& folder, int exit_code) {
     const std::vector<const Format*> formats = parse_formats(run.options.formats);
@@ -231,9 +249,17 @@ std::int64_t peak_memory(const RunContext& run, const std::vector<PartReport>& p
     return sum;
 }
 
-// The folder gets its place, with the report of the run in it.
+// The folder gets its place, with the report of the run in it; that of a transient run has none.
 void finish(const RunContext& run, std::optional<RunFolder>& folder, RunReport& report, const Stopwatch& whole) {
     report.peak_rss_bytes = peak_memory(run, report.parts);
+    if (run.options.transient) {
+        report.seconds.wall = longest(run.ranks, whole);
+        in_agreement(run.ranks, [&] {
+            if (run.is_root() && !run.options.report_file.empty())
+                write_output_file(run.options.report_file, to_json(report));
+        });
+        return;
+    }
     report.files = timed(run.ranks, report.seconds.hash, [&] {
         in_agreement(run.ranks, [&] {
             if (run.is_root() && run.options.volume) remove_stored_parts(run, *folder, report.exit_code);
@@ -257,7 +283,7 @@ void finish(const RunContext& run, std::optional<RunFolder>& folder, RunReport& 
 // What ends a run says how to continue it. A run that the user has stopped can always be continued; of another one
 // nothing is left if no part is finished.
 Error with_way_to_go_on(const RunOptions& options, std::optional<RunFolder>& folder, const Error& error) {
-    if (!folder || !options.volume) return error;
+    if (!folder || !options.volume || options.transient) return error;
     std::size_t finished = 0;
     try {
         finished = folder->finished_parts();
@@ -269,9 +295,10 @@ Error with_way_to_go_on(const RunOptions& options, std::optional<RunFolder>& fol
         return error;
     }
     const bool are_all = finished >= static_cast<std::size_t>(options.decompose.parts);
+    const std::string again = options.sizes.background ? "the same call into " : "kerf mesh --resume ";
     return {error.code(),
-            fmt::format("{} {}{} parts are finished; kerf mesh --resume {} {}.", error.what(), are_all ? "All " : "",
-                        finished, options.output, are_all ? "writes the files that are missing" : "does the others"),
+            fmt::format("{} {}{} parts are finished; {}{} {}.", error.what(), are_all ? "All " : "", finished, again,
+                        options.output, are_all ? "writes the files that are missing" : "does the others"),
             error.elements()};
 }
 
@@ -328,7 +355,7 @@ RunReport run(const RunOptions& request, int cores_of_rank, Communicator& ranks,
             report.vertices = stored.outline().vertices;
             report.reference = mesh_reference(run, *folder, report, whole_surface);
             report.files =
-                timed(ranks, seconds.write, [&] { return write_formats(run, *folder, stored, report.parts); });
+                timed(ranks, seconds.write, [&] { return pass_on_meshes(run, *folder, stored, report.parts); });
         } else {
             join_surfaces(run, *folder, report.parts);
         }

@@ -97,7 +97,7 @@ RunPlan plan_run(const RunOptions& request, int cores_of_rank, Communicator& ran
         options = resolved(std::move(options), cores_of_rank);
         const bool meshes = options.volume && !options.dry_run;
         if (meshes && options.worker_program.empty()) options.worker_program = find_kerf_program("kerf-worker");
-        if (meshes) plan.worker_hash = describe_file("", options.worker_program).hash;
+        if (meshes && !options.transient) plan.worker_hash = describe_file("", options.worker_program).hash;
         if (listener) listener->on_progress("read", 0, 1);
         if (!std::exchange(input.is_ready, false)) input = read_input(options.input, options.input_options);
         refuse_changed_input(options, input.file_hash);

@@ -127,6 +127,7 @@ class VolumeStage::Tally {
 
 void VolumeStage::hand_over(const PartJob& job, PartReport& part) {
     const std::string journal = folder_.journal_file(part.id), file = folder_.stored_part_file(part.id);
+    if (plan_.options.transient) return write_job(folder_.job_file(part.id), job);
     const std::string vtu_file = folder_.part_file(part.id);
     MesherOptions mesher = plan_.options.mesher;
     mesher.size = plan_.options.decompose.region_sizes.of(part.region, mesher.size).within(part.box());
@@ -164,6 +165,7 @@ void VolumeStage::keep_outcome(const PartReport& part) const {
     const auto code = static_cast<ErrorCode>(part.result.code);
     if (code == ErrorCode::io) throw Error(code, part.result.message);
     const std::string job_file = folder_.job_file(part.id);
+    if (plan_.options.transient) return remove_file(job_file);
     if (part.result.code)
         write_failed_part(folder_.file("failed"), part.id, read_job(job_file).surface, plan_.options.mesher,
                           part.result.message);
@@ -185,13 +187,14 @@ PartQueue VolumeStage::queue_of(const std::vector<PartReport>& parts, const std:
         queued.push_back({folder_.job_file(parts[i].id), folder_.stored_part_file(parts[i].id), parts[i].box()});
     return {std::move(queued),
             {plan_.options.worker_program, plan_.options.mesher, plan_.options.workers, plan_.options.timeout_seconds,
-             plan_.options.memory_mb, plan_.options.attempts}};
+             plan_.options.memory_mb, plan_.options.attempts, !plan_.options.transient}};
 }
 
 VolumeStage::HandOut VolumeStage::hand_out_to(PartQueue& queue, const std::vector<PartReport>& parts,
                                               const std::vector<std::size_t>& order) const {
-    return {ranks_, order.size(), queue,
-            [&](std::size_t place) { CheckedFile(folder_.begun_file(parts[order[place]].id), "wb").close(); }};
+    return {ranks_, order.size(), queue, [&](std::size_t place) {
+                if (!plan_.options.transient) CheckedFile(folder_.begun_file(parts[order[place]].id), "wb").close();
+            }};
 }
 
 // Returns whether all parts are done.

@@ -171,6 +171,11 @@ void SizeOptions::check() const {
     };
     if (cells > 0 && size.number() != 0) refuse_beside_cells("size", size.text());
     if (cells > 0 && max_volume != 0) refuse_beside_cells("max-volume", fmt::format("{}", max_volume));
+    if (background && !field_file.empty())
+        throw Error(ErrorCode::usage,
+                    fmt::format("--size-field is {}, but sizes are given in memory, too. Leave one of "
+                                "them out.",
+                                field_file));
     require_in(size_range::growth, "growth", growth);
     require_in(size_range::length, "chord-error", chord_error.number());
     require_in(size_range::segments_per_turn, "segments-per-turn", segments_per_turn);

@@ -1,6 +1,7 @@
 // What a user says about sizes, and the field that follows from it.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -41,7 +42,8 @@ struct SizeOptions {
     std::string field_file;  ///< a mesh of tetrahedra with a size at every node
     Length chord_error;      ///< see CurvatureSizes
     double segments_per_turn = 0;
-    double cells_across = 0;  ///< see sizes_of_thickness()
+    double cells_across = 0;                           ///< see sizes_of_thickness()
+    std::shared_ptr<const SizedMesh> background = {};  ///< what a field_file would have, at hand; no option has it
 
     /// Growth where none is given.
     static constexpr double usual_growth = 0.3;
@@ -57,7 +59,7 @@ struct SizeOptions {
     std::vector<double> max_volumes_of_regions(std::span<const std::string> regions) const;
     /// Whether anything but a constant is asked for, so that the field follows from the surface and files.
     bool depends_on_place() const {
-        return !inside.empty() || !on.empty() || !near.empty() || growth > 0 || !field_file.empty() ||
+        return !inside.empty() || !on.empty() || !near.empty() || growth > 0 || !field_file.empty() || background ||
                chord_error.number() > 0 || segments_per_turn > 0 || cells_across > 0;
     }
     /// Whether none is given that would hold everywhere, so that `fineness` decides.
@@ -67,8 +69,8 @@ struct SizeOptions {
 
 /// The field that the options, which must pass check() and have resolved lengths, ask for over a surface: the minimum
 /// of them all, each growing with the distance. Sizes told from curvature and thickness are 1e-4 of the diagonal at
-/// least. `background`: what was read from `field_file`. Throws Error(usage) for a patch that the surface does not
-/// have, naming those that it has. Deterministic. O(#F log #F).
+/// least. `background`: what was read from `field_file`, or SizeOptions::background. Throws Error(usage) for a patch
+/// that the surface does not have, naming those that it has. Deterministic. O(#F log #F).
 SizeField make_size_field(const SizeOptions& options, const SurfaceArrays& surface,
                           const std::vector<std::string>& patch_names, std::optional<SizedMesh> background = {});
 

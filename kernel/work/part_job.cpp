@@ -118,7 +118,7 @@ PartResult out_of_memory() {
     return result;
 }
 
-PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::string& part_file) {
+PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::string& part_file, bool durable) {
     PartResult result;
     try {
         result.mesher = call.options.name;
@@ -145,7 +145,7 @@ PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::s
         });
         const Part part = part_of_job(job, std::move(mesh));
         timed(result.verify_seconds, [&] { result.hash = hash_part(part); });
-        timed(result.store_seconds, [&] { result.file_hash = write_stored_part(part_file, part); });
+        timed(result.store_seconds, [&] { result.file_hash = write_stored_part(part_file, part, durable); });
     } catch (const Error& e) {
         result.code = static_cast<int>(e.code());
         result.message = e.what();

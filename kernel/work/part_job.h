@@ -48,10 +48,11 @@ struct PartAttempt {
     std::string job_file;   ///< of write_job()
     std::string part_file;  ///< is written by write_stored_part()
     MesherCall call;
+    bool durable = true;  ///< as write_stored_part() has it
 
     template <class Archive>
     void archive(Archive& a) {
-        a(job_file, part_file, call.fallback, call.options, call.cut_first);
+        a(job_file, part_file, call.fallback, call.options, call.cut_first, durable);
     }
 };
 
@@ -119,6 +120,6 @@ PartJob read_job(const std::string& path);
 /// Meshes, verifies, measures and stores a part. Never throws kerf::Error: it comes back as the result's code and
 /// message. A part whose laws do not hold is not written and has code `subdomain`. Deterministic but for seconds and
 /// memory.
-PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::string& part_file);
+PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::string& part_file, bool durable = true);
 
 }  // namespace kerf

@@ -71,7 +71,7 @@ std::optional<PartQueue::Finished> PartQueue::step(double wait_seconds) {
         ++outcome.attempts;
         pool_.start(static_cast<int>(part), options_.worker_program,
                     {"--memory", std::to_string(options_.memory_mb), "--parent", std::to_string(::getpid())},
-                    to_bytes(PartAttempt{parts_[part].job_file, parts_[part].part_file, call}),
+                    to_bytes(PartAttempt{parts_[part].job_file, parts_[part].part_file, call, options_.durable}),
                     options_.timeout_seconds);
     }
     KERF_CHECK(wait_seconds >= 0);

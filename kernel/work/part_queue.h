@@ -42,6 +42,7 @@ struct QueueOptions {
     double timeout_seconds = 0;  ///< of one attempt; 0: none
     std::int64_t memory_mb = 0;
     std::int32_t attempts = 10;
+    bool durable = true;  ///< whether the files of parts outlive a power cut
 };
 
 /// Meshes parts in processes of their own, up to options.workers at a time.

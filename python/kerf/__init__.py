@@ -25,6 +25,7 @@ from .part import Part, Parts, SharedPoints
 from .plotting import Picture, plot
 from .quality import Distribution, Quality, RegionQuality
 from .run import Run, open
+from .sizes import SizeField, sample_sizes
 from .solution import Solution
 from .solve import solve
 from .surface import Surface, read
@@ -56,6 +57,7 @@ __all__ = [
     "RegionQuality",
     "Run",
     "SharedPoints",
+    "SizeField",
     "Solution",
     "Surface",
     "Tetrahedralization",
@@ -72,6 +74,7 @@ __all__ = [
     "options",
     "plot",
     "read",
+    "sample_sizes",
     "solve",
     "tetrahedralize",
 ]

@@ -13,7 +13,6 @@ import os
 import shutil
 import tempfile
 from dataclasses import dataclass
-from operator import index
 from typing import TYPE_CHECKING, List, Optional, Union
 
 import numpy as np
@@ -25,6 +24,7 @@ from .local_mesh import LocalMesh
 from .mesh import surface_and_options
 from .progress import Progress, caller
 from .ranks import check_communicator, swap, together
+from .sizes import Size, split_size
 from .surface import Path, Surface
 
 if TYPE_CHECKING:
@@ -197,21 +197,22 @@ def distributed(folder: Path, comm: Comm) -> DistributedMesh:
     return DistributedMesh(comm, together(comm, lambda: _kerf.mesh_of_rank(path, comm.rank, comm.size)))
 
 
-def mesh_on_ranks(surface: Union[Surface, Path], comm: Comm, /, parts: int = 0, size: float = 0,
+def mesh_on_ranks(surface: Union[Surface, Path], comm: Comm, /, parts: int = 0, size: Size = 0,
                   progress: Progress = None, workers: int = 0, output: Optional[Path] = None,
                   **options: object) -> DistributedMesh:
     """kerf.mesh() with a communicator; DistributedMesh tells of it."""
     check_communicator(comm)
     surface, options = together(comm, lambda: surface_and_options(surface, options))
-    numbers = together(comm, lambda: (index(parts), float(size), index(workers)))
-    _require_same(comm, {"parts": parts, "size": size, **options},
+    sizes, length = together(comm, lambda: split_size(size, surface))
+    options = {"parts": parts, "size": length, "workers": workers, **options}
+    _require_same(comm, {name: value for name, value in options.items() if name != "workers"},
                   {"surface.points": len(surface.points), "surface.volume": surface.volume})
     temporary = together(comm, lambda: tempfile.mkdtemp(prefix="kerf.") if output is None and comm.rank == 0 else None)
     try:
         folder = comm.bcast(together(comm, lambda: _run_folder(output, temporary)))
         shown = comm.bcast(temporary)
         together(comm, lambda: _require_seen(shown))
-        together(comm, lambda: _mesh_into(surface, comm, folder, *numbers, progress, options))
+        together(comm, lambda: _mesh_into(surface, comm, folder, sizes, progress, options))
         return distributed(folder, comm)
     finally:
         if temporary:
@@ -247,14 +248,14 @@ def _require_seen(temporary: Optional[str]) -> None:
                         "on a file system that the hosts share, or set TMPDIR to one.")
 
 
-def _mesh_into(surface: Surface, comm: Comm, folder: str, parts: int, size: float, workers: int, progress: Progress,
+def _mesh_into(surface: Surface, comm: Comm, folder: str, sizes: Optional[_kerf.SizeField], progress: Progress,
                options: dict) -> None:
     """Ends on all ranks where it fails on one."""
     from mpi4py import MPI
 
     told = caller(progress) if progress is not True or comm.rank == 0 else None
     _mpi().with_ranks(MPI._addressof(comm), lambda ranks, processors: _kerf.mesh_on_ranks(
-        ranks, processors, surface._native, folder, parts, size, workers, told, programs.folder(), **options))
+        ranks, processors, surface._native, folder, sizes, told, programs.folder(), **options))
 
 
 def _mpi() -> object:

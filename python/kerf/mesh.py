@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import os
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union, overload
 
 import numpy as np
@@ -13,6 +15,8 @@ from .errors import UsageError
 from .notebook import html_of
 from .options import refuse_in_memory, split
 from .progress import Progress, caller
+from .quality import Quality
+from .sizes import Size, split_size
 from .surface import Path, Surface, read
 
 if TYPE_CHECKING:
@@ -113,6 +117,36 @@ class Mesh:
 
         return interchange.to_pyvista(self)
 
+    @cached_property
+    def neighbours(self) -> np.ndarray:
+        """(m, 4) int64: the tetrahedra on the other sides of the faces opposite to the corners, -1 outside; found when
+        they are first asked for."""
+        return self._native.neighbours()
+
+    @cached_property
+    def volumes(self) -> np.ndarray:
+        """(m,) float64: of the tetrahedra, all positive, in cubed units of the points."""
+        return self.cell_quality("volume")
+
+    def cell_quality(self, measure: str) -> np.ndarray:
+        """(m,) float64: a measure of each tetrahedron.
+
+        measure    min-dihedral or max-dihedral (degrees), radius-edge, aspect, shape, volume, min-edge or max-edge;
+                   Quality tells of them. Raises UsageError for anything else
+        """
+        return self._native.cell_quality(measure.replace("_", "-").removesuffix("-deg"))
+
+    def quality(self) -> Quality:
+        """Distributions of all measures, with the numbers of `kerf quality --json`; measured at each call."""
+        told, text = self._native.quality()
+        return Quality(json.loads(told), text)
+
+    @cached_property
+    def report(self) -> dict[str, Any]:
+        """What the run tells of itself, as report.json of a folder: input, options, tree, parts, totals with the
+        seconds of stages, verification. Empty if there is none."""
+        return json.loads(self._native.report or "{}")
+
     def __repr__(self) -> str:
         return f"<kerf.Mesh: {len(self.points)} points, {len(self.tetrahedra)} tetrahedra>"
 
@@ -124,28 +158,29 @@ class Mesh:
 
 
 @overload
-def mesh(surface: Union[Surface, Path], /, parts: int = 0, size: Union[float, str] = 0, progress: Progress = None,
+def mesh(surface: Union[Surface, Path], /, parts: int = 0, size: Size = 0, progress: Progress = None,
          workers: int = 0, output: None = None, comm: None = None, **options: object) -> Mesh: ...
 
 
 @overload
-def mesh(surface: Union[Surface, Path], /, parts: int = 0, size: Union[float, str] = 0, progress: Progress = None,
+def mesh(surface: Union[Surface, Path], /, parts: int = 0, size: Size = 0, progress: Progress = None,
          workers: int = 0, *, output: Path, comm: None = None, **options: object) -> Run: ...
 
 
 @overload
-def mesh(surface: Union[Surface, Path], /, parts: int = 0, size: Union[float, str] = 0, progress: Progress = None,
+def mesh(surface: Union[Surface, Path], /, parts: int = 0, size: Size = 0, progress: Progress = None,
          workers: int = 0, output: Optional[Path] = None, *, comm: Comm, **options: object) -> DistributedMesh: ...
 
 
-def mesh(surface: Union[Surface, Path], /, parts: int = 0, size: Union[float, str] = 0, progress: Progress = None,
+def mesh(surface: Union[Surface, Path], /, parts: int = 0, size: Size = 0, progress: Progress = None,
          workers: int = 0, output: Optional[Path] = None, comm: Optional[Comm] = None,
          **options: object) -> Union[Mesh, Run, DistributedMesh]:
     """The mesh of a surface, or of a file.
 
     surface    a Surface, or the path of a file
     parts      into which the surface is cut; 0: as many as are of use here
-    size       wanted edge length, in units of the surface, or as "2%" of the diagonal of its bounds; 0: none
+    size       wanted edge length, in units of the surface; a text with a share of the diagonal, as "2%"; a function
+               of points (n, 3) that returns lengths (n,), see sample_sizes(); a SizeField; 0: none
     progress   True: a line on standard error; or called with (stage, done, total): returning False ends the work
     workers    processes that mesh parts; 0: one for each processor
     output     None: a Mesh in memory; else a folder, for what is larger than memory: a Run, whose parts are the same
@@ -166,7 +201,8 @@ def mesh(surface: Union[Surface, Path], /, parts: int = 0, size: Union[float, st
         return _run(surface, os.fspath(output), parts, size, workers, progress, options)
     refuse_in_memory(options)
     surface, options = surface_and_options(surface, options)
-    return Mesh(_kerf.mesh(surface._native, 0, 0.0, 0, caller(progress), programs.folder(), parts=parts, size=size,
+    sizes, length = split_size(size, surface)
+    return Mesh(_kerf.mesh(surface._native, sizes, caller(progress), programs.folder(), parts=parts, size=length,
                            workers=workers, **options))
 
 
@@ -181,15 +217,18 @@ def surface_and_options(surface: Union[Surface, Path], options: dict[str, Any]) 
     return surface, of_mesh
 
 
-def _run(surface: Union[Surface, Path], folder: str, parts: int, size: float, workers: int, progress: Progress,
+def _run(surface: Union[Surface, Path], folder: str, parts: int, size: Size, workers: int, progress: Progress,
          options: dict[str, object]) -> Run:
     from .run import Run
 
     if _kerf.has_merged_format(folder):
         raise UsageError(f"output is {folder}, a file of one mesh, but kerf.mesh() writes a folder. Name one, and give "
                          "the file to the merge() of the result; or leave output out, and give it to save().")
+    if callable(size):  # of the place, so that it has to be known
+        surface, options = surface_and_options(surface, options)
+    sizes, length = split_size(size, surface)
     given = surface._native if isinstance(surface, Surface) else os.fspath(surface)
-    _kerf.mesh_into(given, folder, 0, 0.0, 0, caller(progress), programs.folder(), parts=parts, size=size,
+    _kerf.mesh_into(given, folder, sizes, caller(progress), programs.folder(), parts=parts, size=length,
                     workers=workers, **options)
     return Run(folder)
 
@@ -201,7 +240,7 @@ class Tetrahedralization(NamedTuple):
     tets: np.ndarray
 
 
-def tetrahedralize(vertices: ArrayLike, faces: ArrayLike, size: Union[float, str] = 0, progress: Progress = None,
+def tetrahedralize(vertices: ArrayLike, faces: ArrayLike, size: Size = 0, progress: Progress = None,
                    **options: Any) -> Tetrahedralization:
     """nodes (n, 3) float64 and tets (m, 4) int64 of a closed surface of triangles.
 

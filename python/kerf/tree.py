@@ -7,9 +7,11 @@ from typing import Iterator, Union
 import numpy as np
 
 from . import _kerf, programs
+from .mesh import surface_and_options
 from .part_surface import PartSurface
 from .progress import Progress, caller
-from .surface import Path, Surface, read
+from .sizes import Size, split_size
+from .surface import Path, Surface
 from .tree_node import Interface, TreeNode
 
 
@@ -104,7 +106,7 @@ class Tree:
         return f"<kerf.Tree: {len(self._parts)} parts, {len(self._nodes)} nodes>"
 
 
-def decompose(surface: Union[Surface, Path], /, parts: int = 8, size: float = 0, progress: Progress = None,
+def decompose(surface: Union[Surface, Path], /, parts: int = 8, size: Size = 0, progress: Progress = None,
               **options: object) -> Tree:
     """The tree of cuts of a surface, or of a file: the parts that mesh() fills, and how each cut was found.
 
@@ -124,6 +126,7 @@ def decompose(surface: Union[Surface, Path], /, parts: int = 8, size: float = 0,
     The result depends on the surface and the options alone, and is what `kerf decompose` writes with the same. Raises
     UsageError, InputError, FileError, Cancelled. Cost: n log(parts) for n triangles; memory: the surfaces of the parts.
     """
-    if not isinstance(surface, Surface):
-        surface = read(surface)
-    return Tree(_kerf.decompose(surface._native, parts, size, caller(progress), programs.folder(), **options))
+    surface, options = surface_and_options(surface, options)
+    sizes, length = split_size(size, surface)
+    return Tree(_kerf.decompose(surface._native, sizes, caller(progress), programs.folder(), parts=parts, size=length,
+                                **options))

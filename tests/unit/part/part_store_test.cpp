@@ -84,6 +84,40 @@ TEST_F(PartStore, SomeContentIsThatOfTheWhole) {
     }
 }
 
+// What the pieces of a part are together.
+Part joined_pieces(const StoredParts& parts) {
+    Part joined;
+    parts.load_in_pieces(PartIndex(0), {[&](const Part& part) { joined = part; },
+                                        [&](const Part& part, std::size_t first, std::span<const Vec3> points) {
+                                            EXPECT_EQ(part.global_id, joined.global_id);
+                                            EXPECT_EQ(first, joined.mesh.vertices.size());
+                                            joined.mesh.vertices.insert(joined.mesh.vertices.end(), points.begin(),
+                                                                        points.end());
+                                        },
+                                        [&](const Part&, std::size_t first, std::span<const Tetrahedron> tets) {
+                                            EXPECT_EQ(first, joined.mesh.tets.size());
+                                            joined.mesh.tets.insert(joined.mesh.tets.end(), tets.begin(), tets.end());
+                                        }});
+    return joined;
+}
+
+TEST_F(PartStore, PiecesAreTheWhole) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        SCOPED_TRACE(seed);
+        Part part = test::random_part(seed);
+        if (seed == 1)  // more than one piece
+            while (part.mesh.tets.size() < 300'000)
+                part.mesh.tets.insert(part.mesh.tets.end(), part.mesh.tets.begin(), part.mesh.tets.end());
+        const FileHash written = write_stored_part(file_, part, false);
+        const StoredParts parts({{{part.id}}, part.vertex_count(), {}}, {{file_, first_interior, written}});
+        const Part joined = joined_pieces(parts);
+        EXPECT_EQ(joined.mesh.vertices, part.mesh.vertices);
+        EXPECT_EQ(joined.mesh.tets, part.mesh.tets);
+        EXPECT_EQ(joined.facets, part.facets);
+        EXPECT_EQ(joined.global_id, part.global_id);
+    }
+}
+
 TEST_F(PartStore, WhatIsNotAsItWasIsRefused) {
     const Part part = test::random_part(5);
     const FileHash written = write_stored_part(file_, part);
@@ -97,7 +131,9 @@ TEST_F(PartStore, WhatIsNotAsItWasIsRefused) {
         damaged[at] = static_cast<char>(damaged[at] ^ 16);
         std::ofstream(file_, std::ios::binary) << damaged;
         EXPECT_NE(test::io_error([&] { parts.load(PartIndex(0)); }).find(file_), std::string::npos);
+        EXPECT_NE(test::io_error([&] { joined_pieces(parts); }).find(file_), std::string::npos);
         std::ofstream(file_, std::ios::binary) << bytes.substr(0, at);
+        EXPECT_NE(test::io_error([&] { joined_pieces(parts); }).find(file_), std::string::npos);
         EXPECT_NE(test::io_error([&] { parts.load(PartIndex(0)); }).find(file_), std::string::npos);
     }
     std::ofstream(file_, std::ios::binary) << bytes << 'x';

@@ -1,0 +1,146 @@
+// Where a part's rows lie in the arrays follows from the outline, so that parts are put there in any order.
+#include "kerf/arrays_of_parts.h"
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "export/whole_mesh.h"
+
+namespace kerf {
+
+namespace {
+
+class ArrayFiller {
+ public:
+    explicit ArrayFiller(const MeshOutline& outline) : outline_(outline) {
+        const auto tets = static_cast<std::size_t>(outline.tets());
+        const auto triangles = static_cast<std::size_t>(outline.patch_facets());
+        mesh_.patch_names = outline.patch_names;
+        mesh_.region_names = outline.region_names;
+        mesh_.vertices.resize(static_cast<std::size_t>(outline.vertices));
+        mesh_.tets.resize(tets);
+        mesh_.part.resize(tets);
+        mesh_.region.resize(tets);
+        mesh_.triangles.resize(triangles);
+        mesh_.patch.resize(triangles);
+        mesh_.sides.resize(triangles);
+    }
+
+    // Corners, patches and sides of the triangles on the user's surface. What is in front is the number of the part
+    // there, or -1, until all parts are known.
+    void put_boundary(PartIndex index, const Part& part) {
+        const std::int32_t region = part.region_of(0).value();
+        std::int64_t next = outline_.first_patch_facet(index);
+        const std::int64_t end = next + outline_.parts[index].patch_facets;
+        for (std::size_t f = 0; f < part.facets.size(); ++f) {
+            if (!part.is_listed(f)) continue;
+            require(next < end, part);
+            const auto row = static_cast<std::size_t>(next++);
+            mesh_.triangles[row] = global_corners(part, part.facets[f]);
+            mesh_.patch[row] = part.patch[f];
+            mesh_.sides[row] = {region, part.is_wall(f) ? part.neighbour[f] : -1};
+        }
+        require(next == end, part);
+        const std::lock_guard lock(mutex_);
+        region_of_part_[part.id] = region;
+    }
+
+    // Several parts have the vertices of their boundaries, with the same coordinates.
+    void put_points(const Part& part, std::size_t first, std::span<const Vec3> points) {
+        std::unique_lock lock(mutex_, std::defer_lock);
+        if (first < static_cast<std::size_t>(part.mesh.boundary_vertex_count)) lock.lock();
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const std::int64_t id = part.global_id[first + i];
+            require(id >= 0 && id < outline_.vertices, part);
+            mesh_.vertices[static_cast<std::size_t>(id)] = {points[i].x(), points[i].y(), points[i].z()};
+        }
+    }
+
+    void put_cells(PartIndex index, const Part& part, std::size_t first, std::span<const Tetrahedron> tets) {
+        require(std::cmp_less_equal(first + tets.size(), outline_.parts[index].tets), part);
+        const auto begin = static_cast<std::ptrdiff_t>(outline_.first_tet(index)) + static_cast<std::ptrdiff_t>(first);
+        const auto count = static_cast<std::ptrdiff_t>(tets.size());
+        std::transform(tets.begin(), tets.end(), mesh_.tets.begin() + begin,
+                       [&](const Tetrahedron& tet) { return global_corners(part, tet); });
+        std::fill_n(mesh_.part.begin() + begin, count, part.id);
+        std::fill_n(mesh_.region.begin() + begin, count, part.region_of(0).value());
+    }
+
+    // When all parts are there.
+    MeshArrays take() {
+        for (auto& [behind, in_front] : mesh_.sides)
+            if (in_front >= 0) in_front = region_of_part_.at(in_front);
+        return std::move(mesh_);
+    }
+
+ private:
+    static void require(bool holds, const Part& part) {
+        if (!holds)
+            throw Error(ErrorCode::io,
+                        fmt::format("The files of part {} do not belong together. Mesh again.", part.id));
+    }
+
+    const MeshOutline& outline_;
+    MeshArrays mesh_;
+    std::mutex mutex_;  // of what follows, and of the vertices of boundaries
+    std::map<NodeId, std::int32_t> region_of_part_;
+};
+
+// Calls work(i) for i below `count`, by threads, until one throws.
+template <class Work>
+void by_threads(int threads, std::size_t count, const Work& work) {
+    std::atomic<std::size_t> next = 0;
+    std::mutex mutex;
+    std::exception_ptr error;
+    const auto work_off = [&] {
+        try {
+            for (std::size_t i = next++; i < count; i = next++) work(i);
+        } catch (...) {
+            next = count;
+            const std::lock_guard lock(mutex);
+            if (!error) error = std::current_exception();
+        }
+    };
+    {
+        std::vector<std::jthread> others;
+        for (std::size_t i = 1; i < std::min(count, static_cast<std::size_t>(threads)); ++i)
+            others.emplace_back(work_off);
+        work_off();
+    }
+    if (error) std::rethrow_exception(error);
+}
+
+}  // namespace
+
+MeshArrays arrays_of_parts(const StoredParts& parts, int threads) {
+    ArrayFiller filler(parts.outline());
+    by_threads(threads, parts.outline().parts.size(), [&](std::size_t i) {
+        const PartIndex index(i);
+        parts.load_in_pieces(index, {[&](const Part& part) { filler.put_boundary(index, part); },
+                                     [&](const Part& part, std::size_t first, std::span<const Vec3> points) {
+                                         filler.put_points(part, first, points);
+                                     },
+                                     [&](const Part& part, std::size_t first, std::span<const Tetrahedron> tets) {
+                                         filler.put_cells(index, part, first, tets);
+                                     }});
+    });
+    return filler.take();
+}
+
+MeshArrays arrays_of_parts(const PartSource& parts) {
+    ArrayFiller filler(parts.outline());
+    for_each_part(parts, PartContent::vertices,
+                  [&](PartIndex, const Part& part) { filler.put_points(part, 0, part.mesh.vertices); });
+    for_each_part(parts, PartContent::cells, [&](PartIndex index, const Part& part) {
+        filler.put_boundary(index, part);
+        filler.put_cells(index, part, 0, part.mesh.tets);
+    });
+    return filler.take();
+}
+
+}  // namespace kerf

@@ -1,0 +1,19 @@
+// kerf.SizeField.
+#pragma once
+
+#include <memory>
+
+#include <pybind11/pybind11.h>
+
+#include "kerf/kerf.h"
+
+namespace kerf::python {
+
+/// What kerf.SizeField holds; never null.
+struct SizesObject {
+    std::shared_ptr<const GivenSizes> sizes;
+};
+
+void register_sizes(pybind11::module_& module);
+
+}  // namespace kerf::python
