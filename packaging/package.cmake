@@ -24,4 +24,4 @@ set(KERF_PYTHON_FOLDER lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINO
   "Where the package of Python is installed, below the prefix")
 install(TARGETS ${package_modules} LIBRARY DESTINATION ${KERF_PYTHON_FOLDER}/kerf)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/python/kerf DESTINATION ${KERF_PYTHON_FOLDER} FILES_MATCHING PATTERN *.py
-  PATTERN *.pyi PATTERN py.typed PATTERN __pycache__ EXCLUDE)
+  PATTERN *.pyi PATTERN py.typed PATTERN __pycache__ EXCLUDE PATTERN bin EXCLUDE)

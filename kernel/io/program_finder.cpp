@@ -32,10 +32,18 @@ fs::path folder_of_program() {
     return fs::read_symlink("/proc/self/exe", error).parent_path();
 }
 
+// Where the programs of a package of Python are: in a wheel, in a build folder, and in an installed tree.
+std::vector<fs::path> folders_of_package(const fs::path& package) {
+    std::error_code error;
+    if (package.empty() || !fs::exists(package / "__init__.py", error)) return {};
+    return {package / "bin", package.parent_path().parent_path(), (package / "../../../../bin").lexically_normal()};
+}
+
 std::vector<fs::path> folders_with_programs(const std::string& folder) {
     std::vector<fs::path> folders;
     if (!folder.empty()) folders.emplace_back(folder);
     if (const char* named = std::getenv(programs_variable); named && *named != 0) folders.emplace_back(named);
+    for (const fs::path& each : folders_of_package(folder_of_library())) folders.push_back(each);
     for (const fs::path& own : {folder_of_library(), folder_of_program()})
         if (!own.empty())
             folders.insert(folders.end(), {own, own.parent_path() / "bin", own.parent_path() / "libexec/kerf"});

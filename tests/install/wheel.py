@@ -52,6 +52,15 @@ def check_libraries(package: Path, build: Path) -> None:
                 raise SystemExit(f"wheel.py: {file.name} has {line.strip()}")
 
 
+def check_programs(environment: Path, folder: Path) -> None:
+    """The kernel finds each by itself, as where a file is read by one."""
+    for program in (path for path in (package_of(environment) / "bin").iterdir() if path.is_file()):
+        code = f"from kerf import _kerf; print(_kerf.find_program({program.name!r}))"
+        found = run(environment / "bin/python", "-c", code, cwd=folder).strip()
+        if found != str(program):
+            raise SystemExit(f"wheel.py: {program.name} is found at {found}")
+
+
 def check_mesh(environment: Path, folder: Path, build: Path) -> None:
     where = run(environment / "bin/python", "-c", MESHES, build, cwd=folder).splitlines()
     if where != [str(package_of(environment) / "__init__.py")]:
@@ -99,6 +108,7 @@ def try_wheel(wheel: Path, build: Path, folder: Path) -> None:
     steps.done("installed")
     environment = (folder / "first").rename(folder / "another place")
     check_libraries(package_of(environment), build)
+    check_programs(environment, folder)
     check_mesh(environment, folder, build)
     steps.done("meshes where it was moved to")
     programs = package_of(environment) / "bin"

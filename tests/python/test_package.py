@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import kerf
-from kerf import _kerf
+from kerf import _kerf, programs
 
 PACKAGE = Path(kerf.__file__).parent
 SOURCES = Path(__file__).resolve().parents[2]
@@ -52,6 +52,10 @@ def test_everything_public_has_its_types():
             functions[f"{name}()"] = vars(thing).get("__init__")
     assert {name: unannotated(thing) for name, thing in functions.items()
             if inspect.isfunction(thing) and unannotated(thing)} == {}
+
+
+def test_the_kernel_finds_the_programs_by_itself():
+    assert Path(_kerf.find_program("kerf-worker")).samefile(programs.path("kerf-worker"))
 
 
 def members_of_stub(body):
