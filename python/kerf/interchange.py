@@ -200,7 +200,7 @@ def _surface(points: np.ndarray, triangles: np.ndarray, patches: Optional[np.nda
     used, corners = np.unique(triangles, return_inverse=True)
     points, triangles = np.asarray(points)[used], corners.reshape(-1, 3)
     if patches is None or isinstance(names, list):
-        return Surface(points, triangles, patches, names, **options)
+        return Surface(points, triangles, patches, names if isinstance(names, list) else None, **options)
     numbers, patches = np.unique(patches, return_inverse=True)
     of_number = dict(names or {})
     return Surface(points, triangles, patches, [of_number.get(int(n), f"patch_{n}") for n in numbers], **options)
@@ -229,7 +229,8 @@ def surface_of_meshio(mesh: meshio.Mesh, patches: Optional[str], options: Mappin
 def _patches_of_sets(mesh: meshio.Mesh, rows: list[int],
                      count: int) -> tuple[Optional[np.ndarray], Optional[list[str]]]:
     """The sets as patches, with their names, if each triangle is in one."""
-    patches, names = np.full(count, -1), []
+    patches = np.full(count, -1)
+    names: list[str] = []
     first = np.cumsum([0] + [len(mesh.cells[i].data) for i in rows])
     for name, members in mesh.cell_sets.items():
         inside = [first[k] + np.asarray(members[i], int) for k, i in enumerate(rows) if members[i] is not None]

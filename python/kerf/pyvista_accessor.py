@@ -42,7 +42,7 @@ class KerfAccessor:
                             "output=...) writes a folder.")
         return mesh(self.surface(patches), **options).to_pyvista()
 
-    def check(self, **options: object) -> list[dict[str, Any]]:
+    def check(self, **options: Any) -> list[dict[str, Any]]:
         """What keeps the surface from being meshed, the worst first, as InputError.elements has it; empty: nothing."""
         try:
             self.surface(**options)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pickle
-from typing import TYPE_CHECKING, Callable, Dict, Optional, TypeVar
+from typing import TYPE_CHECKING, Any, Callable, Dict, Optional, TypeVar
 
 import numpy as np
 
@@ -33,7 +33,8 @@ def together(comm: Comm, work: Callable[[], Value]) -> Value:
     work() itself is not collective, or ends on all ranks where it fails on one. Of several errors that of the first
     rank counts, but those that may be the consequence of another rank's only if there are no others.
     """
-    value, error = None, None
+    value: Any = None
+    error: Optional[BaseException] = None
     try:
         value = work()
     except BaseException as raised:  # KeyboardInterrupt, too: no rank waits for one that is gone
@@ -42,7 +43,7 @@ def together(comm: Comm, work: Callable[[], Value]) -> Value:
     if all(each is None for each in errors):
         return value
     rank = min((r for r, each in enumerate(errors) if each is not None), key=lambda r: (_weight(errors[r]), r))
-    if rank == comm.rank:
+    if rank == comm.rank and error is not None:
         raise error
     raise errors[rank] from error
 
