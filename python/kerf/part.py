@@ -108,6 +108,7 @@ class Part:
 
     @property
     def patch_names(self) -> list[str]:
+        """Names of the patches, in the order of their numbers."""
         return self._native.patch_names
 
     @property

@@ -66,6 +66,7 @@ class Quality:
 
     @property
     def points(self) -> int:
+        """How many there are."""
         return self.json["vertices"]
 
     @property

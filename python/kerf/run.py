@@ -61,6 +61,7 @@ class Run:
 
     @property
     def patch_names(self) -> list[str]:
+        """Names of the patches, in the order of their numbers."""
         return self._native.patch_names
 
     @property
