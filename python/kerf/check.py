@@ -59,7 +59,7 @@ class Check:
 def check(surface: Union[Surface, Path, ArrayLike], triangles: Optional[ArrayLike] = None,
           patches: Optional[ArrayLike] = None, names: Optional[Sequence[str]] = None,
           sides: Optional[ArrayLike] = None, regions: Optional[Sequence[str]] = None, needle_angle: float = 1,
-          **options: object) -> Check:
+          **options: Any) -> Check:
     """Everything that keeps a surface from being meshed, or will give bad cells. A surface that is broken is no error.
 
     surface        the path of a file, a Surface, or points (n, 3) with `triangles` and what else Surface() takes
@@ -82,8 +82,9 @@ def check(surface: Union[Surface, Path, ArrayLike], triangles: Optional[ArrayLik
         if not isinstance(surface, Surface):
             raise TypeError("A path, a Surface, or points with triangles is wanted.")
         of_regions = surface.regions or None
-        arrays = (surface.points, surface.triangles, surface.patches, encoded_names("names", surface.names),
-                  surface.sides if of_regions else None, encoded_names("regions", of_regions))
+        arrays: tuple[Any, ...] = (surface.points, surface.triangles, surface.patches,
+                                   encoded_names("names", surface.names), surface.sides if of_regions else None,
+                                   encoded_names("regions", of_regions))
     else:
         arrays = (surface, triangles, patches, encoded_names("names", names), sides, encoded_names("regions", regions))
-    return Check(_kerf.check_arrays(*arrays, float(needle_angle), **options))
+    return Check(_kerf.check_arrays(*arrays, needle_angle=float(needle_angle), **options))

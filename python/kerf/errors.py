@@ -25,7 +25,7 @@ class FailedPart:
 
     @classmethod
     def _of(cls, number: int, place: list[float], message: str, reproducer: str) -> FailedPart:
-        return cls(number, tuple(place), message, reproducer if os.path.exists(reproducer) else None)
+        return cls(number, (place[0], place[1], place[2]), message, reproducer if os.path.exists(reproducer) else None)
 
 
 class Error(Exception):
@@ -101,8 +101,9 @@ class Cancelled(Error):
     code = 130
 
 
-_classes = {each.code: each for each in (UsageError, InputError, MeshingError, OutOfMemory, QualityError, FileError,
-                                         VerificationError, ConvergenceError, Cancelled)}
+_kinds: tuple[type[Error], ...] = (UsageError, InputError, MeshingError, OutOfMemory, QualityError, FileError,
+                                   VerificationError, ConvergenceError, Cancelled)
+_classes = {each.code: each for each in _kinds}
 
 
 def _defect_of(message: str, elements: list[dict[str, Any]]) -> Defect:
@@ -125,7 +126,7 @@ def error_of(code: int, message: str, elements: Iterable[dict[str, Any]],
 
     kind = _classes.get(code, Error)
     message = in_python(message)
-    error = kind(message, elements, defects) if kind is InputError else kind(message, elements)
-    if failed_parts:
+    error = InputError(message, elements, defects) if kind is InputError else kind(message, elements)
+    if failed_parts and isinstance(error, (MeshingError, OutOfMemory)):
         error.failed_parts = [FailedPart._of(*each) for each in failed_parts]
     return error
