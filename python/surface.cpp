@@ -60,12 +60,14 @@ void register_surface(py::module_& module) {
     py::class_<SurfaceObject, std::shared_ptr<SurfaceObject>>(module, "Surface")
         .def(py::init(&make_surface), py::arg("points"), py::arg("triangles"), py::arg("patches") = py::none(),
              py::arg("names") = py::none(), py::arg("sides") = py::none(), py::arg("regions") = py::none())
-        .def_property_readonly("points", [](py::object self) { return view(self.cast<SurfaceObject&>().points, self); })
+        .def_property_readonly("points",
+                               [](const py::object& self) { return view(self.cast<SurfaceObject&>().points, self); })
         .def_property_readonly("triangles",
-                               [](py::object self) { return view(self.cast<SurfaceObject&>().triangles, self); })
+                               [](const py::object& self) { return view(self.cast<SurfaceObject&>().triangles, self); })
         .def_property_readonly("patches",
-                               [](py::object self) { return view(self.cast<SurfaceObject&>().patches, self); })
-        .def_property_readonly("sides", [](py::object self) { return view(self.cast<SurfaceObject&>().sides, self); })
+                               [](const py::object& self) { return view(self.cast<SurfaceObject&>().patches, self); })
+        .def_property_readonly("sides",
+                               [](const py::object& self) { return view(self.cast<SurfaceObject&>().sides, self); })
         .def_property_readonly("names", [](const SurfaceObject& self) { return decoded(self.surface.patch_names()); })
         .def_property_readonly("regions",
                                [](const SurfaceObject& self) { return decoded(self.surface.region_names()); })

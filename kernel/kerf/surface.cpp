@@ -7,6 +7,7 @@
 #include "kerf/kerf.h"
 #include "prepare/surface_file.h"
 #include "report/file_diagnosis.h"
+#include "request/options.h"
 
 namespace kerf {
 

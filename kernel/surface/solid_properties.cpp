@@ -9,7 +9,7 @@ namespace kerf {
 SolidProperties solid_properties(const Complex& complex) {
     SolidProperties solid;
     if (complex.facet_count() == 0) return solid;
-    const Vec3 origin = complex.point(0);
+    const Vec3& origin = complex.point(0);
     Vec3 first = Vec3::Zero();
     Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
     for (std::int32_t f = 0; f < complex.facet_count(); ++f) {
