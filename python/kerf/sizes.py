@@ -88,19 +88,13 @@ def sample_sizes(function: SizeFunction, surface: Surface, tolerance: float = 0.
 
 
 def split_size(size: Size, surface: Union[Surface, Path]) -> tuple[Optional[_kerf.SizeField], Union[float, str, None]]:
-    """What the argument `size` says as a field, and as the option of the command line: one of them is None. Raises
-    TypeError for what is no size. `surface` must be one where `size` is a function."""
+    """What the argument `size` says as a field, and as the option of the command line: one of them is None.
+    `surface` must be one where `size` is a function."""
     if callable(size):
         size = sample_sizes(size, surface)
     if isinstance(size, SizeField):
         return size._native, None
-    if isinstance(size, str):
-        return None, size
-    try:
-        return None, float(size)
-    except (TypeError, ValueError):
-        raise TypeError(f"size is {size!r}, but a number, a text as \"2%\", a function of points or a SizeField is "
-                        "wanted.") from None
+    return None, size
 
 
 _finest_steps = 6  # beyond the lattice

@@ -152,5 +152,5 @@ def test_what_a_function_raises_is_raised(cube):
 
 def test_two_fields_are_one_too_many(cube):
     field = kerf.sample_sizes(lambda points: np.full(len(points), 0.5), kerf.Surface(*cube))
-    with pytest.raises(kerf.UsageError, match="--size-field"):
+    with pytest.raises(kerf.UsageError, match="size_field"):
         kerf.mesh(kerf.Surface(*cube), size=field, size_field="sizes.vtu")
