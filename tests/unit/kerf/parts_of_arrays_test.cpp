@@ -16,7 +16,7 @@ namespace {
 using Corners = std::array<std::int64_t, 3>;
 
 // Two cubes, one on the other.
-ClosedSurface two_cubes() {
+ClosedSurface stacked_cubes() {
     std::vector<std::array<double, 3>> points;
     for (const double z : {0., 1., 2.})
         for (const auto& [x, y] : {std::pair(0., 0.), std::pair(1., 0.), std::pair(1., 1.), std::pair(0., 1.)})
@@ -54,7 +54,7 @@ TEST(PartsOfArrays, AreThoseOfTheRun) {
     const test::TemporaryFolder folder;
     const std::string run = folder.file("run");
     mesh_to_folder(
-        two_cubes(),
+        stacked_cubes(),
         {.size = 0.4, .parts = 5, .workers = 1, .programs = std::filesystem::path(KERF_WORKER).parent_path().string()},
         run);
     const MeshArrays arrays = arrays_of_run(run);
