@@ -13,7 +13,7 @@ import numpy as np
 assets = Path(__file__).parents[1] / "assets"
 folder = Path(sys.argv[1] if len(sys.argv) > 1 else "bone_and_cement")
 
-run = kerf.mesh([assets / "bone.stl", assets / "cement.stl"], parts=4, output=folder / "mesh")
+run = kerf.mesh(assets / "bone.stl", with_=assets / "cement.stl", parts=4, output=folder / "mesh")
 print(run, run.region_names)
 
 points = np.concatenate([part.points for part in run.parts])

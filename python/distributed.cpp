@@ -64,7 +64,7 @@ void register_distributed(py::module_& module) {
     module.def("mesh_of_rank", &mesh_of_rank, py::call_guard<py::gil_scoped_release>(), py::arg("folder"),
                py::arg("rank"), py::arg("ranks"));
     module.def("mesh_on_ranks", &mesh_on_ranks_into, py::arg("ranks"), py::arg("processors"), py::arg("of"),
-               py::arg("folder"), py::arg("sizes"), py::arg("progress"), py::arg("programs"), py::pos_only());
+               py::arg("folder"), py::arg("sizes"), py::arg("progress"), py::arg("programs"));
 }
 
 }  // namespace kerf::python

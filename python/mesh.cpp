@@ -81,10 +81,9 @@ void register_mesh(py::module_& module) {
                 without_lock(watch, [&] { mesh_to_file(self, path, options); });
             },
             py::arg("path"), py::arg("msh_version"), py::arg("msh_ascii"));
-    module.def("mesh", &mesh, py::arg("of"), py::arg("sizes"), py::arg("progress"), py::arg("programs"),
-               py::pos_only());
+    module.def("mesh", &mesh, py::arg("of"), py::arg("sizes"), py::arg("progress"), py::arg("programs"));
     module.def("mesh_into", &mesh_into, py::arg("of"), py::arg("folder"), py::arg("sizes"), py::arg("progress"),
-               py::arg("programs"), py::pos_only());
+               py::arg("programs"));
     module.def("mesh_of_run", [](const std::string& folder) {
         const py::gil_scoped_release released;
         return std::make_shared<MeshArrays>(arrays_of_run(folder));

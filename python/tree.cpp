@@ -158,8 +158,7 @@ void register_tree(py::module_& module) {
         .def(
             "text", [](const CutTree& self, bool every_node) { return tree_text(self.nodes, every_node); },
             py::arg("every_node"));
-    module.def("decompose", &decompose, py::arg("of"), py::arg("sizes"), py::arg("progress"), py::arg("programs"),
-               py::pos_only());
+    module.def("decompose", &decompose, py::arg("of"), py::arg("sizes"), py::arg("progress"), py::arg("programs"));
 }
 
 }  // namespace kerf::python

@@ -13,7 +13,8 @@ import os
 import shutil
 import tempfile
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, List, Optional, Union
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, List, Optional, Union
 
 import numpy as np
 
@@ -119,8 +120,9 @@ class DistributedMesh:
     def rows(self) -> Rows:
         """Rows of the points in vectors and matrices that are distributed as the points are owned. Collective."""
         is_own = self.local.owner == self.comm.rank
-        last = self.comm.scan(int(is_own.sum()))
-        first = last - int(is_own.sum())
+        counts = self.comm.allgather(int(is_own.sum()))
+        first = sum(counts[:self.comm.rank])
+        last = first + counts[self.comm.rank]
         of_points = np.full(len(is_own), -1, np.int64)
         of_points[is_own] = np.arange(first, last)
         return Rows(first, last, self.from_owners(of_points))
@@ -145,7 +147,7 @@ class DistributedMesh:
         shares[self.comm.rank] = own
         result = np.zeros_like(own)
         for rank in sorted(shares):
-            rows = slice(None) if rank == self.comm.rank else self._shared_with(rank)
+            rows: Any = slice(None) if rank == self.comm.rank else self._shared_with(rank)
             result[rows] += shares[rank]
         return result
 
@@ -202,17 +204,17 @@ def mesh_on_ranks(surface: Union[Surface, Path], comm: Comm, /, parts: int = 0, 
                   **options: object) -> DistributedMesh:
     """kerf.mesh() with a communicator; DistributedMesh tells of it."""
     check_communicator(comm)
-    surface, options = together(comm, lambda: surface_and_options(surface, options))
-    sizes, length = together(comm, lambda: split_size(size, surface))
-    options = {"parts": parts, "size": length, "workers": workers, **options}
-    _require_same(comm, {name: value for name, value in options.items() if name != "workers"},
-                  {"surface.points": len(surface.points), "surface.volume": surface.volume})
+    given, others = together(comm, lambda: surface_and_options(surface, options))
+    sizes, length = together(comm, lambda: split_size(size, given))
+    _require_same(comm, {"parts": parts, "size": length, **others},
+                  {"surface.points": len(given.points), "surface.volume": given.volume})
+    others = {"parts": parts, "size": length, "workers": workers, **others}
     temporary = together(comm, lambda: tempfile.mkdtemp(prefix="kerf.") if output is None and comm.rank == 0 else None)
     try:
         folder = comm.bcast(together(comm, lambda: _run_folder(output, temporary)))
         shown = comm.bcast(temporary)
         together(comm, lambda: _require_seen(shown))
-        together(comm, lambda: _mesh_into(surface, comm, folder, sizes, progress, options))
+        together(comm, lambda: _mesh_into(given, comm, folder, sizes, progress, others))
         return distributed(folder, comm)
     finally:
         if temporary:
@@ -249,7 +251,7 @@ def _require_seen(temporary: Optional[str]) -> None:
 
 
 def _mesh_into(surface: Surface, comm: Comm, folder: str, sizes: Optional[_kerf.SizeField], progress: Progress,
-               options: dict) -> None:
+               options: dict[str, Any]) -> None:
     """Ends on all ranks where it fails on one."""
     from mpi4py import MPI
 
@@ -258,7 +260,7 @@ def _mesh_into(surface: Surface, comm: Comm, folder: str, sizes: Optional[_kerf.
         ranks, processors, surface._native, folder, sizes, told, programs.folder(), **options))
 
 
-def _mpi() -> object:
+def _mpi() -> ModuleType:
     """The module that knows MPI, by the same library as mpi4py."""
     from mpi4py import MPI
 

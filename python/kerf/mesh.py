@@ -227,7 +227,7 @@ def _run(surface: Union[Surface, Path], folder: str, parts: int, size: Size, wor
     if callable(size):  # of the place, so that it has to be known
         surface, options = surface_and_options(surface, options)
     sizes, length = split_size(size, surface)
-    given = surface._native if isinstance(surface, Surface) else os.fspath(surface)
+    given: Union[_kerf.Surface, str] = surface._native if isinstance(surface, Surface) else os.fspath(surface)
     _kerf.mesh_into(given, folder, sizes, caller(progress), programs.folder(), parts=parts, size=length,
                     workers=workers, **options)
     return Run(folder)

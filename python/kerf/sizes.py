@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import permutations
-from typing import TYPE_CHECKING, Callable, Optional, Union
+from typing import TYPE_CHECKING, Any, Callable, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -87,7 +87,7 @@ def sample_sizes(function: SizeFunction, surface: Surface, tolerance: float = 0.
     return sampler.field(tolerance)
 
 
-def split_size(size: Size, surface: Union[Surface, Path]) -> tuple[Optional[_kerf.SizeField], Union[float, str, None]]:
+def split_size(size: Size, surface: Any) -> tuple[Optional[_kerf.SizeField], Union[float, str, None]]:
     """What the argument `size` says as a field, and as the option of the command line: one of them is None.
     `surface` must be one where `size` is a function."""
     if callable(size):
@@ -142,7 +142,8 @@ class _Sampler:
         self._error = 0.0
 
     def field(self, tolerance: float) -> SizeField:
-        cells, leaves = self._root, []
+        cells = self._root
+        leaves: list[tuple[np.ndarray, int]] = []
         doubts = np.zeros(len(cells))  # differences in the cells that they come from
         for level in range(self._levels + _finest_steps + 1):
             edge = self._edge >> level
@@ -241,14 +242,14 @@ def _checked(function: SizeFunction, points: np.ndarray) -> np.ndarray:
     count = len(points)
     sizes = np.asarray(function(points.copy()))
     if sizes.shape != (count,):
-        raise ValueError(f"The function of sizes returned the shape {sizes.shape} for {count} points, but ({count},) is "
-                         "wanted.")
+        raise ValueError(f"The function of sizes returned the shape {sizes.shape} for {count} points, but ({count},) is"
+                         " wanted.")
     if sizes.dtype.kind not in "fiu":
         raise TypeError(f"The function of sizes returned the dtype {sizes.dtype}, but numbers are wanted.")
     sizes = sizes.astype(float)
     wrong = np.flatnonzero(~((sizes > 0) & np.isfinite(sizes)))
     if len(wrong):
         point = ", ".join(f"{x:.6g}" for x in points[wrong[0]])
-        raise ValueError(f"The function of sizes returned {sizes[wrong[0]]} at ({point}), but edge lengths are positive "
-                         "and finite.")
+        raise ValueError(f"The function of sizes returned {sizes[wrong[0]]} at ({point}), but edge lengths are positive"
+                         " and finite.")
     return sizes

@@ -42,7 +42,7 @@ def whole(tmp_path_factory):
     mesh = kerf.mesh(surface, **OPTIONS)
     names = ("points", "tetrahedra", "part", "region", "triangles", "patch", "sides")
     np.savez(folder / "whole.npz", **{name: getattr(mesh, name) for name in names})
-    kerf._kerf.mesh_into(surface._native, str(folder / "run"), 0, 0.0, 0, programs=kerf.programs.folder(), **OPTIONS)
+    kerf.mesh(surface, output=folder / "run", **OPTIONS)
     return folder
 
 

@@ -159,7 +159,7 @@ def test_none_is_not_given():
     ({"size": True}, kerf.UsageError, "size is 'true'"),
     ({"size": [1, 2]}, TypeError, "size takes one value, but [1, 2] has several"),
     ({"size": {"a": 1}}, TypeError, "size takes no dict"),
-    ({"size": object}, TypeError, "but it must be a length"),
+    ({"size": object()}, TypeError, "but it must be a length"),
     ({"size": 1j}, TypeError, "size is 1j"),
     ({"size": b"1"}, TypeError, "size is b'1'"),
     ({"size": "1\0"}, ValueError, "size has a character NUL"),

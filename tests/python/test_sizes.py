@@ -146,7 +146,7 @@ def test_what_a_function_raises_is_raised(cube):
 
     with pytest.raises(ZeroDivisionError):
         kerf.mesh(kerf.Surface(*cube), size=fail)
-    with pytest.raises(TypeError, match="SizeField"):
+    with pytest.raises(TypeError, match="size takes one value"):
         kerf.mesh(kerf.Surface(*cube), size=[1, 2])
 
 
