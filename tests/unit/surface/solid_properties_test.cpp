@@ -7,12 +7,12 @@
 namespace kerf {
 namespace {
 
-SolidProperties properties(const Soup& soup) { return solid_properties(Complex(test::to_surface(soup))); }
+SolidProperties solid_of(const Soup& soup) { return solid_properties(Complex(test::to_surface(soup))); }
 
 TEST(SolidProperties, OfABoxAreThoseOfTextbooks) {
     for (const double far : {0.0, 1e5}) {
         const Vec3 low(1 + far, 2, 3), size(6, 2, 3);
-        const SolidProperties box = properties(test::box(low, low + size, {6, 2, 3}));
+        const SolidProperties box = solid_of(test::box(low, low + size, {6, 2, 3}));
         EXPECT_NEAR(box.volume, 36, 1e-9);
         EXPECT_LE((box.centroid - low - size / 2).norm(), 1e-9);
         EXPECT_LE((box.principal.moments - Vec3(39, 120, 135)).norm(), 1e-7);  // 36 / 12 (4 + 9), ...
@@ -21,9 +21,9 @@ TEST(SolidProperties, OfABoxAreThoseOfTextbooks) {
 }
 
 TEST(SolidProperties, DoNotDependOnTheTriangulationButOnVoids) {
-    const SolidProperties coarse = properties(test::box()), fine = properties(test::box(Vec3::Zero(), Vec3::Ones(), 5));
+    const SolidProperties coarse = solid_of(test::box()), fine = solid_of(test::box(Vec3::Zero(), Vec3::Ones(), 5));
     EXPECT_LE((coarse.inertia - fine.inertia).norm(), 1e-12);
-    const SolidProperties hollow = properties(test::nested_boxes(2, 2));  // of side 3, without one of side 1
+    const SolidProperties hollow = solid_of(test::nested_boxes(2, 2));  // of side 3, without one of side 1
     EXPECT_NEAR(hollow.inertia(0, 0), (243. - 1) / 6, 1e-9);
 }
 
