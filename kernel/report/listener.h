@@ -1,11 +1,12 @@
 // How a run tells of its progress.
 #pragma once
 
-#include "part/part_store.h"
 #include "prepare/stage_listener.h"
 #include "report/report.h"
 
 namespace kerf {
+
+class StoredParts;
 
 /// A part has ended, well or not; all numbers are those of the whole run, over all ranks.
 struct PartEvent {

@@ -15,7 +15,7 @@ import tempfile
 
 from surroundings import environment
 
-GROUPS = ("build", "cad", "3mf", "solve")  # of packages.txt, that the images have
+GROUPS = ("build", "cad", "3mf", "solve", "python")  # of packages.txt, that the images have
 
 
 def check(holds, text):

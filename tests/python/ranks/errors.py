@@ -42,11 +42,6 @@ def mesh(**options):
     return kerf.mesh(two_boxes.surface(), comm=comm, **{**OPTIONS, **options})
 
 
-class Unprintable:
-    def __str__(self):
-        raise ValueError("has no text")
-
-
 temporary = set(os.listdir(tempfile.gettempdir()))
 require_everywhere(lambda: kerf.mesh("/nowhere/a.stl" if is_last else two_boxes.surface(), comm=comm),
                    kerf.FileError, "a.stl")
@@ -54,7 +49,7 @@ require_everywhere(lambda: mesh(parts="two" if is_last else 2), kerf.UsageError,
                    "parts is 2 on rank 0, but two on rank")
 require_everywhere(lambda: mesh(radius_edge=-1), kerf.UsageError, "radius_edge")
 require_everywhere(lambda: mesh(size=0.4 if is_last else 0.5), kerf.UsageError, "size is 0.5 on rank 0, but 0.4")
-require_everywhere(lambda: mesh(radius_edge=Unprintable() if is_last else Decimal("1.5")), ValueError, "has no text")
+require_everywhere(lambda: mesh(radius_edge=object() if is_last else Decimal("1.5")), TypeError, "must be a number")
 require_everywhere(lambda: mesh(progress=refuse if is_last else None), ZeroDivisionError, "of the last rank")
 require_everywhere(lambda: mesh(progress=press if is_last else None), KeyboardInterrupt, "")
 require_everywhere(lambda: mesh(output=5 if is_last else "out"), TypeError, "int")
