@@ -177,7 +177,7 @@ def mesh(surface: Union[Surface, Path], /, parts: int = 0, size: Size = 0, progr
          **options: object) -> Union[Mesh, Run, DistributedMesh]:
     """The mesh of a surface, or of a file.
 
-    surface    a Surface, or the path of a file
+    surface    a Surface, or the path of a file; `with_` names others, whose bodies are meshed with its own
     parts      into which the surface is cut; 0: as many as are of use here
     size       wanted edge length, in units of the surface; a text with a share of the diagonal, as "2%"; a function
                of points (n, 3) that returns lengths (n,), see sample_sizes(); a SizeField; 0: none

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, Union
 
 from . import _kerf
 from .mesh import Mesh
+from .notebook import html_of
 from .part import Parts
 from .progress import Progress, caller
 from .quality import Quality
@@ -163,6 +164,11 @@ class Run:
         kind = "solution" if self._native.solution else "run"
         return (f"<kerf.Run: {kind} in {self._folder}, {len(self)} parts, {self.points_count} points, "
                 f"{self.tetrahedra_count} tetrahedra>")
+
+    def _repr_html_(self) -> str:
+        rows = {"points": self.points_count, "tetrahedra": self.tetrahedra_count, "parts": len(self),
+                "regions": max(1, len(self.region_names)), "patches": len(self.patch_names)}
+        return html_of(self, f"kerf.Run {self._folder}", rows, self.tetrahedra_count)
 
 
 def open(folder: Path) -> Run:

@@ -72,6 +72,10 @@ def test_parts_are_the_mesh(run):
     assert np.isclose(sum(volume(p.points, p.tetrahedra) for p in parts), 2)
 
 
+def test_a_notebook_shows_counts(run):
+    assert f"<td>tetrahedra</td><td style='text-align:right'>{run.tetrahedra_count:,}</td>" in run._repr_html_()
+
+
 def test_neighbours_have_the_same_triangles_turned(run):
     faces = set()
     for part in run.parts:
