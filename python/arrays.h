@@ -46,6 +46,12 @@ py::array owned(Rows rows) {
     return view(*data, owner);
 }
 
+/// The getter of a member of an object: a view of it.
+template <class Object, class Values>
+auto array_of(Values Object::*member) {
+    return [member](const py::object& self) { return view(self.cast<Object&>().*member, self); };
+}
+
 /// Whatever numpy makes an array of, as rows of N numbers; N = 1: as numbers. Throws ValueError or TypeError, naming
 /// the argument, its shape or type and, for whole numbers that do not fit in 32 bits, the row.
 std::vector<std::array<double, 3>> points_of(const py::object& array, const char* name);

@@ -26,11 +26,6 @@ void mesh_on_ranks_into(Communicator& ranks, std::int32_t processors, const Surf
     });
 }
 
-template <class Member>
-auto array_of(Member member) {
-    return [member](const py::object& self) { return view(self.cast<RankMesh&>().*member, self); };
-}
-
 py::list neighbours_of(const py::object& self) {
     py::list neighbours;
     for (const RankNeighbour& each : self.cast<RankMesh&>().neighbours)

@@ -41,11 +41,6 @@ auto measured(const MeshArrays& mesh, Measure measure) {
     return measure(mesh);
 }
 
-template <class Member>
-auto array_of(Member member) {
-    return [member](const py::object& self) { return view(self.cast<MeshArrays&>().*member, self); };
-}
-
 }  // namespace
 
 void register_mesh(py::module_& module) {

@@ -55,11 +55,6 @@ py::dict values_of(const py::object& self, PartValues::Of of) {
     return values;
 }
 
-template <class Member>
-auto array_of(Member member) {
-    return [member](const py::object& self) { return view(self.cast<Part&>().*member, self); };
-}
-
 }  // namespace
 
 void register_part(py::module_& module) {
