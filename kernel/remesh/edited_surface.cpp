@@ -97,6 +97,11 @@ bool EditedSurface::joins_what_is_apart(HalfEdge h) const {
     return std::any_of(mesh_.cvv_begin(v), mesh_.cvv_end(v), has_another);
 }
 
+bool EditedSurface::is_of_tetrahedron(HalfEdge h) const {
+    const auto is_corner = [&](Vertex v) { return mesh_.valence(v) == 3 && !mesh_.is_boundary(v); };
+    return is_corner(mesh_.from_vertex_handle(h)) && is_corner(mesh_.to_vertex_handle(h));
+}
+
 bool EditedSurface::collapse(HalfEdge h, const CollapseRules& rules) {
     const Vertex v = mesh_.from_vertex_handle(h);
     if (mesh_.data(v).is_fixed || mesh_.data(v).is_end) return false;
@@ -120,7 +125,7 @@ bool EditedSurface::may_collapse(HalfEdge h, const CollapseRules& rules, NewFace
     const bool merges =
         rules.merges_features && !mesh_.has_copies(v) && mesh_.feature_count(w) >= 2 && mesh_.has_one_patch(v);
     if (features != 0 && !merges && !(features == 2 && mesh_.data(mesh_.edge_handle(h)).is_feature)) return false;
-    if (!mesh_.is_collapse_ok(h)) return false;
+    if (!mesh_.is_collapse_ok(h) || is_of_tetrahedron(h)) return false;
     star.clear();
     double worst = 1;
     for (const HalfEdge side : {h, back}) {

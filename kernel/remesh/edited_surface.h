@@ -66,6 +66,8 @@ class EditedSurface {
     void find_seams();
     bool is_on_line(std::span<const Vertex> copies) const;
     bool joins_what_is_apart(HalfEdge h) const;
+    /// Whether a collapse would leave nothing but two facets back to back.
+    bool is_of_tetrahedron(HalfEdge h) const;
     bool may_collapse(HalfEdge h, const CollapseRules& rules, NewFacets& star);
     void commit_collapse(HalfEdge h, const NewFacets& star);
     bool may_move(Vertex v, const Vec3& place, bool is_inside, NewFacets& star);

@@ -168,6 +168,23 @@ TEST(Remesh, StripsAndFansBecomeWellShaped) {
     }
 }
 
+// A collapse would leave two facets back to back, of which a split makes facets that nothing is known of.
+TEST(Remesh, ATetrahedronStaysABody) {
+    for (const double height : {1., 0.1, 0.05, 0.02}) {
+        SCOPED_TRACE(height);
+        Soup soup;
+        soup.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, height}};
+        soup.facets = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+        soup.patch = {0, 0, 0, 0};
+        const SurfaceArrays surface = test::to_arrays(soup);
+        try {
+            EXPECT_GE(remesh(surface, {.deviation = 0.05, .longest = 0.7}).surface.facets.size(), 4);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::input);
+        }
+    }
+}
+
 // A block with a step of this height over half of its top.
 SurfaceArrays stepped_block(double step) {
     const std::vector<Vec3> outline = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 1 + step, 0}, {0, 1 + step, 0}};
