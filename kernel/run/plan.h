@@ -16,8 +16,7 @@ namespace kerf {
 struct RunPlan {
     RunOptions options;  ///< resolved: K, lengths in units of the input, sizes over the surface that is cut
     std::optional<FoundSize> found_size;  ///< for the number of tetrahedra that was asked for
-    std::string
-        worker_hash;  ///< of the program that meshes the parts; empty if there is nothing for it to do, or to continue
+    std::string worker_hash;  ///< of the program that meshes the parts; empty if it has nothing to do, or to continue
 };
 
 /// Reads the surface into `input`, unless it is there already (Input::is_ready), remeshes it where that is asked for,

@@ -4,7 +4,7 @@
 usage: python_modules.py [--package FOLDER] [--only WORD] [--repetitions N] [--long SECONDS] [--limit SECONDS]
                          [--json FILE]
 
-Each module is used by a script of tests/bench/python/, as its own pages show it: a STL and an edge length go in, arrays
+Each module is used by a short script of tests/bench/python/: a STL and an edge length go in, arrays
 of points and tetrahedra come out. Lines are those of the script that are neither empty nor its docstring. Seconds are
 those of the processor, of the whole process and all that it starts: with the interpreter, the import, and the surface,
 which is read as text, because Netgen reads no other; medians of runs that take turns. Wall: of the clock, where Kerf
