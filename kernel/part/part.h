@@ -1,6 +1,8 @@
 // The mesh of one subdomain with all that says how it belongs to the whole.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -10,6 +12,7 @@
 
 #include "core/ids.h"
 #include "mesh/tet_mesh.h"
+#include "part/edge_nodes.h"
 
 namespace kerf {
 
@@ -36,7 +39,7 @@ struct SharedEdgeGroup {
     }
 };
 
-/// Values that somebody has computed for a part: of its points, or of its tetrahedra. Boundary triangles have those of
+/// Values that somebody has computed for a part: of its nodes, or of its tetrahedra. Boundary triangles have those of
 /// the tetrahedron behind them, NaN if there is none.
 struct PartValues {
     enum class Of { points, tets };
@@ -91,6 +94,7 @@ struct Part {
     std::vector<SharedEdgeGroup> shared_edges;  ///< all edges that other parts have, too; in the same order
 
     std::vector<PartValues> values = {};  ///< of a solution (part/solution_parts.h), else none
+    EdgeNodes edge_nodes = {};            ///< of order 2; of order 1 none
 
     /// Questions about a boundary triangle. Does another part lie on its other side?
     bool is_interface(std::size_t f) const { return neighbour[f] >= 0; }
@@ -109,6 +113,31 @@ struct Part {
 
     std::int64_t tet_count() const { return std::ssize(mesh.tets); }
     std::int64_t vertex_count() const { return std::ssize(mesh.vertices); }
+
+    /// Nodes are the vertices, then for order 2 those on the edges.
+    int order() const { return edge_nodes.points.empty() ? 1 : 2; }
+    std::int64_t node_count() const { return vertex_count() + std::ssize(edge_nodes.points); }
+    const Vec3& node_point(std::int64_t n) const {
+        return n < vertex_count() ? mesh.vertices[n] : edge_nodes.points[n - vertex_count()];
+    }
+    std::int64_t node_id(std::int64_t n) const {
+        return n < vertex_count() ? global_id[n] : edge_nodes.global_id[n - vertex_count()];
+    }
+    /// Of order 2: corners, then the nodes on tet_edges, or on triangle_edges. O(log of the edges at a vertex).
+    std::array<std::int32_t, 10> nodes_of_tet(std::int64_t t) const { return with_edges(mesh.tets[t], tet_edges); }
+    std::array<std::int32_t, 6> nodes_of_facet(std::int64_t f) const { return with_edges(facets[f], triangle_edges); }
+
+ private:
+    template <std::size_t N, std::size_t M>
+    std::array<std::int32_t, N + M> with_edges(const std::array<std::int32_t, N>& corners,
+                                               const std::array<std::array<int, 2>, M>& edges) const {
+        std::array<std::int32_t, N + M> nodes;
+        std::copy(corners.begin(), corners.end(), nodes.begin());
+        const auto first = static_cast<std::int32_t>(vertex_count());
+        for (std::size_t e = 0; e < M; ++e)
+            nodes[N + e] = first + edge_nodes.edges.find(undirected(corners[edges[e][0]], corners[edges[e][1]]));
+        return nodes;
+    }
 };
 
 /// What the part's surface file holds: the boundary without the cells.
@@ -123,6 +152,7 @@ struct PartExtent {
     std::int64_t vertices = 0, tets = 0;
     std::int64_t patch_facets = 0;      ///< boundary triangles that files list, see Part::is_listed()
     std::int64_t interface_facets = 0;  ///< the other ones
+    std::int64_t edge_nodes = 0;        ///< of order 2
 };
 
 /// The whole mesh without its cells.
@@ -133,7 +163,10 @@ struct MeshOutline {
     std::vector<std::string> region_names = {};  ///< empty if there is one region
     bool is_whole = true;                 ///< else others, which could not be meshed, may be neighbours of these parts
     std::vector<PartValues> values = {};  ///< those that all parts have, without their numbers
+    int order = 1;                        ///< 2: a node on each edge, too
+    std::int64_t edge_nodes = 0;          ///< distinct ones
 
+    std::int64_t nodes() const { return vertices + edge_nodes; }
     /// Throws Error(internal) for a part that is none. O(K).
     PartIndex index_of(NodeId id) const;
     std::int64_t tets() const;

@@ -228,6 +228,20 @@ constexpr OptionRow<RunOptions> meshing_rows[] = {
      "Largest distance of a remeshed surface from the input, in its units, or with % of its diagonal. Default: a "
      "twentieth of the shortest edge that is wanted, 0.05% if none is.",
      place<&RunOptions::deviation>, true, deviation_range},
+    {"order",
+     "",
+     option_group::meshing,
+     "N",
+     "Order of the cells: 1, the default, or 2 with a node on each edge, as structural analysis wants them.",
+     place<&RunOptions::order>,
+     true,
+     {"1 or 2", 1, 2}},
+    {"curve", "", option_group::meshing, "",
+     "Of order 2: auto, the default, has nodes of edges on the true surface of CAD and on the input of what is "
+     "remeshed; straight, in the middle of the edges.",
+     [](RunOptions& o) -> OptionField::Value {
+         return choice(o.curving, {"auto", "straight"});
+     }},
     {"mesher", "", option_group::meshing, "",
      "What fills the parts: auto, the default, takes lattice, unless --tetgen-switches is given.",
      [](RunOptions& o) -> OptionField::Value { return mesher_choice(o.mesher.name); }},

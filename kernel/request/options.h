@@ -21,6 +21,12 @@ enum class Remeshing {
     always
 };
 
+/// Where nodes on edges of the surface lie, of order 2.
+enum class Curving {
+    automatic,  ///< on the surface that the facets stand for, where it is known
+    straight    ///< in the middle of the edges
+};
+
 struct RunOptions {
     std::string input;
     std::string input_hash;  ///< of the bytes that the input must have, as a run that is continued has read them;
@@ -52,6 +58,8 @@ struct RunOptions {
     bool split_regions = false;            ///< OpenFOAM's case has one mesh for each region
     bool transient = false;  ///< the listener gets the parts (RunListener::on_meshes()), and `output` is a folder that
                              ///< its owner removes: nothing is written for others, or to outlive a power cut
+    std::int32_t order = 1;  ///< of the cells: 1, or 2 with a node on each edge
+    Curving curving = Curving::automatic;
 
     /// Throws Error(usage) or Error(io) for input and outputs that are in each other's way: what resolved() asks of
     /// files, for who writes one of them before the run.

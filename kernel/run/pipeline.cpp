@@ -19,11 +19,13 @@
 #include "parallel/process_memory.h"
 #include "part/joined_surfaces.h"
 #include "part/part_store.h"
+#include "part/second_order_parts.h"
 #include "part/vtu_writer.h"
 #include "prepare/gathered_nodes.h"
 #include "report/totals.h"
 #include "request/saved_run.h"
 #include "run/cut_stage.h"
+#include "run/edge_numbering.h"
 #include "run/forecast.h"
 #include "run/plan.h"
 #include "run/prepare_stage.h"
@@ -216,7 +218,10 @@ std::vector<RunFile> write_formats(const RunContext& run, const RunFolder& folde
                                 .patch_types = parse_patch_types(run.options.patch_types),
                                 .split_regions = run.options.split_regions};
     const WriteTarget target{.folder = folder.partial_path(), .options = options};
-    return write_parts(run.ranks, parts, places_in_run_folder(formats), target, run.options.workers, run.listener,
+    std::optional<SecondOrderParts> of_order_2;
+    if (run.options.order == 2) of_order_2.emplace(parts, number_edges_together(run.ranks, parts, run.listener));
+    const PartSource& written = of_order_2 ? static_cast<const PartSource&>(*of_order_2) : parts;
+    return write_parts(run.ranks, written, places_in_run_folder(formats), target, run.options.workers, run.listener,
                        [&](PartIndex part) {
                            if (stores_go) parts.remove(part);
                        });

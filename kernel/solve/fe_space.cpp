@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 #include "core/number_text.h"
-#include "solve/edge_table.h"
+#include "mesh/edge_table.h"
 
 namespace kerf {
 

@@ -4,14 +4,10 @@
 #include <array>
 
 #include "core/types.h"
+#include "mesh/edge_table.h"
 #include "solve/material.h"
 
 namespace kerf {
-
-/// The edges of a tetrahedron in the order of the nodes of a quadratic one, as VTK has them.
-inline constexpr std::array<std::array<int, 2>, 6> tet_edges = {{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
-/// The edges of a triangle, in the same way.
-inline constexpr std::array<std::array<int, 2>, 3> triangle_edges = {{{0, 1}, {1, 2}, {0, 2}}};
 
 inline constexpr int most_element_nodes = 10;
 constexpr int element_nodes(int order) { return order == 1 ? 4 : most_element_nodes; }

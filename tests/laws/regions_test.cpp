@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "part/run_parts.h"
+#include "part/second_order_parts.h"
 #include "support/checked_run.h"
 #include "support/region_bodies.h"
 #include "support/temporary_folder.h"
@@ -22,7 +23,9 @@ void expect_laws(Input input, const Complex& complex, std::int32_t parts) {
     const RunReport report = test::run_parts("", folder.file("out"), parts, input);
     test::expect_verified(report, std::max(parts, complex.region_count()));
     EXPECT_EQ(test::broken_laws(test::read_parts(folder.file("out")), complex), "");
-    EXPECT_EQ(test::broken_sharing(RunParts(folder.file("out"))), "");
+    const RunParts of_run(folder.file("out"));
+    EXPECT_EQ(test::broken_sharing(of_run), "");
+    EXPECT_EQ(test::broken_edge_nodes(SecondOrderParts(of_run, number_edges(of_run))), "");
 }
 
 TEST_P(SeveralRegions, ObeyEveryLawForAnyNumberOfParts) {
@@ -70,7 +73,9 @@ TEST(RemeshedRegions, ObeyEveryLaw) {
     ASSERT_TRUE(input.remeshed);
     EXPECT_NE(input.complex.facet_count(), static_cast<std::int32_t>(body.facets.facets.size()));
     EXPECT_EQ(test::broken_laws(test::read_parts(folder.file("out")), input.complex), "");
-    EXPECT_EQ(test::broken_sharing(RunParts(folder.file("out"))), "");
+    const RunParts of_run(folder.file("out"));
+    EXPECT_EQ(test::broken_sharing(of_run), "");
+    EXPECT_EQ(test::broken_edge_nodes(SecondOrderParts(of_run, number_edges(of_run))), "");
 }
 
 // A wall takes the smaller of the sizes on its sides, and both sides the same triangles.

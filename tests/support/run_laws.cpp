@@ -226,6 +226,11 @@ std::vector<Part> read_files(const std::string& folder, bool surfaces) {
     return parts;
 }
 
+// Global numbers, the smaller one first.
+std::array<std::int64_t, 2> edge_of(const Part& part, std::int32_t a, std::int32_t b) {
+    return {std::min(part.global_id[a], part.global_id[b]), std::max(part.global_id[a], part.global_id[b])};
+}
+
 }  // namespace
 
 std::vector<Part> read_parts(const std::string& folder) { return read_files(folder, false); }
@@ -245,10 +250,6 @@ std::string broken_sharing(const PartSource& source) {
     using Holders = std::set<NodeId>;
     std::map<std::int64_t, Holders> of_vertex, told_of_vertex;
     std::map<std::array<std::int64_t, 2>, Holders> of_edge, told_of_edge;
-    const auto edge_of = [](const Part& part, std::int32_t a, std::int32_t b) {
-        return std::array{std::min(part.global_id[a], part.global_id[b]),
-                          std::max(part.global_id[a], part.global_id[b])};
-    };
     std::int64_t wrong = 0;
     for (const PartIndex index : source.outline().parts.ids()) {
         const Part part = source.load(index);
@@ -276,6 +277,45 @@ std::string broken_sharing(const PartSource& source) {
     if (of_vertex != told_of_vertex)
         text += fmt::format("{} vertices shared, {} told; ", of_vertex.size(), told_of_vertex.size());
     if (of_edge != told_of_edge) text += fmt::format("{} edges shared, {} told; ", of_edge.size(), told_of_edge.size());
+    return text;
+}
+
+std::string broken_edge_nodes(const PartSource& parts, bool curved) {
+    struct Seen {
+        std::array<std::int64_t, 2> edge;
+        Vec3 point;
+    };
+    std::map<std::int64_t, Seen> of_number;
+    std::map<std::array<std::int64_t, 2>, std::int64_t> of_edge;
+    std::int64_t wrong = 0, off_middle = 0;
+    for (const PartIndex index : parts.outline().parts.ids()) {
+        const Part part = parts.load(index);
+        std::set<std::int64_t> reached;
+        for (std::int64_t t = 0; t < part.tet_count(); ++t) {
+            const auto nodes = part.nodes_of_tet(t);
+            for (std::size_t e = 0; e < tet_edges.size(); ++e) {
+                const std::int32_t a = nodes[tet_edges[e][0]], b = nodes[tet_edges[e][1]], n = nodes[4 + e];
+                const Vec3& point = part.node_point(n);
+                const Seen now = {edge_of(part, a, b), point};
+                const Seen& seen = of_number.emplace(part.node_id(n), now).first->second;
+                wrong += seen.edge != now.edge || seen.point != point;
+                wrong += of_edge.emplace(now.edge, part.node_id(n)).first->second != part.node_id(n);
+                off_middle += point != 0.5 * (part.node_point(a) + part.node_point(b));
+                reached.insert(n);
+            }
+        }
+        wrong += std::ssize(reached) != std::ssize(part.edge_nodes.points);
+        wrong += std::ssize(reached) != parts.outline().parts[index].edge_nodes;
+    }
+    std::string text;
+    if (wrong > 0) text += fmt::format("{} nodes of which parts tell differently; ", wrong);
+    if (off_middle > 0 && !curved) text += fmt::format("{} off the middle of their edges; ", off_middle);
+    const std::int64_t vertices = parts.outline().vertices;
+    if (of_number.empty() || of_number.begin()->first != vertices ||
+        of_number.rbegin()->first != parts.outline().nodes() - 1 ||
+        std::ssize(of_number) != parts.outline().edge_nodes || of_number.size() != of_edge.size())
+        text += fmt::format("{} edges with {} numbers, not {} from {} on; ", of_edge.size(), of_number.size(),
+                            parts.outline().edge_nodes, vertices);
     return text;
 }
 

@@ -31,4 +31,9 @@ std::string broken_laws(const std::vector<Part>& parts, const Complex& input);
 /// several parts have, each of them names all. Empty if all is right.
 std::string broken_sharing(const PartSource& parts);
 
+/// What is wrong with the nodes on edges of parts of order 2: numbers follow those of vertices, dense, one for each
+/// edge of the mesh and one edge for each number, with the same point in all parts; a straight edge has its middle.
+/// Empty if all is right. `curved`: nodes may lie elsewhere.
+std::string broken_edge_nodes(const PartSource& parts, bool curved = false);
+
 }  // namespace kerf::test

@@ -2,17 +2,23 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "core/types.h"
-#include "solve/tet_element.h"
 
 namespace kerf {
+
+/// The edges of a tetrahedron in the order of the nodes of a quadratic one, as VTK has them.
+inline constexpr std::array<std::array<int, 2>, 6> tet_edges = {{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
+/// The edges of a triangle, in the same way.
+inline constexpr std::array<std::array<int, 2>, 3> triangle_edges = {{{0, 1}, {1, 2}, {0, 2}}};
 
 /// All edges, ascending by their ends. 4 bytes for each corner of an edge in each tetrahedron while it is made; O(n).
 class EdgeTable {
  public:
+    EdgeTable() = default;
     EdgeTable(const std::vector<Tetrahedron>& tets, std::size_t vertex_count) : first_(vertex_count + 1) {
         const auto for_edges = [&](auto visit) {
             for (const Tetrahedron& tet : tets)
@@ -55,7 +61,7 @@ class EdgeTable {
         upper_.shrink_to_fit();
     }
 
-    std::vector<std::int64_t> first_;  // of each vertex, the first edge to a vertex with a larger number
+    std::vector<std::int64_t> first_ = {0};  // of each vertex, the first edge to a vertex with a larger number
     std::vector<std::int32_t> upper_;
 };
 

@@ -1,0 +1,28 @@
+// Parts with a node on each edge.
+#pragma once
+
+#include "part/edge_nodes.h"
+#include "part/edge_numbers.h"
+#include "part/part.h"
+
+namespace kerf {
+
+/// The parts of another source, of order 1, as parts of order 2: in the middle of each edge there is a node, or where
+/// the edge is curved. Values of points get those of these nodes: the means of the two ends.
+class SecondOrderParts : public PartSource {
+ public:
+    /// `parts` must outlive this. `curved`: nodes that are not in the middle of their edges, by global number.
+    SecondOrderParts(const PartSource& parts, EdgeNumbers numbers, CurvedNodes curved = {});
+
+    const MeshOutline& outline() const override { return outline_; }
+    Part load(PartIndex index) const override;
+    const RegionWalls& walls() const override { return parts_.walls(); }
+
+ private:
+    const PartSource& parts_;
+    EdgeNumbers numbers_;
+    CurvedNodes curved_;
+    MeshOutline outline_;
+};
+
+}  // namespace kerf
