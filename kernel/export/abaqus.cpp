@@ -66,7 +66,7 @@ void write_coordinate(ExportFile& file, double x) {
 
 void write_nodes(const PartSource& parts, ExportFile& file) {
     file.write("*NODE, NSET=NALL\n");
-    for_each_vertex(parts, [&](std::int64_t first, std::span<const Vec3> points) {
+    for_each_node(parts, [&](std::int64_t first, std::span<const Vec3> points) {
         for (const Vec3& p : points) {
             file.number(++first);
             for (const double x : {p.x(), p.y(), p.z()}) {

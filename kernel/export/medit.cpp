@@ -26,7 +26,7 @@ void write_head(const MeshOutline& outline, ExportFile& file) {
 
 void write_vertices(const PartSource& parts, ExportFile& file) {
     file.write(fmt::format("Vertices\n{}\n", parts.outline().vertices));
-    for_each_vertex(parts, [&](std::int64_t, std::span<const Vec3> points) {
+    for_each_node(parts, [&](std::int64_t, std::span<const Vec3> points) {
         for (const Vec3& p : points) {
             file.point(p);
             file.write(" 0\n");

@@ -151,7 +151,7 @@ void write_merged_2_2(const PartSource& parts, const Tags& tags, ExportFiles& fi
     write_names(writer.file(), tags, outline);
 
     writer.file().write(fmt::format("$Nodes\n{}\n", outline.vertices));
-    for_each_vertex(parts, [&](std::int64_t first, std::span<const Vec3> points) {
+    for_each_node(parts, [&](std::int64_t first, std::span<const Vec3> points) {
         for (const Vec3& point : points) {
             writer.number(tag_of(first++));
             writer.point(point);

@@ -30,7 +30,7 @@ void write_elements(const PartSource& parts, ExportFile& file) {
 
 void write_points(const PartSource& parts, ExportFile& file) {
     file.write(fmt::format("NPOIN= {}\n", parts.outline().vertices));
-    for_each_vertex(parts, [&](std::int64_t first, std::span<const Vec3> points) {
+    for_each_node(parts, [&](std::int64_t first, std::span<const Vec3> points) {
         for (const Vec3& p : points) {
             file.point(p);
             file.write(" ");

@@ -15,7 +15,7 @@ namespace tetgen {
 
 void write_nodes(const PartSource& parts, ExportFile file) {
     file.write(fmt::format("{} 3 0 0\n", parts.outline().vertices));
-    for_each_vertex(parts, [&](std::int64_t first, std::span<const Vec3> points) {
+    for_each_node(parts, [&](std::int64_t first, std::span<const Vec3> points) {
         for (const Vec3& p : points) {
             file.number(first++);
             file.write(" ");

@@ -114,7 +114,7 @@ void add_values_of(const PartSource& parts, std::size_t k, Grid& grid) {
         return grid.add(GridArray::of<T>("CellData", values.name, values.components, grid.cells,
                                          [&parts, k](ExportFile& file) { write_cell_values<T>(parts, k, file); }));
     grid.add(GridArray::of<T>("PointData", values.name, values.components, grid.points, [&parts, k](ExportFile& file) {
-        for_each_vertex_value(parts, k, [&](std::int64_t, std::span<const double> rows) {
+        for_each_node_value(parts, k, [&](std::int64_t, std::span<const double> rows) {
             for (const double number : rows) file.value(static_cast<T>(number));
         });
     }));
@@ -143,7 +143,7 @@ Grid grid_of(const PartSource& parts) {
         of_cells("Facet", &Part::facet),
         GridArray::of<double>("Points", "Points", 3, outline.vertices,
                               [&](ExportFile& file) {
-                                  for_each_vertex(
+                                  for_each_node(
                                       parts, [&](std::int64_t, std::span<const Vec3> points) { file.values(points); });
                               }),
         outline.vertices <= most_of_32_bits ? connectivity<std::int32_t>(parts) : connectivity<std::int64_t>(parts),

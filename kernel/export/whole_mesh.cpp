@@ -12,27 +12,13 @@ namespace kerf {
 
 namespace {
 
-constexpr std::int64_t vertices_at_once = std::int64_t{1} << 21;  // 48 MB
+constexpr std::int64_t rows_at_once = std::int64_t{1} << 21;  // 48 MB of points
 
-// Which numbers a part has: those of its boundary may be anywhere in their range, those inside, too.
-struct IdRanges {
-    struct Range {
-        std::int64_t first = std::numeric_limits<std::int64_t>::max(), last = -1;
-        bool meets(std::int64_t begin, std::int64_t end) const { return first < end && last >= begin; }
-        void add(std::int64_t id) {
-            first = std::min(first, id);
-            last = std::max(last, id);
-        }
-    };
-    Range boundary, interior;
-};
-
-IdRanges ranges_of(const Part& part) {
-    IdRanges ranges;
-    const std::size_t boundary = part.mesh.boundary_vertex_count;
-    for (std::size_t v = 0; v < part.global_id.size(); ++v)
-        (v < boundary ? ranges.boundary : ranges.interior).add(part.global_id[v]);
-    return ranges;
+// The pieces of the numbers, of `rows_at_once` each, that the part has some of.
+std::vector<bool> pieces_of(const Part& part, std::int64_t count) {
+    std::vector<bool> pieces(count / rows_at_once + 1);
+    for (const std::int64_t id : part.global_id) pieces[id / rows_at_once] = true;
+    return pieces;
 }
 
 // Rows of the vertices of the whole mesh in the order of their global numbers, a piece at a time; row(part, v) has
@@ -41,17 +27,16 @@ template <class Row, class RowOf>
 void for_each_row(const PartSource& parts, PartContent content, const RowOf& row,
                   const std::function<void(std::int64_t first, std::span<const Row> rows)>& take) {
     const std::int64_t count = parts.outline().vertices;
-    Array<PartIndex, IdRanges> ranges(parts.outline().parts.size());  // known after the first piece
-    std::vector<Row> rows(std::min(count, vertices_at_once));
-    for (std::int64_t begin = 0; begin < count; begin += vertices_at_once) {
-        const std::int64_t end = std::min(count, begin + vertices_at_once);
+    Array<PartIndex, std::vector<bool>> pieces(parts.outline().parts.size());  // known after the first piece
+    std::vector<Row> rows(std::min(count, rows_at_once));
+    for (std::int64_t begin = 0; begin < count; begin += rows_at_once) {
+        const std::int64_t end = std::min(count, begin + rows_at_once);
         const bool is_first = begin == 0;
-        for (auto i = std::ssize(ranges); i-- > 0;) {  // so that the first part has the last word
+        for (auto i = std::ssize(pieces); i-- > 0;) {  // so that the first part has the last word
             const auto index = PartIndex(i);
-            if (!is_first && !ranges[index].boundary.meets(begin, end) && !ranges[index].interior.meets(begin, end))
-                continue;
+            if (!is_first && !pieces[index][begin / rows_at_once]) continue;
             const Part part = parts.load_only(index, content);
-            if (is_first) ranges[index] = ranges_of(part);
+            if (is_first) pieces[index] = pieces_of(part, count);
             for (std::size_t v = 0; v < part.global_id.size(); ++v)
                 if (const std::int64_t id = part.global_id[v]; id >= begin && id < end) rows[id - begin] = row(part, v);
         }
@@ -75,15 +60,15 @@ void for_each_value_row(const PartSource& parts, std::size_t k,
 
 }  // namespace
 
-void for_each_vertex(const PartSource& parts,
-                     const std::function<void(std::int64_t first, std::span<const Vec3> points)>& take) {
+void for_each_node(const PartSource& parts,
+                   const std::function<void(std::int64_t first, std::span<const Vec3> points)>& take) {
     for_each_row<Vec3>(
         parts, PartContent::vertices, [](const Part& part, std::size_t v) -> Vec3 { return part.mesh.vertices[v]; },
         take);
 }
 
-void for_each_vertex_value(const PartSource& parts, std::size_t k,
-                           const std::function<void(std::int64_t first, std::span<const double> rows)>& take) {
+void for_each_node_value(const PartSource& parts, std::size_t k,
+                         const std::function<void(std::int64_t first, std::span<const double> rows)>& take) {
     switch (parts.outline().values[k].components) {
         case 1:
             return for_each_value_row<1>(parts, k, take);

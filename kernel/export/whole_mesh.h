@@ -14,17 +14,17 @@
 namespace kerf {
 
 // Memory, whatever the size of the mesh: 48 MB of points and 6 bytes a tetrahedron of the largest part in
-// for_each_vertex(), 18 bytes a tetrahedron in for_each_part() for cells, 48 MB in for_each_patch_triangle(); so parts
+// for_each_node(), 18 bytes a tetrahedron in for_each_part() for cells, 48 MB in for_each_patch_triangle(); so parts
 // of 2.5e6 tetrahedra are merged below 100 MB beside what the PartSource holds.
 
-/// Calls take(first, points) with the vertices of the whole mesh in the order of their global numbers: a piece at a
-/// time, the first of which has the number `first`. Parts are loaded as often as pieces need them.
-void for_each_vertex(const PartSource& parts,
-                     const std::function<void(std::int64_t first, std::span<const Vec3> points)>& take);
+/// Calls take(first, points) with the nodes of the whole mesh in the order of their global numbers: a piece at a time,
+/// the first of which has the number `first`. Parts are loaded as often as they have nodes of a piece.
+void for_each_node(const PartSource& parts,
+                   const std::function<void(std::int64_t first, std::span<const Vec3> points)>& take);
 
-/// Gives the numbers of Part::values[k], of points, a row for each vertex, in the same order.
-void for_each_vertex_value(const PartSource& parts, std::size_t k,
-                           const std::function<void(std::int64_t first, std::span<const double> rows)>& take);
+/// Gives the numbers of Part::values[k], of points, a row for each node, in the same order.
+void for_each_node_value(const PartSource& parts, std::size_t k,
+                         const std::function<void(std::int64_t first, std::span<const double> rows)>& take);
 
 /// Calls take(index, part) with every part, in the order of the tree, and what is asked for of it.
 void for_each_part(const PartSource& parts, PartContent content,

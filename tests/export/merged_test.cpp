@@ -300,7 +300,7 @@ TEST(Merged, VerticesComeInTheOrderOfTheirNumbers) {
     made[0].mesh.boundary_vertex_count = 500;
     const MadeParts parts(std::move(made));
     std::int64_t next = 0, misplaced = 0, calls = 0;
-    for_each_vertex(parts, [&](std::int64_t first, std::span<const Vec3> points) {
+    for_each_node(parts, [&](std::int64_t first, std::span<const Vec3> points) {
         EXPECT_EQ(first, next);
         for (const Vec3& p : points) misplaced += p.x() != static_cast<double>(next++);
         ++calls;
