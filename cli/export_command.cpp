@@ -88,6 +88,9 @@ void add_options(CLI::App& command, ExportLine& line) {
     add_number(command, "--into", request.into, {"a whole number, 1 or more", 1},
                "Join the parts along the tree into so many pieces.")
         ->type_name("N");
+    add_number(command, "--order", request.order, {"1 or 2", 1, 2},
+               "Of the cells: 2 has a node on each edge. Default: that of the run.")
+        ->type_name("N");
     add_number(command, "-j,--workers", request.threads, {"a whole number, 1 to 4096", 1, 4096},
                "Parts that each rank writes at once. Default: its processors.")
         ->type_name("W");

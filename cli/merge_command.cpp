@@ -8,6 +8,7 @@
 #include "cli/answer.h"
 #include "cli/commands.h"
 #include "export/merged_file.h"
+#include "help/number_option.h"
 #include "help/usage_error.h"
 #include "io/path_text.h"
 #include "io/standard_streams.h"
@@ -26,12 +27,14 @@ int merge_and_tell(const MergeLine& line) {
     if (line.json) {
         const nlohmann::ordered_json json = {{"output", path_text(line.request.output)},
                                              {"vertices", merged.vertices},
+                                             {"nodes", merged.nodes},
                                              {"tets", merged.tets},
                                              {"bytes", merged.bytes}};
         print_data(json.dump(2) + "\n");
     } else if (!line.quiet) {
-        tell(fmt::format("kerf: {}: {} vertices, {} tetrahedra, {:.1f} MB\n", line.request.output, merged.vertices,
-                         merged.tets, static_cast<double>(merged.bytes) * 1e-6));
+        const std::string nodes = merged.nodes > merged.vertices ? fmt::format(" of {} nodes", merged.nodes) : "";
+        tell(fmt::format("kerf: {}: {} vertices{}, {} tetrahedra, {:.1f} MB\n", line.request.output, merged.vertices,
+                         nodes, merged.tets, static_cast<double>(merged.bytes) * 1e-6));
     }
     return 0;
 }
@@ -52,6 +55,9 @@ void add_merge_command(CLI::App& kerf, int& exit_code) {
         ->type_name("V")
         ->check(one_of("4.1,2.2"));
     command->add_flag("--msh-ascii", request.msh_ascii, "Write them as text instead of binary.");
+    add_number(*command, "--order", request.order, {"1 or 2", 1, 2},
+               "Of the cells: 2 has a node on each edge. Default: that of the run.")
+        ->type_name("N");
     command->add_flag("--json", line->json, "Print what was written as JSON.");
     command->add_flag("-q,--quiet", line->quiet, "Print nothing but errors.");
     command->callback([=, &exit_code] { exit_code = run_on_first_rank([&] { return merge_and_tell(*line); }); });

@@ -51,7 +51,10 @@ void check_outputs(const MeshRequest& request, Communicator& ranks) {
             for (const std::string& read :
                  {request.options.input, node_file_of(request.options.input), request.options.sizes.field_file})
                 refuse_to_overwrite(read, "--output", request.merged_file);
-            check_merged_file({request.options.output, request.merged_file, {}});
+            check_merged_file({.folder = request.options.output,
+                               .output = request.merged_file,
+                               .options = {},
+                               .order = request.options.order});
             outputs.push_back({"--output", request.merged_file});
         }
         for (const NamedPath& output : outputs) refuse_to_overwrite(request.config_file, output.option, output.path);
@@ -64,7 +67,10 @@ void merge_result(const MeshRequest& request, const RunReport& report, Communica
     in_agreement(ranks, [&] {
         if (ranks.rank() != 0) return;
         try {
-            merge_run({.folder = report.folder, .output = request.merged_file, .options = {}});
+            merge_run({.folder = report.folder,
+                       .output = request.merged_file,
+                       .options = {},
+                       .order = request.options.order});
         } catch (const Error& e) {
             throw Error(e.code(),
                         fmt::format("{} The mesh is whole in {}; kerf merge {} -o {} writes it.", e.what(),

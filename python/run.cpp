@@ -82,7 +82,7 @@ py::dict quality(const std::string& path) {
 
 std::vector<std::string> export_parts(const std::string& folder, const std::string& formats, const std::string& output,
                                       std::int32_t into, const std::string& fields, bool msh_ascii,
-                                      const std::vector<std::string>& patch_types, bool split_regions,
+                                      const std::vector<std::string>& patch_types, bool split_regions, int order,
                                       std::int32_t workers, const py::object& progress) {
     const int all = static_cast<int>(std::max<std::size_t>(1, allowed_processors().size()));
     const ExportRequest request{.folder = folder,
@@ -93,7 +93,8 @@ std::vector<std::string> export_parts(const std::string& folder, const std::stri
                                 .msh_ascii = msh_ascii,
                                 .patch_types = patch_types,
                                 .threads = workers > 0 ? workers : all,
-                                .split_regions = split_regions};
+                                .split_regions = split_regions,
+                                .order = order};
     Watch watch(progress);
     const Progress told = watch.progress();
     const IsCancelled is_cancelled = watch.is_cancelled();
@@ -105,13 +106,15 @@ std::vector<std::string> export_parts(const std::string& folder, const std::stri
     return files;
 }
 
-void merge(const std::string& folder, const std::string& output, const std::string& msh_version, bool msh_ascii) {
+void merge(const std::string& folder, const std::string& output, const std::string& msh_version, bool msh_ascii,
+           int order) {
     Watch watch{py::none()};
     const MergeRequest request{.folder = folder,
                                .output = output,
                                .options = {msh_version},
                                .msh_ascii = msh_ascii,
-                               .is_cancelled = watch.is_cancelled()};
+                               .is_cancelled = watch.is_cancelled(),
+                               .order = order};
     without_lock(watch, [&] { merge_run(request); });
 }
 
@@ -132,8 +135,9 @@ void register_run(py::module_& module) {
     module.def("quality", &quality, py::arg("path"));
     module.def("export", &export_parts, py::arg("folder"), py::arg("formats"), py::arg("output"), py::arg("into"),
                py::arg("fields"), py::arg("msh_ascii"), py::arg("patch_types"), py::arg("split_regions"),
-               py::arg("workers"), py::arg("progress"));
-    module.def("merge", &merge, py::arg("folder"), py::arg("output"), py::arg("msh_version"), py::arg("msh_ascii"));
+               py::arg("order"), py::arg("workers"), py::arg("progress"));
+    module.def("merge", &merge, py::arg("folder"), py::arg("output"), py::arg("msh_version"), py::arg("msh_ascii"),
+               py::arg("order"));
     module.def("has_merged_format", [](const std::string& path) { return find_merged_format(path) != nullptr; });
 }
 

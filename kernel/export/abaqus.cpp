@@ -1,5 +1,5 @@
-// Abaqus input (.inp) as CalculiX reads it, too: nodes, linear tetrahedra, and sets; no materials, no steps. Nodes and
-// elements are numbered from 1.
+// Abaqus input (.inp) as CalculiX reads it, too: nodes, linear tetrahedra (C3D4) or of order 2 quadratic ones (C3D10),
+// and sets; no materials, no steps. Nodes and elements are numbered from 1. A node set has the nodes on edges, too.
 //
 // NALL and EALL hold all nodes and elements; BODY_1, BODY_2, ... the elements of the materials (export/materials.h), or
 // sets named by the regions where there are several; SUBDOMAIN_1, SUBDOMAIN_2, ... those of the parts in the order of
@@ -79,13 +79,13 @@ void write_nodes(const PartSource& parts, ExportFile& file) {
 }
 
 void write_elements(const PartSource& parts, ExportFile& file) {
+    const char* const type = parts.outline().order == 1 ? "C3D4" : "C3D10";
     std::int64_t element = 0;
     for_each_part(parts, PartContent::cells, [&](PartIndex index, const Part& part) {
-        file.write(fmt::format("** part {}\n*ELEMENT, TYPE=C3D4, ELSET=SUBDOMAIN_{}\n", part.id, index.value() + 1));
-        for (const Tetrahedron& tet : part.mesh.tets) {
-            const auto [a, b, c, d] = global_corners(part, tet);
-            write_row(file, {++element, a + 1, b + 1, c + 1, d + 1}, ",");
-        }
+        file.write(
+            fmt::format("** part {}\n*ELEMENT, TYPE={}, ELSET=SUBDOMAIN_{}\n", part.id, type, index.value() + 1));
+        for (std::int64_t t = 0; t < part.tet_count(); ++t)
+            TextRow(file, ",").add(++element).add(nodes_of_tet(part, t), 1).end();
     });
     file.write(fmt::format("*ELSET, ELSET=EALL, GENERATE\n1,{},1\n", element));
 }
@@ -129,15 +129,16 @@ void write_material_sets(const PartSource& parts, const std::vector<std::string>
     for_each_by_patch<MaterialElement>(materials.sizes(), visit, take);
 }
 
-// The nodes of each patch, each once, ascending in each piece of a large patch.
+// The nodes of each patch, each once, ascending in each piece of a large patch. n: of a triangle.
+template <std::size_t n>
 void write_node_sets(const PartSource& parts, const Names& names, ExportFile& file) {
     std::vector<bool> is_written;  // in an earlier piece of the patch
     std::vector<std::int64_t> nodes;
     std::int32_t current = -1;
-    for_each_patch_triangle(parts, names.sizes, [&](std::int32_t patch, std::span<const PatchTriangle> triangles) {
+    const auto take = [&](std::int32_t patch, std::span<const PatchTriangle<n>> triangles) {
         nodes.clear();
-        for (const PatchTriangle& triangle : triangles)
-            for (const std::int64_t corner : triangle.corners) nodes.push_back(corner + 1);
+        for (const PatchTriangle<n>& triangle : triangles)
+            for (const std::int64_t node : triangle.nodes) nodes.push_back(node + 1);
         std::sort(nodes.begin(), nodes.end());
         nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
         if (patch != current) {
@@ -148,12 +149,13 @@ void write_node_sets(const PartSource& parts, const Names& names, ExportFile& fi
             std::erase_if(nodes, [&](std::int64_t node) { return is_written[node]; });
         }
         if (names.sizes[patch] > std::ssize(triangles)) {
-            is_written.resize(parts.outline().vertices + 1);
+            is_written.resize(parts.outline().nodes() + 1);
             for (const std::int64_t node : nodes) is_written[node] = true;
         }
         current = patch;
         if (!nodes.empty()) write_list(file, nodes);
-    });
+    };
+    for_each_patch_triangle<n>(parts, names.sizes, take);
 }
 
 // Sets that are named again are continued.
@@ -225,7 +227,7 @@ void write_merged(const PartSource& parts, const MergeOptions&, ExportFiles& fil
     write_nodes(parts, file);
     write_elements(parts, file);
     write_material_sets(parts, material_words(parts, names.words), file);
-    write_node_sets(parts, names, file);
+    parts.outline().order == 1 ? write_node_sets<3>(parts, names, file) : write_node_sets<6>(parts, names, file);
     write_surfaces(parts, names, file);
     file.close();
 }

@@ -10,11 +10,12 @@ namespace kerf {
 
 /// Calls visit(add), which calls add(item) with all items in some order, and then take(patch, items) with those of
 /// patch after patch, in that order within a patch; those of a large patch come in several calls in a row. Item has a
-/// member `patch`; `sizes`: how many items each patch has. Holds 2^20 items at most, for which visit() is called again
-/// where all together are more.
+/// member `patch`; `sizes`: how many items each patch has. Holds 2^20 items at most, and 32 MB, for which visit() is
+/// called again where all together are more.
 template <class Item, class Visit, class Take>
 void for_each_by_patch(std::span<const std::int64_t> sizes, const Visit& visit, const Take& take) {
-    constexpr std::int64_t items_at_once = std::int64_t{1} << 20;
+    constexpr std::int64_t items_at_once =
+        std::min(std::int64_t{1} << 20, (std::int64_t{1} << 25) / std::int64_t{sizeof(Item)});
     std::vector<Item> items;
     const auto take_all = [&] {
         std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.patch < b.patch; });

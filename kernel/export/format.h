@@ -24,6 +24,7 @@ struct Format {
     const char* ending;                  ///< of merged files, with its dot; null: there are none
     bool needs_face_neighbours = false;  ///< write_part() gets a part with them
     bool asks_for_one_part = false;      ///< write_part() loads no other one, nor does write_whole() any
+    int highest_order = 2;               ///< of the cells that it can hold
     /// What patches with these names are called in the files; null: by their names, or by numbers.
     std::vector<std::string> (*patch_words)(const std::vector<std::string>& names) = nullptr;
 
@@ -45,6 +46,9 @@ std::span<const Format* const> formats();
 const Format& find_format(std::string_view name);
 /// The formats of a list "vtu,msh", each once, in the order of formats(). Throws Error(usage), also for an empty list.
 std::vector<const Format*> parse_formats(std::string_view list);
+
+/// Throws Error(usage), with the formats that can, where the format cannot hold cells of this order.
+void require_order(const Format& format, int order);
 
 /// Writes all parts in the format, one after the other: what a run does with many processes at once.
 void write_format(const Format& format, const PartSource& parts, ExportFiles& files);

@@ -47,7 +47,21 @@ std::vector<const Format*> parse_formats(std::string_view list) {
     return ordered;
 }
 
+void require_order(const Format& format, int order) {
+    constexpr int highest = 2;
+    if (order < 0 || order > highest)
+        throw Error(ErrorCode::usage, fmt::format("There are no cells of order {}. Choose 1 or 2.", order));
+    if (order <= format.highest_order) return;
+    std::string others;
+    for (const Format* other : table)
+        if (other->highest_order >= order) others += fmt::format("{}{}", others.empty() ? "" : ", ", other->name);
+    throw Error(ErrorCode::usage,
+                fmt::format("{} has no cells of order {}. Choose --order {}, or a format that has: {}.", format.name,
+                            order, format.highest_order, others));
+}
+
 void write_format(const Format& format, const PartSource& parts, ExportFiles& files) {
+    require_order(format, parts.outline().order);
     if (format.is_merged_only()) return format.write_merged(parts, {}, files, "mesh");
     if (format.write_whole) format.write_whole(parts, files);
     if (!format.write_part) return;

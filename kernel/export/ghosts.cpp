@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "export/whole_mesh.h"
-
 namespace kerf {
 
 namespace {
@@ -21,25 +19,29 @@ std::vector<PartIndex> neighbours_of(const MeshOutline& outline, const Part& par
     return indices;
 }
 
-// Which vertices of the part another one has, too.
-std::vector<bool> vertices_shared_with(NodeId id, const Part& part) {
-    std::vector<bool> is_shared(part.mesh.vertices.size());
-    for (const SharedGroup& group : part.shared)
-        if (std::find(group.parts.begin(), group.parts.end(), id) != group.parts.end())
-            for (const std::int32_t v : group.vertices) is_shared[v] = true;
+// Which nodes of the part another one has, too.
+std::vector<bool> nodes_shared_with(NodeId id, const Part& part) {
+    std::vector<bool> is_shared(part.node_count());
+    for_each_shared_group(part, [&](const std::vector<NodeId>& parts, const std::vector<std::int32_t>& nodes) {
+        if (std::find(parts.begin(), parts.end(), id) == parts.end()) return;
+        for (const std::int32_t n : nodes) is_shared[n] = true;
+    });
     return is_shared;
 }
 
 // Adds what the part `id` needs of another one, whose cells are numbered from `first`.
 void add_ghosts(NodeId id, const Part& other, PartIndex index, std::int64_t first, Ghosts& ghosts) {
-    const std::vector<bool> shared = vertices_shared_with(id, other);
+    const std::vector<bool> shared = nodes_shared_with(id, other);
     const auto is_shared = [&](std::int32_t v) { return shared[v]; };
+    const auto add_nodes = [&](const auto& nodes) {
+        for (const std::int32_t n : nodes)
+            if (!is_shared(n)) ghosts.nodes.push_back({other.node_id(n), other.node_point(n)});
+    };
     for (std::int64_t t = 0; t < other.tet_count(); ++t) {
         const Tetrahedron& tet = other.mesh.tets[t];
         if (std::none_of(tet.begin(), tet.end(), is_shared)) continue;
-        ghosts.cells.push_back({first + t, index, global_corners(other, tet)});
-        for (const std::int32_t v : tet)
-            if (!is_shared(v)) ghosts.vertices.push_back({other.global_id[v], other.mesh.vertices[v]});
+        ghosts.cells.push_back({first + t, index, nodes_of_tet(other, t)});
+        other.order() == 1 ? add_nodes(tet) : add_nodes(other.nodes_of_tet(t));
     }
 }
 
@@ -50,11 +52,10 @@ Ghosts ghosts_of(const PartSource& parts, const Part& part) {
     Ghosts ghosts;
     for (const PartIndex index : neighbours_of(outline, part))
         add_ghosts(part.id, parts.load(index), index, outline.first_tet(index), ghosts);
-    std::vector<GhostVertex>& vertices = ghosts.vertices;
-    std::sort(vertices.begin(), vertices.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
-    const auto end =
-        std::unique(vertices.begin(), vertices.end(), [](const auto& a, const auto& b) { return a.id == b.id; });
-    vertices.erase(end, vertices.end());
+    std::vector<GhostNode>& nodes = ghosts.nodes;
+    std::sort(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+    const auto end = std::unique(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) { return a.id == b.id; });
+    nodes.erase(end, nodes.end());
     return ghosts;
 }
 

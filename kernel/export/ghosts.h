@@ -1,10 +1,10 @@
 // The cells of other parts around a part.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "export/whole_mesh.h"
 #include "part/part.h"
 
 namespace kerf {
@@ -13,18 +13,18 @@ namespace kerf {
 struct GhostCell {
     std::int64_t number;  ///< among the cells of all parts, from 0 (MeshOutline::first_tet())
     PartIndex part;
-    std::array<std::int64_t, 4> corners;  ///< global numbers
+    CellNodes nodes;
 };
 
-/// A vertex of ghost cells that the part itself does not have.
-struct GhostVertex {
+/// A node of ghost cells that the part itself does not have.
+struct GhostNode {
     std::int64_t id;  ///< global number
     Vec3 point;
 };
 
 struct Ghosts {
-    std::vector<GhostCell> cells;       ///< ascending by number
-    std::vector<GhostVertex> vertices;  ///< ascending by id
+    std::vector<GhostCell> cells;  ///< ascending by number
+    std::vector<GhostNode> nodes;  ///< ascending by id
 };
 
 /// Throws Error(io). Cost: loads every part that shares a vertex with this one, one at a time.

@@ -2,8 +2,9 @@
 // by global numbers, at the places where PETSc's DMPlex looks for it and as an XDMF file describes it to DOLFINx and
 // ParaView. viz/body, viz/region (of several) and viz/patch, which solvers take for tags of cells and facets, count
 // from 1, as in all formats of solvers; VTKHDF's Patch and Region are the arrays of these names in VTU files, places
-// among the names from 0. The file is made with all its arrays; then parts write their rows, in any order and from any
-// process.
+// among the names from 0. Of order 2 points are all nodes and cells are quadratic, in VTK's order, which is that of
+// XDMF and of DOLFINx for it; DMPlex gets the corners. The file is made with all its arrays; then parts write their
+// rows, in any order and from any process.
 #include <algorithm>
 #include <cmath>
 
@@ -83,7 +84,7 @@ class Hdf5Piece {
         else
             write_piece_cells<std::int64_t>();
         write_piece_tags();
-        write_vertices();
+        write_nodes();
         if (id_type(outline_) == Hdf5Type::int32)
             write_cells<std::int32_t>();
         else
@@ -101,13 +102,17 @@ class Hdf5Piece {
 
     void write_piece_points() const {
         PieceRows size;
-        size.add(outline_.parts[index_]);
+        size.add(outline_.parts[index_], outline_.order);
         for (const auto& [name, count] : {std::pair{"VTKHDF/NumberOfPoints", size.points},
                                           {"VTKHDF/NumberOfCells", size.cells},
                                           {"VTKHDF/NumberOfConnectivityIds", size.corners}})
             write_span(name, index_.value(), std::span<const std::int64_t>(&count, 1));
+        const std::int64_t first_edge_node = own_.points + part_.vertex_count();
         write_span("VTKHDF/Points", own_.points, std::span<const Vec3>(part_.mesh.vertices));
-        write_span("VTKHDF/PointData/GlobalVertexId", own_.points, std::span<const std::int64_t>(part_.global_id));
+        write_span("VTKHDF/Points", first_edge_node, std::span<const Vec3>(part_.edge_nodes.points));
+        const std::string_view ids = "VTKHDF/PointData/GlobalVertexId";
+        write_span(ids, own_.points, std::span<const std::int64_t>(part_.global_id));
+        write_span(ids, first_edge_node, std::span<const std::int64_t>(part_.edge_nodes.global_id));
     }
 
     template <class Index>
@@ -122,8 +127,12 @@ class Hdf5Piece {
             offsets.put(offset);
             offset += static_cast<Index>(cell.size());
         };
-        for (const Tetrahedron& tet : part_.mesh.tets) put(tet, vtk_tetra);
-        for_each_patch_facet(part_, [&](std::size_t f) { put(part_.facets[f], vtk_triangle); });
+        const bool is_linear = part_.order() == 1;
+        for (std::int64_t t = 0; t < part_.tet_count(); ++t)
+            is_linear ? put(part_.mesh.tets[t], vtk_tetra) : put(part_.nodes_of_tet(t), vtk_quadratic_tetra);
+        for_each_patch_facet(part_, [&](std::size_t f) {
+            is_linear ? put(part_.facets[f], vtk_triangle) : put(part_.nodes_of_facet(f), vtk_quadratic_triangle);
+        });
         offsets.put(offset);
         corners.flush();
         offsets.flush();
@@ -141,14 +150,14 @@ class Hdf5Piece {
         patch.flush();
     }
 
-    // Vertices that the part owns, ascending by global number.
-    std::vector<std::size_t> own_vertices() const {
-        const std::vector<NodeId> owner = owners_of_vertices(part_);
+    // Nodes that the part owns, ascending by global number.
+    std::vector<std::size_t> own_by_number() const {
+        const std::vector<bool> is_own = own_nodes(part_);
         std::vector<std::size_t> own;
-        for (std::size_t v = 0; v < owner.size(); ++v)
-            if (owner[v] == part_.id) own.push_back(v);
+        for (std::size_t n = 0; n < is_own.size(); ++n)
+            if (is_own[n]) own.push_back(n);
         std::sort(own.begin(), own.end(),
-                  [this](std::size_t a, std::size_t b) { return part_.global_id[a] < part_.global_id[b]; });
+                  [this](std::size_t a, std::size_t b) { return part_.node_id(a) < part_.node_id(b); });
         return own;
     }
 
@@ -162,10 +171,10 @@ class Hdf5Piece {
         Hdf5Rows<double> piece(file_, piece_array_of(values), of_points ? own_.points : own_.cells);
         Hdf5Rows<double> whole(file_, whole_array_of(values), of_points ? 0 : outline_.first_tet(index_));
         if (of_points) {
-            for (std::size_t v = 0; v < part_.global_id.size(); ++v) put(piece, v);
-            for (const std::size_t v : own_vertices()) {
-                whole.go_to(part_.global_id[v]);
-                put(whole, v);
+            for (std::int64_t n = 0; n < part_.node_count(); ++n) put(piece, n);
+            for (const std::size_t n : own_by_number()) {
+                whole.go_to(part_.node_id(n));
+                put(whole, n);
             }
         } else {
             for (std::size_t t = 0; t < part_.mesh.tets.size(); ++t) {
@@ -181,11 +190,11 @@ class Hdf5Piece {
         whole.flush();
     }
 
-    void write_vertices() const {
+    void write_nodes() const {
         Hdf5Rows<double> points(file_, "geometry/vertices", 0);
-        for (const std::size_t v : own_vertices()) {
-            points.go_to(part_.global_id[v]);
-            for (const double x : part_.mesh.vertices[v]) points.put(x);
+        for (const std::size_t n : own_by_number()) {
+            points.go_to(part_.node_id(n));
+            for (const double x : part_.node_point(n)) points.put(x);
         }
         points.flush();
     }
@@ -197,10 +206,15 @@ class Hdf5Piece {
         for (const Tetrahedron& tet : part_.mesh.tets)
             for (const std::int64_t id : global_corners(part_, tet)) cells.put(static_cast<Id>(id));
         for_each_patch_facet(part_, [&](std::size_t f) {
-            for (const std::int64_t id : global_corners(part_, part_.facets[f])) facets.put(static_cast<Id>(id));
+            for (const std::int64_t id : nodes_of_facet(part_, f)) facets.put(static_cast<Id>(id));
         });
         cells.flush();
         facets.flush();
+        if (part_.order() == 1) return;
+        Hdf5Rows<Id> nodes(file_, nodes_array(outline_), outline_.first_tet(index_));
+        for (std::int64_t t = 0; t < part_.tet_count(); ++t)
+            for (const std::int64_t id : nodes_of_tet(part_, t)) nodes.put(static_cast<Id>(id));
+        nodes.flush();
     }
 
     void write_tags() const {

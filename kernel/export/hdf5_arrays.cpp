@@ -7,7 +7,7 @@ namespace kerf {
 
 PieceRows rows_before(const MeshOutline& outline, PartIndex index) {
     PieceRows rows;
-    for (const PartIndex i : IdRange(PartIndex(), index)) rows.add(outline.parts[i]);
+    for (const PartIndex i : IdRange(PartIndex(), index)) rows.add(outline.parts[i], outline.order);
     return rows;
 }
 
@@ -19,11 +19,19 @@ Hdf5Type type_for(std::int64_t largest) {
 
 }  // namespace
 
-Hdf5Type id_type(const MeshOutline& outline) { return type_for(outline.vertices); }
+Hdf5Type id_type(const MeshOutline& outline) { return type_for(outline.nodes()); }
+
+const char* nodes_array(const MeshOutline& outline) {
+    return outline.order == 1 ? "viz/topology/cells" : "viz/topology/cells10";
+}
 
 Hdf5Type corner_type(const MeshOutline& outline) {
     std::int64_t most = 0;
-    for (const PartExtent& part : outline.parts) most = std::max(most, 4 * part.tets + 3 * part.patch_facets);
+    for (const PartExtent& part : outline.parts) {
+        PieceRows size;
+        size.add(part, outline.order);
+        most = std::max(most, size.corners);
+    }
     return type_for(most);
 }
 
@@ -58,13 +66,14 @@ std::vector<Hdf5Array> arrays_of(const MeshOutline& outline) {
         {"VTKHDF/Types", Hdf5Type::byte, all.cells},
         {"VTKHDF/CellData/Part", Hdf5Type::int32, all.cells},
         {"VTKHDF/CellData/Patch", Hdf5Type::int32, all.cells},
-        {"geometry/vertices", Hdf5Type::real, outline.vertices, 3},
+        {"geometry/vertices", Hdf5Type::real, outline.nodes(), 3},
         {"viz/topology/cells", id_type(outline), tets, 4},
-        {"viz/topology/facets", id_type(outline), facets, 3},
+        {"viz/topology/facets", id_type(outline), facets, nodes_of_triangles(outline.order)},
         {"viz/body", Hdf5Type::int32, tets},
         {"viz/part", Hdf5Type::int32, tets},
         {"viz/patch", Hdf5Type::int32, facets},
     };
+    if (outline.order == 2) arrays.push_back({nodes_array(outline), id_type(outline), tets, nodes_of_tets(2)});
     if (!outline.region_names.empty()) {
         arrays.push_back({"VTKHDF/CellData/Region", Hdf5Type::int32, all.cells});
         arrays.push_back({"viz/region", Hdf5Type::int32, tets});
@@ -73,7 +82,7 @@ std::vector<Hdf5Array> arrays_of(const MeshOutline& outline) {
         const bool of_points = values.of == PartValues::Of::points;
         const std::int64_t columns = values.components == 1 ? 0 : values.components;
         arrays.push_back({piece_array_of(values), Hdf5Type::real, of_points ? all.points : all.cells, columns});
-        arrays.push_back({whole_array_of(values), Hdf5Type::real, of_points ? outline.vertices : tets, columns});
+        arrays.push_back({whole_array_of(values), Hdf5Type::real, of_points ? outline.nodes() : tets, columns});
     }
     return arrays;
 }

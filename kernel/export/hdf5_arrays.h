@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "export/hdf5_file.h"
+#include "export/whole_mesh.h"
 #include "part/part.h"
 
 namespace kerf {
@@ -13,10 +14,11 @@ namespace kerf {
 struct PieceRows {
     std::int64_t points = 0, cells = 0, corners = 0, offsets = 0;
 
-    void add(const PartExtent& part) {
-        points += part.vertices;
+    /// `order`: of the cells.
+    void add(const PartExtent& part, int order) {
+        points += part.vertices + part.edge_nodes;
         cells += part.tets + part.patch_facets;
-        corners += 4 * part.tets + 3 * part.patch_facets;
+        corners += nodes_of_tets(order) * part.tets + nodes_of_triangles(order) * part.patch_facets;
         offsets += part.tets + part.patch_facets + 1;
     }
 };
@@ -25,6 +27,10 @@ PieceRows rows_before(const MeshOutline& outline, PartIndex index);
 
 /// The type of global numbers.
 Hdf5Type id_type(const MeshOutline& outline);
+/// The array by global numbers of all nodes of tetrahedra. Of order 2 it is beside that of corners, as DMPlex knows no
+/// other nodes.
+const char* nodes_array(const MeshOutline& outline);
+
 /// The type of the corners and offsets in a piece, which VTK wants to be the same.
 Hdf5Type corner_type(const MeshOutline& outline);
 

@@ -1,7 +1,8 @@
 // The text format of Medit (.mesh, version 2: numbers of 32 bits, coordinates as doubles), which MMG, ParMmg, FreeFEM
 // and gmsh read. References count from 1: that of a tetrahedron is its material (export/materials.h), that of a
 // triangle its patch; names are comments. Walls between regions are triangles, once each. Which part a tetrahedron is
-// of is not said.
+// of is not said. Of order 2 there are TetrahedraP2 and TrianglesP2 in their place, with the nodes of edges 12 23 13 14
+// 24 34 behind the corners, as gmsh has them, and Vizir where a file does not say another order.
 #include <fmt/format.h>
 
 #include "export/format.h"
@@ -25,7 +26,7 @@ void write_head(const MeshOutline& outline, ExportFile& file) {
 }
 
 void write_vertices(const PartSource& parts, ExportFile& file) {
-    file.write(fmt::format("Vertices\n{}\n", parts.outline().vertices));
+    file.write(fmt::format("Vertices\n{}\n", parts.outline().nodes()));
     for_each_node(parts, [&](std::int64_t, std::span<const Vec3> points) {
         for (const Vec3& p : points) {
             file.point(p);
@@ -34,26 +35,25 @@ void write_vertices(const PartSource& parts, ExportFile& file) {
     });
 }
 
+void write_head_of(const char* cells, const MeshOutline& outline, std::int64_t count, ExportFile& file) {
+    file.write(fmt::format("{}{}\n{}\n", cells, outline.order == 1 ? "" : "P2", count));
+}
+
 void write_tetrahedra(const PartSource& parts, ExportFile& file) {
-    file.write(fmt::format("Tetrahedra\n{}\n", parts.outline().tets()));
+    write_head_of("Tetrahedra", parts.outline(), parts.outline().tets(), file);
     const Materials materials(parts);
     for_each_part(parts, PartContent::cells, [&](PartIndex index, const Part& part) {
         const std::vector<std::int32_t> of_tets = materials.of_tets(index, part);
-        for (std::size_t t = 0; t < of_tets.size(); ++t) {
-            const auto [a, b, c, d] = global_corners(part, part.mesh.tets[t]);
-            write_row(file, {a + 1, b + 1, c + 1, d + 1, of_tets[t] + 1});
-        }
+        for (std::size_t t = 0; t < of_tets.size(); ++t)
+            TextRow(file).add(nodes_of_tet(part, t), 1).add(of_tets[t] + 1).end();
     });
 }
 
 void write_triangles(const PartSource& parts, ExportFile& file) {
-    file.write(fmt::format("Triangles\n{}\n", parts.outline().patch_facets()));
-    for_each_part(parts, PartContent::surface, [&](PartIndex, const Part& part) {
-        for (std::size_t f = 0; f < part.facets.size(); ++f) {
-            if (!part.is_listed(f)) continue;
-            const auto [a, b, c] = global_corners(part, part.facets[f]);
-            write_row(file, {a + 1, b + 1, c + 1, part.patch[f] + 1});
-        }
+    write_head_of("Triangles", parts.outline(), parts.outline().patch_facets(), file);
+    for_each_part(parts, patch_content(parts.outline()), [&](PartIndex, const Part& part) {
+        for (std::size_t f = 0; f < part.facets.size(); ++f)
+            if (part.is_listed(f)) TextRow(file).add(nodes_of_facet(part, f), 1).add(part.patch[f] + 1).end();
     });
 }
 

@@ -10,6 +10,7 @@
 #include "io/output_file.h"
 #include "io/run_folder.h"
 #include "io/temporary_folder.h"
+#include "part/parts_of_order.h"
 #include "part/solution_parts.h"
 #include "part/watched_parts.h"
 
@@ -62,6 +63,7 @@ const Format& check_merged_request(const MergeRequest& request) {
         throw Error(ErrorCode::usage, fmt::format("--msh-ascii is for files that end with .msh, and --output is {}. "
                                                   "Drop one.",
                                                   request.output));
+    require_order(format, request.order);
     place_for(request.output, request.folder);
     return format;
 }
@@ -94,7 +96,11 @@ MergedFile merge_parts(const PartSource& parts, const MergeRequest& request) {
     const TemporaryFolder beside(main_place.string(), "write beside " + main_place.string(),
                                  "Choose another place for --output.");
     ExportFiles files(beside.path(), "", {}, {.msh_ascii = request.msh_ascii});
-    format.write_merged(WatchedParts(parts, request.is_cancelled), request.options, files, output.stem().string());
+    const WatchedParts watched(parts, request.is_cancelled);
+    const auto of_order = parts_of_order(watched, request.order, [&] { return number_edges(watched); });
+    const PartSource& written_parts = of_order ? *of_order : static_cast<const PartSource&>(watched);
+    require_order(format, written_parts.outline().order);
+    format.write_merged(written_parts, request.options, files, output.stem().string());
 
     const std::vector<RunFile> written = files.list();
     std::vector<fs::path> places;
@@ -102,7 +108,8 @@ MergedFile merge_parts(const PartSource& parts, const MergeRequest& request) {
         places.push_back(fs::path(file.path) == output.filename()
                              ? main_place
                              : place_for(output.parent_path() / file.path, request.folder));
-    MergedFile merged{parts.outline().vertices, parts.outline().tets(), 0};
+    MergedFile merged{written_parts.outline().vertices, written_parts.outline().tets(), 0,
+                      written_parts.outline().nodes()};
     for (std::size_t i = 0; i < written.size(); ++i) {
         move_to(fs::path(beside.path()) / written[i].path, places[i]);
         merged.bytes += static_cast<std::int64_t>(fs::file_size(places[i]));

@@ -15,12 +15,14 @@ struct MergeRequest {
     MergeOptions options;
     bool msh_ascii = false;                   ///< Gmsh's files as text
     std::function<bool()> is_cancelled = {};  ///< asked before parts are read: true ends it with Error(cancelled)
+    int order = 0;                            ///< of the cells: 1 or 2; 0: that of the run
 };
 
 /// What merge_run() has written.
 struct MergedFile {
     std::int64_t vertices = 0, tets = 0;
     std::int64_t bytes = 0;  ///< of all files of the mesh
+    std::int64_t nodes = 0;  ///< vertices, and of order 2 those on edges
 };
 
 /// The format that merges a run into a file with the ending of this one; null if there is none, also for a folder's

@@ -5,6 +5,11 @@
 // its material (export/materials.h), that of a triangle its patch, both from 1. Names of attributes are comments,
 // because only version 1.3 of the format has them, which older releases of MFEM refuse.
 //
+// Of order 2 the nodes of each rank are a function of the space H1_3D_P2 in place of the vertices: first those of
+// vertices, then those of edges in the order of MFEM's numbers for them: as they come up, tetrahedron after
+// tetrahedron, in each of which they are 01 02 03 12 13 23 (DSTable of Mesh::GetVertexToVertexTable(),
+// Tetrahedron::edges).
+//
 // Walls between regions are shared faces and no boundary: what holds on all of the boundary, as the conditions of
 // MFEM's examples do, would hold on them, too, and integrals over it would have one of their two sides. Regions tell
 // where walls are: between cells of two attributes.
@@ -22,6 +27,9 @@ namespace kerf {
 namespace {
 
 constexpr int mfem_triangle = 2, mfem_tetrahedron = 4;  // MFEM's numbers of geometries
+
+// The places of MFEM's edges of a tetrahedron among its ten nodes.
+constexpr std::array<std::int8_t, 6> nodes_on_mfem_edges = {4, 6, 7, 5, 8, 9};
 
 // What the ranks of a group have in common, by the numbers of one of them.
 struct MfemGroup {
@@ -96,11 +104,29 @@ class MfemFile {
         write_all("boundary attribute", part_.patch_names);
     }
 
+    void write_point(const Vec3& p) {
+        file_.point(p);
+        file_.write("\n");
+    }
+
     void write_vertices() {
-        file_.write(fmt::format("\nvertices\n{}\n3\n", part_.mesh.vertices.size()));
-        for (const Vec3& p : part_.mesh.vertices) {
-            file_.point(p);
-            file_.write("\n");
+        file_.write(fmt::format("\nvertices\n{}\n", part_.mesh.vertices.size()));
+        file_.write(part_.order() == 1 ? "3\n"
+                                       : "\nnodes\nFiniteElementSpace\nFiniteElementCollection: H1_3D_P2\n"
+                                         "VDim: 3\nOrdering: 1\n\n");
+        for (const Vec3& p : part_.mesh.vertices) write_point(p);
+        if (part_.order() == 2) write_edge_nodes();
+    }
+
+    void write_edge_nodes() {
+        std::vector<bool> is_written(part_.node_count());
+        for (std::int64_t t = 0; t < part_.tet_count(); ++t) {
+            const std::array<std::int32_t, 10> nodes = part_.nodes_of_tet(t);
+            for (const std::int8_t place : nodes_on_mfem_edges) {
+                const std::int32_t n = nodes[place];
+                if (!is_written[n]) write_point(part_.node_point(n));
+                is_written[n] = true;
+            }
         }
     }
 

@@ -6,7 +6,7 @@
 // on interfaces are not written, as Gmsh leaves them out without Mesh.PartitionCreateTopology. A node belongs to its
 // first patch, or else to a volume. Every material (export/materials.h) is a physical group, as programs expect, and
 // what a part has of one a volume of its own. Walls between regions are triangles of their patch, once each; their
-// nodes are on it in both parts.
+// nodes are on it in both parts. Of order 2 elements have ten and six nodes.
 #include <algorithm>
 #include <array>
 
@@ -78,11 +78,10 @@ void write_merged_4_1(const PartSource& parts, const Tags& tags, ExportFiles& fi
     write_merged_entities(writer, whole);
 
     writer.begin("Nodes");
-    writer.extent(whole.blocks, outline.vertices, {0, outline.vertices - 1});
+    writer.extent(whole.blocks, outline.nodes(), {0, outline.nodes() - 1});
     for_each_part(parts, PartContent::all, [&](PartIndex index, const Part& part) {
         const PatchPieces pieces = owned_patch_pieces(part);
-        for (const PatchPiece& piece : pieces.on_patches)
-            writer.nodes(Tags::surface(piece.patch), part, piece.vertices);
+        for (const PatchPiece& piece : pieces.on_patches) writer.nodes(Tags::surface(piece.patch), part, piece.nodes);
         for (const MaterialPiece& piece : material_pieces(parts, index, part, pieces.inside))
             writer.nodes(tags.merged_volume(index, piece.material), part, piece.inside);
     });
@@ -102,7 +101,7 @@ void write_merged_4_1(const PartSource& parts, const Tags& tags, ExportFiles& fi
     writer.file().close();
 }
 
-// Every element has its physical group, its entity and its corners, all in 32 bits; elements of one type come together,
+// Every element has its physical group, its entity and its nodes, all in 32 bits; elements of one type come together,
 // behind what they have in common.
 class Elements22 {
  public:
@@ -111,9 +110,7 @@ class Elements22 {
             writer.row(std::array<std::int32_t, 3>{type, static_cast<std::int32_t>(count), tags});
     }
 
-    template <std::size_t n>
-    void add(std::int64_t number, std::int32_t physical, const Entity& entity,
-             const std::array<std::int64_t, n>& corners) {
+    void add(std::int64_t number, std::int32_t physical, const Entity& entity, const CellNodes& nodes) {
         writer_.number(tag_of(number));
         if (writer_.is_ascii()) {
             writer_.number(type_);
@@ -121,7 +118,7 @@ class Elements22 {
         }
         writer_.number(physical);
         writer_.number(entity.tag);
-        for (const std::int64_t corner : corners) writer_.number(tag_of(corner));
+        for (const std::int64_t node : nodes) writer_.number(tag_of(node));
         writer_.end_row();
     }
 
@@ -133,24 +130,24 @@ class Elements22 {
 };
 
 void write_triangles_2_2(Writer& writer, const Part& part, const PartExtent& extent, std::int64_t number) {
-    Elements22 elements(writer, triangle_type, extent.patch_facets);
+    Elements22 elements(writer, triangle_type(part.order()), extent.patch_facets);
     for (std::size_t f = 0; f < part.facets.size(); ++f)
         if (part.is_listed(f))
             elements.add(number++, Tags::physical_patch(part.patch[f]), Tags::surface(part.patch[f]),
-                         global_corners(part, part.facets[f]));
+                         nodes_of_facet(part, f));
 }
 
 void write_merged_2_2(const PartSource& parts, const Tags& tags, ExportFiles& files, const std::string& name) {
     const MeshOutline& outline = parts.outline();
-    if (std::max(outline.vertices, element_count(outline)) > most_int32)
+    if (std::max(outline.nodes(), element_count(outline)) > most_int32)
         throw Error(ErrorCode::usage,
                     fmt::format("{} nodes and {} elements are more than the 32-bit numbers of MSH 2.2 can tell apart. "
                                 "Take MSH 4.1, or the mesh in parts.",
-                                outline.vertices, element_count(outline)));
+                                outline.nodes(), element_count(outline)));
     Writer writer(files.create(name), "2.2", files.options().msh_ascii);
     write_names(writer.file(), tags, outline);
 
-    writer.file().write(fmt::format("$Nodes\n{}\n", outline.vertices));
+    writer.file().write(fmt::format("$Nodes\n{}\n", outline.nodes()));
     for_each_node(parts, [&](std::int64_t first, std::span<const Vec3> points) {
         for (const Vec3& point : points) {
             writer.number(tag_of(first++));
@@ -164,12 +161,12 @@ void write_merged_2_2(const PartSource& parts, const Tags& tags, ExportFiles& fi
     writer.file().write(fmt::format("$Elements\n{}\n", element_count(outline)));
     for_each_part(parts, PartContent::cells, [&](PartIndex index, const Part& part) {
         write_triangles_2_2(writer, part, outline.parts[index], first_triangle(outline, index));
-        Elements22 elements(writer, tet_type, part.tet_count());
+        Elements22 elements(writer, tet_type(part.order()), part.tet_count());
         std::int64_t number = outline.first_tet(index);
         const std::vector<std::int32_t> of_tets = materials.of_tets(index, part);
         for (std::size_t t = 0; t < of_tets.size(); ++t)
             elements.add(number++, tags.physical_material(of_tets[t]), tags.merged_volume(index, of_tets[t]),
-                         global_corners(part, part.mesh.tets[t]));
+                         nodes_of_tet(part, t).in_order(order_of_nodes));
     });
     writer.end("Elements");
     write_merged_values(parts, writer);

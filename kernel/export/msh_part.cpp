@@ -67,14 +67,14 @@ class PartFile {
     std::size_t block_count() const { return pieces_.on_patches.size() + materials_.size() + has_ghosts(); }
 
     void write_nodes(Writer& writer) const {
-        const auto [smallest, largest] = std::minmax_element(part_.global_id.begin(), part_.global_id.end());
-        Numbers numbers{*smallest, *largest};
-        for (const GhostVertex& vertex : ghosts_.vertices) numbers.add(vertex.id);
+        Numbers numbers{part_.node_id(0), part_.node_id(0)};
+        for (std::int64_t n = 1; n < part_.node_count(); ++n) numbers.add(part_.node_id(n));
+        for (const GhostNode& node : ghosts_.nodes) numbers.add(node.id);
         writer.begin("Nodes");
-        writer.extent(block_count(), part_.global_id.size() + ghosts_.vertices.size(), numbers);
-        for (const PatchPiece& piece : pieces_.on_patches) writer.nodes(surface_of(piece), part_, piece.vertices);
+        writer.extent(block_count(), part_.node_count() + std::ssize(ghosts_.nodes), numbers);
+        for (const PatchPiece& piece : pieces_.on_patches) writer.nodes(surface_of(piece), part_, piece.nodes);
         for (const MaterialPiece& piece : materials_) writer.nodes(volume_of(piece), part_, piece.inside);
-        if (has_ghosts()) writer.nodes(ghost_volume_, ghosts_.vertices);
+        if (has_ghosts()) writer.nodes(ghost_volume_, ghosts_.nodes);
         writer.end("Nodes");
     }
 
@@ -89,7 +89,7 @@ class PartFile {
                       part_.mesh.tets.size() + triangles + ghosts_.cells.size(), numbers);
         for (const PatchPiece& piece : pieces_.on_patches) writer.triangles(surface_of(piece), part_, piece, triangle);
         for (const MaterialPiece& piece : materials_) writer.tets(volume_of(piece), part_, piece.tets, tet);
-        if (has_ghosts()) writer.tets(ghost_volume_, ghosts_.cells);
+        if (has_ghosts()) writer.tets(ghost_volume_, ghosts_.cells, part_.order());
         writer.end("Elements");
     }
 

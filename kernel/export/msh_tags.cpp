@@ -61,14 +61,17 @@ std::vector<MaterialPiece> material_pieces(const PartSource& parts, PartIndex in
                                            const std::vector<std::int32_t>& inside) {
     const std::vector<std::int32_t> of_tets = Materials(parts).of_tets(index, part);
     std::map<std::int32_t, MaterialPiece> pieces;
-    std::vector<std::int32_t> of_vertices(part.mesh.vertices.size(), -1);
+    std::vector<std::int32_t> of_nodes(part.node_count(), -1);
     for (std::size_t t = 0; t < of_tets.size(); ++t) {
         pieces[of_tets[t]].tets.push_back(t);
-        for (const std::int32_t v : part.mesh.tets[t]) of_vertices[v] = of_tets[t];
+        const auto set_nodes = [&](const auto& nodes) {
+            for (const std::int32_t n : nodes) of_nodes[n] = of_tets[t];
+        };
+        part.order() == 1 ? set_nodes(part.mesh.tets[t]) : set_nodes(part.nodes_of_tet(t));
     }
-    for (std::size_t v = 0; v < of_vertices.size(); ++v)
-        if (of_vertices[v] >= 0) pieces[of_vertices[v]].box.extend(part.mesh.vertices[v]);
-    for (const std::int32_t v : inside) pieces[of_vertices[v]].inside.push_back(v);
+    for (std::size_t n = 0; n < of_nodes.size(); ++n)
+        if (of_nodes[n] >= 0) pieces[of_nodes[n]].box.extend(part.node_point(n));
+    for (const std::int32_t n : inside) pieces[of_nodes[n]].inside.push_back(n);
     std::vector<MaterialPiece> ordered;
     for (auto& [material, piece] : pieces) {
         piece.material = material;

@@ -1,6 +1,7 @@
 // What nodes, elements, entities and patches are called in Gmsh's files, and which tetrahedra of a part are whose.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -12,7 +13,11 @@
 
 namespace kerf::msh {
 
-inline constexpr std::int32_t triangle_type = 2, tet_type = 4;
+/// Gmsh's numbers of elements of an order, and the order of its ten nodes: behind the corners, edges 01 12 02 03 23 13.
+constexpr std::int32_t triangle_type(int order) { return order == 1 ? 2 : 9; }
+constexpr std::int32_t tet_type(int order) { return order == 1 ? 4 : 11; }
+inline constexpr std::array<std::int8_t, 10> order_of_nodes = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
+
 inline constexpr std::int64_t most_int32 = std::numeric_limits<std::int32_t>::max();
 inline constexpr std::size_t longest_name = 251;  ///< bytes; Gmsh refuses files with 253
 
@@ -68,11 +73,11 @@ std::vector<std::string> readable_names(const std::vector<std::string>& names);
 struct MaterialPiece {
     std::int32_t material = 0;
     std::vector<std::int32_t> tets;    ///< of the part, ascending
-    std::vector<std::int32_t> inside;  ///< vertices on no patch
+    std::vector<std::int32_t> inside;  ///< nodes on no patch
     Eigen::AlignedBox3d box;
 };
 
-/// Ascending by material. `inside`: those vertices that are asked for.
+/// Ascending by material. `inside`: those nodes that are asked for.
 std::vector<MaterialPiece> material_pieces(const PartSource& parts, PartIndex index, const Part& part,
                                            const std::vector<std::int32_t>& inside);
 

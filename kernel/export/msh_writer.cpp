@@ -35,7 +35,7 @@ class ValueSection {
     const char* name_;
 };
 
-// Writes what a part has, at its vertices for which wanted(v) holds, and in its tetrahedra.
+// Writes what a part has, at its nodes for which wanted(n) holds, and in its tetrahedra.
 template <class Wanted>
 void write_rows_of_part(ValueSection& section, const Part& part, std::size_t k, std::int64_t first_tet,
                         const Wanted& wanted) {
@@ -44,8 +44,8 @@ void write_rows_of_part(ValueSection& section, const Part& part, std::size_t k, 
         for (std::size_t t = 0; t < part.mesh.tets.size(); ++t) section.row(first_tet + t, values, t);
         return;
     }
-    for (std::size_t v = 0; v < part.global_id.size(); ++v)
-        if (wanted(v)) section.row(part.global_id[v], values, v);
+    for (std::int64_t n = 0; n < part.node_count(); ++n)
+        if (wanted(n)) section.row(part.node_id(n), values, n);
 }
 
 }  // namespace
@@ -75,7 +75,7 @@ void require_tags_fit(const MeshOutline& outline) {
 void write_part_values(const MeshOutline& outline, PartIndex index, const Part& part, Writer& writer) {
     for (std::size_t k = 0; k < part.values.size(); ++k) {
         const bool of_points = part.values[k].of == PartValues::Of::points;
-        ValueSection section(writer, part.values[k], of_points ? part.vertex_count() : part.tet_count());
+        ValueSection section(writer, part.values[k], of_points ? part.node_count() : part.tet_count());
         write_rows_of_part(section, part, k, outline.first_tet(index), [](std::size_t) { return true; });
         section.end();
     }
@@ -85,11 +85,10 @@ void write_merged_values(const PartSource& parts, Writer& writer) {
     const MeshOutline& outline = parts.outline();
     for (std::size_t k = 0; k < outline.values.size(); ++k) {
         const bool of_points = outline.values[k].of == PartValues::Of::points;
-        ValueSection section(writer, outline.values[k], of_points ? outline.vertices : outline.tets());
+        ValueSection section(writer, outline.values[k], of_points ? outline.nodes() : outline.tets());
         for_each_part(parts, PartContent::all, [&](PartIndex index, const Part& part) {
-            const std::vector<NodeId> owners = owners_of_vertices(part);
-            write_rows_of_part(section, part, k, outline.first_tet(index),
-                               [&](std::size_t v) { return owners[v] == part.id; });
+            const std::vector<bool> is_own = own_nodes(part);
+            write_rows_of_part(section, part, k, outline.first_tet(index), [&](std::size_t n) { return is_own[n]; });
         });
         section.end();
     }

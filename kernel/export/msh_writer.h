@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -54,7 +55,11 @@ class Writer {
     }
     template <class T, std::size_t n>
     void row(const std::array<T, n>& numbers) {
-        if (!is_ascii_) return file_.value(numbers);
+        row(std::span<const T>(numbers));
+    }
+    template <class T>
+    void row(std::span<const T> numbers) {
+        if (!is_ascii_) return file_.values(numbers);
         for (const T number : numbers) put(number);
         end_row();
     }
@@ -83,29 +88,29 @@ class Writer {
         row(std::array<std::int64_t, 4>{blocks, count, tag_of(numbers.first), tag_of(numbers.last)});
     }
 
-    void nodes(const Entity& entity, const Part& part, const std::vector<std::int32_t>& vertices) {
-        block(entity, 0, vertices.size());
-        for (const std::int32_t v : vertices) row(std::array{tag_of(part.global_id[v])});
-        for (const std::int32_t v : vertices) point_row(part.mesh.vertices[v]);
+    void nodes(const Entity& entity, const Part& part, const std::vector<std::int32_t>& nodes) {
+        block(entity, 0, nodes.size());
+        for (const std::int32_t n : nodes) row(std::array{tag_of(part.node_id(n))});
+        for (const std::int32_t n : nodes) point_row(part.node_point(n));
     }
-    void nodes(const Entity& entity, const std::vector<GhostVertex>& vertices) {
-        block(entity, 0, vertices.size());
-        for (const GhostVertex& vertex : vertices) row(std::array{tag_of(vertex.id)});
-        for (const GhostVertex& vertex : vertices) point_row(vertex.point);
+    void nodes(const Entity& entity, const std::vector<GhostNode>& nodes) {
+        block(entity, 0, nodes.size());
+        for (const GhostNode& node : nodes) row(std::array{tag_of(node.id)});
+        for (const GhostNode& node : nodes) point_row(node.point);
     }
     void triangles(const Entity& entity, const Part& part, const PatchPiece& piece, std::int64_t first) {
         if (piece.facets.empty()) return;
-        block(entity, triangle_type, piece.facets.size());
+        block(entity, triangle_type(part.order()), piece.facets.size());
         for (std::size_t i = 0; i < piece.facets.size(); ++i)
-            element(first + piece.places[i], global_corners(part, part.facets[piece.facets[i]]));
+            element(first + piece.places[i], nodes_of_facet(part, piece.facets[i]));
     }
     void tets(const Entity& entity, const Part& part, const std::vector<std::int32_t>& tets, std::int64_t first) {
-        block(entity, tet_type, tets.size());
-        for (const std::int32_t t : tets) element(first + t, global_corners(part, part.mesh.tets[t]));
+        block(entity, tet_type(part.order()), tets.size());
+        for (const std::int32_t t : tets) element(first + t, nodes_of_tet(part, t).in_order(order_of_nodes));
     }
-    void tets(const Entity& entity, const std::vector<GhostCell>& cells) {
-        block(entity, tet_type, cells.size());
-        for (const GhostCell& cell : cells) element(cell.number, cell.corners);
+    void tets(const Entity& entity, const std::vector<GhostCell>& cells, int order) {
+        block(entity, tet_type(order), cells.size());
+        for (const GhostCell& cell : cells) element(cell.number, cell.nodes.in_order(order_of_nodes));
     }
 
  private:
@@ -138,11 +143,10 @@ class Writer {
         size(count);
         end_row();
     }
-    template <std::size_t n>
-    void element(std::int64_t number, const std::array<std::int64_t, n>& corners) {
-        std::array<std::int64_t, n + 1> record{tag_of(number)};
-        for (std::size_t i = 0; i < n; ++i) record[i + 1] = tag_of(corners[i]);
-        row(record);
+    void element(std::int64_t number, const CellNodes& nodes) {
+        std::array<std::int64_t, 11> record{tag_of(number)};
+        std::transform(nodes.begin(), nodes.end(), record.begin() + 1, tag_of);
+        row(std::span<const std::int64_t>(record.data(), nodes.size() + 1));
     }
 
     ExportFile file_;

@@ -17,7 +17,8 @@
 // processor has a piece, maybe an empty one (export/openfoam_regions.h).
 //
 // A patch is named by a word (export/word_names.h) that is not one of OpenFOAM's for the patches between processors;
-// its own name is in a comment, if it is another one. So are zones.
+// its own name is in a comment, if it is another one. So are zones. Cells are polyhedra with flat faces: there are none
+// of second order.
 #include <algorithm>
 #include <filesystem>
 #include <limits>
@@ -188,6 +189,7 @@ extern const Format openfoam_format = {.name = "openfoam",
                                        .help = "OpenFOAM: a case with a folder processorN for each part",
                                        .ending = nullptr,
                                        .needs_face_neighbours = true,
+                                       .highest_order = 1,
                                        .patch_words = openfoam::patch_words,
                                        .write_whole = openfoam::write_whole,
                                        .write_part = openfoam::write_part};

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "export/whole_mesh.h"
+
 namespace kerf {
 
 namespace {
 
-// `is_wanted`: of each vertex.
+// `is_wanted`: of each node.
 PatchPieces pieces_with(const Part& part, const std::vector<bool>& is_wanted) {
     std::vector<PatchPiece> all(part.patch_names.size());
     std::vector<std::vector<std::int32_t>> on_patch(all.size());  // triangles, also those that others list
@@ -24,16 +26,19 @@ PatchPieces pieces_with(const Part& part, const std::vector<bool>& is_wanted) {
         if (on_patch[patch].empty()) continue;
         PatchPiece& piece = pieces.on_patches.emplace_back(std::move(all[patch]));
         piece.patch = static_cast<std::int32_t>(patch);
-        for (const std::int32_t f : on_patch[patch])
-            for (const std::int32_t v : part.facets[f]) {
-                piece.box.extend(part.mesh.vertices[v]);
-                if (is_left[v]) piece.vertices.push_back(v);
-                is_left[v] = false;
+        const auto add_nodes = [&](const auto& nodes) {
+            for (const std::int32_t n : nodes) {
+                piece.box.extend(part.node_point(n));
+                if (is_left[n]) piece.nodes.push_back(n);
+                is_left[n] = false;
             }
+        };
+        for (const std::int32_t f : on_patch[patch])
+            part.order() == 1 ? add_nodes(part.facets[f]) : add_nodes(part.nodes_of_facet(f));
     }
-    for (std::size_t v = 0; v < is_left.size(); ++v) {
-        pieces.box.extend(part.mesh.vertices[v]);
-        if (is_left[v]) pieces.inside.push_back(v);
+    for (std::size_t n = 0; n < is_left.size(); ++n) {
+        pieces.box.extend(part.node_point(n));
+        if (is_left[n]) pieces.inside.push_back(n);
     }
     return pieces;
 }
@@ -45,15 +50,8 @@ std::int64_t pieces_without_facets(const PatchPieces& pieces) {
                          [](const PatchPiece& piece) { return piece.facets.empty(); });
 }
 
-PatchPieces patch_pieces(const Part& part) {
-    return pieces_with(part, std::vector<bool>(part.mesh.vertices.size(), true));
-}
+PatchPieces patch_pieces(const Part& part) { return pieces_with(part, std::vector<bool>(part.node_count(), true)); }
 
-PatchPieces owned_patch_pieces(const Part& part) {
-    const std::vector<NodeId> owner = owners_of_vertices(part);
-    std::vector<bool> is_owned(owner.size());
-    for (std::size_t v = 0; v < owner.size(); ++v) is_owned[v] = owner[v] == part.id;
-    return pieces_with(part, is_owned);
-}
+PatchPieces owned_patch_pieces(const Part& part) { return pieces_with(part, own_nodes(part)); }
 
 }  // namespace kerf

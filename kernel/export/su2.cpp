@@ -1,7 +1,7 @@
 // SU2's native text format: a marker for every patch that has triangles, named by a word (export/word_names.h), because
 // SU2's lists of markers separate them by commas and blanks. A marker bounds the zone: walls between regions lie inside
 // of it and are no markers. Which part and which region a tetrahedron is of is not said: a zone of SU2 is a mesh for
-// itself, which would have vertices of its own. SU2 counts with 64 bits.
+// itself, which would have vertices of its own. SU2 counts with 64 bits, and has no cells of second order.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -56,14 +56,14 @@ void write_markers(const PartSource& parts, ExportFile& file) {
     file.write(
         fmt::format("NMARK= {}\n", std::count_if(sizes.begin(), sizes.end(), [](std::int64_t n) { return n > 0; })));
     std::int32_t current = -1;
-    const auto take = [&](std::int32_t patch, std::span<const PatchTriangle> triangles) {
+    const auto take = [&](std::int32_t patch, std::span<const PatchTriangle<3>> triangles) {
         if (patch != current)
             file.write(fmt::format("% {}\nMARKER_TAG= {}\nMARKER_ELEMS= {}\n", marker_comment(names[patch]),
                                    words[patch], sizes[patch]));
         current = patch;
         for (const auto& [of, corners] : triangles) write_row(file, {vtk_triangle, corners[0], corners[1], corners[2]});
     };
-    for_each_patch_triangle(parts, sizes, take, OnPatches::outer);
+    for_each_patch_triangle<3>(parts, sizes, take, OnPatches::outer);
 }
 
 void write_merged(const PartSource& parts, const MergeOptions&, ExportFiles& files, const std::string& stem) {
@@ -79,6 +79,7 @@ void write_merged(const PartSource& parts, const MergeOptions&, ExportFiles& fil
 extern const Format su2_format = {.name = "su2",
                                   .help = "SU2's native mesh",
                                   .ending = ".su2",
+                                  .highest_order = 1,
                                   .patch_words = su2::patch_words,
                                   .write_merged = su2::write_merged};
 

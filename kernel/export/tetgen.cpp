@@ -1,6 +1,7 @@
 // The files of TetGen (.node, .ele, .face), numbered from 0. The attribute of a tetrahedron is its
 // material (export/materials.h), from 1; the boundary marker of a face its patch, from 1. Faces between parts are not
-// among them, but walls between regions are, once each, as TetGen has them.
+// among them, but walls between regions are, once each, as TetGen has them. Of order 2 the tetrahedra have ten nodes,
+// as those of its switch -o2, and the faces three.
 #include <fmt/format.h>
 
 #include "export/format.h"
@@ -13,8 +14,11 @@ namespace kerf {
 
 namespace tetgen {
 
+// Corners, then the nodes of the edges 23 03 01 12 13 02.
+constexpr std::array<std::int8_t, 10> order_of_nodes = {0, 1, 2, 3, 9, 7, 4, 5, 8, 6};
+
 void write_nodes(const PartSource& parts, ExportFile file) {
-    file.write(fmt::format("{} 3 0 0\n", parts.outline().vertices));
+    file.write(fmt::format("{} 3 0 0\n", parts.outline().nodes()));
     for_each_node(parts, [&](std::int64_t first, std::span<const Vec3> points) {
         for (const Vec3& p : points) {
             file.number(first++);
@@ -31,14 +35,16 @@ void write_elements(const PartSource& parts, ExportFile file) {
     const Materials materials(parts);
     for (std::size_t region = 0; region < outline.region_names.size(); ++region)
         file.write(fmt::format("# attribute {}: {}\n", region + 1, comment_text(outline.region_names[region])));
-    file.write(fmt::format("{} 4 1\n", outline.tets()));
+    file.write(fmt::format("{} {} 1\n", outline.tets(), nodes_of_tets(outline.order)));
     std::int64_t number = 0;
     for_each_part(parts, PartContent::cells, [&](PartIndex index, const Part& part) {
         const std::vector<std::int32_t> of_tets = materials.of_tets(index, part);
-        for (std::size_t t = 0; t < of_tets.size(); ++t) {
-            const auto [a, b, c, d] = global_corners(part, part.mesh.tets[t]);
-            write_row(file, {number++, a, b, c, d, of_tets[t] + 1});
-        }
+        for (std::size_t t = 0; t < of_tets.size(); ++t)
+            TextRow(file)
+                .add(number++)
+                .add(nodes_of_tet(part, t).in_order(order_of_nodes), 0)
+                .add(of_tets[t] + 1)
+                .end();
     });
     file.close();
 }

@@ -1,23 +1,44 @@
 // Rows of numbers, of which text formats consist.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <initializer_list>
 #include <string_view>
 
 #include "export/export_files.h"
+#include "export/whole_mesh.h"
 
 namespace kerf {
 
-/// The numbers on one line, a separator between two.
-inline void write_row(ExportFile& file, std::initializer_list<std::int64_t> numbers, std::string_view separator = " ") {
-    bool is_first = true;
-    for (const std::int64_t number : numbers) {
-        if (!is_first) file.write(separator);
-        file.number(number);
-        is_first = false;
+/// Numbers on one line, a separator between two.
+class TextRow {
+ public:
+    explicit TextRow(ExportFile& file, std::string_view separator = " ") : file_(file), separator_(separator) {}
+
+    TextRow& add(std::int64_t number) {
+        if (!is_first_) file_.write(separator_);
+        file_.number(number);
+        is_first_ = false;
+        return *this;
     }
-    file.write("\n");
+    /// The nodes of a cell, counted from `first`.
+    TextRow& add(const CellNodes& nodes, std::int64_t first) {
+        for (const std::int64_t node : nodes) add(node + first);
+        return *this;
+    }
+    void end() { file_.write("\n"); }
+
+ private:
+    ExportFile& file_;
+    std::string_view separator_;
+    bool is_first_ = true;
+};
+
+inline void write_row(ExportFile& file, std::initializer_list<std::int64_t> numbers) {
+    TextRow row(file);
+    for (const std::int64_t number : numbers) row.add(number);
+    row.end();
 }
 
 }  // namespace kerf

@@ -12,21 +12,28 @@ namespace kerf {
 
 namespace {
 
+template <std::size_t n>
+std::array<std::int64_t, n> global_nodes(const Part& part, const std::array<std::int32_t, n>& nodes) {
+    std::array<std::int64_t, n> ids;
+    for (std::size_t i = 0; i < n; ++i) ids[i] = part.node_id(nodes[i]);
+    return ids;
+}
+
 constexpr std::int64_t rows_at_once = std::int64_t{1} << 21;  // 48 MB of points
 
 // The pieces of the numbers, of `rows_at_once` each, that the part has some of.
 std::vector<bool> pieces_of(const Part& part, std::int64_t count) {
     std::vector<bool> pieces(count / rows_at_once + 1);
-    for (const std::int64_t id : part.global_id) pieces[id / rows_at_once] = true;
+    for (std::int64_t n = 0; n < part.node_count(); ++n) pieces[part.node_id(n) / rows_at_once] = true;
     return pieces;
 }
 
-// Rows of the vertices of the whole mesh in the order of their global numbers, a piece at a time; row(part, v) has
-// those of a part. Values at walls differ on their sides: those of the first part count.
+// Rows of the nodes of the whole mesh in the order of their global numbers, a piece at a time; row(part, n) has those
+// of a part. Values at walls differ on their sides: those of the first part count.
 template <class Row, class RowOf>
 void for_each_row(const PartSource& parts, PartContent content, const RowOf& row,
                   const std::function<void(std::int64_t first, std::span<const Row> rows)>& take) {
-    const std::int64_t count = parts.outline().vertices;
+    const std::int64_t count = parts.outline().nodes();
     Array<PartIndex, std::vector<bool>> pieces(parts.outline().parts.size());  // known after the first piece
     std::vector<Row> rows(std::min(count, rows_at_once));
     for (std::int64_t begin = 0; begin < count; begin += rows_at_once) {
@@ -37,8 +44,8 @@ void for_each_row(const PartSource& parts, PartContent content, const RowOf& row
             if (!is_first && !pieces[index][begin / rows_at_once]) continue;
             const Part part = parts.load_only(index, content);
             if (is_first) pieces[index] = pieces_of(part, count);
-            for (std::size_t v = 0; v < part.global_id.size(); ++v)
-                if (const std::int64_t id = part.global_id[v]; id >= begin && id < end) rows[id - begin] = row(part, v);
+            for (std::int64_t n = 0; n < part.node_count(); ++n)
+                if (const std::int64_t id = part.node_id(n); id >= begin && id < end) rows[id - begin] = row(part, n);
         }
         take(begin, std::span<const Row>(rows).first(end - begin));
     }
@@ -48,9 +55,9 @@ template <std::size_t width>
 void for_each_value_row(const PartSource& parts, std::size_t k,
                         const std::function<void(std::int64_t first, std::span<const double> rows)>& take) {
     using Row = std::array<double, width>;
-    const auto row_of = [k](const Part& part, std::size_t v) {
+    const auto row_of = [k](const Part& part, std::size_t n) {
         Row row;
-        for (std::size_t i = 0; i < width; ++i) row[i] = part.values[k].number(width * v + i);
+        for (std::size_t i = 0; i < width; ++i) row[i] = part.values[k].number(width * n + i);
         return row;
     };
     for_each_row<Row>(parts, PartContent::all, row_of, [&](std::int64_t first, std::span<const Row> rows) {
@@ -60,10 +67,33 @@ void for_each_value_row(const PartSource& parts, std::size_t k,
 
 }  // namespace
 
+CellNodes nodes_of_tet(const Part& part, std::int64_t t) {
+    return part.order() == 1 ? CellNodes(global_corners(part, part.mesh.tets[t]))
+                             : CellNodes(global_nodes(part, part.nodes_of_tet(t)));
+}
+
+CellNodes nodes_of_facet(const Part& part, std::int64_t f) {
+    return part.order() == 1 ? CellNodes(global_corners(part, part.facets[f]))
+                             : CellNodes(global_nodes(part, part.nodes_of_facet(f)));
+}
+
+// Edges are known of cells.
+PartContent patch_content(const MeshOutline& outline) {
+    return outline.order == 1 ? PartContent::surface : PartContent::cells;
+}
+
+std::vector<bool> own_nodes(const Part& part) {
+    std::vector<bool> is_own(part.node_count(), true);
+    for_each_shared_group(part, [&](const std::vector<NodeId>& parts, const std::vector<std::int32_t>& nodes) {
+        for (const std::int32_t n : nodes) is_own[n] = parts.front() == part.id;
+    });
+    return is_own;
+}
+
 void for_each_node(const PartSource& parts,
                    const std::function<void(std::int64_t first, std::span<const Vec3> points)>& take) {
     for_each_row<Vec3>(
-        parts, PartContent::vertices, [](const Part& part, std::size_t v) -> Vec3 { return part.mesh.vertices[v]; },
+        parts, PartContent::vertices, [](const Part& part, std::int64_t n) -> Vec3 { return part.node_point(n); },
         take);
 }
 
@@ -93,20 +123,34 @@ std::vector<std::int64_t> patch_sizes(const PartSource& parts) {
     return sizes;
 }
 
+template <std::size_t n>
 void for_each_patch_triangle(
     const PartSource& parts, std::span<const std::int64_t> sizes,
-    const std::function<void(std::int32_t patch, std::span<const PatchTriangle> triangles)>& take, OnPatches wanted) {
-    for_each_by_patch<PatchTriangle>(
+    const std::function<void(std::int32_t patch, std::span<const PatchTriangle<n>> triangles)>& take,
+    OnPatches wanted) {
+    const PartContent content = n == 3 ? PartContent::surface : patch_content(parts.outline());
+    for_each_by_patch<PatchTriangle<n>>(
         sizes,
         [&](const auto& add) {
-            for_each_part(parts, PartContent::surface, [&](PartIndex, const Part& part) {
-                for (std::size_t f = 0; f < part.facets.size(); ++f)
-                    if (part.is_listed(f) && (wanted == OnPatches::all || !part.is_wall(f)))
+            for_each_part(parts, content, [&](PartIndex, const Part& part) {
+                for (std::size_t f = 0; f < part.facets.size(); ++f) {
+                    if (!part.is_listed(f) || (wanted == OnPatches::outer && part.is_wall(f))) continue;
+                    if constexpr (n == 3)
                         add({part.patch[f], global_corners(part, part.facets[f])});
+                    else
+                        add({part.patch[f], global_nodes(part, part.nodes_of_facet(f))});
+                }
             });
         },
         take);
 }
+
+template void for_each_patch_triangle<3>(const PartSource&, std::span<const std::int64_t>,
+                                         const std::function<void(std::int32_t, std::span<const PatchTriangle<3>>)>&,
+                                         OnPatches);
+template void for_each_patch_triangle<6>(const PartSource&, std::span<const std::int64_t>,
+                                         const std::function<void(std::int32_t, std::span<const PatchTriangle<6>>)>&,
+                                         OnPatches);
 
 void require_numbers_fit(const MeshOutline& outline, std::string_view format, std::int64_t most) {
     const auto require = [&](std::int64_t count, const char* what) {
@@ -116,7 +160,7 @@ void require_numbers_fit(const MeshOutline& outline, std::string_view format, st
                                 "with a larger --size.",
                                 count, what, format, most));
     };
-    require(outline.vertices, "vertices");
+    require(outline.nodes(), outline.order == 1 ? "vertices" : "nodes");
     require(outline.tets(), "tetrahedra");
     require(outline.patch_facets(), "boundary triangles");
 }

@@ -1,6 +1,7 @@
 // All parts as one mesh, without ever holding more than one of them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -15,7 +16,64 @@ namespace kerf {
 
 // Memory, whatever the size of the mesh: 48 MB of points and 6 bytes a tetrahedron of the largest part in
 // for_each_node(), 18 bytes a tetrahedron in for_each_part() for cells, 48 MB in for_each_patch_triangle(); so parts
-// of 2.5e6 tetrahedra are merged below 100 MB beside what the PartSource holds.
+// of 2.5e6 tetrahedra are merged below 100 MB beside what the PartSource holds. Of order 2 a part takes what its nodes
+// on edges take, too.
+
+/// How many nodes cells of an order have.
+constexpr int nodes_of_tets(int order) { return order == 1 ? 4 : 10; }
+constexpr int nodes_of_triangles(int order) { return order == 1 ? 3 : 6; }
+
+/// The nodes of a cell by global numbers: its corners, then of order 2 those on its edges, in VTK's order
+/// (mesh/edge_table.h).
+class CellNodes {
+ public:
+    template <std::size_t n>
+    explicit CellNodes(const std::array<std::int64_t, n>& ids) : size_(n) {
+        static_assert(n <= most);
+        std::copy(ids.begin(), ids.end(), ids_.begin());
+    }
+    /// The same in another order: `order` has the places here of what comes first, second ...
+    CellNodes in_order(const std::array<std::int8_t, 10>& order) const {
+        CellNodes nodes = *this;
+        for (std::size_t i = 0; i < size_; ++i) nodes.ids_[i] = ids_[order[i]];
+        return nodes;
+    }
+    const std::int64_t* begin() const { return ids_.data(); }
+    const std::int64_t* end() const { return ids_.data() + size_; }
+    std::size_t size() const { return size_; }
+    std::int64_t operator[](std::size_t i) const { return ids_[i]; }
+
+ private:
+    static constexpr std::size_t most = 10;
+
+    std::array<std::int64_t, most> ids_;
+    std::size_t size_;
+};
+
+/// Those of a tetrahedron of the part, and of a boundary triangle: of what was loaded with patch_content().
+CellNodes nodes_of_tet(const Part& part, std::int64_t t);
+CellNodes nodes_of_facet(const Part& part, std::int64_t f);
+
+/// What is to be loaded of parts for the nodes of their boundary triangles.
+PartContent patch_content(const MeshOutline& outline);
+
+/// Calls visit(parts, nodes) for the nodes that the same parts hold; of a part with everything.
+template <class Visit>
+void for_each_shared_group(const Part& part, const Visit& visit) {
+    for (const SharedGroup& group : part.shared) visit(group.parts, group.vertices);
+    if (part.order() == 1) return;
+    for (const SharedEdgeGroup& group : part.shared_edges) {
+        std::vector<std::int32_t> nodes;
+        for (const auto& [a, b] : group.edges)
+            nodes.push_back(static_cast<std::int32_t>(part.vertex_count()) +
+                            part.edge_nodes.edges.find(undirected(a, b)));
+        visit(group.parts, nodes);
+    }
+}
+
+/// Which nodes of the part are its own: of all parts that hold a node, one owns it. Of a part with everything. O(#V +
+/// #E).
+std::vector<bool> own_nodes(const Part& part);
 
 /// Calls take(first, points) with the nodes of the whole mesh in the order of their global numbers: a piece at a time,
 /// the first of which has the number `first`. Parts are loaded as often as they have nodes of a piece.
@@ -33,10 +91,12 @@ void for_each_part(const PartSource& parts, PartContent content,
 /// The number of triangles on each patch that all parts list: a wall between two regions counts once.
 std::vector<std::int64_t> patch_sizes(const PartSource& parts);
 
-/// A boundary triangle on the user's surface: of a wall between two regions, that of one side.
+/// A boundary triangle on the user's surface with its corners or, of order 2, its six nodes: of a wall between two
+/// regions, that of one side.
+template <std::size_t n>
 struct PatchTriangle {
     std::int32_t patch;
-    std::array<std::int64_t, 3> corners;  ///< global numbers; seen from outside of its part
+    std::array<std::int64_t, n> nodes;  ///< global numbers; corners seen from outside of its part
 };
 
 /// Which triangles on patches are asked for.
@@ -46,14 +106,15 @@ enum class OnPatches {
 };
 
 /// Calls take(patch, triangles) with the triangles of patch after patch, in the order of the tree within a patch; those
-/// of a large patch come in several calls in a row. `sizes`: how many each patch has. Surfaces are read once for each
-/// 1e6 triangles.
+/// of a large patch come in several calls in a row. `sizes`: how many each patch has. n: 3 for the corners, 6 of a mesh
+/// of order 2. Surfaces are read once for each 1e6 triangles, with six nodes for each 5e5.
+template <std::size_t n>
 void for_each_patch_triangle(
     const PartSource& parts, std::span<const std::int64_t> sizes,
-    const std::function<void(std::int32_t patch, std::span<const PatchTriangle> triangles)>& take,
+    const std::function<void(std::int32_t patch, std::span<const PatchTriangle<n>> triangles)>& take,
     OnPatches wanted = OnPatches::all);
 
-/// Throws Error(usage), naming the format, if the mesh has more than `most` vertices, tetrahedra or boundary triangles.
+/// Throws Error(usage), naming the format, if the mesh has more than `most` nodes, tetrahedra or boundary triangles.
 void require_numbers_fit(const MeshOutline& outline, std::string_view format, std::int64_t most);
 inline constexpr std::int64_t most_of_32_bits = std::numeric_limits<std::int32_t>::max();
 

@@ -27,8 +27,11 @@ class XdmfText {
         const std::string regions = has_regions ? attribute("region", 1, "Cell", "viz/region") : "";
         const std::string tags =
             regions + attribute("body", 1, "Cell", "viz/body") + attribute("part", 1, "Cell", "viz/part");
-        text += grid("mesh", "Tetrahedron", 4, "viz/topology/cells", tags + values);
-        text += grid("facets", "Triangle", 3, "viz/topology/facets", attribute("patch", 1, "Cell", "viz/patch"));
+        const int order = outline_.order;
+        text += grid("mesh", order == 1 ? "Tetrahedron" : "Tetrahedron_10", nodes_of_tets(order), nodes_array(outline_),
+                     tags + values);
+        text += grid("facets", order == 1 ? "Triangle" : "Triangle_6", nodes_of_triangles(order), "viz/topology/facets",
+                     attribute("patch", 1, "Cell", "viz/patch"));
         return text + "  </Domain>\n</Xdmf>\n";
     }
 
@@ -56,14 +59,14 @@ class XdmfText {
                            xml_text(name), type, center, item(array));
     }
 
-    std::string grid(const char* name, const char* cell, int corners, const char* cells,
+    std::string grid(const char* name, const char* cell, int nodes, const char* cells,
                      const std::string& attributes) const {
         return fmt::format(
             "    <Grid Name=\"{}\" GridType=\"Uniform\">\n"
             "      <Topology TopologyType=\"{}\" NodesPerElement=\"{}\">{}</Topology>\n"
             "      <Geometry GeometryType=\"XYZ\">{}</Geometry>\n"
             "{}    </Grid>\n",
-            name, cell, corners, item(cells), item("geometry/vertices"), attributes);
+            name, cell, nodes, item(cells), item("geometry/vertices"), attributes);
     }
 
     const MeshOutline& outline_;

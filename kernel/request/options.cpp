@@ -77,6 +77,7 @@ RunOptions resolved(RunOptions options, int cores_of_rank) {
         throw Error(ErrorCode::usage, "--contour straight splits facets, and --surface keep forbids it. Drop one.");
     if (options.formats.empty()) options.formats = "vtu";
     const std::vector<const Format*> formats = parse_formats(options.formats);
+    for (const Format* format : formats) require_order(*format, options.order);
     if (options.fields.empty()) options.fields = "min-dihedral";
     parse_cell_fields(options.fields);
     parse_patch_types(options.patch_types);

@@ -19,7 +19,9 @@
 #include "io/file_bytes.h"
 #include "io/output_file.h"
 #include "part/joined_parts.h"
+#include "part/parts_of_order.h"
 #include "part/solution_parts.h"
+#include "run/edge_numbering.h"
 #include "run/write_stage.h"
 
 namespace kerf {
@@ -167,9 +169,7 @@ ExportSummary export_run(const ExportRequest& asked, Communicator& ranks, RunLis
     std::vector<FormatPlace> places;
     FormatOptions options;
     std::unique_ptr<PartSource> parts;
-    std::unique_ptr<JoinedParts> joined;
-    std::unique_ptr<Target> target;  // on the root rank
-    const std::string staging = in_agreement(ranks, [&] {
+    in_agreement(ranks, [&] {
         request.folder = find_solution_folder(asked.folder).value_or(asked.folder);
         const std::vector<const Format*> formats = parse_formats(request.formats);
         places = places_of(request, formats);
@@ -178,7 +178,16 @@ ExportSummary export_run(const ExportRequest& asked, Communicator& ranks, RunLis
         parts = open_parts(request.folder);
         require_patches(options.patch_types, parts->outline().patch_names);  // before there is a folder
         if (options.split_regions) require_regions(parts->outline().region_names.size());
-        if (request.into != 0) joined = std::make_unique<JoinedParts>(*parts, request.into);
+        for (const Format* format : formats)
+            require_order(*format, request.order == 0 ? parts->outline().order : request.order);
+    });
+    const auto of_order =
+        parts_of_order(*parts, request.order, [&] { return number_edges_together(ranks, *parts, listener); });
+    const PartSource& cells = of_order ? *of_order : *parts;
+    std::unique_ptr<JoinedParts> joined;
+    std::unique_ptr<Target> target;  // on the root rank
+    const std::string staging = in_agreement(ranks, [&] {
+        if (request.into != 0) joined = std::make_unique<JoinedParts>(cells, request.into);
         if (ranks.rank() != 0) return std::string();
         const bool is_of_run = request.output.empty();
         target = std::make_unique<Target>(is_of_run ? request.folder : request.output,
@@ -187,7 +196,7 @@ ExportSummary export_run(const ExportRequest& asked, Communicator& ranks, RunLis
     });
     const std::string shared_staging = all_gather(ranks, staging).front();
     const std::string folder = request.output.empty() ? request.folder : request.output;
-    const PartSource& source = joined ? static_cast<const PartSource&>(*joined) : *parts;
+    const PartSource& source = joined ? *joined : cells;
     ExportSummary summary{folder,
                           {},
                           static_cast<std::int32_t>(source.outline().parts.size()),

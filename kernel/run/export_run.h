@@ -19,6 +19,7 @@ struct ExportRequest {
     std::vector<std::string> patch_types;  ///< of parse_patch_types(), for openfoam
     int threads = 1;                       ///< of each rank
     bool split_regions = false;            ///< openfoam: one mesh for each region
+    int order = 0;                         ///< of the cells: 1 or 2; 0: that of the run
 };
 
 /// What an export has written.

@@ -111,7 +111,7 @@ class Run:
     def export(self, format: Union[str, Sequence[str]], path: Optional[Path] = None, *, into: int = 0,
                fields: Union[str, Sequence[str]] = "", msh_ascii: bool = False,
                patch_type: Union[Mapping[str, str], Sequence[str], str] = (), split_regions: bool = False,
-               workers: int = 0, progress: Progress = None) -> list[str]:
+               order: int = 0, workers: int = 0, progress: Progress = None) -> list[str]:
         """Writes the parts in the formats of solvers, as `kerf export`, and returns the paths of the files.
 
         format         one of vtu, msh, openfoam, mfem, hdf5, medit, tetgen, abaqus, su2, or several
@@ -122,6 +122,7 @@ class Run:
         msh_ascii      msh as text
         patch_type     OpenFOAM's types of patches: {"inlet": "patch", "hull": "wall"}
         split_regions  OpenFOAM: one mesh for each region
+        order          of the cells: 2 with a node on each edge, 1 without; 0: as in the run
         workers        parts that are written at once; 0: one for each processor
 
         Raises UsageError for what a format cannot hold, FileError for a file of somebody else in the way.
@@ -130,17 +131,18 @@ class Run:
             patch_type = [f"{name}={kind}" for name, kind in patch_type.items()]
         types = [patch_type] if isinstance(patch_type, str) else list(patch_type)
         return _kerf.export(self._folder, _list(format), "" if path is None else os.fspath(path), into, _list(fields),
-                            msh_ascii, types, split_regions, workers, caller(progress))
+                            msh_ascii, types, split_regions, order, workers, caller(progress))
 
-    def merge(self, path: Path, msh_version: str = "4.1", msh_ascii: bool = False) -> None:
+    def merge(self, path: Path, msh_version: str = "4.1", msh_ascii: bool = False, *, order: int = 0) -> None:
         """Writes one mesh into a file, whose ending chooses the format, without ever holding it in memory.
 
         msh_version    of Gmsh's files: "4.1" or "2.2"
         msh_ascii      Gmsh's files as text
+        order          of the cells: 2 with a node on each edge, 1 without; 0: as in the run
 
         Raises UsageError for another ending, naming those that there are.
         """
-        _kerf.merge(self._folder, os.fspath(path), msh_version, msh_ascii)
+        _kerf.merge(self._folder, os.fspath(path), msh_version, msh_ascii, order)
 
     def to_meshio(self) -> meshio.Mesh:
         """Mesh.to_meshio() of all parts, with the values of a solution."""

@@ -30,6 +30,8 @@ struct MergedMesh {
     std::vector<std::int64_t> part;  ///< #T; as the file numbers them; empty: the format says nothing
     std::vector<std::int64_t> body;  ///< #T; from 1; empty: the format says nothing
     std::vector<GlobalTriangle> triangles;
+    std::vector<std::array<std::int64_t, 6>> on_edges;    ///< #T of order 2, else empty; of edges 01 12 02 03 13 23
+    std::vector<GlobalTriangle> on_triangle_edges;        ///< #F, if the format has them; of edges 01 12 02
     std::vector<std::string> patch;                       ///< #F; its name or number in the file
     std::map<std::string, std::set<std::int64_t>> nodes;  ///< of each patch; empty: the format says nothing
 };
@@ -62,6 +64,14 @@ std::array<std::int64_t, n> read_corners(std::istream& text, std::int64_t first)
     return corners;
 }
 
+/// The nodes of edges behind the corners; `edges`: the places of 01 12 02 03 13 23 among them.
+inline void read_nodes_on_edges(std::istream& text, MergedMesh& mesh, const std::array<std::size_t, 6>& edges) {
+    const auto found = read_corners<6>(text, 0);
+    std::array<std::int64_t, 6> nodes;
+    for (std::size_t i = 0; i < 6; ++i) nodes[i] = found[edges[i]];
+    mesh.on_edges.push_back(nodes);
+}
+
 /// Medit: keyword, number of items, items with a reference behind each.
 inline MergedMesh read_medit(const std::string& path) {
     MergedMesh mesh;
@@ -79,12 +89,14 @@ inline MergedMesh read_medit(const std::string& path) {
             mesh.points.push_back(read_point(text));
             EXPECT_EQ(read_number<int>(text), 0);
         }
-        for (std::int64_t i = 0; i < count && word == "Tetrahedra"; ++i) {
+        for (std::int64_t i = 0; i < count && word.starts_with("Tetrahedra"); ++i) {
             mesh.tets.push_back(read_corners<4>(text, 1));
+            if (word == "TetrahedraP2") mesh.on_edges.push_back(read_corners<6>(text, 1));
             mesh.body.push_back(read_number<std::int64_t>(text));
         }
-        for (std::int64_t i = 0; i < count && word == "Triangles"; ++i) {
+        for (std::int64_t i = 0; i < count && word.starts_with("Triangles"); ++i) {
             mesh.triangles.push_back(read_corners<3>(text, 1));
+            if (word == "TrianglesP2") mesh.on_triangle_edges.push_back(read_corners<3>(text, 1));
             mesh.patch.push_back(std::to_string(read_number<std::int64_t>(text)));
         }
     }
@@ -105,10 +117,14 @@ inline MergedMesh read_tetgen(const std::string& path) {
         mesh.points.push_back(read_point(nodes));
     }
     const auto element_count = read_number<std::int64_t>(elements);
-    EXPECT_EQ((read_corners<2>(elements, 0)), (std::array<std::int64_t, 2>{4, 1})) << "corners, attributes";
+    const auto nodes_of_element = read_number<int>(elements);
+    EXPECT_TRUE(nodes_of_element == 4 || nodes_of_element == 10);
+    EXPECT_EQ(read_number<int>(elements), 1) << "attributes";
     for (std::int64_t i = 0; i < element_count; ++i) {
         EXPECT_EQ(read_number<std::int64_t>(elements), i);
         mesh.tets.push_back(read_corners<4>(elements, 0));
+        // As TetGen's -o2 numbers the edges of a single tetrahedron: 23 03 01 12 13 02.
+        if (nodes_of_element == 10) read_nodes_on_edges(elements, mesh, {2, 3, 5, 1, 4, 0});
         mesh.body.push_back(read_number<std::int64_t>(elements));
     }
     const auto face_count = read_number<std::int64_t>(faces);
@@ -216,7 +232,7 @@ class AbaqusReader {
         keyword_line_ = line;
         for (const char* name : {"NSET", "ELSET", "NAME"}) EXPECT_LE(parameter(name).size(), 80U);
         if (is("*ELEMENT")) {
-            EXPECT_EQ(parameter("TYPE"), "C3D4");
+            EXPECT_TRUE(parameter("TYPE") == "C3D4" || parameter("TYPE") == "C3D10");
         }
         if (is("*SURFACE")) {
             EXPECT_TRUE(surfaces_.try_emplace(parameter("NAME")).second) << line;
@@ -255,6 +271,11 @@ class AbaqusReader {
         GlobalTet tet;
         for (std::size_t i = 0; i < 4; ++i) tet[i] = std::stoll(fields.at(i + 1)) - 1;
         mesh_.tets.push_back(tet);
+        EXPECT_EQ(fields.size(), parameter("TYPE") == "C3D4" ? 5U : 11U);
+        if (fields.size() < 11) return;
+        std::array<std::int64_t, 6> on_edges;  // 5 to 10 between 1-2, 2-3, 1-3, 1-4, 2-4, 3-4
+        for (std::size_t i = 0; i < 6; ++i) on_edges[i] = std::stoll(fields.at(i + 5)) - 1;
+        mesh_.on_edges.push_back(on_edges);
     }
     // Every element is in one of BODY_1, BODY_2, ..., or of the regions of test bodies: REGION_0, REGION_1, ...
     void read_bodies() {

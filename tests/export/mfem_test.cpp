@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "export/bent_run.h"
 #include "export/format.h"
 #include "export/input_sums.h"
 #include "part/bodies.h"
@@ -36,6 +37,7 @@ struct MfemGroupRead {
 struct MfemRank {
     std::vector<MfemCell> elements, boundary;
     std::vector<Vec3> vertices;
+    std::map<std::array<int, 2>, Vec3> on_edges;  // of order 2, by both ends, the smaller one first
     std::vector<MfemGroupRead> groups;
     std::map<int, std::string> names;  // of attributes
 };
@@ -52,8 +54,14 @@ class MfemReader {
         read_cells("elements", rank_.elements);
         read_cells("boundary", rank_.boundary);
         rank_.vertices.resize(section("vertices"));
-        EXPECT_EQ(number(), 3);
-        for (Vec3& p : rank_.vertices) stream_ >> p[0] >> p[1] >> p[2];
+        std::string coordinates;
+        stream_ >> coordinates;
+        if (coordinates != "nodes") {
+            EXPECT_EQ(coordinates, "3");
+            for (Vec3& p : rank_.vertices) p = point();
+        } else {
+            read_nodes();
+        }
         skip_comments();
         std::getline(stream_, line);
         EXPECT_EQ(line, "mfem_serial_mesh_end");
@@ -95,6 +103,32 @@ class MfemReader {
             const std::size_t colon = line.find(": ");
             rank_.names[std::stoi(line.substr(key.size()))] = line.substr(colon + 2);
         }
+    }
+
+    Vec3 point() {
+        Vec3 p = Vec3::Zero();
+        stream_ >> p[0] >> p[1] >> p[2];
+        return p;
+    }
+
+    // As GridFunction reads a space of one unknown a vertex and an edge, with the components of each together. MFEM
+    // numbers edges as Mesh::GetVertexToVertexTable() meets them: cell after cell, 01 02 03 12 13 23 in each.
+    void read_nodes() {
+        std::string line;
+        stream_ >> std::ws;
+        for (const char* expected :
+             {"FiniteElementSpace", "FiniteElementCollection: H1_3D_P2", "VDim: 3", "Ordering: 1"}) {
+            std::getline(stream_, line);
+            EXPECT_EQ(line, expected);
+        }
+        for (Vec3& p : rank_.vertices) p = point();
+        for (const MfemCell& cell : rank_.elements)
+            for (std::size_t i = 0; i < 4; ++i)
+                for (std::size_t j = i + 1; j < 4; ++j) {
+                    const std::array edge{std::min(cell.corners[i], cell.corners[j]),
+                                          std::max(cell.corners[i], cell.corners[j])};
+                    if (!rank_.on_edges.contains(edge)) rank_.on_edges[edge] = point();
+                }
     }
 
     void read_cells(const std::string& name, std::vector<MfemCell>& cells) {
@@ -363,6 +397,22 @@ TEST(Mfem, EulersCountOfTheRanksIsThatOfTheWhole) {
         }
         EXPECT_EQ(of_ranks, count(holders.vertices.size(), holders.edges.size(), holders.faces.size(), holders.cells));
     });
+}
+
+TEST(Mfem, OfOrder2HasTheNodesOfEdgesInTheOrderOfItsNumbers) {
+    for (const test::ExportCase& each : test::export_cases()) {
+        SCOPED_TRACE(each.name);
+        const test::BentRun run(each);
+        const MfemMesh mesh = export_and_read(run.parts());
+        for (std::size_t r = 0; r < mesh.ranks.size(); ++r) {
+            const Part& part = mesh.parts[r];
+            EXPECT_EQ(mesh.ranks[r].vertices, part.mesh.vertices);
+            ASSERT_EQ(mesh.ranks[r].on_edges.size(), part.edge_nodes.points.size());
+            part.edge_nodes.edges.for_all([&](std::int64_t e, const UndirectedEdge& edge) {
+                EXPECT_EQ(mesh.ranks[r].on_edges.at({edge[0], edge[1]}), part.edge_nodes.points[e]);
+            });
+        }
+    }
 }
 
 // What the case of 64 parts is there for: two ends in common, and not the edge between them.

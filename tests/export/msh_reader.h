@@ -29,7 +29,7 @@ struct MshNode {
 
 struct MshElement {
     MshEntity entity;
-    std::vector<std::int64_t> corners;
+    std::vector<std::int64_t> corners;  // then of order 2 the nodes on edges, in Gmsh's order
 
     bool operator==(const MshElement&) const = default;
 };
@@ -237,12 +237,19 @@ class MshReader {
             content_.nodes[tag] = {point(), entity};
         }
     }
+    // Dimension and number of nodes: "MSH file format" in Gmsh's manual.
+    static std::array<int, 2> nodes_of(std::int32_t type) {
+        static const std::map<std::int32_t, std::array<int, 2>> types = {
+            {2, {2, 3}}, {4, {3, 4}}, {9, {2, 6}}, {11, {3, 10}}};
+        require(types.contains(type), "type of elements");
+        return types.at(type);
+    }
     void read_elements(const MshEntity& entity, std::int32_t type) {
-        require((entity[0] == 2 && type == 2) || (entity[0] == 3 && type == 4), "triangles and tetrahedra");
+        require(nodes_of(type)[0] == entity[0], "triangles and tetrahedra");
         for (std::int64_t i = 0; i < count_; ++i) {
             const std::int64_t tag = size();
             MshElement element{entity, {}};
-            for (int k = 0; k <= entity[0]; ++k) element.corners.push_back(size());
+            for (int k = 0; k < nodes_of(type)[1]; ++k) element.corners.push_back(size());
             require(tags_.insert(tag).second, "elements differ");
             content_.elements[tag] = element;
         }
@@ -264,23 +271,24 @@ class MshReader {
                 continue;
             }
             const std::int32_t type = integer(), count = integer(), tags = integer();
-            require((type == 2 || type == 4) && tags == 2 && count > 0 && count <= left, "block of elements");
+            require(tags == 2 && count > 0 && count <= left, "block of elements");
             left -= count;
-            for (std::int32_t i = 0; i < count; ++i) read_element_2_2(type == 2 ? 2 : 3);
+            for (std::int32_t i = 0; i < count; ++i) read_element_2_2(type);
         }
         end("Elements");
     }
     void read_element_of_text_2_2() {
         const std::int64_t tag = integer();
         const std::int32_t type = integer(), tags = integer();
-        require((type == 2 || type == 4) && tags == 2, "element");
-        read_element_2_2(type == 2 ? 2 : 3, tag);
+        require(tags == 2, "element");
+        read_element_2_2(type, tag);
     }
-    void read_element_2_2(std::int32_t dimension) { read_element_2_2(dimension, integer()); }
-    void read_element_2_2(std::int32_t dimension, std::int64_t tag) {
+    void read_element_2_2(std::int32_t type) { read_element_2_2(type, integer()); }
+    void read_element_2_2(std::int32_t type, std::int64_t tag) {
         const std::int32_t physical = integer();
+        const auto [dimension, nodes] = nodes_of(type);
         MshElement element{{dimension, integer()}, {}};
-        for (int k = 0; k <= dimension; ++k) element.corners.push_back(integer());
+        for (int k = 0; k < nodes; ++k) element.corners.push_back(integer());
         require(content_.elements.emplace(tag, element).second, "elements differ");
         content_.entities[element.entity].physicals = {physical};
     }
