@@ -4,8 +4,8 @@ the load.
 usage: python3 compute_with_calculix.py MESH.inp MESH.mesh
 
 The ends are the patches that lie at the largest and at the smallest x. They are found, and the load is integrated, in
-MESH.mesh, of order 1; CalculiX reads MESH.inp, of any order, in which patch k of --feature-angle is face_k. Writes into
-the current folder. The exit code is 1 if CalculiX fails or forces do not balance.
+MESH.mesh, of order 1; CalculiX reads MESH.inp, of any order, in which patches are called as comments of MESH.mesh say.
+Writes into the current folder. The exit code is 1 if CalculiX fails or forces do not balance.
 """
 
 import pathlib
@@ -33,6 +33,11 @@ def end_patches(mesh):
     return ends
 
 
+def names_of_patches(mesh_file):
+    text = pathlib.Path(mesh_file).read_text()
+    return re.findall(r"^# reference \d+ of triangles: (.*)$", text, re.MULTILINE)
+
+
 def deck(mesh_file, fixed, loaded):
     return f"""*INCLUDE, INPUT={mesh_file}
 *MATERIAL, NAME=STEEL
@@ -40,12 +45,12 @@ def deck(mesh_file, fixed, loaded):
 210000., 0.3
 *SOLID SECTION, ELSET=EALL, MATERIAL=STEEL
 *BOUNDARY
-face_{fixed}, 1, 3
+{fixed}, 1, 3
 *STEP
 *STATIC
 *DSLOAD
-face_{loaded}, P, {PRESSURE}
-*NODE PRINT, NSET=face_{fixed}, TOTALS=ONLY
+{loaded}, P, {PRESSURE}
+*NODE PRINT, NSET={fixed}, TOTALS=ONLY
 RF
 *NODE PRINT, NSET=NALL
 U
@@ -72,9 +77,9 @@ def numbers_after(text, headline):
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
-    mesh = meshio.read(sys.argv[2])
+    mesh, names = meshio.read(sys.argv[2]), names_of_patches(sys.argv[2])
     (fixed, _), (loaded, vector_area) = end_patches(mesh)
-    pathlib.Path("job.inp").write_text(deck(sys.argv[1], fixed, loaded))
+    pathlib.Path("job.inp").write_text(deck(sys.argv[1], names[fixed], names[loaded]))
     done = subprocess.run(["ccx", "job"], capture_output=True, text=True, timeout=240)
     if done.returncode != 0 or "Job finished" not in done.stdout or re.search(r"\*(ERROR|WARNING)", done.stdout):
         print(done.stdout[-4000:])

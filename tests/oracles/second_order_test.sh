@@ -9,7 +9,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 "$cases" .
-"$kerf" mesh one_part.stl -o run -n 3 --feature-angle 40 --size 0.4 -q
+"$kerf" mesh one_part.stl -o run -n 3 --size 0.4 -q
 "$kerf" export run --format msh --order 2 -o parts -q
 "$kerf" export run --format hdf5 --order 2 -o hdf5 -q
 for ending in msh mesh inp node; do "$kerf" merge run -o "whole.$ending" --order 2 -q; done
