@@ -212,6 +212,18 @@ TEST_F(SecondOrderOfARun, ExportAndMergeMakeIt) {
     }
 }
 
+TEST_F(SecondOrderOfARun, WritesWhatAnExportOfOrder1Writes) {
+    const std::string formats = "msh,mfem,hdf5,medit,tetgen,abaqus";
+    ASSERT_EQ(kerf({"mesh", run_ + ".stl", "-o", folder_.file("run"), "-n", "5", "--order", "2", "--curve", "straight",
+                    "--format", formats, "-q"})
+                  .exit_code,
+              0);
+    ASSERT_EQ(kerf({"export", run_, "--format", formats, "--order", "2", "-o", folder_.file("out"), "-q"}).exit_code,
+              0);
+    std::filesystem::remove(folder_.file("out/kerf_export.json"));
+    EXPECT_TRUE(test::contents_below(folder_.file("run/export")) == test::contents_below(folder_.file("out")));
+}
+
 TEST_F(SecondOrderOfARun, WhatCannotHoldItIsRefused) {
     const ChildResult merged = kerf({"merge", run_, "-o", folder_.file("whole.su2"), "--order", "2"});
     EXPECT_EQ(merged.exit_code, 2) << merged.log;

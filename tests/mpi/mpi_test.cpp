@@ -62,22 +62,39 @@ TEST_P(MpiRuns, PartFilesAreTheSameForAnyRanksAndWorkers) {
     }
 }
 
+TEST(MpiRunsOfOrder2, FilesAreTheSameForAnyRanksAndWorkers) {
+    const test::TemporaryFolder folder;
+    std::map<std::string, std::string> expected;
+    for (const auto& [ranks, workers] : {std::pair{1, 1}, {3, 2}}) {
+        const ChildResult result =
+            run_ranks(ranks, {KERF_PROGRAM, "mesh", test::asset_path("hollow_box"), "-o", folder.file("run"), "-n", "5",
+                              "--workers", std::to_string(workers), "--order", "2", "--format", test::all_formats(2)});
+        ASSERT_EQ(result.exit_code, 0) << result.log;
+        if (ranks == 1) expected = test::result_of_run(folder.file("run"));
+        EXPECT_TRUE(expected.contains("export/msh/mesh_5.msh"));
+        EXPECT_TRUE(test::result_of_run(folder.file("run")) == expected);
+    }
+}
+
 // Of the parts as they are, and joined.
 TEST(MpiExports, FilesAreTheSameForAnyRanks) {
     const test::TemporaryFolder folder;
     ASSERT_EQ(test::run_kerf({"mesh", test::asset_path("hollow_box"), "-o", folder.file("run"), "-n", "5"}).exit_code,
               0);
-    for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--into", "3"}}) {
+    for (const std::vector<std::string>& more :
+         {std::vector<std::string>{}, {"--into", "3"}, {"--order", "2", "--into", "3"}}) {
+        const int order = std::ranges::count(more, "--order") > 0 ? 2 : 1;
         std::map<std::string, std::string> expected;
         for (int ranks = 1; ranks <= 3; ++ranks) {
             SCOPED_TRACE(testing::Message() << ranks << " ranks, " << more.size());
-            std::vector<std::string> command = {KERF_PROGRAM,        "export", folder.file("run"), "--format",
-                                                test::all_formats(), "-o",     folder.file("out")};
+            std::vector<std::string> command = {
+                KERF_PROGRAM, "export",          folder.file("run"), "--format", test::all_formats(order),
+                "-o",         folder.file("out")};
             command.insert(command.end(), more.begin(), more.end());
             const ChildResult result = run_ranks(ranks, command);
             ASSERT_EQ(result.exit_code, 0) << result.log;
             if (ranks == 1) expected = test::contents_below(folder.file("out"));
-            EXPECT_GT(expected.size(), 20u);
+            EXPECT_GT(expected.size(), order == 1 ? 20u : 15u);
             EXPECT_TRUE(test::contents_below(folder.file("out")) == expected);
             std::filesystem::remove_all(folder.file("out"));
         }

@@ -1,4 +1,4 @@
-// The value of --format that asks for everything.
+// Values of --format that ask for everything.
 #pragma once
 
 #include <string>
@@ -7,9 +7,11 @@
 
 namespace kerf::test {
 
-inline std::string all_formats() {
+/// Those that hold cells of this order.
+inline std::string all_formats(int order = 1) {
     std::string names;
-    for (const Format* format : formats()) names += (names.empty() ? "" : ",") + std::string(format->name);
+    for (const Format* format : formats())
+        if (format->highest_order >= order) names += (names.empty() ? "" : ",") + std::string(format->name);
     return names;
 }
 
