@@ -1,5 +1,8 @@
 // Exports of a solution have its values; other programs judge all formats in tests/oracles/compare_exports.py.
 #include <filesystem>
+#include <iterator>
+#include <map>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -8,6 +11,7 @@
 #include "part/solution_parts.h"
 #include "part/vtu_reader.h"
 #include "support/assets.h"
+#include "support/file_contents.h"
 #include "support/program.h"
 #include "support/solved_run.h"
 #include "support/temporary_folder.h"
@@ -88,6 +92,35 @@ TEST_F(SolutionExport, FilesHaveTheValues) {
         }
         EXPECT_EQ(found, 2) << file[0];
     }
+}
+
+// The rows of a section of a text file of Gmsh: behind the line of its name, or of "name" in the section.
+std::vector<std::vector<double>> rows_behind(const std::string& text, const std::string& begin) {
+    std::istringstream lines(text.substr(text.find(begin) + begin.size()));
+    std::vector<std::vector<double>> rows;
+    for (std::string line; std::getline(lines, line) && !line.starts_with("$End");) {
+        std::istringstream numbers(line);
+        if (std::vector<double> row{std::istream_iterator<double>(numbers), {}}; row.size() > 1) rows.push_back(row);
+    }
+    return rows;
+}
+
+// Values are linear functions of the place, so that means of ends are what there is in the middle of an edge.
+TEST_F(SolutionExport, OfOrder2HasValuesAtTheNodesOfEdges) {
+    const std::string file = folder_->file("of_order_2.msh");
+    ASSERT_EQ(run_kerf({"merge", folder_->file("out/solution"), "-o", file, "--msh-version", "2.2", "--msh-ascii",
+                        "--order", "2", "-q"})
+                  .exit_code,
+              0);
+    const std::string text = bytes_of_file(file);
+    const auto nodes = rows_behind(text, "$Nodes\n");
+    const auto values = rows_behind(text, "\"VonMises slow\"\n");
+    const auto parts = open_parts(folder_->file("out/mesh"));
+    EXPECT_GT(std::ssize(nodes), parts->outline().vertices + parts->outline().tets());
+    ASSERT_EQ(values.size(), nodes.size());
+    std::map<double, double> of_tags;
+    for (const auto& row : values) of_tags[row[0]] = row[1];
+    for (const auto& row : nodes) ASSERT_NEAR(of_tags.at(row[0]), row[1], 1e-6);
 }
 
 TEST_F(SolutionExport, DoesNotWriteAmongTheFilesOfOthers) {

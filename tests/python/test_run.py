@@ -166,6 +166,18 @@ def test_all_formats_are_those_of_the_command_line(run, tmp_path):
     assert files_below(tmp_path / "c") == files_below(tmp_path / "d")
 
 
+def test_cells_of_order_2_are_those_of_the_command_line(run, tmp_path):
+    run.export(["msh", "mfem"], tmp_path / "a", order=2)
+    kerf_program("export", run.folder, "--format", "msh,mfem", "-o", tmp_path / "b", "--order", 2, "-q")
+    assert files_below(tmp_path / "a") == files_below(tmp_path / "b")
+    run.merge(tmp_path / "c.inp", order=2)
+    kerf_program("merge", run.folder, "-o", tmp_path / "d.inp", "--order", 2, "-q")
+    assert (tmp_path / "c.inp").read_bytes() == (tmp_path / "d.inp").read_bytes()
+    assert b"C3D10" in (tmp_path / "c.inp").read_bytes()
+    with pytest.raises(kerf.UsageError, match="su2 has no cells of order 2"):
+        run.merge(tmp_path / "a.su2", order=2)
+
+
 def test_an_export_becomes_part_of_the_run(copy):
     run = kerf.open(copy)
     assert os.path.dirname(run.export("su2")[0]) == os.path.join(run.folder, "export/su2")
