@@ -1,6 +1,7 @@
 #include "cli/import_program.h"
 
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <new>
 
@@ -17,13 +18,28 @@ namespace {
 
 CadAnswer failed(ErrorCode code, const std::string& message) { return {static_cast<std::int32_t>(code), message, {}}; }
 
-CadAnswer answer_for(const std::string& path, std::span<const std::string> arguments, ImportFunction importer) {
+// What somebody has written for this process.
+Bytes read_input_stream() {
+    Bytes bytes;
+    std::array<char, 65536> buffer;
+    for (ssize_t n = 0; (n = read(STDIN_FILENO, buffer.data(), buffer.size())) > 0;)
+        bytes.insert(bytes.end(), buffer.begin(), buffer.begin() + n);
+    return bytes;
+}
+
+// `projector`: null to import the file.
+CadAnswer answer_for(const std::string& path, std::span<const std::string> arguments, ImportFunction importer,
+                     ProjectFunction projector) {
     try {
         const CadOptions options = CadOptions::from_arguments(arguments);
         std::string bytes = read_file(path);
         const FileHash hash = digest_of(bytes);
         CadAnswer answer;
-        answer.body = importer(decompress(std::move(bytes), path), path, options);
+        const std::string content = decompress(std::move(bytes), path);
+        if (projector)
+            answer.projected = projector(content, path, options, from_bytes<CadPoints>(read_input_stream()));
+        else
+            answer.body = importer(content, path, options);
         answer.body.file_hash = hash;
         return answer;
     } catch (const SolidDefect& defect) {
@@ -49,6 +65,9 @@ std::string take_output(std::vector<std::string>& arguments) {
     return path;
 }
 
+// Takes `--project` out of the arguments; whether it was there.
+bool take_project(std::vector<std::string>& arguments) { return std::erase(arguments, "--project") > 0; }
+
 void write_all(int descriptor, std::span<const char> bytes) {
     while (!bytes.empty()) {
         const ssize_t n = write(descriptor, bytes.data(), bytes.size());
@@ -59,14 +78,15 @@ void write_all(int descriptor, std::span<const char> bytes) {
 
 }  // namespace
 
-void run_import_program(int argc, char** argv, const char* name, ImportFunction importer) {
+void run_import_program(int argc, char** argv, const char* name, ImportFunction importer, ProjectFunction projector) {
     const int output = dup(STDOUT_FILENO);
     dup2(STDERR_FILENO, STDOUT_FILENO);
     std::vector<std::string> arguments(argv + 1, argv + argc);
     const std::string output_path = take_output(arguments);
+    if (!projector || !take_project(arguments)) projector = nullptr;
     const bool asks = arguments.empty() || arguments.front().starts_with('-');
     CadAnswer answer = asks ? failed(ErrorCode::usage, "Usage: " + std::string(name) + " FILE [OPTIONS]")
-                            : answer_for(arguments.front(), std::span(arguments).subspan(1), importer);
+                            : answer_for(arguments.front(), std::span(arguments).subspan(1), importer, projector);
     const Bytes bytes = to_cad_bytes(answer);
     if (!output_path.empty()) try {
             write_output_file(output_path, bytes);

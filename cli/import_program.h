@@ -1,7 +1,11 @@
 // Programs that read a file for kerf in a process of their own, because of the library that they need. They are started
 // by kerf, which reads the answer from standard output (io/cad_body.h).
 //
-//     PROGRAM FILE [--solid N] [--unite] [--no-imprint] [--unit mm|cm|m|inch|ft] [--deflection D] [--output OUT]
+//     PROGRAM FILE [--solid N] [--unite] [--no-imprint] [--on-faces] [--unit mm|cm|m|inch|ft] [--deflection D]
+//             [--project] [--output OUT]
+//
+// With --project, which kerf-cad has, points are read from standard input (io/cad_points.h), and the answer is what
+// becomes of them on the faces of the file.
 #pragma once
 
 #include <string>
@@ -14,8 +18,13 @@ namespace kerf {
 /// The content of a file, without compression; the path is for messages.
 using ImportFunction = CadBody (*)(std::string_view content, const std::string& path, const CadOptions& options);
 
+/// Puts points on the faces of such a file.
+using ProjectFunction = ProjectedPoints (*)(std::string_view content, const std::string& path,
+                                            const CadOptions& options, const CadPoints& points);
+
 /// All of main(). Standard output holds nothing but the answer, whatever the library prints. Ends the process with the
 /// code of the error, without the library's own end, which would take longer.
-[[noreturn]] void run_import_program(int argc, char** argv, const char* name, ImportFunction importer);
+[[noreturn]] void run_import_program(int argc, char** argv, const char* name, ImportFunction importer,
+                                     ProjectFunction projector = nullptr);
 
 }  // namespace kerf

@@ -2,4 +2,6 @@
 #include "cad/cad_import.h"
 #include "cli/import_program.h"
 
-int main(int argc, char** argv) { kerf::run_import_program(argc, argv, "kerf-cad", kerf::import_cad); }
+int main(int argc, char** argv) {
+    kerf::run_import_program(argc, argv, "kerf-cad", kerf::import_cad, kerf::project_on_cad);
+}

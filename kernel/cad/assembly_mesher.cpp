@@ -35,13 +35,13 @@ constexpr const char* way_out =
 class AssemblyMesher {
  public:
     AssemblyMesher(const Assembly& assembly, const std::vector<double>& diagonals, const std::string& path,
-                   double deflection)
-        : assembly_(assembly), path_(path), by_volume_(deflection == 0) {
+                   const CadOptions& options)
+        : assembly_(assembly), path_(path), by_volume_(options.deflection == 0), on_faces_(options.on_faces) {
         smallest_ = *std::min_element(diagonals.begin(), diagonals.end());
         const double largest = *std::max_element(diagonals.begin(), diagonals.end());
-        settings_ = {
-            by_volume_ ? std::max(share_of_smallest * smallest_, share_of_largest * largest) : deflection * smallest_,
-            first_angle};
+        settings_ = {by_volume_ ? std::max(share_of_smallest * smallest_, share_of_largest * largest)
+                                : options.deflection * smallest_,
+                     first_angle};
     }
 
     std::optional<MeshedAssembly> run(bool may_divide) {
@@ -165,13 +165,14 @@ class AssemblyMesher {
     }
 
     bool is_right(const Tessellation& mesh) const {
-        return !by_volume_ || (volume_error(mesh) <= CadOptions::volume_tolerance && roughness(mesh) <= 1);
+        if (!by_volume_) return true;
+        return roughness(mesh) <= 1 && (on_faces_ || volume_error(mesh) <= CadOptions::volume_tolerance);
     }
 
     // Facets that cross then have their vertices back on the faces: where a curved face touches another in a line or a
     // point, little is between them.
     bool balance(Tessellation& mesh) const {
-        if (roughness(mesh) > 1) return false;
+        if (on_faces_ || roughness(mesh) > 1) return false;
         std::vector<char> is_fixed(mesh.vertices.size());
         for (int round = 0; round < most_rounds_of_balance; ++round) {
             Tessellation balanced = mesh;
@@ -217,7 +218,7 @@ class AssemblyMesher {
 
     const Assembly& assembly_;
     const std::string& path_;
-    bool by_volume_;
+    bool by_volume_, on_faces_;
     double smallest_ = 0;  // diagonal
     TessellationSettings settings_ = {};
     std::string trouble_;
@@ -226,8 +227,8 @@ class AssemblyMesher {
 }  // namespace
 
 std::optional<MeshedAssembly> mesh_assembly(const Assembly& assembly, const std::vector<double>& diagonals,
-                                            const std::string& path, double deflection, bool may_divide) {
-    return AssemblyMesher(assembly, diagonals, path, deflection).run(may_divide);
+                                            const std::string& path, const CadOptions& options, bool may_divide) {
+    return AssemblyMesher(assembly, diagonals, path, options).run(may_divide);
 }
 
 }  // namespace kerf::cad

@@ -17,11 +17,11 @@ struct MeshedAssembly {
 };
 
 /// Tessellates an assembly as mesh_body() does a body: the volume of each region is right to
-/// CadOptions::volume_tolerance, where that can be had. `deflection`: a fraction of the diagonal of the smallest solid;
-/// 0: as fine as the volumes ask for. `diagonals`: of the solids; millimetres. Throws SolidDefect, naming solids and
-/// faces, where a region stays open, faces cross, or a face gets no triangles; for the latter it gives nothing with
-/// `may_divide`, since it may help to divide faces that are closed in themselves. Deterministic.
+/// CadOptions::volume_tolerance, where that can be had. The deflection of the options is a fraction of the diagonal of
+/// the smallest solid; 0: as fine as the volumes ask for. `diagonals`: of the solids; millimetres. Throws SolidDefect,
+/// naming solids and faces, where a region stays open, faces cross, or a face gets no triangles; for the latter it
+/// gives nothing with `may_divide`, since it may help to divide faces that are closed in themselves. Deterministic.
 std::optional<MeshedAssembly> mesh_assembly(const Assembly& assembly, const std::vector<double>& diagonals,
-                                            const std::string& path, double deflection, bool may_divide);
+                                            const std::string& path, const CadOptions& options, bool may_divide);
 
 }  // namespace kerf::cad

@@ -38,14 +38,15 @@ constexpr int most_tries = 12;
 
 class BodyMesher {
  public:
-    BodyMesher(Body& body, Model& model, const std::string& path, double deflection, bool may_balance)
+    BodyMesher(Body& body, Model& model, const std::string& path, const CadOptions& options, bool may_balance)
         : body_(body),
           model_(model),
           path_(path),
-          by_volume_(deflection == 0),
+          by_volume_(options.deflection == 0),
+          on_faces_(options.on_faces),
           may_balance_(may_balance),
           diagonal_(diagonal_of(body.shape)) {
-        settings_ = {(by_volume_ ? coarsest_deflection : deflection) * diagonal_, coarsest_angle};
+        settings_ = {(by_volume_ ? coarsest_deflection : options.deflection) * diagonal_, coarsest_angle};
         GProp_GProps properties;
         BRepGProp::VolumeProperties(body.shape, properties, volume_precision);
         exact_volume_ = std::abs(properties.Mass());
@@ -126,7 +127,8 @@ class BodyMesher {
     }
 
     bool is_right(const Tessellation& mesh) const {
-        return !by_volume_ || (std::abs(volume_error(mesh)) <= CadOptions::volume_tolerance && roughness(mesh) <= 1);
+        if (!by_volume_) return true;
+        return roughness(mesh) <= 1 && (on_faces_ || std::abs(volume_error(mesh)) <= CadOptions::volume_tolerance);
     }
 
     bool balance(Tessellation& mesh) const {
@@ -193,7 +195,7 @@ class BodyMesher {
     Body& body_;
     Model& model_;
     const std::string& path_;
-    bool by_volume_;
+    bool by_volume_, on_faces_;
     bool may_balance_;  // else all vertices stay on the faces
     double diagonal_;
     TessellationSettings settings_ = {};
@@ -216,8 +218,8 @@ void refuse(const std::string& path, const std::string& what, const char* kind, 
     throw SolidDefect(kind, path + ": " + what, std::move(elements));
 }
 
-MeshedBody mesh_body(Body& body, Model& model, const std::string& path, double deflection, bool may_balance) {
-    return BodyMesher(body, model, path, deflection, may_balance).run();
+MeshedBody mesh_body(Body& body, Model& model, const std::string& path, const CadOptions& options, bool may_balance) {
+    return BodyMesher(body, model, path, options, may_balance).run();
 }
 
 }  // namespace kerf::cad

@@ -14,10 +14,11 @@ struct MeshedBody {
 };
 
 /// Tessellates a body until its facets are closed and do not cross, and hold the volume of the solid to within
-/// CadOptions::volume_tolerance. `deflection` is a fraction of the diagonal; 0: as fine as the volume asks for. With
-/// `may_balance` vertices are moved off the faces for the volume, else all stay on them. Closed faces of the body may
+/// CadOptions::volume_tolerance, but with CadOptions::on_faces, when little is between facets and faces. The deflection
+/// is that of the options, or as fine as the volume asks for. With `may_balance` vertices are moved off the faces for
+/// the volume, else all stay on them. Closed faces of the body may
 /// be divided, which the model notes. Throws SolidDefect. Deterministic.
-MeshedBody mesh_body(Body& body, Model& model, const std::string& path, double deflection, bool may_balance);
+MeshedBody mesh_body(Body& body, Model& model, const std::string& path, const CadOptions& options, bool may_balance);
 
 /// Throws SolidDefect of a kind that io/cad_body.h names.
 [[noreturn]] void refuse(const std::string& path, const std::string& what, const char* kind = SolidDefect::broken,

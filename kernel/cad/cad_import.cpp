@@ -22,6 +22,7 @@
 #include "cad/healing.h"
 #include "cad/imprint.h"
 #include "cad/model.h"
+#include "cad/projection.h"
 #include "core/error.h"
 #include "surface/intersections.h"
 
@@ -152,16 +153,18 @@ struct Bodies {
     Soup soup;
     std::vector<std::int32_t> first_facet;  // of each
     double volume = 0, exact_volume = 0;
+    std::vector<Body> shapes;  // whose faces have these facets
 };
 
 Bodies tessellate_bodies(Model& model, const CadOptions& options, const std::string& path, bool may_balance) {
     Bodies all;
     for (Body& body : model.bodies) {
-        const MeshedBody meshed = cad::mesh_body(body, model, path, options.deflection, may_balance);
+        const MeshedBody meshed = cad::mesh_body(body, model, path, options, may_balance);
         all.first_facet.push_back(static_cast<std::int32_t>(all.soup.facets.size()));
         append(all.soup, meshed.facets);
         all.volume += meshed.facets.volume;
         all.exact_volume += meshed.exact_volume;
+        all.shapes.push_back(body);
     }
     return all;
 }
@@ -193,6 +196,7 @@ Bodies to_bodies(const Assembly& assembly, cad::MeshedAssembly meshed, Model& mo
     if (assembly.tolerance > 0)
         model.notes.push_back(fmt::format("Faces within {:.3g} mm were taken as one.", assembly.tolerance));
     model.patches = assembly.patches;
+    all.shapes = {assembly.faces};
     return all;
 }
 
@@ -203,7 +207,7 @@ Bodies tessellate_touching(Model& model, const cad::Contact& contact, const CadO
         const cad::Imprint imprint(model.bodies, model.patches, contact);
         if (!imprint.assembly()) refuse_imprint(imprint.failure(), model, path);
         std::optional<cad::MeshedAssembly> meshed =
-            cad::mesh_assembly(*imprint.assembly(), diagonals_of(model.bodies), path, options.deflection, !is_divided);
+            cad::mesh_assembly(*imprint.assembly(), diagonals_of(model.bodies), path, options, !is_divided);
         if (meshed) return to_bodies(*imprint.assembly(), *std::move(meshed), model);
         divide_all_closed_faces(model);
     }
@@ -228,9 +232,9 @@ Bodies tessellate_all(Model& model, const CadOptions& options, const std::string
         refuse_contact(path, model.bodies[contact.bodies[0]].name, model.bodies[contact.bodies[1]].name, contact.where);
     };
     if (const std::optional<cad::Contact> contact = cad::find_contact(model.bodies)) return touching(*contact);
-    Bodies all = tessellate_bodies(model, options, path, true);
+    Bodies all = tessellate_bodies(model, options, path, !options.on_faces);
     std::optional<cad::Contact> contact = contact_of(all);
-    if (options.deflection == 0 && contact) {
+    if (options.deflection == 0 && !options.on_faces && contact) {
         all = tessellate_bodies(model, options, path, false);
         contact = contact_of(all);
     }
@@ -275,12 +279,21 @@ std::string description(const CadBody& body) {
                        100 * (body.volume - body.exact_volume) / body.exact_volume);
 }
 
-CadBody import_model(Model model, const CadOptions& options, const std::string& path) {
+// What a file becomes, and the shapes of which it is made.
+struct ImportedModel {
+    CadBody body;
+    std::vector<Body> shapes;
+    std::vector<cad::Patch> patches;
+};
+
+ImportedModel import_model(Model model, const CadOptions& options, const std::string& path) {
     make_bodies(model, options, path);
-    CadBody result;
+    ImportedModel imported;
+    CadBody& result = imported.body;
     result.format = name(model.format);
     result.file_unit = model.unit;
     Bodies all = tessellate_all(model, options, path);
+    imported.shapes = std::move(all.shapes);
     result.soup = std::move(all.soup);
     result.volume = all.volume;
     result.exact_volume = all.exact_volume;
@@ -295,20 +308,34 @@ CadBody import_model(Model model, const CadOptions& options, const std::string& 
     if (result.file_unit.empty() && options.unit != LengthUnit::mm)
         result.soup.notes.emplace_back("The file names no unit: its numbers stay, whatever unit is asked for.");
     result.soup.notes.insert(result.soup.notes.end(), model.notes.begin(), model.notes.end());
-    return result;
+    imported.patches = std::move(model.patches);
+    return imported;
 }
 
-}  // namespace
-
-CadBody import_cad(std::string_view content, const std::string& path, const CadOptions& options) {
+template <class Use>
+auto with_imported(std::string_view content, const std::string& path, const CadOptions& options, Use use) {
     silence_occt();
     try {
-        return import_model(cad::read_model(content, path), options, path);
+        return use(import_model(cad::read_model(content, path), options, path));
     } catch (const Standard_Failure& failure) {
         throw Error(ErrorCode::input,
                     fmt::format("{}: OpenCASCADE fails on a shape ({}). Repair it in the CAD program.", path,
                                 failure.DynamicType()->Name()));
     }
+}
+
+}  // namespace
+
+CadBody import_cad(std::string_view content, const std::string& path, const CadOptions& options) {
+    return with_imported(content, path, options, [](ImportedModel imported) { return std::move(imported.body); });
+}
+
+ProjectedPoints project_on_cad(std::string_view content, const std::string& path, const CadOptions& options,
+                               const CadPoints& points) {
+    return with_imported(content, path, options, [&](const ImportedModel& imported) {
+        const double millimetres = imported.body.file_unit.empty() ? 1 : millimetres_of(options.unit);
+        return cad::project_points(imported.shapes, imported.patches, points, millimetres);
+    });
 }
 
 void silence_occt() { Message::DefaultMessenger()->ChangePrinters().Clear(); }

@@ -14,8 +14,9 @@ namespace kerf {
 ///
 /// Facets are welded by the topology of the model, never by coordinates. Loose faces are sewn where the file has no
 /// solid. The volume is right to CadOptions::volume_tolerance, by chords that get finer and by vertices a little off
-/// the curved faces (cad/volume_balance.h), unless that takes more facets than some 100,000s, or 80,000 of one face. No
-/// two of them cross. Soup::notes says what was read, converted, sewn, divided or left out.
+/// the curved faces (cad/volume_balance.h), unless that takes more facets than some 100,000s, or 80,000 of one face.
+/// With CadOptions::on_faces all vertices stay on the faces, with little between these and the facets. No two of them
+/// cross. Soup::notes says what was read, converted, sewn, divided or left out.
 ///
 /// Where solids touch, all of them are regions: what they touch in exists once (cad/imprint.h), Soup::sides and
 /// Soup::region_names are set, and the volume of each is right. Where none touch, these stay empty.
@@ -26,6 +27,11 @@ namespace kerf {
 /// does not have. Deterministic. Seconds for 1000 faces. Not for several threads at once: OpenCASCADE has global
 /// settings.
 CadBody import_cad(std::string_view content, const std::string& path, const CadOptions& options = {});
+
+/// Puts points on the faces and curves that import_cad() tessellates with the same options (cad/projection.h). Throws
+/// as that does. As much time and memory, and about 10 us a point.
+ProjectedPoints project_on_cad(std::string_view content, const std::string& path, const CadOptions& options,
+                               const CadPoints& points);
 
 /// Leaves out OpenCASCADE's own messages, which go to standard output else.
 void silence_occt();

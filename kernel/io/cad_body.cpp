@@ -38,6 +38,14 @@ bool set_cad_option(CadOptions& options, const std::string& name, const std::str
     return false;
 }
 
+// Null if it is none.
+bool* flag_of(CadOptions& options, const std::string& name) {
+    if (name == "--unite") return &options.unite;
+    if (name == "--no-imprint") return &options.no_imprint;
+    if (name == "--on-faces") return &options.on_faces;
+    return nullptr;
+}
+
 bool is_iges(std::string_view content) {
     constexpr std::size_t section_column = 72, line_length = 80;
     if (content.size() < line_length || content[section_column] != 'S') return false;
@@ -63,21 +71,22 @@ std::vector<std::string> CadOptions::arguments() const {
                                           "--deflection", fmt::format("{}", deflection)};
     if (unite) arguments.emplace_back("--unite");
     if (no_imprint) arguments.emplace_back("--no-imprint");
+    if (on_faces) arguments.emplace_back("--on-faces");
     return arguments;
 }
 
 CadOptions CadOptions::from_arguments(std::span<const std::string> arguments) {
     CadOptions options;
     for (std::size_t i = 0; i < arguments.size(); ++i) {
-        if (arguments[i] == "--unite" || arguments[i] == "--no-imprint") {
-            (arguments[i] == "--unite" ? options.unite : options.no_imprint) = true;
+        if (bool* flag = flag_of(options, arguments[i])) {
+            *flag = true;
             continue;
         }
         const std::string value = i + 1 < arguments.size() ? arguments[i + 1] : "";
         if (!set_cad_option(options, arguments[i], value))
             throw Error(ErrorCode::usage,
                         fmt::format("'{} {}' is no option. There are --solid N (0: all), --unite, --no-imprint, "
-                                    "--unit {} and --deflection D (below 1; 0: by volume).",
+                                    "--on-faces, --unit {} and --deflection D (below 1; 0: by volume).",
                                     arguments[i], value, fmt::join(length_unit_names(), "|")));
         ++i;
     }

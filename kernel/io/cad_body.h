@@ -12,6 +12,7 @@
 #include "core/bytes.h"
 #include "core/error.h"
 #include "core/hash.h"
+#include "io/cad_points.h"
 #include "surface/soup.h"
 
 namespace kerf {
@@ -32,6 +33,8 @@ struct CadOptions {
                                        ///< the solid; 0: such that the volume is right to `volume_tolerance`,
                                        ///< for which vertices leave the curved faces a little
     bool unit_is_asked = false;        ///< by name: a file that has none is refused then, whatever the unit is
+    bool on_faces = false;             ///< all vertices stay on the faces, and the volume is right to a hundredth only:
+                                       ///< for those who put nodes of edges there, too
 
     static constexpr double volume_tolerance = 1e-4;  ///< of |volume of facets - volume of solid| / volume of solid
 
@@ -81,10 +84,11 @@ struct CadAnswer {
     CadBody body;
     std::string defect = {};  ///< kind of a SolidDefect; empty: another error, or none
     std::vector<ErrorElements> elements = {};
+    ProjectedPoints projected = {};  ///< where points were to be put on the faces: `body` has no soup then
 
     template <class Archive>
     void archive(Archive& a) {
-        a(error_code, message, body, defect, elements);
+        a(error_code, message, body, defect, elements, projected);
     }
 };
 

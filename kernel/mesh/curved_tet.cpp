@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <Eigen/Geometry>
 
@@ -36,7 +37,6 @@ constexpr auto coefficient_numbers = [] {
             }
     return numbers;
 }();
-
 
 // The same with an entry for each order of the three numbers: the polar form at the corners.
 using PolarForm = std::array<std::array<std::array<double, 4>, 4>, 4>;
@@ -70,9 +70,8 @@ Coefficients with_corner_at_middle(const Coefficients& before, std::size_t moved
     for (std::size_t i = 0; i < 4; ++i)
         for (std::size_t j = 0; j < 4; ++j) form[i][j][moved] = (form[i][j][moved] + form[i][j][fixed]) / 2;
     Coefficients after;
-    for_coefficients([&](std::size_t number, std::size_t i, std::size_t j, std::size_t k) {
-        after[number] = form[i][j][k];
-    });
+    for_coefficients(
+        [&](std::size_t number, std::size_t i, std::size_t j, std::size_t k) { after[number] = form[i][j][k]; });
     return after;
 }
 
@@ -133,9 +132,9 @@ CurvedTetJacobian::CurvedTetJacobian(const TetNodes& nodes) {
         return slope[1][a].cross(slope[2][b]).dot(slope[3][c]);
     };
     for_coefficients([&](std::size_t number, std::size_t i, std::size_t j, std::size_t k) {
-        coefficients_[number] =
-            (volume(i, j, k) + volume(i, k, j) + volume(j, i, k) + volume(j, k, i) + volume(k, i, j) + volume(k, j, i)) /
-            6;
+        coefficients_[number] = (volume(i, j, k) + volume(i, k, j) + volume(j, i, k) + volume(j, k, i) +
+                                 volume(k, i, j) + volume(k, j, i)) /
+                                6;
     });
     straight_ = control[1][1].cross(control[2][2]).dot(control[3][3]);
     rounding_ = roundings * std::numeric_limits<double>::epsilon() * longest * longest * longest;
@@ -157,13 +156,20 @@ CellValidity CurvedTetJacobian::validity() const {
     return CellValidity::valid;
 }
 
+// The integral of each Bernstein polynomial over the reference tetrahedron, of volume 1/6, is the same.
+double CurvedTetJacobian::volume() const {
+    return std::accumulate(coefficients_.begin(), coefficients_.end(), 0.0) / (6 * coefficients_.size());
+}
+
 double CurvedTetJacobian::coarse_low() const { return least_of(coefficients_) - rounding_; }
 
 // The piece that may have the least value is bisected until it cannot be much less than a value that there is.
 JacobianBounds CurvedTetJacobian::bounds(double precision) const {
     double size = 0;
     for (const double c : coefficients_) size = std::max(size, std::abs(c));
-    const auto is_higher = [](const Piece& a, const Piece& b) { return least_of(a.coefficients) > least_of(b.coefficients); };
+    const auto is_higher = [](const Piece& a, const Piece& b) {
+        return least_of(a.coefficients) > least_of(b.coefficients);
+    };
     std::vector<Piece> heap = {whole_cell(coefficients_)};
     double high = least_at_corners(coefficients_);
     for (int looked_at = 0; looked_at < most_pieces; ++looked_at) {

@@ -43,6 +43,8 @@ class CurvedTetJacobian {
     double coarse_low() const;
     /// 6 V of the tetrahedron on the corners.
     double straight() const { return straight_; }
+    /// What the cell holds.
+    double volume() const;
     /// The coefficients, of i <= j <= k ascending: of products of the barycentric coordinates i, j and k.
     const std::array<double, 20>& coefficients() const { return coefficients_; }
 

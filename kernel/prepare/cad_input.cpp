@@ -17,12 +17,11 @@ namespace kerf {
 
 namespace {
 
-ChildResult run_import_program(const std::string& program, const std::string& path, const CadOptions& options,
+// `input`: for its standard input.
+ChildResult run_import_program(const std::string& program, std::vector<std::string> arguments, Bytes input,
                                double timeout_seconds) {
-    std::vector<std::string> arguments = options.arguments();
-    arguments.insert(arguments.begin(), path);
     ChildPool pool;
-    pool.start(0, program, arguments, {}, timeout_seconds);
+    pool.start(0, program, arguments, std::move(input), timeout_seconds);
     return pool.wait_any()->result;
 }
 
@@ -60,6 +59,24 @@ std::string find_import_program(const ImportProgram& kind, const std::string& pa
                             kind.name, kind.run_package));
 }
 
+// `points`: to be projected; null: the file is to be read.
+CadAnswer ask_import_program(const std::string& path, const FileHash& file_hash, const CadOptions& options,
+                             const std::string& named, double timeout_seconds, const ImportProgram& kind,
+                             const CadPoints* points) {
+    const std::string program = named.empty() ? find_import_program(kind, path) : named;
+    std::vector<std::string> arguments = options.arguments();
+    arguments.insert(arguments.begin(), path);
+    if (points) arguments.emplace_back("--project");
+    const ChildResult result =
+        run_import_program(program, std::move(arguments), points ? to_bytes(*points) : Bytes(), timeout_seconds);
+    CadAnswer answer = answer_of(result, path, program, kind);
+    if (!answer.defect.empty()) throw SolidDefect(answer.defect, answer.message, answer.elements);
+    if (answer.error_code != 0) throw Error(static_cast<ErrorCode>(answer.error_code), answer.message);
+    if (answer.body.file_hash != file_hash)
+        throw Error(ErrorCode::io, path + ": the file has changed while it was read. Run again.");
+    return answer;
+}
+
 Soup read_unscaled(std::string bytes, const std::string& path, const CadOptions& options) {
     const FileHash file_hash = digest_of(bytes);
     std::string content = decompress(std::move(bytes), path);
@@ -86,14 +103,12 @@ Soup read_unscaled(std::string bytes, const std::string& path, const CadOptions&
 
 CadBody read_cad(const std::string& path, const FileHash& file_hash, const CadOptions& options,
                  const std::string& named, double timeout_seconds, const ImportProgram& kind) {
-    const std::string program = named.empty() ? find_import_program(kind, path) : named;
-    const ChildResult result = run_import_program(program, path, options, timeout_seconds);
-    CadAnswer answer = answer_of(result, path, program, kind);
-    if (!answer.defect.empty()) throw SolidDefect(answer.defect, answer.message, answer.elements);
-    if (answer.error_code != 0) throw Error(static_cast<ErrorCode>(answer.error_code), answer.message);
-    if (answer.body.file_hash != file_hash)
-        throw Error(ErrorCode::io, path + ": the file has changed while it was read. Run again.");
-    return std::move(answer.body);
+    return ask_import_program(path, file_hash, options, named, timeout_seconds, kind, nullptr).body;
+}
+
+ProjectedPoints project_on_cad_file(const std::string& path, const FileHash& file_hash, const CadOptions& options,
+                                    const CadPoints& points, const std::string& program, double timeout_seconds) {
+    return ask_import_program(path, file_hash, options, program, timeout_seconds, cad_program, &points).projected;
 }
 
 Soup read_surface_or_cad(const std::string& path, const InputOptions& options) {

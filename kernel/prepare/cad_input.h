@@ -33,6 +33,12 @@ CadBody read_cad(const std::string& path, const FileHash& file_hash, const CadOp
                  const std::string& program = "", double timeout_seconds = 600,
                  const ImportProgram& kind = cad_program);
 
+/// Where points come to lie on the faces of the CAD file `path`, as import with the same options has them; points are
+/// in the units of that, before InputOptions::scale. As read_cad(), and throws as that does.
+ProjectedPoints project_on_cad_file(const std::string& path, const FileHash& file_hash, const CadOptions& options,
+                                    const CadPoints& points, const std::string& program = "",
+                                    double timeout_seconds = 3600);
+
 /// read_surface() that knows CAD files and 3MF, too, obeys InputOptions::cad and multiplies all coordinates by
 /// InputOptions::scale. Where the file has regions, patches are named as name_walls() does.
 Soup read_surface_or_cad(const std::string& path, const InputOptions& options = {});

@@ -146,10 +146,11 @@ std::string time_text(const RunReport& report) {
     std::string text = fmt::format("{:.2f} s: read {:.2f}, decompose {:.2f}", s.wall, s.read, s.decompose);
     if (!report.options.volume) return text;
     const WorkerSeconds& w = report.worker_seconds;
-    return text + fmt::format(
-                      ", prepare {:.2f}, mesh {:.2f} (mesher {:.2f}, verify {:.2f}, store {:.2f}, start {:.2f}, "
-                      "idle {:.2f}), write {:.2f}, hash {:.2f}",
-                      s.prepare, s.mesh, w.mesher, w.verify, w.store, w.start, w.idle, s.write, s.hash);
+    text += fmt::format(
+        ", prepare {:.2f}, mesh {:.2f} (mesher {:.2f}, verify {:.2f}, store {:.2f}, start {:.2f}, idle {:.2f})",
+        s.prepare, s.mesh, w.mesher, w.verify, w.store, w.start, w.idle);
+    if (report.curve) text += fmt::format(", curve {:.2f}", s.curve);
+    return text + fmt::format(", write {:.2f}, hash {:.2f}", s.write, s.hash);
 }
 
 std::string division_text(const InputRemeshing& done) {
@@ -267,6 +268,15 @@ void add_way(ReportLines& lines, const RunReport& report) {
     if (resumed > 0) lines.add("continued", fmt::format("{} parts were finished by an interrupted run", resumed));
 }
 
+std::string curve_text(const CurveReport& curve) {
+    std::string text =
+        fmt::format("{} of {} edges of the surface, {} straightened; {} cells, scaled Jacobian at least {:.3f}",
+                    grouped(curve.curved_edges), grouped(curve.surface_edges), grouped(curve.straightened_edges),
+                    grouped(curve.curved_cells), curve.worst_scaled_jacobian);
+    if (curve.moved_nodes > 0) text += fmt::format("; {} nodes inside were moved", grouped(curve.moved_nodes));
+    return text;
+}
+
 void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
     const std::string parts =
         all ? "" : fmt::format(", {} part{}", report.parts.size(), report.parts.size() == 1 ? "" : "s");
@@ -285,6 +295,7 @@ void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
     lines.add("quality", fmt::format("dihedral min {:.1f}, 1 % {:.1f}, median {:.1f} deg; radius-edge max {:.2f}",
                                      dihedral.min(), dihedral.percentile(0.01), dihedral.percentile(0.5), ratio.max()));
     lines.add("forced", forced_text(report.quality.angles, all));
+    if (report.curve) lines.add("curved", curve_text(*report.curve));
 }
 
 std::string ranks_text(const RunReport& report) {

@@ -97,6 +97,7 @@ struct StageSeconds {
     double write = 0;    ///< the files of all formats
     double hash = 0;     ///< other files read again for the list of their hashes
     double wall = 0;     ///< of the run
+    double curve = 0;    ///< nodes of order 2, numbered and put on the surface
 };
 
 /// How the workers spent the meshing stage, each a mean over all of them: the terms add up to StageSeconds::mesh.
@@ -111,6 +112,17 @@ struct WorkerSeconds {
 struct Reference {
     PartOutcome outcome;     ///< code 0 if there is a mesh
     std::string comparison;  ///< of both as text (quality/quality_text.h)
+};
+
+/// What became of the surface's edges in a mesh of second order.
+struct CurveReport {
+    std::int64_t surface_edges = 0;       ///< of the surface that was cut
+    std::int64_t curved_edges = 0;        ///< of the mesh, whose nodes lie on the true surface
+    std::int64_t straightened_edges = 0;  ///< whose nodes went back to the middle, since a cell was not valid
+    std::int64_t moved_nodes = 0;         ///< of edges inside, for the same reason
+    std::int64_t curved_cells = 0;        ///< that have a node beside the middle of its edge; all are proven valid
+    double worst_scaled_jacobian = 1;     ///< of these (mesh/curved_tet.h); 1 if there are none
+    double volume_gain = 0;               ///< of the mesh by curved edges: to be added to that of straight ones
 };
 
 struct RunReport {
@@ -141,6 +153,7 @@ struct RunReport {
     std::string folder;           ///< where the result is
     bool kept_valid_run = false;  ///< parts have failed, and an older run without that has kept the folder's name
     int exit_code = 0;
+    std::optional<CurveReport> curve = {};  ///< of order 2, unless its edges are to be straight
 };
 
 /// report.json as text, two spaces of indentation, sealed (io/run_manifest.h). Numbers that are not finite become null.

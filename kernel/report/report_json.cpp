@@ -247,6 +247,17 @@ Json reference_json(const RunReport& report) {
             {"quality", quality_json(whole.quality.all)}};
 }
 
+Json curve_json(const CurveReport& curve, double seconds) {
+    return {{"surface_edges", curve.surface_edges},
+            {"curved_edges", curve.curved_edges},
+            {"straightened_edges", curve.straightened_edges},
+            {"moved_nodes", curve.moved_nodes},
+            {"curved_cells", curve.curved_cells},
+            {"worst_scaled_jacobian", curve.worst_scaled_jacobian},
+            {"volume_gain", curve.volume_gain},
+            {"seconds", seconds}};
+}
+
 Json file_json(const RunFile& file) { return {{"path", file.path}, {"bytes", file.bytes}, {"hash", file.hash}}; }
 
 template <class T>
@@ -286,6 +297,7 @@ std::string to_json(const RunReport& report) {
                  {"mesh_hash", report.mesh_hash},
                  {"files", array_of(report.files, file_json)},
                  {"exit_code", report.exit_code}};
+    if (report.curve) json["curve"] = curve_json(*report.curve, report.seconds.curve);
     return sealed(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -24,6 +25,7 @@
 #include "prepare/gathered_nodes.h"
 #include "report/totals.h"
 #include "request/saved_run.h"
+#include "run/curve_stage.h"
 #include "run/cut_stage.h"
 #include "run/edge_numbering.h"
 #include "run/forecast.h"
@@ -62,6 +64,7 @@ struct RunContext {
     Input& input;
     RunListener* listener;
     const std::optional<FoundSize>& found_size;
+    const SurfaceNodes& surface_nodes;
 
     bool is_root() const { return ranks.rank() == 0; }
 };
@@ -204,33 +207,46 @@ std::optional<Reference> mesh_reference(const RunContext& run, const RunFolder& 
     });
 }
 
-// Solvers cannot read a mesh with parts missing, people can look at it.
-std::vector<RunFile> write_formats(const RunContext& run, const RunFolder& folder, const StoredParts& parts,
-                                   const std::vector<PartReport>& reports) {
+// The parts with a node on each edge, if that is asked for.
+std::unique_ptr<const SecondOrderParts> with_second_order(const RunContext& run, const StoredParts& parts,
+                                                          RunReport& report) {
+    if (run.options.order != 2) return {};
+    EdgeNumbers numbers = number_edges_together(run.ranks, parts, run.listener);
+    CurvedNodes curved;
+    if (run.options.curving == Curving::automatic) {
+        CurvedMesh mesh = curve_parts(run.ranks, parts, numbers, run.surface_nodes, run.listener);
+        curved = std::move(mesh.nodes);
+        report.curve = mesh.report;
+    }
+    return std::make_unique<const SecondOrderParts>(parts, std::move(numbers), std::move(curved));
+}
+
+// Solvers cannot read a mesh with parts missing, people can look at it. `stored`: the parts as they lie in the folder.
+std::vector<RunFile> write_formats(const RunContext& run, const RunFolder& folder, const StoredParts& stored,
+                                   const PartSource& parts, const std::vector<PartReport>& reports) {
     std::vector<const Format*> formats = parse_formats(run.options.formats);
     if (failure_code(reports) != 0) formats = {&find_format("vtu")};
     // The store of a part goes as soon as its file of vtu is there, which holds as much: the disk needs no room for
     // both.
-    const bool stores_go = parts.outline().is_whole && std::all_of(formats.begin(), formats.end(), [](const Format* f) {
-                               return f->asks_for_one_part;
-                           });
+    const bool stores_go =
+        stored.outline().is_whole &&
+        std::all_of(formats.begin(), formats.end(), [](const Format* f) { return f->asks_for_one_part; });
     const FormatOptions options{.fields = parse_cell_fields(run.options.fields),
                                 .patch_types = parse_patch_types(run.options.patch_types),
                                 .split_regions = run.options.split_regions};
     const WriteTarget target{.folder = folder.partial_path(), .options = options};
-    std::optional<SecondOrderParts> of_order_2;
-    if (run.options.order == 2) of_order_2.emplace(parts, number_edges_together(run.ranks, parts, run.listener));
-    const PartSource& written = of_order_2 ? static_cast<const PartSource&>(*of_order_2) : parts;
-    return write_parts(run.ranks, written, places_in_run_folder(formats), target, run.options.workers, run.listener,
+    return write_parts(run.ranks, parts, places_in_run_folder(formats), target, run.options.workers, run.listener,
                        [&](PartIndex part) {
-                           if (stores_go) parts.remove(part);
+                           if (stores_go) stored.remove(part);
                        });
 }
 
 // What becomes of the parts: files, or what the listener makes of them.
 std::vector<RunFile> pass_on_meshes(const RunContext& run, const RunFolder& folder, const StoredParts& parts,
-                                    const std::vector<PartReport>& reports) {
-    if (!run.options.transient) return write_formats(run, folder, parts, reports);
+                                    const SecondOrderParts* of_order_2, const std::vector<PartReport>& reports) {
+    if (!run.options.transient)
+        return write_formats(run, folder, parts, of_order_2 ? static_cast<const PartSource&>(*of_order_2) : parts,
+                             reports);
     in_agreement(run.ranks, [&] {
         if (run.listener && parts.outline().is_whole) run.listener->on_meshes(parts);
     });
@@ -323,7 +339,7 @@ RunReport run(const RunOptions& request, int cores_of_rank, Communicator& ranks,
     const Stopwatch whole;
     const RunPlan plan = plan_run(request, cores_of_rank, ranks, input, listener);
     const RunOptions& options = plan.options;
-    const RunContext run{options, ranks, input, listener, plan.found_size};
+    const RunContext run{options, ranks, input, listener, plan.found_size, plan.surface_nodes};
     RunReport report = empty_report(run);
     StageSeconds& seconds = report.seconds;
     seconds.read = longest(ranks, whole);
@@ -359,8 +375,9 @@ RunReport run(const RunOptions& request, int cores_of_rank, Communicator& ranks,
             const StoredParts stored = number_parts(run, *folder, report.parts, prepared.surface_vertices);
             report.vertices = stored.outline().vertices;
             report.reference = mesh_reference(run, *folder, report, whole_surface);
-            report.files =
-                timed(ranks, seconds.write, [&] { return pass_on_meshes(run, *folder, stored, report.parts); });
+            const auto of_order_2 = timed(ranks, seconds.curve, [&] { return with_second_order(run, stored, report); });
+            report.files = timed(ranks, seconds.write,
+                                 [&] { return pass_on_meshes(run, *folder, stored, of_order_2.get(), report.parts); });
         } else {
             join_surfaces(run, *folder, report.parts);
         }

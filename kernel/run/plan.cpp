@@ -107,8 +107,10 @@ RunPlan plan_run(const RunOptions& request, int cores_of_rank, Communicator& ran
         return options;
     });
     plan.options = in_agreement(ranks, [&] {
+        const SurfaceArrays behind = surface_behind(input, wanted);
         SizedInput sized = remesh_and_size(std::move(input), wanted, listener, ranks_here);
         input = std::move(sized.input);
+        plan.surface_nodes = make_surface_nodes(input, behind, sized.options);
         plan.found_size = sized.found;
         if (keeps_most_facets(input)) sized.options = with_fineness_at_kept_facets(std::move(sized.options));
         RunOptions options = sized_on(input, std::move(sized.options));

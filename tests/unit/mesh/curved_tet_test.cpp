@@ -90,6 +90,23 @@ TEST(CurvedTet, WhatIsCalledValidHasNoSampleBelowZeroAndWhatIsCalledInvalidHasOn
     EXPECT_LE(counts[2], 3);
 }
 
+TEST(CurvedTet, VolumeIsTheIntegralOfTheDeterminant) {
+    RandomCells random(4);
+    for (int i = 0; i < 20; ++i) {
+        const TetNodes nodes = random.next(0.3);
+        constexpr int n = 20;
+        double sum = 0, weight = 0;
+        for (int a = 0; a < n; ++a)
+            for (int b = 0; a + b < n; ++b)
+                for (int c = 0; a + b + c < n; ++c) {
+                    const int d = n - 1 - a - b - c;
+                    sum += determinant_at(nodes, Eigen::Vector4d(a + 0.25, b + 0.25, c + 0.25, d + 0.25) / n);
+                    ++weight;
+                }
+        EXPECT_NEAR(CurvedTetJacobian(nodes).volume(), sum / weight / 6, 0.02);
+    }
+}
+
 TEST(CurvedTet, StraightCellsHaveOneDeterminant) {
     RandomCells random(2);
     for (int i = 0; i < 100; ++i) {

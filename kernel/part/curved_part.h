@@ -1,0 +1,35 @@
+// The cells of a part with curved edges, made valid.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/edge_table.h"
+#include "mesh/tet_mesh.h"
+
+namespace kerf {
+
+/// An edge of a part whose node is not in its middle.
+struct CurvedEdge {
+    std::int32_t edge;  ///< of the table
+    Vec3 node;
+};
+
+struct CurvedPart {
+    std::vector<CurvedEdge> curved;          ///< ascending; with those inside whose nodes were moved
+    std::vector<std::int32_t> straightened;  ///< of the edges that were to be curved, ascending
+    std::int64_t moved = 0;                  ///< edges inside whose nodes were moved
+    std::int64_t cells = 0;                  ///< that have a curved edge
+    double worst_scaled_jacobian = 1;        ///< of them (mesh/curved_tet.h)
+    double volume_gain = 0;                  ///< of the part
+};
+
+/// Puts nodes on `wanted` edges (ascending), each on the boundary of the mesh, and proves every cell valid that has
+/// one. Where one is not, nodes of edges inside are moved first, to where the least coefficient of the Jacobian
+/// determinants around them is largest; then one edge after the other of such a cell gets its node in its middle again.
+/// `inside`: of each edge, whether it is none of the boundary. The cells must be positively oriented. Deterministic: a
+/// function of the arguments. O(#T), and some milliseconds for each cell that is not valid.
+CurvedPart curve_part(const TetMesh& mesh, const EdgeTable& edges, const std::vector<char>& inside,
+                      const std::vector<CurvedEdge>& wanted);
+
+}  // namespace kerf

@@ -1,0 +1,16 @@
+// A surface that was made of a CAD file, back on the faces of that.
+#pragma once
+
+#include <vector>
+
+#include "prepare/input.h"
+#include "request/options.h"
+
+namespace kerf {
+
+/// Moves the vertices of the surface onto the faces of the file as make_surface_nodes() says, and returns the points
+/// there that are nearest to the middles of all edges, in the order of PlacedSurface::edges. Empty, with a note, for an
+/// input of several files. Throws as project_on_cad_file().
+std::vector<Vec3> move_onto_cad(Input& input, const RunOptions& options);
+
+}  // namespace kerf
