@@ -32,8 +32,9 @@ ElementType element_type(std::int64_t number) {
 
 void Elements::set_type(std::int64_t number) {
     type_ = element_type(number);
-    if (type_.shape == Shape::unknown || (is_taken() && type_.nodes > 4)) refuse_type(number);
-    if (type_.shape == Shape::tetrahedron && type_.nodes > 4) of_higher_order_ = number;
+    if (type_.shape == Shape::unknown)
+        source_.fail("elements of type " + std::to_string(number) +
+                     " cannot be read. Save the mesh with elements of first order: gmsh -order 1.");
 }
 
 void Elements::set_patch(std::int64_t group, std::int64_t entity) {
@@ -44,7 +45,6 @@ void Elements::set_patch(std::int64_t group, std::int64_t entity) {
 }
 
 void Elements::finish() const {
-    if (!builder_.has_facets() && builder_.tets().empty() && of_higher_order_) refuse_type(of_higher_order_);
     builder_.tets().name_volumes([&](const VolumeKey& key) { return model_.volumes.name_of(key.first, key.second); });
     if (!builder_.wants_tets() && builder_.tets().empty()) {
         SurfaceSides found = sides_of_surfaces(model_, surfaces_, builder_.soup());
@@ -63,17 +63,9 @@ void Elements::note_ignored() const {
     }
 }
 
-void Elements::refuse_type(std::int64_t number) const {
-    const ElementType type = element_type(number);
-    const bool is_face =
-        type.shape == Shape::unknown || type.shape == Shape::triangle || type.shape == Shape::quadrangle;
-    source_.fail("elements of type " + std::to_string(number) + " (" + describe(type) + ") cannot be read. " +
-                 (builder_.wants_tets() || !is_face ? "Save the mesh with elements of first order: gmsh -order 1."
-                                                    : "Save the surface with triangles of three nodes."));
-}
-
 void Elements::add_element() {
     last_patch_ = patch_;
+    if (type_.nodes > corner_count()) builder_.count_cell_by_corners();
     const auto fail = [&](const std::string& what) { source_.fail(what); };
     if (!is_face()) return builder_.tets().add(corners_, fail, volume());
     if (!model_.surfaces_of_volume.empty() && (surfaces_.empty() || surfaces_.back().entity != patch_.second))
@@ -85,12 +77,6 @@ void Elements::add_element() {
 std::int32_t Elements::volume() {
     if (volume_ < 0) volume_ = builder_.tets().volume(model_.is_partitioned ? VolumeKey() : patch_);
     return volume_;
-}
-
-std::string Elements::describe(const ElementType& type) {
-    if (type.shape == Shape::unknown) return "unknown";
-    return std::string(shape_names[static_cast<std::size_t>(type.shape)][1]) + " with " + std::to_string(type.nodes) +
-           " nodes";
 }
 
 // Tags mostly count from 1 without gaps, and need no search then.

@@ -21,8 +21,7 @@ struct ElementType {
     std::int64_t nodes = 0;
 };
 
-/// Takes the elements one by one: faces and tetrahedra. What is neither is only counted, and so are tetrahedra of
-/// higher order where a surface is wanted.
+/// Takes the elements one by one: faces and tetrahedra, of higher order their corners. What is neither is only counted.
 class Elements {
  public:
     Elements(Source& source, SoupBuilder& builder, const Model& model)
@@ -41,9 +40,10 @@ class Elements {
         ++counts_[static_cast<std::size_t>(type_.shape)];
         last_corners_.swap(corners_);
         corners_.clear();
+        const std::int64_t corners = is_taken() ? corner_count() : 0;
         for (std::int64_t i = 0; i < type_.nodes; ++i) {
             const std::int64_t node = next_node();
-            if (is_taken()) corners_.push_back(to_vertex(tag, node));
+            if (i < corners) corners_.push_back(to_vertex(tag, node));
         }
         if (is_taken() && !repeats_last()) add_element();
     }
@@ -52,18 +52,16 @@ class Elements {
 
  private:
     void note_ignored() const;
-    [[noreturn]] void refuse_type(std::int64_t number) const;
     bool is_face() const { return type_.shape == Shape::triangle || type_.shape == Shape::quadrangle; }
-    bool is_taken() const {
-        return is_face() || (type_.shape == Shape::tetrahedron && (builder_.wants_tets() || type_.nodes == 4));
-    }
+    bool is_taken() const { return is_face() || type_.shape == Shape::tetrahedron; }
+    /// Of an element that is taken; they are its first nodes.
+    std::int64_t corner_count() const { return type_.shape == Shape::triangle ? 3 : 4; }
     // MSH 2 writes an element of several groups once for each, one directly behind the other.
     bool repeats_last() const {
         return corners_ == last_corners_ && patch_.second == last_patch_.second && patch_.first != last_patch_.first;
     }
     void add_element();
     std::int32_t volume();
-    static std::string describe(const ElementType& type);
     const std::int64_t* find_vertex(std::int64_t node) const;
     std::int64_t to_vertex(std::int64_t element, std::int64_t node) const;
 
@@ -74,7 +72,6 @@ class Elements {
     std::pair<std::int64_t, std::int64_t> patch_ = {-1, -1}, last_patch_ = {-1, -1};  // group, entity
     std::int32_t volume_ = -1;                          // number of that of patch_; -1: not known yet
     std::vector<SurfaceRun> surfaces_;                  // of faces
-    std::int64_t of_higher_order_ = 0;                  // type of such tetrahedra; 0: there are none
     std::vector<std::int64_t> corners_, last_corners_;  // of this face, of the last one
     std::array<std::int64_t, static_cast<std::size_t>(Shape::unknown)> counts_{};
 };

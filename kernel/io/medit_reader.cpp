@@ -1,6 +1,7 @@
 // MEDIT's .mesh as text: sections of a capitalised keyword, a count and as many lines of numbers, up to the word End.
 // Vertices are x y z and a reference, Triangles and Quadrilaterals their corners (from 1) and a reference, which is
-// their patch; so are Tetrahedra, whose reference is their volume. Every other section is passed over up to the next
+// their patch; so are Tetrahedra, whose reference is their volume. TrianglesP2 and TetrahedraP2 have a node for each
+// edge, too, of which nothing is made. Every other section is passed over up to the next
 // keyword: edges, ridges, normals, required elements.
 #include <algorithm>
 #include <array>
@@ -32,22 +33,30 @@ void read_vertices(TextScanner& scanner, SoupBuilder& builder) {
     }
 }
 
-void read_faces(TextScanner& scanner, std::size_t corner_count, SoupBuilder& builder) {
+// `edges`: those that have a node, which follow the corners.
+void pass_over_edges(TextScanner& scanner, int edges, SoupBuilder& builder) {
+    if (edges > 0) builder.count_cell_by_corners();
+    for (int i = 0; i < edges; ++i) scanner.next_index(1);
+}
+
+void read_faces(TextScanner& scanner, std::size_t corner_count, SoupBuilder& builder, int edges = 0) {
     const std::int64_t count = scanner.next_count();
     builder.announce_facets(count);
     std::vector<std::int64_t> corners(corner_count);
     for (std::int64_t f = 0; f < count; ++f) {
         for (std::int64_t& corner : corners) corner = scanner.next_index(1);
+        pass_over_edges(scanner, edges, builder);
         builder.set_patch("reference_" + std::to_string(scanner.next_integer()));
         builder.add_polygon(corners, [&](const std::string& what) { scanner.fail(what); });
     }
 }
 
-void read_tets(TextScanner& scanner, SoupBuilder& builder) {
+void read_tets(TextScanner& scanner, SoupBuilder& builder, int edges = 0) {
     const std::int64_t count = scanner.next_count();
     std::array<std::int64_t, 4> corners{};
     for (std::int64_t t = 0; t < count; ++t) {
         for (std::int64_t& corner : corners) corner = scanner.next_index(1);
+        pass_over_edges(scanner, edges, builder);
         const std::int32_t volume = builder.tets().volume({0, scanner.next_integer()});
         builder.tets().add(
             corners, [&](const std::string& what) { scanner.fail(what); }, volume);
@@ -72,6 +81,8 @@ void pass_over_section(TextScanner& scanner, std::string_view keyword, SoupBuild
 }
 
 void read_section(TextScanner& scanner, std::string_view keyword, SoupBuilder& builder) {
+    if (keyword == "TrianglesP2") return read_faces(scanner, 3, builder, 3);
+    if (keyword == "TetrahedraP2") return read_tets(scanner, builder, 6);
     if (keyword.starts_with("TrianglesP") || keyword.starts_with("QuadrilateralsQ") ||
         (builder.wants_tets() && keyword.starts_with("TetrahedraP")))
         scanner.fail("curved elements (" + std::string(keyword) + ") cannot be read. Export straight triangles" +

@@ -9,8 +9,7 @@ namespace kerf {
 class SoupBuilder;
 
 /// Give the builder what the bytes of a file, without compression, say: see read_surface() for the formats and errors.
-/// Tetrahedra are added if the builder wants them, and those of higher order are refused then; else they are noted as
-/// ignored. `path` serves messages.
+/// Of cells of higher order the corners are taken. `path` serves messages.
 void scan_gmsh(std::string_view bytes, const std::string& path, SoupBuilder& builder);
 void scan_medit(std::string_view bytes, const std::string& path, SoupBuilder& builder);
 
@@ -18,11 +17,11 @@ void scan_medit(std::string_view bytes, const std::string& path, SoupBuilder& bu
 void scan_tetgen_cells(std::string_view elements, const std::string& path, SoupBuilder& builder);
 
 /// VTK's XML unstructured grids (VTU): tetrahedra and triangles of all pieces; numbers as text, base64 or appended,
-/// plain or compressed by zlib, in both orders of bytes. Other cells are noted as ignored, those of higher order and
-/// other compressions refused. The patch of a triangle is "interface" in parts of Kerf where another part is on the
-/// other side, else "surface". Where a surface is wanted, whole numbers of the cells named Region, else gmsh:physical,
-/// medit:ref or attribute as meshio names them, are the volumes of tetrahedra; the names of these are the bytes of the
-/// field data RegionNames, a zero byte behind each, else "region_N".
+/// plain or compressed by zlib, in both orders of bytes; of quadratic ones the corners. Other cells are noted as
+/// ignored, those of other orders and other compressions refused. The patch of a triangle is "interface" in parts of
+/// Kerf where another part is on the other side, else "surface". Where a surface is wanted, whole numbers of the cells
+/// named Region, else gmsh:physical, medit:ref or attribute as meshio names them, are the volumes of tetrahedra; the
+/// names of these are the bytes of the field data RegionNames, a zero byte behind each, else "region_N".
 void scan_vtu(std::string_view bytes, const std::string& path, SoupBuilder& builder);
 inline constexpr const char* interface_patch = "interface";
 

@@ -109,6 +109,9 @@ class SoupBuilder {
         add_facet({end - 3, end - 2, end - 1});
         ++polygon_count_;
     }
+    /// Of a cell with nodes between its corners, straight or curved, only the corners are taken: that is noted.
+    void count_cell_by_corners() { ++cells_by_corners_; }
+    bool has_cells_by_corners() const { return cells_by_corners_ > 0; }
     bool has_facets() const { return !soup_.facets.empty(); }
     /// A point in a void.
     void add_hole(const Vec3& point) { soup_.holes.push_back(point); }
@@ -129,6 +132,7 @@ class SoupBuilder {
     Soup finish() {
         note_ignored(facets_without_area_, "facet of edges or points alone", "facets of edges or points alone");
         note_ignored(edges_outside_, "edge or point outside of its facet", "edges or points outside of their facets");
+        note_cells_by_corners();
         if (tets_.volume_count() > 1)
             take_regions();
         else if (soup_.facets.empty() && !tets_.empty())
@@ -140,7 +144,10 @@ class SoupBuilder {
         return std::move(soup_);
     }
     /// What came beside the tetrahedra, which may be no facets.
-    Soup finish_beside_tets() { return std::move(soup_); }
+    Soup finish_beside_tets() {
+        note_cells_by_corners();
+        return std::move(soup_);
+    }
 
  private:
     template <class Fail>
@@ -170,6 +177,11 @@ class SoupBuilder {
         if (tets_.region_names().size() == 1)
             note(tell_joined_volumes(tets_.volume_count(), tets_.region_names().front()));
         take_region_faces(soup_, faces, tets_.region_names(), {polygon_count_, unnamed_patch_}, path_);
+    }
+    void note_cells_by_corners() {
+        if (cells_by_corners_ == 1) note("1 cell of higher order was read by its corners.");
+        if (cells_by_corners_ > 1)
+            note(std::to_string(cells_by_corners_) + " cells of higher order were read by their corners.");
     }
     [[noreturn]] void refuse_facets() const {
         throw Error(ErrorCode::input, path_ + ": the file has more than " + std::to_string(most_facets) +
@@ -203,7 +215,7 @@ class SoupBuilder {
     TetCollector tets_;
     std::string patch_name_ = "surface";
     std::int32_t polygon_count_ = 0;
-    std::int64_t facets_without_area_ = 0, edges_outside_ = 0;
+    std::int64_t facets_without_area_ = 0, edges_outside_ = 0, cells_by_corners_ = 0;
     bool has_fans_ = false;
     std::int32_t patch_ = -1;  // of the current name, -1 as long as no facet has used it
     std::map<std::string, std::int32_t> patch_of_name_;

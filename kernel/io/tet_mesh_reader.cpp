@@ -71,6 +71,27 @@ std::vector<char> facets_of_interface(const Soup& soup) {
     return is_interface;
 }
 
+// Those that no cell has: of second order on edges.
+void drop_nodes_between_corners(TetFile& file) {
+    std::vector<std::int32_t> number(file.mesh.vertices.size(), -1);
+    const auto for_corners = [&](const auto& visit) {
+        for (Tetrahedron& tet : file.mesh.tets) std::for_each(tet.begin(), tet.end(), visit);
+        for (Triangle& facet : file.facets) std::for_each(facet.begin(), facet.end(), visit);
+    };
+    for_corners([&](std::int32_t& v) { number[v] = 0; });
+    std::int32_t kept = 0;
+    for (std::size_t v = 0; v < number.size(); ++v) {
+        if (number[v] < 0) continue;
+        number[v] = kept;
+        file.mesh.vertices[kept] = file.mesh.vertices[v];
+        for (NodeScalar& scalar : file.node_scalars) scalar.values[kept] = scalar.values[v];
+        ++kept;
+    }
+    file.mesh.vertices.resize(kept);
+    for (NodeScalar& scalar : file.node_scalars) scalar.values.resize(kept);
+    for_corners([&](std::int32_t& v) { v = number[v]; });
+}
+
 TetFile finish(SoupBuilder& builder, const std::string& path) {
     TetFile file;
     if (builder.tets().region_names().size() > 1 && !builder.wants_scalars()) {
@@ -84,6 +105,7 @@ TetFile finish(SoupBuilder& builder, const std::string& path) {
     file.mesh.vertices = std::move(soup.vertices);
     file.facets = std::move(soup.facets);
     file.notes = std::move(soup.notes);
+    if (builder.has_cells_by_corners()) drop_nodes_between_corners(file);
     check_extent(file.mesh.vertices, path);
     file.turned_tets = turn_negative_tets(file.mesh);
     return file;

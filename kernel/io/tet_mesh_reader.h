@@ -25,9 +25,10 @@ struct TetFile {
 /// Reads Gmsh MSH 2 or 4.1 (text, binary of both orders of bytes), MEDIT .mesh (text) and VTK's VTU (see scan_vtu()),
 /// each also compressed with gzip or zstd, and TetGen's .node and .ele, of which either may be named.
 ///
-/// Tetrahedra of negative orientation are turned. Throws Error(io) for a file that cannot be opened, Error(input) for
-/// content that is truncated or malformed, has no tetrahedra, has cells of second or higher order, coordinates that are
-/// not finite or an extent that no double holds the cube of, each naming the file, the place and the way out.
+/// Of second order the corners are read, and nodes that are none are left out. Tetrahedra of negative orientation are
+/// turned. Throws Error(io) for a file that cannot be opened, Error(input) for
+/// content that is truncated or malformed, has no tetrahedra, coordinates that are not
+/// finite or an extent that no double holds the cube of, each naming the file, the place and the way out.
 TetFile read_tet_file(const std::string& path);
 
 /// Reads the bytes of a file that is already in memory, but not TetGen's.

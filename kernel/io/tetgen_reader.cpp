@@ -187,15 +187,16 @@ void scan_tetgen_cells(std::string_view elements, const std::string& path, SoupB
     const std::int64_t first_node = read_node_file(fs::path(path).replace_extension("node"), builder);
     TextScanner scanner(elements, path, '#');
     const std::int64_t count = scanner.next_count(), nodes = scanner.at_line_end() ? 4 : scanner.next_count();
-    if (nodes != 4)
+    if (nodes != 4 && nodes != 10)
         scanner.fail("tetrahedra with " + std::to_string(nodes) +
-                     " nodes cannot be read. Save the mesh with four nodes each: tetgen without -o2.");
+                     " nodes cannot be read. Save the mesh with four nodes each, or ten.");
     scanner.skip_line();  // number of attributes
     std::array<std::int64_t, 4> corners{};
     for (std::int64_t t = 0; t < count; ++t) {
         scanner.next_integer();
         for (std::int64_t& corner : corners) corner = scanner.next_index(first_node);
-        scanner.skip_line();  // attributes
+        scanner.skip_line();  // nodes on edges, attributes
+        if (nodes == 10) builder.count_cell_by_corners();
         builder.tets().add(corners, [&](const std::string& what) { scanner.fail(what); });
     }
     scanner.expect_end("its tetrahedra");

@@ -208,11 +208,22 @@ std::vector<std::string> region_names_of(const File& file, const Decoder& decode
     return names;
 }
 
+bool is_triangle(std::int64_t type) { return type == vtk_triangle || type == vtk_quadratic_triangle; }
+
+// Leaves the corners of a quadratic cell, which are its first nodes, and returns its type without the others.
+std::int64_t take_corners(std::int64_t type, std::vector<std::int64_t>& nodes, SoupBuilder& builder) {
+    const std::size_t corners = type == vtk_quadratic_triangle ? 3 : type == vtk_quadratic_tetra ? 4 : 0;
+    if (corners == 0 || nodes.size() != (corners == 3 ? 6U : 10U)) return type;
+    nodes.resize(corners);
+    builder.count_cell_by_corners();
+    return corners == 3 ? vtk_triangle : vtk_tetra;
+}
+
 // Whether the cell is one that a mesh of tetrahedra has.
 template <class Fail>
-bool add_cell(const Cells& cells, std::size_t cell, const std::vector<std::int64_t>& corners, SoupBuilder& builder,
+bool add_cell(const Cells& cells, std::size_t cell, std::vector<std::int64_t>& corners, SoupBuilder& builder,
               const Fail& fail_cell) {
-    const std::int64_t type = cells.types[cell];
+    const std::int64_t type = take_corners(cells.types[cell], corners, builder);
     if (has_higher_order(type))
         fail_cell("it is of VTK's type " + std::to_string(type) +
                   ", which has nodes between its corners. Save the mesh with cells of first order.");
@@ -256,7 +267,7 @@ void scan_piece(const Decoder& decoder, const Piece& piece, const std::string& r
         ignored += !add_cell(cells, cell, corners, builder, [&](const std::string& what) {
             fail(path, "cell " + std::to_string(cell) + ": " + what);
         });
-        if (!cells.front.empty() && cells.types[cell] == vtk_triangle)
+        if (!cells.front.empty() && is_triangle(cells.types[cell]))
             sides.push_back({cells.front[cell], cells.back[cell]});
     }
     builder.note_ignored(ignored, "cell that is no tetrahedron or triangle",

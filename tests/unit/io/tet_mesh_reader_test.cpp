@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <fstream>
 #include <random>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
 #include "core/elements.h"
 #include "core/error.h"
+#include "io/surface_reader.h"
+#include "mesh/edge_table.h"
 #include "support/archives.h"
 #include "support/shapes.h"
 #include "support/surface_files.h"
@@ -130,9 +133,10 @@ TEST_F(TetFiles, ThatCannotBeMeasuredAreRefusedByName) {
     expect_refused({"surface.off", to_off(mesh.boundary)}, "no volume mesh");
     expect_refused({"surface.mesh", to_medit(mesh.boundary, {})}, "holds no tetrahedra");
     expect_refused({"hexahedra.msh", msh + "1 1 0 1 2\n$EndElements\n"}, "holds no tetrahedra");
-    expect_refused({"second.msh", msh + "1 11 0 1 2 3 4 5 1 2 3 4 5\n$EndElements\n"}, "tetrahedra with 10 nodes");
-    expect_refused({"second.mesh", replaced(medit, "Tetrahedra\n", "TetrahedraP2\n")}, "TetrahedraP2");
-    expect_refused({"second.vtu", replaced(vtu, "10 10 ", "24 10 ")}, "type 24");
+    expect_refused({"unknown.msh", msh + "1 99 0 1 2 3 4\n$EndElements\n"}, "elements of type 99");
+    expect_refused({"third.mesh", replaced(medit, "Tetrahedra\n", "TetrahedraP3\n")}, "TetrahedraP3");
+    expect_refused({"few_nodes.vtu", replaced(vtu, "10 10 ", "24 10 ")}, "type 24");
+    expect_refused({"hexahedra.vtu", replaced(vtu, "10 10 ", "25 10 ")}, "type 25");
     expect_refused({"list.pvtu", replaced(vtu, "type=\"Un", "type=\"PUn")}, "list of parts");
     expect_refused({"image.vti", replaced(vtu, "UnstructuredGrid", "ImageData")}, "ImageData");
     expect_refused({"lz4.vtu", replaced(vtu, "byte_order", "compressor=\"vtkLZ4DataCompressor\" byte_order")}, "LZ4");
@@ -148,15 +152,106 @@ TEST_F(TetFiles, ThatCannotBeMeasuredAreRefusedByName) {
     EXPECT_THROW(read_tet_file(folder_.file("none.msh")), Error);
 }
 
+TEST_F(TetFiles, OfTetgenMayHaveNodesOnEdges) {
+    const Mesh mesh = meshes()[1];
+    std::string cells = std::to_string(mesh.tets.size()) + " 10 0\n";
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        cells += std::to_string(t);
+        for (const std::int32_t v : mesh.tets[t]) cells += " " + std::to_string(v);
+        cells += " 0 0 0 0 0 0\n";
+    }
+    write({"mesh.node", to_node_list(mesh.boundary, 0)});
+    expect_mesh(read({"mesh.ele", cells}), mesh, false);
+}
+
 TEST_F(TetFiles, OfTetgenAreRefusedByName) {
     Mesh mesh = meshes()[0];
     write({"mesh.node", to_node_list(mesh.boundary, 1)});
-    expect_refused({"mesh.ele", "1 10 0\n1 1 2 3 4 5 1 2 3 4 5\n"}, "10 nodes");
+    expect_refused({"mesh.ele", "1 8 0\n1 1 2 3 4 5 1 2 3\n"}, "8 nodes");
     expect_refused({"mesh.ele", "1 4 0\n1 1 2 3 6\n"}, "vertex number 5");
     expect_refused({"mesh.ele", "1 4 0\n1 0 2 3 4\n"}, "counts from 1");
     expect_refused({"mesh.ele", "0 4 0\n"}, "holds no tetrahedra");
     expect_refused({"mesh.ele", "2 4 0\n1 1 2 3 4\n"}, "ends too early");
     EXPECT_THROW(read_tet_file(folder_.file("other.ele")), Error);
+}
+
+// Cells with a node on each edge, as text of every format that has them. Those nodes come first, so that corners are
+// not the first nodes of the file.
+std::vector<SurfaceFile> quadratic_files(const Mesh& mesh) {
+    const auto& [boundary, tets] = mesh;
+    const EdgeTable edges(tets, boundary.vertices.size());
+    std::vector<Vec3> nodes(edges.size());
+    edges.for_all([&](std::int64_t e, const UndirectedEdge& edge) {
+        nodes[e] = (boundary.vertices[edge[0]] + boundary.vertices[edge[1]]) / 2 + Vec3(0, 0, 1e-9);
+    });
+    nodes.insert(nodes.end(), boundary.vertices.begin(), boundary.vertices.end());
+    const auto text_of = [&](const auto& cell, const auto& cell_edges, int first) {
+        std::string text;
+        for (const std::int32_t v : cell) text += std::to_string(std::ssize(edges) + v + first) + " ";
+        for (const auto& [i, j] : cell_edges)
+            text += std::to_string(edges.find(undirected(cell[i], cell[j])) + first) + " ";
+        return text;
+    };
+    const std::string tet_count = std::to_string(tets.size()), facet_count = std::to_string(boundary.facets.size());
+    std::ostringstream places, numbered;
+    places.precision(17), numbered.precision(17);
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+        places << nodes[n].transpose() << " 0\n";
+        numbered << n + 1 << " " << nodes[n].transpose() << "\n";
+    }
+    std::string msh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" + std::to_string(nodes.size()) + "\n" +
+                      numbered.str() + "$EndNodes\n$Elements\n" + std::to_string(tets.size() + boundary.facets.size()) +
+                      "\n";
+    std::string medit = "MeshVersionFormatted 2\nDimension 3\nVertices\n" + std::to_string(nodes.size()) + "\n" +
+                        places.str() + "TrianglesP2\n" + facet_count + "\n";
+    std::string corners, ends, types;
+    for (const Triangle& facet : boundary.facets) {
+        msh += "1 9 0 " + text_of(facet, triangle_edges, 1) + "\n";
+        medit += text_of(facet, triangle_edges, 1) + "7\n";
+        corners += text_of(facet, triangle_edges, 0);
+        ends += std::to_string(6 * (std::ssize(types) / 3 + 1)) + " ";
+        types += "22 ";
+    }
+    medit += "TetrahedraP2\n" + tet_count + "\n";
+    for (std::size_t t = 0; t < tets.size(); ++t) {
+        msh += "1 11 0 " + text_of(tets[t], tet_edges, 1) + "\n";
+        medit += text_of(tets[t], tet_edges, 1) + "3\n";
+        corners += text_of(tets[t], tet_edges, 0);
+        ends += std::to_string(6 * std::ssize(boundary.facets) + 10 * (t + 1)) + " ";
+        types += "24 ";
+    }
+    std::ostringstream points;
+    points.precision(17);
+    for (const Vec3& p : nodes) points << p.transpose() << " ";
+    const auto array = [](const std::string& name, const std::string& values) {
+        return "<DataArray type=\"" + std::string(name == "Points" ? "Float64" : "Int64") + "\" Name=\"" + name +
+               "\" NumberOfComponents=\"" + (name == "Points" ? "3" : "1") + "\" format=\"ascii\">" + values +
+               "</DataArray>\n";
+    };
+    const std::string vtu =
+        "<VTKFile type=\"UnstructuredGrid\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
+        std::to_string(nodes.size()) + "\" NumberOfCells=\"" + std::to_string(tets.size() + boundary.facets.size()) +
+        "\">\n<Points>\n" + array("Points", points.str()) + "</Points>\n<Cells>\n" + array("connectivity", corners) +
+        array("offsets", ends) + array("types", types) + "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+    return {{"second.msh", msh + "$EndElements\n"}, {"second.mesh", medit + "End\n"}, {"second.vtu", vtu}};
+}
+
+TEST_F(TetFiles, OfSecondOrderAreTheirCorners) {
+    for (const Mesh& mesh : meshes()) {
+        const std::string note = std::to_string(mesh.tets.size() + mesh.boundary.facets.size()) +
+                                 " cells of higher order were read by their corners.";
+        for (const SurfaceFile& file : quadratic_files(mesh)) {
+            SCOPED_TRACE(file.name);
+            const TetFile found = read(file);
+            expect_mesh(found, mesh);
+            EXPECT_EQ(found.notes, std::vector<std::string>{note});
+            Soup surface = read_surface_bytes(file.bytes, file.name);
+            drop_unused_vertices(surface);
+            EXPECT_EQ(std::count(surface.notes.begin(), surface.notes.end(), note), 1);
+            EXPECT_EQ(surface.facets.size(), mesh.boundary.facets.size());
+            EXPECT_EQ(surface.vertices.size(), mesh.boundary.vertices.size() - 1);  // without the apex
+        }
+    }
 }
 
 // Whatever is cut off or changed, a reader ends with an Error or with a mesh that is one.
@@ -175,7 +270,9 @@ TEST(TetBytes, ThatAreTruncatedOrDamagedAreNoSurprise) {
     const Mesh mesh = meshes()[0];
     constexpr unsigned seed = 11;
     std::mt19937 random(seed);
-    for (const SurfaceFile& file : to_all_mesh_formats(mesh.boundary, mesh.tets)) {
+    std::vector<SurfaceFile> files = to_all_mesh_formats(mesh.boundary, mesh.tets);
+    for (const SurfaceFile& file : quadratic_files(mesh)) files.push_back(file);
+    for (const SurfaceFile& file : files) {
         SCOPED_TRACE(file.name);
         for (std::size_t size = 0; size < file.bytes.size(); size += 1 + file.bytes.size() / 60)
             expect_error_or_mesh({file.name, file.bytes.substr(0, size)});
