@@ -41,6 +41,9 @@ bool is_sealed(const std::string& report);
 /// "parts/part_0008.vtu", "export/su2/mesh.su2", "report.json", "work/journal/8"; folders, which end with '/', too.
 bool is_named_like_run_file(const std::string& path);
 
+/// The file of a run of order 2 with the nodes that stored parts do not tell (part/curved_nodes_file.h).
+inline constexpr const char* curved_nodes_name = "parts/curved_nodes.bin";
+
 /// Whether it is named like parts/part_0008.part, in which a part waits for the writers of formats.
 bool is_stored_part(const std::string& path);
 

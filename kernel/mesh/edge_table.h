@@ -19,18 +19,11 @@ inline constexpr std::array<std::array<int, 2>, 3> triangle_edges = {{{0, 1}, {1
 class EdgeTable {
  public:
     EdgeTable() = default;
-    EdgeTable(const std::vector<Tetrahedron>& tets, std::size_t vertex_count) : first_(vertex_count + 1) {
-        const auto for_edges = [&](auto visit) {
-            for (const Tetrahedron& tet : tets)
-                for (const auto& [i, j] : tet_edges) visit(undirected(tet[i], tet[j]));
-        };
-        for_edges([&](const UndirectedEdge& edge) { ++first_[edge[0] + 1]; });
-        for (std::size_t v = 0; v < vertex_count; ++v) first_[v + 1] += first_[v];
-        std::vector<std::int64_t> next(first_.begin(), first_.end() - 1);
-        upper_.resize(first_.back());
-        for_edges([&](const UndirectedEdge& edge) { upper_[next[edge[0]]++] = edge[1]; });
-        keep_each_once();
-    }
+    EdgeTable(const std::vector<Tetrahedron>& tets, std::size_t vertex_count)
+        : EdgeTable(tets, vertex_count, tet_edges) {}
+    /// Those of triangles.
+    EdgeTable(const std::vector<Triangle>& triangles, std::size_t vertex_count)
+        : EdgeTable(triangles, vertex_count, triangle_edges) {}
 
     std::size_t size() const { return upper_.size(); }
     /// The number of an edge of the mesh.
@@ -38,6 +31,11 @@ class EdgeTable {
         const std::int32_t v = edge[0];
         const auto begin = upper_.begin() + first_[v], end = upper_.begin() + first_[v + 1];
         return std::lower_bound(begin, end, edge[1]) - upper_.begin();
+    }
+    /// Whether an edge between two of the vertices is one of them.
+    bool contains(const UndirectedEdge& edge) const {
+        const std::int32_t v = edge[0];
+        return std::binary_search(upper_.begin() + first_[v], upper_.begin() + first_[v + 1], edge[1]);
     }
     /// Calls visit(number, edge) for all edges in their order.
     template <class Visit>
@@ -47,6 +45,19 @@ class EdgeTable {
     }
 
  private:
+    template <class Cell, class Edges>
+    EdgeTable(const std::vector<Cell>& cells, std::size_t vertex_count, const Edges& edges) : first_(vertex_count + 1) {
+        const auto for_edges = [&](auto visit) {
+            for (const Cell& cell : cells)
+                for (const auto& [i, j] : edges) visit(undirected(cell[i], cell[j]));
+        };
+        for_edges([&](const UndirectedEdge& edge) { ++first_[edge[0] + 1]; });
+        for (std::size_t v = 0; v < vertex_count; ++v) first_[v + 1] += first_[v];
+        std::vector<std::int64_t> next(first_.begin(), first_.end() - 1);
+        upper_.resize(first_.back());
+        for_edges([&](const UndirectedEdge& edge) { upper_[next[edge[0]]++] = edge[1]; });
+        keep_each_once();
+    }
     void keep_each_once() {
         std::int64_t kept = 0;
         for (std::size_t v = 0; v + 1 < first_.size(); ++v) {

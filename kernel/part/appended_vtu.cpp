@@ -48,10 +48,9 @@ std::string vtu_head(std::span<const VtuArrayHead> arrays, std::int64_t points, 
     return fmt::format("{}</Piece>\n</UnstructuredGrid>\n{}", xml, vtu_data_begin);
 }
 
-std::string boundary_count_field(std::string_view type, std::int64_t count) {
-    return fmt::format(
-        "<DataArray type=\"{}\" Name=\"BoundaryVertexCount\" NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n",
-        type, count);
+std::string number_field(std::string_view type, std::string_view name, std::int64_t number) {
+    return fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n",
+                       type, name, number);
 }
 
 std::string pvtu_text(std::span<const VtuArrayHead> arrays, std::span<const std::string> pieces) {

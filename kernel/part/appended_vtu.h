@@ -67,8 +67,8 @@ inline constexpr std::string_view vtu_file_end = "\n</AppendedData>\n</VTKFile>\
 std::string vtu_head(std::span<const VtuArrayHead> arrays, std::int64_t points, std::int64_t cells,
                      std::string_view fields);
 
-/// The field BoundaryVertexCount, which stands in the XML. `type`: that of VTK.
-std::string boundary_count_field(std::string_view type, std::int64_t count);
+/// A field of one number, which stands in the XML. `type`: that of VTK.
+std::string number_field(std::string_view type, std::string_view name, std::int64_t number);
 
 /// The PVTU that joins files with these arrays; `pieces` are paths relative to the PVTU's folder.
 std::string pvtu_text(std::span<const VtuArrayHead> arrays, std::span<const std::string> pieces);

@@ -21,12 +21,13 @@ std::vector<NodeId> ascending_ids(const MeshOutline& outline) {
 
 }  // namespace
 
-EdgeNumbers::OfPart EdgeNumbers::told_by(const Part& part, const EdgeTable& edges, const MeshOutline& outline) {
+EdgeNumbers::OfPart EdgeNumbers::told_by(NodeId id, const std::vector<SharedEdgeGroup>& shared, std::int64_t edges,
+                                         const MeshOutline& outline) {
     const std::vector<NodeId> ids = ascending_ids(outline);
     OfPart told;
-    told.edges = told.owned = std::ssize(edges);
-    for (const SharedEdgeGroup& group : part.shared_edges) {
-        if (owner_among(ids, group.parts) == part.id)
+    told.edges = told.owned = edges;
+    for (const SharedEdgeGroup& group : shared) {
+        if (owner_among(ids, group.parts) == id)
             told.groups.push_back({group.parts, std::ssize(group.edges)});
         else
             told.owned -= std::ssize(group.edges);

@@ -37,7 +37,14 @@ class EdgeNumbers {
         }
     };
     /// Of a part with everything. `edges`: its edges. O(#shared edges).
-    static OfPart told_by(const Part& part, const EdgeTable& edges, const MeshOutline& outline);
+    static OfPart told_by(const Part& part, const EdgeTable& edges, const MeshOutline& outline) {
+        return told_by(part.id, part.shared_edges, std::ssize(edges), outline);
+    }
+    /// The same of the part with this number, that has so many edges and shares these.
+    static OfPart told_by(NodeId id, const std::vector<SharedEdgeGroup>& shared, std::int64_t edges,
+                          const MeshOutline& outline);
+
+    EdgeNumbers() = default;
 
     /// `told`: of all parts in the order of the outline.
     EdgeNumbers(const MeshOutline& outline, const std::vector<OfPart>& told);

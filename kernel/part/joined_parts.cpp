@@ -83,10 +83,33 @@ std::vector<std::size_t> facets_of_piece(const Part& part, const std::vector<Nod
     return facets;
 }
 
-// The k-th values of the parts: of cells one part behind the other, of points at vertex(p, v). A vertex that several
-// parts have gets those of the first one: at walls between materials, stresses differ.
+// Gives the piece, whose tetrahedra are there, the nodes on its edges: those of its parts, which are the same where
+// several have an edge. Returns for each part which edge of the piece each of its edges is.
 template <class VertexInPiece>
-PartValues join_values(const std::vector<Part>& parts, std::size_t k, const VertexInPiece& vertex) {
+std::vector<std::vector<std::int32_t>> join_edge_nodes(const std::vector<Part>& parts, const VertexInPiece& vertex,
+                                                       Part& piece) {
+    EdgeNodes& nodes = piece.edge_nodes;
+    nodes.edges = EdgeTable(piece.mesh.tets, piece.mesh.vertices.size());
+    nodes.points.resize(nodes.edges.size());
+    nodes.global_id.resize(nodes.edges.size());
+    std::vector<std::vector<std::int32_t>> edges_of_parts;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        const EdgeNodes& own = parts[p].edge_nodes;
+        std::vector<std::int32_t>& edges = edges_of_parts.emplace_back();
+        own.edges.for_all([&](std::int64_t e, const UndirectedEdge& edge) {
+            const std::int32_t to = nodes.edges.find(undirected(vertex(p, edge[0]), vertex(p, edge[1])));
+            nodes.points[to] = own.points[e];
+            nodes.global_id[to] = own.global_id[e];
+            edges.push_back(to);
+        });
+    }
+    return edges_of_parts;
+}
+
+// The k-th values of the parts: of cells one part behind the other, of points at node(p, n). A node that several parts
+// have gets those of the first one: at walls between materials, stresses differ.
+template <class NodeInPiece>
+PartValues join_values(const std::vector<Part>& parts, std::size_t k, const NodeInPiece& node) {
     PartValues joined = parts.front().values[k];
     const std::size_t width = joined.components;
     std::visit(
@@ -101,10 +124,10 @@ PartValues join_values(const std::vector<Part>& parts, std::size_t k, const Vert
                 return;
             }
             for (std::size_t p = parts.size(); p-- > 0;)  // so that the first one has the last word
-                for (std::size_t v = 0; v < parts[p].mesh.vertices.size(); ++v) {
-                    const std::size_t to = width * vertex(p, v);
+                for (std::int64_t n = 0; n < parts[p].node_count(); ++n) {
+                    const std::size_t to = width * node(p, n);
                     if (numbers.size() < to + width) numbers.resize(to + width);
-                    std::copy_n(own_of(parts[p]).begin() + static_cast<std::ptrdiff_t>(width * v), width,
+                    std::copy_n(own_of(parts[p]).begin() + static_cast<std::ptrdiff_t>(width * n), width,
                                 numbers.begin() + static_cast<std::ptrdiff_t>(to));
                 }
         },
@@ -151,6 +174,8 @@ JoinedParts::JoinedParts(const PartSource& parts, std::int32_t pieces, std::int6
     outline_.patch_names = whole.patch_names;
     outline_.region_names = whole.region_names;
     outline_.values = whole.values;
+    outline_.order = whole.order;
+    outline_.edge_nodes = whole.edge_nodes;
     for (const PieceOfTree& piece : pieces_) {
         PartExtent& extent = outline_.parts.emplace_back();
         extent.id = piece.id;
@@ -163,14 +188,19 @@ JoinedParts::JoinedParts(const PartSource& parts, std::int32_t pieces, std::int6
                 (is_listed_triangle(part.patch[f], piece.id, beside[f]) ? extent.patch_facets
                                                                         : extent.interface_facets) +=
                     !part.is_interface(f) || beside[f] != piece.id;
-            // A vertex counts in the first part of the piece that has it.
-            for (const SharedGroup& group : part.shared) {
-                const std::vector<NodeId> held_by = pieces_of(group.parts);
-                const auto first = std::find(held_by.begin(), held_by.end(), piece.id) - held_by.begin();
-                if (group.parts[first] != part.id) extent.vertices -= std::ssize(group.vertices);
-            }
+            extent.edge_nodes += std::ssize(part.edge_nodes.global_id);
+            // A vertex counts in the first part of the piece that has it, and so does an edge.
+            const auto is_counted = [&](const std::vector<NodeId>& holders) {
+                const std::vector<NodeId> held_by = pieces_of(holders);
+                return holders[std::find(held_by.begin(), held_by.end(), piece.id) - held_by.begin()] == part.id;
+            };
+            for (const SharedGroup& group : part.shared)
+                if (!is_counted(group.parts)) extent.vertices -= std::ssize(group.vertices);
+            if (whole.order == 1) continue;
+            for (const SharedEdgeGroup& group : part.shared_edges)
+                if (!is_counted(group.parts)) extent.edge_nodes -= std::ssize(group.edges);
         }
-        require_numbers(piece, extent.vertices, "vertices");
+        require_numbers(piece, extent.vertices + extent.edge_nodes, whole.order == 1 ? "vertices" : "nodes");
         require_numbers(piece, extent.patch_facets + extent.interface_facets, "triangles");
     }
 }
@@ -251,9 +281,15 @@ Part JoinedParts::load(PartIndex index) const {
             return UndirectedEdge{first, vertex_in_piece(p, edge[1], piece)};
         },
         [&](const UndirectedEdge& edge) { return std::pair(piece.global_id[edge[0]], piece.global_id[edge[1]]); });
-    for (std::size_t k = 0; k < outline_.values.size(); ++k)
-        piece.values.push_back(
-            join_values(parts, k, [&](std::size_t p, std::int32_t v) { return vertex_in_piece(p, v, piece); }));
+    const auto vertex = [&](std::size_t p, std::int32_t v) { return vertex_in_piece(p, v, piece); };
+    std::vector<std::vector<std::int32_t>> edges_of_parts;
+    if (outline_.order == 2) edges_of_parts = join_edge_nodes(parts, vertex, piece);
+    const auto node = [&](std::size_t p, std::int64_t n) -> std::int64_t {
+        const std::int64_t on_edge = n - parts[p].first_edge_node();
+        return on_edge < 0 ? vertex(p, static_cast<std::int32_t>(n))
+                           : piece.first_edge_node() + edges_of_parts[p][on_edge];
+    };
+    for (std::size_t k = 0; k < outline_.values.size(); ++k) piece.values.push_back(join_values(parts, k, node));
     return piece;
 }
 

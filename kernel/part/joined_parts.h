@@ -24,7 +24,7 @@ std::vector<PieceOfTree> divide_leaves(const std::vector<NodeId>& leaves, std::i
 /// is joined anew whenever it is loaded; memory: its parts. `parts` must outlive this.
 class JoinedParts : public PartSource {
  public:
-    /// Tetrahedra, vertices and triangles of a piece have numbers of 32 bits.
+    /// Tetrahedra, nodes and triangles of a piece have numbers of 32 bits.
     static constexpr std::int64_t most_of_piece = std::numeric_limits<std::int32_t>::max();
 
     /// Loads every part once. Throws Error(usage) for less than one piece or more than there are parts, and for a piece

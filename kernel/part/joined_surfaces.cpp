@@ -58,7 +58,7 @@ class JoinedSurfaces {
 
     /// With one array behind the other as the files have them.
     Grid grid(bool has_regions) const {
-        Grid grid{points_, cells_, boundary_count_field(vtk_type<std::int64_t>, points_)};
+        Grid grid{points_, cells_, number_field(vtk_type<std::int64_t>, "BoundaryVertexCount", points_)};
         grid.arrays = {names("PatchNames"),
                        copied<std::int64_t>("PointData", "GlobalVertexId", 1, points_),
                        copied<std::int32_t>("CellData", "Part", 1, cells_),

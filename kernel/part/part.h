@@ -114,14 +114,16 @@ struct Part {
     std::int64_t tet_count() const { return std::ssize(mesh.tets); }
     std::int64_t vertex_count() const { return std::ssize(mesh.vertices); }
 
-    /// Nodes are the vertices, then for order 2 those on the edges.
-    int order() const { return edge_nodes.points.empty() ? 1 : 2; }
-    std::int64_t node_count() const { return vertex_count() + std::ssize(edge_nodes.points); }
+    /// Nodes are the vertices, then for order 2 those on the edges. Numbers are known without points
+    /// (PartContent::cells), too.
+    int order() const { return edge_nodes.global_id.empty() ? 1 : 2; }
+    std::int64_t first_edge_node() const { return std::ssize(global_id); }
+    std::int64_t node_count() const { return first_edge_node() + std::ssize(edge_nodes.global_id); }
     const Vec3& node_point(std::int64_t n) const {
-        return n < vertex_count() ? mesh.vertices[n] : edge_nodes.points[n - vertex_count()];
+        return n < first_edge_node() ? mesh.vertices[n] : edge_nodes.points[n - first_edge_node()];
     }
     std::int64_t node_id(std::int64_t n) const {
-        return n < vertex_count() ? global_id[n] : edge_nodes.global_id[n - vertex_count()];
+        return n < first_edge_node() ? global_id[n] : edge_nodes.global_id[n - first_edge_node()];
     }
     /// Of order 2: corners, then the nodes on tet_edges, or on triangle_edges. O(log of the edges at a vertex).
     std::array<std::int32_t, 10> nodes_of_tet(std::int64_t t) const { return with_edges(mesh.tets[t], tet_edges); }
@@ -133,7 +135,7 @@ struct Part {
                                                const std::array<std::array<int, 2>, M>& edges) const {
         std::array<std::int32_t, N + M> nodes;
         std::copy(corners.begin(), corners.end(), nodes.begin());
-        const auto first = static_cast<std::int32_t>(vertex_count());
+        const auto first = static_cast<std::int32_t>(first_edge_node());
         for (std::size_t e = 0; e < M; ++e)
             nodes[N + e] = first + edge_nodes.edges.find(undirected(corners[edges[e][0]], corners[edges[e][1]]));
         return nodes;

@@ -1,5 +1,6 @@
 #include "part/run_parts.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -9,7 +10,10 @@
 #include "io/file_bytes.h"
 #include "io/run_folder.h"
 #include "mesh/verification.h"
+#include "part/curved_nodes_file.h"
+#include "part/edge_node_reader.h"
 #include "part/part_store.h"
+#include "part/second_order_parts.h"
 #include "part/vtu_reader.h"
 
 namespace kerf {
@@ -33,8 +37,12 @@ MeshOutline read_outline(const std::string& folder) {
     try {
         const nlohmann::json report = read_report(folder);
         outline.vertices = report.at("totals").at("vertices");
-        for (const auto& of_part : report.at("parts"))
+        outline.order = report.at("totals").value("order", 1);
+        for (const auto& of_part : report.at("parts")) {
             outline.parts.push_back({of_part.at("id"), of_part.at("vertices"), of_part.at("tets")});
+            PartExtent& extent = outline.parts.back();
+            extent.edge_nodes = of_part.value("nodes", extent.vertices) - extent.vertices;
+        }
     } catch (const nlohmann::json::exception& e) {
         throw Error(ErrorCode::io,
                     fmt::format("{}/report.json is damaged: {}. Run kerf mesh again.", folder, e.what()));
@@ -48,11 +56,27 @@ MeshOutline read_outline(const std::string& folder) {
     return outline;
 }
 
+// The numbers of nodes on edges follow from what was told of these.
+void require_edges(const EdgeTable& edges, const PartExtent& told, const Part& part) {
+    const auto has_edge = [&](const UndirectedEdge& edge) { return edges.contains(undirected(edge[0], edge[1])); };
+    const auto has_edges = [&](const SharedEdgeGroup& group) {
+        return std::all_of(group.edges.begin(), group.edges.end(), has_edge);
+    };
+    if (std::ssize(edges) == told.edge_nodes &&
+        std::all_of(part.shared_edges.begin(), part.shared_edges.end(), has_edges))
+        return;
+    throw Error(ErrorCode::io,
+                fmt::format("The files of part {} do not belong together. Run kerf mesh again.", part.id));
+}
+
 }  // namespace
 
 RunParts::RunParts(std::string folder, std::string solution)
     : folder_(std::move(folder)), solution_(std::move(solution)), outline_(read_outline(folder_)) {
-    if (!solution_.empty()) outline_.values = read_value_names(path_of_part(solution_, outline_.parts.front().id));
+    if (!solution_.empty()) {
+        outline_.values = read_value_names(path_of_part(solution_, outline_.parts.front().id));
+        outline_.order = read_point_counts(path_of_part(solution_, outline_.parts.front().id)).order;
+    }
     std::vector<SharedVertices::Incidence> held;
     std::vector<SharedEdges::Incidence> told;
     std::vector<NodeId> ids;
@@ -77,21 +101,47 @@ RunParts::RunParts(std::string folder, std::string solution)
     for (std::int64_t& first : first_interior_ids_) first += outline_.vertices - interior;
     shared_edges_ = SharedEdges(std::move(told), ids);
     shared_ = SharedVertices(std::move(held), ids);
+    if (outline_.order == 2) number_edges();
+}
+
+// Of a part it has to be known how many edges it has, and which of them it shares.
+void RunParts::number_edges() {
+    if (is_stored(PartIndex())) curved_nodes_ = read_curved_nodes(curved_nodes_file(folder_));
+    std::vector<EdgeNumbers::OfPart> told;
+    for (const PartIndex index : outline_.parts.ids()) {
+        PartExtent& extent = outline_.parts[index];
+        if (!is_stored(index)) extent.edge_nodes = read_point_counts(part_file(index)).on_edges;
+        const Part surface = read_part(folder_ + "/parts/" + part_surface_file_name(extent.id));
+        told.push_back(EdgeNumbers::told_by(extent.id, shared_edges_.groups_of(surface), extent.edge_nodes, outline_));
+    }
+    edge_numbers_ = EdgeNumbers(outline_, told);
+    outline_.edge_nodes = edge_numbers_.total();
+}
+
+std::string RunParts::part_file(PartIndex index) const {
+    return path_of_part(parts_folder(), outline_.parts[index].id);
 }
 
 Part RunParts::load(PartIndex index) const {
-    Part part = load_part(folder_, outline_.parts[index].id, first_interior_ids_[index]);
+    Part part = load_part(parts_folder(), outline_.parts[index].id, first_interior_ids_[index]);
     part.shared = shared_.groups_of(index, std::span(part.global_id).first(part.mesh.boundary_vertex_count));
     part.shared_edges = shared_edges_.groups_of(part);
-    if (!solution_.empty()) part.values = read_values(path_of_part(solution_, part.id));
+    if (!solution_.empty()) part.values = read_values(part_file(index));
+    if (outline_.order == 2 && is_stored(index)) {
+        require_edges(EdgeTable(part.mesh.tets, part.mesh.vertices.size()), outline_.parts[index], part);
+        add_edge_nodes(edge_numbers_, curved_nodes_, part);
+    }
     return part;
 }
 
 Part RunParts::load_only(PartIndex index, PartContent content) const {
-    if (content == PartContent::all) return load(index);
+    const bool needs_all = outline_.order == 2 && is_stored(index);  // nodes follow from cells and vertices
+    if (content == PartContent::all || needs_all) return load(index);
     const NodeId id = outline_.parts[index].id;
-    if (content == PartContent::surface) return read_part(folder_ + "/parts/" + part_surface_file_name(id), content);
-    return load_part(folder_, id, first_interior_ids_[index], content);
+    if (content != PartContent::surface) return load_part(parts_folder(), id, first_interior_ids_[index], content);
+    Part surface = read_part(folder_ + "/parts/" + part_surface_file_name(id), content);
+    if (outline_.order == 2) add_edge_nodes_of_surface(part_file(index), surface);
+    return surface;
 }
 
 std::string path_of_part(const std::string& folder, NodeId id) {
@@ -109,4 +159,5 @@ Part load_part(const std::string& folder, NodeId id, std::int64_t first_interior
         part.tet_at_facet = tets_at_facets(part.mesh, part.facets);
     return part;
 }
+
 }  // namespace kerf

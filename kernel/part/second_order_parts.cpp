@@ -23,6 +23,21 @@ void add_means_of_edges(const EdgeTable& edges, PartValues& values) {
 
 }  // namespace
 
+void add_edge_nodes(const EdgeNumbers& numbers, const CurvedNodes& curved, Part& part) {
+    EdgeNodes& nodes = part.edge_nodes;
+    const std::vector<Vec3>& vertices = part.mesh.vertices;
+    nodes.edges = EdgeTable(part.mesh.tets, vertices.size());
+    nodes.global_id = numbers.of(part, nodes.edges);
+    nodes.points.resize(nodes.edges.size());
+    nodes.edges.for_all([&](std::int64_t e, const UndirectedEdge& edge) {
+        nodes.points[e] = 0.5 * (vertices[edge[0]] + vertices[edge[1]]);
+        const auto found = std::lower_bound(curved.ids.begin(), curved.ids.end(), nodes.global_id[e]);
+        if (found != curved.ids.end() && *found == nodes.global_id[e])
+            nodes.points[e] = curved.points[found - curved.ids.begin()];
+    });
+    for (PartValues& values : part.values) add_means_of_edges(nodes.edges, values);
+}
+
 SecondOrderParts::SecondOrderParts(const PartSource& parts, EdgeNumbers numbers, CurvedNodes curved)
     : parts_(parts), numbers_(std::move(numbers)), curved_(std::move(curved)), outline_(parts.outline()) {
     outline_.order = 2;
@@ -32,18 +47,7 @@ SecondOrderParts::SecondOrderParts(const PartSource& parts, EdgeNumbers numbers,
 
 Part SecondOrderParts::load(PartIndex index) const {
     Part part = parts_.load(index);
-    EdgeNodes& nodes = part.edge_nodes;
-    const std::vector<Vec3>& vertices = part.mesh.vertices;
-    nodes.edges = EdgeTable(part.mesh.tets, vertices.size());
-    nodes.global_id = numbers_.of(part, nodes.edges);
-    nodes.points.resize(nodes.edges.size());
-    nodes.edges.for_all([&](std::int64_t e, const UndirectedEdge& edge) {
-        nodes.points[e] = 0.5 * (vertices[edge[0]] + vertices[edge[1]]);
-        const auto curved = std::lower_bound(curved_.ids.begin(), curved_.ids.end(), nodes.global_id[e]);
-        if (curved != curved_.ids.end() && *curved == nodes.global_id[e])
-            nodes.points[e] = curved_.points[curved - curved_.ids.begin()];
-    });
-    for (PartValues& values : part.values) add_means_of_edges(nodes.edges, values);
+    add_edge_nodes(numbers_, curved_, part);
     return part;
 }
 

@@ -7,6 +7,10 @@
 
 namespace kerf {
 
+/// Adds the nodes on the edges of a part of order 1: their numbers, and points in the middle of straight edges, or as
+/// `curved` has them. Values of points get those of these nodes: the means of the two ends.
+void add_edge_nodes(const EdgeNumbers& numbers, const CurvedNodes& curved, Part& part);
+
 /// The parts of another source, of order 1, as parts of order 2: in the middle of each edge there is a node, or where
 /// the edge is curved. Values of points get those of these nodes: the means of the two ends.
 class SecondOrderParts : public PartSource {
@@ -17,6 +21,7 @@ class SecondOrderParts : public PartSource {
     const MeshOutline& outline() const override { return outline_; }
     Part load(PartIndex index) const override;
     const RegionWalls& walls() const override { return parts_.walls(); }
+    const CurvedNodes& curved() const { return curved_; }
 
  private:
     const PartSource& parts_;

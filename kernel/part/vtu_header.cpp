@@ -25,8 +25,11 @@ class HeaderParser {
         header.point_count = number(piece, "NumberOfPoints");
         header.cell_count = number(piece, "NumberOfCells");
         header.boundary_vertex_count = to_number(text_between(find("\"BoundaryVertexCount\""), ">", "<"));
-        if (header.boundary_vertex_count > header.point_count)
-            fail_damaged_vtu(path_, "it has fewer vertices than its boundary");
+        header.order = xml_.find(vertex_count_name) == xml_.npos ? 1 : 2;
+        header.vertex_count =
+            header.order == 1 ? header.point_count : to_number(text_between(find(vertex_count_name), ">", "<"));
+        if (header.boundary_vertex_count > header.vertex_count || header.vertex_count > header.point_count)
+            fail_damaged_vtu(path_, "it has fewer vertices than its boundary, or fewer points than vertices");
         constexpr std::string_view marker = "format=\"appended\"";
         for (std::size_t at = xml_.find(marker); at != xml_.npos; at = xml_.find(marker, at + 1)) {
             const std::string_view element = element_at(xml_.rfind('<', at));
@@ -38,6 +41,7 @@ class HeaderParser {
     }
 
  private:
+    static constexpr std::string_view vertex_count_name = "\"VertexCount\"";
     std::size_t find(std::string_view text) const {
         const std::size_t at = xml_.find(text);
         if (at == xml_.npos) fail_damaged_vtu(path_, fmt::format("its XML header has no {}", text));

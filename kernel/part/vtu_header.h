@@ -16,7 +16,9 @@ struct VtuHeader {
         std::int64_t position = 0;  ///< of the array's UInt64 size in the file; its values follow
     };
     std::int64_t point_count = 0, cell_count = 0, boundary_vertex_count = 0;
-    std::vector<Array> arrays;  ///< in the order of the file
+    std::int64_t vertex_count = 0;  ///< points that are corners of cells; of order 2 there are others, on edges
+    int order = 1;                  ///< of the cells
+    std::vector<Array> arrays;      ///< in the order of the file
 
     const Array* find(std::string_view name) const;  ///< the first; nullptr if there is none
     /// An array with a tuple for every cell. Arrays of points, which come first, may have the same name.

@@ -14,6 +14,8 @@
 #include "core/elements.h"
 #include "io/checked_file.h"
 #include "io/vtk_cell_types.h"
+#include "part/edge_node_reader.h"
+#include "part/part_arrays_file.h"
 #include "part/vtu_writer.h"
 
 namespace kerf {
@@ -22,92 +24,16 @@ namespace {
 
 constexpr std::string_view closing_tag = "</VTKFile>\n";
 
-// The arrays of a part file, opened one at a time and taken from front to back, so that what nobody asks for costs no
-// memory.
-class PartArraysFile {
- public:
-    explicit PartArraysFile(const std::string& path)
-        : path_(path), file_(path, "rb"), header_(parse_vtu_header(file_.read(vtu_header_limit), path)) {
-        if (!is_complete_part_file(path)) fail("it does not end with the closing tag");
-        std::error_code ignored;
-        size_ = std::filesystem::file_size(path, ignored);
-    }
-
-    const VtuHeader& header() const { return header_; }
-    [[noreturn]] void fail(const std::string& what) const { fail_damaged_vtu(path_, what); }
-
-    /// Stands before the first value of an array from now on. Returns its bytes.
-    std::uint64_t open(const char* name) {
-        const VtuHeader::Array* array = header_.find(name);
-        if (!array) fail(fmt::format("it has no array {}", name));
-        name_ = name;
-        std::uint64_t size = 0;
-        const std::uint64_t position = std::min(size_, static_cast<std::uint64_t>(array->position));
-        if (size_ - position < sizeof size) fail(fmt::format("it ends before the array {}", name));
-        file_.seek(position);
-        read(&size, sizeof size);
-        if (size > size_ - position - sizeof size) fail(fmt::format("it ends within the array {}", name));
-        return size;
-    }
-    /// The same for an array that must have `count` values.
-    template <class T>
-    void open(const char* name, std::int64_t count) {
-        const std::uint64_t size = open(name);
-        if (size % sizeof(T) || size / sizeof(T) != static_cast<std::uint64_t>(count))
-            fail(fmt::format("its array {} has {} bytes, which are not {} values", name, size, count));
-    }
-
-    template <class T>
-    std::vector<T> take(std::int64_t count) {
-        std::vector<T> values(count);
-        read(static_cast<void*>(values.data()), values.size() * sizeof(T));
-        return values;
-    }
-    /// Takes `count` values and calls visit(value) with each.
-    template <class T, class Visit>
-    void visit(std::int64_t count, Visit visit) {
-        constexpr std::int64_t at_once = std::int64_t{1} << 16;
-        for (; count > 0; count -= at_once)
-            for (const T& value : take<T>(std::min(count, at_once))) visit(value);
-    }
-    /// Opens an array of `count` integers of any of these types and calls visit(value) with each.
-    template <class... Types, class Visit>
-    void visit_integers(const char* name, std::int64_t count, Visit visit) {
-        const VtuHeader::Array* array = header_.find(name);
-        const std::string type = array ? array->type : "";
-        const auto visit_if = [&]<class T>(T) {
-            if (type != name_of<T>) return false;
-            open<T>(name, count);
-            this->visit<T>(count, visit);
-            return true;
-        };
-        if (!(visit_if(Types{}) || ...)) fail(fmt::format("it has no array {} of such integers", name));
-    }
-
- private:
-    template <class T>
-    static constexpr const char* name_of = sizeof(T) == 1   ? "Int8"
-                                           : sizeof(T) == 2 ? "Int16"
-                                           : sizeof(T) == 4 ? "Int32"
-                                                            : "Int64";
-    void read(void* data, std::size_t size) {
-        if (file_.read_into(data, size) != size) fail(fmt::format("it ends within the array {}", name_));
-    }
-
-    const std::string& path_;
-    CheckedFile file_;
-    VtuHeader header_;
-    std::uint64_t size_ = 0;
-    const char* name_ = "";
-};
-
 std::int64_t count_tets(PartArraysFile& file) {
     std::int64_t tets = 0, facets = 0;
+    const bool is_quadratic = file.header().order == 2;
+    const std::uint8_t of_tet = is_quadratic ? vtk_quadratic_tetra : vtk_tetra;
+    const std::uint8_t of_facet = is_quadratic ? vtk_quadratic_triangle : vtk_triangle;
     file.open<std::uint8_t>("types", file.header().cell_count);
     file.visit<std::uint8_t>(file.header().cell_count, [&](std::uint8_t type) {
-        if (type != vtk_triangle && (type != vtk_tetra || facets > 0))
+        if (type != of_facet && (type != of_tet || facets > 0))
             file.fail("its cells are not tetrahedra and then triangles");
-        ++(type == vtk_tetra ? tets : facets);
+        ++(type == of_tet ? tets : facets);
     });
     return tets;
 }
@@ -115,19 +41,24 @@ std::int64_t count_tets(PartArraysFile& file) {
 void check_offsets(PartArraysFile& file, std::int64_t tet_count) {
     std::int64_t cell = 0, end = 0;
     file.visit_integers<std::int32_t, std::int64_t>("offsets", file.header().cell_count, [&](std::int64_t offset) {
-        end += cell < tet_count ? 4 : 3;
+        end += cell < tet_count ? file.nodes_of_tet() : file.nodes_of_facet();
         if (offset != end) file.fail(fmt::format("the offset of cell {} is {}, not {}", cell, offset, end));
         ++cell;
     });
 }
 
-// The next cells of the array that is open; every corner must be one of the first `vertex_count` vertices.
-template <class Cell>
-std::vector<Cell> take_cells(PartArraysFile& file, std::int64_t count, std::int64_t vertex_count) {
-    std::vector<Cell> cells = file.take<Cell>(count);
-    for (const Cell& cell : cells)
-        for (const std::int32_t v : cell)
+// The corners of the next cells of the array that is open, which have so many `nodes`; every corner must be one of the
+// first `vertex_count` vertices.
+template <class Cell, std::size_t nodes>
+std::vector<Cell> take_corners(PartArraysFile& file, std::int64_t count, std::int64_t vertex_count) {
+    std::vector<Cell> cells;
+    cells.reserve(count);
+    file.visit<std::array<std::int32_t, nodes>>(count, [&](const std::array<std::int32_t, nodes>& cell) {
+        Cell& corners = cells.emplace_back();
+        std::copy_n(cell.begin(), corners.size(), corners.begin());
+        for (const std::int32_t v : corners)
             if (v < 0 || v >= vertex_count) file.fail(fmt::format("a cell names vertex {} of {}", v, vertex_count));
+    });
     return cells;
 }
 
@@ -208,24 +139,41 @@ void read_contacts(PartArraysFile& file, Part& part) {
         file.fail("a contact names no vertex of the boundary");
 }
 
-void read_vertices(PartArraysFile& file, Part& part) {
-    file.open<Vec3>("Points", file.header().point_count);
-    part.mesh.vertices = file.take<Vec3>(file.header().point_count);
+// Those of the vertices, then those of nodes on edges.
+void read_points(PartArraysFile& file, Part& part) {
+    const auto& [points, vertices] = std::pair(file.header().point_count, file.header().vertex_count);
+    file.open<Vec3>("Points", points);
+    part.mesh.vertices = file.take<Vec3>(vertices);
+    part.edge_nodes.points = file.take<Vec3>(points - vertices);
 }
 
 void read_global_ids(PartArraysFile& file, Part& part) {
+    const auto& [points, vertices] = std::pair(file.header().point_count, file.header().vertex_count);
     part.mesh.boundary_vertex_count = file.header().boundary_vertex_count;
-    file.open<std::int64_t>("GlobalVertexId", file.header().point_count);
-    part.global_id = file.take<std::int64_t>(file.header().point_count);
+    file.open<std::int64_t>("GlobalVertexId", points);
+    part.global_id = file.take<std::int64_t>(vertices);
+    part.edge_nodes.global_id = file.take<std::int64_t>(points - vertices);
+}
+
+// Tetrahedra and triangles.
+void read_connectivity(PartArraysFile& file, std::int64_t tets, Part& part) {
+    const VtuHeader& header = file.header();
+    const std::int64_t facets = header.cell_count - tets;
+    file.open<std::int32_t>("connectivity", file.nodes_of_tet() * tets + file.nodes_of_facet() * facets);
+    if (header.order == 1) {
+        part.mesh.tets = take_corners<Tetrahedron, 4>(file, tets, header.vertex_count);
+        part.facets = take_corners<Triangle, 3>(file, facets, header.boundary_vertex_count);
+        return;
+    }
+    part.mesh.tets = take_corners<Tetrahedron, 10>(file, tets, header.vertex_count);
+    part.facets = take_corners<Triangle, 6>(file, facets, header.boundary_vertex_count);
+    find_edges(file, part);
 }
 
 void read_cells(PartArraysFile& file, Part& part) {
-    const VtuHeader& header = file.header();
-    const std::int64_t tet_count = count_tets(file), facet_count = header.cell_count - tet_count;
+    const std::int64_t tet_count = count_tets(file);
     check_offsets(file, tet_count);
-    file.open<std::int32_t>("connectivity", 4 * tet_count + 3 * facet_count);
-    part.mesh.tets = take_cells<Tetrahedron>(file, tet_count, header.point_count);
-    part.facets = take_cells<Triangle>(file, facet_count, header.boundary_vertex_count);
+    read_connectivity(file, tet_count, part);
     part.id = common_part(file);
     part.patch = facet_values(file, "Patch", tet_count);
     part.facet = read_input_facets(file, tet_count);
@@ -240,7 +188,7 @@ void read_cells(PartArraysFile& file, Part& part) {
 Part read_part(const std::string& path, PartContent content) {
     PartArraysFile file(path);
     Part part;
-    if (content != PartContent::cells) read_vertices(file, part);
+    if (content != PartContent::cells) read_points(file, part);
     read_global_ids(file, part);
     if (content != PartContent::vertices) read_cells(file, part);
     return part;
@@ -263,12 +211,20 @@ VtuLayout read_layout(const std::string& path) {
     return layout_of(parse_vtu_header(file.read(vtu_header_limit), path));
 }
 
+PartPointCounts read_point_counts(const std::string& path) {
+    CheckedFile file(path, "rb");
+    const VtuHeader header = parse_vtu_header(file.read(vtu_header_limit), path);
+    return {header.order, header.vertex_count, header.point_count - header.vertex_count};
+}
+
 PartCellCounts read_cell_counts(const std::string& path) {
     CheckedFile file(path, "rb");
     const VtuHeader header = parse_vtu_header(file.read(vtu_header_limit), path);
-    const VtuHeader::Array* corners = header.find("connectivity");
-    const std::int64_t tets = corners ? corners->tuples - 3 * header.cell_count : -1;
-    if (tets < 0 || tets > header.cell_count) fail_damaged_vtu(path, "its cells are not tetrahedra and then triangles");
+    const VtuHeader::Array* nodes = header.find("connectivity");
+    const std::int64_t of_facet = 3 * header.order, more_of_tet = header.order == 1 ? 1 : 4;
+    const std::int64_t more = nodes ? nodes->tuples - of_facet * header.cell_count : -1, tets = more / more_of_tet;
+    if (more < 0 || more % more_of_tet != 0 || tets > header.cell_count)
+        fail_damaged_vtu(path, "its cells are not tetrahedra and then triangles");
     return {tets, header.cell_count - tets};
 }
 

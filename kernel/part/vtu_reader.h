@@ -13,8 +13,9 @@ namespace kerf {
 /// vertices and the neighbours of its tetrahedra, which follow from the other parts and from the mesh. Memory: what is
 /// asked for.
 ///
-/// Checks that sizes, offsets, cell types and vertex numbers fit together and that the file is complete; whether the
-/// mesh obeys its laws is verify_mesh()'s question. Throws Error(io) naming the file and what is wrong with it.
+/// Checks that sizes, offsets, cell types and vertex numbers fit together, of order 2 that each edge has its node in
+/// all cells (PartContent::all, cells), and that the file is complete; whether the mesh obeys its laws is
+/// verify_mesh()'s question. Throws Error(io) naming the file and what is wrong with it.
 Part read_part(const std::string& path, PartContent content = PartContent::all);
 
 /// Whether the file ends as write_part() and write_part_surface() end theirs: one that is still being written, or was
@@ -28,6 +29,15 @@ struct PartCellCounts {
 
 /// Reads the file's header alone. Throws Error(io).
 PartCellCounts read_cell_counts(const std::string& path);
+
+/// The order of the cells of a part file, and its points.
+struct PartPointCounts {
+    int order = 1;
+    std::int64_t vertices = 0, on_edges = 0;
+};
+
+/// Reads the file's header alone. Throws Error(io).
+PartPointCounts read_point_counts(const std::string& path);
 
 /// Whether a part file has an array of this name. Throws Error(io).
 bool has_cell_values(const std::string& path, const std::string& array);

@@ -26,15 +26,23 @@ void require_sizes(bool sizes_agree) {
 // Makes the grid of a part, or of its surface. The part must outlive the grid, whose arrays are written once, in order.
 class GridMaker {
  public:
-    GridMaker(const Part& part, bool with_cells) : part_(part), tets_(with_cells ? part.mesh.tets : no_tets) {
+    GridMaker(const Part& part, bool with_cells)
+        : part_(part),
+          tets_(with_cells ? part.mesh.tets : no_tets),
+          edge_nodes_(with_cells ? part.edge_nodes : no_edge_nodes),
+          is_quadratic_(with_cells && part.order() == 2) {
         const std::int64_t boundary = part.mesh.boundary_vertex_count;
-        points_ = with_cells ? part.vertex_count() : boundary;
+        vertices_ = with_cells ? part.vertex_count() : boundary;
+        points_ = vertices_ + std::ssize(edge_nodes_.global_id);
         tet_count_ = std::ssize(tets_);
         facet_count_ = std::ssize(part.facets);
         grid_.points = points_;
         grid_.cells = tet_count_ + facet_count_;
-        grid_.fields = boundary_count_field(vtk_type<std::int32_t>, boundary);
-        require_sizes(boundary <= points_ && part.global_id.size() == part.mesh.vertices.size() &&
+        grid_.fields = number_field(vtk_type<std::int32_t>, "BoundaryVertexCount", boundary);
+        if (is_quadratic_) grid_.fields += number_field(vtk_type<std::int32_t>, "VertexCount", vertices_);
+        require_sizes(boundary <= vertices_ && part.global_id.size() == part.mesh.vertices.size() &&
+                      edge_nodes_.points.size() == edge_nodes_.edges.size() &&
+                      edge_nodes_.global_id.size() == edge_nodes_.edges.size() &&
                       part.neighbour.size() == part.facets.size() && part.patch.size() == part.facets.size() &&
                       part.facet.size() == part.facets.size());
     }
@@ -53,7 +61,8 @@ class GridMaker {
         if (layout.has_regions) add_regions(layout.tag_bytes);
         add_quality(layout.fields);
         add_points();
-        const bool is_short = 4 * tet_count_ + 3 * facet_count_ <= std::numeric_limits<std::int32_t>::max();
+        const bool is_short =
+            nodes_of_tet() * tet_count_ + nodes_of_facet() * facet_count_ <= std::numeric_limits<std::int32_t>::max();
         is_short ? add_cells<std::int32_t>() : add_cells<std::int64_t>();
         for (const PartValues& each : values)
             std::visit([&](const auto& numbers) { add_values(each, numbers); }, each.numbers);
@@ -112,12 +121,24 @@ class GridMaker {
     }
 
     void add_global_ids() {
-        add_array<std::int64_t>("PointData", "GlobalVertexId", 1, std::span(part_.global_id).first(points_));
+        add_of_nodes<std::int64_t>("PointData", "GlobalVertexId", 1, std::span(part_.global_id).first(vertices_),
+                                   std::span(edge_nodes_.global_id));
     }
 
     void add_points() {
         static_assert(sizeof(Vec3) == 3 * sizeof(double));
-        add_array<double>("Points", "Points", 3, std::span(part_.mesh.vertices).first(points_));
+        add_of_nodes<double>("Points", "Points", 3, std::span(part_.mesh.vertices).first(vertices_),
+                             std::span(edge_nodes_.points));
+    }
+
+    // Numbers of the vertices, then those of the nodes on edges.
+    template <class T, class Item>
+    void add_of_nodes(const char* section, std::string name, std::int64_t components, std::span<const Item> of_vertices,
+                      std::span<const Item> of_edges) {
+        add<T>(section, std::move(name), components, points_, [of_vertices, of_edges](CheckedFile& file) {
+            file.write(of_vertices.data(), of_vertices.size_bytes());
+            file.write(of_edges.data(), of_edges.size_bytes());
+        });
     }
 
     // An array with one value a cell: of_tet(t) for the tetrahedra, then of_facet(f).
@@ -179,19 +200,35 @@ class GridMaker {
         }
     }
 
-    // `Offset`: the type of the places where the vertices of each cell end in the connectivity.
+    std::int64_t nodes_of_tet() const { return is_quadratic_ ? 10 : 4; }
+    std::int64_t nodes_of_facet() const { return is_quadratic_ ? 6 : 3; }
+
+    // `Offset`: the type of the places where the nodes of each cell end in the connectivity.
     template <class Offset>
     void add_cells() {
-        add<std::int32_t>("Cells", "connectivity", 1, 4 * tet_count_ + 3 * facet_count_,
-                          [&tets = tets_, &facets = part_.facets](CheckedFile& file) {
-                              file.write(tets.data(), tets.size() * sizeof(Tetrahedron));
-                              file.write(facets.data(), facets.size() * sizeof(Triangle));
-                          });
+        const std::int64_t of_tet = nodes_of_tet(), of_facet = nodes_of_facet();
+        add<std::int32_t>("Cells", "connectivity", 1, of_tet * tet_count_ + of_facet * facet_count_,
+                          is_quadratic_ ? quadratic_connectivity() : linear_connectivity());
         add_of_cells<Offset>(
-            "Cells", "offsets", [](std::int64_t t) { return 4 * (t + 1); },
-            [tets = tet_count_](std::int64_t f) { return 4 * tets + 3 * (f + 1); });
+            "Cells", "offsets", [of_tet](std::int64_t t) { return of_tet * (t + 1); },
+            [before = of_tet * tet_count_, of_facet](std::int64_t f) { return before + of_facet * (f + 1); });
         add_of_cells<std::uint8_t>(
-            "Cells", "types", [](std::int64_t) { return vtk_tetra; }, [](std::int64_t) { return vtk_triangle; });
+            "Cells", "types", [type = is_quadratic_ ? vtk_quadratic_tetra : vtk_tetra](std::int64_t) { return type; },
+            [type = is_quadratic_ ? vtk_quadratic_triangle : vtk_triangle](std::int64_t) { return type; });
+    }
+    std::function<void(CheckedFile&)> linear_connectivity() const {
+        return [&tets = tets_, &facets = part_.facets](CheckedFile& file) {
+            file.write(tets.data(), tets.size() * sizeof(Tetrahedron));
+            file.write(facets.data(), facets.size() * sizeof(Triangle));
+        };
+    }
+    std::function<void(CheckedFile&)> quadratic_connectivity() const {
+        return [&part = part_, tets = tet_count_, facets = facet_count_](CheckedFile& file) {
+            write_computed<std::array<std::int32_t, 10>>(file, tets,
+                                                         [&](std::int64_t t) { return part.nodes_of_tet(t); });
+            write_computed<std::array<std::int32_t, 6>>(file, facets,
+                                                        [&](std::int64_t f) { return part.nodes_of_facet(f); });
+        };
     }
 
     // Those of tetrahedra are followed by those behind the boundary triangles.
@@ -214,10 +251,13 @@ class GridMaker {
     }
 
     static inline const std::vector<Tetrahedron> no_tets;
+    static inline const EdgeNodes no_edge_nodes;
 
     const Part& part_;
     const std::vector<Tetrahedron>& tets_;
-    std::int64_t points_ = 0, tet_count_ = 0, facet_count_ = 0;
+    const EdgeNodes& edge_nodes_;
+    bool is_quadratic_;
+    std::int64_t vertices_ = 0, points_ = 0, tet_count_ = 0, facet_count_ = 0;
     Grid grid_;
 };
 

@@ -176,6 +176,15 @@ TEST(PartJob, IsStoredAgainAsItWasFromItsPartFile) {
     restore_stored_part(again, vtu, job);
     EXPECT_EQ(read_file(again), read_file(stored));
 
+    Part of_order_2 = read_stored_part(stored, 1000);
+    of_order_2.edge_nodes.edges = EdgeTable(of_order_2.mesh.tets, of_order_2.mesh.vertices.size());
+    of_order_2.edge_nodes.points.assign(of_order_2.edge_nodes.edges.size(), Vec3(1, 2, 3));
+    of_order_2.edge_nodes.global_id.assign(of_order_2.edge_nodes.edges.size(), 77);
+    write_part(vtu, of_order_2);
+    std::filesystem::remove(again);
+    restore_stored_part(again, vtu, job);
+    EXPECT_EQ(read_file(again), read_file(stored));
+
     std::filesystem::remove(again);
     std::filesystem::resize_file(vtu, std::filesystem::file_size(vtu) - 1);
     for (const std::string& lost : {vtu, folder.file("missing")}) {
