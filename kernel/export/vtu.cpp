@@ -1,6 +1,6 @@
 // VTK XML: a file a part and one that joins them; or all as one grid, whose cells are the tetrahedra of all parts, then
-// the triangles on patches, of a wall between regions those of one side. The arrays of the grid have the names and
-// values that they have in part files, which are described in part/vtu_writer.h.
+// the triangles on patches, of a wall between regions those of one side; of order 2 quadratic ones. The arrays of the
+// grid have the names and values that they have in part files, which are described in part/vtu_writer.h.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -76,17 +76,19 @@ GridArray names_array(const char* array, const std::vector<std::string>& names) 
 
 template <class Id>
 GridArray connectivity(const PartSource& parts) {
-    const std::int64_t corners = 4 * parts.outline().tets() + 3 * parts.outline().patch_facets();
-    return GridArray::of<Id>("Cells", "connectivity", 1, corners, [&parts](ExportFile& file) {
-        const auto write_cell = [&](const Part& part, const auto& cell) {
-            for (const std::int64_t id : global_corners(part, cell)) file.value(static_cast<Id>(id));
+    const MeshOutline& outline = parts.outline();
+    const std::int64_t nodes =
+        nodes_of_tets(outline.order) * outline.tets() + nodes_of_triangles(outline.order) * outline.patch_facets();
+    return GridArray::of<Id>("Cells", "connectivity", 1, nodes, [&parts](ExportFile& file) {
+        const auto write_cell = [&](const CellNodes& cell) {
+            for (const std::int64_t id : cell) file.value(static_cast<Id>(id));
         };
         for_each_part(parts, PartContent::cells, [&](PartIndex, const Part& part) {
-            for (const Tetrahedron& tet : part.mesh.tets) write_cell(part, tet);
+            for (std::int64_t t = 0; t < part.tet_count(); ++t) write_cell(nodes_of_tet(part, t));
         });
-        for_each_part(parts, PartContent::surface, [&](PartIndex, const Part& part) {
+        for_each_part(parts, patch_content(parts.outline()), [&](PartIndex, const Part& part) {
             for (std::size_t f = 0; f < part.facets.size(); ++f)
-                if (part.is_listed(f)) write_cell(part, part.facets[f]);
+                if (part.is_listed(f)) write_cell(nodes_of_facet(part, static_cast<std::int64_t>(f)));
         });
     });
 }
@@ -123,8 +125,11 @@ void add_values_of(const PartSource& parts, std::size_t k, Grid& grid) {
 // The outline must outlive it.
 Grid grid_of(const PartSource& parts) {
     const MeshOutline& outline = parts.outline();
-    const std::int64_t tets = outline.tets(), facets = outline.patch_facets();
-    Grid grid{outline.vertices, tets + facets};
+    const std::int64_t tets = outline.tets(), facets = outline.patch_facets(), nodes = outline.nodes();
+    const std::int64_t of_tet = nodes_of_tets(outline.order), of_facet = nodes_of_triangles(outline.order);
+    const std::uint8_t tet_type = outline.order == 1 ? vtk_tetra : vtk_quadratic_tetra;
+    const std::uint8_t facet_type = outline.order == 1 ? vtk_triangle : vtk_quadratic_triangle;
+    Grid grid{nodes, tets + facets};
     const auto of_cells = [&](const char* name, std::vector<std::int32_t> Part::*of_facets) {
         return GridArray::of<std::int32_t>("CellData", name, 1, grid.cells, [&parts, of_facets](ExportFile& file) {
             write_of_facets(parts, of_facets, file);
@@ -132,30 +137,29 @@ Grid grid_of(const PartSource& parts) {
     };
     grid.arrays = {
         names_array("PatchNames", outline.patch_names),
-        GridArray::of<std::int64_t>("PointData", "GlobalVertexId", 1, outline.vertices,
-                                    [&](ExportFile& file) {
-                                        write_computed<std::int64_t>(file, outline.vertices,
-                                                                     [](std::int64_t v) { return v; });
-                                    }),
+        GridArray::of<std::int64_t>(
+            "PointData", "GlobalVertexId", 1, nodes,
+            [=](ExportFile& file) { write_computed<std::int64_t>(file, nodes, [](std::int64_t n) { return n; }); }),
         GridArray::of<std::int32_t>("CellData", "Part", 1, grid.cells,
                                     [&](ExportFile& file) { write_parts(outline, file); }),
         of_cells("Patch", &Part::patch),
         of_cells("Facet", &Part::facet),
-        GridArray::of<double>("Points", "Points", 3, outline.vertices,
+        GridArray::of<double>("Points", "Points", 3, nodes,
                               [&](ExportFile& file) {
                                   for_each_node(
                                       parts, [&](std::int64_t, std::span<const Vec3> points) { file.values(points); });
                               }),
-        outline.vertices <= most_of_32_bits ? connectivity<std::int32_t>(parts) : connectivity<std::int64_t>(parts),
+        nodes <= most_of_32_bits ? connectivity<std::int32_t>(parts) : connectivity<std::int64_t>(parts),
         GridArray::of<std::int64_t>("Cells", "offsets", 1, grid.cells,
                                     [=](ExportFile& file) {
                                         write_computed<std::int64_t>(file, tets + facets, [=](std::int64_t c) {
-                                            return 4 * (c + 1) - std::max<std::int64_t>(0, c + 1 - tets);
+                                            const std::int64_t facets_here = std::max<std::int64_t>(0, c + 1 - tets);
+                                            return of_tet * (c + 1 - facets_here) + of_facet * facets_here;
                                         });
                                     }),
         GridArray::of<std::uint8_t>("Cells", "types", 1, grid.cells, [=](ExportFile& file) {
             write_computed<std::uint8_t>(file, tets + facets,
-                                         [=](std::int64_t c) { return c < tets ? vtk_tetra : vtk_triangle; });
+                                         [=](std::int64_t c) { return c < tets ? tet_type : facet_type; });
         })};
     if (!outline.region_names.empty()) {
         grid.add(names_array("RegionNames", outline.region_names));
