@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "export/whole_mesh.h"
+#include "kerf/array_edge_nodes.h"
 #include "mesh/verification.h"
 
 namespace kerf {
@@ -35,7 +36,9 @@ ArrayParts::ArrayParts(const MeshArrays& mesh) : mesh_(mesh) {
     const std::size_t region_count = std::max<std::size_t>(1, mesh.region_names.size());
     // Leaves of a tree of that depth, so that no number is the ancestor of another.
     const auto first_leaf = static_cast<NodeId>(std::bit_ceil(region_count));
-    outline_.vertices = std::ssize(mesh.vertices);
+    outline_.vertices = vertex_count_of(mesh);
+    outline_.order = mesh.quadratic_tets.empty() ? 1 : 2;
+    outline_.edge_nodes = mesh.edge_nodes;
     outline_.patch_names = mesh.patch_names;
     outline_.region_names = mesh.region_names;
     require_32_bits(mesh);
@@ -63,7 +66,11 @@ ArrayParts::ArrayParts(const MeshArrays& mesh) : mesh_(mesh) {
         ++(is_listed_here ? other.interface_facets : other.patch_facets);
     }
     shared_ = SharedVertices(std::move(held), ids);
-    for (const PartIndex index : outline_.parts.ids()) outline_.parts[index].vertices = load(index).vertex_count();
+    for (const PartIndex index : outline_.parts.ids()) {
+        const Part part = load(index);
+        outline_.parts[index].vertices = part.vertex_count();
+        outline_.parts[index].edge_nodes = std::ssize(part.edge_nodes.points);
+    }
 }
 
 // Ascending.
@@ -86,10 +93,12 @@ Part ArrayParts::load(PartIndex index) const {
     if (!outline_.region_names.empty()) part.regions = {{0, region}};
     part.global_id = boundary_vertices_of(region);
     part.mesh.boundary_vertex_count = static_cast<std::int32_t>(std::ssize(part.global_id));
+    std::vector<std::size_t> rows;
     std::vector<std::int32_t> place(mesh_.vertices.size(), -1);
     for (std::size_t v = 0; v < part.global_id.size(); ++v) place[part.global_id[v]] = static_cast<std::int32_t>(v);
     for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
         if (mesh_.region[t] != region.value()) continue;
+        rows.push_back(t);
         Tetrahedron& tet = part.mesh.tets.emplace_back();
         for (std::size_t i = 0; i < 4; ++i) {
             const std::int64_t id = mesh_.tets[t][i];
@@ -102,6 +111,7 @@ Part ArrayParts::load(PartIndex index) const {
     }
     for (const std::int64_t id : part.global_id)
         part.mesh.vertices.emplace_back(mesh_.vertices[id][0], mesh_.vertices[id][1], mesh_.vertices[id][2]);
+    take_edge_nodes(mesh_, rows, part);
     for (std::size_t f = 0; f < mesh_.triangles.size(); ++f)
         for (const int side : {0, 1}) {
             if (mesh_.sides[f][side] != region.value()) continue;

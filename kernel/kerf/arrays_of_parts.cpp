@@ -22,13 +22,17 @@ class ArrayFiller {
         const auto triangles = static_cast<std::size_t>(outline.patch_facets());
         mesh_.patch_names = outline.patch_names;
         mesh_.region_names = outline.region_names;
-        mesh_.vertices.resize(static_cast<std::size_t>(outline.vertices));
+        mesh_.vertices.resize(static_cast<std::size_t>(outline.nodes()));
+        mesh_.edge_nodes = outline.edge_nodes;
         mesh_.tets.resize(tets);
         mesh_.part.resize(tets);
         mesh_.region.resize(tets);
         mesh_.triangles.resize(triangles);
         mesh_.patch.resize(triangles);
         mesh_.sides.resize(triangles);
+        if (outline.order == 1) return;
+        mesh_.quadratic_tets.resize(tets);
+        mesh_.quadratic_triangles.resize(triangles);
     }
 
     // Corners, patches and sides of the triangles on the user's surface. What is in front is the number of the part
@@ -42,6 +46,8 @@ class ArrayFiller {
             require(next < end, part);
             const auto row = static_cast<std::size_t>(next++);
             mesh_.triangles[row] = global_corners(part, part.facets[f]);
+            if (part.order() == 2)
+                mesh_.quadratic_triangles[row] = global_nodes(part, part.nodes_of_facet(static_cast<std::int64_t>(f)));
             mesh_.patch[row] = part.patch[f];
             mesh_.sides[row] = {region, part.is_wall(f) ? part.neighbour[f] : -1};
         }
@@ -71,6 +77,20 @@ class ArrayFiller {
         std::fill_n(mesh_.region.begin() + begin, count, part.region_of(0).value());
     }
 
+    // Of a part that has everything.
+    void put_edge_nodes(PartIndex index, const Part& part) {
+        const EdgeNodes& nodes = part.edge_nodes;
+        for (std::size_t e = 0; e < nodes.points.size(); ++e) {
+            const std::int64_t id = nodes.global_id[e];
+            require(id >= outline_.vertices && id < outline_.nodes(), part);
+            mesh_.vertices[static_cast<std::size_t>(id)] = {nodes.points[e].x(), nodes.points[e].y(),
+                                                            nodes.points[e].z()};
+        }
+        const auto first = static_cast<std::size_t>(outline_.first_tet(index));
+        for (std::int64_t t = 0; t < part.tet_count(); ++t)
+            mesh_.quadratic_tets[first + static_cast<std::size_t>(t)] = global_nodes(part, part.nodes_of_tet(t));
+    }
+
     // When all parts are there.
     MeshArrays take() {
         for (auto& [behind, in_front] : mesh_.sides)
@@ -79,6 +99,12 @@ class ArrayFiller {
     }
 
  private:
+    template <std::size_t n>
+    static std::array<std::int64_t, n> global_nodes(const Part& part, const std::array<std::int32_t, n>& nodes) {
+        std::array<std::int64_t, n> ids;
+        std::transform(nodes.begin(), nodes.end(), ids.begin(), [&](std::int32_t node) { return part.node_id(node); });
+        return ids;
+    }
     static void require(bool holds, const Part& part) {
         if (!holds)
             throw Error(ErrorCode::io,
@@ -134,6 +160,15 @@ MeshArrays arrays_of_parts(const StoredParts& parts, int threads) {
 
 MeshArrays arrays_of_parts(const PartSource& parts) {
     ArrayFiller filler(parts.outline());
+    if (parts.outline().order == 2) {
+        for_each_part(parts, PartContent::all, [&](PartIndex index, const Part& part) {
+            filler.put_points(part, 0, part.mesh.vertices);
+            filler.put_boundary(index, part);
+            filler.put_cells(index, part, 0, part.mesh.tets);
+            filler.put_edge_nodes(index, part);
+        });
+        return filler.take();
+    }
     for_each_part(parts, PartContent::vertices,
                   [&](PartIndex, const Part& part) { filler.put_points(part, 0, part.mesh.vertices); });
     for_each_part(parts, PartContent::cells, [&](PartIndex index, const Part& part) {

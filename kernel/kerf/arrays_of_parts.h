@@ -10,7 +10,7 @@ namespace kerf {
 /// with the boundary of its part, 8 bytes for each vertex of it. Throws Error(io).
 MeshArrays arrays_of_parts(const StoredParts& parts, int threads);
 
-/// The same of any parts, one at a time: first the points of all, then the cells.
+/// The same of any parts, one at a time: first the points of all, then the cells; of order 2 together.
 MeshArrays arrays_of_parts(const PartSource& parts);
 
 }  // namespace kerf

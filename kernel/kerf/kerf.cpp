@@ -19,6 +19,7 @@
 #include "kerf/progress_listener.h"
 #include "kerf/run_request.h"
 #include "parallel/processors.h"
+#include "part/second_order_parts.h"
 #include "part/solution_parts.h"
 #include "prepare/remeshed_file.h"
 #include "run/pipeline.h"
@@ -70,7 +71,9 @@ class ArraysListener : public ProgressListener {
  public:
     ArraysListener(const MeshOptions& options, int threads)
         : ProgressListener(options.progress, options.is_cancelled), threads_(threads) {}
-    void on_meshes(const StoredParts& parts) override { mesh = arrays_of_parts(parts, threads_); }
+    void on_meshes(const StoredParts& parts, const SecondOrderParts* of_order_2) override {
+        mesh = of_order_2 ? arrays_of_parts(*of_order_2) : arrays_of_parts(parts, threads_);
+    }
 
     MeshArrays mesh;
 
@@ -260,7 +263,9 @@ MeshArrays mesh_to_arrays(const ClosedSurface& surface, const MeshOptions& optio
 MeshArrays arrays_of_run(const std::string& folder) {
     MeshArrays mesh = arrays_of_parts(*open_parts(folder));
     std::error_code ignored;
-    if (const std::string report = folder + "/report.json"; fs::exists(report, ignored))
+    const std::optional<std::string> solution = find_solution_folder(folder);
+    if (const std::string report = (solution ? mesh_of_solution(*solution) : folder) + "/report.json";
+        fs::exists(report, ignored))
         mesh.report = read_file(report);
     return mesh;
 }

@@ -187,7 +187,7 @@ class PartsFailed : public Error {
 
 /// One mesh of all parts.
 struct MeshArrays {
-    std::vector<std::array<double, 3>> vertices;
+    std::vector<std::array<double, 3>> vertices;         ///< of order 2 all nodes: those on edges follow the vertices
     std::vector<std::array<std::int64_t, 4>> tets;       ///< corners a, b, c, d with det[b-a, c-a, d-a] > 0
     std::vector<std::int32_t> part;                      ///< #tets; number of its part in the tree of cuts
     std::vector<std::array<std::int64_t, 3>> triangles;  ///< of the boundary, counter-clockwise seen from outside, and
@@ -198,6 +198,11 @@ struct MeshArrays {
     std::vector<std::string> region_names;           ///< empty if there is one region
     std::vector<std::array<std::int32_t, 2>> sides;  ///< #triangles; as of facets: behind, in front
     std::string report = {};                         ///< report.json of the run (docs/output.md); may be empty
+    std::int64_t edge_nodes = 0;  ///< of order 2: how many of `vertices` are nodes on edges; of order 1 none
+    /// Of order 2, else empty: the nodes of the rows of `tets` and `triangles`, corners first, then those of the edges
+    /// 01 12 02 03 13 23, and 01 12 02.
+    std::vector<std::array<std::int64_t, 10>> quadratic_tets = {};
+    std::vector<std::array<std::int64_t, 6>> quadratic_triangles = {};
 };
 
 /// Meshes in memory, but for files of the parts in a temporary folder (TMPDIR), which is gone when this returns or
@@ -215,7 +220,7 @@ void mesh_to_folder(const ClosedSurface& surface, const MeshOptions& options, co
 /// The same of a file of any format that `kerf mesh` reads, as that does: `others` may be options of the surface, too.
 void mesh_file_to_folder(const std::string& path, const MeshOptions& options, const std::string& folder);
 
-/// The mesh of a finished run. Throws Error(io).
+/// The mesh of a finished run, of a solution with the nodes that it has. Throws Error(io).
 MeshArrays arrays_of_run(const std::string& folder);
 
 struct MeshFileOptions {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "geometry/box.h"
+#include "kerf/array_edge_nodes.h"
 #include "kerf/array_points.h"
 #include "kerf/kerf.h"
 #include "mesh/faces.h"
@@ -44,7 +45,7 @@ Tetrahedron narrowed(const std::array<std::int64_t, 4>& tet) {
 class MeasuredParts : public PartSource {
  public:
     explicit MeasuredParts(const MeshArrays& mesh) : mesh_(mesh) {
-        outline_.vertices = std::ssize(mesh.vertices);
+        outline_.vertices = vertex_count_of(mesh);
         outline_.region_names = mesh.region_names;
         for (std::size_t begin = 0, end = 0; begin < mesh.part.size(); begin = end) {
             while (end < mesh.part.size() && mesh.part[end] == mesh.part[begin]) ++end;
@@ -153,7 +154,8 @@ std::vector<double> cell_quality(const MeshArrays& mesh, const std::string& meas
 QualityTexts quality_texts(const MeshArrays& mesh) {
     require_measurable(mesh);
     Box box;
-    for (const auto& [x, y, z] : mesh.vertices) box.extend(Vec3(x, y, z));
+    for (const auto& [x, y, z] : std::span(mesh.vertices).first(static_cast<std::size_t>(vertex_count_of(mesh))))
+        box.extend(Vec3(x, y, z));
     const double diagonal = box.diagonal().norm();
     const MeasurableMesh measurable(std::make_unique<MeasuredParts>(mesh), "mesh", diagonal);
     const ComparedQuality quality{measurable.measure(diagonal), {}};

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "kerf/array_edge_nodes.h"
 #include "kerf/array_points.h"
 #include "mesh/adjacency.h"
 
@@ -75,6 +76,7 @@ class PartTaker {
             const Tetrahedron& t = whole_.tets[tet];
             part.mesh.tets.push_back({number(t[0], part), number(t[1], part), number(t[2], part), number(t[3], part)});
         }
+        take_edge_nodes(mesh_, tets, part);
         for (const std::int64_t vertex : part.global_id) local_[vertex] = -1;
         return part;
     }

@@ -12,6 +12,7 @@
 #include "io/path_text.h"
 #include "io/run_folder.h"
 #include "io/text_file.h"
+#include "kerf/array_edge_nodes.h"
 #include "kerf/parts_of_arrays.h"
 #include "part/vtu_writer.h"
 #include "prepare/input.h"
@@ -107,14 +108,14 @@ Json report_to_view(const MeshArrays& mesh, const std::map<NodeId, ViewedCounts>
     for (const std::string& name : mesh.region_names) regions.push_back({{"name", path_text(name)}});
     const Json input = {{"path", name_of_arrays},
                         {"faces", mesh.triangles.size()},
-                        {"vertices", mesh.vertices.size()},
+                        {"vertices", vertex_count_of(mesh)},
                         {"volume", nodes.at(1).volume},
                         {"regions", regions}};
     return {{"input", input},
             {"options", Json::object()},
             {"tree", tree},
             {"parts", of_parts},
-            {"totals", {{"tets", mesh.tets.size()}, {"vertices", mesh.vertices.size()}}},
+            {"totals", {{"tets", mesh.tets.size()}, {"vertices", vertex_count_of(mesh)}}},
             {"quality", quality_json(PartQuality(1))},
             {"exit_code", 0}};
 }

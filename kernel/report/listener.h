@@ -6,6 +6,7 @@
 
 namespace kerf {
 
+class SecondOrderParts;
 class StoredParts;
 
 /// A part has ended, well or not; all numbers are those of the whole run, over all ranks.
@@ -29,7 +30,8 @@ class RunListener : public StageListener {
     /// After every part: only on the root rank.
     virtual void on_part(const PartEvent&) {}
     /// The parts of a transient run when all are meshed: on every rank, in agreement. Their files go when the run ends.
-    virtual void on_meshes(const StoredParts&) {}
+    /// `of_order_2`: the same with nodes on edges, null of order 1.
+    virtual void on_meshes(const StoredParts&, const SecondOrderParts* /*of_order_2*/) {}
     /// After every iteration of a solver: its number, the residual beside that of the start, and the one that ends it;
     /// only on the root rank. Must not throw.
     virtual void on_iteration(int /*iteration*/, double /*residual*/, double /*wanted*/) {}

@@ -280,8 +280,10 @@ std::string curve_text(const CurveReport& curve) {
 void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
     const std::string parts =
         all ? "" : fmt::format(", {} part{}", report.parts.size(), report.parts.size() == 1 ? "" : "s");
-    lines.add("mesh",
-              fmt::format("{} tetrahedra, {} vertices{}", grouped(report.tets), grouped(report.vertices), parts));
+    const std::string nodes =
+        report.mesh_nodes > 0 ? fmt::format(", {} nodes of order 2", grouped(report.mesh_nodes)) : std::string();
+    lines.add("mesh", fmt::format("{} tetrahedra, {} vertices{}{}", grouped(report.tets), grouped(report.vertices),
+                                  nodes, parts));
     lines.add("regions", regions_text(report));
     if (report.found_size) lines.add("cells", found_size_text(*report.found_size));
     if (all) lines.add("filled", ways_text(report));

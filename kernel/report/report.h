@@ -36,6 +36,8 @@ struct PartReport : PartOutcome {
     double interface_in_squared_edges =
         0;                           ///< the same, each facet over the square of CutOptions::max_interface_edge()
     std::vector<NodeId> neighbours;  ///< ascending
+    std::int64_t mesh_nodes =
+        0;  ///< of order 2: vertices and nodes on edges, known to each rank once parts are written
 
     Eigen::AlignedBox3d box() const { return {box_low, box_high}; }
 
@@ -60,7 +62,9 @@ struct RunVerification {
     std::int64_t inverted_tets = 0;
     std::int64_t tets_zero_parts = 0;  ///< parts without a tetrahedron
     std::int64_t moved_vertices = 0;   ///< vertices whose coordinates differ between parts, or from the input
-    std::int64_t misnumbered = 0;      ///< global numbers that are missing, or used by two interior vertices
+    std::int64_t misnumbered = 0;      ///< global numbers that are missing, or used by two interior vertices or edges
+    std::int64_t unequal_edge_nodes = 0;    ///< of order 2: edges whose nodes differ between parts
+    std::int64_t invalid_curved_cells = 0;  ///< likewise: cells that are not proven to have a positive Jacobian
 
     /// True if the volumes agree within the bound and every count is zero.
     bool all_hold() const;
@@ -75,7 +79,7 @@ struct RunLaw {
 };
 /// The laws that are counts, in the order in which they are told. A new one is a count of RunVerification and a row
 /// here; reports and kerf verify have it then, and whoever sees it counts.
-inline constexpr std::array<RunLaw, 8> run_laws = {
+inline constexpr std::array<RunLaw, 10> run_laws = {
     {{"input_faces_missing", &RunVerification::input_faces_missing, "facets of the input missing"},
      {"extra_boundary_faces", &RunVerification::extra_boundary_faces,
       "boundary faces that are neither input nor interface"},
@@ -87,7 +91,9 @@ inline constexpr std::array<RunLaw, 8> run_laws = {
      {"tets_zero_parts", &RunVerification::tets_zero_parts, "parts without tetrahedra"},
      {"moved_vertices", &RunVerification::moved_vertices,
       "vertices whose coordinates differ between parts or from the input", true},
-     {"misnumbered", &RunVerification::misnumbered, "wrong global vertex numbers", true}}};
+     {"misnumbered", &RunVerification::misnumbered, "wrong global vertex numbers", true},
+     {"unequal_edge_nodes", &RunVerification::unequal_edge_nodes, "edges whose nodes differ between parts", true},
+     {"invalid_curved_cells", &RunVerification::invalid_curved_cells, "curved cells that are not proven valid", true}}};
 
 /// Wall clock, the longest over the ranks.
 struct StageSeconds {
@@ -136,7 +142,9 @@ struct RunReport {
     std::int64_t split_facets = 0;  ///< facets of the input that straight cuts have split
     StageSeconds seconds;
     WorkerSeconds worker_seconds;
-    std::int64_t vertices = 0;  ///< distinct, of the whole mesh
+    std::int64_t vertices = 0;      ///< distinct, of the whole mesh
+    std::int64_t mesh_nodes = 0;    ///< the same of order 2, with those on edges; 0 of order 1
+    std::int64_t curved_nodes = 0;  ///< of them, on edges but not in their middle
     std::int64_t tets = 0;
     std::map<std::string, std::int64_t> parts_by_way;  ///< parts that were filled, by PartResult::way()
     std::int64_t parts_by_tetgen = 0;                  ///< of them, whoever has asked TetGen

@@ -1,4 +1,5 @@
 // A report as JSON. Seconds and bytes are the only values that differ between two runs of the same options.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -137,6 +138,7 @@ Json part_json(const PartReport& part, const std::string& wanted_mesher) {
                  {"rank", part.rank},
                  {"worker", part.worker},
                  {"vertices", part.result.vertices},
+                 {"nodes", std::max(part.mesh_nodes, part.result.vertices)},
                  {"tets", part.result.tets},
                  {"volume", part.result.laws.volume},
                  {"surface_vertices", part.surface_vertices},
@@ -186,6 +188,9 @@ Json totals_json(const RunReport& report) {
     for (const PartReport& part : report.parts)
         volume += report.options.volume ? part.result.laws.volume : part.surface_volume;
     return {{"vertices", report.vertices},
+            {"order", report.options.order},
+            {"nodes", std::max(report.mesh_nodes, report.vertices)},
+            {"curved_nodes", report.curved_nodes},
             {"tets", report.tets},
             {"volume", volume},
             {"interface_area", interface_area},

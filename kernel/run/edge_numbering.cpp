@@ -1,5 +1,7 @@
 #include "run/edge_numbering.h"
 
+#include <algorithm>
+
 #include "run/range_of_rank.h"
 
 namespace kerf {
@@ -17,6 +19,15 @@ EdgeNumbers number_edges_together(Communicator& ranks, const PartSource& parts, 
         return told;
     });
     return EdgeNumbers(outline, gather_items(ranks, own));
+}
+
+void count_nodes(const SecondOrderParts& parts, RunReport& report) {
+    report.mesh_nodes = parts.outline().nodes();
+    report.curved_nodes = std::ssize(parts.curved().ids);
+    for (const PartExtent& extent : parts.outline().parts)
+        std::find_if(report.parts.begin(), report.parts.end(), [&](const PartReport& part) {
+            return part.id == extent.id;
+        })->mesh_nodes = extent.vertices + extent.edge_nodes;
 }
 
 }  // namespace kerf

@@ -18,6 +18,7 @@
 #include "io/stl_writer.h"
 #include "io/text_file.h"
 #include "parallel/process_memory.h"
+#include "part/curved_nodes_file.h"
 #include "part/joined_surfaces.h"
 #include "part/part_store.h"
 #include "part/second_order_parts.h"
@@ -218,12 +219,18 @@ std::unique_ptr<const SecondOrderParts> with_second_order(const RunContext& run,
         curved = std::move(mesh.nodes);
         report.curve = mesh.report;
     }
-    return std::make_unique<const SecondOrderParts>(parts, std::move(numbers), std::move(curved));
+    auto of_order_2 = std::make_unique<const SecondOrderParts>(parts, std::move(numbers), std::move(curved));
+    count_nodes(*of_order_2, report);
+    return of_order_2;
 }
 
-// Solvers cannot read a mesh with parts missing, people can look at it. `stored`: the parts as they lie in the folder.
+bool has_vtu(const std::vector<const Format*>& formats) {
+    return std::find(formats.begin(), formats.end(), &find_format("vtu")) != formats.end();
+}
+
+// Solvers cannot read a mesh with parts missing, people can look at it.
 std::vector<RunFile> write_formats(const RunContext& run, const RunFolder& folder, const StoredParts& stored,
-                                   const PartSource& parts, const std::vector<PartReport>& reports) {
+                                   const SecondOrderParts* of_order_2, const std::vector<PartReport>& reports) {
     std::vector<const Format*> formats = parse_formats(run.options.formats);
     if (failure_code(reports) != 0) formats = {&find_format("vtu")};
     // The store of a part goes as soon as its file of vtu is there, which holds as much: the disk needs no room for
@@ -235,6 +242,11 @@ std::vector<RunFile> write_formats(const RunContext& run, const RunFolder& folde
                                 .patch_types = parse_patch_types(run.options.patch_types),
                                 .split_regions = run.options.split_regions};
     const WriteTarget target{.folder = folder.partial_path(), .options = options};
+    in_agreement(run.ranks, [&] {
+        if (run.is_root() && of_order_2 && !has_vtu(formats))  // which has all nodes
+            write_curved_nodes(curved_nodes_file(folder.partial_path()), of_order_2->curved());
+    });
+    const PartSource& parts = of_order_2 ? static_cast<const PartSource&>(*of_order_2) : stored;
     return write_parts(run.ranks, parts, places_in_run_folder(formats), target, run.options.workers, run.listener,
                        [&](PartIndex part) {
                            if (stores_go) stored.remove(part);
@@ -244,20 +256,16 @@ std::vector<RunFile> write_formats(const RunContext& run, const RunFolder& folde
 // What becomes of the parts: files, or what the listener makes of them.
 std::vector<RunFile> pass_on_meshes(const RunContext& run, const RunFolder& folder, const StoredParts& parts,
                                     const SecondOrderParts* of_order_2, const std::vector<PartReport>& reports) {
-    if (!run.options.transient)
-        return write_formats(run, folder, parts, of_order_2 ? static_cast<const PartSource&>(*of_order_2) : parts,
-                             reports);
+    if (!run.options.transient) return write_formats(run, folder, parts, of_order_2, reports);
     in_agreement(run.ranks, [&] {
-        if (run.listener && parts.outline().is_whole) run.listener->on_meshes(parts);
+        if (run.listener && parts.outline().is_whole) run.listener->on_meshes(parts, of_order_2);
     });
     return {};
 }
 
 // Files of vtu hold all that those of the store do; a run with failed parts is continued from the latter.
 void remove_stored_parts(const RunContext& run, const RunFolder& folder, int exit_code) {
-    const std::vector<const Format*> formats = parse_formats(run.options.formats);
-    const bool has_vtu = std::find(formats.begin(), formats.end(), &find_format("vtu")) != formats.end();
-    if (!has_vtu || exit_code != 0) return;
+    if (!has_vtu(parse_formats(run.options.formats)) || exit_code != 0) return;
     remove_run_files(folder.partial_path(), [](const std::string& file) { return is_stored_part(file); });
 }
 

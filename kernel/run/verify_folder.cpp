@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -23,7 +24,9 @@
 #include "part/vtu_writer.h"
 #include "prepare/oriented_triangle.h"
 #include "prepare/remeshing.h"
+#include "run/edge_node_check.h"
 #include "run/input_pieces.h"
+#include "run/reported_options.h"
 #include "work/mesh_hash.h"
 
 namespace kerf {
@@ -73,7 +76,8 @@ class FolderVerifier {
           options_(options),
           report_text_(read_report(folder)),
           report_(nlohmann::json::parse(report_text_)),
-          is_of_this_version_(report_.at("kerf") == version) {}
+          is_of_this_version_(report_.at("kerf") == version),
+          order_(report_.at("totals").value("order", 1)) {}
 
     FolderVerification run() {
         check_files();
@@ -86,6 +90,7 @@ class FolderVerifier {
         check_shared_vertices();
         check_interfaces();
         check_numbering();
+        check_edge_nodes();
         if (!options_.without_input) check_input();
         summarise();
         return std::move(result_);
@@ -106,6 +111,7 @@ class FolderVerifier {
     void check_numbering();
     void check_input();
     Vec3 point_of(std::int64_t vertex) const;
+    void check_edge_nodes();
     void summarise();
 
     std::string folder_;
@@ -113,6 +119,7 @@ class FolderVerifier {
     std::string report_text_;
     nlohmann::json report_;
     bool is_of_this_version_;  // another one may write the same mesh with other headers
+    int order_;
     FolderVerification result_;
     double volume_ = 0;
     std::vector<PlacedVertex> boundary_;                  // of all parts; after check_shared_vertices() each once
@@ -122,6 +129,8 @@ class FolderVerifier {
     std::vector<InterfaceFacet> interfaces_;
     std::vector<std::string> patch_names_, region_names_;  // of the first part
     std::vector<PartHash> hashes_;                         // in the order of the report
+    std::unique_ptr<const RunParts> stored_;               // of order 2 without VTU: who knows the nodes on edges
+    EdgeNodeCheck edge_nodes_;
 };
 
 // The files are those of the list, each with its hash.
@@ -152,6 +161,10 @@ void FolderVerifier::check_part(const nlohmann::json& of_report) {
     if (!std::filesystem::exists(path, ignored))
         throw Error(ErrorCode::io, fmt::format("{} is missing: the part was not meshed. Run kerf mesh again.", path));
     Part part = load_part(folder_, leaf, 0);
+    if (order_ == 2 && !is_vtu(name)) {
+        if (!stored_) stored_ = std::make_unique<const RunParts>(folder_);
+        part.edge_nodes = stored_->load(stored_->outline().index_of(leaf)).edge_nodes;
+    }
     SurfaceArrays surface = surface_of(part);
     const MeshLaws laws = verify_mesh(part.mesh, surface);
     result_.laws.inverted_tets += laws.inverted_tets;
@@ -164,6 +177,8 @@ void FolderVerifier::check_part(const nlohmann::json& of_report) {
     if (part.id != leaf) differs(fmt::format("{} says that it is part {}", name, part.id));
     if (of_report.at("tets") != part.mesh.tets.size() || of_report.at("vertices") != part.mesh.vertices.size())
         differs(fmt::format("report.json has other numbers of part {}", leaf));
+    if (part.order() != order_) differs(fmt::format("{} is of order {}", name, part.order()));
+    if (part.order() == 2) edge_nodes_.add(part);
     check_boundary_arrays(part, name);
     if (hashes_.empty()) {
         patch_names_ = part.patch_names;
@@ -290,6 +305,17 @@ void FolderVerifier::check_numbering() {
     result_.vertices = next + unnumbered_interior_;
 }
 
+void FolderVerifier::check_edge_nodes() {
+    edge_nodes_.finish(result_.vertices, result_.laws);
+    result_.nodes = result_.vertices + edge_nodes_.count();
+    result_.curved_nodes = edge_nodes_.curved();
+    const auto& totals = report_.at("totals");
+    if (totals.value("nodes", result_.vertices) != result_.nodes) differs("report.json has another number of nodes");
+    if (result_.curved_nodes > totals.value("curved_nodes", std::int64_t{0}))
+        differs(fmt::format("{} nodes are not in the middle of their edges, more than report.json has",
+                            result_.curved_nodes));
+}
+
 // Of one that the parts have on their boundaries.
 Vec3 FolderVerifier::point_of(std::int64_t vertex) const {
     return std::lower_bound(boundary_.begin(), boundary_.end(), vertex,
@@ -297,28 +323,12 @@ Vec3 FolderVerifier::point_of(std::int64_t vertex) const {
         ->point;
 }
 
-std::string text_of_option(const nlohmann::json& value) {
-    if (value.is_array()) {
-        std::vector<std::string> items;
-        for (const nlohmann::json& item : value) items.push_back(path_of_text(item));
-        return join_items(items);
-    }
-    return value.is_number() || value.is_boolean() ? value.dump() : path_of_text(value);
-}
-
-RunOptions options_of(const nlohmann::json& options) {
-    RunOptions result;
-    for (const OptionField& field : option_fields(result))
-        if (const auto value = options.find(field.name); value != options.end()) field.set_text(text_of_option(*value));
-    return result;
-}
-
 // The facets that are no interface must be those of the input, each once, at the same coordinates and in its patch.
 void FolderVerifier::check_input() {
     const auto& of_report = report_.at("input");
     Input input;
     try {
-        const RunOptions options = options_of(report_.at("options"));
+        const RunOptions options = options_of_report(report_.at("options"));
         const std::string path = options_.input.empty() ? path_of_text(of_report.at("path")) : options_.input;
         input = options_.surface ? *options_.surface : read_input(path, options.input_options);
         if (of_report.at("hash") != input.file_hash) {

@@ -20,6 +20,8 @@ struct VerifyOptions {
 struct FolderVerification {
     RunVerification laws;
     std::int64_t tets = 0, vertices = 0;
+    std::int64_t nodes = 0;         ///< of order 2: with those on edges; of order 1 as many as vertices
+    std::int64_t curved_nodes = 0;  ///< of them, on edges but not in their middle
     std::int32_t parts = 0;
     std::vector<std::string> differences;  ///< what is not as the run has left it, or does not follow from the mesh
     std::string not_compared;              ///< why the input was not compared; empty: it was, or was not to be
@@ -31,9 +33,10 @@ struct FolderVerification {
 
 /// Reads report.json, the input and every file of a run folder, one part at a time, and checks every law again: each
 /// part by verify_mesh(), the interfaces by the global numbers, the facets, patches and their names of the input one by
-/// one. Every file must have the hash that the report has for it, and the report its own; what follows from the mesh
-/// (quality, headers, surfaces, mesh.pvtu, totals, the hash of the mesh) is computed again and compared. Memory follows
-/// the surface, not the mesh. Throws Error(io) for a folder that is no finished run, a missing or unreadable part.
+/// one, of order 2 the nodes on edges by EdgeNodeCheck. Every file must have the hash that the report has for it, and
+/// the report its own; what follows from the mesh (quality, headers, surfaces, mesh.pvtu, totals, the hash of the mesh)
+/// is computed again and compared. Memory follows the surface, not the mesh. Throws Error(io) for a folder that is no
+/// finished run, a missing or unreadable part.
 FolderVerification verify_folder(const std::string& folder, const VerifyOptions& options = {});
 
 /// Lines for people: counts, a line for each law that does not hold, the verdict.

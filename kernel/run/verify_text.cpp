@@ -15,8 +15,11 @@ int FolderVerification::exit_code() const {
 
 std::string to_text(const FolderVerification& found, const std::string& folder, const VerifyOptions& options) {
     const RunVerification& laws = found.laws;
-    std::string text = fmt::format("{}: {} parts, {} tetrahedra, {} vertices, volume error {:.1e}\n", folder,
-                                   found.parts, found.tets, found.vertices, laws.volume_rel_error);
+    const std::string nodes = found.nodes > found.vertices ? fmt::format("{} nodes of order 2, {} of them curved, ",
+                                                                         found.nodes, found.curved_nodes)
+                                                           : std::string();
+    std::string text = fmt::format("{}: {} parts, {} tetrahedra, {} vertices, {}volume error {:.1e}\n", folder,
+                                   found.parts, found.tets, found.vertices, nodes, laws.volume_rel_error);
     if (!(laws.volume_rel_error <= laws.volume_rel_bound))
         text += fmt::format("  volume error above {:.1e}, which rounding explains\n", laws.volume_rel_bound);
     for (const RunLaw& law : run_laws)
@@ -44,6 +47,8 @@ std::string to_json(const FolderVerification& found, const std::string& folder, 
                                    {"parts", found.parts},
                                    {"tets", found.tets},
                                    {"vertices", found.vertices},
+                                   {"nodes", found.nodes},
+                                   {"curved_nodes", found.curved_nodes},
                                    {"volume_rel_error", laws.volume_rel_error},
                                    {"volume_rel_bound", laws.volume_rel_bound}};
     for (const RunLaw& law : run_laws) json[law.name] = laws.*law.count;
