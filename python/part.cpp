@@ -13,9 +13,36 @@ namespace py = pybind11;
 
 namespace {
 
+// Values of the vertices, then those of nodes on edges.
+template <class T>
+py::array of_nodes(const std::vector<T>& of_vertices, const std::vector<T>& of_edges, const py::object& self) {
+    if (of_edges.empty()) return view(of_vertices, self);
+    std::vector<T> all = of_vertices;
+    all.insert(all.end(), of_edges.begin(), of_edges.end());
+    return owned(std::move(all));
+}
+
 py::array points_of_part(const py::object& self) {
-    const std::vector<Vec3>& vertices = self.cast<Part&>().mesh.vertices;
-    return view(vertices.empty() ? nullptr : vertices.front().data(), {std::ssize(vertices), 3}, self);
+    const Part& part = self.cast<Part&>();
+    return of_nodes(part.mesh.vertices, part.edge_nodes.points, self);
+}
+
+py::array ids_of_part(const py::object& self) {
+    const Part& part = self.cast<Part&>();
+    return of_nodes(part.global_id, part.edge_nodes.global_id, self);
+}
+
+py::array tetra10_of(const Part& part) {
+    std::vector<std::array<std::int32_t, 10>> rows;
+    for (std::int64_t t = 0; part.order() == 2 && t < part.tet_count(); ++t) rows.push_back(part.nodes_of_tet(t));
+    return owned(std::move(rows));
+}
+
+py::array triangle6_of(const Part& part) {
+    std::vector<std::array<std::int32_t, 6>> rows;
+    for (std::int64_t f = 0; part.order() == 2 && f < std::ssize(part.facets); ++f)
+        rows.push_back(part.nodes_of_facet(f));
+    return owned(std::move(rows));
 }
 
 py::array_t<std::int32_t> regions_of(const Part& part) {
@@ -28,7 +55,12 @@ py::array_t<std::int32_t> regions_of(const Part& part) {
 }
 
 py::array_t<NodeId> owners_of(const Part& part) {
-    const std::vector<NodeId> owners = owners_of_vertices(part);
+    std::vector<NodeId> owners = owners_of_vertices(part);
+    owners.resize(part.node_count(), part.id);
+    if (part.order() == 2)
+        for (const SharedEdgeGroup& group : part.shared_edges)
+            for (const auto& [a, b] : group.edges)
+                owners[part.first_edge_node() + part.edge_nodes.edges.find(undirected(a, b))] = group.parts.front();
     return py::array_t<NodeId>(std::ssize(owners), owners.data());
 }
 
@@ -64,7 +96,10 @@ void register_part(py::module_& module) {
         .def_property_readonly("boundary_points", [](const Part& self) { return self.mesh.boundary_vertex_count; })
         .def_property_readonly("tetrahedra",
                                [](const py::object& self) { return view(self.cast<Part&>().mesh.tets, self); })
-        .def_property_readonly("global_ids", array_of(&Part::global_id))
+        .def_property_readonly("order", &Part::order)
+        .def_property_readonly("tetra10", &tetra10_of)
+        .def_property_readonly("triangle6", &triangle6_of)
+        .def_property_readonly("global_ids", &ids_of_part)
         .def_property_readonly("region", &regions_of)
         .def_property_readonly("triangles", array_of(&Part::facets))
         .def_property_readonly("patch", array_of(&Part::patch))

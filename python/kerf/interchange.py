@@ -58,21 +58,27 @@ class _Block:
 
     @property
     def kind(self) -> str:
-        return "tetra" if self.dimension == 3 else "triangle"
+        kinds = {4: "tetra", 10: "tetra10", 3: "triangle", 6: "triangle6"}
+        return kinds[self.cells.shape[1]]
+
+
+def _nodes_of_cells(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """Of the tetrahedra and of the triangles: of order 2 those on edges, too."""
+    return (mesh.tetra10, mesh.triangle6) if mesh.order == 2 else (mesh.tetrahedra, mesh.triangles)
 
 
 def _blocks_of(mesh: Mesh) -> list[_Block]:
     blocks = []
+    tets, triangles = _nodes_of_cells(mesh)
     for region in range(max(1, len(mesh.region_names))):
         rows = np.flatnonzero(mesh.region == region)
         name = mesh.region_names[region] if mesh.region_names else None
-        is_all = len(rows) == len(mesh.tetrahedra)
-        blocks.append(_Block(3, region, name, rows, mesh.tetrahedra if is_all else mesh.tetrahedra[rows]))
+        blocks.append(_Block(3, region, name, rows, tets if len(rows) == len(tets) else tets[rows]))
     for patch, name in enumerate(mesh.patch_names):
         if name in mesh.region_names:  # a set has one name for both
             name += "_patch"
         rows = np.flatnonzero(mesh.patch == patch)
-        blocks.append(_Block(2, patch, name, rows, mesh.triangles[rows]))
+        blocks.append(_Block(2, patch, name, rows, triangles[rows]))
     return [block for block in blocks if len(block.rows) > 0]
 
 
@@ -128,15 +134,18 @@ def to_vtk(mesh: Mesh, values: Optional[Values] = None) -> vtk.vtkUnstructuredGr
     """Mesh.to_vtk(), with the values of a solution."""
     from vtkmodules.util.numpy_support import numpy_to_vtk
     from vtkmodules.vtkCommonCore import vtkPoints
-    from vtkmodules.vtkCommonDataModel import VTK_TETRA, VTK_TRIANGLE, vtkCellArray, vtkUnstructuredGrid
+    from vtkmodules.vtkCommonDataModel import (VTK_QUADRATIC_TETRA, VTK_QUADRATIC_TRIANGLE, VTK_TETRA, VTK_TRIANGLE,
+                                               vtkCellArray, vtkUnstructuredGrid)
 
     values = values or Values()
-    tets, triangles = mesh.tetrahedra, mesh.triangles
+    tets, triangles = _nodes_of_cells(mesh)
     grid, points, cells = vtkUnstructuredGrid(), vtkPoints(), vtkCellArray()
     points.SetData(numpy_to_vtk(mesh.points))
-    cells.SetData(_vtk_ids(np.arange(0, tets.size, 4), np.arange(tets.size, tets.size + triangles.size + 1, 3)),
+    cells.SetData(_vtk_ids(np.arange(0, tets.size, tets.shape[1]),
+                           np.arange(tets.size, tets.size + triangles.size + 1, triangles.shape[1])),
                   _vtk_ids(tets.ravel(), triangles.ravel()))
-    types = np.repeat(np.array([VTK_TETRA, VTK_TRIANGLE], np.uint8), [len(tets), len(triangles)])
+    kinds = [VTK_TETRA, VTK_TRIANGLE] if mesh.order == 1 else [VTK_QUADRATIC_TETRA, VTK_QUADRATIC_TRIANGLE]
+    types = np.repeat(np.array(kinds, np.uint8), [len(tets), len(triangles)])
     grid.SetPoints(points)
     grid.SetCells(numpy_to_vtk(types, deep=True), cells)
 

@@ -37,8 +37,24 @@ class Mesh:
 
     @property
     def points(self) -> np.ndarray:
-        """(n, 3) float64."""
+        """(n, 3) float64; of order 2 the corners of cells first, then the nodes on edges."""
         return self._native.points
+
+    @property
+    def order(self) -> int:
+        """Of the cells: 1, or 2 with a node on each edge (order=2 of kerf.mesh())."""
+        return self._native.order
+
+    @property
+    def tetra10(self) -> np.ndarray:
+        """(m, 10) int64 of order 2, else (0, 10): rows of `points`, the corners as in `tetrahedra`, then the nodes on
+        the edges 01 12 02 03 13 23, as meshio and VTK have them."""
+        return self._native.tetra10
+
+    @property
+    def triangle6(self) -> np.ndarray:
+        """(k, 6) int64 of order 2, else (0, 6): the corners as in `triangles`, then the nodes on the edges 01 12 02."""
+        return self._native.triangle6
 
     @property
     def tetrahedra(self) -> np.ndarray:
@@ -91,7 +107,8 @@ class Mesh:
         self._native.save(os.fspath(path), msh_version, msh_ascii)
 
     def to_meshio(self) -> meshio.Mesh:
-        """A mesh of meshio: a block of tetrahedra for each region, one of triangles for each patch.
+        """A mesh of meshio: a block of tetrahedra for each region, one of triangles for each patch; of order 2
+        "tetra10" and "triangle6".
 
         Cell data `part`, `region` and `patch` (-1 where a cell has none). Names are those of cell sets and, with the
         numbers that `kerf merge` gives them, of field data, so that they survive a write to .msh. A write to .vtu has
@@ -242,10 +259,10 @@ class Tetrahedralization(NamedTuple):
 
 def tetrahedralize(vertices: ArrayLike, faces: ArrayLike, size: Size = 0, progress: Progress = None,
                    **options: Any) -> Tetrahedralization:
-    """nodes (n, 3) float64 and tets (m, 4) int64 of a closed surface of triangles.
+    """nodes (n, 3) float64 and tets (m, 4) int64, with order=2 (m, 10), of a closed surface of triangles.
 
     options    those of Surface() and of mesh(), which tell what is raised
     """
     of_surface, of_mesh = split(options)
     result = mesh(Surface(vertices, faces, **of_surface), size=size, progress=progress, **of_mesh)
-    return Tetrahedralization(result.points, result.tetrahedra)
+    return Tetrahedralization(result.points, result.tetra10 if result.order == 2 else result.tetrahedra)

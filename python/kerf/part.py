@@ -38,12 +38,27 @@ class Part:
 
     @property
     def points(self) -> np.ndarray:
-        """(n, 3) float64; those of the triangles come first."""
+        """(n, 3) float64; those of the triangles come first, and of order 2 the nodes on edges behind all corners."""
         return self._native.points
 
     @property
+    def order(self) -> int:
+        """Of the cells: 1 or 2."""
+        return self._native.order
+
+    @property
+    def tetra10(self) -> np.ndarray:
+        """(m, 10) int32 of order 2, else (0, 10): rows of `points` as Mesh.tetra10 has them; made at each call."""
+        return self._native.tetra10
+
+    @property
+    def triangle6(self) -> np.ndarray:
+        """(k, 6) int32 of order 2, else (0, 6): as Mesh.triangle6 has them; made at each call."""
+        return self._native.triangle6
+
+    @property
     def boundary_points(self) -> int:
-        """How many points the triangles have."""
+        """How many corners the triangles have."""
         return self._native.boundary_points
 
     @property

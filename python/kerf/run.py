@@ -77,16 +77,21 @@ class Run:
 
     @property
     def points_count(self) -> int:
-        """Of the whole mesh: one that several parts have counts once."""
+        """Of the whole mesh: one that several parts have counts once. Of order 2 with the nodes on edges."""
         return self._native.points
+
+    @property
+    def order(self) -> int:
+        """Of the cells: 1 or 2. Of a solution that of the solution."""
+        return self._native.order
 
     def __len__(self) -> int:
         """How many parts there are."""
         return len(self._native.numbers)
 
     def mesh(self) -> Mesh:
-        """All parts as one mesh in memory."""
-        return Mesh(_kerf.mesh_of_run(self._native.mesh))
+        """All parts as one mesh in memory, of a solution with the nodes that its values have."""
+        return Mesh(_kerf.mesh_of_run(self._native.solution or self._native.mesh))
 
     def verify(self, input: Union[Surface, Path, None] = None, without_input: bool = False) -> Verification:
         """Reads everything again and checks every law of the mesh, one part at a time, as `kerf verify`.

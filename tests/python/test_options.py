@@ -66,7 +66,7 @@ CALLS = [
          segments_per_turn=3, cells_across=0.5, radius_edge=2, cut="inertia", balance="work", contour="edges",
          surface="split", deviation=0.01, mesher="lattice", improve=True, workers=1, timeout=100, attempts=3,
          tetgen_switches=None),
-    dict(cells=1e2, axis="x", surface="keep", memory="1G", improve=False, feature_angle=30, optimise_surface=1),
+    dict(order=2, curve="straight", cells=1e2, axis="x", surface="keep", memory="1G", improve=False, feature_angle=30, optimise_surface=1),
     dict(cells="200", tetgen_switches="q1.5", fineness="coarse", scale=2, weld="0.001%", fill_holes=3,
          keep_largest=True, voids="parity", fill_voids=False, solid=0, unite=False, no_imprint=None,
          cad_deflection=0, with_=[]),
