@@ -44,7 +44,35 @@ BlockRows pattern_of(const FeSpace& space) {
     return rows;
 }
 
+void add_block(BlockRows& rows, std::int32_t row, std::int32_t column, const Eigen::Matrix3d& block) {
+    const auto begin = rows.columns.begin() + rows.first[row], end = rows.columns.begin() + rows.first[row + 1];
+    double* value = &rows.values[9 * (std::lower_bound(begin, end, column) - rows.columns.begin())];
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) value[3 * i + j] += block(i, j);
+}
+
+void add_spring_blocks(const ElasticProblem& problem, BlockRows& rows) {
+    for (const SurfaceSprings::Facet& facet : problem.springs.facets) {
+        const FacetStiffness blocks = spring_stiffness(*problem.space, problem.springs, facet);
+        const auto nodes = problem.space->nodes_of_facet(facet.part, facet.facet);
+        for (std::size_t a = 0; a < nodes.size(); ++a)
+            for (std::size_t b = 0; b < nodes.size(); ++b)
+                if (nodes[a] >= 0 && nodes[b] >= 0) add_block(rows, nodes[a], nodes[b], blocks[a][b]);
+    }
+}
+
 }  // namespace
+
+void turn_into_frames(const NodeFrames& frames, BlockRows& rows) {
+    if (frames.empty()) return;
+    for (std::int32_t n = 0; n < rows.row_count(); ++n)
+        for (std::int64_t i = rows.first[n]; i < rows.first[n + 1]; ++i) {
+            const NodeFrames::Frame *row = frames.at(n), *column = frames.at(rows.columns[i]);
+            Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> block(&rows.values[9 * i]);
+            if (row) block = (row->axes * block).eval();
+            if (column) block = (block * column->axes.transpose()).eval();
+        }
+}
 
 BlockRows stiffness_of_rank(const ElasticProblem& problem) {
     const FeSpace& space = *problem.space;
@@ -56,16 +84,11 @@ BlockRows stiffness_of_rank(const ElasticProblem& problem) {
         space.element(p, t).stiffness(problem.material(p, t), blocks);
         const auto nodes = space.nodes_of(p, t);
         for (int a = 0; a < nodes_each; ++a) {
-            const std::int32_t row = nodes[a];
-            const auto begin = rows.columns.begin() + rows.first[row], end = rows.columns.begin() + rows.first[row + 1];
-            for (int b = 0; b < nodes_each; ++b) {
-                const std::size_t at = std::lower_bound(begin, end, nodes[b]) - rows.columns.begin();
-                double* value = &rows.values[9 * at];
-                for (int i = 0; i < 3; ++i)
-                    for (int j = 0; j < 3; ++j) value[3 * i + j] += blocks[a][b](i, j);
-            }
+            for (int b = 0; b < nodes_each; ++b) add_block(rows, nodes[a], nodes[b], blocks[a][b]);
         }
     });
+    add_spring_blocks(problem, rows);
+    turn_into_frames(problem.frames, rows);
     return rows;
 }
 

@@ -17,7 +17,11 @@ struct BlockRows {
     std::int32_t row_count() const { return std::ssize(first) - 1; }
 };
 
-/// The stiffness of this rank's elements, before anything is held; ghosts have rows as well. O(n).
+/// Rows and columns of x, y and z become those of the nodes' own axes. O(n).
+void turn_into_frames(const NodeFrames& frames, BlockRows& rows);
+
+/// The stiffness of this rank's elements and springs, along the nodes' axes (ElasticProblem::frames), before anything
+/// is held; ghosts have rows as well. O(n).
 BlockRows stiffness_of_rank(const ElasticProblem& problem);
 
 }  // namespace kerf

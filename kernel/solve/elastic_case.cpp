@@ -1,99 +1,54 @@
 #include "solve/elastic_case.h"
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
-#include <map>
 
-#include <fmt/format.h>
-
-#define TOML_ENABLE_FORMATTERS 0
-#include <toml++/toml.h>
-
-#include "core/error.h"
 #include "io/file_bytes.h"
+#include "solve/body_load_reader.h"
+#include "solve/case_table.h"
+#include "solve/material_reader.h"
 
 namespace kerf {
 
 namespace {
 
-// A table of the file with what may be in it.
-class CaseTable {
- public:
-    using Read = std::function<void(const toml::node&)>;
-    struct Key {
-        std::string name;
-        Read read;
-    };
-
-    CaseTable(const std::string& path, std::string title) : path_(path), title_(std::move(title)) {}
-
-    [[noreturn]] void refuse(const toml::node& place, const std::string& what) const {
-        throw Error(ErrorCode::usage, fmt::format("{}, line {}: {}", path_, place.source().begin.line, what));
-    }
-
-    void read(const toml::table& table, const std::vector<Key>& keys) const {
-        for (const auto& [name, node] : table) {
-            const auto known =
-                std::find_if(keys.begin(), keys.end(), [&, n = name.str()](const Key& key) { return key.name == n; });
-            if (known == keys.end()) {
-                std::string names;
-                for (const Key& key : keys) names += fmt::format("{}{}", names.empty() ? "" : ", ", key.name);
-                refuse(node, fmt::format("{} has no '{}'. There are {}.", title_, name.str(), names));
-            }
-            known->read(node);
-        }
-    }
-
-    double number(const toml::node& node, const char* what) const {
-        const auto value = node.value<double>();
-        if (!value || !std::isfinite(*value)) refuse(node, fmt::format("{} of {} is no number.", what, title_));
-        return *value;
-    }
-    std::string text(const toml::node& node, const char* what) const {
-        const auto value = node.value_exact<std::string>();
-        if (!value || value->empty()) refuse(node, fmt::format("{} of {} is no text in quotes.", what, title_));
-        return *value;
-    }
-    template <std::size_t N>
-    std::array<double, N> numbers(const toml::node& node, const char* what) const {
-        std::array<double, N> values{};
-        const toml::array* list = node.as_array();
-        if (!list || list->size() != N)
-            refuse(node, fmt::format("{} of {} is no list of {} numbers.", what, title_, N));
-        for (std::size_t i = 0; i < N; ++i) values[i] = number((*list)[i], what);
-        return values;
-    }
-    Vec3 vector(const toml::node& node, const char* what) const {
-        const auto values = numbers<3>(node, what);
-        return {values[0], values[1], values[2]};
-    }
-    std::vector<std::string> texts(const toml::node& node, const char* what) const {
-        const toml::array* list = node.as_array();
-        if (!list) return {text(node, what)};
-        std::vector<std::string> values;
-        for (const toml::node& item : *list) values.push_back(text(item, what));
-        if (values.empty()) refuse(node, fmt::format("{} of {} is an empty list.", what, title_));
-        return values;
-    }
-
- private:
-    const std::string& path_;
-    std::string title_;
-};
-
 class CaseReader {
  public:
-    explicit CaseReader(const std::string& path) : path_(path) {}
+    explicit CaseReader(const std::string& path) : path_(path), top_(path, "the case") {}
 
     ElasticCase read(const toml::table& file) {
-        const CaseTable top(path_, "the case");
-        top.read(file,
-                 {{"material", [&](const toml::node& node) { read_materials(node); }},
-                  {"support", [&](const toml::node& node) { for_each("support", node, &CaseReader::read_support); }},
-                  {"load", [&](const toml::node& node) { for_each("load", node, &CaseReader::read_load); }},
-                  {"gravity", [&](const toml::node& node) { read_gravity(node); }},
-                  {"solver", [&](const toml::node& node) { read_solver(node); }}});
+        if (const toml::node* units = file.get("units")) read_units(*units);
+        note_cases(file);
+        const auto lists = [this](const char* what, auto read_one) {
+            return CaseTable::Key{what,
+                                  [this, what, read_one](const toml::node& node) { for_each(what, node, read_one); }};
+        };
+        const auto one_or_more = [this](const char* what, auto read_one) {
+            return CaseTable::Key{what, [this, what, read_one](const toml::node& node) {
+                                      if (node.is_table())
+                                          read_one(*node.as_table());
+                                      else
+                                          for_each(what, node, read_one);
+                                  }};
+        };
+        const auto materials = [&](const toml::node& node) {
+            result_.materials = read_materials(path_, node, result_.units);
+        };
+        const std::vector<std::string>& cases = result_.load_cases;
+        top_.read(
+            file,
+            {{"units", [](const toml::node&) {}},
+             {"material", materials},
+             lists("support", [&](const toml::table& t) { read_support(t); }),
+             lists("spring", [&](const toml::table& t) { read_spring(t); }),
+             lists("load", [&](const toml::table& t) { read_load(t); }),
+             one_or_more("gravity", [&](const toml::table& t) { result_.gravity.push_back(read_gravity(path_, t)); }),
+             one_or_more("rotation",
+                         [&](const toml::table& t) { result_.rotations.push_back(read_rotation(path_, t)); }),
+             one_or_more("temperature",
+                         [&](const toml::table& t) { result_.temperatures.push_back(read_temperature(path_, t)); }),
+             lists("combination",
+                   [&](const toml::table& t) { result_.combinations.push_back(read_combination(path_, t, cases)); }),
+             {"solver", [&](const toml::node& node) { read_solver(node); }}});
         if (result_.materials.empty())
             throw Error(ErrorCode::usage,
                         fmt::format("{} names no material. Add [material.steel] with young and poisson.", path_));
@@ -101,74 +56,43 @@ class CaseReader {
     }
 
  private:
-    const toml::table& table_of(const toml::node& node, const std::string& example) const {
-        const toml::table* table = node.as_table();
-        if (!table) CaseTable(path_, "the case").refuse(node, fmt::format("{} is what is expected here.", example));
-        return *table;
-    }
-
-    void for_each(const char* what, const toml::node& node, void (CaseReader::*read_one)(const toml::table&)) {
+    template <class ReadOne>
+    void for_each(const char* what, const toml::node& node, const ReadOne& read_one) {
         const toml::array* list = node.as_array();
-        if (!list)
-            CaseTable(path_, "the case")
-                .refuse(node, fmt::format("a {} begins with [[{}]], in two brackets.", what, what));
-        for (const toml::node& item : *list) (this->*read_one)(table_of(item, fmt::format("[[{}]]", what)));
+        if (!list) top_.refuse(node, fmt::format("a {} begins with [[{}]], in two brackets.", what, what));
+        for (const toml::node& item : *list) read_one(top_.table(item, fmt::format("[[{}]]", what)));
     }
 
-    void read_materials(const toml::node& node) {
-        for (const auto& [name, item] : table_of(node, "[material.steel]")) {
-            const std::string title(name.str());
-            const CaseTable table(path_, fmt::format("material '{}'", title));
-            MaterialUse use;
-            bool has_young = false, has_poisson = false;
-            use.material.name = title;
-            const toml::table& values = table_of(item, "[material.steel]");
-            table.read(values, {{"young",
-                                 [&](const toml::node& n) {
-                                     use.material.young = table.number(n, "young");
-                                     has_young = true;
-                                     if (use.material.young <= 0) table.refuse(n, "young must be above 0.");
-                                 }},
-                                {"poisson",
-                                 [&](const toml::node& n) {
-                                     use.material.poisson = table.number(n, "poisson");
-                                     has_poisson = true;
-                                     if (use.material.poisson <= -1 || use.material.poisson >= 0.5)
-                                         table.refuse(n, "poisson must lie between -1 and 0.5, without both.");
-                                 }},
-                                {"density",
-                                 [&](const toml::node& n) {
-                                     use.material.density = table.number(n, "density");
-                                     if (use.material.density < 0) table.refuse(n, "density must not be negative.");
-                                 }},
-                                {"region", [&](const toml::node& n) { use.regions = table.texts(n, "region"); }},
-                                {"parts", [&](const toml::node& n) { use.parts = part_numbers(table, n); }},
-                                {"patch", [&](const toml::node& n) { use.patches = table.texts(n, "patch"); }}});
-            if (!has_young || !has_poisson)
-                table.refuse(values, fmt::format("material '{}' needs young and poisson.", title));
-            if (!use.regions.empty() + !use.parts.empty() + !use.patches.empty() > 1)
-                table.refuse(values,
-                             fmt::format("material '{}' has several of region, parts and patch; one of them says where "
-                                         "it is.",
-                                         title));
-            result_.materials.push_back(std::move(use));
+    void read_units(const toml::node& node) {
+        const auto units = node.value_exact<std::string>();
+        if (units != "mm" && units != "m")
+            top_.refuse(node, "units is \"mm\" (mm, N, MPa, t) or \"m\" (m, N, Pa, kg).");
+        result_.units = *units == "mm" ? CaseUnits::mm : CaseUnits::m;
+    }
+
+    // Names of cases wherever they are, in the order of the file.
+    void note_cases(const toml::table& file) {
+        std::vector<std::pair<std::pair<std::size_t, std::size_t>, std::string>> found;
+        const auto note = [&](const toml::table& table) {
+            const toml::node* name = table.get("case");
+            if (!name || !name->value_exact<std::string>()) return;
+            const toml::source_position at = name->source().begin;
+            found.push_back({{at.line, at.column}, *name->value_exact<std::string>()});
+        };
+        for (const char* what : {"load", "gravity", "rotation", "temperature"}) {
+            const toml::node* node = file.get(what);
+            if (node && node->is_table()) note(*node->as_table());
+            if (!node || !node->is_array()) continue;
+            for (const toml::node& item : *node->as_array())
+                if (item.is_table()) note(*item.as_table());
         }
+        std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+        std::vector<std::string>& names = result_.load_cases;
+        for (const auto& [place, name] : found)
+            if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
 
-    static std::vector<NodeId> part_numbers(const CaseTable& table, const toml::node& node) {
-        std::vector<NodeId> parts;
-        const toml::array* list = node.as_array();
-        if (!list || list->empty()) table.refuse(node, "parts is no list of numbers of parts.");
-        for (const toml::node& item : *list) {
-            const auto number = item.value_exact<std::int64_t>();
-            if (!number || *number < 1 || *number > std::numeric_limits<NodeId>::max())
-                table.refuse(item, "parts is no list of numbers of parts.");
-            parts.push_back(static_cast<NodeId>(*number));
-        }
-        return parts;
-    }
-
-    // The keys that select, of supports and loads.
+    // The keys that select, of supports, springs and loads.
     static std::vector<CaseTable::Key> selection_keys(const CaseTable& table, SurfaceSelection& where,
                                                       std::string& label) {
         return {{"patch",
@@ -204,103 +128,158 @@ class CaseReader {
         if (ways != 1) table.refuse(values, "exactly one of patch, box, plane and point says where it is.");
     }
 
-    void read_support(const toml::table& values) {
-        const CaseTable table(path_, "a support");
-        Support support;
-        std::string label;
-        std::vector<CaseTable::Key> keys = selection_keys(table, support.where, label);
-        keys.push_back({"name", [&](const toml::node& n) { support.name = table.text(n, "name"); }});
-        constexpr std::array<const char*, 3> axes = {"x", "y", "z"};
-        for (std::size_t i = 0; i < axes.size(); ++i)
-            keys.push_back({axes[i], [&support, &table, i, axis = axes[i]](const toml::node& n) {
-                                support.displacement[i] = table.number(n, axis);
-                            }});
-        keys.push_back({"fixed", [&](const toml::node& n) {
-                            if (n.value_exact<bool>() != true) table.refuse(n, "fixed can only be true.");
-                            support.displacement.fill(0.0);
-                        }});
-        table.read(values, keys);
-        require_one_selection(table, values, support.where);
-        if (!support.displacement[0] && !support.displacement[1] && !support.displacement[2])
-            table.refuse(values, "a support needs x, y or z (displacements), or fixed = true.");
-        if (support.name.empty()) support.name = label;
-        result_.supports.push_back(std::move(support));
-    }
-
-    void read_load(const toml::table& values) {
-        const CaseTable table(path_, "a load");
-        Load load;
-        std::string label;
-        std::vector<CaseTable::Key> keys = selection_keys(table, load.where, label);
-        keys.push_back({"name", [&](const toml::node& n) { load.name = table.text(n, "name"); }});
-        keys.push_back({"case", [&](const toml::node& n) { load.load_case = table.text(n, "case"); }});
-        keys.push_back({"pressure", [&](const toml::node& n) { load.pressure = table.number(n, "pressure"); }});
-        keys.push_back({"traction", [&](const toml::node& n) { load.traction = table.vector(n, "traction"); }});
-        keys.push_back({"force", [&](const toml::node& n) { load.force = table.vector(n, "force"); }});
-        table.read(values, keys);
-        require_one_selection(table, values, load.where);
-        if ((load.pressure ? 1 : 0) + (load.traction ? 1 : 0) + (load.force ? 1 : 0) != 1)
-            table.refuse(values, "a load needs exactly one of pressure, traction and force.");
-        if (load.where.point && !load.force) table.refuse(values, "at a point there can only be a force.");
-        if (load.name.empty()) load.name = label;
-        if (load.load_case.find('/') != load.load_case.npos || load.load_case.starts_with('.'))
-            table.refuse(values,
-                         "the name of a case becomes that of a folder: no '/' in it, and no '.' at its beginning.");
-        result_.loads.push_back(std::move(load));
-    }
-
-    void read_gravity(const toml::node& node) {
-        const CaseTable table(path_, "gravity");
-        const toml::table& values = table_of(node, "[gravity]");
-        table.read(values,
-                   {{"acceleration", [&](const toml::node& n) { result_.gravity = table.vector(n, "acceleration"); }}});
-        if (!result_.gravity) table.refuse(values, "gravity needs acceleration = [x, y, z].");
-    }
-
-    void read_solver(const toml::node& node) {
-        const CaseTable table(path_, "solver");
-        SolverOptions& solver = result_.solver;
-        table.read(table_of(node, "[solver]"),
-                   {{"order",
-                     [&](const toml::node& n) {
-                         const auto order = n.value_exact<std::int64_t>();
-                         if (order != 1 && order != 2) table.refuse(n, "order is 1 or 2.");
-                         solver.order = static_cast<int>(*order);
-                     }},
-                    {"preconditioner",
-                     [&](const toml::node& n) {
-                         solver.preconditioner = table.text(n, "preconditioner");
-                         if (solver.preconditioner != "gamg" && solver.preconditioner != "icc")
-                             table.refuse(n, "preconditioner is \"gamg\" or \"icc\".");
-                     }},
-                    {"rtol",
-                     [&](const toml::node& n) {
-                         solver.rtol = table.number(n, "rtol");
-                         if (solver.rtol <= 0 || solver.rtol >= 1) table.refuse(n, "rtol must lie between 0 and 1.");
-                     }},
-                    {"max_iterations",
-                     [&](const toml::node& n) {
-                         const auto most = n.value_exact<std::int64_t>();
-                         if (!most || *most < 1 || *most > 1000000)
-                             table.refuse(n, "max_iterations is a number from 1 to 1000000.");
-                         solver.max_iterations = static_cast<int>(*most);
-                     }},
-                    {"petsc", [&](const toml::node& n) { solver.petsc = table.text(n, "petsc"); }}});
-    }
+    void read_support(const toml::table& values);
+    void read_spring(const toml::table& values);
+    void read_load(const toml::table& values);
+    void read_solver(const toml::node& node);
 
     const std::string& path_;
+    CaseTable top_;
     ElasticCase result_;
 };
+
+// In which of the four frames its displacements are.
+struct FrameKeys {
+    Support::Frame frame;
+    std::array<const char*, 3> names;  // of displacements; nullptr: none
+};
+constexpr std::array<FrameKeys, 4> frame_keys = {{{Support::Frame::global, {"x", "y", "z"}},
+                                                  {Support::Frame::normal, {"normal", nullptr, nullptr}},
+                                                  {Support::Frame::direction, {"along", nullptr, nullptr}},
+                                                  {Support::Frame::cylinder, {"radial", "axial", "tangential"}}}};
+
+void CaseReader::read_support(const toml::table& values) {
+    const CaseTable table(path_, "a support");
+    Support support;
+    std::string label;
+    std::vector<Support::Frame> frames;
+    bool has_axis = false, has_direction = false;
+    std::vector<CaseTable::Key> keys = selection_keys(table, support.where, label);
+    keys.push_back({"name", [&](const toml::node& n) { support.name = table.text(n, "name"); }});
+    for (const FrameKeys& of_frame : frame_keys)
+        for (std::size_t i = 0; i < 3; ++i)
+            if (const char* name = of_frame.names[i])
+                keys.push_back({name, [&support, &table, &frames, &of_frame, i, name](const toml::node& n) {
+                                    support.displacement[i] = table.number(n, name);
+                                    frames.push_back(of_frame.frame);
+                                }});
+    keys.push_back({"fixed", [&](const toml::node& n) {
+                        table.yes(n, "fixed");
+                        support.displacement.fill(0.0);
+                        frames.push_back(Support::Frame::global);
+                    }});
+    keys.push_back({"direction", [&](const toml::node& n) {
+                        support.direction = table.unit_vector(n, "direction");
+                        has_direction = true;
+                    }});
+    keys.push_back({"axis", [&](const toml::node& n) {
+                        support.axis = table.axis(n);
+                        has_axis = true;
+                    }});
+    table.read(values, keys);
+    require_one_selection(table, values, support.where);
+    if (frames.empty())
+        table.refuse(
+            values,
+            "a support needs x, y or z (displacements), or fixed = true, or normal, or direction with along, or "
+            "axis with radial, axial or tangential.");
+    support.frame = frames.front();
+    if (std::count(frames.begin(), frames.end(), support.frame) != std::ssize(frames))
+        table.refuse(values,
+                     "of x y z, normal, along and radial axial tangential a support has one kind. Write a "
+                     "support for each.");
+    if (has_direction != (support.frame == Support::Frame::direction))
+        table.refuse(values, "direction = [x, y, z] and along (the displacement) go together.");
+    if (has_axis != (support.frame == Support::Frame::cylinder))
+        table.refuse(values, "axis and radial, axial or tangential (displacements) go together.");
+    if (support.where.point && support.frame == Support::Frame::normal)
+        table.refuse(values, "at a point there is no normal: say direction and along.");
+    if (support.name.empty()) support.name = label;
+    result_.supports.push_back(std::move(support));
+}
+
+void CaseReader::read_spring(const toml::table& values) {
+    const CaseTable table(path_, "a spring");
+    Spring spring;
+    std::string label;
+    bool has_stiffness = false;
+    std::vector<CaseTable::Key> keys = selection_keys(table, spring.where, label);
+    keys.push_back({"name", [&](const toml::node& n) { spring.name = table.text(n, "name"); }});
+    keys.push_back({"normal", [&](const toml::node& n) { spring.normal = table.number_above_zero(n, "normal"); }});
+    keys.push_back({"stiffness", [&](const toml::node& n) {
+                        has_stiffness = true;
+                        spring.stiffness =
+                            n.is_array() ? table.vector(n, "stiffness") : Vec3::Constant(table.number(n, "stiffness"));
+                        if (spring.stiffness.minCoeff() < 0 || spring.stiffness.maxCoeff() <= 0)
+                            table.refuse(n, "stiffness must not be negative, nor 0 in all directions.");
+                    }});
+    table.read(values, keys);
+    require_one_selection(table, values, spring.where);
+    if (has_stiffness == spring.normal.has_value())
+        table.refuse(values,
+                     "a spring needs exactly one of normal and stiffness, forces per area and displacement: along the "
+                     "normal, or along x, y and z.");
+    if (spring.where.point) table.refuse(values, "a spring has an area: say patch, box or plane.");
+    if (spring.name.empty()) spring.name = label;
+    result_.springs.push_back(std::move(spring));
+}
+
+void CaseReader::read_load(const toml::table& values) {
+    const CaseTable table(path_, "a load");
+    Load load;
+    std::string label;
+    std::vector<CaseTable::Key> keys = selection_keys(table, load.where, label);
+    keys.push_back({"name", [&](const toml::node& n) { load.name = table.text(n, "name"); }});
+    keys.push_back({"case", [&](const toml::node& n) { load.load_case = table.case_name(n); }});
+    keys.push_back({"pressure", [&](const toml::node& n) { load.pressure = table.number(n, "pressure"); }});
+    keys.push_back({"traction", [&](const toml::node& n) { load.traction = table.vector(n, "traction"); }});
+    keys.push_back({"force", [&](const toml::node& n) { load.force = table.vector(n, "force"); }});
+    table.read(values, keys);
+    require_one_selection(table, values, load.where);
+    if ((load.pressure ? 1 : 0) + (load.traction ? 1 : 0) + (load.force ? 1 : 0) != 1)
+        table.refuse(values, "a load needs exactly one of pressure, traction and force.");
+    if (load.where.point && !load.force) table.refuse(values, "at a point there can only be a force.");
+    if (load.name.empty()) load.name = label;
+    result_.loads.push_back(std::move(load));
+}
+
+void CaseReader::read_solver(const toml::node& node) {
+    const CaseTable table(path_, "solver");
+    SolverOptions& solver = result_.solver;
+    table.read(
+        top_.table(node, "[solver]"),
+        {{"order",
+          [&](const toml::node& n) {
+              const auto order = n.value_exact<std::int64_t>();
+              if (order != 1 && order != 2) table.refuse(n, "order is 1 or 2.");
+              solver.order = static_cast<int>(*order);
+          }},
+         {"preconditioner",
+          [&](const toml::node& n) {
+              solver.preconditioner = table.text(n, "preconditioner");
+              if (solver.preconditioner != "gamg" && solver.preconditioner != "icc")
+                  table.refuse(n, "preconditioner is \"gamg\" or \"icc\".");
+          }},
+         {"rtol",
+          [&](const toml::node& n) {
+              solver.rtol = table.number(n, "rtol");
+              if (solver.rtol <= 0 || solver.rtol >= 1) table.refuse(n, "rtol must lie between 0 and 1.");
+          }},
+         {"max_iterations",
+          [&](const toml::node& n) {
+              const auto most = n.value_exact<std::int64_t>();
+              if (!most || *most < 1 || *most > 1000000)
+                  table.refuse(n, "max_iterations is a number from 1 to 1000000.");
+              solver.max_iterations = static_cast<int>(*most);
+          }},
+         {"inertia_relief", [&](const toml::node& n) { solver.inertia_relief = table.yes(n, "inertia_relief"); }},
+         {"petsc", [&](const toml::node& n) { solver.petsc = table.text(n, "petsc"); }}});
+}
 
 }  // namespace
 
 std::vector<std::string> ElasticCase::names() const {
-    std::vector<std::string> names;
-    for (const Load& load : loads)
-        if (!load.load_case.empty() && std::find(names.begin(), names.end(), load.load_case) == names.end())
-            names.push_back(load.load_case);
-    if (names.empty()) names.emplace_back();
-    return names;
+    return load_cases.empty() ? std::vector<std::string>{""} : load_cases;
 }
 
 ElasticCase read_case(const std::string& path) {

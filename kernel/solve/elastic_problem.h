@@ -8,38 +8,82 @@
 #include "solve/elastic_case.h"
 #include "solve/fe_space.h"
 #include "solve/held_forces.h"
+#include "solve/inertia_relief.h"
+#include "solve/node_frames.h"
 #include "solve/space_bodies.h"
 #include "solve/surface_selection.h"
+#include "solve/surface_springs.h"
 
 namespace kerf {
 
-/// Degrees of freedom are 3 * node + component. Arrays over local nodes hold the same for a node on every rank.
+/// What inertia takes of the loads of a body, where supports leave it free.
+struct BodyInertia {
+    Vec3 centre = Vec3::Zero();                ///< of its mass
+    Vec3 acceleration = Vec3::Zero();          ///< of the centre
+    Vec3 angular_acceleration = Vec3::Zero();  ///< radians per time squared
+};
+
+/// One set of loads, or several with factors.
+struct ProblemCase {
+    std::string name;
+    std::vector<double> forces;         ///< #dof of x, y and z; ranks have shares, which add up
+    HeldForces held_forces;             ///< those at what is held, without those of temperature, likewise
+    std::vector<double> thermal;        ///< thermal strain of each material, in every direction; empty: none
+    Vec3 inertia = Vec3::Zero();        ///< the sum of the forces of inertia, over all ranks
+    std::vector<BodyInertia> relieved;  ///< of bodies that are free
+    std::vector<std::pair<std::size_t, double>> factors;  ///< of a combination: cases before it
+};
+
+/// Degrees of freedom are 3 * node + component, along x, y and z but where `frames` says otherwise. Arrays over local
+/// nodes hold the same for a node on every rank.
 struct ElasticProblem {
     const FeSpace* space = nullptr;
     std::vector<Material> materials;
     std::vector<std::vector<std::uint8_t>> material_of_tet;  ///< of each part of this rank; empty: the first material
-    std::vector<std::string> supports;                       ///< names
-    std::vector<std::int32_t> support_of;                    ///< #dof: the first support that holds it, or `free`
-    std::vector<double> prescribed;                          ///< #dof: displacement where it is held
-    std::vector<std::string> cases;                          ///< names
-    std::vector<std::vector<double>> forces;                 ///< of each case, #dof; ranks have shares, which add up
-    std::vector<HeldForces> held_forces;                     ///< of each case: those at what is held, likewise
+    std::vector<std::string> supports;     ///< names: of supports, of springs, and of what inertia relieves
+    std::vector<Vec3> places;              ///< of supports: the centres of their areas, for moments
+    std::vector<std::int32_t> support_of;  ///< #dof: the first support that holds it, or `free`
+    std::vector<double> prescribed;        ///< #dof: displacement where it is held
+    std::vector<ProblemCase> cases;        ///< combinations last
+    NodeFrames frames;
+    SurfaceSprings springs;
+    std::int32_t first_spring = 0;  ///< among `supports`
+    InertiaRelief relief;
 
     static constexpr std::int32_t free = INT32_MAX;
     bool is_held(std::size_t dof) const { return support_of[dof] != free; }
     const Material& material(std::size_t p, std::size_t tet) const {
         return materials[material_of_tet.empty() ? 0 : material_of_tet[p][tet]];
     }
+    /// Of a tetrahedron in a case, in every direction; without cases 0.
+    double thermal_strain(std::size_t number, std::size_t p, std::size_t tet) const {
+        if (number >= cases.size() || cases[number].thermal.empty()) return 0;
+        return cases[number].thermal[material_of_tet.empty() ? 0 : material_of_tet[p][tet]];
+    }
+    /// Calls take(support, force) for what those who hold the node have of a force there.
+    template <class Take>
+    void share_among_holders(std::int32_t node, const Vec3& force, Take take) const {
+        const std::size_t dof = 3 * static_cast<std::size_t>(node);
+        const NodeFrames::Frame* frame = frames.at(node);
+        const Vec3 shares = frame ? Vec3(frame->shares * force) : force;
+        for (std::size_t c = 0; c < 3; ++c) {
+            if (!is_held(dof + c)) continue;
+            take(support_of[dof + c],
+                 Vec3(shares[c] * (frame ? Vec3(frame->directions.col(c)) : Vec3::Unit(c).eval())));
+        }
+    }
+    bool holds_any(std::int32_t node) const {
+        const std::size_t dof = 3 * static_cast<std::size_t>(node);
+        return is_held(dof) || is_held(dof + 1) || is_held(dof + 2);
+    }
 };
 
 /// Collective. Throws Error(usage) on all ranks alike: for what the mesh does not have, for a cell without a material
-/// or with two, and for a body that its supports leave free to move, naming the motion.
+/// or with two, and for a body that its supports leave free to move, naming the motion, unless inertia shall relieve
+/// it.
 ElasticProblem make_problem(const FeSpace& space, const MeshOutline& outline, const ElasticCase& wanted);
 
 /// No displacements, no forces, one material: for who sets the rest.
 ElasticProblem make_free_problem(const FeSpace& space, const Material& material);
-
-/// Throws Error(usage) naming the rigid motions of bodies that the supports do not prevent. Collective.
-void require_supported(const ElasticProblem& problem, const SpaceBodies& bodies);
 
 }  // namespace kerf

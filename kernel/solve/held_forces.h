@@ -5,40 +5,60 @@
 #include <span>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "core/types.h"
 
 namespace kerf {
 
-/// Sums for each support and region. A node on a wall has cells of several regions, and each counts what its own cells
-/// do: the sum over the regions is that of the support.
+/// A force, and its moment about a point that the user of it knows.
+struct ForceAndMoment {
+    Vec3 force = Vec3::Zero();
+    Vec3 moment = Vec3::Zero();
+
+    ForceAndMoment& operator+=(const ForceAndMoment& other) {
+        force += other.force;
+        moment += other.moment;
+        return *this;
+    }
+};
+
+/// Sums for each support, or what else holds, and region. A node on a wall has cells of several regions, and each
+/// counts what its own cells do: the sum over the regions is that of the support. Moments are about a point of the
+/// support.
 class HeldForces {
  public:
     HeldForces() = default;
-    HeldForces(std::size_t supports, std::size_t regions) : supports_(supports), sums_(3 * supports * regions, 0) {}
+    /// `places`: a point of each support.
+    HeldForces(std::vector<Vec3> places, std::size_t regions)
+        : places_(std::move(places)), sums_(6 * places_.size() * regions, 0) {}
 
-    void add(std::size_t support, std::size_t region, std::size_t component, double force) {
-        sums_[3 * (supports_ * region + support) + component] += force;
+    /// A force that acts at `at`.
+    void add(std::size_t support, std::size_t region, const Vec3& force, const Vec3& at) {
+        double* sum = &sums_[6 * (supports() * region + support)];
+        Eigen::Map<Vec3>{sum} += force;
+        Eigen::Map<Vec3>{sum + 3} += (at - places_[support]).cross(force);
     }
-    Vec3 of(std::size_t support, std::size_t region) const {
-        return Eigen::Map<const Vec3>(&sums_[3 * (supports_ * region + support)]);
+    ForceAndMoment of(std::size_t support, std::size_t region) const {
+        const double* sum = &sums_[6 * (supports() * region + support)];
+        return {Eigen::Map<const Vec3>(sum), Eigen::Map<const Vec3>(sum + 3)};
     }
     /// Over all regions.
-    Vec3 of(std::size_t support) const {
-        Vec3 sum = Vec3::Zero();
+    ForceAndMoment of(std::size_t support) const {
+        ForceAndMoment sum;
         for (std::size_t region = 0; region < regions(); ++region) sum += of(support, region);
         return sum;
     }
-    /// Of the same supports and regions.
-    HeldForces& operator-=(const HeldForces& other) {
-        for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] -= other.sums_[i];
-        return *this;
+    /// Those of the same supports and regions, times a factor.
+    void add(double factor, const HeldForces& other) {
+        for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += factor * other.sums_[i];
     }
-    std::size_t supports() const { return supports_; }
-    std::size_t regions() const { return supports_ ? sums_.size() / (3 * supports_) : 0; }
+    std::size_t supports() const { return places_.size(); }
+    std::size_t regions() const { return places_.empty() ? 0 : sums_.size() / (6 * places_.size()); }
     std::span<double> numbers() { return sums_; }
 
  private:
-    std::size_t supports_ = 0;
+    std::vector<Vec3> places_;
     std::vector<double> sums_;
 };
 

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/stopwatch.h"
 #include "solve/block_rows.h"
+#include "solve/turned_motions.h"
 
 namespace kerf {
 
@@ -282,6 +283,8 @@ void LinearSystem::Impl::give_rigid_motions() {
     check(VecSetBlockSize(places, 3));
     MatNullSpace motions = nullptr;
     check(MatNullSpaceCreateRigidBody(places, &motions));
+    if (space.ranks().all_reduce(problem.frames.empty() ? 0 : 1, Reduction::largest) > 0)
+        check(turn_into_frames(problem.frames, &motions));
     check(MatSetNearNullSpace(matrix, motions));
     check(MatNullSpaceDestroy(&motions));
     check(VecDestroy(&places));
@@ -335,6 +338,7 @@ SolveOutcome LinearSystem::solve(const std::vector<double>& forces, std::vector<
     const FeSpace& space = *problem.space;
     SolveOutcome outcome;
     std::vector<double> right = forces;
+    problem.frames.to_frames(right);
     for (std::size_t dof = 0; dof < right.size(); ++dof)
         right[dof] = problem.is_held(dof) ? 0 : right[dof] + impl_->of_prescribed[dof];
     space.exchange().add_to_owners(std::span(right), 3);
@@ -379,6 +383,7 @@ SolveOutcome LinearSystem::solve(const std::vector<double>& forces, std::vector<
     space.exchange().to_ghosts(std::span(displacement), 3);
     for (std::size_t dof = 0; dof < displacement.size(); ++dof)
         if (problem.is_held(dof)) displacement[dof] = problem.prescribed[dof];
+    problem.frames.from_frames(displacement);
     return outcome;
 }
 

@@ -13,9 +13,11 @@ using SymmetricTensor = Eigen::Matrix<double, 6, 1>;
 /// A linear elastic material in any consistent units: young [force / length^2], density [mass / length^3].
 struct Material {
     std::string name;
-    double young = 1;    ///< > 0
-    double poisson = 0;  ///< in (-1, 1/2)
-    double density = 0;  ///< >= 0
+    double young = 1;      ///< > 0
+    double poisson = 0;    ///< in (-1, 1/2)
+    double density = 0;    ///< >= 0
+    double expansion = 0;  ///< thermal, of lengths [1 / temperature]; >= 0
+    double yield = 0;      ///< stress [force / length^2]; 0: not known
 
     /// Lame's constants.
     double lambda() const { return young * poisson / ((1 + poisson) * (1 - 2 * poisson)); }

@@ -65,10 +65,11 @@ class SolveStages {
     void open_folder();
     FeSpace make_space();
     void solve_case(LinearSystem& system, std::size_t number);
-    void report_case(std::size_t number, CaseReport& of_case);
-    Extreme largest(double value, const Vec3& place) const;
-    std::vector<RegionResult> results_of_regions(const StressField& field, const HeldForces& reactions) const;
+    void combine(std::size_t number);
+    void finish_case(std::size_t number);
+    void require_no_reaction(std::size_t number) const;
     void write();
+    void write_tables();
     void write_sizes_of_next();
     void finish();
 
@@ -148,79 +149,12 @@ FeSpace SolveStages::make_space() {
     return space;
 }
 
-Extreme SolveStages::largest(double value, const Vec3& place) const {
-    std::array<double, 4> most{value, place.x(), place.y(), place.z()};
-    for (const std::array<double, 4>& of_rank : all_gather(ranks_, most))
-        if (of_rank[0] > most[0]) most = of_rank;
-    return {most[0], Vec3(most[1], most[2], most[3])};
-}
-
-// A part lies in one region.
-std::vector<RegionResult> SolveStages::results_of_regions(const StressField& field, const HeldForces& reactions) const {
-    const std::vector<std::string>& names = parts_->outline().region_names;
-    std::vector<RegionResult> results(names.size());
-    std::vector<double> energies(names.size(), 0);
-    for (std::size_t p = 0; p < space_->parts().size() && !names.empty(); ++p) {
-        const Part& part = space_->parts()[p];
-        const std::size_t region = space_->region_of(p);
-        energies[region] += field.parts[p].energy;
-        for (std::size_t v = 0; v < field.parts[p].at_vertex.size(); ++v) {
-            const double stress = von_mises(field.parts[p].at_vertex[v]);
-            if (stress > results[region].von_mises.value) results[region].von_mises = {stress, part.mesh.vertices[v]};
-        }
-    }
-    ranks_.all_reduce(std::span(energies), Reduction::sum);
-    for (std::size_t r = 0; r < names.size(); ++r) {
-        const Extreme& own = results[r].von_mises;
-        results[r] = {names[r], energies[r], largest(own.value, own.place), {}};
-        for (std::size_t s = 0; s < reactions.supports(); ++s) results[r].reactions.push_back(reactions.of(s, r));
-    }
-    return results;
-}
-
-void SolveStages::report_case(std::size_t number, CaseReport& of_case) {
-    const CaseSolution& solution = solutions_.back();
-    const std::vector<double>& forces = problem_.forces[number];
-    for (std::size_t dof = 0; dof < forces.size(); ++dof) of_case.load[dof % 3] += forces[dof];
-    ranks_.all_reduce(std::span(of_case.load.data(), 3), Reduction::sum);
-    const HeldForces held = reactions(problem_, solution.displacement, problem_.held_forces[number]);
-    for (std::size_t s = 0; s < held.supports(); ++s) of_case.reactions.push_back(held.of(s));
-    Vec3 sum = of_case.load;
-    double scale = of_case.load.norm();
-    for (const Vec3& reaction : of_case.reactions) {
-        sum += reaction;
-        scale = std::max(scale, reaction.norm());
-    }
-    of_case.imbalance = scale > 0 ? sum.norm() / scale : 0;
-    of_case.norms = solution.stress.norms;
-    double most = -1, most_stress = -1;
-    Vec3 place = Vec3::Zero(), place_of_stress = Vec3::Zero();
-    for (std::int32_t n = 0; n < space_->owned_count(); ++n) {
-        const double length = Eigen::Map<const Vec3>(&solution.displacement[3 * n]).norm();
-        if (length > most) {
-            most = length;
-            place = space_->points()[n];
-        }
-    }
-    for (std::size_t p = 0; p < space_->parts().size(); ++p)
-        for (std::size_t v = 0; v < solution.stress.parts[p].at_vertex.size(); ++v) {
-            const double stress = von_mises(solution.stress.parts[p].at_vertex[v]);
-            if (stress > most_stress) {
-                most_stress = stress;
-                place_of_stress = space_->parts()[p].mesh.vertices[v];
-            }
-        }
-    of_case.displacement = largest(most, place);
-    of_case.von_mises = largest(most_stress, place_of_stress);
-    of_case.regions = results_of_regions(solution.stress, held);
-}
-
 void SolveStages::solve_case(LinearSystem& system, std::size_t number) {
     CaseReport& of_case = report_.cases.emplace_back();
     CaseSolution& solution = solutions_.emplace_back();
-    of_case.name = solution.name = problem_.cases[number];
+    of_case.name = solution.name = problem_.cases[number].name;
     of_case.outcome =
-        system.solve(problem_.forces[number], solution.displacement, [this](int iteration, double residual) {
+        system.solve(problem_.cases[number].forces, solution.displacement, [this](int iteration, double residual) {
             if (listener_ && is_root()) listener_->on_iteration(iteration, residual, report_.wanted.solver.rtol);
         });
     report_.seconds.setup += of_case.outcome.setup_seconds;
@@ -234,10 +168,52 @@ void SolveStages::solve_case(LinearSystem& system, std::size_t number) {
                         report_.wanted.solver.rtol,
                         of_case.name.empty() ? "" : fmt::format(" in case '{}'", of_case.name), of_case.outcome.reason,
                         of_case.outcome.iterations, of_case.outcome.residual, way_out(report_.wanted.solver)));
+    if (problem_.relief.is_needed()) problem_.relief.remove_motions(problem_, solution.displacement);
+    finish_case(number);
+}
+
+// Cases with factors, added up.
+void SolveStages::combine(std::size_t number) {
+    CaseReport& of_case = report_.cases.emplace_back();
+    CaseSolution& solution = solutions_.emplace_back();
+    of_case.name = solution.name = problem_.cases[number].name;
+    of_case.outcome.converged = true;
+    of_case.outcome.reason = "sum of cases";
+    solution.displacement.assign(3 * space_->node_count(), 0);
+    for (const auto& [of, factor] : problem_.cases[number].factors) {
+        for (std::size_t dof = 0; dof < solution.displacement.size(); ++dof)
+            solution.displacement[dof] += factor * solutions_[of].displacement[dof];
+        of_case.outcome.residual = std::max(of_case.outcome.residual, report_.cases[of].outcome.residual);
+    }
+    finish_case(number);
+}
+
+void SolveStages::finish_case(std::size_t number) {
     progress("recover", number, problem_.cases.size());
-    solution.stress = recover_stress(problem_, solution.displacement);
-    report_case(number, of_case);
+    CaseSolution& solution = solutions_.back();
+    solution.stress = recover_stress(problem_, solution.displacement, number);
+    report_case(problem_, solution, number, parts_->outline().region_names, report_.cases.back());
+    if (problem_.relief.is_needed()) require_no_reaction(number);
     report_.seconds.recover += stage_.lap();
+}
+
+// Where inertia balances the loads, what fixes the body must not be felt: but for residuals of the equations.
+void SolveStages::require_no_reaction(std::size_t number) const {
+    const std::vector<double>& forces = problem_.cases[number].forces;
+    std::array<double, 2> sums{};  // of squares, of sizes
+    for (const double force : forces) {
+        sums[0] += force * force;
+        sums[1] += std::abs(force);
+    }
+    ranks_.all_reduce(std::span<double>(sums), Reduction::sum);
+    const double rounding = 1e-9 * sums[1];
+    const double allowed = 10 * report_.wanted.solver.rtol * std::sqrt(3 * report_.nodes * sums[0]) + rounding;
+    const double reaction = report_.cases.back().reactions.back().force.norm();
+    if (reaction > allowed)
+        throw Error(ErrorCode::internal,
+                    fmt::format("Inertia does not balance the loads: the points that fix the body react with {:.3g}, "
+                                "where {:.3g} at most is allowed.",
+                                reaction, allowed));
 }
 
 void SolveStages::write() {
@@ -263,9 +239,20 @@ void SolveStages::write() {
         write_pvtu(folder_->file("mesh.pvtu"), pieces, layout, values_of_part(problem_, solutions_, 0));
         report_.files.push_back(describe_file(folder_->partial_path(), "mesh.pvtu"));
     });
+    write_tables();
     write_sizes_of_next();
     sort_files(report_.files);
     report_.seconds.write = stage_.lap();
+}
+
+void SolveStages::write_tables() {
+    in_agreement(ranks_, [&] {
+        if (!is_root()) return;
+        write_text_file(folder_->file(results_file), results_csv(report_.cases));
+        write_text_file(folder_->file(reactions_file), reactions_csv(report_.cases, report_.reacting));
+        for (const char* file : {results_file, reactions_file})
+            report_.files.push_back(describe_file(folder_->partial_path(), file));
+    });
 }
 
 void SolveStages::write_sizes_of_next() {
@@ -303,7 +290,8 @@ SolveReport SolveStages::run() {
     space_.emplace(make_space());
     problem_ = make_problem(*space_, parts_->outline(), report_.wanted);
     report_.nodes = space_->total_rows();
-    report_.supports = problem_.supports;
+    for (std::size_t s = 0; s < problem_.supports.size(); ++s)
+        report_.reacting.push_back({problem_.supports[s], problem_.places[s]});
     for (std::int32_t dof = 0; dof < 3 * space_->owned_count(); ++dof) report_.held += problem_.is_held(dof) ? 1 : 0;
     report_.held = ranks_.all_reduce(report_.held, Reduction::sum);
     open_folder();
@@ -314,10 +302,13 @@ SolveReport SolveStages::run() {
         LinearSystem system(problem_, report_.wanted.solver);
         report_.seconds.assemble = stage_.lap();
         for (std::size_t i = 0; i < problem_.cases.size(); ++i) {
+            if (!problem_.cases[i].factors.empty()) continue;
             progress("solve", i, problem_.cases.size());
             solve_case(system, i);
         }
     }
+    for (std::size_t i = 0; i < problem_.cases.size(); ++i)
+        if (!problem_.cases[i].factors.empty()) combine(i);
     progress("write", 0, 0);
     write();
     finish();

@@ -7,9 +7,9 @@
 
 #include "mpi/mpi_ranks.h"
 #include "report/listener.h"
+#include "solve/case_report.h"
 #include "solve/elastic_case.h"
-#include "solve/linear_system.h"
-#include "solve/stress.h"
+#include "solve/result_tables.h"
 #include "solve/surface_selection.h"
 
 namespace kerf {
@@ -23,32 +23,6 @@ struct SolveRequest {
     std::optional<double> target_error;
 };
 
-/// The largest value of a measure and where it is.
-struct Extreme {
-    double value = 0;
-    Vec3 place = Vec3::Zero();
-};
-
-/// What came out for one of several regions.
-struct RegionResult {
-    std::string name;
-    double energy = 0;  ///< of the strain
-    Extreme von_mises;
-    std::vector<Vec3> reactions;  ///< of each support, to cells of the region
-};
-
-/// What came out for one set of loads.
-struct CaseReport {
-    std::string name;
-    SolveOutcome outcome;
-    Vec3 load = Vec3::Zero();     ///< sum of all nodal forces
-    std::vector<Vec3> reactions;  ///< of each support
-    double imbalance = 0;         ///< |loads + reactions| beside the largest of them
-    EnergyNorms norms;
-    Extreme displacement, von_mises;
-    std::vector<RegionResult> regions;  ///< empty if there is one
-};
-
 /// Wall clock, the longest over the ranks.
 struct SolveSeconds {
     double read = 0, number = 0, conditions = 0, assemble = 0, setup = 0, solve = 0, recover = 0, write = 0, wall = 0;
@@ -59,9 +33,9 @@ struct SolveReport {
     ElasticCase wanted;
     int ranks = 1;
     std::int64_t parts = 0, tets = 0, vertices = 0;
-    std::int64_t nodes = 0;  ///< of the finite elements; three unknowns each, but for held ones
-    std::int64_t held = 0;   ///< degrees of freedom
-    std::vector<std::string> supports;
+    std::int64_t nodes = 0;          ///< of the finite elements; three unknowns each, but for held ones
+    std::int64_t held = 0;           ///< degrees of freedom
+    std::vector<Reacting> reacting;  ///< supports, springs, and what inertia relieves
     std::vector<CaseReport> cases;
     double wanted_of_next = 0;  ///< the error for which size_field.vtu asks; 0: there is none
     SolveSeconds seconds;
@@ -76,9 +50,9 @@ struct SolveReport {
 /// The field of sizes in the result folder: a mesh for --size-field of kerf mesh.
 inline constexpr const char* size_field_file = "size_field.vtu";
 
-/// Solves and writes the result folder: parts with Displacement, Stress, VonMises and ErrorIndicator, mesh.pvtu and
-/// report.json, which appears as a whole or not at all (io/run_folder.h). Collective. Throws Error on all ranks alike;
-/// Error(convergence) if the tolerance is not reached, and nothing is written then.
+/// Solves and writes the result folder: parts with Displacement, Stress, VonMises and ErrorIndicator, mesh.pvtu, tables
+/// as CSV and report.json, which appears as a whole or not at all (io/run_folder.h). Collective. Throws Error on all
+/// ranks alike; Error(convergence) if the tolerance is not reached, and nothing is written then.
 SolveReport solve_run(const SolveRequest& request, MpiRanks& ranks, RunListener* listener);
 
 /// The patches of a finished run. Collective.

@@ -29,13 +29,20 @@ Barycentric place_of_node(std::size_t i) {
 // The stresses of one element.
 class ElementStress {
  public:
-    ElementStress(const ElasticProblem& problem, const std::vector<double>& displacement, std::size_t p, std::size_t t)
+    ElementStress(const ElasticProblem& problem, const std::vector<double>& displacement, std::size_t number,
+                  std::size_t p, std::size_t t)
         : element_(problem.space->element(p, t)),
           material_(problem.material(p, t)),
-          values_(values_at(problem.space->nodes_of(p, t), problem.space->order(), displacement)) {}
+          values_(values_at(problem.space->nodes_of(p, t), problem.space->order(), displacement)),
+          thermal_(problem.thermal_strain(number, p, t)) {}
     const TetElement& element() const { return element_; }
     const Material& material() const { return material_; }
-    SymmetricTensor strain(const Barycentric& point) const { return strain_of(element_.gradient_of(values_, point)); }
+    // Without what temperature stretches.
+    SymmetricTensor strain(const Barycentric& point) const {
+        SymmetricTensor strain = strain_of(element_.gradient_of(values_, point));
+        strain.head<3>().array() -= thermal_;
+        return strain;
+    }
     SymmetricTensor stress(const Barycentric& point) const { return stress_of(material_, strain(point)); }
     // What holds the nodes against the stresses.
     std::array<Vec3, most_element_nodes> nodal_forces() const;
@@ -44,6 +51,7 @@ class ElementStress {
     TetElement element_;
     const Material& material_;
     std::array<Vec3, most_element_nodes> values_;
+    double thermal_;
 };
 
 std::array<Vec3, most_element_nodes> ElementStress::nodal_forces() const {
@@ -61,16 +69,34 @@ std::array<Vec3, most_element_nodes> ElementStress::nodal_forces() const {
     return forces;
 }
 
-bool holds_any(const ElasticProblem& problem, const std::array<std::int32_t, most_element_nodes>& nodes) {
-    return std::any_of(nodes.begin(), nodes.begin() + element_nodes(problem.space->order()), [&](std::int32_t node) {
-        return problem.is_held(3 * node) || problem.is_held(3 * node + 1) || problem.is_held(3 * node + 2);
-    });
+bool holds_any_of(const ElasticProblem& problem, const std::array<std::int32_t, most_element_nodes>& nodes) {
+    return std::any_of(nodes.begin(), nodes.begin() + element_nodes(problem.space->order()),
+                       [&](std::int32_t node) { return problem.holds_any(node); });
+}
+
+// What springs do to the body.
+void add_spring_forces(const ElasticProblem& problem, const std::vector<double>& displacement, HeldForces& sums) {
+    const FeSpace& space = *problem.space;
+    for (const SurfaceSprings::Facet& facet : problem.springs.facets) {
+        const FacetStiffness blocks = spring_stiffness(space, problem.springs, facet);
+        const auto nodes = space.nodes_of_facet(facet.part, facet.facet);
+        for (std::size_t a = 0; a < nodes.size(); ++a) {
+            if (nodes[a] < 0) continue;
+            Vec3 force = Vec3::Zero();
+            for (std::size_t b = 0; b < nodes.size(); ++b)
+                if (nodes[b] >= 0) force -= blocks[a][b] * Eigen::Map<const Vec3>(&displacement[3 * nodes[b]]);
+            sums.add(problem.first_spring + facet.spring, space.region_of(facet.part), force, space.points()[nodes[a]]);
+            problem.share_among_holders(nodes[a], -force, [&](std::int32_t support, const Vec3& share) {
+                sums.add(support, space.region_of(facet.part), share, space.points()[nodes[a]]);
+            });
+        }
+    }
 }
 
 class StressRecovery {
  public:
-    StressRecovery(const ElasticProblem& problem, const std::vector<double>& displacement)
-        : problem_(problem), space_(*problem.space), displacement_(displacement) {
+    StressRecovery(const ElasticProblem& problem, const std::vector<double>& displacement, std::size_t number)
+        : problem_(problem), space_(*problem.space), displacement_(displacement), number_(number) {
         for (const Part& part : space_.parts()) {
             PartStress& stress = field_.parts.emplace_back();
             stress.of_tet.assign(part.mesh.tets.size(), SymmetricTensor::Zero());
@@ -100,7 +126,7 @@ class StressRecovery {
         sums_.assign(stress_sums * space_.node_count(), 0);
         for_all_tets(space_, [&](std::size_t p, std::size_t t) {
             if (!is_of(m, p, t)) return;
-            const ElementStress element(problem_, displacement_, p, t);
+            const ElementStress element(problem_, displacement_, number_, p, t);
             const auto nodes = space_.nodes_of(p, t);
             const double volume = element.element().volume();
             for (int i = 0; i < element_nodes(space_.order()); ++i) {
@@ -124,7 +150,7 @@ class StressRecovery {
         const int nodes_each = element_nodes(space_.order());
         for_all_tets(space_, [&](std::size_t p, std::size_t t) {
             if (!is_of(m, p, t)) return;
-            const ElementStress element(problem_, displacement_, p, t);
+            const ElementStress element(problem_, displacement_, number_, p, t);
             const auto nodes = space_.nodes_of(p, t);
             const double weight = element.element().volume() / static_cast<double>(quadrature_points.size());
             SymmetricTensor mean = SymmetricTensor::Zero();
@@ -152,6 +178,7 @@ class StressRecovery {
     const ElasticProblem& problem_;
     const FeSpace& space_;
     const std::vector<double>& displacement_;
+    std::size_t number_;
     std::vector<double> sums_;
     StressField field_;
 };
@@ -163,24 +190,25 @@ double EnergyNorms::relative() const {
     return all > 0 ? error / all : 0;
 }
 
-StressField recover_stress(const ElasticProblem& problem, const std::vector<double>& displacement) {
-    return StressRecovery(problem, displacement).recover();
+StressField recover_stress(const ElasticProblem& problem, const std::vector<double>& displacement, std::size_t number) {
+    return StressRecovery(problem, displacement, number).recover();
 }
 
-HeldForces reactions(const ElasticProblem& problem, const std::vector<double>& displacement,
-                     const HeldForces& held_forces) {
+HeldForces reactions(const ElasticProblem& problem, const std::vector<double>& displacement, std::size_t number) {
     const FeSpace& space = *problem.space;
-    HeldForces sums(problem.supports.size(), space.region_count());
+    HeldForces sums(problem.places, space.region_count());
     for_all_tets(space, [&](std::size_t p, std::size_t t) {
         const auto nodes = space.nodes_of(p, t);
-        if (!holds_any(problem, nodes)) return;
-        const std::array<Vec3, most_element_nodes> forces = ElementStress(problem, displacement, p, t).nodal_forces();
+        if (!holds_any_of(problem, nodes)) return;
+        const std::array<Vec3, most_element_nodes> forces =
+            ElementStress(problem, displacement, number, p, t).nodal_forces();
         for (int n = 0; n < element_nodes(space.order()); ++n)
-            for (std::size_t c = 0; c < 3; ++c)
-                if (const std::size_t dof = 3 * nodes[n] + c; problem.is_held(dof))
-                    sums.add(problem.support_of[dof], space.region_of(p), c, forces[n][c]);
+            problem.share_among_holders(nodes[n], forces[n], [&](std::int32_t support, const Vec3& share) {
+                sums.add(support, space.region_of(p), share, space.points()[nodes[n]]);
+            });
     });
-    sums -= held_forces;
+    if (number < problem.cases.size()) sums.add(-1, problem.cases[number].held_forces);
+    add_spring_forces(problem, displacement, sums);
     space.ranks().all_reduce(sums.numbers(), Reduction::sum);
     return sums;
 }

@@ -31,13 +31,14 @@ struct StressField {
 
 /// Averages of the elements' stresses at nodes, which are nearer to the truth than the elements' own, tell the error by
 /// what they differ (Zienkiewicz and Zhu 1987). A tetrahedron with a vertex of another material's takes its own
-/// material's average. Collective, one exchange for each material; O(n).
-StressField recover_stress(const ElasticProblem& problem, const std::vector<double>& displacement);
+/// material's average. `number`: of the case, whose temperatures leave no stress where nothing is held. Collective, one
+/// exchange for each material; O(n).
+StressField recover_stress(const ElasticProblem& problem, const std::vector<double>& displacement,
+                           std::size_t number = 0);
 
-/// What supports do to the body, by region: internal forces of its cells at what each of them holds, less the loads
-/// there. Sums over all ranks. A node that two supports hold in the same direction counts for the first one.
-/// `held_forces`: of the case, see ElasticProblem. Collective; O(n).
-HeldForces reactions(const ElasticProblem& problem, const std::vector<double>& displacement,
-                     const HeldForces& held_forces);
+/// What supports and springs do to the body, by region: internal forces of its cells at what each of them holds, less
+/// the loads of the case there. Sums over all ranks. A node that two supports hold in the same direction counts for the
+/// first one. Collective; O(n).
+HeldForces reactions(const ElasticProblem& problem, const std::vector<double>& displacement, std::size_t number = 0);
 
 }  // namespace kerf

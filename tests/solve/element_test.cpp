@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "solve/body_forces.h"
+
 namespace kerf {
 namespace {
 
@@ -105,6 +107,20 @@ TEST_P(ElementLaws, UniformStrainHasItsEnergy) {
         for (std::size_t i = 0; i < count(); ++i) energy += u[i].dot(force[i]);
         EXPECT_NEAR(energy / (density * element.volume()), 1, 1e-11);
     }
+}
+
+// x^a y^b z^c over a tetrahedron with three edges of length 1: a! b! c! / (a + b + c + 3)!
+TEST(QuinticPoints, IntegratePolynomialsOfDegreeFive) {
+    for (int a = 0; a <= 5; ++a)
+        for (int b = 0; a + b <= 5; ++b)
+            for (int c = 0; a + b + c <= 5; ++c) {
+                double sum = 0;
+                for (const auto& [place, weight] : quintic_points())
+                    sum += weight / 6 * std::pow(place[1], a) * std::pow(place[2], b) * std::pow(place[3], c);
+                const double exact =
+                    std::tgamma(a + 1) * std::tgamma(b + 1) * std::tgamma(c + 1) / std::tgamma(a + b + c + 4);
+                EXPECT_NEAR(sum, exact, 1e-15) << a << b << c;
+            }
 }
 
 TEST(Elasticity, StrainAndStressAreInverse) {

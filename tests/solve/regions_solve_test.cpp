@@ -153,6 +153,42 @@ TEST_F(BarOfTwo, StressesAtAWallAreThoseOfEachSide) {
     }
 }
 
+// A region that is warmed grows; what both bear is the same, and tables say so. Gravity is of one case alone.
+TEST_F(BarOfTwo, IsWarmedByRegionAndToldInTables) {
+    const ChildResult result =
+        solve("bar", "[material.stuff]\nyoung = 1000\npoisson = 0\ndensity = 2\nexpansion = 1e-3\nyield = 5\n",
+              "[[support]]\nname = \"wall\"\npatch = \"pulled\"\nx = 0\n"
+              "[[temperature]]\nregion = \"steel\"\ndifference = 20\ncase = \"warm\"\n"
+              "[[gravity]]\nacceleration = [1, 0, 0]\ncase = \"weight, all\"\n"
+              "[[combination]]\nname = \"sum\"\ncases = {warm = 2, \"weight, all\" = 1}\n"
+              "[solver]\norder = 2\nrtol = 1e-11\n");
+    ASSERT_EQ(result.exit_code, 0) << result.log;
+    const nlohmann::json cases =
+        nlohmann::json::parse(test::bytes_of_file(own_.file("out/report.json")))["solve"]["cases"];
+    ASSERT_EQ(cases.size(), 3U);
+    const auto push = [&](std::size_t of_case, std::size_t support) {
+        return cases[of_case]["reactions"][support]["reaction"][0].get<double>();
+    };
+    // Growth of 3 by 0.02 on a bar of 6, section 9: a force of 90, whatever the wall does to the sides.
+    EXPECT_NEAR(
+        cases[0]["least_safety_factor"]["value"].get<double>() * cases[0]["max_von_mises"]["value"].get<double>(), 5,
+        1e-9);
+    EXPECT_NEAR(push(0, 0), 90, 1e-6);
+    EXPECT_NEAR(push(0, 3), -90, 1e-6);
+    EXPECT_NEAR(push(1, 0) + push(1, 3), -2 * 54, 1e-6);
+    EXPECT_NEAR(push(2, 0), 2 * push(0, 0) + push(1, 0), 1e-6);
+    EXPECT_EQ(cases[2]["combination"]["warm"], 2);
+    EXPECT_NEAR(cases[1]["reactions"][0]["moment"][1], 0, 1e-6);
+    EXPECT_NEAR(cases[1]["reactions"][0]["about"][1], 1.5, 1e-12);
+    const std::string results = test::bytes_of_file(own_.file("out/results.csv")),
+                      reactions = test::bytes_of_file(own_.file("out/reactions.csv"));
+    EXPECT_EQ(std::count(results.begin(), results.end(), '\n'), 1 + 3 * 3);
+    EXPECT_NE(results.find("\n\"weight, all\",steel,"), std::string::npos) << results;
+    EXPECT_EQ(std::count(reactions.begin(), reactions.end(), '\n'), 1 + 3 * 4 * 3);
+    EXPECT_NE(reactions.find("\nsum,wall,,"), std::string::npos) << reactions;
+    EXPECT_NE(result.log.find("sum of      2 warm + 1 weight, all"), std::string::npos) << result.log;
+}
+
 TEST_F(BarOfTwo, MaterialsSayTheirRegionsOrAreForTheRest) {
     EXPECT_EQ(solve("[material.a]\nyoung = 10\npoisson = 0\nregion = \"rubber\"\n"
                     "[material.b]\nyoung = 20\npoisson = 0\n")

@@ -2,80 +2,26 @@
 #include <mpi.h>
 
 #include <cmath>
-#include <fstream>
-#include <memory>
 
 #include <gtest/gtest.h>
 
-#include "cli/ranks.h"
 #include "core/error.h"
-#include "part/run_parts.h"
+#include "cube_of_parts.h"
 #include "solve/elastic_problem.h"
 #include "solve/error_sizes.h"
 #include "solve/linear_system.h"
+#include "solve/rigid_motions.h"
 #include "solve/stress.h"
-#include "support/assets.h"
-#include "support/program.h"
-#include "support/temporary_folder.h"
 
 namespace kerf {
 namespace {
 
-int rank() {
-    int number = 0;
-    MPI_Comm_rank(MPI_COMM_WORLD, &number);
-    return number;
-}
-int ranks() {
-    int number = 1;
-    MPI_Comm_size(MPI_COMM_WORLD, &number);
-    return number;
-}
-
-const Ranks* ranks_of_program = nullptr;  // those of this program
-
-// A cube in seven parts, made by the first rank for all.
-class CubeOfParts : public testing::Environment {
- public:
-    void SetUp() override {
-        std::array<char, 4096> path{};
-        if (rank() == 0) {
-            folder_ = std::make_unique<test::TemporaryFolder>();
-            // It is no rank of this job.
-            const ChildResult result = test::run_program(
-                "/usr/bin/env", {"-u", "OMPI_COMM_WORLD_SIZE", "-u", "OMPI_COMM_WORLD_RANK", "-u", "PMIX_RANK", "-u",
-                                 "PMI_RANK", KERF_PROGRAM, "mesh", test::asset_path("cube"), "-o",
-                                 folder_->file("cube"), "-n", "7", "--size", "0.2", "-q"});
-            EXPECT_EQ(result.exit_code, 0) << result.log;
-            folder_->file("cube").copy(path.data(), path.size() - 1);
-        }
-        MPI_Bcast(path.data(), static_cast<int>(path.size()), MPI_CHAR, 0, MPI_COMM_WORLD);
-        parts = std::make_unique<RunParts>(path.data());
-    }
-    void TearDown() override {
-        MPI_Barrier(MPI_COMM_WORLD);
-        folder_.reset();
-    }
-    inline static std::unique_ptr<RunParts> parts;
-
- private:
-    std::unique_ptr<test::TemporaryFolder> folder_;
-};
-
-// The space of the parts of a communicator's rank.
-std::unique_ptr<FeSpace> space_on(MpiRanks& of_space, int order) {
-    const int own = of_space.rank(), size = of_space.size();
-    const MeshOutline& outline = CubeOfParts::parts->outline();
-    const std::vector<PartIndex> first = first_parts_of_ranks(outline, size);
-    std::vector<Part> parts;
-    for (const PartIndex index : IdRange(first[own], first[own + 1])) parts.push_back(CubeOfParts::parts->load(index));
-    return std::make_unique<FeSpace>(of_space, outline, first, std::move(parts), order);
-}
-
-double largest(double value) {
-    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
-    return value;
-}
+using test::CubeOfParts;
+using test::largest;
+using test::rank;
+using test::ranks;
+using test::ranks_of_program;
+using test::space_on;
 
 class Solution : public testing::TestWithParam<int> {
  protected:
@@ -91,6 +37,7 @@ class Solution : public testing::TestWithParam<int> {
                         for (std::size_t c = 0; node >= 0 && c < 3; ++c)
                             problem.support_of[3 * static_cast<std::size_t>(node) + c] = 0;
         problem.supports = {"surface"};
+        problem.places = {Vec3::Zero()};
         space_->exchange().share_smallest(std::span(problem.support_of), 3);
         for (std::int32_t n = 0; n < space_->node_count(); ++n)
             for (std::size_t c = 0; c < 3; ++c)
@@ -137,7 +84,7 @@ TEST_P(Solution, PassesThePatchTest) {
             for (const SymmetricTensor& s : part.at_vertex) EXPECT_LT((s - stress).norm(), 1e-9 * stress.norm());
         }
         EXPECT_LT(found.norms.relative(), 1e-8);
-        EXPECT_LT(reactions(problem, u, HeldForces(problem.supports.size(), 1)).of(0).norm(), 1e-9 * stress.norm());
+        EXPECT_LT(reactions(problem, u).of(0).force.norm(), 1e-9 * stress.norm());
     }
 }
 
@@ -319,8 +266,8 @@ TEST(Parts, AreSharedOutWholeAndEvenly) {
 int main(int argc, char** argv) {
     testing::InitGoogleTest(&argc, argv);
     const kerf::Ranks ranks = kerf::join_ranks(kerf::MpiUse::always);
-    kerf::ranks_of_program = &ranks;
+    kerf::test::ranks_of_program = &ranks;
     const kerf::PetscSession petsc(*ranks.mpi);
-    testing::AddGlobalTestEnvironment(new kerf::CubeOfParts);
+    testing::AddGlobalTestEnvironment(new kerf::test::CubeOfParts);
     return RUN_ALL_TESTS();
 }

@@ -1,0 +1,43 @@
+// Forces on the nodes of an element that come from its inside.
+#pragma once
+
+#include <array>
+
+#include "solve/tet_element.h"
+
+namespace kerf {
+
+struct WeightedPoint {
+    Barycentric place;
+    double weight;  ///< share of the volume
+};
+/// Exact for polynomials of degree 5, all weights positive (Walkington 2000).
+const std::array<WeightedPoint, 14>& quintic_points();
+
+using NodalForces = std::array<Vec3, most_element_nodes>;
+
+/// Calls take(place, weight, shapes) for the points of a rule that is exact for density times shape function of
+/// densities of degree 3 at least; weights add up to the volume.
+template <class Take>
+void for_points_of(const TetElement& element, Take take) {
+    for (const WeightedPoint& point : quintic_points())
+        take(element.position_of(point.place), point.weight * element.volume(),
+             TetElement::shapes_at(element.order(), point.place));
+}
+
+/// Of a force per volume, density(place).
+template <class Density>
+NodalForces body_forces(const TetElement& element, Density density) {
+    NodalForces forces;
+    forces.fill(Vec3::Zero());
+    for_points_of(element, [&](const Vec3& place, double weight, const TetElement::Shapes& shapes) {
+        const Vec3 force = weight * density(place);
+        for (int n = 0; n < element.node_count(); ++n) forces[n] += shapes[n] * force;
+    });
+    return forces;
+}
+
+/// What would stretch the element, which is not held, by the strain in all directions: they add up to 0.
+NodalForces thermal_forces(const TetElement& element, const Material& material, double strain);
+
+}  // namespace kerf

@@ -1,0 +1,97 @@
+// A cube in seven parts, on the ranks of a test program that runs under mpirun.
+#pragma once
+
+#include <mpi.h>
+
+#include <array>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "cli/ranks.h"
+#include "part/run_parts.h"
+#include "solve/fe_space.h"
+#include "support/assets.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
+
+namespace kerf::test {
+
+inline int rank() {
+    int number = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &number);
+    return number;
+}
+inline int ranks() {
+    int number = 1;
+    MPI_Comm_size(MPI_COMM_WORLD, &number);
+    return number;
+}
+
+inline const Ranks* ranks_of_program = nullptr;  // those of this program
+
+// Two meshes of a cube in seven parts, made by the first rank for all: with edges of 0.2 and, if they can, 0.5.
+class CubeOfParts : public testing::Environment {
+ public:
+    void SetUp() override {
+        std::array<char, 4096> path{};
+        if (rank() == 0) {
+            folder_ = std::make_unique<TemporaryFolder>();
+            mesh("fine", "0.2", "keep");
+            mesh("coarse", "0.5", "remesh");
+            folder_->file("").copy(path.data(), path.size() - 1);
+        }
+        MPI_Bcast(path.data(), static_cast<int>(path.size()), MPI_CHAR, 0, MPI_COMM_WORLD);
+        parts = std::make_unique<RunParts>(std::string(path.data()) + "fine");
+        coarse_parts = std::make_unique<RunParts>(std::string(path.data()) + "coarse");
+    }
+    void TearDown() override {
+        MPI_Barrier(MPI_COMM_WORLD);
+        folder_.reset();
+    }
+    inline static std::unique_ptr<RunParts> parts, coarse_parts;
+
+ private:
+    void mesh(const std::string& name, const char* size, const char* surface) const {
+        // It is no rank of this job.
+        const ChildResult result = run_program("/usr/bin/env", {"-u",
+                                                                "OMPI_COMM_WORLD_SIZE",
+                                                                "-u",
+                                                                "OMPI_COMM_WORLD_RANK",
+                                                                "-u",
+                                                                "PMIX_RANK",
+                                                                "-u",
+                                                                "PMI_RANK",
+                                                                KERF_PROGRAM,
+                                                                "mesh",
+                                                                asset_path("cube"),
+                                                                "-o",
+                                                                folder_->file(name),
+                                                                "-n",
+                                                                "7",
+                                                                "--size",
+                                                                size,
+                                                                "--surface",
+                                                                surface,
+                                                                "-q"});
+        EXPECT_EQ(result.exit_code, 0) << result.log;
+    }
+    std::unique_ptr<TemporaryFolder> folder_;
+};
+
+// The space of the parts of a communicator's rank.
+inline std::unique_ptr<FeSpace> space_on(MpiRanks& of_space, int order, RunParts& mesh = *CubeOfParts::parts) {
+    const int own = of_space.rank(), size = of_space.size();
+    const MeshOutline& outline = mesh.outline();
+    const std::vector<PartIndex> first = first_parts_of_ranks(outline, size);
+    std::vector<Part> parts;
+    for (const PartIndex index : IdRange(first[own], first[own + 1])) parts.push_back(mesh.load(index));
+    return std::make_unique<FeSpace>(of_space, outline, first, std::move(parts), order);
+}
+
+inline double largest(double value) {
+    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    return value;
+}
+
+}  // namespace kerf::test
