@@ -2,9 +2,11 @@
 
 #include <vector>
 
+#include <petscmat.h>
+
 namespace kerf {
 
-PetscErrorCode turn_into_frames(const NodeFrames& frames, MatNullSpace* motions) {
+int turn_into_frames(const NodeFrames& frames, MatNullSpace* motions) {
     PetscInt count = 0;
     const Vec* given = nullptr;
     PetscCall(MatNullSpaceGetVecs(*motions, nullptr, &count, &given));

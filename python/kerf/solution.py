@@ -16,7 +16,7 @@ from .surface import Path
 
 
 class Extreme(NamedTuple):
-    """The largest value, and the point where it is."""
+    """The largest value, or the least, and the point where it is."""
 
     value: float
     at: np.ndarray
@@ -128,6 +128,20 @@ class LoadCase(Fields):
         for each in self.report["reactions"]:
             result[each["support"]] = result.get(each["support"], 0) + np.array(each["reaction"])
         return result
+
+    @property
+    def moments(self) -> dict[str, np.ndarray]:
+        """Moments of the reactions about the centres of their supports, where reactions are of one support alone:
+        (3,) float64."""
+        names = [each["support"] for each in self.report["reactions"]]
+        return {each["support"]: np.array(each["moment"]) for each in self.report["reactions"]
+                if names.count(each["support"]) == 1}
+
+    @property
+    def safety_factor(self) -> Optional[Extreme]:
+        """The least of yield stress / von Mises stress, where a material has a yield, else None."""
+        least = self.report.get("least_safety_factor")
+        return None if least is None else _extreme(least)
 
     @property
     def imbalance(self) -> float:

@@ -79,7 +79,8 @@ NOT_RUN = {
 }
 
 # Blocks that are files: language, how they begin, name.
-OF_PAGES = [("toml", "[material", "case.toml"), ("python", "from dolfinx", "solve.py"), ("", "*INCLUDE", "job.inp"),
+OF_PAGES = [("toml", "[material", "case.toml"), ("toml", 'units = "mm"  ', "case.toml"),
+            ("python", "from dolfinx", "solve.py"), ("", "*INCLUDE", "job.inp"),
             ("freefem", "load", "heat.edp"), ("getdp", "Group", "heat.pro"), ("cpp", "FoamFile", "U")]
 
 BOX_CASE = """[material.iron]

@@ -1,6 +1,7 @@
 """kerf.solve(): the case as a dict, the solution as arrays."""
 
 import os
+import pathlib
 import subprocess
 
 import numpy as np
@@ -78,6 +79,22 @@ def test_a_solution_is_opened_again(run, tmp_path, solution):
     assert np.allclose(again.case("two").part(3).displacement, 2 * again.part(3).displacement, atol=1e-7)
     with pytest.raises(KeyError, match="'one', 'two'"):
         again.case("three")
+
+
+def test_cases_may_have_all_that_files_have(run):
+    case = pulled_cube()
+    case["units"] = "mm"
+    case["material"] = {"frame": {"like": "steel", "yield": 60}}
+    case["load"][0]["case"] = "pull"
+    case["temperature"] = [{"difference": 10, "case": "warm"}]
+    case["combination"] = [{"name": "both", "cases": {"pull": 2, "warm": 1}}]
+    solution = kerf.solve(run, case, ranks=1)
+    pull, warm, both = solution.cases
+    assert np.isclose(pull.safety_factor.value, 60 / PULL) and np.isclose(both.safety_factor.value, 30 / PULL)
+    assert np.allclose(warm.displacement, 120e-6 * solution.points, atol=1e-9)
+    assert np.allclose(both.displacement, 2 * pull.displacement + warm.displacement, atol=1e-9)
+    assert set(pull.moments) == {"at x", "at y", "at z"} and np.allclose(pull.moments["at x"], 0, atol=1e-6)
+    assert pathlib.Path(solution.folder, "results.csv").read_text(encoding="utf-8").count("\n") == 4
 
 
 def test_a_temporary_solution_goes(run, tmp_path, monkeypatch):
