@@ -41,6 +41,7 @@ struct SolveLine {
 // Facets stay as they are unless they are remeshed, and cells beside them are as coarse.
 void check_mesh_options(const CLI::App& solve, SolveLine& line) {
     RunOptions& mesh = line.request.mesh;
+    if (solve.get_option("--order")->count() > 0) line.request.solve.order = mesh.order;
     if (line.meshes) {
         if (line.list_patches)
             throw CLI::ValidationError(
@@ -53,7 +54,8 @@ void check_mesh_options(const CLI::App& solve, SolveLine& line) {
         return;
     }
     std::vector<std::string> names = {"adapt"};
-    for (const OptionField& field : option_fields(mesh)) names.push_back(field.name);
+    for (const OptionField& field : option_fields(mesh))
+        if (field.name != std::string_view("order")) names.push_back(field.name);
     for (const std::string& name : names)
         if (solve.get_option("--" + name)->count() > 0)
             throw CLI::ValidationError(
@@ -94,8 +96,8 @@ void add_options(CLI::App& command, SolveLine& line) {
     command.add_flag("-q,--quiet", line.quiet, "Print errors alone.");
     add_run_options(command, line.request.mesh);
     put_help_last(command, option_group::running,
-                  {"case", "output", "adapt", "target-error", "list-patches", "ranks", "parts", "size", "surface",
-                   "feature-angle", "workers", "quiet"});
+                  {"case", "output", "order", "adapt", "target-error", "list-patches", "ranks", "parts", "size",
+                   "surface", "feature-angle", "workers", "quiet"});
 }
 
 // Fills the line, or has an answer that takes the place of a run.

@@ -7,22 +7,14 @@
 
 namespace kerf {
 
-struct WeightedPoint {
-    Barycentric place;
-    double weight;  ///< share of the volume
-};
-/// Exact for polynomials of degree 5, all weights positive (Walkington 2000).
-const std::array<WeightedPoint, 14>& quintic_points();
-
 using NodalForces = std::array<Vec3, most_element_nodes>;
 
 /// Calls take(place, weight, shapes) for the points of a rule that is exact for density times shape function of
-/// densities of degree 3 at least; weights add up to the volume.
+/// densities of degree 3 at least, in straight elements; weights add up to the volume.
 template <class Take>
 void for_points_of(const TetElement& element, Take take) {
-    for (const WeightedPoint& point : quintic_points())
-        take(element.position_of(point.place), point.weight * element.volume(),
-             TetElement::shapes_at(element.order(), point.place));
+    for (const TetPoint& at : quadrature::fourteen_points)
+        take(element.position_of(at.place), element.point(at).weight, TetElement::shapes_at(element.order(), at.place));
 }
 
 /// Of a force per volume, density(place).

@@ -43,13 +43,13 @@ void CaseForces::add_load(const Load& load) {
     for (const SurfaceFacet& facet : facets) area += facet.area;
     area = space_.ranks().all_reduce(area, Reduction::sum);
     for (const SurfaceFacet& facet : facets) {
-        const Vec3 traction = load.pressure   ? Vec3(-*load.pressure * facet.normal)
-                              : load.traction ? *load.traction
-                                              : Vec3(*load.force / area);
+        const FacetElement element = space_.facet_element(facet.part, facet.facet);
+        const FacetElement::Forces forces =
+            load.pressure ? element.forces_of_pressure(*load.pressure)
+                          : element.forces_of_traction(load.traction ? *load.traction : Vec3(*load.force / area));
         const auto nodes = space_.nodes_of_facet(facet.part, facet.facet);
-        const TriangleShares shares = node_areas(facet.area, space_.order());
         for (std::size_t i = 0; i < nodes.size(); ++i)
-            if (nodes[i] >= 0) add_force(facet.part, nodes[i], shares[i] * traction);
+            if (nodes[i] >= 0) add_force(facet.part, nodes[i], forces[i]);
     }
 }
 

@@ -96,7 +96,7 @@ struct MaterialUse {
 };
 
 struct SolverOptions {
-    int order = 1;                        ///< of the elements: 1 or 2
+    int order = 0;                        ///< of the elements: 1 or 2; 0: that of the mesh
     std::string preconditioner = "gamg";  ///< "gamg" or "icc"
     double rtol = 1e-8;                   ///< of the true residual beside that of no displacement
     int max_iterations = 10000;

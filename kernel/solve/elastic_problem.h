@@ -76,6 +76,10 @@ struct ElasticProblem {
         const std::size_t dof = 3 * static_cast<std::size_t>(node);
         return is_held(dof) || is_held(dof + 1) || is_held(dof + 2);
     }
+    /// Is the cell of the material with this number?
+    bool is_of(std::size_t number, std::size_t p, std::size_t tet) const {
+        return material_of_tet.empty() || material_of_tet[p][tet] == number;
+    }
 };
 
 /// Collective. Throws Error(usage) on all ranks alike: for what the mesh does not have, for a cell without a material

@@ -1,6 +1,7 @@
 #include "solve/fe_space.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -21,9 +22,11 @@ constexpr std::int32_t unset = -1;
 // Nodes of a part: its vertices, then its edges.
 struct NumberedPart {
     PartIndex index;                 // in the outline
-    std::optional<EdgeTable> edges;  // for order 2
+    std::optional<EdgeTable> edges;  // for order 2, of a part without nodes on its edges
     std::vector<PartIndex> owner;    // of each node
     std::vector<std::int64_t> row;   // of each node
+
+    const EdgeTable& edges_of(const Part& part) const { return edges ? *edges : part.edge_nodes.edges; }
 };
 
 // By (owner, holder), two parts of the outline that share nodes: nodes of one of them, in an order that is
@@ -96,7 +99,7 @@ void FeNumbering::find_shared_nodes(std::size_t p, NumberedPart& numbered) {
     for (const SharedEdgeGroup& group : parts_[p].shared_edges) {
         std::vector<std::int32_t> nodes;
         for (const UndirectedEdge& edge : group.edges)
-            nodes.push_back(first_edge + numbered.edges->find(undirected(edge[0], edge[1])));
+            nodes.push_back(first_edge + numbered.edges_of(parts_[p]).find(undirected(edge[0], edge[1])));
         add_group(numbered.index, group.parts, nodes, numbered);
     }
 }
@@ -107,7 +110,10 @@ std::vector<NumberedPart> FeNumbering::number() {
         NumberedPart& numbered = all[p];
         numbered.index = PartIndex(first_part().value() + p);
         std::size_t nodes = parts_[p].mesh.vertices.size();
-        if (order_ == 2) nodes += numbered.edges.emplace(parts_[p].mesh.tets, nodes).size();
+        if (order_ == 2) {
+            if (parts_[p].order() == 1) numbered.edges.emplace(parts_[p].mesh.tets, nodes);
+            nodes += numbered.edges_of(parts_[p]).size();
+        }
         numbered.owner.assign(nodes, numbered.index);
         numbered.row.assign(nodes, unset);
         find_shared_nodes(p, numbered);
@@ -271,22 +277,27 @@ FeSpace::FeSpace(MpiRanks& ranks, const MeshOutline& outline, const std::vector<
             points_[nodes_[p].of_vertex[v]] = mesh.vertices[v];
         }
         if (order == 2) {
-            std::vector<std::int32_t> of_edge(part.edges->size());
-            part.edges->for_all([&](std::int32_t e, const UndirectedEdge& edge) {
+            const EdgeTable& edges = part.edges_of(parts_[p]);
+            std::vector<std::int32_t> of_edge(edges.size());
+            edges.for_all([&](std::int32_t e, const UndirectedEdge& edge) {
                 of_edge[e] = local(part.row[mesh.vertices.size() + e]);
-                points_[of_edge[e]] = 0.5 * (mesh.vertices[edge[0]] + mesh.vertices[edge[1]]);
+                points_[of_edge[e]] = parts_[p].order() == 2
+                                          ? parts_[p].edge_nodes.points[e]
+                                          : Vec3(0.5 * (mesh.vertices[edge[0]] + mesh.vertices[edge[1]]));
             });
-            nodes_[p].of_edge_midpoint = numbers_at_edges(mesh.tets, *part.edges, of_edge);
+            nodes_[p].of_tet_edge = numbers_at_edges(mesh.tets, edges, of_edge);
+            nodes_[p].of_edge = std::move(of_edge);
         }
         part = {};
     }
+    if (order == 2) refuse_folded_cells();
 }
 
 std::array<std::int32_t, most_element_nodes> FeSpace::nodes_of(std::size_t p, std::size_t tet) const {
     std::array<std::int32_t, most_element_nodes> nodes;
     nodes.fill(unset);
     for (std::size_t i = 0; i < 4; ++i) nodes[i] = nodes_[p].of_vertex[parts_[p].mesh.tets[tet][i]];
-    if (order_ == 2) std::copy_n(nodes_[p].of_edge_midpoint[tet].begin(), 6, nodes.begin() + 4);
+    if (order_ == 2) std::copy_n(nodes_[p].of_tet_edge[tet].begin(), 6, nodes.begin() + 4);
     return nodes;
 }
 
@@ -301,16 +312,50 @@ std::array<std::int32_t, 6> FeSpace::nodes_of_facet(std::size_t p, std::size_t f
     for (std::size_t e = 0; e < 3; ++e) {
         const UndirectedEdge wanted = undirected(triangle[triangle_edges[e][0]], triangle[triangle_edges[e][1]]);
         for (std::size_t i = 0; i < 6; ++i)
-            if (edge_of(corners, i) == wanted) nodes[3 + e] = nodes_[p].of_edge_midpoint[tet][i];
+            if (edge_of(corners, i) == wanted) nodes[3 + e] = nodes_[p].of_tet_edge[tet][i];
     }
     return nodes;
 }
 
 TetElement FeSpace::element(std::size_t p, std::size_t tet) const {
+    if (order_ == 2) {
+        const auto nodes = nodes_of(p, tet);
+        TetElement::Nodes points;
+        for (std::size_t i = 0; i < points.size(); ++i) points[i] = points_[nodes[i]];
+        return TetElement(points);
+    }
     const TetMesh& mesh = parts_[p].mesh;
     std::array<Vec3, 4> corners;
     for (std::size_t i = 0; i < 4; ++i) corners[i] = mesh.vertices[mesh.tets[tet][i]];
     return {corners, order_};
+}
+
+FacetElement FeSpace::facet_element(std::size_t p, std::size_t facet) const {
+    const auto nodes = nodes_of_facet(p, facet);
+    FacetElement::Nodes points;
+    for (std::size_t i = 0; i < points.size(); ++i) points[i] = nodes[i] >= 0 ? points_[nodes[i]] : Vec3::Zero();
+    if (order_ == 1) return {{points[0], points[1], points[2]}, order_};
+    return FacetElement(points);
+}
+
+// Whoever meshes proves that they are not; files of others may be anything.
+void FeSpace::refuse_folded_cells() const {
+    std::int64_t folded = 0;
+    for_all_tets(*this, [&](std::size_t p, std::size_t t) {
+        const TetElement element = this->element(p, t);
+        if (!element.is_curved()) return;
+        double least = INFINITY;
+        for (const TetPoint& at : element.rule()) least = std::min(least, element.stretch_at(at.place));
+        for (int n = 0; n < most_element_nodes; ++n)
+            least = std::min(least, element.stretch_at(TetElement::place_of_node(n)));
+        if (!(least > 0)) ++folded;
+    });
+    folded = ranks_->all_reduce(folded, Reduction::sum);
+    if (folded > 0)
+        throw Error(ErrorCode::usage,
+                    fmt::format("{} curved cells of the mesh are folded: they have no stiffness. Solve "
+                                "with --order 1, or mesh again with --curve straight.",
+                                folded));
 }
 
 }  // namespace kerf

@@ -7,6 +7,7 @@
 
 #include "mpi/mpi_ranks.h"
 #include "part/part.h"
+#include "solve/facet_element.h"
 #include "solve/ghost_exchange.h"
 #include "solve/tet_element.h"
 
@@ -18,8 +19,9 @@ std::vector<PartIndex> first_parts_of_ranks(const MeshOutline& outline, int rank
 
 /// A part on its rank: which local nodes its elements have.
 struct PartFeNodes {
-    std::vector<std::int32_t> of_vertex;                        ///< #V
-    std::vector<std::array<std::int32_t, 6>> of_edge_midpoint;  ///< #T for order 2, in the order of tet_edges
+    std::vector<std::int32_t> of_vertex;                   ///< #V
+    std::vector<std::int32_t> of_edge;                     ///< #E for order 2, in the order of EdgeTable
+    std::vector<std::array<std::int32_t, 6>> of_tet_edge;  ///< #T for order 2, in the order of tet_edges
 };
 
 /// Rows of a system of equations are numbered part by part, in the order of the tree: the same for any number of ranks.
@@ -28,8 +30,9 @@ struct PartFeNodes {
 class FeSpace {
  public:
     /// Numbers the nodes of `parts`, this rank's, which are `first_part` and the following of the outline. Collective.
-    /// O(n log n) in the nodes on interfaces, and in the edges for order 2. Throws Error(usage) for more rows than
-    /// 32 bits number.
+    /// Of order 2 a node is where the part has it (Part::edge_nodes), or in the middle of its edge. O(n log n) in the
+    /// nodes on interfaces, and in the edges for order 2. Throws Error(usage), on all ranks alike, for more rows than
+    /// 32 bits number and for curved cells that are folded.
     FeSpace(MpiRanks& ranks, const MeshOutline& outline, const std::vector<PartIndex>& first_parts,
             std::vector<Part> parts, int order);
 
@@ -55,11 +58,14 @@ class FeSpace {
 
     /// Local nodes of a tetrahedron of the part `p` of this rank.
     std::array<std::int32_t, most_element_nodes> nodes_of(std::size_t p, std::size_t tet) const;
-    /// The nodes of a boundary triangle: corners, and for order 2 the middles of triangle_edges, else -1.
+    /// The nodes of a boundary triangle: corners, and for order 2 those on triangle_edges, else -1.
     std::array<std::int32_t, 6> nodes_of_facet(std::size_t p, std::size_t facet) const;
     TetElement element(std::size_t p, std::size_t tet) const;
+    FacetElement facet_element(std::size_t p, std::size_t facet) const;
 
  private:
+    void refuse_folded_cells() const;
+
     MpiRanks* ranks_;
     int order_;
     std::size_t region_count_;

@@ -24,6 +24,20 @@ class GhostExchange {
     GhostExchange(const MpiRanks& ranks, std::vector<Neighbour> owned, std::vector<Neighbour> ghosts)
         : ranks_(&ranks), owned_(std::move(owned)), ghosts_(std::move(ghosts)) {}
 
+    /// Between some of the nodes: those with a new local number, not -1. Owners and ghosts of a node agree on that.
+    GhostExchange renumbered(const std::vector<std::int32_t>& number) const {
+        const auto some = [&](const std::vector<Neighbour>& all) {
+            std::vector<Neighbour> kept;
+            for (const Neighbour& neighbour : all) {
+                kept.push_back({neighbour.rank, {}});
+                for (const std::int32_t node : neighbour.nodes)
+                    if (number[node] >= 0) kept.back().nodes.push_back(number[node]);
+            }
+            return kept;
+        };
+        return {*ranks_, some(owned_), some(ghosts_)};
+    }
+
     /// Ghosts become what their owners have. Collective; `values` has a block of so many for each local node.
     template <class T>
     void to_ghosts(std::span<T> values, std::size_t block) const {

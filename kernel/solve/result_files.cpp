@@ -28,11 +28,18 @@ std::vector<PartValues> values_of_part(const ElasticProblem& problem, const std:
     for (const CaseSolution& solution : solutions) {
         const std::string suffix = solutions.size() > 1 ? " " + solution.name : "";
         std::vector<double> displacement;
-        for (const std::int32_t node : problem.space->nodes_of_parts()[p].of_vertex)
-            for (std::size_t c = 0; c < 3; ++c) displacement.push_back(solution.displacement[3 * node + c]);
+        const auto add_displacements = [&](const std::vector<std::int32_t>& nodes) {
+            for (const std::int32_t node : nodes)
+                for (std::size_t c = 0; c < 3; ++c) displacement.push_back(solution.displacement[3 * node + c]);
+        };
+        const PartFeNodes& nodes = problem.space->nodes_of_parts()[p];
+        add_displacements(nodes.of_vertex);
+        if (problem.space->parts()[p].order() == 2) add_displacements(nodes.of_edge);
         values.push_back({"Displacement" + suffix, PartValues::Of::points, 3, std::move(displacement)});
         const PartStress& stress = solution.stress.parts[p];
-        add_stresses(stress.at_vertex, PartValues::Of::points, suffix, values);
+        std::vector<SymmetricTensor> at_nodes = stress.at_vertex;
+        at_nodes.insert(at_nodes.end(), stress.at_edge.begin(), stress.at_edge.end());
+        add_stresses(at_nodes, PartValues::Of::points, suffix, values);
         add_stresses(stress.of_tet, PartValues::Of::tets, suffix, values);
         values.push_back({"ErrorIndicator" + suffix, PartValues::Of::tets, 1,
                           std::vector<float>(stress.error.begin(), stress.error.end())});

@@ -18,8 +18,8 @@ struct CaseSolution {
     StressField stress;
 };
 
-/// Arrays for a part of this rank, of all cases: at points Displacement (Float64), Stress (Float32, XX YY ZZ XY YZ XZ)
-/// and VonMises (Float32); of cells Stress, VonMises and ErrorIndicator (Float32; the error's energy norm). With
+/// Arrays for a part of this rank, of all cases: at its nodes Displacement (Float64), Stress (Float32, XX YY ZZ XY YZ
+/// XZ) and VonMises (Float32); of cells Stress, VonMises and ErrorIndicator (Float32; the error's energy norm). With
 /// several cases the names end with a space and the case's.
 std::vector<PartValues> values_of_part(const ElasticProblem& problem, const std::vector<CaseSolution>& solutions,
                                        std::size_t p);

@@ -16,6 +16,8 @@
 #include "io/text_file.h"
 #include "parallel/process_memory.h"
 #include "part/run_parts.h"
+#include "part/second_order_parts.h"
+#include "run/edge_numbering.h"
 #include "run/shared_folder.h"
 #include "solve/elastic_problem.h"
 #include "solve/error_sizes.h"
@@ -78,6 +80,7 @@ class SolveStages {
     SolveReport report_;
     Stopwatch whole_, stage_;
     std::unique_ptr<RunParts> parts_;
+    MeshOutline outline_;  // of the order of the elements
     std::optional<RunFolder> folder_;
     std::optional<FeSpace> space_;
     ElasticProblem problem_;
@@ -103,6 +106,9 @@ void SolveStages::read_request() {
         refuse_to_overwrite(request.case_file, "--output", request.output);
     });
     const MeshOutline& outline = parts_->outline();
+    int& order = report_.wanted.solver.order;
+    if (order == 0) order = outline.order;
+    order = report_.request.order.value_or(order);
     report_.parts = std::ssize(outline.parts);
     report_.tets = outline.tets();
     report_.vertices = outline.vertices;
@@ -130,21 +136,29 @@ void SolveStages::open_folder() {
     }));
 }
 
+// Parts get nodes on straight edges where elements need them, and lose theirs where they do not.
 FeSpace SolveStages::make_space() {
-    const MeshOutline& outline = parts_->outline();
-    const std::vector<PartIndex> first = first_parts_of_ranks(outline, ranks_.size());
+    const int order = report_.wanted.solver.order;
+    std::optional<SecondOrderParts> with_nodes;
+    if (order > parts_->outline().order) with_nodes.emplace(*parts_, number_edges_together(ranks_, *parts_, listener_));
+    const PartSource& source = with_nodes ? static_cast<const PartSource&>(*with_nodes) : *parts_;
+    outline_ = source.outline();
+    outline_.order = order;
+    if (order == 1) outline_.edge_nodes = 0;
+    const std::vector<PartIndex> first = first_parts_of_ranks(outline_, ranks_.size());
     const int r = ranks_.rank();
     std::vector<Part> own = in_agreement(ranks_, [&] {
         std::vector<Part> parts;
         for (const PartIndex index : IdRange(first[r], first[r + 1])) {
             tell_part("read", parts.size(), first[r + 1].value() - first[r].value());
-            parts.push_back(parts_->load(index));
+            parts.push_back(source.load(index));
+            if (order == 1) parts.back().edge_nodes = {};
         }
         return parts;
     });
     report_.seconds.read = stage_.lap();
     progress("number", 0, 0);
-    FeSpace space(ranks_, outline, first, std::move(own), report_.wanted.solver.order);
+    FeSpace space(ranks_, outline_, first, std::move(own), order);
     report_.seconds.number = stage_.lap();
     return space;
 }
@@ -217,7 +231,7 @@ void SolveStages::require_no_reaction(std::size_t number) const {
 }
 
 void SolveStages::write() {
-    const VtuLayout layout = layout_for(parts_->outline(), {});
+    const VtuLayout layout = layout_for(outline_, {});
     const std::vector<RunFile> own = in_agreement(ranks_, [&] {
         std::vector<RunFile> files;
         for (std::size_t p = 0; p < space_->parts().size(); ++p) {
@@ -234,7 +248,7 @@ void SolveStages::write() {
     in_agreement(ranks_, [&] {
         if (!is_root()) return;
         std::vector<std::string> pieces;
-        for (const PartExtent& part : parts_->outline().parts) pieces.push_back("parts/" + part_file_name(part.id));
+        for (const PartExtent& part : outline_.parts) pieces.push_back("parts/" + part_file_name(part.id));
         // Its arrays are those of any part.
         write_pvtu(folder_->file("mesh.pvtu"), pieces, layout, values_of_part(problem_, solutions_, 0));
         report_.files.push_back(describe_file(folder_->partial_path(), "mesh.pvtu"));

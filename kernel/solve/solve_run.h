@@ -21,6 +21,7 @@ struct SolveRequest {
     /// If given, and the estimated error beside the norm of the solution is above it, the result has a field of sizes
     /// for the next mesh.
     std::optional<double> target_error;
+    std::optional<int> order = {};  ///< of the elements, whatever the case and the mesh say
 };
 
 /// Wall clock, the longest over the ranks.
@@ -30,7 +31,7 @@ struct SolveSeconds {
 
 struct SolveReport {
     SolveRequest request;
-    ElasticCase wanted;
+    ElasticCase wanted;  ///< with the order that the elements have
     int ranks = 1;
     std::int64_t parts = 0, tets = 0, vertices = 0;
     std::int64_t nodes = 0;          ///< of the finite elements; three unknowns each, but for held ones
@@ -50,9 +51,10 @@ struct SolveReport {
 /// The field of sizes in the result folder: a mesh for --size-field of kerf mesh.
 inline constexpr const char* size_field_file = "size_field.vtu";
 
-/// Solves and writes the result folder: parts with Displacement, Stress, VonMises and ErrorIndicator, mesh.pvtu, tables
-/// as CSV and report.json, which appears as a whole or not at all (io/run_folder.h). Collective. Throws Error on all
-/// ranks alike; Error(convergence) if the tolerance is not reached, and nothing is written then.
+/// Solves and writes the result folder: parts, of the order of the elements, with Displacement, Stress, VonMises and
+/// ErrorIndicator, mesh.pvtu, tables as CSV and report.json, which appears as a whole or not at all (io/run_folder.h).
+/// Collective. Throws Error on all ranks alike; Error(convergence) if the tolerance is not reached, and nothing is
+/// written then.
 SolveReport solve_run(const SolveRequest& request, MpiRanks& ranks, RunListener* listener);
 
 /// The patches of a finished run. Collective.

@@ -3,71 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solve/element_stress.h"
+#include "solve/stress_patches.h"
+
 namespace kerf {
 
 namespace {
 
 constexpr std::size_t stress_sums = 7;  // of a node: the sum of stresses times volumes, and of the volumes
-
-std::array<Vec3, most_element_nodes> values_at(const std::array<std::int32_t, most_element_nodes>& nodes, int order,
-                                               const std::vector<double>& of_nodes) {
-    std::array<Vec3, most_element_nodes> values;
-    for (int i = 0; i < element_nodes(order); ++i) values[i] = Eigen::Map<const Vec3>(&of_nodes[3 * nodes[i]]);
-    return values;
-}
-
-// The corners and the middles of edges of a tetrahedron.
-Barycentric place_of_node(std::size_t i) {
-    Barycentric place{};
-    if (i < 4)
-        place[i] = 1;
-    else
-        place[tet_edges[i - 4][0]] = place[tet_edges[i - 4][1]] = 0.5;
-    return place;
-}
-
-// The stresses of one element.
-class ElementStress {
- public:
-    ElementStress(const ElasticProblem& problem, const std::vector<double>& displacement, std::size_t number,
-                  std::size_t p, std::size_t t)
-        : element_(problem.space->element(p, t)),
-          material_(problem.material(p, t)),
-          values_(values_at(problem.space->nodes_of(p, t), problem.space->order(), displacement)),
-          thermal_(problem.thermal_strain(number, p, t)) {}
-    const TetElement& element() const { return element_; }
-    const Material& material() const { return material_; }
-    // Without what temperature stretches.
-    SymmetricTensor strain(const Barycentric& point) const {
-        SymmetricTensor strain = strain_of(element_.gradient_of(values_, point));
-        strain.head<3>().array() -= thermal_;
-        return strain;
-    }
-    SymmetricTensor stress(const Barycentric& point) const { return stress_of(material_, strain(point)); }
-    // What holds the nodes against the stresses.
-    std::array<Vec3, most_element_nodes> nodal_forces() const;
-
- private:
-    TetElement element_;
-    const Material& material_;
-    std::array<Vec3, most_element_nodes> values_;
-    double thermal_;
-};
-
-std::array<Vec3, most_element_nodes> ElementStress::nodal_forces() const {
-    const std::size_t points = element_.order() == 1 ? 1 : quadrature_points.size();
-    const double weight = element_.volume() / static_cast<double>(points);
-    std::array<Vec3, most_element_nodes> forces;
-    forces.fill(Vec3::Zero());
-    for (std::size_t q = 0; q < points; ++q) {
-        const SymmetricTensor s = stress(quadrature_points[q]);
-        Eigen::Matrix3d matrix;
-        matrix << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-        const TetElement::Gradients gradients = element_.gradients_at(quadrature_points[q]);
-        for (int n = 0; n < element_.node_count(); ++n) forces[n] += weight * matrix * gradients[n];
-    }
-    return forces;
-}
 
 bool holds_any_of(const ElasticProblem& problem, const std::array<std::int32_t, most_element_nodes>& nodes) {
     return std::any_of(nodes.begin(), nodes.begin() + element_nodes(problem.space->order()),
@@ -93,6 +36,38 @@ void add_spring_forces(const ElasticProblem& problem, const std::vector<double>&
     }
 }
 
+// Means at local nodes over the cells of a material around.
+std::vector<SymmetricTensor> average_stresses(const ElasticProblem& problem, const std::vector<double>& displacement,
+                                              std::size_t number, std::size_t material) {
+    const FeSpace& space = *problem.space;
+    std::vector<double> sums(stress_sums * space.node_count(), 0);
+    for_all_tets(space, [&](std::size_t p, std::size_t t) {
+        if (!problem.is_of(material, p, t)) return;
+        const ElementStress element(problem, displacement, number, p, t);
+        const auto nodes = space.nodes_of(p, t);
+        const double volume = element.element().volume();
+        for (int i = 0; i < element_nodes(space.order()); ++i) {
+            double* sum = &sums[stress_sums * nodes[i]];
+            Eigen::Map<SymmetricTensor>{sum} += volume * element.stress(TetElement::place_of_node(i));
+            sum[stress_sums - 1] += volume;
+        }
+    });
+    space.exchange().add_to_owners(std::span(sums), stress_sums);
+    space.exchange().to_ghosts(std::span(sums), stress_sums);
+    std::vector<SymmetricTensor> means(space.node_count(), SymmetricTensor::Zero());
+    for (std::int32_t n = 0; n < space.node_count(); ++n) {
+        const double* sum = &sums[stress_sums * n];
+        if (sum[stress_sums - 1] > 0) means[n] = Eigen::Map<const SymmetricTensor>{sum} / sum[stress_sums - 1];
+    }
+    return means;
+}
+
+// The square of a difference of degree 2 has degree 4; of order 1 it has degree 2.
+std::span<const TetPoint> rule_of_errors(int order) {
+    if (order == 1) return quadrature::four_points;
+    return quadrature::fourteen_points;
+}
+
 class StressRecovery {
  public:
     StressRecovery(const ElasticProblem& problem, const std::vector<double>& displacement, std::size_t number)
@@ -102,14 +77,12 @@ class StressRecovery {
             stress.of_tet.assign(part.mesh.tets.size(), SymmetricTensor::Zero());
             stress.at_vertex.assign(part.mesh.vertices.size(), SymmetricTensor::Zero());
             stress.error.assign(part.mesh.tets.size(), 0);
+            if (space_.order() == 2) stress.at_edge.assign(part.edge_nodes.points.size(), SymmetricTensor::Zero());
         }
     }
 
     StressField recover() {
-        for (std::size_t m = 0; m < problem_.materials.size(); ++m) {
-            average(m);
-            compare(m);
-        }
+        for (std::size_t m = 0; m < problem_.materials.size(); ++m) compare(m);
         std::array<double, 2> squares = {field_.norms.solution, field_.norms.error};
         space_.ranks().all_reduce(std::span<double>(squares), Reduction::sum);
         field_.norms = {std::sqrt(squares[0]), std::sqrt(squares[1])};
@@ -117,50 +90,26 @@ class StressRecovery {
     }
 
  private:
-    bool is_of(std::size_t m, std::size_t p, std::size_t t) const {
-        return problem_.material_of_tet.empty() || problem_.material_of_tet[p][t] == m;
-    }
-
-    // Mean stresses of a material at nodes.
-    void average(std::size_t m) {
-        sums_.assign(stress_sums * space_.node_count(), 0);
-        for_all_tets(space_, [&](std::size_t p, std::size_t t) {
-            if (!is_of(m, p, t)) return;
-            const ElementStress element(problem_, displacement_, number_, p, t);
-            const auto nodes = space_.nodes_of(p, t);
-            const double volume = element.element().volume();
-            for (int i = 0; i < element_nodes(space_.order()); ++i) {
-                double* sum = &sums_[stress_sums * nodes[i]];
-                Eigen::Map<SymmetricTensor>{sum} += volume * element.stress(place_of_node(i));
-                sum[stress_sums - 1] += volume;
-            }
-        });
-        space_.exchange().add_to_owners(std::span(sums_), stress_sums);
-        space_.exchange().to_ghosts(std::span(sums_), stress_sums);
-        for (std::int32_t n = 0; n < space_.node_count(); ++n) {
-            double* sum = &sums_[stress_sums * n];
-            if (sum[stress_sums - 1] > 0) Eigen::Map<SymmetricTensor>{sum} /= sum[stress_sums - 1];
-        }
-    }
-    SymmetricTensor mean_at(std::int32_t node) const {
-        return Eigen::Map<const SymmetricTensor>(&sums_[stress_sums * node]);
-    }
-
     void compare(std::size_t m) {
+        const std::vector<SymmetricTensor> better = space_.order() == 1
+                                                        ? average_stresses(problem_, displacement_, number_, m)
+                                                        : fit_stresses(problem_, displacement_, number_, m);
         const int nodes_each = element_nodes(space_.order());
         for_all_tets(space_, [&](std::size_t p, std::size_t t) {
-            if (!is_of(m, p, t)) return;
+            if (!problem_.is_of(m, p, t)) return;
             const ElementStress element(problem_, displacement_, number_, p, t);
+            const double volume = element.element().volume();
             const auto nodes = space_.nodes_of(p, t);
-            const double weight = element.element().volume() / static_cast<double>(quadrature_points.size());
             SymmetricTensor mean = SymmetricTensor::Zero();
             double of_solution = 0, of_error = 0;
-            for (const Barycentric& point : quadrature_points) {
+            for (const TetPoint& at : rule_of_errors(space_.order())) {
+                const TetElement::Point point = element.element().point(at);
+                const double weight = point.weight;
                 const SymmetricTensor strain = element.strain(point), stress = stress_of(element.material(), strain);
-                const TetElement::Shapes shapes = TetElement::shapes_at(space_.order(), point);
+                const TetElement::Shapes shapes = TetElement::shapes_at(space_.order(), at.place);
                 SymmetricTensor difference = -stress;
-                for (int i = 0; i < nodes_each; ++i) difference += shapes[i] * mean_at(nodes[i]);
-                mean += stress / static_cast<double>(quadrature_points.size());
+                for (int i = 0; i < nodes_each; ++i) difference += shapes[i] * better[nodes[i]];
+                mean += weight / volume * stress;
                 of_solution += weight * contracted(stress, strain);
                 of_error += weight * contracted(difference, strain_of_stress(element.material(), difference));
             }
@@ -171,7 +120,12 @@ class StressRecovery {
             field_.norms.solution += of_solution;
             field_.norms.error += of_error;
             const Tetrahedron& corners = space_.parts()[p].mesh.tets[t];
-            for (std::size_t i = 0; i < 4; ++i) of_part.at_vertex[corners[i]] = mean_at(nodes[i]);
+            for (std::size_t i = 0; i < 4; ++i) of_part.at_vertex[corners[i]] = better[nodes[i]];
+            if (!of_part.at_edge.empty()) {
+                const auto of_tet = space_.parts()[p].nodes_of_tet(static_cast<std::int64_t>(t));
+                const auto first = std::ssize(of_part.at_vertex);
+                for (std::size_t i = 4; i < 10; ++i) of_part.at_edge[of_tet[i] - first] = better[nodes[i]];
+            }
         });
     }
 
@@ -179,7 +133,6 @@ class StressRecovery {
     const FeSpace& space_;
     const std::vector<double>& displacement_;
     std::size_t number_;
-    std::vector<double> sums_;
     StressField field_;
 };
 

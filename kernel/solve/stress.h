@@ -10,10 +10,11 @@ namespace kerf {
 
 /// Stresses of a part: of its elements, and averages at its vertices.
 struct PartStress {
-    std::vector<SymmetricTensor> of_tet;     ///< #T; the mean over the tetrahedron
-    std::vector<SymmetricTensor> at_vertex;  ///< #V; mean over the cells around with the same material, by volume
-    std::vector<double> error;               ///< #T; estimate of the error in the energy norm
-    double energy = 0;                       ///< of the strain, of the whole part
+    std::vector<SymmetricTensor> of_tet;        ///< #T; the mean over the tetrahedron
+    std::vector<SymmetricTensor> at_vertex;     ///< #V; nearer to the truth than the elements' own (recover_stress())
+    std::vector<double> error;                  ///< #T; estimate of the error in the energy norm
+    double energy = 0;                          ///< of the strain, of the whole part
+    std::vector<SymmetricTensor> at_edge = {};  ///< of order 2, where Part::edge_nodes are: at each
 };
 
 /// Norms of the whole mesh.
@@ -29,9 +30,11 @@ struct StressField {
     EnergyNorms norms;
 };
 
-/// Averages of the elements' stresses at nodes, which are nearer to the truth than the elements' own, tell the error by
-/// what they differ (Zienkiewicz and Zhu 1987). A tetrahedron with a vertex of another material's takes its own
-/// material's average. `number`: of the case, whose temperatures leave no stress where nothing is held. Collective, one
+/// Stresses at nodes that are nearer to the truth than the elements' own tell the error by what they differ
+/// (Zienkiewicz and Zhu 1987). Order 1: averages of the cells around, by their volumes. Order 2: polynomials on patches
+/// (solve/stress_patches.h); the estimate is then 0.95 to 1.15 of the true error of smooth fields. A node between two
+/// materials has a stress in each; a tetrahedron takes that of its own, and what a part says of a vertex is that of
+/// one of its cells. `number`: of the case, whose temperatures leave no stress where nothing is held. Collective, one
 /// exchange for each material; O(n).
 StressField recover_stress(const ElasticProblem& problem, const std::vector<double>& displacement,
                            std::size_t number = 0);

@@ -8,7 +8,6 @@
 #include <Eigen/Geometry>
 
 #include "core/error.h"
-#include "geometry/triangle.h"
 
 namespace kerf {
 
@@ -59,8 +58,8 @@ SurfaceSelector::SurfaceSelector(const FeSpace& space, std::vector<std::string> 
                     low[c + 3] = std::min(low[c + 3], -corners[i][c]);
                 }
             }
-            const Vec3 doubled = doubled_area_vector(corners);
-            surface_.push_back({p, f, 0.5 * doubled.norm(), doubled.normalized()});
+            const FacetElement element = space.facet_element(p, f);
+            surface_.push_back({p, f, element.area(), element.normal()});
         }
     }
     space.ranks().all_reduce(std::span<double>(low), Reduction::smallest);

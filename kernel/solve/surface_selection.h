@@ -16,7 +16,7 @@ struct SurfaceFacet {
     std::size_t part = 0;   ///< of this rank's
     std::size_t facet = 0;  ///< of the part
     double area = 0;
-    Vec3 normal = Vec3::Zero();  ///< unit vector, outwards
+    Vec3 normal = Vec3::Zero();  ///< unit vector, outwards; of a curved one that of its corners
 };
 
 /// Finds what selections name. All functions are collective, and throw alike on all ranks.

@@ -8,14 +8,6 @@ namespace kerf {
 
 namespace {
 
-// Six points, exact for polynomials of degree 4: products of two quadratic ones (Dunavant 1985). Of each three, one
-// barycentric coordinate is 1 - 2 x, the others are x.
-struct TrianglePoints {
-    double x, weight;
-};
-constexpr std::array<TrianglePoints, 2> triangle_rule = {
-    {{0.44594849091596488632, 0.22338158967801146570}, {0.09157621350977074346, 0.10995174365532186764}}};
-
 // Values of the shape functions of a triangle, and their slopes against the first two barycentric coordinates.
 struct TriangleShapes {
     std::array<double, 6> value{}, slope_a{}, slope_b{};
@@ -53,22 +45,19 @@ FacetStiffness spring_stiffness(const FeSpace& space, const SurfaceSprings& spri
     for (auto& row : blocks) row.fill(Eigen::Matrix3d::Zero());
     const auto nodes = space.nodes_of_facet(facet.part, facet.facet);
     const std::size_t count = space.order() == 1 ? 3 : 6;
-    for (const TrianglePoints& three : triangle_rule)
-        for (std::size_t turned = 0; turned < 3; ++turned) {
-            std::array<double, 3> place = {three.x, three.x, three.x};
-            place[turned] = 1 - 2 * three.x;
-            const TriangleShapes shapes = triangle_shapes(space.order(), place);
-            Vec3 along_a = Vec3::Zero(), along_b = Vec3::Zero();
-            for (std::size_t n = 0; n < count; ++n) {
-                along_a += shapes.slope_a[n] * space.points()[nodes[n]];
-                along_b += shapes.slope_b[n] * space.points()[nodes[n]];
-            }
-            const Vec3 doubled = along_a.cross(along_b);
-            const Eigen::Matrix3d stiffness = three.weight * doubled.norm() / 2 *
-                                              stiffness_per_area(springs.springs[facet.spring], doubled.normalized());
-            for (std::size_t a = 0; a < count; ++a)
-                for (std::size_t b = 0; b < count; ++b) blocks[a][b] += shapes.value[a] * shapes.value[b] * stiffness;
+    for (const TrianglePoint& at : quadrature::six_points) {
+        const TriangleShapes shapes = triangle_shapes(space.order(), at.place);
+        Vec3 along_a = Vec3::Zero(), along_b = Vec3::Zero();
+        for (std::size_t n = 0; n < count; ++n) {
+            along_a += shapes.slope_a[n] * space.points()[nodes[n]];
+            along_b += shapes.slope_b[n] * space.points()[nodes[n]];
         }
+        const Vec3 doubled = along_a.cross(along_b);
+        const Eigen::Matrix3d stiffness =
+            at.weight * doubled.norm() / 2 * stiffness_per_area(springs.springs[facet.spring], doubled.normalized());
+        for (std::size_t a = 0; a < count; ++a)
+            for (std::size_t b = 0; b < count; ++b) blocks[a][b] += shapes.value[a] * shapes.value[b] * stiffness;
+    }
     return blocks;
 }
 

@@ -1,63 +1,84 @@
-// Tetrahedral elements with straight edges, linear and quadratic.
+// Tetrahedral elements: linear and quadratic ones, whose edges may be curved.
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "core/types.h"
 #include "mesh/edge_table.h"
 #include "solve/material.h"
+#include "solve/quadrature.h"
 
 namespace kerf {
 
 inline constexpr int most_element_nodes = 10;
 constexpr int element_nodes(int order) { return order == 1 ? 4 : most_element_nodes; }
 
-/// Weights of the corners; they add up to 1.
-using Barycentric = std::array<double, 4>;
-
-/// Four points with equal weights, exact for polynomials of degree 2.
-inline constexpr double inner_weight = 0.13819660112501051518, outer_weight = 1 - 3 * inner_weight;
-inline constexpr std::array<Barycentric, 4> quadrature_points = {
-    {{outer_weight, inner_weight, inner_weight, inner_weight},
-     {inner_weight, outer_weight, inner_weight, inner_weight},
-     {inner_weight, inner_weight, outer_weight, inner_weight},
-     {inner_weight, inner_weight, inner_weight, outer_weight}}};
-
-/// Lagrange's element of order 1 or 2: nodes at the corners, then in the middle of the edges.
+/// Lagrange's element of order 1 or 2: nodes at the corners, then on the edges. With nodes that are no midpoints the
+/// element of order 2 is isoparametric: its place is interpolated as its displacement is (Ergatoudis, Irons and
+/// Zienkiewicz 1968). Places in it are those of the tetrahedron of its corners, of which it is an image.
 class TetElement {
  public:
+    using Nodes = std::array<Vec3, most_element_nodes>;
+    using Shapes = std::array<double, most_element_nodes>;
+    using Gradients = std::array<Vec3, most_element_nodes>;
+
+    /// With straight edges.
     TetElement(const std::array<Vec3, 4>& corners, int order);
+    /// Of order 2. Straight if the nodes on the edges are the midpoints, bit by bit.
+    explicit TetElement(const Nodes& nodes);
 
     int order() const { return order_; }
     int node_count() const { return element_nodes(order_); }
+    bool is_curved() const { return is_curved_; }
     double volume() const { return volume_; }  ///< > 0 for a tetrahedron of positive orientation
 
-    using Shapes = std::array<double, most_element_nodes>;
-    using Gradients = std::array<Vec3, most_element_nodes>;
-    static Shapes shapes_at(int order, const Barycentric& point);
-    Gradients gradients_at(const Barycentric& point) const;
-    Vec3 position_of(const Barycentric& point) const;
+    static Shapes shapes_at(int order, const Barycentric& place);
+    /// Where node i is.
+    static Barycentric place_of_node(int i);
+    Gradients gradients_at(const Barycentric& place) const;
+    Vec3 position_of(const Barycentric& place) const;
+    /// How large the element is there, beside the tetrahedron of its corners: 1 if it is straight; > 0 where it is not
+    /// folded.
+    double stretch_at(const Barycentric& place) const;
+
+    /// A point of a sum that is an integral over the element.
+    struct Point {
+        Barycentric place;
+        double weight;  ///< a volume; those of a rule add up to that of the element
+        Gradients gradients;
+    };
+    Point point(const TetPoint& at) const;
+
+    /// The rule by which the stiffness is integrated. Straight: exactly, by 1 or 4 points. Curved: 14 points of degree
+    /// 5, with which the volume and what loads put on nodes are exact, too. Gradients are no polynomials there;
+    /// for the order of convergence degree 2 would do (Ciarlet and Raviart 1972), but leaves more than the
+    /// discretisation does where cells are strongly curved.
+    std::span<const TetPoint> rule() const;
 
     /// Row i is the gradient of component i of what has these values at the nodes.
-    Eigen::Matrix3d gradient_of(const std::array<Vec3, most_element_nodes>& values, const Barycentric& point) const;
+    Eigen::Matrix3d gradient_of(const Nodes& values, const Barycentric& place) const;
 
-    /// The integrals of the shape functions: what a force density of 1 puts on each node.
+    /// The integrals of the shape functions: what a force density of 1 puts on each node. Exact.
     Shapes node_volumes() const;
 
-    /// Blocks of 3 x 3 of the stiffness matrix, exactly integrated: work of the stresses of node b's unit displacements
-    /// in the strains of node a's. Symmetric.
+    /// Blocks of 3 x 3 of the stiffness matrix, by rule(): work of the stresses of node b's unit displacements in the
+    /// strains of node a's. Symmetric.
     using Stiffness = std::array<std::array<Eigen::Matrix3d, most_element_nodes>, most_element_nodes>;
     void stiffness(const Material& material, Stiffness& blocks) const;
 
  private:
-    std::array<Vec3, 4> corners_;
+    // Of the tetrahedron of the corners.
+    Gradients straight_gradients_at(const Barycentric& place) const;
+    // Row i is the gradient of coordinate i of the element, seen as a function on that tetrahedron.
+    Eigen::Matrix3d distortion(const Gradients& straight) const;
+
+    Nodes nodes_;                 // without those on edges where they are not curved
     std::array<Vec3, 4> slopes_;  // gradients of the barycentric coordinates
+    double straight_volume_;      // of the corners
     double volume_;
     int order_;
+    bool is_curved_ = false;
 };
-
-/// What a traction of 1 puts on each node of a triangle: corners, then middles of edges.
-using TriangleShares = std::array<double, 6>;
-TriangleShares node_areas(double area, int order);
 
 }  // namespace kerf

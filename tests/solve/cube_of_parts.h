@@ -30,7 +30,8 @@ inline int ranks() {
 
 inline const Ranks* ranks_of_program = nullptr;  // those of this program
 
-// Two meshes of a cube in seven parts, made by the first rank for all: with edges of 0.2 and, if they can, 0.5.
+// Meshes of a cube in seven parts, made by the first rank for all: with edges of 0.2 and, if they can, 0.5; and with
+// its surface remeshed edges of 0.4 and 0.2.
 class CubeOfParts : public testing::Environment {
  public:
     void SetUp() override {
@@ -39,17 +40,22 @@ class CubeOfParts : public testing::Environment {
             folder_ = std::make_unique<TemporaryFolder>();
             mesh("fine", "0.2", "keep");
             mesh("coarse", "0.5", "remesh");
+            mesh("sized0", "0.4", "remesh");
+            mesh("sized1", "0.2", "remesh");
             folder_->file("").copy(path.data(), path.size() - 1);
         }
         MPI_Bcast(path.data(), static_cast<int>(path.size()), MPI_CHAR, 0, MPI_COMM_WORLD);
         parts = std::make_unique<RunParts>(std::string(path.data()) + "fine");
         coarse_parts = std::make_unique<RunParts>(std::string(path.data()) + "coarse");
+        for (std::size_t i = 0; i < sized_parts.size(); ++i)
+            sized_parts[i] = std::make_unique<RunParts>(std::string(path.data()) + "sized" + std::to_string(i));
     }
     void TearDown() override {
         MPI_Barrier(MPI_COMM_WORLD);
         folder_.reset();
     }
     inline static std::unique_ptr<RunParts> parts, coarse_parts;
+    inline static std::array<std::unique_ptr<RunParts>, 2> sized_parts;
 
  private:
     void mesh(const std::string& name, const char* size, const char* surface) const {
@@ -79,14 +85,23 @@ class CubeOfParts : public testing::Environment {
     std::unique_ptr<TemporaryFolder> folder_;
 };
 
-// The space of the parts of a communicator's rank.
-inline std::unique_ptr<FeSpace> space_on(MpiRanks& of_space, int order, RunParts& mesh = *CubeOfParts::parts) {
-    const int own = of_space.rank(), size = of_space.size();
-    const MeshOutline& outline = mesh.outline();
-    const std::vector<PartIndex> first = first_parts_of_ranks(outline, size);
+// The parts of a communicator's rank.
+inline std::vector<Part> parts_on(const MpiRanks& of_space, const RunParts& mesh) {
+    const int own = of_space.rank();
+    const std::vector<PartIndex> first = first_parts_of_ranks(mesh.outline(), of_space.size());
     std::vector<Part> parts;
     for (const PartIndex index : IdRange(first[own], first[own + 1])) parts.push_back(mesh.load(index));
-    return std::make_unique<FeSpace>(of_space, outline, first, std::move(parts), order);
+    return parts;
+}
+
+// The space of these parts of a communicator's rank.
+inline std::unique_ptr<FeSpace> space_of(MpiRanks& of_space, const RunParts& mesh, std::vector<Part> parts, int order) {
+    const MeshOutline& outline = mesh.outline();
+    return std::make_unique<FeSpace>(of_space, outline, first_parts_of_ranks(outline, of_space.size()),
+                                     std::move(parts), order);
+}
+inline std::unique_ptr<FeSpace> space_on(MpiRanks& of_space, int order, RunParts& mesh = *CubeOfParts::parts) {
+    return space_of(of_space, mesh, parts_on(of_space, mesh), order);
 }
 
 inline double largest(double value) {

@@ -1,0 +1,148 @@
+#include "solve/stress_patches.h"
+
+#include <algorithm>
+
+#include <Eigen/Cholesky>
+
+#include "solve/element_stress.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr int monomials = 10, tensor_size = 6;
+constexpr int products = monomials * (monomials + 1) / 2;  // of two monomials
+constexpr std::array<int, 3> terms_of_degree = {1, 4, 10};
+
+using Monomials = Eigen::Matrix<double, monomials, 1>;
+using Coefficients = Eigen::Matrix<double, monomials, tensor_size>;
+
+// Of the distance from the vertex.
+Monomials monomials_at(const Vec3& d) {
+    Monomials m;
+    m << 1, d.x(), d.y(), d.z(), d.x() * d.x(), d.y() * d.y(), d.z() * d.z(), d.x() * d.y(), d.y() * d.z(),
+        d.x() * d.z();
+    return m;
+}
+
+constexpr double least_pivot = 1e-9;   // of scaled equations that are worth solving
+constexpr double largest_growth = 30;  // of the square of an error of all stresses, on its way to the vertex
+
+class PatchFit {
+ public:
+    PatchFit(const ElasticProblem& problem, const std::vector<double>& displacement, std::size_t number,
+             std::size_t material)
+        : problem_(problem), space_(*problem.space), displacement_(displacement), number_(number), material_(material) {
+        number_vertices();
+    }
+    std::vector<SymmetricTensor> at_nodes();
+
+ private:
+    void number_vertices();
+    void add_equations();
+    void solve(std::size_t vertex);
+    Eigen::Map<Coefficients> polynomial(std::int32_t vertex) {
+        return Eigen::Map<Coefficients>(&values_[static_cast<std::size_t>(vertex) * monomials * tensor_size]);
+    }
+    SymmetricTensor value_at(std::int32_t node, const Vec3& place) {
+        return polynomial(vertex_of_node_[node]).transpose() * monomials_at(place - space_.points()[node]);
+    }
+
+    const ElasticProblem& problem_;
+    const FeSpace& space_;
+    const std::vector<double>& displacement_;
+    std::size_t number_, material_;
+    std::vector<std::int32_t> vertex_of_node_;  // -1: on an edge
+    std::size_t owned_ = 0, vertices_ = 0;      // vertices of this rank, and with ghosts
+    GhostExchange exchange_;
+    std::vector<double> products_, values_;
+};
+
+// Ghosts come after the own ones, as among nodes.
+void PatchFit::number_vertices() {
+    vertex_of_node_.assign(space_.node_count(), -1);
+    for (const PartFeNodes& part : space_.nodes_of_parts())
+        for (const std::int32_t node : part.of_vertex) vertex_of_node_[node] = 0;
+    for (std::int32_t n = 0; n < space_.node_count(); ++n) {
+        if (n == space_.owned_count()) owned_ = vertices_;
+        if (vertex_of_node_[n] == 0) vertex_of_node_[n] = static_cast<std::int32_t>(vertices_++);
+    }
+    if (space_.owned_count() == space_.node_count()) owned_ = vertices_;
+    exchange_ = space_.exchange().renumbered(vertex_of_node_);
+}
+
+void PatchFit::add_equations() {
+    products_.assign(products * vertices_, 0);
+    values_.assign(monomials * tensor_size * vertices_, 0);
+    for_all_tets(space_, [&](std::size_t p, std::size_t t) {
+        if (!problem_.is_of(material_, p, t)) return;
+        const ElementStress element(problem_, displacement_, number_, p, t);
+        const auto nodes = space_.nodes_of(p, t);
+        for (const TetPoint& at : quadrature::four_points) {
+            const double weight = at.weight * element.element().volume();
+            const SymmetricTensor stress = weight * element.stress(at.place);
+            const Vec3 place = element.element().position_of(at.place);
+            for (std::size_t i = 0; i < 4; ++i) {
+                const Monomials m = monomials_at(place - space_.points()[nodes[i]]);
+                const std::int32_t vertex = vertex_of_node_[nodes[i]];
+                polynomial(vertex).noalias() += m * stress.transpose();
+                double* sum = &products_[static_cast<std::size_t>(vertex) * products];
+                for (int a = 0; a < monomials; ++a)
+                    for (int b = 0; b <= a; ++b) *sum++ += weight * m[a] * m[b];
+            }
+        }
+    });
+    exchange_.add_to_owners(std::span(products_), products);
+    exchange_.add_to_owners(std::span(values_), monomials * tensor_size);
+}
+
+void PatchFit::solve(std::size_t vertex) {
+    Eigen::Matrix<double, monomials, monomials> matrix;
+    const double* sum = &products_[vertex * products];
+    for (int a = 0; a < monomials; ++a)
+        for (int b = 0; b <= a; ++b) matrix(a, b) = matrix(b, a) = *sum++;
+    if (!(matrix(0, 0) > 0)) return;  // the volume
+    const Monomials scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
+    matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
+    auto found = polynomial(static_cast<std::int32_t>(vertex));
+    const Coefficients right = scale.asDiagonal() * found;
+    found.setZero();
+    for (int degree = 2; degree >= 0; --degree) {
+        const int terms = terms_of_degree[degree];
+        const Eigen::LDLT<Eigen::MatrixXd> factors(matrix.topLeftCorner(terms, terms));
+        if (degree > 0 && factors.vectorD().minCoeff() <= least_pivot) continue;
+        // With stresses as they are in one cell, degree 1 is always determined, and exact.
+        if (degree == 2 && !(factors.solve(Eigen::VectorXd::Unit(terms, 0))[0] <= largest_growth)) continue;
+        found.topRows(terms) = scale.head(terms).asDiagonal() * factors.solve(right.topRows(terms));
+        return;
+    }
+}
+
+std::vector<SymmetricTensor> PatchFit::at_nodes() {
+    add_equations();
+    for (std::size_t v = 0; v < owned_; ++v) solve(v);
+    products_ = {};
+    exchange_.to_ghosts(std::span(values_), monomials * tensor_size);
+    std::vector<SymmetricTensor> stresses(space_.node_count(), SymmetricTensor::Zero());
+    for_all_tets(space_, [&](std::size_t p, std::size_t t) {
+        if (!problem_.is_of(material_, p, t)) return;
+        const auto nodes = space_.nodes_of(p, t);
+        for (std::size_t i = 0; i < 4; ++i)
+            stresses[nodes[i]] = polynomial(vertex_of_node_[nodes[i]]).row(0).transpose();
+        for (std::size_t e = 0; e < 6; ++e) {
+            const Vec3& place = space_.points()[nodes[4 + e]];
+            const std::int32_t a = nodes[tet_edges[e][0]], b = nodes[tet_edges[e][1]];
+            stresses[nodes[4 + e]] = 0.5 * (value_at(a, place) + value_at(b, place));
+        }
+    });
+    return stresses;
+}
+
+}  // namespace
+
+std::vector<SymmetricTensor> fit_stresses(const ElasticProblem& problem, const std::vector<double>& displacement,
+                                          std::size_t number, std::size_t material) {
+    return PatchFit(problem, displacement, number, material).at_nodes();
+}
+
+}  // namespace kerf
