@@ -106,10 +106,9 @@ bool is_sealed(const std::string& report) {
 
 bool is_named_like_run_file(const std::string& path) {
     std::string_view name = path;
-    for (const std::string_view whole :
-         {"report.json", "mesh.pvtu", "surfaces.pvtu", "surfaces.vtu", "comparison.svg", "size_field.vtu",
-          "results.csv", "reactions.csv", "parts/", curved_nodes_name, "failed/", "work/", "work/journal/",
-          "work/jobs/", "work/taken/"})
+    for (const std::string_view whole : {"report.json", "mesh.pvtu", "surfaces.pvtu", "surfaces.vtu", "comparison.svg",
+                                         "size_field.vtu", "results.csv", "reactions.csv", "parts/", curved_nodes_name,
+                                         "failed/", "work/", "work/journal/", "work/jobs/", "work/taken/"})
         if (name == whole) return true;
     if (take_prefix(name, "parts/")) return is_part_name(name, {".part", ".vtu", ".surface.vtu", ".stl"});
     if (take_prefix(name, "export/")) return true;

@@ -61,8 +61,6 @@ class FileSurface {
     std::map<std::vector<std::int32_t>, TriangleTree> lines_;
 };
 
-bool asks_for_curves(const RunOptions& options) { return options.order == 2 && options.curving == Curving::automatic; }
-
 }  // namespace
 
 const Vec3* SurfaceNodes::find(const UndirectedEdge& edge) const {
@@ -71,12 +69,12 @@ const Vec3* SurfaceNodes::find(const UndirectedEdge& edge) const {
 }
 
 SurfaceArrays surface_behind(const Input& input, const RunOptions& options) {
-    return asks_for_curves(options) && !input.is_cad ? input.complex.arrays() : SurfaceArrays();
+    return options.has_curved_edges() && !input.is_cad ? input.complex.arrays() : SurfaceArrays();
 }
 
 SurfaceNodes make_surface_nodes(Input& input, const SurfaceArrays& behind, const RunOptions& options) {
     SurfaceNodes nodes;
-    if (!asks_for_curves(options)) return nodes;
+    if (!options.has_curved_edges()) return nodes;
     std::vector<Vec3> points;
     if (input.is_cad) points = move_onto_cad(input, options);
     const PlacedSurface surface(input.complex.arrays());

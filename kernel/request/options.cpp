@@ -84,7 +84,7 @@ RunOptions resolved(RunOptions options, int cores_of_rank) {
     if (options.split_regions && std::find(formats.begin(), formats.end(), &find_format("openfoam")) == formats.end())
         throw Error(ErrorCode::usage, "--split-regions is for the format openfoam, which --format does not name.");
     options.check_files();
-    options.input_options.cad.on_faces = options.order == 2 && options.curving == Curving::automatic;
+    options.input_options.cad.on_faces = options.has_curved_edges();
     for (std::string& file : options.input_options.more_files) file = std::filesystem::absolute(file).string();
     std::string& field_file = options.sizes.field_file;
     if (!field_file.empty()) field_file = std::filesystem::absolute(field_file).string();

@@ -61,6 +61,8 @@ struct RunOptions {
     std::int32_t order = 1;  ///< of the cells: 1, or 2 with a node on each edge
     Curving curving = Curving::automatic;
 
+    /// Whether edges of the surface may be curved.
+    bool has_curved_edges() const { return order == 2 && curving == Curving::automatic; }
     /// Throws Error(usage) or Error(io) for input and outputs that are in each other's way: what resolved() asks of
     /// files, for who writes one of them before the run.
     void check_files() const;

@@ -214,7 +214,7 @@ std::unique_ptr<const SecondOrderParts> with_second_order(const RunContext& run,
     if (run.options.order != 2) return {};
     EdgeNumbers numbers = number_edges_together(run.ranks, parts, run.listener);
     CurvedNodes curved;
-    if (run.options.curving == Curving::automatic) {
+    if (run.options.has_curved_edges()) {
         CurvedMesh mesh = curve_parts(run.ranks, parts, numbers, run.surface_nodes, run.listener);
         curved = std::move(mesh.nodes);
         report.curve = mesh.report;

@@ -24,6 +24,7 @@
 #include "part/vtu_writer.h"
 #include "prepare/oriented_triangle.h"
 #include "prepare/remeshing.h"
+#include "prepare/surface_nodes.h"
 #include "run/edge_node_check.h"
 #include "run/input_pieces.h"
 #include "run/reported_options.h"
@@ -328,14 +329,16 @@ void FolderVerifier::check_input() {
     const auto& of_report = report_.at("input");
     Input input;
     try {
-        const RunOptions options = options_of_report(report_.at("options"));
-        const std::string path = options_.input.empty() ? path_of_text(of_report.at("path")) : options_.input;
-        input = options_.surface ? *options_.surface : read_input(path, options.input_options);
+        RunOptions options = options_of_report(report_.at("options"));
+        options.input_options.cad.on_faces = options.has_curved_edges();
+        options.input = options_.input.empty() ? path_of_text(of_report.at("path")) : options_.input;
+        input = options_.surface ? *options_.surface : read_input(options.input, options.input_options);
         if (of_report.at("hash") != input.file_hash) {
             result_.not_compared = input.path + " is not what the run has read: its bytes are others.";
             return;
         }
         input = remesh_where_asked(std::move(input), options);
+        if (input.is_cad) make_surface_nodes(input, {}, options);  // moves vertices onto the faces
     } catch (const Error& e) {
         result_.not_compared = e.what();
         return;
