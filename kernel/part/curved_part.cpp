@@ -12,6 +12,7 @@ namespace kerf {
 
 namespace {
 
+constexpr int most_sweeps = 4;           // over the nodes inside of cells that are not valid
 constexpr int most_shrinks = 6;          // of the steps of a node
 constexpr double first_step = 0.5;       // of how far the curved nodes around are from their middles
 constexpr double enough_jacobian = 0.1;  // of the straight one: a node need not be moved for more
@@ -31,7 +32,7 @@ class PartCurving {
     CurvedPart run() {
         find_cells();
         std::vector<std::int32_t> invalid = invalid_of(cells_);
-        if (!invalid.empty()) {
+        for (int sweep = 0; sweep < most_sweeps && !invalid.empty(); ++sweep) {
             move_inner_nodes(invalid);
             invalid = invalid_of(neighbours_of(invalid));
         }
@@ -137,7 +138,8 @@ class PartCurving {
         double least = least_jacobian(cells), step = first_step * largest_offset(cells);
         if (least >= enough_jacobian || step == 0) return;
         const Vec3 middle = middle_of(ends);
-        Vec3 best = middle;
+        const auto moved = nodes_.find(edge);
+        Vec3 best = moved == nodes_.end() ? middle : moved->second;
         for (int shrinks = 0; shrinks < most_shrinks; ++shrinks, step /= 2)
             for (int direction = 0; direction < 6; ++direction) {
                 const Vec3 tried = best + (direction % 2 == 0 ? step : -step) * Vec3::Unit(direction / 2);

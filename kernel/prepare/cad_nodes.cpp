@@ -18,6 +18,7 @@ namespace kerf {
 namespace {
 
 constexpr double furthest_move = 0.3;        // of the shortest edge at a vertex
+constexpr double near_face = 1e-3;           // of an edge: its end lies on the face
 constexpr double least_turn_of_facet = 0.5;  // cosine
 
 // Numbers for places as they come.
@@ -164,7 +165,15 @@ std::vector<Vec3> move_onto_cad(Input& input, const RunOptions& options) {
         project_on_cad_file(input.path, hash, reading.cad, points_of(surface, input.patch_names, reading.scale));
     for (std::vector<Vec3>* points : {&projected.points, &projected.middles})
         for (Vec3& p : *points) p *= reading.scale;
-    set_points(input, SurfaceMoves(surface, std::move(projected.points)).run());
+    const std::vector<Vec3> moved = SurfaceMoves(surface, projected.points).run();
+    for (std::size_t e = 0; e < surface.edges.size(); ++e) {
+        const auto& [a, b] = surface.edges[e].ends;
+        const double near = near_face * (moved[a] - moved[b]).norm();
+        for (const std::int32_t v : {a, b})
+            if (!((moved[v] - projected.points[v]).norm() <= near))
+                projected.middles[e].setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+    set_points(input, moved);
     return std::move(projected.middles);
 }
 

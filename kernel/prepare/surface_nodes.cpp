@@ -5,6 +5,9 @@
 #include <optional>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "core/number_text.h"
 #include "prepare/cad_nodes.h"
 #include "prepare/surface_places.h"
 #include "surface/triangle_tree.h"
@@ -14,7 +17,7 @@ namespace kerf {
 namespace {
 
 constexpr double straight_within = 1e-10;  // of an edge: rounding
-constexpr double furthest_node = 0.25;     // of an edge, from its middle
+constexpr double furthest_node = 0.1;      // of an edge, from its middle: an arc of 45 degrees
 
 // The facets of the file, by patch, and its features, by the patches that they bound.
 class FileSurface {
@@ -83,16 +86,26 @@ SurfaceNodes make_surface_nodes(Input& input, const SurfaceArrays& behind, const
     if (!input.is_cad && input.remeshed && !input.remeshed->only_divided && !behind.facets.empty())
         file.emplace(behind);
     if (!file && points.empty()) return nodes;
+    std::int64_t far = 0;
     for (std::size_t e = 0; e < surface.edges.size(); ++e) {
         const auto& [a, b] = surface.edges[e].ends;
         const Vec3 middle = 0.5 * (surface.points[a] + surface.points[b]);
         const double length = (surface.points[a] - surface.points[b]).norm();
         const std::optional<Vec3> node = file ? file->nearest(middle, surface.edges[e]) : points[e];
         const double off = node ? (*node - middle).norm() : 0;
-        if (!(off > straight_within * length && off <= furthest_node * length)) continue;
+        if (off <= straight_within * length) continue;
+        if (!(off <= furthest_node * length)) {
+            ++far;
+            continue;
+        }
         nodes.edges.push_back(surface.edges[e].ends);
         nodes.points.push_back(*node);
     }
+    if (far > 0)
+        input.notes.push_back(
+            fmt::format("{} of {} edges of the surface stay straight, since they are too long for what "
+                        "they stand for. A smaller --deviation or --size makes them shorter.",
+                        grouped(far), grouped(nodes.surface_edges)));
     return nodes;
 }
 

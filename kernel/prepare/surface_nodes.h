@@ -34,8 +34,8 @@ SurfaceArrays surface_behind(const Input& input, const RunOptions& options);
 /// intersections, and no facet turns by more than 60 degrees: vertices that would break that, or move by more than 0.3
 /// of an edge, stay. Of a remeshed file of triangles, nodes lie on the facets of the same patch of the file, those of
 /// borders and sharp edges on these edges of the file, and vertices stay; facets that were kept are straight.
-/// `behind`: of surface_behind(). A node that would be further from the middle than a quarter of the edge is left
-/// there.
+/// `behind`: of surface_behind(). A node that would be further from the middle than a tenth of the edge is left there,
+/// and so are those of an edge that ends in a vertex beside its face; a note counts both.
 ///
 /// Throws as project_on_cad_file() does. Deterministic. O(n log n), and what kerf-cad takes: that for reading the file
 /// again, and some microseconds an edge.
