@@ -1,9 +1,13 @@
 // Meshes of order 2: the same nodes in all parts, however these are written, read and joined; kerf verify sees what is
 // wrong with them.
+#include <algorithm>
+#include <array>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
