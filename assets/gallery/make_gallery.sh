@@ -89,7 +89,7 @@ draw_stress() {
     if ! has_solver stress.png; then return; fi
     "$kerf" solve assets/bearing_cap_52k.stl --feature-angle 40 --case assets/bearing_cap_case.toml -o "$work/stress" \
         -n 8 -q
-    draw stress.png "$work/stress" --color von-mises --range 0 300 --isolines --deform auto --no-edges --antialias 2 \
+    draw stress.png "$work/stress" --color von-mises --range 0 300 --isolines --mark-extremes --deform auto --no-edges --antialias 2 \
         --resolution 1000x560
 }
 

@@ -37,6 +37,7 @@ SHORTENED = {
         ("-n 8 --feature-angle 40", "-n 4 --feature-angle 40"),
         ("--adapt 5", "--adapt 1"),
         ("bearing_cap_52k", "bearing_cap_14k"),
+        ("--frames 24", "--frames 2"),
         ("part.step --case case.toml -o out -n 8 --size 2", "part.step --case box.toml -o from_cad -n 2 --size 4"),
     ],
     "docs/sizes.md": [("pump.stl", "part.stl"), ("--size 4 --size-on patch_3=0.5", "--size 1 --size-on face_1=0.1")],

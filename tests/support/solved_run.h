@@ -15,9 +15,9 @@
 namespace kerf::test {
 
 /// Displacement (x, 0, 0) times `factor` of the case, von Mises stress x, stress XX to XZ x times 1 to 6, and an error
-/// of 1 in all cells. `mesh`: as the report names it.
+/// of 1 in all cells. Mode i is (0, x i, 0). `mesh`: as the report names it; `frequencies`: of the modes.
 inline void write_solution(const std::string& run, const std::string& folder, const std::string& mesh,
-                           const std::vector<std::string>& cases) {
+                           const std::vector<std::string>& cases, const std::vector<double>& frequencies = {}) {
     std::filesystem::create_directories(folder + "/parts");
     const RunParts parts(run);
     double largest = 0;
@@ -41,15 +41,21 @@ inline void write_solution(const std::string& run, const std::string& folder, co
             values.push_back(
                 {"ErrorIndicator" + suffix, PartValues::Of::tets, 1, std::vector<float>(part.mesh.tets.size(), 1)});
         }
+        for (std::size_t i = 1; i <= frequencies.size(); ++i) {
+            std::vector<double> mode;
+            for (const Vec3& v : part.mesh.vertices) mode.insert(mode.end(), {0, v.x() * static_cast<double>(i), 0});
+            values.push_back({"Mode " + std::to_string(i), PartValues::Of::points, 3, mode});
+        }
         write_part(folder + "/parts/" + part_file_name(part.id), part, {}, values);
     }
     nlohmann::json of_cases = nlohmann::json::array();
     for (std::size_t c = 0; c < cases.size(); ++c)
         of_cases.push_back(
             {{"name", cases[c]}, {"max_displacement", {{"value", largest * static_cast<double>(c + 1)}}}});
-    std::ofstream(folder + "/report.json")
-        << nlohmann::json{{"solve", {{"mesh", mesh}, {"cases", of_cases}}},
-                          {"totals", {{"tets", parts.outline().tets()}, {"vertices", parts.outline().vertices}}}};
+    nlohmann::json solve = {{"mesh", mesh}, {"cases", of_cases}};
+    for (const double frequency : frequencies) solve["modes"].push_back({{"frequency", frequency}});
+    std::ofstream(folder + "/report.json") << nlohmann::json{
+        {"solve", solve}, {"totals", {{"tets", parts.outline().tets()}, {"vertices", parts.outline().vertices}}}};
 }
 
 }  // namespace kerf::test

@@ -5,16 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/program.h"
-#include "support/solved_run.h"
-#include "support/temporary_folder.h"
-#include "viewer/driver.h"
 #include "viewer/golden_image.h"
 #include "viewer/model/solution.h"
 #include "viewer/scene/selection.h"
 #include "viewer/scene/shapes.h"
+#include "viewer/solved_cube.h"
 #include "viewer/words_on_screen.h"
 
 namespace kerf::test {
@@ -22,53 +19,12 @@ namespace {
 
 using namespace view;
 
-// The unit cube in two parts, with two cases.
-class SolvedCube : public testing::Test {
- protected:
-    static void SetUpTestSuite() {
-        folder_ = std::make_unique<TemporaryFolder>();
-        ASSERT_EQ(
-            run_kerf({"mesh", asset_path("cube"), "-o", folder_->file("out/mesh"), "-n", "2", "--size", "0.2", "-q"})
-                .exit_code,
-            0);
-        write_solution(folder_->file("out/mesh"), folder_->file("out/solution"), "../mesh", {"slow", "fast"});
-        Driver::Options options;
-        options.width = 480;
-        options.height = 360;
-        driver_ = std::make_unique<Driver>(options);
-        driver_->show_panels(false);
-        driver_->open(folder_->file("out"));
-    }
-    static void TearDownTestSuite() {
-        driver_.reset();
-        folder_.reset();
-    }
-    void SetUp() override {
-        driver_->state() = {};
-        driver_->state().step = {Stage::tetrahedra, -1};
-    }
-    // Corners of what is drawn, in coordinates of the file, with their values.
-    template <class Visit>
-    void for_corners(Visit visit) const {
-        const BuiltScene& built = driver_->app().scene();
-        for (const Layer& layer : built.scene.layers)
-            for (const Corner& corner : layer.geometry->corners)
-                visit(Vec3(corner.position[0], corner.position[1], corner.position[2]) / built.frame.scale +
-                          built.frame.center,
-                      corner.value);
-    }
-    static std::unique_ptr<TemporaryFolder> folder_;
-    static std::unique_ptr<Driver> driver_;
-};
-std::unique_ptr<TemporaryFolder> SolvedCube::folder_;
-std::unique_ptr<Driver> SolvedCube::driver_;
-
 TEST_F(SolvedCube, IsFoundByItsFolderAndTheOneAbove) {
     for (const char* name : {"out", "out/solution"}) {
         const auto solution = find_solution(folder_->file(name));
         ASSERT_TRUE(solution) << name;
         EXPECT_EQ(solution->mesh, folder_->file("out/mesh"));
-        ASSERT_EQ(solution->cases.size(), 2u);
+        ASSERT_EQ(solution->cases.size(), 4u) << "two cases, two modes";
         EXPECT_EQ(solution->cases[1].name, "fast");
     }
     EXPECT_FALSE(find_solution(folder_->file("out/mesh")));

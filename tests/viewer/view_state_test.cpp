@@ -38,9 +38,12 @@ ViewState unusual_state() {
     s.color = ColorBy::radius_edge;
     s.color_range = ValueRange{0.5, 3};
     s.filter = ValueRange{1, 2};
-    s.isolines = true;
+    s.isolines = s.extremes = s.vectors = true;
     s.load_case = 2;
     s.deform = 2.5;
+    s.motion = Motion::rise;
+    s.phase = 0.75;
+    s.speed = 1.5;
     s.hidden = {4, 11};
     s.isolated = 3;
     s.hidden_regions = {"bone", "cement \xe4"};
@@ -57,13 +60,14 @@ ViewState unusual_state() {
 // All fields: who adds one has to name it here, and to give it a value above.
 auto fields(const ViewState& s) {
     const auto& [node, step, camera, shading, edges, context, plane, axes, contour, features, surface, interfaces,
-                 explode, shrink, clip, color, color_range, filter, neighbours, percentile, isolines, load_case, deform,
-                 legend, numbers, times, hidden, isolated, hidden_regions, glass_regions, isolated_region, walls,
-                 explode_regions, pick, selection, theme, panels] = s;
+                 explode, shrink, clip, color, color_range, filter, neighbours, percentile, isolines, extremes, vectors,
+                 load_case, deform, motion, phase, speed, legend, numbers, times, hidden, isolated, hidden_regions,
+                 glass_regions, isolated_region, walls, explode_regions, pick, selection, theme, panels] = s;
     return std::tie(node, step, camera, shading, edges, context, plane, axes, contour, features, surface, interfaces,
-                    explode, shrink, clip, color, color_range, filter, neighbours, percentile, isolines, load_case,
-                    deform, legend, numbers, times, hidden, isolated, hidden_regions, glass_regions, isolated_region,
-                    walls, explode_regions, pick, selection, theme, panels);
+                    explode, shrink, clip, color, color_range, filter, neighbours, percentile, isolines, extremes,
+                    vectors, load_case, deform, motion, phase, speed, legend, numbers, times, hidden, isolated,
+                    hidden_regions, glass_regions, isolated_region, walls, explode_regions, pick, selection, theme,
+                    panels);
 }
 auto fields(const Camera& c) {
     const auto& [target, turn, height, perspective] = c;

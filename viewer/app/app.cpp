@@ -19,13 +19,14 @@ namespace {
 
 constexpr double usual_explosion = 0.4;  // of parts that are nothing but surfaces
 
-constexpr double seconds_per_step = 0.8, seconds_of_notice = 6;
+constexpr double seconds_of_notice = 6;
 constexpr float nearby_pixels = 6;  // how far the hand may tremble at a double click
 
 // What the scene depends on.
 std::string scene_key(ViewState state) {
     state.camera.reset();
     state.panels = {};
+    state.speed = ViewState().speed;
     return to_json(state);
 }
 
@@ -61,6 +62,8 @@ void App::open_files(const std::vector<std::string>& paths) {
     for (auto path = paths.rbegin(); path != paths.rend(); ++path) remember(settings_, *path);
     save_settings(options_.config_folder, settings_);
     const ViewState before = state_;
+    // The next step of an analysis is seen in the same colours.
+    kept_scale_ = {before.color, is_of_solution(before.color) ? before.color_range : std::nullopt};
     state_ = {};
     state_.theme = before.theme;
     state_.panels = before.panels;
@@ -94,11 +97,6 @@ void App::open_again(const RunOptions& options) {
 }
 
 void App::quit() { quit_ = true; }
-
-void App::toggle_play() {
-    facts_.playing = !facts_.playing;
-    played_until_ = ImGui::GetTime() + seconds_per_step;
-}
 
 void App::copy(const std::string& text) {
     ImGui::SetClipboardText(text.c_str());
@@ -156,7 +154,12 @@ void App::choose_view() {
     if (is_view_complete_ || document.kind == Document::Kind::none) return;
     is_view_complete_ = true;
     if (document.solution && !chosen_.color && !chosen_.stage) {
-        state_.color = ColorBy::von_mises;
+        const auto& cases = document.solution->cases;
+        state_.color = !cases.empty() && cases.front().is_mode() ? ColorBy::displacement : ColorBy::von_mises;
+        if (kept_scale_.range) {
+            state_.color = kept_scale_.color;
+            state_.color_range = kept_scale_.range;
+        }
         state_.step.stage = Stage::tetrahedra;
     }
     if (chosen_.faces_clip && !chosen_.stage && has_cells(document, state_.node)) state_.step = {Stage::tetrahedra, -1};
@@ -188,54 +191,6 @@ ViewState App::shown_state() const {
     return shown;
 }
 
-// Of patches, where there is room for them on what is seen of their faces.
-void App::place_numbers() {
-    const auto has_numbers = [](const Layer& layer) { return layer.patch != nullptr; };
-    const std::vector<Layer>& layers = built_.scene.layers;
-    if (area_.width < 1 || area_.height < 1 || std::none_of(layers.begin(), layers.end(), has_numbers)) {
-        facts_.numbers.clear();
-        numbered_.reset();
-        return;
-    }
-    const NumberedView view{projection_.projection * projection_.view,
-                            {projection_.x, projection_.y, projection_.width, projection_.height},
-                            scenes_built_};
-    if (numbered_ == view) return;
-    numbered_ = view;
-    facts_.numbers.clear();
-    const float least_room = 0.7f * ImGui::GetFontSize();
-    for (const NumberPlace& place : renderer_.places_of_patches(built_.scene, projection_))
-        if (static_cast<float>(place.room) >= least_room)
-            facts_.numbers.push_back(
-                {place.number, static_cast<float>(place.x) + 0.5f, static_cast<float>(place.y) + 0.5f});
-}
-
-void App::move_step(int direction) {
-    const auto here = static_cast<int>(nearest_step(steps_, state_.step));
-    state_.step =
-        steps_[static_cast<std::size_t>(std::clamp(here + direction, 0, static_cast<int>(steps_.size()) - 1))];
-}
-
-void App::move_node(int direction) {
-    state_.node = next_node(session_.document().tree, state_.node, direction);
-    steps_ = steps_of(session_.document(), state_.node);
-    state_.step.refused_try = -1;
-}
-
-// Through the steps of the node, then on to the next node.
-void App::play() {
-    if (!facts_.playing || ImGui::GetTime() < played_until_) return;
-    played_until_ = ImGui::GetTime() + seconds_per_step;
-    if (nearest_step(steps_, state_.step) + 1 < steps_.size()) {
-        move_step(1);
-        return;
-    }
-    const NodeId before = state_.node;
-    move_node(1);
-    facts_.playing = state_.node != before;
-    if (facts_.playing) state_.step = {};
-}
-
 void App::build_scene() {
     const ViewState shown = shown_state();
     const std::string key = scene_key(shown);
@@ -247,6 +202,7 @@ void App::build_scene() {
     facts_.legend_title = built_.legend.title;
     facts_.values = built_.legend.values;
     facts_.extremes = built_.legend.extremes;
+    facts_.marked = built_.legend.marked;
     facts_.percentile = built_.legend.percentile;
     facts_.categories = built_.legend.categories;
     facts_.scale = built_.legend.scale;
@@ -314,10 +270,12 @@ void App::lay_out(bool panels) {
         take_mouse();
     }
     play();
+    move();
     build_scene();
     update_camera();
     project_scene();
-    place_numbers();
+    place_labels();
+    probe(panels);
     UiContext context{state_, session_, settings_, facts_, steps_, *this, widgets_, camera_};
     if (panels)
         ui_.draw(context, io.DisplaySize.x, io.DisplaySize.y);
@@ -385,7 +343,8 @@ bool App::wants_frame() {
 }
 
 bool App::settled() const {
-    return frames_wanted_ == 0 && !built_.pending && !session_changed_ && !facts_.playing && !capture_;
+    return frames_wanted_ == 0 && !built_.pending && !session_changed_ && !facts_.playing && !facts_.moving &&
+           !capture_;
 }
 
 }  // namespace kerf::view

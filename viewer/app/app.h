@@ -93,6 +93,7 @@ class App : private Actions {
     void clip_through_selection(bool faces_eye) override;
     void look(Direction direction) override;
     void toggle_play() override;
+    void toggle_motion() override;
     void quit() override;
     void take_screenshot() override { capture_ = true; }
     void copy(const std::string& text) override;
@@ -102,7 +103,7 @@ class App : private Actions {
     void swap_runs() override;
     void complain(const std::string& text) override;
 
-    // Of a picture with numbers of patches: the matrix, the viewport, and which scene it is of.
+    // Of a picture with numbers: the matrix, the viewport, and which scene it is of.
     struct NumberedView {
         Eigen::Matrix4f matrix;
         std::array<int, 4> viewport;
@@ -118,7 +119,12 @@ class App : private Actions {
     void choose_view();
     void update_camera();
     void project_scene();
+    void place_labels();
     void place_numbers();
+    void place_line_values();
+    void place_extremes();
+    NumberedView numbered_view() const;
+    void probe(bool panels);
     void fit_body(Camera& camera, const Eigen::AlignedBox3d& box) const;
     void take_keys();
     void take_key(const KeyEvent& event);
@@ -133,6 +139,7 @@ class App : private Actions {
     void move_step(int direction);
     void move_node(int direction);
     void play();
+    void move();
     void build_scene();
     ViewState shown_state() const;  ///< as the tree that is known allows
     void save_picture(float scale);
@@ -157,7 +164,16 @@ class App : private Actions {
     std::vector<Step> steps_;
     Camera camera_;
     Projection projection_;
-    std::optional<NumberedView> numbered_;  // what facts_.numbers are of
+    std::optional<NumberedView> numbered_;  // what the labels of facts_ are of
+    // What facts_.probe is of: a view, and a place of the mouse in it.
+    struct Probed {
+        NumberedView view;
+        float x, y;
+
+        bool operator==(const Probed&) const = default;
+    };
+    std::optional<Probed> probed_;
+    double motion_ = 0;  // phase of the motion that plays, not yet that of a picture
     std::int64_t scenes_built_ = 0;
     Rectangle area_;  // of the scene
     Rectangle body_;  // what the legend leaves of it
@@ -168,6 +184,11 @@ class App : private Actions {
     std::string styled_for_;  // theme and scale
     std::string opened_;      // what auto_run has been decided for
     ChosenView chosen_;
+    struct KeptScale {
+        ColorBy color = ColorBy::part;
+        std::optional<ValueRange> range = {};  // that somebody has given to values of a solution
+    };
+    KeptScale kept_scale_;           // of what was open before
     bool is_view_complete_ = false;  // what nobody has chosen is
     bool quit_ = false, capture_ = false, dragging_ = false, pressed_in_scene_ = false;
     double notice_until_ = 0, played_until_ = 0;

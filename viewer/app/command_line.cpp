@@ -87,6 +87,9 @@ void add_screenshot_options(CLI::App& app, ViewCommand& command, SceneOptions& o
            fmt::format("Library that makes the OpenGL context: osmesa or egl. The picture is the same. Default {}.",
                        name(offscreen_libraries().front())))
         ->type_name("NAME");
+    add_number(app, "--frames", command.frames, {"a whole number, 2 to 1000", 2, 1000},
+               "So many pictures of a period of --motion (default swing): FILE_001.png, and so on.")
+        ->type_name("N");
     app.add_flag("--ui", command.panels, "With all panels, as in the window.");
     add_number(app, "--timeout", command.timeout_seconds, {"0.001 to 1e9 seconds", 1e-3, 1e9},
                "Seconds after which to give up. Default 600.")
@@ -121,18 +124,27 @@ void apply_options(const SceneOptions& options, ViewCommand& command) {
 
 }  // namespace
 
+std::vector<std::string> ViewCommand::pictures() const {
+    if (frames == 0) return {output};
+    std::vector<std::string> files;
+    const std::string stem = output.substr(0, output.rfind('.'));
+    for (int i = 1; i <= frames; ++i) files.push_back(fmt::format("{}_{:03}.png", stem, i));
+    return files;
+}
+
 bool depends_on_document(const ViewCommand& command) {
     const bool has_camera = command.state.camera && !command.origin.body.isEmpty();
-    return has_camera || command.clip.starts_with("node=") || !command.load_case.empty() || command.good_deformation;
+    return has_camera || command.clip.starts_with("node=") || !command.load_case.empty() || command.good_deformation ||
+           command.frames > 0;
 }
 
 void apply_document(const ViewCommand& command, const Document& document, double aspect, ViewState& state) {
     if (command.clip.starts_with("node=")) state.clip = clip_from_text(command.clip, command.state.clip, document);
-    if (command.load_case.empty() && !command.good_deformation)
+    if (command.load_case.empty() && !command.good_deformation && command.frames == 0)
         return fit_to_body(state, command.origin, document.box, aspect);
     if (!document.solution)
         throw Error(ErrorCode::usage,
-                    "--load-case and --deform need a solution: open the folder that kerf solve has "
+                    "--load-case, --deform and --frames need a solution: open the folder that kerf solve has "
                     "written.");
     const auto& cases = document.solution->cases;
     if (!command.load_case.empty()) {
@@ -145,9 +157,11 @@ void apply_document(const ViewCommand& command, const Document& document, double
                                                       command.load_case, fmt::join(names, "', '")));
         state.load_case = static_cast<int>(found - cases.begin());
     }
-    if (command.good_deformation)
-        state.deform = good_deformation(cases.at(static_cast<std::size_t>(state.load_case)).largest_displacement,
-                                        document.box.diagonal().norm());
+    const auto& chosen = cases.at(static_cast<std::size_t>(state.load_case));
+    if (chosen.is_mode() && !command.chosen.color) state.color = ColorBy::displacement;
+    if (command.frames > 0 && state.motion == Motion::still) state.motion = Motion::swing;
+    if (command.good_deformation || (command.frames > 0 && state.deform == 0))
+        state.deform = good_deformation(chosen.largest_displacement, document.box.diagonal().norm());
     fit_to_body(state, command.origin, document.box, aspect);  // once, when nothing is refused any more
 }
 

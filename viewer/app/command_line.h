@@ -26,11 +26,14 @@ struct ViewCommand {
     std::string clip;               ///< as given: "x=0.3", "-z=0.5", "node=5", "1,1,0=0.4"
     std::string load_case;          ///< name; empty: the first one
     bool good_deformation = false;  ///< deform is what good_deformation() says
+    int frames = 0;                 ///< pictures of a period of the motion; 0: one picture
     double timeout_seconds = 600;
     RunOptions run;
     std::string print;  ///< text to print instead (help, a usage error); empty: none
     int exit_code = 0;  ///< of that
 
+    /// That are written: `output`, or FILE_001.png, FILE_002.png, ...
+    std::vector<std::string> pictures() const;
     std::vector<std::string> files() const { return files_of(input, run.input_options); }
 };
 

@@ -155,7 +155,7 @@ void App::take_click(float x, float y, bool center) {
     }
     state_.selection = {};
     if (!found) return;
-    const Vec3 point = built_.frame.to_file(found->point.cast<double>());
+    const Vec3 point = built_.frame.to_file(found->rest.cast<double>());  // where vertices have their places
     if (is_of_cells(found->layer) || is_of_facets(found->layer)) {
         unresolved_ = Hit{is_of_cells(found->layer), found->owner, found->element, point};
         resolve_click();

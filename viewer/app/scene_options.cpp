@@ -80,7 +80,8 @@ void add_look_options(CLI::App& app, SceneOptions& options) {
     app.add_flag("--no-edges", options.no_edges, "Without the edges of triangles.");
     app.add_flag("--no-context", options.no_context, "Without the rest of the body.");
     app.add_flag("--no-legend", options.no_legend, "Without the legend.");
-    app.add_flag("--no-numbers", options.no_numbers, "Without the numbers of patches on the faces coloured by them.");
+    app.add_flag("--no-numbers", options.no_numbers,
+                 "Without the numbers of patches on their faces, and of values on isolines.");
     app.add_option("--theme", options.theme, "Colours of the background and of all around.")
         ->type_name("")
         ->check(one_of("light,dark"));
@@ -101,10 +102,17 @@ void add_color_options(CLI::App& app, ViewCommand& command, SceneOptions& option
     add_number(app, "--percentile", options.percentile, {"60 to 100", least_percentile, 100},
                "Colours of stresses span so many per cent of the values shown. Default 99; 100: all.")
         ->type_name("P");
-    app.add_flag("--isolines", options.isolines, "With lines where displacements or stresses are alike.");
+    app.add_flag("--isolines", options.isolines, "With lines where displacements or stresses are alike, and numbers.");
+    app.add_flag("--mark-extremes", options.extremes, "With marks at the least and the largest value shown.");
+    app.add_flag("--vectors", options.vectors, "With arrows along the displacements of a solution.");
     app.add_option("--deform", options.deform, "Draw the displacements of a solution so many times as long, or auto.")
         ->type_name("FACTOR|auto");
-    app.add_option("--load-case", command.load_case, "Name of the load case of a solution. Default: the first one.")
+    app.add_option("--motion", options.motion,
+                   "How the deformation moves: still (default), swing (to both sides) or rise (from nothing to all).")
+        ->type_name("")
+        ->check(one_of("still,swing,rise"));
+    app.add_option("--load-case", command.load_case,
+                   "Name of the load case of a solution, or of a mode: 'Mode 1'. Default: the first one.")
         ->type_name("NAME");
     add_numbers(app, "--filter", options.filter, 2, {}, "Only cells whose value of --color lies in this range.")
         ->type_name("LOW HIGH");
@@ -214,6 +222,9 @@ void apply_colors(const SceneOptions& options, ViewCommand& command) {
     }
     if (options.percentile >= 0) state.percentile = options.percentile;
     if (options.isolines) state.isolines = true;
+    if (options.extremes) state.extremes = true;
+    if (options.vectors) state.vectors = true;
+    if (!options.motion.empty()) state.motion = motion_from_name(options.motion);
     command.good_deformation = options.deform == "auto";
     if (options.deform.empty() || command.good_deformation) return;
     const std::optional<double> factor = number_in<double>(options.deform);
@@ -246,7 +257,7 @@ void apply(const SceneOptions& options, ViewCommand& command) {
     if (options.node > 0) state.node = options.node;
     // What only cells have is not to be asked for in vain.
     const bool is_of_cells = !options.color.empty() || options.explode > 0 || options.shrink > 0 ||
-                             !options.filter.empty() || !options.deform.empty();
+                             !options.filter.empty() || !options.deform.empty() || options.vectors;
     if (!options.stage.empty())
         state.step = step_from_name(options.stage);
     else if (options.state_file.empty() &&

@@ -13,14 +13,14 @@ namespace kerf::view {
 /// Options as they are given, in the order in which they are applied.
 struct SceneOptions {
     std::string state_file, camera_file, view, up, stage, color, clip_style, resolution, theme, surface, input_scale,
-        config, deform;
+        config, deform, motion;
     std::vector<std::string> inputs;
     std::vector<NodeId> hidden;
     NodeId node = 0, isolated = 0;
     double explode = -1, shrink = -1, percentile = -1;
     bool features = false, smooth = false, no_edges = false, no_context = false, no_legend = false;
     bool no_numbers = false;
-    bool isolines = false;
+    bool isolines = false, extremes = false, vectors = false;
     bool walls = false, explode_regions = false;
     std::string isolated_region;
     std::vector<std::string> hidden_regions, glass_regions;

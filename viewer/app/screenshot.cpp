@@ -121,7 +121,8 @@ void check_wishes(const Document& document, const ViewState& state, bool with_pa
 
 void take_screenshot(const ViewCommand& command, const AppOptions& options) {
     const Deadline deadline(command.timeout_seconds);
-    for (const std::string& file : command.files()) refuse_to_overwrite(file, "--output", command.output);
+    for (const std::string& file : command.files())
+        for (const std::string& picture : command.pictures()) refuse_to_overwrite(file, "--output", picture);
     if (std::error_code ignored;
         std::filesystem::is_directory(command.input, ignored) && lies_inside(command.output, command.input))
         throw Error(ErrorCode::io, fmt::format("--output is {}, which lies in the run {}. Choose another place.",
@@ -146,12 +147,17 @@ void take_screenshot(const ViewCommand& command, const AppOptions& options) {
     const FrameSize size = {.width = command.width * command.antialias,
                             .height = command.height * command.antialias,
                             .scale = command.scale * static_cast<float>(command.antialias)};
-    do {
-        deadline.check();
-        app.frame(size, command.panels);
-    } while (!app.settled());
-    if (!app.session().failures().empty()) throw Error(ErrorCode::io, app.session().failures().front());
-    write_png(command.output, averaged(app.picture(), command.antialias));
+    const std::vector<std::string> files = command.pictures();
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        if (command.frames > 0) app.state().phase = static_cast<double>(i) / command.frames;
+        app.wake();
+        do {
+            deadline.check();
+            app.frame(size, command.panels);
+        } while (!app.settled());
+        if (!app.session().failures().empty()) throw Error(ErrorCode::io, app.session().failures().front());
+        write_png(files[i], averaged(app.picture(), command.antialias));
+    }
 }
 
 }  // namespace kerf::view

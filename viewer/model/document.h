@@ -18,6 +18,15 @@
 
 namespace kerf::view {
 
+/// The nodes on the edges of cells of second order.
+struct EdgePoints {
+    std::vector<Vec3> places;                       ///< #E
+    std::vector<std::array<std::int32_t, 2>> ends;  ///< #E; vertices
+    std::vector<std::int32_t> node;                 ///< #E; number among the nodes of the part: vertices, then edges
+
+    bool empty() const { return places.empty(); }
+};
+
 /// A surface whose facets may be cut by earlier interfaces: of a node, or of a part.
 struct NodeSurface {
     std::vector<Vec3> vertices;
@@ -28,6 +37,8 @@ struct NodeSurface {
     std::vector<std::int32_t> facet_number;  ///< #F; of the facet in the input, -1 on interfaces
     std::vector<std::int64_t> vertex_number;  ///< #V; global number (parts) or number in the input; -1: interior of an
                                               ///< interface
+    EdgePoints edges = {};                    ///< of a part of second order
+    std::vector<std::array<std::int32_t, 3>> edges_of_facet = {};  ///< #F; numbers in `edges`, of 01, 12, 02. Or empty
 
     bool is_interface(std::int32_t facet) const {
         return !interface_of.empty() && interface_of[static_cast<std::size_t>(facet)] != 0;
@@ -57,11 +68,13 @@ struct PartCells {
     std::vector<Vec3> vertices;  ///< the boundary's come first and are those of the part's surface
     std::int32_t boundary_vertex_count = 0;
     std::vector<std::array<std::int32_t, 4>> tets;
-    std::vector<std::array<std::int32_t, 4>> neighbours;  ///< across the face opposite to corner i, or -1
-    std::vector<std::int32_t> tet_at_facet;               ///< per facet of the part's surface
-    std::vector<std::int64_t> vertex_number;              ///< global
-    std::vector<char> at_interface;                       ///< per tet: it has a vertex on an interface
-    std::int64_t core_tets = 0;                           ///< Filling::core_tets
+    std::vector<std::array<std::int32_t, 4>> neighbours;         ///< across the face opposite to corner i, or -1
+    std::vector<std::int32_t> tet_at_facet;                      ///< per facet of the part's surface
+    std::vector<std::int64_t> vertex_number;                     ///< global
+    std::vector<char> at_interface;                              ///< per tet: it has a vertex on an interface
+    std::int64_t core_tets = 0;                                  ///< Filling::core_tets
+    EdgePoints edges = {};                                       ///< of second order
+    std::vector<std::array<std::int32_t, 6>> edges_of_tet = {};  ///< #T; numbers in `edges`, of 01 12 02 03 13 23
 };
 
 /// A histogram over all cells of a run; the bins are those of report.json.

@@ -33,15 +33,20 @@ NodeSurface node_surface_of(const Soup& soup) {
     return result;
 }
 
+static std::size_t bytes_of(const EdgePoints& edges) {
+    return bytes_of(edges.places) + bytes_of(edges.ends) + bytes_of(edges.node);
+}
+
 std::size_t bytes_of(const NodeSurface& surface) {
     return sizeof surface + bytes_of(surface.vertices) + bytes_of(surface.facets) + bytes_of(surface.patch) +
            bytes_of(surface.interface_of) + bytes_of(surface.neighbour) + bytes_of(surface.facet_number) +
-           bytes_of(surface.vertex_number);
+           bytes_of(surface.vertex_number) + bytes_of(surface.edges) + bytes_of(surface.edges_of_facet);
 }
 
 std::size_t bytes_of(const PartCells& cells) {
     return sizeof cells + bytes_of(cells.vertices) + bytes_of(cells.tets) + bytes_of(cells.neighbours) +
-           bytes_of(cells.tet_at_facet) + bytes_of(cells.vertex_number) + bytes_of(cells.at_interface);
+           bytes_of(cells.tet_at_facet) + bytes_of(cells.vertex_number) + bytes_of(cells.at_interface) +
+           bytes_of(cells.edges) + bytes_of(cells.edges_of_tet);
 }
 
 }  // namespace kerf::view

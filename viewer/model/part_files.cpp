@@ -5,12 +5,16 @@
 #include <limits>
 #include <unordered_map>
 
+#include <fmt/format.h>
+
+#include "core/error.h"
 #include "io/run_folder.h"
 #include "mesh/adjacency.h"
 #include "mesh/quality.h"
 #include "mesh/verification.h"
 #include "part/run_parts.h"
 #include "part/vtu_reader.h"
+#include "viewer/model/part_edges.h"
 
 namespace kerf::view {
 
@@ -101,6 +105,14 @@ NodeSurface read_part_surface(const std::string& folder, NodeId part, std::vecto
     return surface;
 }
 
+void add_edge_nodes(const std::string& folder, NodeId part, NodeSurface& surface) {
+    const Part file = load_part(folder, part, 0);
+    if (file.facets.size() != surface.facets.size())
+        throw Error(ErrorCode::io, fmt::format("{} has {} triangles, but its surface {}.", part_file_of(folder, part),
+                                               file.facets.size(), surface.facets.size()));
+    add_edges(file, surface);
+}
+
 NodeSurface join_part_surfaces(const std::string& folder, NodeId node, const std::vector<PartBelow>& parts) {
     NodeSurface whole;
     std::unordered_map<std::int64_t, std::int32_t> vertex_of_number;
@@ -130,9 +142,10 @@ NodeSurface join_part_surfaces(const std::string& folder, NodeId node, const std
 }
 
 PartCells read_part_cells(const PartSource& source) {
-    Part file = load_part(source.folder, source.part, 0);
+    Part file = load_part(source.nodes.empty() ? source.folder : source.nodes, source.part, 0);
     connect_tets(file.mesh);
     PartCells cells;
+    add_edges(file, cells);
     cells.part = source.part;
     cells.core_tets = source.core_tets;
     cells.tet_at_facet = std::move(file.tet_at_facet);

@@ -16,10 +16,14 @@ namespace kerf::view {
 std::string part_file_of(const std::string& folder, NodeId part);
 std::string part_surface_file_of(const std::string& folder, NodeId part);
 
+/// Adds the nodes on the edges of a part's surface: reads the part. Throws Error(io).
+void add_edge_nodes(const std::string& folder, NodeId part, NodeSurface& surface);
+
 /// The node at whose cut two parts came apart.
 NodeId common_ancestor(NodeId a, NodeId b);
 
-/// The closed surface of a part. Throws Error(io). `patch_names`, unless null, receives those of the file.
+/// The closed surface of a part, without nodes on edges. Throws Error(io). `patch_names`, unless null, receives those
+/// of the file.
 NodeSurface read_part_surface(const std::string& folder, NodeId part, std::vector<std::string>* patch_names = nullptr);
 
 /// A part below a node, and its surface if that is at hand.
@@ -34,6 +38,7 @@ struct PartSource {
     std::string folder;
     NodeId part = 1;
     std::int64_t core_tets = 0;  ///< Filling::core_tets
+    std::string nodes = {};      ///< the folder whose files have nodes on edges, too: it, or a solution. Empty: none
 };
 
 /// The tetrahedra of a part. Throws Error(io).

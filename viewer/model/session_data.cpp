@@ -124,9 +124,12 @@ std::shared_ptr<const NodeSurface> Session::Impl::part_surface(NodeId part) {
     const Store::Key key{Store::Kind::part_surface, part};
     if (!folder_parts_.contains(part)) return nullptr;
     if (auto found = kept<NodeSurface>(key)) return found;
-    return fetch<NodeSurface>(key, [folder = document_.folder, part]() -> Fetched<NodeSurface> {
-        return {read_part_surface(folder, part), {}};
-    });
+    return fetch<NodeSurface>(
+        key, [folder = document_.folder, part, nodes = folder_of_edge_nodes()]() -> Fetched<NodeSurface> {
+            NodeSurface surface = read_part_surface(folder, part);
+            if (!nodes.empty()) add_edge_nodes(nodes, part, surface);
+            return {std::move(surface), {}};
+        });
 }
 
 namespace {
@@ -172,7 +175,7 @@ bool Session::Impl::is_meshed(NodeId part) const {
 
 PartSource Session::Impl::source_of(NodeId part) const {
     const TreeRow* row = document_.tree.find(part);
-    return {document_.folder, part, row ? row->core_tets : 0};
+    return {document_.folder, part, row ? row->core_tets : 0, folder_of_edge_nodes()};
 }
 
 std::shared_ptr<const PartCells> Session::Impl::cells(NodeId part) {

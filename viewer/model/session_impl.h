@@ -188,6 +188,11 @@ class Session::Impl {
     Loader::Completion fill_row(NodeId node, std::int64_t vertices, std::int64_t facets, const MassProperties& mass);
     bool is_meshed(NodeId part) const;
     PartSource source_of(NodeId part) const;
+    // Empty: there are none. A solution may be of higher order than its mesh.
+    std::string folder_of_edge_nodes() const {
+        if (document_.solution && document_.solution->order > 1) return document_.solution->folder;
+        return document_.options.order > 1 ? document_.folder : "";
+    }
     void restart_data();
     void use_trace(std::shared_ptr<Replayer> replayer);
     void note_remeshing(bool remeshed);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -23,6 +24,102 @@ constexpr double share_of_body = 0.05;
 
 }  // namespace
 
+std::string Solution::Case::title() const { return is_mode() ? fmt::format("{}, {:.4g} Hz", name, frequency) : name; }
+
+float PartSolution::value_at(ColorBy color, std::size_t vertex) const {
+    if (color == ColorBy::displacement) return static_cast<float>(displacement[vertex].norm());
+    if (stress.empty()) return std::nanf("");
+    if (color == ColorBy::von_mises) return von_mises[vertex];
+    return stress[vertex][static_cast<std::size_t>(color) - static_cast<std::size_t>(ColorBy::stress_xx)];
+}
+
+namespace {
+
+// Arrays of points in the file of a part, by name.
+class PointArrays {
+ public:
+    explicit PointArrays(const std::string& path) : path_(path), all_(read_values(path)) {}
+
+    const PartValues& find(const std::string& name, int components) const {
+        const auto found = std::find_if(all_.begin(), all_.end(), [&](const PartValues& values) {
+            return values.name == name && values.of == PartValues::Of::points && values.components == components;
+        });
+        if (found == all_.end()) fail_damaged_vtu(path_, "it has no array " + name);
+        return *found;
+    }
+    std::vector<Vec3> vectors(const std::string& name) const {
+        const PartValues& values = find(name, 3);
+        std::vector<Vec3> vectors;
+        const std::size_t count = std::visit([](const auto& n) { return n.size(); }, values.numbers) / 3;
+        for (std::size_t v = 0; v < count; ++v)
+            vectors.emplace_back(values.number(3 * v), values.number(3 * v + 1), values.number(3 * v + 2));
+        return vectors;
+    }
+
+ private:
+    std::string path_;
+    std::vector<PartValues> all_;
+};
+
+}  // namespace
+
+PartSolution read_part_solution(const Solution& solution, std::size_t number, NodeId part) {
+    const std::string path = solution.folder + "/parts/" + part_file_name(part);
+    const Solution::Case& one = solution.cases[number];
+    const PointArrays arrays(path);
+    const PartCellCounts counts = read_cell_counts(path);
+    PartSolution values;
+    if (one.is_mode()) {
+        values.displacement = arrays.vectors(one.name);
+        values.error_of_tet.assign(static_cast<std::size_t>(counts.tets), std::nanf(""));
+        values.error_at_facet.assign(static_cast<std::size_t>(counts.facets), std::nanf(""));
+        return values;
+    }
+    const auto loads = std::count_if(solution.cases.begin(), solution.cases.end(),
+                                     [](const Solution::Case& other) { return !other.is_mode(); });
+    const std::string suffix = loads > 1 ? " " + one.name : "";
+    values.displacement = arrays.vectors("Displacement" + suffix);
+    const PartValues& stress = arrays.find("Stress" + suffix, 6);
+    const PartValues& von_mises = arrays.find("VonMises" + suffix, 1);
+    for (std::size_t v = 0; v < values.displacement.size(); ++v) {
+        std::array<float, 6>& row = values.stress.emplace_back();
+        for (std::size_t i = 0; i < row.size(); ++i) row[i] = static_cast<float>(stress.number(6 * v + i));
+        values.von_mises.push_back(static_cast<float>(von_mises.number(v)));
+    }
+    values.error_of_tet = read_cell_values(path, "ErrorIndicator" + suffix, 0, counts.tets);
+    values.error_at_facet = read_cell_values(path, "ErrorIndicator" + suffix, counts.tets, counts.facets);
+    return values;
+}
+
+namespace {
+
+void add_modes(const Json& modes, Solution& solution) {
+    for (const Json& of_mode : modes) {
+        Solution::Case& mode = solution.cases.emplace_back();
+        const Json largest = of_mode.value("max_displacement", Json::object());
+        mode.name = fmt::format("Mode {}", 1 + &of_mode - &modes.front());
+        mode.frequency = std::max(0.0, of_mode.at("frequency").get<double>());
+        mode.largest_displacement = largest.value("value", -1.0);
+    }
+}
+
+// Of modes, where the report does not say how large they are.
+void measure_modes(Solution& solution) {
+    std::vector<Solution::Case*> unknown;
+    for (Solution::Case& one : solution.cases)
+        if (one.is_mode() && one.largest_displacement < 0) unknown.push_back(&one);
+    if (unknown.empty()) return;
+    for (const auto& entry : std::filesystem::directory_iterator(solution.folder + "/parts")) {
+        if (entry.path().extension() != ".vtu") continue;
+        const PointArrays arrays(entry.path().string());
+        for (Solution::Case* mode : unknown)
+            for (const Vec3& v : arrays.vectors(mode->name))
+                mode->largest_displacement = std::max(mode->largest_displacement, v.norm());
+    }
+}
+
+}  // namespace
+
 std::optional<Solution> find_solution(const std::string& path) {
     const std::optional<std::string> folder = find_solution_folder(path);
     if (!folder) return std::nullopt;
@@ -31,48 +128,18 @@ std::optional<Solution> find_solution(const std::string& path) {
     solution.mesh = mesh_of_solution(*folder);
     try {
         const Json report = Json::parse(read_file(*folder + "/report.json"));
-        for (const Json& of_case : report.at("solve").at("cases"))
+        const Json& solve = report.at("solve");
+        solution.order = solve.value("order", 1);
+        for (const Json& of_case : solve.value("cases", Json::array()))
             solution.cases.push_back({path_of_text(of_case.at("name").get<std::string>()),
                                       of_case.at("max_displacement").at("value").get<double>()});
+        add_modes(solve.value("modes", Json::array()), solution);
+        if (solution.cases.empty()) throw Error(ErrorCode::io, *folder + "/report.json has neither cases nor modes.");
     } catch (const Json::exception& error) {
         throw Error(ErrorCode::io, fmt::format("{}/report.json is damaged: {}. Solve again.", *folder, error.what()));
     }
+    measure_modes(solution);
     return solution;
-}
-
-float PartSolution::value_at(ColorBy color, std::size_t vertex) const {
-    if (color == ColorBy::displacement) return static_cast<float>(displacement[vertex].norm());
-    if (color == ColorBy::von_mises) return von_mises[vertex];
-    return stress[vertex][static_cast<std::size_t>(color) - static_cast<std::size_t>(ColorBy::stress_xx)];
-}
-
-PartSolution read_part_solution(const Solution& solution, std::size_t number, NodeId part) {
-    const std::string path = solution.folder + "/parts/" + part_file_name(part);
-    const std::string suffix = solution.cases.size() > 1 ? " " + solution.cases[number].name : "";
-    const std::vector<PartValues> all = read_values(path);
-    const auto find = [&](const char* name, PartValues::Of of, int components) -> const PartValues& {
-        const auto found = std::find_if(all.begin(), all.end(), [&](const PartValues& values) {
-            return values.name == name + suffix && values.of == of && values.components == components;
-        });
-        if (found == all.end()) fail_damaged_vtu(path, fmt::format("it has no array {}{}", name, suffix));
-        return *found;
-    };
-    PartSolution values;
-    const PartValues& displacement = find("Displacement", PartValues::Of::points, 3);
-    const PartValues& stress = find("Stress", PartValues::Of::points, 6);
-    const PartValues& von_mises = find("VonMises", PartValues::Of::points, 1);
-    const std::size_t vertices = std::visit([](const auto& n) { return n.size(); }, von_mises.numbers);
-    for (std::size_t v = 0; v < vertices; ++v) {
-        values.displacement.emplace_back(displacement.number(3 * v), displacement.number(3 * v + 1),
-                                         displacement.number(3 * v + 2));
-        std::array<float, 6>& row = values.stress.emplace_back();
-        for (std::size_t i = 0; i < row.size(); ++i) row[i] = static_cast<float>(stress.number(6 * v + i));
-        values.von_mises.push_back(static_cast<float>(von_mises.number(v)));
-    }
-    const PartCellCounts counts = read_cell_counts(path);
-    values.error_of_tet = read_cell_values(path, "ErrorIndicator" + suffix, 0, counts.tets);
-    values.error_at_facet = read_cell_values(path, "ErrorIndicator" + suffix, counts.tets, counts.facets);
-    return values;
 }
 
 double good_deformation(double largest_displacement, double diagonal) {

@@ -13,27 +13,34 @@ namespace kerf::view {
 /// A solution and the run that it stands on.
 struct Solution {
     std::string folder, mesh;  ///< of its parts, and of the run
-    /// One set of loads.
+    int order = 1;             ///< of its elements
+    /// One set of loads, or a mode of vibration.
     struct Case {
-        std::string name;  ///< empty where there is one only
+        std::string name;  ///< empty where there is one only; of a mode "Mode 1"
         double largest_displacement = 0;
+        double frequency = -1;  ///< of a mode, in cycles per unit of time; negative: loads
+
+        bool is_mode() const { return frequency >= 0; }
+        std::string title() const;  ///< "braking", "Mode 1, 12.3 Hz"
     };
-    std::vector<Case> cases;
+    std::vector<Case> cases;  ///< modes come last
+
+    bool has_modes() const { return !cases.empty() && cases.back().is_mode(); }
 };
 
 /// The solution under a path: its folder, or that of kerf solve on a surface, whose last step counts. Nothing if the
 /// folder is no solution's. Throws Error(io) for a report that is damaged, or whose run is not where it was.
 std::optional<Solution> find_solution(const std::string& folder);
 
-/// The values of a part, in the units of the case.
+/// The values of a part, in the units of the case. Of a mode there are displacements alone.
 struct PartSolution {
-    std::vector<Vec3> displacement;            ///< #V; the boundary's vertices first
-    std::vector<std::array<float, 6>> stress;  ///< #V; XX YY ZZ XY YZ XZ
-    std::vector<float> von_mises;              ///< #V
+    std::vector<Vec3> displacement;            ///< #N; nodes: the boundary's vertices, the other ones, edges
+    std::vector<std::array<float, 6>> stress;  ///< #N; XX YY ZZ XY YZ XZ
+    std::vector<float> von_mises;              ///< #N
     std::vector<float> error_of_tet;           ///< #T; estimated, in the energy norm
     std::vector<float> error_at_facet;         ///< #F; of the cells behind the facets of the part's surface
 
-    /// Of a colour for which is_at_vertices() holds.
+    /// Of a colour for which is_at_vertices() holds; NaN: there is none.
     float value_at(ColorBy color, std::size_t vertex) const;
 };
 

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "io/path_text.h"
+#include "viewer/model/name_index.h"
 
 namespace kerf::view {
 
@@ -16,50 +17,12 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-struct Names {
-    const char* name;
-    const char* title;
-};
-
-constexpr std::array<Names, color_by_count> color_texts = {{
-    {"part", "Part"},
-    {"rank", "Rank"},
-    {"level", "Level of the tree"},
-    {"region", "Region"},
-    {"patch", "Patch"},
-    {"deviation", "Deviation"},
-    {"size", "Wanted edge length"},
-    {"kind", "At an interface or inside"},
-    {"origin", "Core, shell or other mesher"},
-    {"min-dihedral", "Min dihedral angle (deg)"},
-    {"radius-edge", "Radius-edge ratio"},
-    {"aspect", "Aspect ratio"},
-    {"shape", "Shape (regular: 1)"},
-    {"volume", "Volume"},
-    {"edge-length", "Longest edge"},
-    {"error", "Estimated error (energy norm)"},
-    {"displacement", "Displacement"},
-    {"von-mises", "von Mises stress"},
-    {"stress-xx", "Stress XX"},
-    {"stress-yy", "Stress YY"},
-    {"stress-zz", "Stress ZZ"},
-    {"stress-xy", "Stress XY"},
-    {"stress-yz", "Stress YZ"},
-    {"stress-xz", "Stress XZ"},
-}};
-
 constexpr std::array<const char*, 2> shading_names = {"flat", "smooth"};
 constexpr std::array<const char*, 3> clip_names = {"cells", "smooth", "layer"};
+constexpr std::array<const char*, 3> motion_names = {"still", "swing", "rise"};
 constexpr std::array<const char*, 2> theme_names = {"light", "dark"};
 constexpr std::array<const char*, 3> pick_names = {"facet", "cell", "vertex"};
 constexpr std::array<const char*, 6> selection_names = {"none", "facet", "cell", "vertex", "place", "defect"};
-
-template <std::size_t N>
-int index_of(const std::array<const char*, N>& names, const std::string& text, const char* what) {
-    for (std::size_t i = 0; i < N; ++i)
-        if (text == names[i]) return static_cast<int>(i);
-    throw Error(ErrorCode::usage, fmt::format("'{}' is no {}. There are {}.", text, what, fmt::join(names, ", ")));
-}
 
 OrderedJson write(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -203,6 +166,8 @@ std::vector<std::pair<const char*, bool*>> switches(ViewState& s) {
             {"features", &s.features},
             {"times", &s.times},
             {"isolines", &s.isolines},
+            {"extremes", &s.extremes},
+            {"vectors", &s.vectors},
             {"neighbours", &s.neighbours},
             {"numbers", &s.numbers},
             {"walls", &s.walls},
@@ -269,15 +234,8 @@ OrderedJson parse(const std::string& text, const std::string& source) {
 
 }  // namespace
 
-const char* name(ColorBy color) { return color_texts[static_cast<std::size_t>(color)].name; }
-const char* title(ColorBy color) { return color_texts[static_cast<std::size_t>(color)].title; }
-
-ColorBy color_by_from_name(const std::string& text) {
-    std::array<const char*, color_by_count> names = {};
-    for (std::size_t i = 0; i < names.size(); ++i) names[i] = color_texts[i].name;
-    return static_cast<ColorBy>(index_of(names, text, "colouring"));
-}
-
+const char* name(Motion motion) { return motion_names[static_cast<std::size_t>(motion)]; }
+Motion motion_from_name(const std::string& text) { return static_cast<Motion>(index_of(motion_names, text, "motion")); }
 const char* name(ClipStyle style) { return clip_names[static_cast<std::size_t>(style)]; }
 ClipStyle clip_style_from_name(const std::string& text) {
     return static_cast<ClipStyle>(index_of(clip_names, text, "clip style"));
@@ -312,6 +270,9 @@ std::string to_json(const ViewState& state, const ViewOrigin& origin) {
     json["percentile"] = state.percentile;
     json["load_case"] = state.load_case;
     json["deform"] = state.deform;
+    json["motion"] = name(state.motion);
+    json["phase"] = state.phase;
+    json["speed"] = state.speed;
     json["hidden"] = state.hidden;
     if (state.isolated) json["isolated"] = *state.isolated;
     json["hidden_regions"] = write_names(state.hidden_regions);
@@ -357,6 +318,12 @@ ViewState state_from_json(const std::string& text, const std::string& source, Vi
          }},
         {"load_case", [&](const OrderedJson& j) { s.load_case = std::max(0, j.get<int>()); }},
         {"deform", [&](const OrderedJson& j) { s.deform = j.get<double>(); }},
+        {"motion",
+         [&](const OrderedJson& j) {
+             s.motion = static_cast<Motion>(index_of(motion_names, j.get<std::string>(), "motion"));
+         }},
+        {"phase", [&](const OrderedJson& j) { s.phase = unit("phase", j); }},
+        {"speed", [&](const OrderedJson& j) { s.speed = std::max(0.0, j.get<double>()); }},
         {"hidden",
          [&](const OrderedJson& j) {
              for (const NodeId node : j.get<std::vector<NodeId>>()) s.set_hidden(node, true);

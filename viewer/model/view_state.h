@@ -76,6 +76,8 @@ inline constexpr int color_by_count = static_cast<int>(ColorBy::stress_xz) + 1;
 constexpr bool is_measure(ColorBy color) { return color >= ColorBy::min_dihedral && color <= ColorBy::edge_length; }
 constexpr bool is_of_solution(ColorBy color) { return color >= ColorBy::error; }
 constexpr bool is_at_vertices(ColorBy color) { return color >= ColorBy::displacement; }
+/// A mode of vibration does not have it.
+constexpr bool needs_load_case(ColorBy color) { return is_of_solution(color) && color != ColorBy::displacement; }
 constexpr bool is_stress(ColorBy color) { return color >= ColorBy::von_mises; }
 /// Cells are of few kinds, which the legend names.
 constexpr bool is_kind(ColorBy color) { return color == ColorBy::kind || color == ColorBy::origin; }
@@ -83,6 +85,15 @@ constexpr bool is_kind(ColorBy color) { return color == ColorBy::kind || color =
 constexpr bool is_of_cells(ColorBy color) { return is_measure(color) || is_kind(color) || is_of_solution(color); }
 /// Has values on surfaces, those of parts included, and none in cells.
 constexpr bool is_of_surface(ColorBy color) { return color == ColorBy::deviation || color == ColorBy::size; }
+
+/// How the deformation of a solution moves, once around while ViewState::phase goes from 0 to 1.
+enum class Motion {
+    still,  ///< all of it
+    swing,  ///< to both sides: the cosine of the phase, 1 to -1 to 1
+    rise,   ///< between all and nothing: 1 to 0 to 1, smoothly
+};
+/// Of the whole deformation, at a phase.
+double share_of_motion(Motion motion, double phase);
 
 inline constexpr double least_percentile = 60;  ///< of ViewState::percentile
 
@@ -141,10 +152,15 @@ struct ViewState {
     /// vertices at corners have far larger ones than all others.
     double percentile = 99;
     bool isolines = false;  ///< where values at vertices are alike
-    int load_case = 0;      ///< of a solution, from 0
+    bool extremes = false;  ///< the places of the least and the largest value are marked
+    bool vectors = false;   ///< displacements of a solution as arrows
+    int load_case = 0;      ///< of a solution, from 0; modes follow
     double deform = 0;      ///< displacements of a solution are drawn so many times as long
+    Motion motion = Motion::still;
+    double phase = 0;    ///< of the motion, in [0, 1]
+    double speed = 0.5;  ///< of the motion while it plays, periods a second
     bool legend = true;
-    bool numbers = true;         ///< of patches, on the faces that are coloured by them
+    bool numbers = true;         ///< of patches, on the faces that are coloured by them; of values, on isolines
     bool times = true;           ///< seconds in the tree
     std::vector<NodeId> hidden;  ///< ascending; what lies below them is not shown
     std::optional<NodeId> isolated;
@@ -159,6 +175,7 @@ struct ViewState {
     Panels panels;
 
     bool is_hidden(NodeId node) const;
+    double drawn_deformation() const { return deform * share_of_motion(motion, phase); }  ///< at the phase
     void set_hidden(NodeId changed, bool hide) { set_member(hidden, changed, hide); }
 
     bool operator==(const ViewState&) const = default;
@@ -192,6 +209,8 @@ const char* name(ColorBy color);   ///< "min-dihedral"
 const char* title(ColorBy color);  ///< "Min dihedral angle (deg)"
 /// Throws Error(usage) naming all.
 ColorBy color_by_from_name(const std::string& text);
+const char* name(Motion motion);
+Motion motion_from_name(const std::string& text);
 const char* name(ClipStyle style);
 ClipStyle clip_style_from_name(const std::string& text);
 

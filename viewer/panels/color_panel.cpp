@@ -55,26 +55,7 @@ void draw_range(UiContext& context, Memory& memory) {
     ValueRange changed = shown;
     if (draw_limits(context.widgets, "Colours", {"Lowest", "Highest"}, shown, memory.range, changed))
         state.color_range = changed;
-}
-
-// How a solution is drawn.
-void draw_solution(UiContext& context) {
-    ViewState& state = context.state;
-    const Document& document = context.session.document();
-    if (!document.solution) return;
-    const auto& cases = document.solution->cases;
-    if (cases.size() > 1) {
-        std::vector<std::string> names;
-        for (const Solution::Case& one : cases) names.push_back(one.name);
-        context.widgets.combo("Case", &state.load_case, names);
-    }
-    context.widgets.input_number("Deform", &state.deform);
-    ImGui::SameLine();
-    const auto number = static_cast<std::size_t>(state.load_case);
-    if (context.widgets.small_button("Auto", "So that the largest displacement is well seen") && number < cases.size())
-        state.deform = good_deformation(cases[number].largest_displacement, document.box.diagonal().norm());
-    if (is_at_vertices(state.color))
-        context.widgets.checkbox("Isolines", &state.isolines, "Lines where values are alike, at tenths of the range");
+    context.widgets.checkbox("Mark extremes", &state.extremes, "Where the least and the largest value are");
 }
 
 // Always there, so that nothing below moves when a filter begins.

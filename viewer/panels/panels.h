@@ -32,6 +32,7 @@ class Actions {
     virtual void clip_through_selection(bool faces_eye) = 0;
     virtual void look(Direction direction) = 0;
     virtual void toggle_play() = 0;
+    virtual void toggle_motion() = 0;  ///< of the deformation
     virtual void quit() = 0;
     virtual void take_screenshot() = 0;
     virtual void copy(const std::string& text) = 0;  ///< to the clipboard
@@ -50,11 +51,19 @@ struct FaceNumber {
     float x = 0, y = 0;
 };
 
+/// A text at a place of the scene, in ImGui's units of the window.
+struct ValueLabel {
+    std::string text;
+    float x = 0, y = 0;
+    bool is_beside = false;  ///< the text stands beside the place, not on it
+};
+
 /// What the scene knows that panels show.
 struct SceneFacts {
     std::string legend_title;               ///< empty: the legend explains what is there, not a colouring
     std::optional<ValueRange> values;       ///< of what is shown, by ViewState::color
     std::optional<ValueRange> extremes;     ///< Legend::extremes
+    std::vector<PlacedValue> marked;        ///< Legend::marked
     double percentile = 100;                ///< Legend::percentile
     std::vector<LegendEntry> categories;    ///< what else a legend explains: "part 8"
     std::vector<Color> scale;               ///< colours from low to high, of a legend with numbers
@@ -63,7 +72,10 @@ struct SceneFacts {
     std::string notice;                     ///< e.g. "saved as kerf-001.png"; shown for some seconds
     bool notice_is_error = false;           ///< then until the next click
     std::vector<FaceNumber> numbers;        ///< of patches, to be drawn on them
+    std::vector<ValueLabel> labels;         ///< values of isolines, the least and the largest value
+    std::optional<ValueLabel> probe;        ///< the value under the mouse
     bool playing = false;
+    bool moving = false;   ///< the deformation does
     bool pending = false;  ///< something that is to be shown is still being read
 };
 
@@ -104,6 +116,9 @@ struct UiContext {
 struct Rectangle {
     float x = 0, y = 0, width = 0, height = 0;
 };
+
+/// The ground of a text in the scene.
+Rectangle rectangle_of(const ValueLabel& label);
 
 /// Where the scene goes: what the panels leave. Without panels the whole window.
 Rectangle scene_rectangle(const ViewState& state, const Document& document, const PanelSizes& sizes, float width,

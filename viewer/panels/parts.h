@@ -87,6 +87,7 @@ void draw_display(UiContext& context);
 void draw_regions(UiContext& context);
 void draw_clip(UiContext& context, Memory& memory);
 void draw_color(UiContext& context, Memory& memory);
+void draw_solution(UiContext& context);
 void draw_color_bar(UiContext& context, Memory& memory);
 void draw_histogram(UiContext& context, Memory& memory);
 void draw_worst_cells(UiContext& context, Memory& memory);

@@ -71,6 +71,8 @@ void draw_right(UiContext& context, Memory& memory, const Layout& layout) {
     ImGui::End();
 }
 
+float label_pad() { return 0.2f * em(); }
+
 // In discs on the faces.
 void draw_numbers(const UiContext& context) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
@@ -86,7 +88,23 @@ void draw_numbers(const UiContext& context) {
     }
 }
 
+void draw_label(const UiContext& context, const ValueLabel& label) {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const Palette& colors = palette(context.state.theme);
+    const Rectangle r = rectangle_of(label);
+    list.AddRectFilled({r.x, r.y}, {r.x + r.width, r.y + r.height}, packed(faded(colors.panel, 0.8f)), label_pad());
+    list.AddText({r.x + label_pad(), r.y}, packed(colors.text), label.text.c_str());
+}
+
 }  // namespace
+
+Rectangle rectangle_of(const ValueLabel& label) {
+    const ImVec2 size = ImGui::CalcTextSize(label.text.c_str());
+    const float gap = 0.8f * em(), width = size.x + 2 * label_pad();
+    if (!label.is_beside) return {label.x - width / 2, label.y - size.y / 2, width, size.y};
+    const bool fits = label.x + gap + width < ImGui::GetIO().DisplaySize.x;
+    return {fits ? label.x + gap : label.x - gap - width, label.y - size.y - 0.5f * gap, width, size.y};
+}
 
 Ui::Ui() : impl_(std::make_unique<Impl>()) {}
 Ui::~Ui() = default;
@@ -130,6 +148,8 @@ void Ui::draw(UiContext& context, float width, float height) {
 void Ui::draw_overlays(UiContext& context, const Rectangle& scene) {
     if (!has_body(context.session.document())) return draw_welcome(context, scene);
     draw_numbers(context);
+    for (const ValueLabel& label : context.facts.labels) draw_label(context, label);
+    if (context.facts.probe) draw_label(context, *context.facts.probe);
     draw_caption(context, scene);
     draw_legend(context, scene);
     draw_gizmo(context, scene);

@@ -2,6 +2,8 @@
 // looks.
 #include "viewer/render/picker.h"
 
+#include <cmath>
+
 #include <Eigen/Dense>
 
 namespace kerf::view {
@@ -42,6 +44,35 @@ Eigen::Vector3f point_of(const Geometry& geometry, std::uint32_t primitive, cons
     return point_on_triangle(&geometry.corners[3 * std::size_t{primitive}], ray).cast<float>();
 }
 
+// Of a point of a triangle at its corners; thirds where it has no area.
+Vec3d shares_of_corners(const Corner* corners, const Vec3d& point) {
+    const Vec3d a = to_double(corners[0].position);
+    const Vec3d ab = to_double(corners[1].position) - a, ac = to_double(corners[2].position) - a;
+    const Vec3d normal = ab.cross(ac);
+    if (!(normal.squaredNorm() > 0)) return Vec3d::Constant(1.0 / 3);
+    const double b = normal.dot((point - a).cross(ac)) / normal.squaredNorm();
+    const double c = normal.dot(ab.cross(point - a)) / normal.squaredNorm();
+    return {1 - b - c, b, c};
+}
+
+void set_value(const Layer& layer, PickHit& hit) {
+    hit.rest = hit.point;
+    hit.value = std::nanf("");
+    const Geometry& geometry = *layer.geometry;
+    if (geometry.corners.empty()) return;
+    const std::size_t first = 3 * static_cast<std::size_t>(hit.primitive);
+    const Vec3d shares = shares_of_corners(&geometry.corners[first], hit.point.cast<double>());
+    double value = 0;
+    Vec3d rest = Vec3d::Zero();
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double share = shares[static_cast<Eigen::Index>(k)];
+        value += share * static_cast<double>(geometry.corners[first + k].value);
+        if (!geometry.rest.empty()) rest += share * to_double(geometry.rest[first + k]);
+    }
+    if (layer.fill == Fill::scale) hit.value = static_cast<float>(value);
+    if (!geometry.rest.empty()) hit.rest = rest.cast<float>();
+}
+
 PickHit describe(const Layer& layer, std::uint32_t primitive, std::uint32_t range, const Projection& pixel) {
     PickHit hit;
     hit.layer = layer.name;
@@ -50,6 +81,7 @@ PickHit describe(const Layer& layer, std::uint32_t primitive, std::uint32_t rang
     hit.primitive = static_cast<std::int32_t>(primitive);
     hit.element = layer.geometry->element[primitive];
     hit.point = point_of(*layer.geometry, primitive, layer.ranges[range], ray_of(pixel));
+    set_value(layer, hit);
     return hit;
 }
 
@@ -106,11 +138,16 @@ std::optional<PickHit> Picker::pick(const Scene& scene, const Projection& projec
     return describe(scene.layers[id[0] - 1], id[1], id[2], pixel);
 }
 
-std::vector<std::int32_t> Picker::patches(const Scene& scene, const Projection& projection, GpuGeometryCache& cache,
-                                          TrianglePainter& triangles, StrokePainter& strokes) {
+std::vector<GLuint> Picker::ids(const Scene& scene, const Projection& projection, GpuGeometryCache& cache,
+                                TrianglePainter& triangles, StrokePainter& strokes) {
     Projection whole = projection;
     whole.x = whole.y = 0;
-    const std::vector<GLuint> ids = draw(scene, whole, cache, triangles, strokes);
+    return draw(scene, whole, cache, triangles, strokes);
+}
+
+std::vector<std::int32_t> Picker::patches(const Scene& scene, const Projection& projection, GpuGeometryCache& cache,
+                                          TrianglePainter& triangles, StrokePainter& strokes) {
+    const std::vector<GLuint> ids = this->ids(scene, projection, cache, triangles, strokes);
     std::vector<std::int32_t> patches;
     patches.reserve(ids.size() / 4);
     for (std::size_t i = 0; i < ids.size(); i += 4) {

@@ -28,6 +28,11 @@ class Picker {
     std::optional<PickHit> pick(const Scene& scene, const Projection& projection, int x, int y, GpuGeometryCache& cache,
                                 TrianglePainter& triangles, StrokePainter& strokes);
 
+    /// Of each pixel of the viewport four numbers: layer + 1 or 0, triangle or point, range, 0; rows from the bottom to
+    /// the top. Leaves another framebuffer bound.
+    std::vector<GLuint> ids(const Scene& scene, const Projection& projection, GpuGeometryCache& cache,
+                            TrianglePainter& triangles, StrokePainter& strokes);
+
     /// The number in Layer::patch of what is seen at each pixel of the viewport, or -1; rows from the bottom to the
     /// top. Leaves another framebuffer bound.
     std::vector<std::int32_t> patches(const Scene& scene, const Projection& projection, GpuGeometryCache& cache,

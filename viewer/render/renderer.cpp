@@ -97,6 +97,7 @@ class Renderer::Impl {
 
     std::optional<PickHit> pick(const Scene& scene, const Projection& projection, int x, int y);
     std::vector<NumberPlace> places_of_patches(const Scene& scene, const Projection& projection);
+    std::vector<SeenSegment> seen_isolines(const Scene& scene, const Projection& projection);
     const std::vector<DrawnLayer>& drawn() const { return drawn_; }
     Image read();
     void present();
@@ -220,6 +221,18 @@ std::vector<NumberPlace> Renderer::Impl::places_of_patches(const Scene& scene, c
     return places;
 }
 
+std::vector<SeenSegment> Renderer::Impl::seen_isolines(const Scene& scene, const Projection& projection) {
+    if (projection.width < 1 || projection.height < 1) return {};
+    const std::vector<GLuint> ids = picker_.ids(scene, projection, cache_, triangles_, strokes_);
+    std::vector<SeenSegment> seen = seen_lines(scene, projection, ids);
+    for (SeenSegment& segment : seen)
+        for (Eigen::Vector2f* end : {&segment.from, &segment.to})
+            *end = {end->x() + static_cast<float>(projection.x),
+                    static_cast<float>(target_.height() - projection.y) - end->y()};
+    check_in_debug(gl_, "isolines");
+    return seen;
+}
+
 Image Renderer::Impl::read() {
     Image image{target_.width(), target_.height(), {}};
     const std::size_t row = 3 * static_cast<std::size_t>(image.width);
@@ -262,6 +275,9 @@ std::optional<PickHit> Renderer::pick(const Scene& scene, const Projection& proj
 }
 std::vector<NumberPlace> Renderer::places_of_patches(const Scene& scene, const Projection& projection) {
     return impl_->places_of_patches(scene, projection);
+}
+std::vector<SeenSegment> Renderer::seen_isolines(const Scene& scene, const Projection& projection) {
+    return impl_->seen_isolines(scene, projection);
 }
 const std::vector<DrawnLayer>& Renderer::drawn() const { return impl_->drawn(); }
 Image Renderer::read() { return impl_->read(); }

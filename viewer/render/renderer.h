@@ -9,6 +9,7 @@
 
 #include "viewer/model/camera.h"
 #include "viewer/render/image.h"
+#include "viewer/render/seen_lines.h"
 #include "viewer/render/widest_places.h"
 #include "viewer/scene/layer.h"
 
@@ -27,6 +28,8 @@ struct PickHit {
     std::int32_t primitive = 0;  ///< number in the geometry, not in the range
     std::int32_t element = 0;    ///< Geometry::element of it
     Eigen::Vector3f point;       ///< on it, in draw coordinates before the range's offset
+    Eigen::Vector3f rest = {};   ///< where this point is when nothing is deformed
+    float value = 0;             ///< there, of a layer with Fill::scale; else, or where there is none, NaN
 };
 
 /// What a layer has drawn.
@@ -65,6 +68,9 @@ class Renderer {
     /// Where each patch that is seen (Layer::patch) has most room for its number, in pixels from the top left. Draws
     /// the scene once more.
     std::vector<NumberPlace> places_of_patches(const Scene& scene, const Projection& projection);
+
+    /// The pieces of isolines that nothing covers. Draws the scene once more.
+    std::vector<SeenSegment> seen_isolines(const Scene& scene, const Projection& projection);
 
     /// What the last draw() drew, in the order of its layers.
     const std::vector<DrawnLayer>& drawn() const;

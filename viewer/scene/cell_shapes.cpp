@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/edge_table.h"
 #include "mesh/tet_mesh.h"
 #include "viewer/scene/drawn_triangles.h"
 
@@ -39,6 +40,31 @@ Triangle face_of(const PartCells& cells, std::size_t tet, std::size_t face) {
     return corners;
 }
 
+// Of the edges 01, 12 and 02 of a face, in edges_of_tet.
+std::array<std::int32_t, 3> edges_of_face(const PartCells& cells, std::size_t tet, std::size_t face) {
+    std::array<std::int32_t, 3> edges = {};
+    for (std::size_t e = 0; e < 3; ++e) {
+        const int a = tet_faces[face][static_cast<std::size_t>(ends_of_edges[e][0])],
+                  b = tet_faces[face][static_cast<std::size_t>(ends_of_edges[e][1])];
+        for (std::size_t k = 0; k < tet_edges.size(); ++k)
+            if (tet_edges[k] == std::array{a, b} || tet_edges[k] == std::array{b, a})
+                edges[e] = cells.edges_of_tet[tet][k];
+    }
+    return edges;
+}
+
+void add_quadratic_face(Geometry& geometry, const PartCells& cells, const Frame& frame, const CellChoice& choice,
+                        const std::array<std::size_t, 2>& tet_and_face, float value, const Vec3& center,
+                        double shrink) {
+    const auto [tet, face] = tet_and_face;
+    const DrawnVertices vertices{places_of(cells, choice), cells.vertices, choice.vertex_value};
+    QuadraticTriangle t =
+        quadratic_triangle(vertices, choice.edges, face_of(cells, tet, face), edges_of_face(cells, tet, face), value);
+    for (Vec3& p : t.place) p += shrink * (center - p);
+    add_quadratic(geometry, frame, t, pieces_of(t, cells.tets.size()), static_cast<std::int32_t>(tet),
+                  !choice.places.empty());
+}
+
 // Where the plane cuts a tetrahedron: three or four points, in the order of going around.
 std::vector<ValuedPoint> section_of(const PartCells& cells, const CellChoice& choice, std::size_t tet,
                                     const std::array<double, 4>& distance) {
@@ -46,12 +72,13 @@ std::vector<ValuedPoint> section_of(const PartCells& cells, const CellChoice& ch
     const auto corner = [&](std::size_t i) -> ValuedPoint {
         const auto v = static_cast<std::size_t>(cells.tets[tet][i]);
         const float of_cell = choice.value.empty() ? 0 : choice.value[tet];
-        return {places[v], choice.vertex_value.empty() ? of_cell : choice.vertex_value[v]};
+        return {places[v], choice.vertex_value.empty() ? of_cell : choice.vertex_value[v], cells.vertices[v]};
     };
     const auto between = [&](std::size_t i, std::size_t j) -> ValuedPoint {
         const double s = distance[i] / (distance[i] - distance[j]);
         const ValuedPoint a = corner(i), b = corner(j);
-        return {a.place + s * (b.place - a.place), a.value + static_cast<float>(s) * (b.value - a.value)};
+        return {a.place + s * (b.place - a.place), a.value + static_cast<float>(s) * (b.value - a.value),
+                a.rest + s * (b.rest - a.rest)};
     };
     std::vector<std::size_t> below, above;
     for (std::size_t i = 0; i < 4; ++i) (distance[i] < 0 ? below : above).push_back(i);
@@ -121,6 +148,7 @@ std::shared_ptr<Geometry> cell_faces(const PartCells& cells, const Frame& frame,
         return is_open(t, 0) || is_open(t, 1) || is_open(t, 2) || is_open(t, 3);
     };
     const bool shrinks = choice.shrink > 0;
+    const bool is_quadratic = !choice.edges.empty() && !cells.edges_of_tet.empty();
     for (std::size_t t = 0; t < chosen.size(); ++t) {
         if (!chosen[t]) continue;
         const bool outer = is_outer(t);
@@ -135,10 +163,16 @@ std::shared_ptr<Geometry> cell_faces(const PartCells& cells, const Frame& frame,
         for (std::size_t face = 0; face < 4; ++face) {
             if (!is_drawn(face)) continue;
             const Triangle corners = face_of(cells, t, face);
-            add_triangle(*geometry, frame, shrunk(corners_at(places, corners), center, outer ? choice.shrink : 0),
-                         choice.face_value.empty() ? value : choice.face_value[t][face], 7,
+            const double shrink = outer ? choice.shrink : 0;
+            const float of_face = choice.face_value.empty() ? value : choice.face_value[t][face];
+            if (is_quadratic) {
+                add_quadratic_face(*geometry, cells, frame, choice, {t, face}, of_face, center, shrink);
+                continue;
+            }
+            add_triangle(*geometry, frame, shrunk(corners_at(places, corners), center, shrink), of_face, 7,
                          static_cast<std::int32_t>(t));
             if (!choice.vertex_value.empty()) set_corner_values(*geometry, corners, choice.vertex_value);
+            if (!choice.places.empty()) add_rest(*geometry, frame, corners_at(cells.vertices, corners));
         }
     }
     return geometry;
@@ -162,7 +196,7 @@ std::shared_ptr<Geometry> cell_sections(const PartCells& cells, const Frame& fra
             for (ValuedPoint& p : polygon) p.place += choice.shrink * (center - p.place);
         }
         face_towards(choice.side->normal, polygon);
-        add_polygon(*geometry, frame, polygon, static_cast<std::int32_t>(t));
+        add_polygon(*geometry, frame, polygon, static_cast<std::int32_t>(t), !choice.places.empty());
     }
     return geometry;
 }

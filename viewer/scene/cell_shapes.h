@@ -18,6 +18,7 @@ struct CellChoice {
     std::span<const std::array<float, 4>> face_value;  ///< per cell and face, instead of `value`; empty: none
     std::span<const float> vertex_value;               ///< per vertex, instead of both; empty: none
     std::span<const Vec3> places;                      ///< of the vertices, if not where the cells have them
+    DrawnEdges edges = {};                             ///< of PartCells::edges; empty: faces are flat
     std::optional<ValueRange> filter;                  ///< of the values; needs them
     std::function<bool(std::size_t cell)> wanted;      ///< besides; none: all
     const ShownSide* side = nullptr;                   ///< of a clip plane, or nullptr

@@ -21,6 +21,18 @@ inline void add_triangle(Geometry& geometry, const Frame& frame, const Corners& 
     geometry.element.push_back(element);
 }
 
+inline std::array<std::int16_t, 3> packed_normal(const Vec3& normal) {
+    const double length = normal.norm();
+    if (!(length > 0)) return {};
+    const Vec3 n = normal / length * 32767;
+    return {static_cast<std::int16_t>(n.x()), static_cast<std::int16_t>(n.y()), static_cast<std::int16_t>(n.z())};
+}
+
+// Where the last triangle is when nothing is deformed.
+inline void add_rest(Geometry& geometry, const Frame& frame, const Corners& corners) {
+    for (const Vec3& p : corners) geometry.rest.push_back(frame.draw(p));
+}
+
 inline Corners shrunk(Corners corners, const Vec3& center, double shrink) {
     if (shrink > 0)
         for (Vec3& p : corners) p += shrink * (center - p);
@@ -46,11 +58,12 @@ inline void set_corner_values(Geometry& geometry, const Triangle& t, std::span<c
 struct ValuedPoint {
     Vec3 place = Vec3::Zero();
     float value = 0;
+    Vec3 rest = Vec3::Zero();  // see Geometry::rest
 };
 
 // A convex polygon as a fan of triangles whose inner edges are not drawn.
 inline void add_polygon(Geometry& geometry, const Frame& frame, const std::vector<ValuedPoint>& polygon,
-                        std::int32_t element) {
+                        std::int32_t element, bool is_moved = false) {
     for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
         std::uint16_t edges = 2;  // from i to i + 1
         if (i == 1) edges |= 1;
@@ -58,6 +71,7 @@ inline void add_polygon(Geometry& geometry, const Frame& frame, const std::vecto
         const ValuedPoint &a = polygon[0], &b = polygon[i], &c = polygon[i + 1];
         add_triangle(geometry, frame, {a.place, b.place, c.place}, 0, edges, element);
         set_corner_values(geometry, {a.value, b.value, c.value});
+        if (is_moved) add_rest(geometry, frame, {a.rest, b.rest, c.rest});
     }
 }
 

@@ -11,7 +11,8 @@ constexpr std::size_t most_bytes = std::size_t{1} << 30;
 
 std::size_t size_of(const Geometry& geometry) {
     return geometry.corners.size() * sizeof(Corner) + geometry.segments.size() * sizeof(Segment) +
-           geometry.points.size() * sizeof(geometry.points[0]) + geometry.element.size() * sizeof(std::int32_t);
+           geometry.points.size() * sizeof(geometry.points[0]) + geometry.element.size() * sizeof(std::int32_t) +
+           geometry.rest.size() * sizeof(geometry.rest[0]) + geometry.origins.size() * sizeof(geometry.origins[0]);
 }
 
 }  // namespace

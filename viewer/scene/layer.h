@@ -28,6 +28,12 @@ struct LegendEntry {
     Mark mark = Mark::area;
 };
 
+/// A value and where it is drawn; coordinates of the file, parts pulled apart.
+struct PlacedValue {
+    double value = 0;
+    Vec3 place = Vec3::Zero();
+};
+
 /// A corner of a triangle. Triangles share no corners, so that every one has its own edges and value.
 struct Corner {
     std::array<float, 3> position = {};
@@ -50,6 +56,15 @@ struct Geometry {
     std::vector<std::array<float, 3>> points;  ///< discs of a diameter in pixels
     /// Per triangle or point, what it is for who picks it: a facet or cell number. Empty: cannot be picked.
     std::vector<std::int32_t> element = {};
+    bool has_normals = false;  ///< some corners have normals that are to be seen without smooth shading, too
+    /// Per corner, where it is when nothing is deformed; empty: where it is drawn.
+    std::vector<std::array<float, 3>> rest = {};
+    /// Per segment of isolines: the triangle of the geometry that they lie on, and the value there.
+    struct Origin {
+        std::uint32_t triangle = 0;
+        float value = 0;
+    };
+    std::vector<Origin> origins = {};
 
     std::size_t triangle_count() const { return corners.size() / 3; }
 };

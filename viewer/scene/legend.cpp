@@ -81,20 +81,55 @@ void SceneBuild::set_range(const ValueRange& range) {
     built_.legend.scale = built_.scene.scale.colors;
 }
 
+// Corners with values, but for those that the clip plane hides: visit(value, layer, number of the corner).
 template <class Visit>
 void SceneBuild::for_drawn_values(Visit visit) const {
+    const auto& [a, b, c, d] = built_.scene.clip.plane;
     for (const Layer& layer : built_.scene.layers) {
         if (layer.fill != Fill::scale) continue;
-        for (const Corner& corner : layer.geometry->corners)
-            if (std::isfinite(corner.value)) visit(double{corner.value});
+        const std::vector<Corner>& corners = layer.geometry->corners;
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const auto& [x, y, z] = corners[i].position;
+            const bool is_hidden = layer.clipped && a * x + b * y + c * z + d < 0;
+            if (std::isfinite(corners[i].value) && !is_hidden) visit(double{corners[i].value}, layer, i);
+        }
     }
+}
+
+// Of values of whole triangles, in the middle of one.
+void SceneBuild::mark_extremes() {
+    if (!state_.extremes || !shows_values()) return;
+    struct Found {
+        double value;
+        const Layer* layer = nullptr;
+        std::size_t corner = 0;
+    };
+    Found least{std::numeric_limits<double>::infinity()}, largest{-std::numeric_limits<double>::infinity()};
+    for_drawn_values([&](double value, const Layer& layer, std::size_t corner) {
+        if (value < least.value) least = {value, &layer, corner};
+        if (value > largest.value) largest = {value, &layer, corner};
+    });
+    if (!least.layer) return;
+    std::vector<Vec3> places;
+    for (const Found& found : {least, largest}) {
+        const Corner* triangle = &found.layer->geometry->corners[found.corner / 3 * 3];
+        const bool is_flat = triangle[0].value == triangle[1].value && triangle[0].value == triangle[2].value;
+        Eigen::Vector3f place = Eigen::Vector3f::Zero();
+        for (std::size_t k = 0; k < 3; ++k)
+            if (is_flat) place += Eigen::Map<const Eigen::Vector3f>(triangle[k].position.data()) / 3;
+        if (!is_flat) place = Eigen::Map<const Eigen::Vector3f>(triangle[found.corner % 3].position.data());
+        place += Eigen::Map<const Eigen::Vector3f>(found.layer->ranges.front().offset.data());
+        places.push_back(built_.frame.to_file(place.cast<double>()));
+        built_.legend.marked.push_back({found.value, places.back()});
+    }
+    add_points("extremes", places, colors_.feature, place_pixels);
 }
 
 // Of a stress that has a sign, at both ends. All values where most of them are the same.
 ValueRange SceneBuild::range_of_most_values(const ValueRange& all) {
     if (state_.percentile >= 100) return all;
     std::vector<double> values;
-    for_drawn_values([&](double value) { values.push_back(value); });
+    for_drawn_values([&](double value, const Layer&, std::size_t) { values.push_back(value); });
     const auto quantile = [&](double share) {
         const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
         std::nth_element(values.begin(), values.begin() + at, values.end());
@@ -112,7 +147,7 @@ void SceneBuild::set_range_of_values() {
     const bool is_solution = is_of_solution(state_.color);
     if (!shows_values() || (built_.legend.values && !is_solution)) return;
     ValueRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-    for_drawn_values([&](double value) {
+    for_drawn_values([&](double value, const Layer&, std::size_t) {
         range.low = std::min(range.low, value);
         range.high = std::max(range.high, value);
     });

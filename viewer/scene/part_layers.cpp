@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace kerf::view {
 
@@ -13,30 +12,6 @@ void SceneBuild::add_parts() {
         const TreeRow* row = document_.tree.find(part);
         if (is_shown(part) && row->state == NodeState::done) add_part(part);
     }
-}
-
-std::shared_ptr<const PartSolution> SceneBuild::solution_of(NodeId part) {
-    if (!needs_solution()) return nullptr;
-    auto solution = session_.solution(part, static_cast<std::size_t>(state_.load_case));
-    built_.pending |= !solution;
-    return solution;
-}
-
-// Empty where they stay.
-std::vector<Vec3> SceneBuild::moved_places(const std::vector<Vec3>& vertices, const PartSolution* solution) const {
-    std::vector<Vec3> places;
-    if (!solution || state_.deform == 0) return places;
-    for (std::size_t v = 0; v < vertices.size(); ++v)
-        places.emplace_back(vertices[v] + state_.deform * solution->displacement[v]);
-    return places;
-}
-
-// Empty where the colour is none of them.
-std::vector<float> SceneBuild::values_at_vertices(std::size_t count, const PartSolution* solution) const {
-    std::vector<float> values;
-    if (!solution || !is_at_vertices(state_.color)) return values;
-    for (std::size_t v = 0; v < count; ++v) values.push_back(solution->value_at(state_.color, v));
-    return values;
 }
 
 namespace {
@@ -69,6 +44,7 @@ void SceneBuild::add_part(NodeId part) {
         by_cells |= middle + half > 0;
     }
     extend_by_facets(moved.empty() ? surface->vertices : moved, surface->facets, offset);
+    extend_by_motion(*surface, solution.get(), offset);
     by_cells &= chosen.all;
     if (by_cells && add_cells(part, *surface, offset)) return;
     if (by_cells) built_.pending = true;
@@ -94,6 +70,9 @@ void SceneBuild::add_part_facets(NodeId part, const std::shared_ptr<const NodeSu
     if (!at_vertices.empty()) choice.vertex_value = at_vertices;
     if (shows_error) choice.value = solution->error_at_facet;
     choice.places = moved;
+    const NodesOnEdges edges = nodes_on_edges(surface->edges, solution.get());
+    choice.edges = edges.drawn(surface->edges);
+    extend(box_of(edges.moved.empty() ? surface->edges.places : edges.moved), offset_of(part, state_.node));
     if (!chosen.all) choice.wanted = [&](std::int32_t f) { return chosen.wants(*surface, f); };
     const std::shared_ptr<const void> source = solution     ? std::shared_ptr<const void>(solution)
                                                : values     ? std::shared_ptr<const void>(values)
@@ -111,6 +90,7 @@ void SceneBuild::add_part_facets(NodeId part, const std::shared_ptr<const NodeSu
     if (values) layer.fill = fill_of_values();
     if (on_surface || shows_error || !at_vertices.empty()) layer.fill = Fill::scale;
     if (!patches.empty()) layer.fill = Fill::categories;
+    layer.smooth |= geometry->has_normals;
     number_facets(layer, *surface);
 }
 
@@ -150,41 +130,6 @@ void SceneBuild::number_cells(Layer& layer, const PartCells& cells, const NodeSu
     layer.patch = std::move(patches);
 }
 
-// Interfaces of a part, which come last, are seen only where parts are apart.
-std::size_t SceneBuild::triangles_seen(const Layer& layer) const {
-    const auto surface = session_.part_surface(layer.ranges.front().owner);
-    if (!layer.closed || !surface || state_.explode > 0) return layer.geometry->triangle_count();
-    const auto& element = layer.geometry->element;
-    return static_cast<std::size_t>(
-        std::find_if(element.begin(), element.end(), [&](std::int32_t f) { return surface->is_interface(f); }) -
-        element.begin());
-}
-
-// At the tenths of the range of colours.
-void SceneBuild::add_isolines() {
-    if (!state_.isolines || !is_at_vertices(state_.color) || !built_.legend.values) return;
-    const auto [low, high] = *built_.legend.values;
-    std::vector<float> levels;
-    for (int i = 1; i < 10; ++i) levels.push_back(static_cast<float>(low + i * (high - low) / 10));
-    std::vector<Layer> lines;
-    for (const Layer& layer : built_.scene.layers) {
-        if (layer.fill != Fill::scale) continue;
-        Layer line;
-        line.name = "isolines of " + layer.name;
-        line.geometry = cache_.get(fmt::format("{} {} {} {}", line.name, low, high, state_.explode > 0), layer.geometry,
-                                   [&] { return isolines(*layer.geometry, triangles_seen(layer), levels); });
-        if (line.geometry->segments.empty()) continue;
-        Range range = layer.ranges.front();
-        range.count = static_cast<std::uint32_t>(line.geometry->segments.size());
-        range.color = colors_.feature;
-        line.ranges.push_back(range);
-        line.pixels = thin_pixels;
-        line.clipped = layer.clipped;
-        lines.push_back(std::move(line));
-    }
-    std::move(lines.begin(), lines.end(), std::back_inserter(built_.scene.layers));
-}
-
 // False if what the colours need is not there yet.
 bool SceneBuild::find_cell_colors(const std::shared_ptr<const PartCells>& cells, const NodeSurface& surface,
                                   CellColors& colors) {
@@ -202,6 +147,8 @@ bool SceneBuild::find_cell_colors(const std::shared_ptr<const PartCells>& cells,
     if (shows_error || !colors.at_vertices.empty()) colors.fill = Fill::scale;
     CellChoice& choice = colors.choice;
     choice.places = colors.moved;
+    colors.edges = nodes_on_edges(cells->edges, colors.solution.get());
+    choice.edges = colors.edges.drawn(cells->edges);
     choice.vertex_value = colors.at_vertices;
     if (colors.values) choice.value = *colors.values;
     if (shows_error) choice.value = colors.solution->error_of_tet;
@@ -220,7 +167,7 @@ Layer* SceneBuild::add_faces(const std::string& name, const std::string& chosen,
     });
     if (faces->corners.empty()) return nullptr;
     Layer& layer = add(name, faces, color_of(cells.part), cells.part, offset);
-    layer.smooth = false;
+    layer.smooth = faces->has_normals;
     layer.fill = colors.fill;
     layer.clipped = side_ && state_.clip.style == ClipStyle::smooth;
     number_cells(layer, cells, surface, colors);

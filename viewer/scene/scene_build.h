@@ -9,6 +9,7 @@
 #include "viewer/model/shown_parts.h"
 #include "viewer/model/surface_values.h"
 #include "viewer/model/timeline.h"
+#include "viewer/scene/arrows.h"
 #include "viewer/scene/cell_shapes.h"
 #include "viewer/scene/colors.h"
 #include "viewer/scene/scene_builder.h"
@@ -36,6 +37,16 @@ class SceneBuild {
     BuiltScene run();
 
  private:
+    // Nodes on edges as they are drawn: where they move, and their values.
+    struct NodesOnEdges {
+        std::vector<Vec3> moved;
+        std::vector<float> value;
+
+        DrawnEdges drawn(const EdgePoints& edges) const {
+            return {moved.empty() ? std::span<const Vec3>(edges.places) : moved, edges.places, value};
+        }
+    };
+
     // What the colours of cells are made from, and the choice that looks at it; it stays where it is.
     struct CellColors {
         CellColors() = default;
@@ -46,6 +57,7 @@ class SceneBuild {
         std::shared_ptr<const PartSolution> solution;
         std::vector<Vec3> moved;
         std::vector<float> at_vertices, patches;
+        NodesOnEdges edges;
         std::shared_ptr<const void> source;
         Fill fill = Fill::plain;
         CellChoice choice;
@@ -86,16 +98,23 @@ class SceneBuild {
     void add_stage(const Cut& cut, const NodeSurface& surface);
     Layer* add_contour(const Cut& cut, const NodeSurface& surface);
     void add_halves(const NodeSurface* parent);
-    bool needs_solution() const { return document_.solution && (is_of_solution(state_.color) || state_.deform != 0); }
+    bool needs_solution() const {
+        return document_.solution && (is_of_solution(state_.color) || state_.deform != 0 || state_.vectors);
+    }
     // What was found in a part; null if nobody asks for it, or while it is being fetched.
     std::shared_ptr<const PartSolution> solution_of(NodeId part);
     std::vector<Vec3> moved_places(const std::vector<Vec3>& vertices, const PartSolution* solution) const;
+    NodesOnEdges nodes_on_edges(const EdgePoints& edges, const PartSolution* solution) const;
     std::vector<float> values_at_vertices(std::size_t count, const PartSolution* solution) const;
     std::string solution_key() const {
-        return needs_solution() ? fmt::format(" case {} deform {}", state_.load_case, state_.deform) : "";
+        return needs_solution() ? fmt::format(" case {} deform {}", state_.load_case, state_.drawn_deformation()) : "";
     }
     std::size_t triangles_seen(const Layer& layer) const;
     void add_isolines();
+    void add_vectors();
+    void add_arrows(const NodeSurface& surface, const PartSolution& solution, const Vec3& offset,
+                    std::vector<Arrow>& arrows) const;
+    void extend_by_motion(const NodeSurface& surface, const PartSolution* solution, const Vec3& offset);
     void add_tetrahedra(const std::shared_ptr<const NodeSurface>& surface);
     void add_parts();
     void add_part_surfaces();
@@ -123,6 +142,7 @@ class SceneBuild {
     template <class Visit>
     void for_drawn_values(Visit visit) const;
     ValueRange range_of_most_values(const ValueRange& all);
+    void mark_extremes();
     void set_legend();
     std::string legend_title() const;
     std::vector<NodeId> drawn_parts() const;

@@ -274,6 +274,8 @@ BuiltScene SceneBuild::run() {
     add_selection();
     set_range_of_values();
     add_isolines();
+    mark_extremes();
+    add_vectors();
     set_legend();
     if (state_.context) extend(document_.box);
     built_.pending &= session_.pending() || session_.busy();  // what failed does not come

@@ -18,6 +18,7 @@ struct Legend {
     std::string title;                    ///< of a colouring; empty: what there is to see is explained
     std::optional<ValueRange> values;     ///< of a measure
     std::optional<ValueRange> extremes;   ///< of a solution: the least and the largest value that is drawn
+    std::vector<PlacedValue> marked;      ///< where ViewState::extremes asks for them: of the least, the largest value
     double percentile = 100;              ///< per cent of the drawn values that the colours span, where they span fewer
     std::vector<Color> scale;             ///< from its low to its high end
     std::vector<LegendEntry> categories;  ///< what else there is to explain, also beside a scale
@@ -49,6 +50,8 @@ struct BuiltScene {
 ///                                            without cells; its cells at the clip plane, by filter, shrunk or around
 ///                                            another; their smooth sections
 ///     isolines of NAME                       of the layer NAME
+///     extremes                               where the least and the largest value are
+///     vectors                                displacements
 ///     wall N                                 behind shrunk cells
 ///     selected cell                          where it is seen only through others, which are translucent then
 ///     outline N, glass N                     of the node, or its parts, where only some cells are shown

@@ -134,19 +134,24 @@ std::string describe_solution(Session& session, NodeId part, int load_case, std:
     Vec3 displacement = Vec3::Zero();
     std::array<double, 6> stress = {};
     double von_mises = 0;
+    const bool is_mode = found->stress.empty();
     const auto share = 1.0 / static_cast<double>(vertices.size());
     for (const std::int32_t vertex : vertices) {
         const auto v = static_cast<std::size_t>(vertex);
         if (v >= found->displacement.size()) return "";
         displacement += share * found->displacement[v];
+        if (is_mode) continue;
         von_mises += share * found->von_mises[v];
         for (std::size_t i = 0; i < stress.size(); ++i) stress[i] += share * found->stress[v][i];
     }
+    const std::string moved = fmt::format("displacement ({:.6g}, {:.6g}, {:.6g}), {:.6g} long\n", displacement.x(),
+                                          displacement.y(), displacement.z(), displacement.norm());
+    if (is_mode) return moved;
     const auto& [xx, yy, zz, xy, yz, xz] = stress;
-    return fmt::format(
-        "displacement ({:.6g}, {:.6g}, {:.6g}), {:.6g} long\nvon Mises {:.6g}\nstress XX {:.6g}, YY {:.6g}, ZZ {:.6g}, "
-        "XY {:.6g}, YZ {:.6g}, XZ {:.6g}\n",
-        displacement.x(), displacement.y(), displacement.z(), displacement.norm(), von_mises, xx, yy, zz, xy, yz, xz);
+    return moved + fmt::format(
+                       "von Mises {:.6g}\nstress XX {:.6g}, YY {:.6g}, ZZ {:.6g}, XY {:.6g}, YZ {:.6g}, XZ "
+                       "{:.6g}\n",
+                       von_mises, xx, yy, zz, xy, yz, xz);
 }
 
 }  // namespace

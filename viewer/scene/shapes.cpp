@@ -1,6 +1,7 @@
 #include "viewer/scene/shapes.h"
 
 #include <cmath>
+#include <optional>
 
 #include "viewer/scene/drawn_triangles.h"
 
@@ -9,13 +10,6 @@ namespace kerf::view {
 namespace {
 
 constexpr double crease_cosine = 0.766;  // 40 degrees
-
-std::array<std::int16_t, 3> packed(const Vec3& normal) {
-    const double length = normal.norm();
-    if (!(length > 0)) return {};
-    const Vec3 n = normal / length * 32767;
-    return {static_cast<std::int16_t>(n.x()), static_cast<std::int16_t>(n.y()), static_cast<std::int16_t>(n.z())};
-}
 
 // Facets around each vertex, one after the other.
 struct Fans {
@@ -45,21 +39,57 @@ std::vector<Vec3> area_normals(const NodeSurface& surface) {
 }
 
 // The corners' normals: means over the facets around a vertex that turn little against the corner's own.
-void smooth_normals(const NodeSurface& surface, Geometry& geometry) {
-    const Fans fans(surface);
-    const std::vector<Vec3> normals = area_normals(surface);
-    for (std::size_t i = 0; i < geometry.element.size(); ++i) {
-        const auto f = static_cast<std::size_t>(geometry.element[i]);
+class SmoothNormals {
+ public:
+    explicit SmoothNormals(const NodeSurface& surface)
+        : surface_(surface), fans_(surface), normals_(area_normals(surface)) {}
+
+    std::array<Vec3, 3> of_facet(std::size_t f) const {
+        std::array<Vec3, 3> corners;
         for (std::size_t k = 0; k < 3; ++k) {
-            const auto v = static_cast<std::size_t>(surface.facets[f][k]);
-            Vec3 sum = Vec3::Zero();
-            for (std::int32_t j = fans.begin[v]; j < fans.begin[v + 1]; ++j) {
-                const Vec3& other = normals[static_cast<std::size_t>(fans.facet[static_cast<std::size_t>(j)])];
-                if (other.dot(normals[f]) > crease_cosine * other.norm() * normals[f].norm()) sum += other;
+            const auto v = static_cast<std::size_t>(surface_.facets[f][k]);
+            corners[k] = Vec3::Zero();
+            for (std::int32_t j = fans_.begin[v]; j < fans_.begin[v + 1]; ++j) {
+                const Vec3& other = normals_[static_cast<std::size_t>(fans_.facet[static_cast<std::size_t>(j)])];
+                if (other.dot(normals_[f]) > crease_cosine * other.norm() * normals_[f].norm()) corners[k] += other;
             }
-            geometry.corners[3 * i + k].normal = packed(sum);
         }
+        return corners;
     }
+
+ private:
+    const NodeSurface& surface_;
+    Fans fans_;
+    std::vector<Vec3> normals_;
+};
+
+void add_quadratic_facet(Geometry& geometry, const NodeSurface& surface, const Frame& frame, const FacetChoice& choice,
+                         std::size_t f, const SmoothNormals* normals) {
+    const DrawnVertices vertices{choice.places.empty() ? Places(surface.vertices) : choice.places, surface.vertices,
+                                 choice.vertex_value};
+    QuadraticTriangle t = quadratic_triangle(vertices, choice.edges, surface.facets[f], surface.edges_of_facet[f],
+                                             choice.value.empty() ? 0 : choice.value[f]);
+    if (normals) t.normals = normals->of_facet(f);
+    const Vec3 center = (t.place[0] + t.place[1] + t.place[2]) / 3;
+    for (Vec3& p : t.place) p += choice.shrink * (center - p);
+    add_quadratic(geometry, frame, t, pieces_of(t, surface.facets.size()), static_cast<std::int32_t>(f),
+                  !choice.places.empty());
+}
+
+void add_flat_facet(Geometry& geometry, const NodeSurface& surface, const Frame& frame, const FacetChoice& choice,
+                    std::size_t f, const SmoothNormals* normals) {
+    const Triangle& t = surface.facets[f];
+    const Corners corners = corners_at(choice.places.empty() ? Places(surface.vertices) : choice.places, t);
+    const Vec3 center = (corners[0] + corners[1] + corners[2]) / 3;
+    if (!center.allFinite()) return;
+    add_triangle(geometry, frame, shrunk(corners, center, choice.shrink), choice.value.empty() ? 0 : choice.value[f], 7,
+                 static_cast<std::int32_t>(f));
+    if (!choice.vertex_value.empty()) set_corner_values(geometry, t, choice.vertex_value);
+    if (!choice.places.empty()) add_rest(geometry, frame, corners_at(surface.vertices, t));
+    if (!normals) return;
+    const std::array<Vec3, 3> of_corners = normals->of_facet(f);
+    for (std::size_t k = 0; k < 3; ++k)
+        (geometry.corners.end() - 3 + static_cast<std::ptrdiff_t>(k))->normal = packed_normal(of_corners[k]);
 }
 
 // Corners of the rectangle, counter-clockwise seen against the normal.
@@ -95,20 +125,17 @@ std::shared_ptr<Geometry> facet_triangles(const NodeSurface& surface, const Fram
         geometry->corners.reserve(3 * surface.facets.size());
         geometry->element.reserve(surface.facets.size());
     }
+    std::optional<SmoothNormals> normals;
+    if (choice.smooth) normals.emplace(surface);
+    const bool is_quadratic = !choice.edges.empty() && !surface.edges_of_facet.empty();
     for (const bool interfaces : {false, true}) {
         if (interfaces && interface_begin) *interface_begin = static_cast<std::uint32_t>(geometry->triangle_count());
         for (std::int32_t f = 0; f < count; ++f) {
             if (surface.is_interface(f) != interfaces || (choice.wanted && !choice.wanted(f))) continue;
-            const Triangle& t = surface.facets[static_cast<std::size_t>(f)];
-            const Corners corners = corners_at(choice.places.empty() ? Places(surface.vertices) : choice.places, t);
-            const Vec3 center = (corners[0] + corners[1] + corners[2]) / 3;
-            if (!center.allFinite()) continue;
-            const float value = choice.value.empty() ? 0 : choice.value[static_cast<std::size_t>(f)];
-            add_triangle(*geometry, frame, shrunk(corners, center, choice.shrink), value, 7, f);
-            if (!choice.vertex_value.empty()) set_corner_values(*geometry, t, choice.vertex_value);
+            (is_quadratic ? add_quadratic_facet : add_flat_facet)(
+                *geometry, surface, frame, choice, static_cast<std::size_t>(f), normals ? &*normals : nullptr);
         }
     }
-    if (choice.smooth) smooth_normals(surface, *geometry);
     return geometry;
 }
 
@@ -126,7 +153,9 @@ std::shared_ptr<Geometry> isolines(const Geometry& triangles, std::size_t count,
                     ends[found][c] = a.position[c] + s * (b.position[c] - a.position[c]);
                 ++found;
             }
-            if (found == 2) geometry->segments.push_back({ends[0], ends[1]});
+            if (found < 2) continue;
+            geometry->segments.push_back({ends[0], ends[1]});
+            geometry->origins.push_back({static_cast<std::uint32_t>(i / 3), level});
         }
     return geometry;
 }

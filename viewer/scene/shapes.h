@@ -9,6 +9,7 @@
 #include "viewer/model/document.h"
 #include "viewer/model/view_state.h"
 #include "viewer/scene/layer.h"
+#include "viewer/scene/quadratic_triangle.h"
 
 namespace kerf::view {
 
@@ -29,12 +30,13 @@ struct FacetChoice {
     std::span<const float> value;                    ///< per facet; empty: 0
     std::span<const float> vertex_value;             ///< per vertex, instead of `value`; empty: none
     std::span<const Vec3> places;                    ///< of the vertices, if not where the surface has them
+    DrawnEdges edges = {};                           ///< of NodeSurface::edges; empty: facets are flat
     bool smooth = false;                             ///< normals over edges below 40 degrees
     double shrink = 0;                               ///< of triangles about their centres
 };
 
-/// The wanted facets; `element` is the facet's number. First those of the input, then those of interfaces;
-/// `interface_begin` receives the number of the first triangle of these. O(#F).
+/// The wanted facets, curved ones in pieces; `element` is the facet's number. First those of the input, then those of
+/// interfaces; `interface_begin` receives the number of the first triangle of these. O(#F).
 std::shared_ptr<Geometry> facet_triangles(const NodeSurface& surface, const Frame& frame, const FacetChoice& choice,
                                           std::uint32_t* interface_begin = nullptr);
 

@@ -1,0 +1,14 @@
+// The nodes on the edges of a part of second order, as the viewer has them.
+#pragma once
+
+#include "part/part.h"
+#include "viewer/model/document.h"
+
+namespace kerf::view {
+
+/// Those of its tetrahedra, or of the triangles of its surface, whose vertices come first in the part. Nothing of a
+/// part of first order. O(n log n) in the edges at a vertex.
+void add_edges(const Part& part, PartCells& cells);
+void add_edges(const Part& part, NodeSurface& surface);
+
+}  // namespace kerf::view

@@ -1,0 +1,74 @@
+// How a solution is drawn: its case or mode, its deformation and how that moves, lines and arrows.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "viewer/panels/parts.h"
+
+namespace kerf::view {
+
+namespace {
+
+constexpr double most_of_good = 4;  // the slider ends at so many times what is well seen
+
+void draw_cases(UiContext& context, const Solution& solution) {
+    ViewState& state = context.state;
+    if (solution.cases.size() < 2) return;
+    std::vector<std::string> names;
+    for (const Solution::Case& one : solution.cases) names.push_back(one.title());
+    state.load_case = std::min(state.load_case, static_cast<int>(names.size()) - 1);
+    context.widgets.combo(solution.has_modes() ? "Case or mode" : "Case", &state.load_case, names);
+    if (solution.cases[static_cast<std::size_t>(state.load_case)].is_mode() && needs_load_case(state.color))
+        state.color = ColorBy::displacement;  // a mode has nothing else
+}
+
+void draw_motion(UiContext& context) {
+    ViewState& state = context.state;
+    static const std::vector<std::string> titles = {"Still", "To both sides", "From nothing to all"};
+    int motion = static_cast<int>(state.motion);
+    if (context.widgets.combo("Motion", &motion, titles)) state.motion = static_cast<Motion>(motion);
+    if (state.motion == Motion::still) return;
+    context.widgets.slider("Phase", &state.phase, 0, 1);
+    context.widgets.slider("Speed", &state.speed, 0.1, 2, "%.1f / s");
+}
+
+void draw_deformation(UiContext& context, const Solution& solution) {
+    ViewState& state = context.state;
+    const auto number = static_cast<std::size_t>(state.load_case);
+    const double diagonal = context.session.document().box.diagonal().norm();
+    const double good =
+        number < solution.cases.size() ? good_deformation(solution.cases[number].largest_displacement, diagonal) : 0;
+    context.widgets.input_number("Deform", &state.deform);
+    if (good > 0)
+        context.widgets.slider("Amount", &state.deform, std::min(0., state.deform),
+                               std::max(most_of_good * good, state.deform), "%.4g x");
+    if (context.widgets.button("Auto", "So that the largest displacement is well seen") && good > 0)
+        state.deform = good;
+    ImGui::SameLine();
+    if (context.widgets.button(context.facts.moving ? "Pause" : "Play", "The deformation moves")) {
+        if (state.deform == 0) state.deform = good;
+        context.actions.toggle_motion();
+    }
+    if (state.deform != 0) draw_motion(context);
+}
+
+}  // namespace
+
+void draw_solution(UiContext& context) {
+    ViewState& state = context.state;
+    const Document& document = context.session.document();
+    if (!document.solution) return;
+    draw_cases(context, *document.solution);
+    draw_deformation(context, *document.solution);
+    const float half = ImGui::GetContentRegionAvail().x / 2;
+    context.widgets.checkbox("Vectors", &state.vectors, "Displacements as arrows");
+    if (!is_at_vertices(state.color)) return;
+    context.widgets.checkbox("Isolines", &state.isolines, "Lines where values are alike, at tenths of the range");
+    if (!state.isolines) return;
+    ImGui::SameLine(half);
+    context.widgets.checkbox("Numbers on lines", &state.numbers, "The values of the lines");
+}
+
+}  // namespace kerf::view
