@@ -4,7 +4,7 @@
 set -euo pipefail
 
 here=$(cd "$(dirname "$0")" && pwd)
-kerf=$1 cases=$2 python=$3
+kerf=$1 cases=$2 python=$3 assets=$4
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
@@ -18,6 +18,7 @@ for ending in msh mesh inp node; do "$kerf" merge run -o "whole.$ending" --order
 tetgen -r whole.node >tetgen.log
 tets() { awk '!/^#/ { print $1; exit }' "$1"; }
 [ "$(tets whole.ele)" = "$(tets whole.1.ele)" ] || { cat tetgen.log && exit 1; }
+"$kerf" mesh "$assets/cylinder.stl" -o curved -n 3 --surface remesh --order 2 --format msh -q
 export OMP_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-"$python" "$here/read_second_order.py" run
+"$python" "$here/read_second_order.py" run curved
 "$python" "$here/compute_with_calculix.py" whole.inp corners.mesh
