@@ -126,7 +126,8 @@ def check_gmsh(expected):
     parts = [read_by_gmsh(path) for path in sorted(pathlib.Path("parts").glob("mesh_*.msh"))]
     require(sum(part[1] for part in parts) == expected.tets, "Gmsh counts the tetrahedra of the parts")
     require(sum(part[2] for part in parts) == expected.facets, "Gmsh counts the triangles of the parts")
-    require(np.isclose(sum(part[3] for part in parts), expected.volume, rtol=1e-9), "Gmsh finds the volume of the parts")
+    total = sum(part[3] for part in parts)
+    require(np.isclose(total, expected.volume, rtol=1e-9), "Gmsh finds the volume of the parts")
     least = min([least] + [part[4] for part in parts])
     require(least > 0, "Gmsh finds positive scaled Jacobians")
     return least
