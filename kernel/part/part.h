@@ -179,7 +179,8 @@ struct MeshOutline {
     std::int64_t patch_facets() const;
 };
 
-/// What is asked for of a part whose memory matters.
+/// What is asked for of a part whose memory matters. Of order 2 with the nodes on edges of what there is: their points
+/// where vertices have theirs, the edges where there are facets or cells.
 enum class PartContent {
     all,
     surface,   ///< nothing of the inside: boundary vertices, facets and what belongs to them, global numbers of both

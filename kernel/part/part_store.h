@@ -11,9 +11,9 @@
 
 namespace kerf {
 
-/// Writes a part but for the global numbers of its interior vertices, which depend on the other parts: 24 bytes a
-/// vertex and 16 a tetrahedron. Returns the hash of the bytes, which depend on the part alone. A `durable` file
-/// outlives a power cut after the return. Throws Error(io).
+/// Writes a part but for the global numbers of its interior vertices, which depend on the other parts, and for nodes on
+/// edges (part/curved_nodes_file.h): 24 bytes a vertex and 16 a tetrahedron. Returns the hash of the bytes, which
+/// depend on the part alone. A `durable` file outlives a power cut after the return. Throws Error(io).
 FileHash write_stored_part(const std::string& path, const Part& part, bool durable = true);
 
 /// What is asked for of the part, its interior vertices numbered from `first_interior_id` on. Throws Error(io) if the
