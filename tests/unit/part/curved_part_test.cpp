@@ -124,7 +124,6 @@ TEST(CurvedPart, EveryCellIsValidHoweverFarNodesShouldGo) {
 // An edge that is bent into its cell so far that this is not valid with straight edges inside.
 TEST(CurvedPart, NodesInsideMakeRoom) {
     const CubeMesh cube(2);
-    const Vec3 corner(0, 0, 0), middle(0, 0, 1);
     std::int64_t moved = 0, straightened = 0;
     for (const double off : {0.1, 0.2, 0.25, 0.3, 0.35}) {
         std::vector<CurvedEdge> wanted = cube.wanted(0, 1);

@@ -17,7 +17,7 @@ RunOptions of_second_order() {
     return options;
 }
 
-Input input_of(const Soup& soup) { return make_input(soup.vertices, soup.facets, soup.patch, soup.patch_names); }
+Input read_soup(const Soup& soup) { return make_input(soup.vertices, soup.facets, soup.patch, soup.patch_names); }
 
 // A ball in two halves, which are patches.
 Input halves(int subdivisions) {
@@ -27,7 +27,7 @@ Input halves(int subdivisions) {
         const auto& [a, b, c] = soup.facets[f];
         soup.patch[f] = (soup.vertices[a] + soup.vertices[b] + soup.vertices[c]).x() > 0;
     }
-    return input_of(soup);
+    return read_soup(soup);
 }
 
 // As if the second had been made of the first by remeshing.
@@ -37,8 +37,8 @@ SurfaceNodes nodes_of(const Input& file, Input& surface) {
 }
 
 TEST(SurfaceNodes, OfACoarseBallLieOnTheFineOne) {
-    const Input fine = input_of(test::icosphere(5));
-    Input coarse = input_of(test::icosphere(2));
+    const Input fine = read_soup(test::icosphere(5));
+    Input coarse = read_soup(test::icosphere(2));
     const SurfaceNodes nodes = nodes_of(fine, coarse);
     EXPECT_EQ(nodes.surface_edges, 480);
     ASSERT_EQ(nodes.edges.size(), 480);
@@ -74,19 +74,19 @@ TEST(SurfaceNodes, OfBordersLieOnTheBordersOfTheFile) {
 }
 
 TEST(SurfaceNodes, OfWhatIsFlatOrKeptAreInTheMiddle) {
-    const Input fine = input_of(test::box(Vec3::Zero(), Vec3::Ones(), 6));
-    Input coarse = input_of(test::box(Vec3::Zero(), Vec3::Ones(), 2));
+    const Input fine = read_soup(test::box(Vec3::Zero(), Vec3::Ones(), 6));
+    Input coarse = read_soup(test::box(Vec3::Zero(), Vec3::Ones(), 2));
     const SurfaceNodes flat = nodes_of(fine, coarse);
     EXPECT_TRUE(flat.edges.empty());
     EXPECT_EQ(flat.surface_edges, 72);
-    const Input ball = input_of(test::icosphere(2));
-    Input same = input_of(test::icosphere(2));
+    const Input ball = read_soup(test::icosphere(2));
+    Input same = read_soup(test::icosphere(2));
     EXPECT_TRUE(nodes_of(ball, same).edges.empty());
 }
 
 TEST(SurfaceNodes, AreOnlyMadeWhereTheyAreAskedForAndTheSurfaceIsNotTheFile) {
-    const Input fine = input_of(test::icosphere(3));
-    Input coarse = input_of(test::icosphere(2));
+    const Input fine = read_soup(test::icosphere(3));
+    Input coarse = read_soup(test::icosphere(2));
     RunOptions straight = of_second_order(), first;
     straight.curving = Curving::straight;
     for (const RunOptions& options : {straight, first}) {
