@@ -26,7 +26,7 @@ RULE = [(w, np.roll([1 - 2 * x, x, x], i)) for x, w in ((0.445948490915964886, 0
 class Solution:
     """The parts of a solution joined by their global numbers."""
 
-    def __init__(self, folder, order):
+    def __init__(self, folder, order=1):
         tetra, triangle = ("tetra", "triangle") if order == 1 else ("tetra10", "triangle6")
         parts = [meshio.read(file) for file in sorted((folder / "parts").glob("*.vtu"))]
         count = 1 + max(int(part.point_data["GlobalVertexId"].max()) for part in parts)
