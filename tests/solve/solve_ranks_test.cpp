@@ -25,7 +25,7 @@ using test::space_on;
 
 class Solution : public testing::TestWithParam<int> {
  protected:
-    void SetUp() override { space_ = space_on(*test::ranks_of_program->mpi, GetParam()); }
+    void SetUp() override { space_ = space_on(*ranks_of_program->mpi, GetParam()); }
 
     // Holds the surface where `held` says so: all three components, or one.
     template <class Displacement>
@@ -139,7 +139,7 @@ TEST_P(Solution, RowsAreTheSameForAnyRanks) {
     const std::unique_ptr<FeSpace> alone = space_on(self, GetParam());
     EXPECT_EQ(space_->total_rows(), alone->total_rows());
     EXPECT_EQ(static_cast<std::int64_t>(alone->owned_count()), alone->total_rows());
-    const std::int32_t first = first_parts_of_ranks(test::cube_run->outline(), ranks())[rank()].value();
+    const std::int32_t first = first_parts_of_ranks(CubeOfParts::parts->outline(), ranks())[rank()].value();
     for (std::size_t p = 0; p < space_->parts().size(); ++p)
         for (std::size_t t = 0; t < space_->parts()[p].mesh.tets.size(); ++t) {
             const auto here = space_->nodes_of(p, t), there = alone->nodes_of(first + p, t);
@@ -185,7 +185,7 @@ TEST_P(Solution, SizesFollowErrors) {
             for (const Tetrahedron& tet : part.mesh.tets)
                 stress.error.push_back(part.mesh.vertices[static_cast<std::size_t>(tet[0])].x() < from_x ? 0 : 1);
         }
-        field.norms = {std::sqrt(static_cast<double>(test::cube_run->outline().tets())) * std::sqrt(0.75), 0};
+        field.norms = {std::sqrt(static_cast<double>(CubeOfParts::parts->outline().tets())) * std::sqrt(0.75), 0};
         field.norms.error = field.norms.solution / std::sqrt(3.0);  // beside the true norm: a half
         return sizes_for_error(space, {&field}, aim, of_space);
     };
@@ -202,19 +202,19 @@ TEST_P(Solution, SizesFollowErrors) {
             EXPECT_LT(partly.size[v], same.size[v]) << x;
         }
     }
-    const SizedMesh shared = sizes_of(*space_, *test::ranks_of_program->communicator, 0.25, 0.5);
+    const SizedMesh shared = sizes_of(*space_, *ranks_of_program->communicator, 0.25, 0.5);
     EXPECT_EQ(shared.vertices, partly.vertices);
     EXPECT_EQ(shared.size, partly.size);
     EXPECT_EQ(shared.tets, partly.tets);
 }
 
 TEST(Bodies, ACubeIsOne) {
-    const auto space = space_on(*test::ranks_of_program->mpi, 1);
+    const auto space = space_on(*ranks_of_program->mpi, 1);
     EXPECT_EQ(find_bodies(*space).count, 1);
 }
 
 TEST(Supports, ThatLeaveMotionsAreRefusedWithTheirNames) {
-    const auto space = space_on(*test::ranks_of_program->mpi, 1);
+    const auto space = space_on(*ranks_of_program->mpi, 1);
     const SpaceBodies bodies = find_bodies(*space);
     const auto refusal = [&](auto holds) -> std::string {
         ElasticProblem problem = make_free_problem(*space, {"steel", 1, 0.3, 0});
@@ -245,7 +245,7 @@ TEST(Supports, ThatLeaveMotionsAreRefusedWithTheirNames) {
 }
 
 TEST(Parts, AreSharedOutWholeAndEvenly) {
-    const MeshOutline& outline = test::cube_run->outline();
+    const MeshOutline& outline = CubeOfParts::parts->outline();
     for (int count = 1; count <= 10; ++count) {
         const auto first = first_parts_of_ranks(outline, count);
         ASSERT_EQ(first.size(), static_cast<std::size_t>(count) + 1);
