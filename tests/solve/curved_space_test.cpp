@@ -27,6 +27,7 @@ std::unique_ptr<FeSpace> mapped(const RunParts& mesh, Vec3 (*map)(const Vec3&), 
             return 0.5 * (points[static_cast<std::size_t>(edge[0])] + points[static_cast<std::size_t>(edge[1])]);
         };
         part.edge_nodes.edges = EdgeTable(part.mesh.tets, vertices.size());
+        part.edge_nodes.global_id.resize(part.edge_nodes.edges.size());  // nobody asks for them
         part.edge_nodes.edges.for_all([&](std::int32_t, const UndirectedEdge& edge) {
             part.edge_nodes.points.push_back(is_curved ? map(middle(before, edge)) : middle(vertices, edge));
         });
