@@ -91,9 +91,10 @@ class StressRecovery {
 
  private:
     void compare(std::size_t m) {
-        const std::vector<SymmetricTensor> better = space_.order() == 1
-                                                        ? average_stresses(problem_, displacement_, number_, m)
-                                                        : fit_stresses(problem_, displacement_, number_, m);
+        const std::vector<SymmetricTensor> means = average_stresses(problem_, displacement_, number_, m);
+        // What is fitted is nearer to the truth inside, but not where a surface has kinks: it tells the error alone.
+        const std::vector<SymmetricTensor> better =
+            space_.order() == 1 ? means : fit_stresses(problem_, displacement_, number_, m);
         const int nodes_each = element_nodes(space_.order());
         for_all_tets(space_, [&](std::size_t p, std::size_t t) {
             if (!problem_.is_of(m, p, t)) return;
@@ -120,11 +121,11 @@ class StressRecovery {
             field_.norms.solution += of_solution;
             field_.norms.error += of_error;
             const Tetrahedron& corners = space_.parts()[p].mesh.tets[t];
-            for (std::size_t i = 0; i < 4; ++i) of_part.at_vertex[corners[i]] = better[nodes[i]];
+            for (std::size_t i = 0; i < 4; ++i) of_part.at_vertex[corners[i]] = means[nodes[i]];
             if (!of_part.at_edge.empty()) {
                 const auto of_tet = space_.parts()[p].nodes_of_tet(static_cast<std::int64_t>(t));
                 const auto first = std::ssize(of_part.at_vertex);
-                for (std::size_t i = 4; i < 10; ++i) of_part.at_edge[of_tet[i] - first] = better[nodes[i]];
+                for (std::size_t i = 4; i < 10; ++i) of_part.at_edge[of_tet[i] - first] = means[nodes[i]];
             }
         });
     }

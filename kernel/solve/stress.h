@@ -11,7 +11,7 @@ namespace kerf {
 /// Stresses of a part: of its elements, and averages at its vertices.
 struct PartStress {
     std::vector<SymmetricTensor> of_tet;        ///< #T; the mean over the tetrahedron
-    std::vector<SymmetricTensor> at_vertex;     ///< #V; nearer to the truth than the elements' own (recover_stress())
+    std::vector<SymmetricTensor> at_vertex;     ///< #V; averages of the elements around
     std::vector<double> error;                  ///< #T; estimate of the error in the energy norm
     double energy = 0;                          ///< of the strain, of the whole part
     std::vector<SymmetricTensor> at_edge = {};  ///< of order 2, where Part::edge_nodes are: at each
@@ -30,9 +30,10 @@ struct StressField {
     EnergyNorms norms;
 };
 
-/// Stresses at nodes that are nearer to the truth than the elements' own tell the error by what they differ
-/// (Zienkiewicz and Zhu 1987). Order 1: averages of the cells around, by their volumes. Order 2: polynomials on patches
-/// (solve/stress_patches.h); the estimate is then 0.95 to 1.15 of the true error of smooth fields. A node between two
+/// Stresses at nodes are averages of the cells around, by their volumes. The error is what the cells' own differ from
+/// others that are nearer to the truth (Zienkiewicz and Zhu 1987): from these averages for order 1, from polynomials on
+/// patches (solve/stress_patches.h) for order 2, where the estimate is 0.95 to 1.2 of the true error of smooth fields.
+/// The polynomials do not become the stresses: where the surface has kinks they are further off. A node between two
 /// materials has a stress in each; a tetrahedron takes that of its own, and what a part says of a vertex is that of
 /// one of its cells. `number`: of the case, whose temperatures leave no stress where nothing is held. Collective, one
 /// exchange for each material; O(n).

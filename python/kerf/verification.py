@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Mapping
 
-_other_fields = ("path", "passed", "compared_with_input", "parts", "tets", "vertices", "volume_rel_error",
-                 "volume_rel_bound", "differences", "not_compared")
+_other_fields = ("path", "passed", "compared_with_input", "parts", "tets", "vertices", "nodes", "curved_nodes",
+                 "volume_rel_error", "volume_rel_bound", "differences", "not_compared")
 
 
 @dataclass(frozen=True)

@@ -138,7 +138,7 @@ TEST(IncludeMap, LibrariesStayInTheirPlaces) {
                                      "kernel/surface/facet_triangulation.cpp", "kernel/surface/hole_filling.cpp",
                                      "kernel/surface/intersections.cpp"}));
     EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "toml++"; }),
-              (std::set<std::string>{"kernel/request/config_file.cpp", "kernel/solve/elastic_case.cpp"}));
+              (std::set<std::string>{"kernel/request/config_file.cpp", "kernel/solve/case_table.h"}));
     EXPECT_EQ(files_including([](const std::string& name) { return name == "zlib.h" || name == "zstd.h"; }),
               (std::set<std::string>{"kernel/io/compressed.cpp", "viewer/render/image.cpp"}));
     EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "Model"; }),
