@@ -24,7 +24,8 @@ constexpr double share_of_largest = 1e-4;   // unless this is more: a bolt does 
 constexpr double finest_share = 1e-6;       // of the smallest diagonal
 constexpr double first_angle = 0.35;        // radians between chords
 constexpr double most_missed = 0.01;        // of the volume of a region, between facets and faces
-constexpr double hopeless_error = 0.05;     // of a volume
+constexpr double most_missed_on_faces = 0.001;
+constexpr double hopeless_error = 0.05;  // of a volume
 constexpr double most_assembly_facets = 320000;
 constexpr double most_assembly_facets_of_face = 80000;  // its time grows with the square
 constexpr int most_rounds_of_balance = 6;
@@ -159,9 +160,8 @@ class AssemblyMesher {
     double roughness(const Tessellation& mesh) const {
         const std::vector<double> between = volumes_between(mesh, assembly_.volumes.size());
         double largest = 0;
-        for (std::size_t r = 0; r < between.size(); ++r)
-            largest = std::max(largest, between[r] / (most_missed * assembly_.volumes[r]));
-        return largest;
+        for (std::size_t r = 0; r < between.size(); ++r) largest = std::max(largest, between[r] / assembly_.volumes[r]);
+        return largest / (on_faces_ ? most_missed_on_faces : most_missed);
     }
 
     bool is_right(const Tessellation& mesh) const {

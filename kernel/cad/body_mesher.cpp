@@ -31,6 +31,7 @@ constexpr double coarsest_angle = 0.35;  // radians between chords: 18 a turn
 constexpr double most_facets_by_volume = 320000;
 constexpr double most_facets_of_face_by_volume = 80000;
 constexpr double most_between = 0.01;  // of the volume, between facets and faces: so few chords can be balanced
+constexpr double most_between_on_faces = 0.001;
 constexpr double hopeless_volume_error = 0.05;  // beyond that the faces are not those of the solid
 constexpr double volume_precision =
     1e-6;  // of the integration, which has a fixed number of points else: 1 % off for a thread
@@ -121,9 +122,10 @@ class BodyMesher {
     }
 
     // How many times rougher the chords are than what can be balanced: volumes that they miss inside and outside may
-    // cancel, as in thin tubes.
+    // cancel, as in thin tubes. What stays on the faces has fillets that chords must not leave out.
     double roughness(const Tessellation& mesh) const {
-        return exact_volume_ > 0 ? volume_between(mesh) / (most_between * exact_volume_) : 0;
+        const double most = on_faces_ ? most_between_on_faces : most_between;
+        return exact_volume_ > 0 ? volume_between(mesh) / (most * exact_volume_) : 0;
     }
 
     bool is_right(const Tessellation& mesh) const {

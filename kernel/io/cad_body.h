@@ -33,8 +33,8 @@ struct CadOptions {
                                        ///< the solid; 0: such that the volume is right to `volume_tolerance`,
                                        ///< for which vertices leave the curved faces a little
     bool unit_is_asked = false;        ///< by name: a file that has none is refused then, whatever the unit is
-    bool on_faces = false;             ///< all vertices stay on the faces, and the volume is right to a hundredth only:
-                                       ///< for those who put nodes of edges there, too
+    bool on_faces = false;             ///< all vertices stay on the faces, and the volume is right to 0.001 only: for
+                                       ///< those who put nodes of edges there, too
 
     static constexpr double volume_tolerance = 1e-4;  ///< of |volume of facets - volume of solid| / volume of solid
 

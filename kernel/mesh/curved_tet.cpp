@@ -20,7 +20,7 @@ using Coefficients = std::array<double, 20>;
 
 constexpr int deepest_bisection = 15;  // of a piece: its edges are a 32nd
 constexpr int most_pieces = 1000;
-constexpr double roundings = 64;  // of products of three slopes, in units of the last place
+constexpr double determinant_roundings = 64;  // of products of three slopes, in units of the last place
 constexpr double precision_of_scaled = 1e-3;
 
 // The number of the coefficient of a product of three barycentric coordinates, in any order.
@@ -137,7 +137,7 @@ CurvedTetJacobian::CurvedTetJacobian(const TetNodes& nodes) {
                                 6;
     });
     straight_ = control[1][1].cross(control[2][2]).dot(control[3][3]);
-    rounding_ = roundings * std::numeric_limits<double>::epsilon() * longest * longest * longest;
+    rounding_ = determinant_roundings * std::numeric_limits<double>::epsilon() * longest * longest * longest;
 }
 
 CellValidity CurvedTetJacobian::validity() const {

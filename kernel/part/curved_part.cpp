@@ -39,7 +39,7 @@ class PartCurving {
         while (!invalid.empty()) {
             std::set<std::int32_t> changed;
             for (const std::int32_t t : invalid)
-                if (validity_of(t) != CellValidity::valid) changed.insert(straighten_one_of(t));
+                if (!is_good(t)) changed.insert(straighten_one_of(t));
             invalid = invalid_of(cells_with(changed));
         }
         return result();
@@ -69,8 +69,11 @@ class PartCurving {
         const std::array<std::int32_t, 6> numbers = edges_of(t);
         return std::any_of(numbers.begin(), numbers.end(), [&](std::int32_t e) { return nodes_.contains(e); });
     }
-    CellValidity validity_of(std::int32_t t) const {
-        return is_curved(t) ? CurvedTetJacobian(nodes_of(t)).validity() : CellValidity::valid;
+    bool is_good(std::int32_t t) const {
+        if (!is_curved(t)) return true;
+        const CurvedTetJacobian jacobian(nodes_of(t));
+        if (jacobian.coarse_low() >= least_scaled_jacobian * jacobian.straight()) return true;
+        return jacobian.validity() == CellValidity::valid && scaled_jacobian(jacobian) >= least_scaled_jacobian;
     }
 
     void find_cells() {
@@ -80,7 +83,7 @@ class PartCurving {
     std::vector<std::int32_t> invalid_of(const std::vector<std::int32_t>& cells) const {
         std::vector<std::int32_t> invalid;
         for (const std::int32_t t : cells)
-            if (validity_of(t) != CellValidity::valid) invalid.push_back(t);
+            if (!is_good(t)) invalid.push_back(t);
         return invalid;
     }
 

@@ -24,11 +24,15 @@ struct CurvedPart {
     double volume_gain = 0;                  ///< of the part
 };
 
+/// The scaled Jacobian below which a cell is as good as invalid: the next rounding could make it so.
+inline constexpr double least_scaled_jacobian = 0.01;
+
 /// Puts nodes on `wanted` edges (ascending), each on the boundary of the mesh, and proves every cell valid that has
-/// one. Where one is not, nodes of edges inside are moved first, to where the least coefficient of the Jacobian
-/// determinants around them is largest; then one edge after the other of such a cell gets its node in its middle again.
-/// `inside`: of each edge, whether it is none of the boundary. The cells must be positively oriented. Deterministic: a
-/// function of the arguments. O(#T), and some milliseconds for each cell that is not valid.
+/// one, with least_scaled_jacobian and more. Where one is not, nodes of edges inside are moved first, to where the
+/// least coefficient of the Jacobian determinants around them is largest; then one edge after the other of such a cell
+/// gets its node in its middle again. `inside`: of each edge, whether it is none of the boundary. The cells must be
+/// positively oriented. Deterministic: a function of the arguments. O(#T), and some milliseconds for each cell that is
+/// not valid.
 CurvedPart curve_part(const TetMesh& mesh, const EdgeTable& edges, const std::vector<char>& inside,
                       const std::vector<CurvedEdge>& wanted);
 

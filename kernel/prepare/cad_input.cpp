@@ -18,7 +18,7 @@ namespace kerf {
 namespace {
 
 // `input`: for its standard input.
-ChildResult run_import_program(const std::string& program, std::vector<std::string> arguments, Bytes input,
+ChildResult run_import_program(const std::string& program, const std::vector<std::string>& arguments, Bytes input,
                                double timeout_seconds) {
     ChildPool pool;
     pool.start(0, program, arguments, std::move(input), timeout_seconds);
