@@ -6,8 +6,6 @@
 #include <set>
 #include <utility>
 
-#include "mesh/curved_tet.h"
-
 namespace kerf {
 
 namespace {
@@ -219,6 +217,13 @@ class PartCurving {
 };
 
 }  // namespace
+
+TetNodes places_of_nodes(const Part& part, std::int64_t tet) {
+    const std::array<std::int32_t, 10> nodes = part.nodes_of_tet(tet);
+    TetNodes places;
+    std::transform(nodes.begin(), nodes.end(), places.begin(), [&](std::int32_t n) { return part.node_point(n); });
+    return places;
+}
 
 CurvedPart curve_part(const TetMesh& mesh, const EdgeTable& edges, const std::vector<char>& inside,
                       const std::vector<CurvedEdge>& wanted) {

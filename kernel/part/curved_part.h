@@ -4,10 +4,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesh/curved_tet.h"
 #include "mesh/edge_table.h"
-#include "mesh/tet_mesh.h"
+#include "part/part.h"
 
 namespace kerf {
+
+/// The places of the nodes of a cell of order 2.
+TetNodes places_of_nodes(const Part& part, std::int64_t tet);
 
 /// An edge of a part whose node is not in its middle.
 struct CurvedEdge {

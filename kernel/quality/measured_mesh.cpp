@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "geometry/box.h"
 #include "mesh/adjacency.h"
+#include "part/curved_part.h"
 
 namespace kerf {
 
@@ -36,6 +37,17 @@ std::vector<Triangle> hull_of(TetMesh& mesh) {
             }
     mesh.neighbours = {};
     return hull;
+}
+
+void add_curved(const Part& part, CurvedCells& curved) {
+    for (std::int64_t t = 0; t < part.tet_count(); ++t) {
+        const TetNodes nodes = places_of_nodes(part, t);
+        if (nodes == straight_nodes({nodes[0], nodes[1], nodes[2], nodes[3]})) continue;
+        ++curved.count;
+        const CurvedTetJacobian jacobian(nodes);
+        if (jacobian.coarse_low() < curved.worst_scaled_jacobian * jacobian.straight())
+            curved.worst_scaled_jacobian = std::min(curved.worst_scaled_jacobian, scaled_jacobian(jacobian));
+    }
 }
 
 // What is added up of the cells of a region.
@@ -115,6 +127,7 @@ void MeasurableMesh::measure_run(double length_scale, MeshQuality& quality) cons
     for (const PartIndex index : outline.parts.ids()) {
         const Part part = run_->load(index);
         add(part, length_scale, quality);
+        if (outline.order == 2) add_curved(part, quality.curved ? *quality.curved : quality.curved.emplace());
         if (!sums.empty()) add_cells(part.mesh.vertices, part.mesh.tets, sums[part.region_of(0).value()]);
     }
     for (std::size_t r = 0; r < sums.size(); ++r)

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,12 @@ struct RegionQuality {
     std::array<Percentiles, quality_measures.size()> measures{};  ///< in the order of quality_measures
 };
 
+/// Cells of a run of order 2 that have an edge whose node is not in its middle.
+struct CurvedCells {
+    std::int64_t count = 0;
+    double worst_scaled_jacobian = 1;  ///< of mesh/curved_tet.h; 1 without such cells
+};
+
 struct MeshQuality {
     std::string name;  ///< for people
     std::int64_t parts = 1;
@@ -35,6 +42,7 @@ struct MeshQuality {
     std::int64_t turned_tets = 0;             ///< that had negative orientation in their file
     std::vector<std::string> notes = {};      ///< what the file held besides
     std::vector<RegionQuality> regions = {};  ///< in the order of their numbers; empty if there is one
+    std::optional<CurvedCells> curved = {};   ///< of runs of order 2
 
     std::int64_t tets() const { return cells.all.measures.front().count(); }
 };

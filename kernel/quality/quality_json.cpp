@@ -71,6 +71,9 @@ Json quality_json(const MeshQuality& quality) {
                  {"quality", quality_json(quality.cells)},
                  {"forced", forced_json(quality.cells.angles)},
                  {"boundary", distributions_json(triangle_measures, quality.boundary.measures)}};
+    if (quality.curved)
+        json["curved"] = {{"curved_cells", quality.curved->count},
+                          {"worst_scaled_jacobian", quality.curved->worst_scaled_jacobian}};
     for (const RegionQuality& region : quality.regions) json["regions"].push_back(region_json(region));
     return json;
 }

@@ -130,6 +130,9 @@ std::string head_text(const MeshQuality& quality) {
     if (quality.turned_tets > 0)
         text += fmt::format("  note      {} tetrahedra of negative orientation were turned.\n",
                             grouped(quality.turned_tets));
+    if (quality.curved)
+        text += fmt::format("  curved    {} cells of order 2 have curved edges; scaled Jacobian at least {:.3f}\n",
+                            grouped(quality.curved->count), quality.curved->worst_scaled_jacobian);
     for (const std::string& note : quality.notes) text += fmt::format("  note      {}\n", note);
     return text;
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/curved_tet.h"
+#include "part/curved_part.h"
 
 namespace kerf {
 
@@ -52,9 +52,7 @@ std::int64_t EdgeNodeCheck::count_invalid(const Part& part, const std::vector<bo
         const std::array<std::int32_t, 10> nodes = part.nodes_of_tet(t);
         const auto is_on_curve = [&](std::int32_t n) { return is_curved[n - part.first_edge_node()]; };
         if (std::none_of(nodes.begin() + 4, nodes.end(), is_on_curve)) continue;
-        TetNodes points;
-        std::transform(nodes.begin(), nodes.end(), points.begin(), [&](std::int32_t n) { return part.node_point(n); });
-        invalid += CurvedTetJacobian(points).validity() != CellValidity::valid;
+        invalid += CurvedTetJacobian(places_of_nodes(part, t)).validity() != CellValidity::valid;
     }
     return invalid;
 }

@@ -7,6 +7,7 @@
 
 #include "cad/cad_files.h"
 #include "io/file_bytes.h"
+#include "quality/measured_mesh.h"
 #include "support/file_contents.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
@@ -42,8 +43,19 @@ class CurvedCadMesh : public testing::Test {
         result.straightened_edges = curved["straightened_edges"];
         result.worst_scaled_jacobian = curved["worst_scaled_jacobian"];
         result.volume += curved["volume_gain"].get<double>();
+        expect_files_agree(out, curved);
         return result;
     }
+    // What others find in the files alone is what the run says.
+    static void expect_files_agree(const std::string& out, const nlohmann::json& curved) {
+        const ChildResult verified = test::run_kerf({"verify", out});
+        EXPECT_EQ(verified.exit_code, 0) << verified.log;
+        const MeshQuality quality = MeasurableMesh(out).measure(1);
+        ASSERT_TRUE(quality.curved);
+        EXPECT_EQ(quality.curved->count, curved["curved_cells"].get<std::int64_t>());
+        EXPECT_NEAR(quality.curved->worst_scaled_jacobian, curved["worst_scaled_jacobian"].get<double>(), 2e-3);
+    }
+
     test::TemporaryFolder folder_;
 };
 
