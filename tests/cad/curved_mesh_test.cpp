@@ -89,8 +89,9 @@ TEST_F(CurvedCadMesh, IsTheSameForAnyRanks) {
     test::write_cad(path, test::torus(2, 0.7));
     const auto files_of = [&](int ranks, const char* workers) {
         const std::string out = folder_.file("out");
-        const ChildResult run = test::run_ranks(ranks, {KERF_PROGRAM, "mesh", path, "-o", out, "-n", "3", "--workers",
-                                                        workers, "--size", "0.5", "--order", "2"});
+        const ChildResult run =
+            test::run_ranks(ranks, {KERF_PROGRAM, "mesh", path, "-o", out, "-n", "3", "--workers", workers, "--size",
+                                    "0.5", "--order", "2", "--cad-deflection", "0.003"});
         EXPECT_EQ(run.exit_code, 0) << run.log;
         EXPECT_NE(run.log.find("\ncurved "), std::string::npos) << run.log;
         return test::result_of_run(out);
