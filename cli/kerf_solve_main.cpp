@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <filesystem>
+#include <memory>
 #include <new>
 #include <optional>
 
@@ -55,7 +56,9 @@ void check_mesh_options(const CLI::App& solve, SolveLine& line) {
     }
     std::vector<std::string> names = {"adapt"};
     for (const OptionField& field : option_fields(mesh))
-        if (field.name != std::string_view("order")) names.push_back(field.name);
+        if (field.name != std::string_view("order") && field.name != std::string_view("workers") &&
+            field.name != std::string_view("events"))
+            names.push_back(field.name);
     for (const std::string& name : names)
         if (solve.get_option("--" + name)->count() > 0)
             throw CLI::ValidationError(
@@ -85,19 +88,23 @@ void add_options(CLI::App& command, SolveLine& line) {
                "Estimated error in the energy norm beside that of the solution, as 0.05, that is good enough. Above it "
                "the solution has size_field.vtu for the next mesh.")
         ->type_name("E");
+    add_number(command, "--modes", request.modes, {"a whole number of modes, 1 to 200", 1, 200},
+               "Natural frequencies and modes, the lowest N, in place of what the loads of the case do.")
+        ->type_name("N");
     command
         .add_flag("--list-patches", line.list_patches, "Print name, area, centroid and normal of each patch, and end.")
         ->excludes(case_file)
         ->excludes(output);
-    add_number(command, "--ranks", line.ranks, {"a whole number, 1 to 4096", 1, 4096},
-               "Processes that solve, each on parts of its own, where mpirun has started none. Default: a processor "
-               "each, as far as parts and cells are enough for them; 1: this one alone.")
+    add_number(
+        command, "--ranks", line.ranks, {"a whole number, 1 to 4096", 1, 4096},
+        "Processes that solve, each on parts of its own, where mpirun has started none. Default: as many as "
+        "--workers, or as there are processors, as far as parts and cells are enough for them; 1: this one alone.")
         ->type_name("P");
     command.add_flag("-q,--quiet", line.quiet, "Print errors alone.");
     add_run_options(command, line.request.mesh);
     put_help_last(command, option_group::running,
-                  {"case", "output", "order", "adapt", "target-error", "list-patches", "ranks", "parts", "size",
-                   "surface", "feature-angle", "workers", "quiet"});
+                  {"case", "output", "order", "adapt", "target-error", "modes", "list-patches", "ranks", "parts",
+                   "size", "surface", "feature-angle", "workers", "quiet"});
 }
 
 // Fills the line, or has an answer that takes the place of a run.
@@ -125,16 +132,40 @@ std::optional<Answer> parse_solve_line(int argc, const char* const* argv, SolveL
     return std::nullopt;
 }
 
-// As many as there are processors, if they are of use. What lists patches does no work.
+// As many as there are workers or processors, if they are of use. What lists patches does no work.
 int wanted_ranks(const SolveLine& line) {
     if (line.ranks > 0 || line.list_patches) return std::max(1, line.ranks);
     const int useful = line.meshes ? useful_ranks_of_surface(line.input, line.request.mesh.decompose.parts)
                                    : useful_ranks_of_run(line.input);
-    const auto processors = static_cast<int>(allowed_processors().size());
-    return std::clamp(processors / std::max(1, line.request.mesh.workers), 1, std::max(1, useful));
+    const int workers = line.request.mesh.workers;
+    const int most = workers > 0 ? workers : static_cast<int>(allowed_processors().size());
+    return std::clamp(most, 1, std::max(1, useful));
 }
 
-int solve_on_ranks(const SolveLine& line, MpiRanks& ranks) {
+// Of those that were asked for, the share of each rank that this program has started itself.
+void share_workers(SolveLine& line, int ranks) {
+    int& workers = line.request.mesh.workers;
+    if (workers > 0 && line.ranks == 0 && is_own_launch()) workers = std::max(1, workers / ranks);
+}
+
+// The log of events, if there is one and this is the rank that writes it.
+std::unique_ptr<EventLog> open_solve_events(const SolveLine& line, Communicator& ranks) {
+    std::unique_ptr<EventLog> log;
+    in_agreement(ranks, [&] {
+        const std::string& file = line.request.mesh.events_file;
+        if (ranks.rank() != 0 || file.empty() || line.list_patches) return;
+        for (const std::string& read : {line.request.solve.case_file, line.meshes ? line.input : std::string()})
+            refuse_to_overwrite(read, "--events", file);
+        log = std::make_unique<EventLog>(file);
+        RunOptions told = line.request.mesh;
+        told.input = line.input;
+        told.output = line.request.solve.output;
+        log->on_start(told);
+    });
+    return log;
+}
+
+int solve_on_ranks(const SolveLine& line, MpiRanks& ranks, EventLog* events) {
     const bool root = ranks.rank() == 0;
     const SolveRequest& request = line.request.solve;
     if (line.list_patches) {
@@ -144,19 +175,21 @@ int solve_on_ranks(const SolveLine& line, MpiRanks& ranks) {
     }
     SolveReport report;
     {
-        ProgressLine progress(line.quiet || !root, nullptr);
+        ProgressLine progress(line.quiet || !root, events);
+        if (root) progress.tell_each_second();
         report = solve_run(request, ranks, &progress);
     }
     if (root && !line.quiet) tell(to_text(report));
     return report.exit_code;
 }
 
-int mesh_and_solve_on_ranks(const SolveLine& line, const Ranks& ranks) {
+int mesh_and_solve_on_ranks(const SolveLine& line, const Ranks& ranks, EventLog* events) {
     const bool root = ranks.communicator->rank() == 0;
     MeshAndSolveRequest request = line.request;
     MeshAndSolveReport report;
     {
-        ProgressLine progress(line.quiet || !root, nullptr);
+        ProgressLine progress(line.quiet || !root, events);
+        if (root) progress.tell_each_second();
         report = mesh_and_solve(request, ranks.cores_of_rank, *ranks.mpi, &progress,
                                 [&](std::size_t number, const MeshAndSolveStep& step) {
                                     if (root && !line.quiet && request.steps > 0) progress.say(to_text(number, step));
@@ -179,19 +212,29 @@ int run_solver(int argc, char** argv) {
     if (const int wanted = is_launched() ? 1 : wanted_ranks(line); wanted > 1)
         if (const std::optional<int> code = run_as_ranks(wanted, argv)) return *code;
     const Ranks ranks = join_ranks(MpiUse::always);
+    std::unique_ptr<EventLog> events;
+    const auto end_events = [&](int code, const std::string& message) {
+        if (events) events->on_end(code, message);
+        return code;
+    };
     const auto end_all = [&](ErrorCode code, const std::string& message) {
+        end_events(static_cast<int>(code), message);
         tell(fmt::format("kerf: {}\n", message));
         if (ranks.mpi->size() > 1) ranks.mpi->end_all(static_cast<int>(code));
         return static_cast<int>(code);
     };
     try {
         require_own_ranks(ranks.communicator->size());
-        return line.meshes ? mesh_and_solve_on_ranks(line, ranks) : solve_on_ranks(line, *ranks.mpi);
+        share_workers(line, ranks.communicator->size());
+        events = open_solve_events(line, *ranks.communicator);
+        return end_events(line.meshes ? mesh_and_solve_on_ranks(line, ranks, events.get())
+                                      : solve_on_ranks(line, *ranks.mpi, events.get()),
+                          "");
     } catch (const PetscFailure& e) {
         return end_all(e.code(), e.what());
     } catch (const Error& e) {
         if (ranks.communicator->rank() == 0) tell(fmt::format("kerf: {}\n", e.what()));
-        return static_cast<int>(e.code());
+        return end_events(static_cast<int>(e.code()), e.what());
     } catch (const std::bad_alloc&) {
         return end_all(ErrorCode::memory, "Out of memory. Use more ranks, more hosts, a coarser mesh or order 1.");
     } catch (const std::exception& e) {

@@ -80,6 +80,8 @@ bool is_launched() {
     return false;
 }
 
+bool is_own_launch() { return std::getenv(ranks_variable) != nullptr; }
+
 void require_own_ranks(int size) {
     const char* wanted = std::getenv(ranks_variable);
     if (!wanted || wanted == std::to_string(size)) return;

@@ -8,6 +8,9 @@ namespace kerf {
 /// Whether a launcher such as mpirun has started this process.
 bool is_launched();
 
+/// Whether that was run_as_ranks().
+bool is_own_launch();
+
 /// Runs `mpirun -n RANKS` of the same program with the same arguments and returns its exit code; that of a cancelled
 /// run if SIGINT or SIGTERM comes meanwhile, which the ranks are told as SIGUSR1, since mpirun itself would kill them.
 /// Nothing where there is no mpirun on the PATH. Ranks of it are launched (is_launched()).

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <string_view>
@@ -24,7 +25,7 @@ volatile std::sig_atomic_t stop_signal = 0;
 // whatever it was doing, its folder can be continued.
 constexpr unsigned seconds_to_end = 2;
 
-constexpr double seconds_between_lines = 0.2;
+constexpr double seconds_between_lines = 0.2, seconds_between_logged_lines = 1, seconds_of_silence = 0.9;
 
 void note_signal(int signal) {
     if (stop_signal == 0) ::alarm(seconds_to_end);
@@ -66,6 +67,7 @@ ProgressLine::ProgressLine(bool quiet, EventLog* events, bool shows_plan)
 }
 
 ProgressLine::~ProgressLine() {
+    each_second_thread_ = {};
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
     std::signal(SIGUSR1, SIG_DFL);
@@ -80,43 +82,84 @@ void ProgressLine::clear() {
 
 bool ProgressLine::cancelled() const { return stop_signal != 0; }
 
+void ProgressLine::tell_each_second() {
+    each_second_ = true;
+    each_second_thread_ = std::jthread([this](const std::stop_token& stop) {
+        std::unique_lock lock(mutex_);
+        while (!end_.wait_for(lock, stop, std::chrono::milliseconds(100), [&] { return stop.stop_requested(); }))
+            if (!stage_.empty() && of_stage_.seconds() > last_seconds_ + seconds_of_silence) tell_that_it_goes_on();
+    });
+}
+
+void ProgressLine::tell_that_it_goes_on() {
+    last_seconds_ = of_stage_.seconds();
+    if (events_) events_->on_working(stage_, done_, total_, last_seconds_);
+    if (!quiet_)
+        tell(terminal_ ? fmt::format("\r\033[K{}  {:.1f} s", text_, last_seconds_)
+                       : fmt::format("{}  {:.1f} s\n", text_, last_seconds_));
+    line_open_ = !quiet_ && terminal_;
+}
+
+bool ProgressLine::is_time_for_a_line() const {
+    return of_stage_.seconds() > last_seconds_ + (terminal_ ? seconds_between_lines : seconds_between_logged_lines);
+}
+
+void ProgressLine::begin_stage(const char* stage) {
+    stage_ = stage;
+    of_stage_ = {};
+    last_seconds_ = 0;
+    text_ = stage_ + unknowns_;
+    if (!quiet_ && (terminal_ || each_second_)) print(text_);
+}
+
+void ProgressLine::on_equations(std::int64_t unknowns) {
+    const std::lock_guard lock(mutex_);
+    if (events_) events_->on_equations(unknowns);
+    unknowns_ = fmt::format("  {} unknowns", short_number(static_cast<double>(unknowns)));
+}
+
 void ProgressLine::on_progress(const char* stage, std::size_t done, std::size_t total) {
+    const std::lock_guard lock(mutex_);
     if (events_) events_->on_progress(stage, done, total);
-    const bool shows_stage = !quiet_ && terminal_;
+    done_ = done;
+    total_ = total;
     if (stage_ != stage) {
-        stage_ = stage;
-        of_stage_ = {};
-        last_seconds_ = 0;
-        if (shows_stage) print(stage_);
-    } else if (shows_stage && total != 1 && of_stage_.seconds() > last_seconds_ + seconds_between_lines) {
+        if (std::string_view(stage) == "read") unknowns_.clear();  // a next mesh
+        begin_stage(stage);
+    } else if (!quiet_ && (terminal_ || each_second_) && total != 1 && is_time_for_a_line()) {
         last_seconds_ = of_stage_.seconds();
-        print(total == 0 ? fmt::format("{}  {:.1f} s", stage_, last_seconds_)
-                         : fmt::format("{}  {}/{}", stage_, done, total));
+        print(total == 0 ? fmt::format("{}{}  {:.1f} s", stage_, unknowns_, last_seconds_)
+                         : fmt::format("{}{}  {}/{}", stage_, unknowns_, done, total));
     }
 }
 
 // A residual falls by about the same factor in each iteration.
 void ProgressLine::on_iteration(int iteration, double residual, double wanted) {
-    if (quiet_ || !(residual > 0) || !(wanted < 1)) return;
+    const std::lock_guard lock(mutex_);
+    if ((quiet_ && !events_) || !(residual > 0) || !(wanted < 1)) return;
     const double done = std::clamp(std::log(residual) / std::log(wanted), 0.0, 1.0);
     const int tenth = static_cast<int>(10 * done + 1e-9);
     if (iteration == 0) last_tenth_ = 0;
-    const bool is_new = terminal_ ? of_stage_.seconds() > last_seconds_ + seconds_between_lines : tenth > last_tenth_;
-    if (iteration == 0 || !is_new) return;
+    if (iteration == 0 || (!is_time_for_a_line() && (terminal_ || tenth == last_tenth_))) return;
     last_tenth_ = tenth;
     last_seconds_ = of_stage_.seconds();
-    print(fmt::format("solve  {} iterations  {:.0f} %  residual {:.1e} of {:.1e}  ETA {}", iteration, 100 * done,
-                      residual, wanted, time_left(done > 0 ? last_seconds_ * (1 - done) / done : -1)));
+    const double left = done > 0 ? last_seconds_ * (1 - done) / done : -1;
+    if (events_) events_->on_iteration(iteration, residual, wanted, left);
+    if (!quiet_)
+        print(fmt::format("solve{}  {} iterations  {:.0f} %  residual {:.1e} of {:.1e}  ETA {}", unknowns_, iteration,
+                          100 * done, residual, wanted, time_left(left)));
 }
 
 void ProgressLine::on_parts(const std::vector<PartReport>& parts, const std::string& plan) {
-    if (events_) events_->on_parts(parts, plan);
     if (!quiet_ && shows_plan_) say(plan);
+    const std::lock_guard lock(mutex_);
+    if (events_) events_->on_parts(parts, plan);
     for (const PartReport& part : parts)
         if (part.resumed) tets_at_start_ += part.result.tets;
 }
 
 void ProgressLine::on_part(const PartEvent& event) {
+    const std::lock_guard lock(mutex_);
     if (events_) events_->on_part(event);
     const int tenth = static_cast<int>(10 * event.load_done + 1e-9);
     if (quiet_ || event.part->resumed || (!terminal_ && tenth == last_tenth_)) return;
@@ -131,11 +174,13 @@ void ProgressLine::on_part(const PartEvent& event) {
 }
 
 void ProgressLine::say(const std::string& text) {
+    const std::lock_guard lock(mutex_);
     clear();
     tell(text);
 }
 
 void ProgressLine::print(const std::string& text) {
+    text_ = text;
     tell(terminal_ ? "\r\033[K" + text : text + "\n");
     line_open_ = terminal_;
 }

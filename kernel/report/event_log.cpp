@@ -89,6 +89,21 @@ void EventLog::on_part(const PartEvent& event) {
     write(std::move(json));
 }
 
+void EventLog::on_equations(std::int64_t unknowns) { write(Json{{"event", "equations"}, {"unknowns", unknowns}}); }
+
+void EventLog::on_iteration(int iteration, double residual, double wanted, double seconds_left) {
+    write(Json{{"event", "iteration"},
+               {"iteration", iteration},
+               {"residual", residual},
+               {"wanted", wanted},
+               {"seconds_left", seconds_left}});
+}
+
+void EventLog::on_working(const std::string& stage, std::size_t done, std::size_t total, double stage_seconds) {
+    write(Json{
+        {"event", "working"}, {"stage", stage}, {"done", done}, {"total", total}, {"stage_seconds", stage_seconds}});
+}
+
 void EventLog::on_end(int exit_code, const std::string& message) {
     Json json = {{"event", "end"}, {"exit_code", exit_code}};
     if (!message.empty()) json["message"] = message;

@@ -20,13 +20,17 @@ class CheckedFile;
 ///     {"event": "part", "id", "state": "done" | "resumed" | "failed", "rank", "worker", "mesher", "attempts",
 ///                       "tets", "part_seconds", "parts_done", "parts", "load_done", "tets_done", "message", "remedy",
 ///                       "way", "reason", "core_tets", "recovery": {"missing", "by_flips", "split", "added_vertices"}}
+///     {"event": "equations", "unknowns"}
+///     {"event": "iteration", "iteration", "residual", "wanted", "seconds_left"}
+///     {"event": "working", "stage", "done", "total", "stage_seconds"}
 ///     {"event": "end", "exit_code", "message"}
 ///
-/// The first one says what runs: absolute paths, "" for one that is not written, and K, 0 if the run chooses it.
-/// A reader of a pipe that leaves is told nothing more, and the run goes on.
-/// "message" is there where something failed, "remedy" where the first attempt did, "way" where the mesher has several,
-/// "reason" where it did not go its first one, "core_tets" where it has stamped cells, "recovery" where facets had to
-/// be recovered (FacetRecovery).
+/// Those of equations and iterations are of `kerf solve`, which has more stages (SolveListener) and tells each second
+/// that one goes on. "seconds_left" is -1 where nobody knows. The first event says what runs: absolute paths, "" for
+/// one that is not written, and K, 0 if the run chooses it. A reader of a pipe that leaves is told nothing more, and
+/// the run goes on. "message" is there where something failed, "remedy" where the first attempt did, "way" where the
+/// mesher has several, "reason" where it did not go its first one, "core_tets" where it has stamped cells, "recovery"
+/// where facets had to be recovered (FacetRecovery).
 class EventLog : public RunListener {
  public:
     /// `target`: the path of a file, which is replaced, or fd:N, an open file descriptor, which stays open. Throws
@@ -39,6 +43,10 @@ class EventLog : public RunListener {
     void on_progress(const char* stage, std::size_t done, std::size_t total) override;
     void on_parts(const std::vector<PartReport>& parts, const std::string& plan) override;
     void on_part(const PartEvent& event) override;
+    /// Of a solution: the listener's, with what it expects.
+    void on_equations(std::int64_t unknowns);
+    void on_iteration(int iteration, double residual, double wanted, double seconds_left);
+    void on_working(const std::string& stage, std::size_t done, std::size_t total, double stage_seconds);
     /// The last event. `message`: the error, or empty. What cannot be written is lost: the run has ended anyway.
     void on_end(int exit_code, const std::string& message);
 

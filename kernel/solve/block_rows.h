@@ -1,27 +1,27 @@
-// A sparse matrix of 3 x 3 blocks over the local nodes of a rank.
+// The stiffness of the elements and springs of a rank.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "solve/elastic_problem.h"
+#include "solve/symmetric_blocks.h"
 
 namespace kerf {
 
-/// Row n has the blocks of columns[first[n]] to columns[first[n + 1] - 1], ascending, blocks row by row.
-struct BlockRows {
-    std::vector<std::int64_t> first;
-    std::vector<std::int32_t> columns;
-    std::vector<double> values;
-
-    std::int32_t row_count() const { return std::ssize(first) - 1; }
+/// What is summed over the elements.
+struct StiffnessChoice {
+    /// If given, the elements are straight ones of order 1 with the same corners, and their nodes have the numbers that
+    /// are not negative here.
+    std::vector<std::int32_t> corner_numbers = {};
+    double mass_factor = 0;  ///< so many times the consistent mass is added
 };
 
 /// Rows and columns of x, y and z become those of the nodes' own axes. O(n).
-void turn_into_frames(const NodeFrames& frames, BlockRows& rows);
+void turn_into_frames(const NodeFrames& frames, SymmetricBlocks<3>& rows);
 
-/// The stiffness of this rank's elements and springs, along the nodes' axes (ElasticProblem::frames), before anything
-/// is held; ghosts have rows as well. O(n).
-BlockRows stiffness_of_rank(const ElasticProblem& problem);
+/// The stiffness of this rank's elements and springs over its local nodes, along their axes (ElasticProblem::frames),
+/// before anything is held; what other ranks add at nodes that they have, too, is not there. O(n).
+SymmetricBlocks<3> stiffness_of_rank(const ElasticProblem& problem, const StiffnessChoice& choice = {});
 
 }  // namespace kerf

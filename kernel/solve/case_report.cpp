@@ -1,32 +1,10 @@
 #include "solve/case_report.h"
 
 #include <algorithm>
-#include <array>
-#include <limits>
 
 namespace kerf {
 
 namespace {
-
-// The largest of what is told on any rank; nothing if nothing is told.
-class LargestPlace {
- public:
-    void tell(double value, const Vec3& place) {
-        if (value > found_[0]) found_ = {value, place.x(), place.y(), place.z()};
-    }
-    // Collective.
-    std::optional<Extreme> of_all(MpiRanks& ranks) const {
-        std::array<double, 4> most = found_;
-        for (const std::array<double, 4>& of_rank : all_gather(ranks, found_))
-            if (of_rank[0] > most[0]) most = of_rank;
-        if (most[0] == nothing) return std::nullopt;
-        return Extreme{most[0], Vec3(most[1], most[2], most[3])};
-    }
-
- private:
-    static constexpr double nothing = -std::numeric_limits<double>::infinity();
-    std::array<double, 4> found_{nothing, 0, 0, 0};
-};
 
 struct StressExtremes {
     LargestPlace von_mises;
@@ -72,32 +50,32 @@ class CaseResults {
         return space_.ranks().all_reduce(size, Reduction::sum);
     }
 
-    Extreme displacement() const {
-        LargestPlace most;
-        for (std::int32_t n = 0; n < space_.owned_count(); ++n)
-            most.tell(Eigen::Map<const Vec3>(&solution_.displacement[3 * n]).norm(), space_.points()[n]);
-        return most.of_all(space_.ranks()).value_or(Extreme{});
-    }
-
     // Of the mesh, then of its regions.
     std::vector<StressExtremes> stresses(std::size_t regions) const {
         std::vector<StressExtremes> all(1 + regions);
-        std::vector<double> at_vertex;
+        std::vector<double> at_node;  // of a part: vertices, then edges
         for (std::size_t p = 0; p < space_.parts().size(); ++p) {
             const Part& part = space_.parts()[p];
-            at_vertex.clear();
-            for (const SymmetricTensor& stress : solution_.stress.parts[p].at_vertex)
-                at_vertex.push_back(von_mises(stress));
-            const auto tell = [&](LargestPlace StressExtremes::*of, double value, std::size_t v) {
-                (all[0].*of).tell(value, part.mesh.vertices[v]);
-                if (regions > 0) (all[1 + space_.region_of(p)].*of).tell(value, part.mesh.vertices[v]);
+            const PartStress& stress = solution_.stress.parts[p];
+            at_node.clear();
+            for (const SymmetricTensor& at_vertex : stress.at_vertex) at_node.push_back(von_mises(at_vertex));
+            for (const SymmetricTensor& at_edge : stress.at_edge) at_node.push_back(von_mises(at_edge));
+            const std::size_t vertices = stress.at_vertex.size();
+            const auto tell = [&](LargestPlace StressExtremes::*of, double value, std::size_t n) {
+                const Vec3& place = n < vertices ? part.mesh.vertices[n] : part.edge_nodes.points[n - vertices];
+                (all[0].*of).tell(value, place);
+                if (regions > 0) (all[1 + space_.region_of(p)].*of).tell(value, place);
             };
-            for (std::size_t v = 0; v < at_vertex.size(); ++v) tell(&StressExtremes::von_mises, at_vertex[v], v);
+            for (std::size_t n = 0; n < at_node.size(); ++n) tell(&StressExtremes::von_mises, at_node[n], n);
             for (std::size_t t = 0; t < part.mesh.tets.size(); ++t) {
                 const double yield = problem_.material(p, t).yield;
                 if (yield <= 0) continue;
                 for (const std::int32_t v : part.mesh.tets[t])
-                    tell(&StressExtremes::use_of_yield, at_vertex[v] / yield, v);
+                    tell(&StressExtremes::use_of_yield, at_node[v] / yield, v);
+                if (stress.at_edge.empty()) continue;
+                const auto nodes = part.nodes_of_tet(static_cast<std::int64_t>(t));
+                for (std::size_t i = 4; i < nodes.size(); ++i)
+                    tell(&StressExtremes::use_of_yield, at_node[nodes[i]] / yield, nodes[i]);
             }
         }
         return all;
@@ -127,7 +105,7 @@ void report_case(const ElasticProblem& problem, const CaseSolution& solution, st
     const HeldForces held = reactions(problem, solution.displacement, number);
     results.balance(held, report);
     report.norms = solution.stress.norms;
-    report.displacement = results.displacement();
+    report.displacement = largest_displacement(*problem.space, solution.displacement);
     const std::vector<StressExtremes> stresses = results.stresses(regions.size());
     report.von_mises = stresses[0].von_mises.of_all(ranks).value_or(Extreme{});
     report.safety = safety_of(stresses[0].use_of_yield, ranks);

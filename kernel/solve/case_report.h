@@ -5,16 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "solve/largest_place.h"
 #include "solve/linear_system.h"
 #include "solve/result_files.h"
 
 namespace kerf {
-
-/// The largest value of a measure and where it is.
-struct Extreme {
-    double value = 0;
-    Vec3 place = Vec3::Zero();
-};
 
 /// What came out for one of several regions.
 struct RegionResult {

@@ -117,6 +117,7 @@ struct ElasticCase {
     std::vector<Temperature> temperatures;
     std::vector<Combination> combinations;
     std::vector<std::string> load_cases;  ///< names in the order of the file
+    bool may_float = false;               ///< supports may leave it free, and inertia relieves nothing; not of the file
 
     /// Names of the cases in the order of the file; one without a name if nothing has one. Without combinations.
     std::vector<std::string> names() const;

@@ -55,9 +55,9 @@ ElasticProblem make_problem(const FeSpace& space, const MeshOutline& outline, co
     std::vector<std::int32_t> regions = place_materials(problem, outline, wanted, selector, bodies);
     hold_supports(problem, wanted.supports, selector);
     add_springs(problem, wanted.springs, selector);
-    if (wanted.solver.inertia_relief)
+    if (wanted.solver.inertia_relief && !wanted.may_float)
         problem.relief = InertiaRelief(problem, bodies);
-    else
+    else if (!wanted.may_float)
         require_supported(problem, bodies);
     CaseForces cases(problem, outline, wanted, selector, std::move(regions));
     for (const std::string& name : wanted.names()) cases.add_case(name);

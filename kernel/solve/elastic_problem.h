@@ -83,8 +83,8 @@ struct ElasticProblem {
 };
 
 /// Collective. Throws Error(usage) on all ranks alike: for what the mesh does not have, for a cell without a material
-/// or with two, and for a body that its supports leave free to move, naming the motion, unless inertia shall relieve
-/// it.
+/// or with two, and for a body that its supports leave free to move, naming the motion, unless it may or inertia shall
+/// relieve it.
 ElasticProblem make_problem(const FeSpace& space, const MeshOutline& outline, const ElasticCase& wanted);
 
 /// No displacements, no forces, one material: for who sets the rest.

@@ -24,14 +24,19 @@ class GhostExchange {
     GhostExchange(const MpiRanks& ranks, std::vector<Neighbour> owned, std::vector<Neighbour> ghosts)
         : ranks_(&ranks), owned_(std::move(owned)), ghosts_(std::move(ghosts)) {}
 
+    const MpiRanks& ranks() const { return *ranks_; }
+    const std::vector<Neighbour>& owned() const { return owned_; }
+    const std::vector<Neighbour>& ghosts() const { return ghosts_; }
+
     /// Between some of the nodes: those with a new local number, not -1. Owners and ghosts of a node agree on that.
     GhostExchange renumbered(const std::vector<std::int32_t>& number) const {
         const auto some = [&](const std::vector<Neighbour>& all) {
             std::vector<Neighbour> kept;
             for (const Neighbour& neighbour : all) {
-                kept.push_back({neighbour.rank, {}});
+                Neighbour of_rank{neighbour.rank, {}};
                 for (const std::int32_t node : neighbour.nodes)
-                    if (number[node] >= 0) kept.back().nodes.push_back(number[node]);
+                    if (number[node] >= 0) of_rank.nodes.push_back(number[node]);
+                if (!of_rank.nodes.empty()) kept.push_back(std::move(of_rank));
             }
             return kept;
         };

@@ -7,18 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
 #include "solve/elastic_problem.h"
-
-struct _n_PetscOptions;  // PETSc's
+#include "solve/petsc_session.h"
 
 namespace kerf {
-
-/// What PETSc says that it cannot do: other ranks may wait for this one, so that all have to be ended.
-class PetscFailure : public Error {
- public:
-    using Error::Error;
-};
 
 /// How a solution was found.
 struct SolveOutcome {
@@ -27,7 +19,7 @@ struct SolveOutcome {
     int iterations = 0;
     double residual = 0;  ///< |b - A u| over |b|, computed anew from the solution; |A u| where b is zero
     double rounding = 0;  ///< of u and of the residual may leave so much: 2 e (|A| |u| / |b| + 1), e = 2^-53
-    double setup_seconds = 0, solve_seconds = 0;
+    double solve_seconds = 0;
 };
 
 /// Must not throw.
@@ -35,31 +27,10 @@ using AfterIteration = std::function<void(int iteration, double residual)>;
 
 struct AssemblySeconds {
     double elements = 0;  ///< stiffness of elements, summed by rows
-    double insert = 0;    ///< into PETSc's matrix
+    double insert = 0;    ///< of what is held out of them, and into PETSc's matrix
 };
 
-/// Initialises PETSc on the communicator of the ranks, which may be some of those of the program; finalises it at the
-/// end. Where the program has done that already, PETSc goes on as it is, and has `options` for the session alone.
-/// Neither .petscrc nor the program's arguments are read; programs that want that of PETSC_OPTIONS, too, take it out of
-/// their environment. Throws Error(usage) for `options` that PETSc does not take.
-class PetscSession {
- public:
-    explicit PetscSession(const MpiRanks& ranks, const std::string& options = "");
-    ~PetscSession();
-    PetscSession(const PetscSession&) = delete;
-    PetscSession& operator=(const PetscSession&) = delete;
-
- private:
-    void initialise(const MpiRanks& ranks);
-    void use_own_options();
-    void end();
-
-    bool is_own_ = true;                  // else the program's
-    _n_PetscOptions* options_ = nullptr;  // of the session, where PETSc is the program's
-};
-
-/// Stiffness with rows and columns of held degrees of freedom replaced by a diagonal as large as the others. Conjugate
-/// gradients, preconditioned by smoothed aggregation multigrid with the rigid motions ("gamg"; Adams) or by incomplete
+/// PETSc's conjugate gradients on HeldStiffness, preconditioned by our multigrid ("gamg") or by PETSc's incomplete
 /// Cholesky factors of the ranks' blocks ("icc"), until the true residual has fallen by rtol: whatever PETSc was told
 /// by SolverOptions::petsc, its residual is compared with rtol after each solution. Bytes of the result are the same
 /// for the same number of ranks; between numbers of ranks they agree within the tolerance.
@@ -69,13 +40,15 @@ class LinearSystem {
     /// (greenbaum1997), which is allowed for beside, and less than a tenth of rtol.
     static constexpr double slack = 1.1;
 
-    /// Collective. O(n). 9 doubles for each pair of nodes of an element while it is assembled, then 12 bytes a number.
-    /// Throws Error(memory) or Error(internal), on all ranks alike.
+    /// Collective. O(n). 9 doubles for each pair of nodes of an element. Throws Error(memory) or
+    /// Error(internal), on all ranks alike.
     LinearSystem(const ElasticProblem& problem, const SolverOptions& options);
     ~LinearSystem();
     LinearSystem(const LinearSystem&) = delete;
     LinearSystem& operator=(const LinearSystem&) = delete;
 
+    /// Makes the preconditioner, unless that is done; seconds. Collective.
+    double set_up();
     /// Displacements for the nodal forces, of which ranks have shares: 3 for each local node, held ones as prescribed.
     /// After each iteration, on every rank, `after_iteration` is told its number and the residual beside that of the
     /// start.

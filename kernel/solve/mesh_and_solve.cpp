@@ -117,7 +117,7 @@ MeshAndSolveStep summary_of(const RunReport& mesh, const SolveReport& solution) 
 }  // namespace
 
 MeshAndSolveReport mesh_and_solve(const MeshAndSolveRequest& request, int cores_of_rank, MpiRanks& ranks,
-                                  RunListener* listener, const StepDone& step_done) {
+                                  SolveListener* listener, const StepDone& step_done) {
     const StepFolders folders(request);
     in_agreement(ranks, [&] {
         read_case(request.solve.case_file);  // before the mesh, which takes longer

@@ -46,7 +46,7 @@ struct MeshAndSolveReport {
 /// kind has left there goes when this one has ended well.
 /// `step_done`, unless empty, is told each step as soon as its solution is written, on every rank.
 MeshAndSolveReport mesh_and_solve(const MeshAndSolveRequest& request, int cores_of_rank, MpiRanks& ranks,
-                                  RunListener* listener, const StepDone& step_done = {});
+                                  SolveListener* listener, const StepDone& step_done = {});
 
 /// A row of the table of the steps, for people; the first one has the head of the table above it. `number` counts from
 /// 1.

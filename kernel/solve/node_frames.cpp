@@ -85,6 +85,19 @@ void NodeFrames::set(std::int32_t node, const NodeHolds& holds) {
     frames_.push_back({holds.axes(), directions, directions.inverse()});
 }
 
+NodeFrames NodeFrames::renumbered(const std::vector<std::int32_t>& number) const {
+    NodeFrames some;
+    if (empty()) return some;
+    for (std::size_t n = 0; n < number.size(); ++n) {
+        if (number[n] < 0) continue;
+        const auto place = static_cast<std::size_t>(number[n]);
+        if (place >= some.of_node_.size()) some.of_node_.resize(place + 1, none);
+        some.of_node_[place] = of_node_[n];
+    }
+    some.frames_ = frames_;
+    return some;
+}
+
 void NodeFrames::to_frames(std::span<double> of_nodes) const {
     turn_nodes(*this, of_nodes, [](const Eigen::Matrix3d& axes, const Vec3& v) -> Vec3 { return axes * v; });
 }

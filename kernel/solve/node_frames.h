@@ -63,6 +63,13 @@ class NodeFrames {
         const Frame* frame = at(static_cast<std::int32_t>(dof / 3));
         return frame ? Vec3(frame->axes.row(dof % 3)) : Vec3(Vec3::Unit(dof % 3));
     }
+    /// What is along the axes of a node, along x, y and z.
+    Vec3 from_frame(std::int32_t node, const Vec3& value) const {
+        const Frame* frame = at(node);
+        return frame ? Vec3(frame->axes.transpose() * value) : value;
+    }
+    /// Of some of the nodes: those with a new local number, not -1.
+    NodeFrames renumbered(const std::vector<std::int32_t>& number) const;
     /// Vectors of nodes, three numbers each, for the first nodes or all.
     void to_frames(std::span<double> of_nodes) const;
     void from_frames(std::span<double> of_nodes) const;

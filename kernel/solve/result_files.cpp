@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include <fmt/format.h>
+
 namespace kerf {
 
 namespace {
@@ -20,6 +22,19 @@ void add_stresses(const std::vector<SymmetricTensor>& stresses, PartValues::Of o
     all.push_back({"VonMises" + suffix, of, 1, std::move(mises)});
 }
 
+std::vector<double> vectors_at_points(const ElasticProblem& problem, const std::vector<double>& of_nodes,
+                                      std::size_t p) {
+    std::vector<double> vectors;
+    const auto add = [&](const std::vector<std::int32_t>& nodes) {
+        for (const std::int32_t node : nodes)
+            for (std::size_t c = 0; c < 3; ++c) vectors.push_back(of_nodes[3 * node + c]);
+    };
+    const PartFeNodes& nodes = problem.space->nodes_of_parts()[p];
+    add(nodes.of_vertex);
+    if (problem.space->parts()[p].order() == 2) add(nodes.of_edge);
+    return vectors;
+}
+
 }  // namespace
 
 std::vector<PartValues> values_of_part(const ElasticProblem& problem, const std::vector<CaseSolution>& solutions,
@@ -27,15 +42,8 @@ std::vector<PartValues> values_of_part(const ElasticProblem& problem, const std:
     std::vector<PartValues> values;
     for (const CaseSolution& solution : solutions) {
         const std::string suffix = solutions.size() > 1 ? " " + solution.name : "";
-        std::vector<double> displacement;
-        const auto add_displacements = [&](const std::vector<std::int32_t>& nodes) {
-            for (const std::int32_t node : nodes)
-                for (std::size_t c = 0; c < 3; ++c) displacement.push_back(solution.displacement[3 * node + c]);
-        };
-        const PartFeNodes& nodes = problem.space->nodes_of_parts()[p];
-        add_displacements(nodes.of_vertex);
-        if (problem.space->parts()[p].order() == 2) add_displacements(nodes.of_edge);
-        values.push_back({"Displacement" + suffix, PartValues::Of::points, 3, std::move(displacement)});
+        values.push_back(
+            {"Displacement" + suffix, PartValues::Of::points, 3, vectors_at_points(problem, solution.displacement, p)});
         const PartStress& stress = solution.stress.parts[p];
         std::vector<SymmetricTensor> at_nodes = stress.at_vertex;
         at_nodes.insert(at_nodes.end(), stress.at_edge.begin(), stress.at_edge.end());
@@ -44,6 +52,14 @@ std::vector<PartValues> values_of_part(const ElasticProblem& problem, const std:
         values.push_back({"ErrorIndicator" + suffix, PartValues::Of::tets, 1,
                           std::vector<float>(stress.error.begin(), stress.error.end())});
     }
+    return values;
+}
+
+std::vector<PartValues> values_of_part(const ElasticProblem& problem, const std::vector<Mode>& modes, std::size_t p) {
+    std::vector<PartValues> values;
+    for (std::size_t m = 0; m < modes.size(); ++m)
+        values.push_back(
+            {fmt::format("Mode {}", m + 1), PartValues::Of::points, 3, vectors_at_points(problem, modes[m].shape, p)});
     return values;
 }
 

@@ -7,6 +7,7 @@
 #include "part/vtu_writer.h"
 #include "size/background_sizes.h"
 #include "solve/elastic_problem.h"
+#include "solve/modes.h"
 #include "solve/stress.h"
 
 namespace kerf {
@@ -23,6 +24,9 @@ struct CaseSolution {
 /// several cases the names end with a space and the case's.
 std::vector<PartValues> values_of_part(const ElasticProblem& problem, const std::vector<CaseSolution>& solutions,
                                        std::size_t p);
+
+/// The shapes of modes at points, as "Mode 1" and so on (Float64).
+std::vector<PartValues> values_of_part(const ElasticProblem& problem, const std::vector<Mode>& modes, std::size_t p);
 
 /// A file that read_size_field() takes. Throws Error(io).
 void write_sizes(const std::string& path, const SizedMesh& sizes);

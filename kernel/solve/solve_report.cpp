@@ -86,9 +86,9 @@ SolveJson units_json(CaseUnits units) {
 }
 
 SolveJson seconds_json(const SolveSeconds& s) {
-    return {{"read", s.read},         {"number", s.number}, {"conditions", s.conditions},
-            {"assemble", s.assemble}, {"setup", s.setup},   {"solve", s.solve},
-            {"recover", s.recover},   {"write", s.write},   {"wall", s.wall}};
+    return {{"read", s.read},   {"number", s.number}, {"conditions", s.conditions}, {"assemble", s.assemble},
+            {"setup", s.setup}, {"solve", s.solve},   {"modes", s.modes},           {"recover", s.recover},
+            {"write", s.write}, {"wall", s.wall}};
 }
 
 std::string vector_text(const Vec3& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x(), v.y(), v.z()); }
@@ -182,6 +182,12 @@ std::string to_json(const SolveReport& report) {
                        {"held", report.held},
                        {"relative_error", report.relative_error()},
                        {"cases", cases}};
+    for (const Mode& mode : report.modes)
+        solve["modes"].push_back({{"frequency", mode.frequency},
+                                  {"rigid", mode.is_rigid},
+                                  {"residual", mode.residual},
+                                  {"max_displacement", extreme_json(mode.displacement)}});
+    if (!report.modes.empty()) solve["mode_iterations"] = report.mode_iterations;
     if (report.wanted_of_next > 0) solve["error_wanted_of_next_mesh"] = report.wanted_of_next;
     const SolveJson json = {{"kerf", version},
                             {"schema", 1},
@@ -205,20 +211,22 @@ std::string to_text(const SolveReport& report) {
                                                 use.material.young, use.material.poisson, use.material.density,
                                                 use.source.empty() ? "" : "; " + use.source));
     for (const CaseReport& of_case : report.cases) text += case_text(of_case, report.reacting);
+    text += to_text(report.modes);
     if (report.wanted_of_next > 0)
         text +=
             line_of("next mesh", fmt::format("for an error of {:.1f} %: kerf mesh ... --surface remesh --size-field "
                                              "{}/{}",
                                              100 * report.wanted_of_next, report.request.output, size_field_file));
     text += line_of("units", units_text(report.wanted.units));
-    text += line_of(
-        "time", fmt::format("{:.2f} s: read {:.2f}, number {:.2f}, conditions {:.2f}, assemble {:.2f}, "
-                            "setup {:.2f}, solve {:.2f}, recover {:.2f}, write {:.2f}",
-                            s.wall, s.read, s.number, s.conditions, s.assemble, s.setup, s.solve, s.recover, s.write));
-    return text + line_of("processes", fmt::format("{} rank{}, {} with {}, peak memory {:.0f} MB", report.ranks,
-                                                   report.ranks == 1 ? "" : "s", "conjugate gradients",
-                                                   report.wanted.solver.preconditioner,
-                                                   static_cast<double>(report.peak_rss_bytes) * 1e-6));
+    text += line_of("time", fmt::format("{:.2f} s: read {:.2f}, number {:.2f}, conditions {:.2f}, assemble {:.2f}, "
+                                        "setup {:.2f}, solve {:.2f}, modes {:.2f}, recover {:.2f}, write {:.2f}",
+                                        s.wall, s.read, s.number, s.conditions, s.assemble, s.setup, s.solve, s.modes,
+                                        s.recover, s.write));
+    return text +
+           line_of("processes",
+                   fmt::format("{} rank{}, {} with {}, peak memory {:.0f} MB", report.ranks,
+                               report.ranks == 1 ? "" : "s", report.modes.empty() ? "conjugate gradients" : "LOBPCG",
+                               report.wanted.solver.preconditioner, static_cast<double>(report.peak_rss_bytes) * 1e-6));
 }
 
 }  // namespace kerf

@@ -40,7 +40,7 @@ std::string way_out(const SolverOptions& solver) {
 
 class SolveStages {
  public:
-    SolveStages(const SolveRequest& request, MpiRanks& ranks, RunListener* listener)
+    SolveStages(const SolveRequest& request, MpiRanks& ranks, SolveListener* listener)
         : ranks_(ranks), listener_(listener) {
         report_.request = request;
         report_.ranks = ranks.size();
@@ -66,6 +66,11 @@ class SolveStages {
     void read_request();
     void open_folder();
     FeSpace make_space();
+    void solve_cases();
+    void find_all_modes();
+    std::vector<PartValues> values_of(std::size_t p) const {
+        return modes_.empty() ? values_of_part(problem_, solutions_, p) : values_of_part(problem_, modes_, p);
+    }
     void solve_case(LinearSystem& system, std::size_t number);
     void combine(std::size_t number);
     void finish_case(std::size_t number);
@@ -76,7 +81,7 @@ class SolveStages {
     void finish();
 
     MpiRanks& ranks_;
-    RunListener* listener_;
+    SolveListener* listener_;
     SolveReport report_;
     Stopwatch whole_, stage_;
     std::unique_ptr<RunParts> parts_;
@@ -85,12 +90,14 @@ class SolveStages {
     std::optional<FeSpace> space_;
     ElasticProblem problem_;
     std::vector<CaseSolution> solutions_;
+    std::vector<Mode> modes_;
 };
 
 void SolveStages::read_request() {
     in_agreement(ranks_, [&] {
         const SolveRequest& request = report_.request;
         report_.wanted = read_case(request.case_file);
+        report_.wanted.may_float = request.modes > 0;
         parts_ = std::make_unique<RunParts>(request.folder);
         const std::int64_t parts = std::ssize(parts_->outline().parts);
         if (parts < ranks_.size())
@@ -171,7 +178,6 @@ void SolveStages::solve_case(LinearSystem& system, std::size_t number) {
         system.solve(problem_.cases[number].forces, solution.displacement, [this](int iteration, double residual) {
             if (listener_ && is_root()) listener_->on_iteration(iteration, residual, report_.wanted.solver.rtol);
         });
-    report_.seconds.setup += of_case.outcome.setup_seconds;
     report_.seconds.solve += of_case.outcome.solve_seconds;
     stage_.lap();
     if (!of_case.outcome.converged)
@@ -238,7 +244,7 @@ void SolveStages::write() {
             tell_part("write", p, space_->parts().size());
             const Part& part = space_->parts()[p];
             const std::string file = folder_->part_file(part.id);
-            const FileHash hash = write_part(file, part, layout, values_of_part(problem_, solutions_, p));
+            const FileHash hash = write_part(file, part, layout, values_of(p));
             files.push_back({"parts/" + part_file_name(part.id),
                              static_cast<std::int64_t>(std::filesystem::file_size(file)), hash_text(hash)});
         }
@@ -250,10 +256,13 @@ void SolveStages::write() {
         std::vector<std::string> pieces;
         for (const PartExtent& part : outline_.parts) pieces.push_back("parts/" + part_file_name(part.id));
         // Its arrays are those of any part.
-        write_pvtu(folder_->file("mesh.pvtu"), pieces, layout, values_of_part(problem_, solutions_, 0));
+        write_pvtu(folder_->file("mesh.pvtu"), pieces, layout, values_of(0));
         report_.files.push_back(describe_file(folder_->partial_path(), "mesh.pvtu"));
+        if (modes_.empty()) return;
+        write_text_file(folder_->file(modes_file), to_csv(modes_));
+        report_.files.push_back(describe_file(folder_->partial_path(), modes_file));
     });
-    write_tables();
+    if (modes_.empty()) write_tables();
     write_sizes_of_next();
     sort_files(report_.files);
     report_.seconds.write = stage_.lap();
@@ -271,7 +280,7 @@ void SolveStages::write_tables() {
 
 void SolveStages::write_sizes_of_next() {
     const std::optional<double> target = report_.request.target_error;
-    if (!target || report_.relative_error() <= *target) return;
+    if (!target || !modes_.empty() || report_.relative_error() <= *target) return;
     report_.wanted_of_next = error_of_next_mesh(report_.relative_error(), *target, space_->order());
     std::vector<const StressField*> fields;
     for (const CaseSolution& solution : solutions_) fields.push_back(&solution.stress);
@@ -284,9 +293,9 @@ void SolveStages::write_sizes_of_next() {
 }
 
 void SolveStages::finish() {
-    std::array<double*, 8> seconds = {&report_.seconds.read,     &report_.seconds.number, &report_.seconds.conditions,
-                                      &report_.seconds.assemble, &report_.seconds.setup,  &report_.seconds.solve,
-                                      &report_.seconds.recover,  &report_.seconds.write};
+    std::array<double*, 9> seconds = {&report_.seconds.read,     &report_.seconds.number,  &report_.seconds.conditions,
+                                      &report_.seconds.assemble, &report_.seconds.setup,   &report_.seconds.solve,
+                                      &report_.seconds.modes,    &report_.seconds.recover, &report_.seconds.write};
     for (double* value : seconds) *value = ranks_.all_reduce(*value, Reduction::largest);
     for (const std::int64_t bytes : all_gather(ranks_, own_peak_rss_bytes())) report_.peak_rss_bytes += bytes;
     report_.seconds.wall = whole_.lap();
@@ -298,23 +307,13 @@ void SolveStages::finish() {
     });
 }
 
-SolveReport SolveStages::run() {
-    progress("read", 0, 0);
-    read_request();
-    space_.emplace(make_space());
-    problem_ = make_problem(*space_, parts_->outline(), report_.wanted);
-    report_.nodes = space_->total_rows();
-    for (std::size_t s = 0; s < problem_.supports.size(); ++s)
-        report_.reacting.push_back({problem_.supports[s], problem_.places[s]});
-    for (std::int32_t dof = 0; dof < 3 * space_->owned_count(); ++dof) report_.held += problem_.is_held(dof) ? 1 : 0;
-    report_.held = ranks_.all_reduce(report_.held, Reduction::sum);
-    open_folder();
-    report_.seconds.conditions = stage_.lap();
+void SolveStages::solve_cases() {
     progress("assemble", 0, 0);
     {
-        const PetscSession petsc(ranks_, report_.wanted.solver.petsc);
         LinearSystem system(problem_, report_.wanted.solver);
         report_.seconds.assemble = stage_.lap();
+        progress("setup", 0, 0);
+        report_.seconds.setup = system.set_up();
         for (std::size_t i = 0; i < problem_.cases.size(); ++i) {
             if (!problem_.cases[i].factors.empty()) continue;
             progress("solve", i, problem_.cases.size());
@@ -323,6 +322,41 @@ SolveReport SolveStages::run() {
     }
     for (std::size_t i = 0; i < problem_.cases.size(); ++i)
         if (!problem_.cases[i].factors.empty()) combine(i);
+}
+
+void SolveStages::find_all_modes() {
+    progress("modes", 0, 0);
+    FoundModes found = find_modes(problem_, report_.request.modes, [this](int, int so_many) {
+        if (listener_ && is_root())
+            listener_->on_progress("modes", static_cast<std::size_t>(so_many),
+                                   static_cast<std::size_t>(report_.request.modes));
+    });
+    modes_ = std::move(found.modes);
+    report_.mode_iterations = found.iterations;
+    for (const Mode& mode : modes_)
+        report_.modes.push_back({mode.frequency, mode.is_rigid, mode.residual, {}, mode.displacement});
+    report_.seconds.modes = stage_.lap();
+}
+
+SolveReport SolveStages::run() {
+    progress("read", 0, 0);
+    read_request();
+    space_.emplace(make_space());
+    progress("conditions", 0, 0);
+    problem_ = make_problem(*space_, parts_->outline(), report_.wanted);
+    report_.nodes = space_->total_rows();
+    for (std::size_t s = 0; s < problem_.supports.size(); ++s)
+        report_.reacting.push_back({problem_.supports[s], problem_.places[s]});
+    for (std::int32_t dof = 0; dof < 3 * space_->owned_count(); ++dof) report_.held += problem_.is_held(dof) ? 1 : 0;
+    report_.held = ranks_.all_reduce(report_.held, Reduction::sum);
+    open_folder();
+    report_.seconds.conditions = stage_.lap();
+    if (listener_ && is_root()) listener_->on_equations(3 * report_.nodes - report_.held);
+    const PetscSession petsc(ranks_, report_.wanted.solver.petsc);
+    if (report_.request.modes > 0)
+        find_all_modes();
+    else
+        solve_cases();
     progress("write", 0, 0);
     write();
     finish();
@@ -337,7 +371,7 @@ double SolveReport::relative_error() const {
     return largest;
 }
 
-SolveReport solve_run(const SolveRequest& request, MpiRanks& ranks, RunListener* listener) {
+SolveReport solve_run(const SolveRequest& request, MpiRanks& ranks, SolveListener* listener) {
     return SolveStages(request, ranks, listener).run();
 }
 

@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "mpi/mpi_ranks.h"
-#include "report/listener.h"
 #include "solve/case_report.h"
 #include "solve/elastic_case.h"
+#include "solve/modes.h"
 #include "solve/result_tables.h"
+#include "solve/solve_listener.h"
 #include "solve/surface_selection.h"
 
 namespace kerf {
@@ -22,11 +23,13 @@ struct SolveRequest {
     /// for the next mesh.
     std::optional<double> target_error;
     std::optional<int> order = {};  ///< of the elements, whatever the case and the mesh say
+    int modes = 0;  ///< if positive, so many natural frequencies and modes are found, in place of what loads do
 };
 
 /// Wall clock, the longest over the ranks.
 struct SolveSeconds {
-    double read = 0, number = 0, conditions = 0, assemble = 0, setup = 0, solve = 0, recover = 0, write = 0, wall = 0;
+    double read = 0, number = 0, conditions = 0, assemble = 0, setup = 0, solve = 0, modes = 0, recover = 0, write = 0,
+           wall = 0;
 };
 
 struct SolveReport {
@@ -38,6 +41,8 @@ struct SolveReport {
     std::int64_t held = 0;           ///< degrees of freedom
     std::vector<Reacting> reacting;  ///< supports, springs, and what inertia relieves
     std::vector<CaseReport> cases;
+    std::vector<Mode> modes;  ///< without their shapes
+    int mode_iterations = 0;
     double wanted_of_next = 0;  ///< the error for which size_field.vtu asks; 0: there is none
     SolveSeconds seconds;
     std::int64_t peak_rss_bytes = 0;  ///< sum over the ranks
@@ -52,10 +57,10 @@ struct SolveReport {
 inline constexpr const char* size_field_file = "size_field.vtu";
 
 /// Solves and writes the result folder: parts, of the order of the elements, with Displacement, Stress, VonMises and
-/// ErrorIndicator, mesh.pvtu, tables as CSV and report.json, which appears as a whole or not at all (io/run_folder.h).
-/// Collective. Throws Error on all ranks alike; Error(convergence) if the tolerance is not reached, and nothing is
-/// written then.
-SolveReport solve_run(const SolveRequest& request, MpiRanks& ranks, RunListener* listener);
+/// ErrorIndicator and tables as CSV, or with Mode 1 and so on and modes.csv, mesh.pvtu and report.json, which appears
+/// as a whole or not at all (io/run_folder.h). Collective. Throws Error on all ranks alike; Error(convergence) if the
+/// tolerance is not reached, and nothing is written then.
+SolveReport solve_run(const SolveRequest& request, MpiRanks& ranks, SolveListener* listener);
 
 /// The patches of a finished run. Collective.
 std::vector<PatchSummary> list_patches(const std::string& folder, MpiRanks& ranks);

@@ -21,7 +21,7 @@ bool holds_any_of(const ElasticProblem& problem, const std::array<std::int32_t, 
 void add_spring_forces(const ElasticProblem& problem, const std::vector<double>& displacement, HeldForces& sums) {
     const FeSpace& space = *problem.space;
     for (const SurfaceSprings::Facet& facet : problem.springs.facets) {
-        const FacetStiffness blocks = spring_stiffness(space, problem.springs, facet);
+        const FacetStiffness blocks = spring_stiffness(space, problem.springs, facet, space.order());
         const auto nodes = space.nodes_of_facet(facet.part, facet.facet);
         for (std::size_t a = 0; a < nodes.size(); ++a) {
             if (nodes[a] < 0) continue;

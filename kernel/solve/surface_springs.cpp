@@ -39,14 +39,14 @@ Eigen::Matrix3d stiffness_per_area(const Spring& spring, const Vec3& normal) {
 
 }  // namespace
 
-FacetStiffness spring_stiffness(const FeSpace& space, const SurfaceSprings& springs,
-                                const SurfaceSprings::Facet& facet) {
+FacetStiffness spring_stiffness(const FeSpace& space, const SurfaceSprings& springs, const SurfaceSprings::Facet& facet,
+                                int order) {
     FacetStiffness blocks;
     for (auto& row : blocks) row.fill(Eigen::Matrix3d::Zero());
     const auto nodes = space.nodes_of_facet(facet.part, facet.facet);
-    const std::size_t count = space.order() == 1 ? 3 : 6;
+    const std::size_t count = order == 1 ? 3 : 6;
     for (const TrianglePoint& at : quadrature::six_points) {
-        const TriangleShapes shapes = triangle_shapes(space.order(), at.place);
+        const TriangleShapes shapes = triangle_shapes(order, at.place);
         Vec3 along_a = Vec3::Zero(), along_b = Vec3::Zero();
         for (std::size_t n = 0; n < count; ++n) {
             along_a += shapes.slope_a[n] * space.points()[nodes[n]];

@@ -26,10 +26,10 @@ struct SurfaceSprings {
 };
 
 /// The stiffness of a triangle on a spring: the integral of shape functions times stiffness per area, blocks for pairs
-/// of its nodes (FeSpace::nodes_of_facet). Exact for flat ones.
+/// of its nodes (FeSpace::nodes_of_facet). Exact for flat ones. With order 1 that of the flat triangle of its corners.
 using FacetStiffness = std::array<std::array<Eigen::Matrix3d, 6>, 6>;
-FacetStiffness spring_stiffness(const FeSpace& space, const SurfaceSprings& springs,
-                                const SurfaceSprings::Facet& facet);
+FacetStiffness spring_stiffness(const FeSpace& space, const SurfaceSprings& springs, const SurfaceSprings::Facet& facet,
+                                int order);
 
 /// The directions in which it pushes back: three at most, none where the stiffness is 0.
 std::vector<Vec3> spring_directions(const FeSpace& space, const SurfaceSprings& springs,

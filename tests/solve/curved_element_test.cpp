@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "solve/facet_element.h"
+#include "solve/mass_matrix.h"
 #include "solve/tet_element.h"
 
 namespace kerf {
@@ -130,6 +131,24 @@ TEST(CurvedElement, VolumeIsThatBetweenItsSides) {
         for (const double share : cell.element.node_volumes()) of_nodes += share;
         EXPECT_NEAR(of_nodes, volume, 1e-14);
     }
+}
+
+// Shape functions add up to 1: rows of the mass are what a density of 1 puts on each node.
+TEST(CurvedElement, MassOfEachNodeIsExact) {
+    for (const double bend : {0.0, 0.1})
+        for (const RandomCell& cell : random_cells(bend)) {
+            const MassShares shares = mass_shares(cell.element);
+            const TetElement::Shapes volumes = cell.element.node_volumes();
+            for (std::size_t a = 0; a < shares.size(); ++a) {
+                double sum = 0;
+                for (std::size_t b = 0; b < shares.size(); ++b) {
+                    sum += shares[a][b];
+                    EXPECT_NEAR(shares[a][b], shares[b][a], 1e-16);
+                }
+                EXPECT_NEAR(sum, volumes[a], 1e-14);
+                EXPECT_GT(shares[a][a], 0);
+            }
+        }
 }
 
 TEST(CurvedElement, TractionsOfItsSidesAddUp) {

@@ -1,14 +1,21 @@
 // Laws of the solution on one or more ranks: this program runs under mpirun, every test on all ranks together.
 #include <mpi.h>
 
+#include <chrono>
 #include <cmath>
+#include <fstream>
+#include <memory>
+#include <thread>
 
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "cube_of_parts.h"
+#include "part/run_parts.h"
+#include "solve/block_rows.h"
 #include "solve/elastic_problem.h"
 #include "solve/error_sizes.h"
+#include "solve/held_stiffness.h"
 #include "solve/linear_system.h"
 #include "solve/rigid_motions.h"
 #include "solve/stress.h"
@@ -85,6 +92,52 @@ TEST_P(Solution, PassesThePatchTest) {
         }
         EXPECT_LT(found.norms.relative(), 1e-8);
         EXPECT_LT(reactions(problem, u).of(0).force.norm(), 1e-9 * stress.norm());
+    }
+}
+
+// Conjugate gradients need a preconditioner that is symmetric and positive, for any elements, axes of nodes and ranks.
+TEST_P(Solution, AMultigridIsSymmetricAndPositive) {
+    ElasticProblem problem = make_free_problem(*space_, steel_);
+    hold_surface(problem, [](const Vec3&) -> Vec3 { return Vec3::Zero(); });
+    problem.frames = NodeFrames(problem.space->node_count());
+    NodeHolds askew;
+    askew.hold(Vec3(1, 2, 3).normalized(), 0, 0);
+    for (std::int32_t n = 0; n < space_->node_count(); ++n)
+        if (space_->row_of(n) % 3 == 0) problem.frames.set(n, askew);
+    const HeldStiffness stiffness = hold_stiffness(problem, stiffness_of_rank(problem));
+    const LevelMatrix<3>& matrix = stiffness.matrix;
+    const auto multigrid = multigrid_for(problem, stiffness, 0);
+    std::array<std::vector<double>, 2> x, m;
+    for (std::size_t i = 0; i < 2; ++i) {
+        for (std::size_t dof = 0; dof < matrix.size(); ++dof)
+            x[i].push_back(std::sin(static_cast<double>((i + 2) * (3 * space_->first_row() + dof))));
+        m[i].resize(matrix.size());
+        multigrid->cycle(x[i], m[i]);
+    }
+    const auto dot = [&](const std::vector<double>& a, const std::vector<double>& b) {
+        return dot_of_owned(space_->ranks(), matrix.owned_size(), a, b);
+    };
+    const double scale = std::sqrt(dot(x[0], m[0]) * dot(x[1], m[1]));
+    EXPECT_GT(dot(x[0], m[0]), 0);
+    EXPECT_GT(dot(x[1], m[1]), 0);
+    EXPECT_NEAR(dot(x[0], m[1]), dot(x[1], m[0]), 1e-12 * scale);
+}
+
+// Whichever rank comes first: what several of them add to one row was once added as it came.
+TEST_P(Solution, HasTheSameBytesEachTime) {
+    const auto field = [](const Vec3& p) -> Vec3 { return 1e-3 * Vec3(p.y() * p.x(), p.z(), p.x() * p.x()); };
+    for (const char* preconditioner : {"gamg", "icc"}) {
+        std::vector<double> first;
+        for (int late = 0; late < ranks(); ++late) {
+            ElasticProblem problem = make_free_problem(*space_, steel_);
+            hold_surface(problem, field);
+            if (rank() == late) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            LinearSystem system(problem, exact(preconditioner));
+            std::vector<double> u;
+            EXPECT_TRUE(system.solve(std::vector<double>(3 * space_->node_count(), 0), u).converged);
+            if (late == 0) first = u;
+            EXPECT_EQ(u, first);
+        }
     }
 }
 

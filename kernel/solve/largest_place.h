@@ -1,0 +1,36 @@
+// The largest value of a measure over all ranks, and where it is.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "solve/fe_space.h"
+
+namespace kerf {
+
+/// The largest value of a measure and where it is.
+struct Extreme {
+    double value = 0;
+    Vec3 place = Vec3::Zero();
+};
+
+/// The largest of what is told on any rank; nothing if nothing is told.
+class LargestPlace {
+ public:
+    void tell(double value, const Vec3& place) {
+        if (value > found_[0]) found_ = {value, place.x(), place.y(), place.z()};
+    }
+    /// Of equal ones that of the first rank, there the first told. Collective.
+    std::optional<Extreme> of_all(MpiRanks& ranks) const;
+
+ private:
+    static constexpr double nothing = -std::numeric_limits<double>::infinity();
+    std::array<double, 4> found_{nothing, 0, 0, 0};
+};
+
+/// Of all nodes; `displacement`: 3 for each local node. Collective; O(n).
+Extreme largest_displacement(const FeSpace& space, const std::vector<double>& displacement);
+
+}  // namespace kerf

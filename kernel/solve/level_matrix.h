@@ -1,0 +1,69 @@
+// A symmetric matrix that is distributed over ranks as what each of them adds to it.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Cholesky>
+
+#include "solve/ghost_exchange.h"
+#include "solve/symmetric_blocks.h"
+
+namespace kerf {
+
+/// The sum over the ranks of `share`, whose local nodes are those that a rank owns, then its ghosts. Vectors have B
+/// numbers for each local node. Nothing is assembled over ranks: a product needs values of ghosts and adds what it
+/// finds for them to their owners, rank after rank, so that its bytes are the same each time.
+template <int B>
+struct LevelMatrix {
+    using Block = typename SymmetricBlocks<B>::Block;
+
+    SymmetricBlocks<B> share;
+    GhostExchange exchange;
+    std::int32_t owned = 0;
+
+    std::int32_t node_count() const { return share.row_count(); }
+    std::size_t owned_size() const { return static_cast<std::size_t>(B) * owned; }
+    std::size_t size() const { return static_cast<std::size_t>(B) * node_count(); }
+
+    /// y = A x for the owned nodes; ghosts of x get their values. Collective.
+    void multiply(std::vector<double>& x, std::vector<double>& y) const {
+        exchange.to_ghosts(std::span(x), B);
+        y.assign(size(), 0);
+        share.multiply_add(x, y);
+        exchange.add_to_owners(std::span(y), B);
+    }
+    /// The blocks of the diagonal, of owned nodes. Collective.
+    std::vector<double> diagonal() const {
+        std::vector<double> blocks(size() * B);
+        for (std::int32_t n = 0; n < node_count(); ++n)
+            std::copy_n(&share.values[B * B * share.first[n]], B * B, &blocks[B * B * n]);
+        exchange.add_to_owners(std::span(blocks), B * B);
+        blocks.resize(owned_size() * B);
+        return blocks;
+    }
+    /// Their inverses. A degree of freedom with nothing on its diagonal stays for itself: nothing acts on it.
+    /// Collective.
+    std::vector<double> inverse_diagonal() const {
+        std::vector<double> blocks = diagonal();
+        for (std::int32_t n = 0; n < owned; ++n) {
+            Eigen::Map<Block> block(&blocks[B * B * n]);
+            for (int i = 0; i < B; ++i)
+                if (block(i, i) == 0) block(i, i) = 1;
+            block = Block(block).ldlt().solve(Block::Identity()).eval();
+        }
+        return blocks;
+    }
+};
+
+/// Of what a rank owns, over all ranks. Collective.
+inline double dot_of_owned(const MpiRanks& ranks, std::size_t owned_size, const std::vector<double>& a,
+                           const std::vector<double>& b) {
+    const auto size = static_cast<Eigen::Index>(owned_size);
+    const double own =
+        Eigen::Map<const Eigen::VectorXd>(a.data(), size).dot(Eigen::Map<const Eigen::VectorXd>(b.data(), size));
+    return ranks.all_reduce(own, Reduction::sum);
+}
+
+}  // namespace kerf

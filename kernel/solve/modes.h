@@ -1,0 +1,47 @@
+// Natural frequencies and modes of an elastic body.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "solve/elastic_problem.h"
+#include "solve/largest_place.h"
+
+namespace kerf {
+
+struct Mode {
+    double frequency = 0;       ///< cycles per time
+    bool is_rigid = false;      ///< a motion that no support prevents, of frequency 0
+    double residual = 0;        ///< |K x - w^2 M x| over (w^2 + s) |M x| with w = 2 pi f and some s near the lowest w^2
+    std::vector<double> shape;  ///< 3 for each local node; x^T M x = 1, the largest component is positive
+    Extreme displacement = {};  ///< the largest of the shape
+};
+
+/// The file of to_csv() in the result folder.
+inline constexpr const char* modes_file = "modes.csv";
+
+struct FoundModes {
+    std::vector<Mode> modes;  ///< ascending
+    int iterations = 0;
+};
+
+/// Called after each iteration, on every rank: its number, and how many modes are found. Must not throw.
+using AfterModesIteration = std::function<void(int iteration, int found)>;
+
+/// Whether Kerf was built with SLEPc, which finds modes.
+bool can_find_modes();
+
+/// The modes with the lowest frequencies, with consistent mass, by LOBPCG (Knyazev 2001; Hernandez, Roman and Vidal
+/// 2005), preconditioned by the multigrid of the stiffness and a little of the mass: so supports may leave the body
+/// free. Collective, within a PetscSession. O(count) times what a solution takes; about 0.5 kB for each mode and node.
+/// Bytes are the same for the same number of ranks. Throws Error(usage) without SLEPc, for a material without density,
+/// or for more modes than there are degrees of freedom; Error(convergence) if they are not found.
+FoundModes find_modes(const ElasticProblem& problem, int count, const AfterModesIteration& after_iteration = {});
+
+/// A table for people.
+std::string to_text(const std::vector<Mode>& modes);
+/// A table for programs: number, frequency, rigid, residual.
+std::string to_csv(const std::vector<Mode>& modes);
+
+}  // namespace kerf

@@ -1,0 +1,50 @@
+// A preconditioner for the equations of elasticity.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "solve/level_matrix.h"
+#include "solve/node_frames.h"
+#include "solve/smoothed_aggregation.h"
+
+namespace kerf {
+
+/// A level of a multigrid and all coarser ones: a fixed symmetric approximation of the inverse of its matrix.
+class MultigridLevel {
+ public:
+    virtual ~MultigridLevel() = default;
+    /// One V-cycle from zero: x for the owned nodes, of vectors with room for all local ones. Collective.
+    virtual void cycle(const std::vector<double>& right, std::vector<double>& x) = 0;
+};
+
+/// What a corner or a middle of an edge is made of: the numbers of one or two nodes of order 1 with their mean.
+struct MiddleOf {
+    std::array<std::int32_t, 2> ends{-1, -1};  ///< the second is negative for a corner
+};
+
+/// Smoothed aggregation (Vanek, Mandel, Brezina 1996; the first matrix is `matrix`, which has to outlive it) with
+/// Chebyshev smoothing before and after; what is left of a few nodes is factorised on every rank. `is_held`: of each
+/// local degree of freedom, that it stays zero. Collective. O(n); about half of the memory of the matrix for order 1.
+/// Bytes are the same for the same number of ranks.
+std::unique_ptr<MultigridLevel> make_multigrid(MpiRanks& ranks, const LevelMatrix<3>& matrix, NearNullSpace motions,
+                                               const std::vector<std::uint8_t>& is_held);
+
+/// The elements of order 1 with the same corners as those of order 2.
+struct CornerLevel {
+    LevelMatrix<3> matrix;
+    NearNullSpace motions;
+    std::vector<std::uint8_t> is_held;  ///< of each local degree of freedom of `matrix`
+    NodeFrames frames;                  ///< of its local nodes
+    std::vector<MiddleOf> middles;      ///< of each owned node of order 2: of which of those it is the mean
+};
+
+/// For elements of order 2: smoothed there, then corrected by `corners` (p-multigrid; Ronquist, Patera 1987). `matrix`
+/// and `frames`, the axes of its nodes, have to outlive it; `is_held` is as above.
+std::unique_ptr<MultigridLevel> make_multigrid(MpiRanks& ranks, const LevelMatrix<3>& matrix,
+                                               std::vector<std::uint8_t> is_held, const NodeFrames& frames,
+                                               CornerLevel corners);
+
+}  // namespace kerf
