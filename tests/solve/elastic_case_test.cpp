@@ -96,8 +96,8 @@ max_iterations = 77
     EXPECT_EQ(found.solver.max_iterations, 77);
 }
 
-TEST_F(CaseFile, SaysWhatWholeBodiesFeelAndHowTheyStand) {
-    const ElasticCase found = read("units = \"mm\"\n" + steel_ + R"(expansion = 12e-6
+// After a material.
+constexpr const char* supports_and_body_loads = R"(expansion = 12e-6
 yield = 235
 [[support]]
 patch = "ramp"
@@ -141,7 +141,10 @@ name = "all"
 cases = {still = 1.35, fast = -2}
 [solver]
 inertia_relief = true
-)");
+)";
+
+TEST_F(CaseFile, SaysWhatWholeBodiesFeelAndHowTheyStand) {
+    const ElasticCase found = read("units = \"mm\"\n" + steel_ + supports_and_body_loads);
     EXPECT_EQ(found.units, CaseUnits::mm);
     EXPECT_EQ(found.materials[0].material.expansion, 12e-6);
     EXPECT_EQ(found.materials[0].material.yield, 235);
