@@ -339,8 +339,8 @@ void SolveStages::find_all_modes() {
 }
 
 SolveReport SolveStages::run() {
+    read_request();  // what is refused is told alone
     progress("read", 0, 0);
-    read_request();
     space_.emplace(make_space());
     progress("conditions", 0, 0);
     problem_ = make_problem(*space_, parts_->outline(), report_.wanted);
