@@ -89,6 +89,16 @@ def wrong_codes(kerf, text):
         yield f"kerf --help lists the exit codes {codes}, docs/output.md {table}"
 
 
+def finds_modes(kerf, folder):
+    """Solves for two modes of the run; false where kerf-solve was built without SLEPc."""
+    (folder / "modes.toml").write_text('units = "mm"\n[material.steel]\n')
+    done = subprocess.run([kerf, "solve", "out", "--case", "modes.toml", "--modes", "2", "-o", "modes", "-q"], cwd=folder,
+                          capture_output=True, text=True, timeout=120)
+    if done.returncode and "SLEPc" not in done.stderr:
+        sys.exit(done.stderr)
+    return done.returncode == 0
+
+
 def main():
     source, kerf = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
     promises, output = ((source / "docs" / name).read_text() for name in ("promises.md", "output.md"))
@@ -111,8 +121,12 @@ def main():
         solution = None
         if (kerf.parent / "kerf-solve").exists():
             run("solve", "out", "--case", source / "assets/l_bracket_case.toml", "-o", "solution", "-q")
-            wrong += wrong_fields(promises, "| field of a solution |",
-                                  json.loads((folder / "solution/report.json").read_text()))
+            solved = json.loads((folder / "solution/report.json").read_text())
+            if finds_modes(kerf, folder):
+                solved["solve"]["modes"] = json.loads((folder / "modes/report.json").read_text())["solve"]["modes"]
+            else:
+                promises = "\n".join(line for line in promises.split("\n") if not line.startswith("| `solve.modes"))
+            wrong += wrong_fields(promises, "| field of a solution |", solved)
             solution = arrays(folder / "solution/parts/part_0004.vtu")
         part = arrays(folder / "out/parts/part_0004.vtu")
         wrong += wrong_arrays(promises, part, solution)
