@@ -144,7 +144,7 @@ void ProgressLine::on_iteration(int iteration, double residual, double wanted) {
     last_tenth_ = tenth;
     last_seconds_ = of_stage_.seconds();
     const double left = done > 0 ? last_seconds_ * (1 - done) / done : -1;
-    if (events_) events_->on_iteration(iteration, residual, wanted, left);
+    if (events_) events_->on_solver_iteration(iteration, residual, wanted, left);
     if (!quiet_)
         print(fmt::format("solve{}  {} iterations  {:.0f} %  residual {:.1e} of {:.1e}  ETA {}", unknowns_, iteration,
                           100 * done, residual, wanted, time_left(left)));

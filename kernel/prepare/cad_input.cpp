@@ -68,7 +68,7 @@ CadAnswer ask_import_program(const std::string& path, const FileHash& file_hash,
     arguments.insert(arguments.begin(), path);
     if (points) arguments.emplace_back("--project");
     const ChildResult result =
-        run_import_program(program, std::move(arguments), points ? to_bytes(*points) : Bytes(), timeout_seconds);
+        run_import_program(program, arguments, points ? to_bytes(*points) : Bytes(), timeout_seconds);
     CadAnswer answer = answer_of(result, path, program, kind);
     if (!answer.defect.empty()) throw SolidDefect(answer.defect, answer.message, answer.elements);
     if (answer.error_code != 0) throw Error(static_cast<ErrorCode>(answer.error_code), answer.message);

@@ -91,7 +91,7 @@ void EventLog::on_part(const PartEvent& event) {
 
 void EventLog::on_equations(std::int64_t unknowns) { write(Json{{"event", "equations"}, {"unknowns", unknowns}}); }
 
-void EventLog::on_iteration(int iteration, double residual, double wanted, double seconds_left) {
+void EventLog::on_solver_iteration(int iteration, double residual, double wanted, double seconds_left) {
     write(Json{{"event", "iteration"},
                {"iteration", iteration},
                {"residual", residual},

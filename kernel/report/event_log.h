@@ -45,7 +45,7 @@ class EventLog : public RunListener {
     void on_part(const PartEvent& event) override;
     /// Of a solution: the listener's, with what it expects.
     void on_equations(std::int64_t unknowns);
-    void on_iteration(int iteration, double residual, double wanted, double seconds_left);
+    void on_solver_iteration(int iteration, double residual, double wanted, double seconds_left);
     void on_working(const std::string& stage, std::size_t done, std::size_t total, double stage_seconds);
     /// The last event. `message`: the error, or empty. What cannot be written is lost: the run has ended anyway.
     void on_end(int exit_code, const std::string& message);
