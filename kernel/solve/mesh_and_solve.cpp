@@ -119,12 +119,13 @@ MeshAndSolveStep summary_of(const RunReport& mesh, const SolveReport& solution) 
 MeshAndSolveReport mesh_and_solve(const MeshAndSolveRequest& request, int cores_of_rank, MpiRanks& ranks,
                                   SolveListener* listener, const StepDone& step_done) {
     const StepFolders folders(request);
-    in_agreement(ranks, [&] {
-        read_case(request.solve.case_file);  // before the mesh, which takes longer
+    const int order_of_case = in_agreement(ranks, [&] {
         folders.check();
+        return read_case(request.solve.case_file).solver.order;  // before the mesh, which takes longer
     });
     MeshAndSolveReport report;
     RunOptions options = request.mesh;
+    if (!request.solve.order && order_of_case > 0) options.order = order_of_case;
     options.least_parts = ranks.size();
     for (std::int32_t step = 0; step <= request.steps; ++step) {
         options.output = folders.mesh(step);

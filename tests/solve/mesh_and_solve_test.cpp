@@ -57,6 +57,25 @@ TEST_F(MeshAndSolve, ASurfaceIsMeshedFirst) {
               0);
 }
 
+// What the case says of the elements is the order of the mesh, so that its edges are curved; the option wins.
+TEST_F(MeshAndSolve, TheOrderOfTheCaseIsThatOfTheMesh) {
+    const std::string file = folder_.file("case.toml");
+    std::ofstream(file) << test::bytes_of_file(test::asset_folder() + "/l_bracket_case.toml")
+                        << "[solver]\norder = 2\n";
+    const std::vector<std::string> line = {
+        "solve", test::asset_path("l_bracket"), "--case", file, "-q", "-n", "2", "--size", "25", "-o"};
+    for (const int order : {2, 1}) {
+        const std::string folder = out() + std::to_string(order);
+        std::vector<std::string> whole = line;
+        whole.push_back(folder);
+        if (order == 1) whole.insert(whole.end(), {"--order", "1"});
+        ASSERT_EQ(test::run_kerf(whole).exit_code, 0);
+        const auto json = [&](const char* name) { return nlohmann::json::parse(test::bytes_of_file(folder + name)); };
+        EXPECT_EQ(json("/mesh/report.json")["totals"]["order"], order);
+        EXPECT_EQ(json("/solution/report.json")["solve"]["order"], order);
+    }
+}
+
 // The error falls from step to step as fast as the best meshes allow, 1/3 of the order of the cells' number, or nearly.
 TEST_F(MeshAndSolve, TheErrorFallsWhereCellsAreFinerWhereItIs) {
     ASSERT_EQ(test::run_kerf(bracket({"--adapt", "5", "--target-error", "0.12"})).exit_code, 0);
