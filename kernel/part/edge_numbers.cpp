@@ -35,8 +35,7 @@ EdgeNumbers::OfPart EdgeNumbers::told_by(NodeId id, const std::vector<SharedEdge
     return told;
 }
 
-EdgeNumbers::EdgeNumbers(const MeshOutline& outline, const std::vector<OfPart>& told)
-    : ids_(ascending_ids(outline)), total_(0) {
+EdgeNumbers::EdgeNumbers(const MeshOutline& outline, const std::vector<OfPart>& told) {
     std::int64_t next = outline.vertices;
     for (const PartIndex index : outline.parts.ids()) {
         const OfPart& of_part = told[index.value()];

@@ -64,7 +64,6 @@ class EdgeNumbers {
     };
     std::int64_t first_of_group(const std::vector<NodeId>& parts) const;
 
-    std::vector<NodeId> ids_;                   // of all parts, ascending
     Array<PartIndex, NodeId> part_ids_;         // in the order of the tree
     Array<PartIndex, std::int64_t> first_own_;  // of edges that no other part has
     Array<PartIndex, std::int64_t> counts_;
