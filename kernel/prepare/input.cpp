@@ -14,6 +14,7 @@
 #include "geometry/triangle.h"
 #include "io/run_manifest.h"
 #include "prepare/region_diagnosis.h"
+#include "repair/repair.h"
 #include "surface/hole_filling.h"
 #include "surface/intersections.h"
 #include "surface/mass_properties.h"
@@ -107,6 +108,7 @@ Input to_input(CheckedSoup checked, const std::string& path, const InputOptions&
     const std::vector<std::string> gap_notes = notes_on_gaps(checked);
     input.orientation = apply_repairs(checked);
     input.repairs = checked.repairs;
+    input.ladder = std::move(checked.ladder);
     input.weld_tolerance = checked.weld_tolerance;
     input.notes = soup.notes;
     for (const std::string& note : gap_notes) input.notes.push_back(note);
@@ -255,7 +257,7 @@ Input input_of_arrays(Soup soup, const InputOptions& options) {
 }  // namespace
 
 CheckedSoup check_files(InputFiles files, const InputOptions& options, double needle_angle_deg) {
-    CheckedSoup checked{std::move(files.soup), {}, {}, 0};
+    CheckedSoup checked{std::move(files.soup), {}, {}, 0, {}};
     Soup& soup = checked.soup;
     InputRepairs& repairs = checked.repairs;
     repairs.welded_vertices = weld_exactly(soup);
@@ -266,6 +268,7 @@ CheckedSoup check_files(InputFiles files, const InputOptions& options, double ne
         repairs.filled_holes = filling.holes;
         repairs.added_facets = filling.facets;
     }
+    checked.ladder = repair(soup, parse_repair_plan("repair", options.repair));
     repairs.unused_vertices = drop_unused_vertices(soup);
     take_points(soup, options);
     diagnose_regions(checked, files, {options.voids, needle_angle_deg}, options.fill_voids);

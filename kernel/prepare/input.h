@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "prepare/input_files.h"
 #include "remesh/remesh.h"
+#include "repair/repair_report.h"
 #include "request/input_options.h"
 #include "size/size_options.h"
 #include "surface/complex.h"
@@ -37,6 +38,7 @@ struct CheckedSoup {
     Diagnosis diagnosis;  ///< of `soup`, in which dropped facets still are
     InputRepairs repairs;
     double weld_tolerance = 0;  ///< that was used, units of the file
+    RepairReport ladder = {};   ///< what InputOptions::repair did
 };
 
 /// Error(input) of a surface that cannot be meshed as it is, with all that was found.
@@ -110,6 +112,7 @@ struct Input {
     Complex complex;
     /// Volume that cells may have at most, as the file says it for each region; 0: it does not. Empty: for none.
     std::vector<double> largest_cells = {};
+    RepairReport ladder = {};  ///< what InputOptions::repair did
 };
 
 /// Reads (several files and CAD files, too: prepare/input_files.h), repairs, diagnoses. Throws Error only for a file

@@ -17,6 +17,7 @@ struct InputOptions {
     Length weld_tolerance;             ///< vertices this close are merged; of the file's diagonal; 0: only equal ones
     std::int32_t fill_hole_edges = 0;  ///< open loops of at most so many edges are spanned
     bool keep_largest = false;         ///< only the connected component of the largest area stays
+    std::string repair = {};           ///< steps of a ladder, see parse_repair_plan(); empty: none
     Voids voids = Voids::as_given;
     std::vector<std::string> regions;      ///< NAME=x,y,z: points of regions, in units after scaling
     std::vector<std::string> more_files;   ///< whose bodies are meshed with those of the input

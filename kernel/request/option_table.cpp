@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "repair/repair_plan.h"
 #include "request/options.h"
 #include "volume/meshers.h"
 
@@ -88,6 +89,10 @@ constexpr OptionRow<InputOptions> input_rows[] = {
      place<&InputOptions::fill_hole_edges>,
      true,
      {"a whole number, 0 (none) or more edges", 0}},
+    {"repair", "", option_group::input, "LEVEL",
+     "Repair the surface: exact (no point moves), near (within a bound), full (crossings, too), or steps by name, as "
+     "weld,stitch,holes=200. Default none.",
+     place<&InputOptions::repair>},
     {"keep-largest", "", option_group::input, "", "Keep only the connected component of the largest area.",
      place<&InputOptions::keep_largest>},
     {"voids", "", option_group::input, "",
@@ -339,6 +344,7 @@ void InputOptions::check() const {
     InputOptions copy = *this;
     for (const OptionField& field : input_option_fields(copy)) field.check();
     seeds_of(*this);
+    parse_repair_plan("repair", repair);
 }
 
 std::vector<OptionText> option_texts(RunOptions options, bool shapes_parts_only) {

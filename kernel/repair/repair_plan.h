@@ -1,0 +1,68 @@
+// Which repairs a surface is to have, as users write them: "near", "full,holes=200,bound=0.2%", "weld,stitch".
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/user_number.h"
+
+namespace kerf {
+
+/// The steps of the ladder, in the order in which they are done.
+enum class RepairKind {
+    weld,           ///< vertices nearer than a tolerance become one
+    clean,          ///< facets that are copies, folded upon each other, or without area go
+    stitch,         ///< borders that are nearer than a tolerance become one
+    orient,         ///< facets are turned to agree
+    manifold,       ///< edges of more than two facets, and vertices of several fans, are opened
+    specks,         ///< small pieces go
+    caps,           ///< large openings are closed by patches of their own
+    holes,          ///< openings of few edges are filled
+    thicken,        ///< open sheets become walls
+    snap,           ///< walls of two bodies that nearly coincide become one
+    intersections,  ///< facets that cross share the curve, and what lies inside goes
+};
+inline constexpr std::size_t repair_kind_count = static_cast<std::size_t>(RepairKind::intersections) + 1;
+
+/// How much is done.
+enum class RepairLevel {
+    none,
+    exact,  ///< no point moves, and no area is added
+    near,   ///< points move within the bound, holes are filled
+    full,   ///< facets that cross are resolved, too
+};
+
+/// What becomes of bodies that overlap, or that share walls.
+enum class BodyRepair {
+    unite,   ///< their hull
+    regions  ///< a region each, with common walls
+};
+
+struct RepairStep {
+    RepairKind kind;
+    std::optional<Length> amount = {};  ///< a tolerance, a number of edges, ...: what RepairStepRow says; else its own
+};
+
+struct RepairPlan {
+    std::vector<RepairStep> steps;        ///< ascending by kind, each once
+    Length bound = Length::percent(0.1);  ///< farther from its place no vertex of the input is moved, > 0
+    BodyRepair bodies = BodyRepair::unite;
+
+    bool empty() const { return steps.empty(); }
+    const RepairStep* find(RepairKind kind) const;
+};
+
+/// The steps of a level, with their own amounts.
+RepairPlan plan_of(RepairLevel level);
+
+/// A list with commas: a level ("none", "exact", "near", "full"), then steps by name, with "=AMOUNT" where they have
+/// one, "no-NAME" for a step of the level that is left out, "bound=D", and "bodies=unite" or "bodies=regions". Empty:
+/// none. Throws Error(usage), naming `option`, the word and what it may be.
+RepairPlan parse_repair_plan(std::string_view option, std::string_view text);
+
+/// What parse_repair_plan() may be given, as a sentence for help.
+std::string repair_words();
+
+}  // namespace kerf

@@ -1,0 +1,46 @@
+// The steps of a repair: a row says what one is called and does, and a function does it.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+
+#include "repair/repair_plan.h"
+#include "repair/repair_report.h"
+#include "surface/soup.h"
+
+namespace kerf {
+
+/// What a step is told.
+struct StepRequest {
+    double amount = 0;    ///< of the step, a length in units of the surface
+    double bound = 0;     ///< farther no vertex of the input is moved, units of the surface
+    double diagonal = 0;  ///< of the bounding box of the surface as it came
+    BodyRepair bodies = BodyRepair::unite;
+    std::function<void()> poll = [] {};  ///< to be called now and then; may throw
+};
+
+/// Changes the soup, see repair(), and says what it did in `report`.
+using ApplyStep = void(Soup& soup, const StepRequest& request, StepReport& report);
+
+/// What can be asked of a step.
+enum class AmountKind { none, length, count };
+
+struct RepairStepRow {
+    RepairKind kind;
+    const char* name;   ///< as users write it
+    RepairLevel level;  ///< from which on it belongs to it; none: only by its name
+    AmountKind amount;
+    Length usual;      ///< of the amount, where nobody says it
+    const char* help;  ///< "merge vertices nearer than this"
+    ApplyStep* apply;
+};
+
+/// In the order of RepairKind.
+std::span<const RepairStepRow> repair_step_rows();
+const char* name(RepairKind kind);
+
+ApplyStep weld_step, clean_step, stitch_step, orient_step, manifold_step, specks_step, caps_step, holes_step,
+    thicken_step, snap_step, intersections_step;
+
+}  // namespace kerf

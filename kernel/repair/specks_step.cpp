@@ -1,0 +1,7 @@
+#include "repair/repair_step.h"
+
+namespace kerf {
+
+void specks_step(Soup&, const StepRequest&, StepReport&) {}
+
+}  // namespace kerf
