@@ -13,6 +13,7 @@ namespace kerf {
 namespace {
 
 constexpr std::array level_names = {"none", "exact", "near", "full"};
+static_assert(level_names.size() == static_cast<std::size_t>(RepairLevel::full) + 1);
 
 class PlanParser {
  public:
@@ -75,6 +76,8 @@ class PlanParser {
 };
 
 }  // namespace
+
+const char* name(RepairLevel level) { return level_names[static_cast<std::size_t>(level)]; }
 
 const RepairStep* RepairPlan::find(RepairKind kind) const {
     const auto found =

@@ -34,6 +34,8 @@ enum class RepairLevel {
     full,   ///< facets that cross are resolved, too
 };
 
+const char* name(RepairLevel level);
+
 /// What becomes of bodies that overlap, or that share walls.
 enum class BodyRepair {
     unite,   ///< their hull

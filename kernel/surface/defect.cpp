@@ -29,34 +29,39 @@ constexpr std::array<KindTexts, defect_kind_count> texts_of_kinds = {{
     {"non-finite vertex", "correct the coordinates or export the surface again"},
     {"absurd magnitude", "choose another unit of length, so that coordinates lie between 1e-50 and 1e50"},
     {"unfit polygon", "export the surface as triangles: the faces are not planar or not convex"},
-    {"flat surface", "give the boundary of a body, not a sheet"},
-    {"degenerate facet", "collapse or remove the facets where the surface was made",
+    {"flat surface", "give the boundary of a body, not a sheet; --repair thicken makes a wall of a sheet"},
+    {"degenerate facet", "collapse or remove the facets where the surface was made, or with --repair clean",
      "nothing needs to be done, they are left out"},
-    {"duplicate facet", "remove the copies", "nothing needs to be done, the copies are left out"},
-    {"coincident shell", "remove all copies of the body but one"},
+    {"duplicate facet", "remove the copies, as --repair clean does",
+     "nothing needs to be done, the copies are left out"},
+    {"coincident shell", "remove all copies of the body but one, as --repair clean does"},
     {"open edge loop",
-     "close the holes, merge vertices that are nearly equal with --weld, fill small holes with --fill-holes, or "
-     "drop loose pieces with --keep-largest"},
-    {"non-manifold edge", "unite the bodies that touch there, or move them apart"},
-    {"non-manifold vertex", "unite the bodies that touch there, or move them apart"},
+     "close the holes, as --repair stitch,holes does, merge vertices that are nearly equal with --weld, fill small "
+     "holes with --fill-holes, or drop loose pieces with --keep-largest"},
+    {"non-manifold edge", "unite the bodies that touch there, move them apart, or part them with --repair manifold"},
+    {"non-manifold vertex", "unite the bodies that touch there, move them apart, or part them with --repair manifold"},
     {"inconsistent orientation", "nothing needs to be done, they are turned"},
     {"one-sided shell", "model the surface again, it bounds no body"},
     {"inverted shell", "nothing needs to be done, it is turned"},
     {"ambiguous shell",
-     "make it a void with --voids parity, turn it, or leave all out but the largest with --keep-largest",
+     "make it a void with --voids parity, turn it, unite it with the other by --repair intersections, or leave all out "
+     "but the largest with --keep-largest",
      "nothing needs to be done, it is made a void"},
-    {"touching shell", "unite the bodies, move them apart, or leave all out but the largest with --keep-largest"},
-    {"self-intersection", "unite the parts that overlap where the surface was made"},
+    {"touching shell",
+     "unite the bodies, as --repair intersections does, move them apart, or leave all out but the largest with "
+     "--keep-largest"},
+    {"self-intersection", "unite the parts that overlap where the surface was made, or with --repair intersections"},
     {"needle", "remesh the surface with --surface remesh where good cells are needed"},
     {"short edge", "move the part closer to the origin or collapse the edges"},
     {"wall of unlike facets",
      "give both bodies the same triangles where they touch, as solids of one CAD file have them, or merge vertices "
-     "that are nearly equal with --weld"},
+     "that are nearly equal with --weld or --repair snap"},
     {"overlap of bodies",
      "cut one body out of the other where they were made; where their triangles are the same but for a small distance, "
-     "merge their vertices with --weld"},
+     "merge their vertices with --weld or --repair snap"},
     {"gap between bodies",
-     "where their triangles are the same but for that distance, merge their vertices with --weld, else give both the "
+     "where their triangles are the same but for that distance, merge their vertices with --weld or --repair snap, "
+     "else give both the "
      "same triangles; bodies that do not touch can be meshed each by itself"},
 }};
 static_assert(texts_of_kinds.back().name != nullptr);

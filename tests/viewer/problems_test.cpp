@@ -40,7 +40,7 @@ TEST(Problems, EveryOptionThatARemedyNamesIsAdvised) {
             EXPECT_EQ(advised, named) << text;
             all.merge(named);
         }
-    EXPECT_EQ(all, (std::set<std::string>{"fill-holes", "keep-largest", "surface", "voids", "weld"}));
+    EXPECT_EQ(all, (std::set<std::string>{"fill-holes", "keep-largest", "repair", "surface", "voids", "weld"}));
 }
 
 TEST(Problems, BodiesThatNearlyTouchAreWeldedByALittleMoreThanTheirDistance) {

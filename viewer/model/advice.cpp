@@ -26,6 +26,12 @@ std::string word_at(const std::string& text, std::size_t begin) {
 std::string value_behind(const OptionField& field, const std::string& text, std::size_t end_of_name) {
     if (std::holds_alternative<bool*>(field.value)) return "true";
     if (end_of_name >= text.size() || text[end_of_name] != ' ') return "";
+    if (field.name == "repair") {  // steps with commas between, not what ends a sentence or begins another part of it
+        std::size_t end = end_of_name;
+        do end += 1 + word_at(text, end + 1).size();
+        while (end + 1 < text.size() && text[end] == ',' && text[end + 1] != ' ');
+        return text.substr(end_of_name + 1, end - end_of_name - 1);
+    }
     if (const auto* choice = std::get_if<OptionField::Choice>(&field.value)) {
         const std::string value = word_at(text, end_of_name + 1);
         return std::find(choice->names.begin(), choice->names.end(), value) == choice->names.end() ? "" : value;
