@@ -1,7 +1,100 @@
+// Facets that bound nothing go: first those that are none, then those without area, then copies, which the pieces of
+// their neighbours may be.
+#include <algorithm>
+#include <utility>
+
+#include "core/elements.h"
+#include "repair/facet_copies.h"
+#include "repair/flat_facets.h"
 #include "repair/repair_step.h"
 
 namespace kerf {
 
-void clean_step(Soup&, const StepRequest&, StepReport&) {}
+namespace {
+
+class Cleaning {
+ public:
+    Cleaning(Soup& soup, StepReport& report) : soup_(soup), report_(report) {}
+
+    void run() {
+        accept_unfit();
+        drop_undefined();
+        drop_flat();
+        const SurplusCopies surplus = find_surplus_copies(soup_.facets);
+        std::vector<char> drop(soup_.facets.size(), 0);
+        mark(surplus.copies, {"copy of a facet removed", "copies of facets removed"}, drop);
+        mark(surplus.folds, {"facet folded upon another removed", "facets folded upon each other removed"}, drop);
+        drop_facets(soup_, drop);
+        for (const RepairAction& action : report_.actions)
+            if (action.count > 0) {
+                drop_unused_vertices(soup_);
+                break;
+            }
+    }
+
+ private:
+    // Says that all of them are removed; a facet without a finite corner has no place.
+    void mark(const std::vector<std::int32_t>& facets, RepairAction action, std::vector<char>& drop) {
+        for (const std::int32_t f : facets) {
+            RepairPlace place{.facets = soup_.file_facets({f})};
+            for (const std::int32_t v : soup_.facets[f])
+                if (soup_.vertices[v].allFinite()) place.where = soup_.vertices[v];
+            action.add(std::move(place));
+            drop[f] = 1;
+        }
+        report_.actions.push_back(std::move(action));
+    }
+    // Faces whose triangles are another surface than what the file says, if that says one: the triangles count.
+    void accept_unfit() {
+        RepairAction accepted{"warped face taken as its triangles", "warped faces taken as their triangles"};
+        for (const std::int32_t polygon : soup_.unfit_polygons) {
+            const auto facet = std::lower_bound(soup_.polygon.begin(), soup_.polygon.end(), polygon);
+            if (facet == soup_.polygon.end() || *facet != polygon) continue;
+            const Triangle& t = soup_.facets[static_cast<std::size_t>(facet - soup_.polygon.begin())];
+            accepted.add({soup_.vertices[t[0]], {polygon}});
+        }
+        soup_.unfit_polygons.clear();
+        report_.actions.push_back(std::move(accepted));
+    }
+    void drop_undefined() {
+        std::vector<std::int32_t> infinite, repeated;
+        for (std::size_t f = 0; f < soup_.facets.size(); ++f) {
+            const auto [a, b, c] = soup_.facets[f];
+            if (!soup_.vertices[a].allFinite() || !soup_.vertices[b].allFinite() || !soup_.vertices[c].allFinite())
+                infinite.push_back(static_cast<std::int32_t>(f));
+            else if (has_repeated_vertex(soup_.facets[f]))
+                repeated.push_back(static_cast<std::int32_t>(f));
+        }
+        std::vector<char> drop(soup_.facets.size(), 0);
+        mark(infinite, {"facet without finite coordinates removed", "facets without finite coordinates removed"}, drop);
+        mark(repeated, {"facet with a repeated vertex removed", "facets with a repeated vertex removed"}, drop);
+        drop_facets(soup_, drop);
+    }
+    void drop_flat() {
+        FlatFacets flat = find_flat_facets(soup_.vertices, soup_.facets);
+        if (flat.facets.empty()) return;
+        std::vector<char> drop(soup_.facets.size(), 0);
+        mark(flat.facets, {"facet without area removed", "facets without area removed"}, drop);
+        RepairAction divided{"neighbour divided instead", "neighbours divided instead"};
+        std::vector<char> is_divided(soup_.facets.size(), 0);
+        for (const SidePoint& point : flat.points)
+            if (!std::exchange(is_divided[point.corner / 3], char{1}))
+                divided.add({soup_.vertices[point.vertex], soup_.file_facets({point.corner / 3})});
+        report_.actions.push_back(std::move(divided));
+        std::vector<std::int32_t> new_number(drop.size());  // of what is left without the flat ones
+        for (std::size_t f = 0, kept = 0; f < drop.size(); kept += drop[f++] == 0)
+            new_number[f] = static_cast<std::int32_t>(kept);
+        drop_facets(soup_, drop);
+        for (SidePoint& point : flat.points) point.corner = 3 * new_number[point.corner / 3] + point.corner % 3;
+        divide_at(soup_, std::move(flat.points));
+    }
+
+    Soup& soup_;
+    StepReport& report_;
+};
+
+}  // namespace
+
+void clean_step(Soup& soup, const StepRequest&, StepReport& report) { Cleaning(soup, report).run(); }
 
 }  // namespace kerf

@@ -1,7 +1,218 @@
+// Facets agree over edges of two. Where only edges of more facets close a shell, the cells around these tell which side
+// of a facet is the outside. Then what is closed is turned outwards as a whole, with all that lies inside of it, so
+// that a void stays one.
+#include <algorithm>
+#include <cmath>
+
+#include "core/elements.h"
+#include "geometry/box.h"
+#include "geometry/triangle.h"
 #include "repair/repair_step.h"
+#include "repair/rims.h"
+#include "surface/cells.h"
+#include "surface/edge_corners.h"
+#include "surface/orientation.h"
 
 namespace kerf {
 
-void orient_step(Soup&, const StepRequest&, StepReport&) {}
+namespace {
+
+constexpr double least_fullness = 0.03;  // of an open shell that has an inside; a ball has 0.094
+
+class Orienting {
+ public:
+    Orienting(Soup& soup, StepReport& report) : soup_(soup), report_(report) {
+        for (std::size_t f = 0; f < soup.facets.size(); ++f)
+            if (is_ordinary(soup.facets[f])) number_.push_back(static_cast<std::int32_t>(f));
+        for (const std::int32_t f : number_) facets_.push_back(soup.facets[f]);
+    }
+
+    void run(const std::function<void()>& poll) {
+        if (facets_.empty()) return;
+        new_ = make_consistent(facets_);
+        restore_one_sided();
+        poll();
+        rims_ = find_rims(facets_);
+        is_hull_.assign(facets_.size(), 1);
+        turn_by_cells();
+        poll();
+        turn_closed_shells();
+        turn_open_shells();
+        say();
+        for (std::size_t i = 0; i < number_.size(); ++i) soup_.facets[number_[i]] = new_.facets[i];
+    }
+
+ private:
+    bool is_ordinary(const Triangle& t) const {
+        return !has_repeated_vertex(t) && soup_.vertices[t[0]].allFinite() && soup_.vertices[t[1]].allFinite() &&
+               soup_.vertices[t[2]].allFinite();
+    }
+    void restore_one_sided();
+    void turn_by_cells();
+    void turn_piece_by_cells(const std::vector<std::int32_t>& piece);
+    void turn_closed_shells();
+    void turn_open_shells();
+    void turn_shells(const std::vector<char>& is_turned);
+    void say();
+    RepairPlace place(std::int32_t facet) const {
+        return {soup_.vertices[facets_[facet][0]], soup_.file_facets({number_[facet]})};
+    }
+
+    Soup& soup_;
+    StepReport& report_;
+    std::vector<std::int32_t> number_;  // of the facets that are looked at
+    std::vector<Triangle> facets_;      // as they came
+    ConsistentFacets new_;
+    Rims rims_;
+    std::vector<char> is_one_sided_;  // per shell
+    std::vector<char> is_hull_;       // has the outside of its piece on one side
+    RepairAction shells_turned_{"shell turned outwards", "shells turned outwards"};
+};
+
+// Facets of a one-sided shell cannot all agree: they stay as they came where that is no worse.
+void Orienting::restore_one_sided() {
+    is_one_sided_.assign(static_cast<std::size_t>(new_.shell_count), 0);
+    for (const std::int32_t f : new_.contradictions) is_one_sided_[new_.shell[f]] = 1;
+    if (new_.contradictions.empty()) return;
+    std::vector<std::int64_t> gain(is_one_sided_.size(), 0);
+    const std::vector<std::int32_t> partner = edge_partners(facets_);
+    const auto is_turned = [&](std::int32_t corner) { return facets_[corner / 3] != new_.facets[corner / 3]; };
+    for (std::size_t c = 0; c < partner.size(); ++c) {
+        const auto own = static_cast<std::int32_t>(c);
+        if (partner[c] < own || !is_one_sided_[new_.shell[c / 3]]) continue;
+        if (is_turned(own) == is_turned(partner[c])) continue;
+        gain[new_.shell[c / 3]] += start_vertex(facets_, own) == start_vertex(facets_, partner[c]) ? 1 : -1;
+    }
+    for (std::size_t f = 0; f < facets_.size(); ++f)
+        if (is_one_sided_[new_.shell[f]] && gain[new_.shell[f]] <= 0) new_.facets[f] = facets_[f];
+}
+
+// What hangs together over edges of more than two facets, and has no open edge, is one shell from here on.
+void Orienting::turn_by_cells() {
+    const std::vector<std::vector<std::int32_t>> pieces = rims_.facets_of_pieces();
+    std::vector<std::int32_t> new_shell(new_.shell.size(), -1);
+    std::vector<char> is_one_sided;
+    std::int32_t count = 0;
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+        if (!rims_.pieces[p].is_closed() || rims_.pieces[p].edges_of_many == 0) continue;
+        turn_piece_by_cells(pieces[p]);
+    }
+    // Numbered by smallest facet again.
+    std::vector<std::int32_t> of_piece(pieces.size(), -1), of_shell(static_cast<std::size_t>(new_.shell_count), -1);
+    for (std::size_t f = 0; f < new_.shell.size(); ++f) {
+        const std::int32_t p = rims_.piece_of[f];
+        const bool is_one = rims_.pieces[p].is_closed() && rims_.pieces[p].edges_of_many > 0;
+        std::int32_t& number = is_one ? of_piece[p] : of_shell[new_.shell[f]];
+        if (number < 0) {
+            number = count++;
+            is_one_sided.push_back(!is_one && is_one_sided_[new_.shell[f]]);
+        }
+        new_shell[f] = number;
+    }
+    new_.shell = std::move(new_shell);
+    is_one_sided_ = std::move(is_one_sided);
+    new_.shell_count = count;
+}
+
+// The side that most of its area says to be the outside stays so: a void is none the less one for being torn.
+void Orienting::turn_piece_by_cells(const std::vector<std::int32_t>& piece) {
+    std::vector<Triangle> facets;
+    for (const std::int32_t f : piece) facets.push_back(new_.facets[f]);
+    const CompactFacets compact = make_compact(soup_.vertices, facets);
+    const auto cells = find_cells(compact.vertices, compact.facets);
+    if (!cells) return;
+    double outward = 0;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+        const FacetSides& sides = cells->sides[i];
+        is_hull_[piece[i]] = (sides.front < 0) != (sides.back < 0);
+        if (!is_hull_[piece[i]]) continue;
+        const double area =
+            triangle_area(compact.vertices[compact.facets[i][0]], compact.vertices[compact.facets[i][1]],
+                          compact.vertices[compact.facets[i][2]]);
+        outward += sides.front < 0 ? area : -area;
+    }
+    for (std::size_t i = 0; i < piece.size(); ++i)
+        if (is_hull_[piece[i]] && (cells->sides[i].front < 0) != (outward >= 0)) turn(new_.facets[piece[i]]);
+}
+
+// A shell that nothing is around is turned outwards, and what is inside of it is turned with it.
+void Orienting::turn_closed_shells() {
+    std::vector<std::int32_t> number(static_cast<std::size_t>(new_.shell_count), -1), shell;
+    ConsistentFacets closed;
+    for (std::size_t f = 0; f < new_.facets.size(); ++f) {
+        const std::int32_t s = new_.shell[f];
+        if (!rims_.pieces[rims_.piece_of[f]].is_closed() || !is_hull_[f]) continue;
+        if (number[s] < 0) {
+            number[s] = closed.shell_count++;
+            shell.push_back(s);
+        }
+        closed.facets.push_back(new_.facets[f]);
+        closed.shell.push_back(number[s]);
+    }
+    if (closed.facets.empty()) return;
+    const std::vector<ShellPlace> places = locate_shells(soup_.vertices, closed);
+    std::vector<char> is_turned(static_cast<std::size_t>(new_.shell_count), 0);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        std::int32_t root = static_cast<std::int32_t>(i);
+        while (places[root].parent >= 0) root = places[root].parent;
+        if (places[root].touches >= 0 || places[root].outward) continue;
+        is_turned[shell[i]] = 1;
+    }
+    turn_shells(is_turned);
+}
+
+// The volume between a shell and the middle of its rim; for one that is nearly closed, nearly its own.
+void Orienting::turn_open_shells() {
+    struct Open {
+        Vec3 middle = Vec3::Zero();
+        std::int64_t rim_vertices = 0;
+        double volume = 0, area = 0;
+    };
+    std::vector<Open> shells(static_cast<std::size_t>(new_.shell_count));
+    for (std::size_t c = 0; c < 3 * new_.facets.size(); ++c)
+        if (rims_.is_open[c]) {
+            Open& open = shells[new_.shell[c / 3]];
+            open.middle += soup_.vertices[facets_[c / 3][c % 3]];
+            ++open.rim_vertices;
+        }
+    for (Open& open : shells)
+        if (open.rim_vertices > 0) open.middle /= static_cast<double>(open.rim_vertices);
+    for (std::size_t f = 0; f < new_.facets.size(); ++f) {
+        Open& open = shells[new_.shell[f]];
+        const Vec3 area = area_vector(soup_.vertices, new_.facets[f]);
+        open.volume += area.dot(soup_.vertices[new_.facets[f][0]] - open.middle) / 3;
+        open.area += area.norm();
+    }
+    std::vector<char> is_turned(shells.size(), 0);
+    for (std::size_t s = 0; s < shells.size(); ++s)
+        is_turned[s] = shells[s].rim_vertices > 0 && !is_one_sided_[s] &&
+                       shells[s].volume < -least_fullness * std::pow(shells[s].area, 1.5);
+    turn_shells(is_turned);
+}
+
+void Orienting::turn_shells(const std::vector<char>& is_turned) {
+    std::vector<char> is_said(is_turned.size(), 0);
+    for (std::size_t f = 0; f < new_.facets.size(); ++f) {
+        const std::int32_t s = new_.shell[f];
+        if (!is_turned[s]) continue;
+        turn(new_.facets[f]);
+        if (!std::exchange(is_said[s], char{1})) shells_turned_.add(place(static_cast<std::int32_t>(f)));
+    }
+}
+
+void Orienting::say() {
+    RepairAction turned{"facet turned", "facets turned"}, one_sided{"one-sided shell", "one-sided shells"};
+    for (std::size_t f = 0; f < facets_.size(); ++f)
+        if (facets_[f] != new_.facets[f]) turned.add(place(static_cast<std::int32_t>(f)));
+    for (const std::int32_t f : new_.contradictions) one_sided.add(place(f));
+    one_sided.refused_because = "like a Moebius strip it has no inside, however its facets are turned";
+    for (RepairAction* action : {&turned, &shells_turned_, &one_sided}) report_.actions.push_back(std::move(*action));
+}
+
+}  // namespace
+
+void orient_step(Soup& soup, const StepRequest& request, StepReport& report) {
+    Orienting(soup, report).run(request.poll);
+}
 
 }  // namespace kerf

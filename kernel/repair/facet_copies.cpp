@@ -1,0 +1,115 @@
+// Each sheet of copies is judged by its rim, with one facet for each group of copies: without the sheet an edge has a
+// facet less.
+#include "repair/facet_copies.h"
+
+#include <algorithm>
+#include <span>
+
+#include "geometry/union_find.h"
+#include "surface/edge_corners.h"
+#include "surface/superfluous_facets.h"
+
+namespace kerf {
+
+namespace {
+
+// Whether both put the same three vertices in the same sense of rotation.
+bool have_same_turn(const Triangle& s, const Triangle& t) {
+    const auto first = static_cast<std::size_t>(std::find(t.begin(), t.end(), s[0]) - t.begin());
+    return t[(first + 1) % 3] == s[1];
+}
+
+struct CopySheet {
+    bool is_folded = false;
+    std::int64_t groups = 0;
+    std::int64_t free = 0, even = 0, odd = 0;  // edges of its rim with one facet, an even number, an odd one above 1
+
+    // Whether nothing of it stays.
+    bool is_fold(bool is_all) const {
+        if (is_folded && groups == 1 && odd + even == 0) return !is_all;  // a flat pocket
+        return odd > even + (is_folded ? 0 : free);
+    }
+};
+
+class CopyJudge {
+ public:
+    CopyJudge(const std::vector<Triangle>& facets, const std::vector<FacetCopies>& copies)
+        : facets_(facets), copies_(copies), group_of_(facets.size(), -1) {
+        std::vector<char> is_surplus(facets.size(), 0);
+        for (std::size_t g = 0; g < copies.size(); ++g) {
+            group_of_[copies[g].facets[0]] = static_cast<std::int32_t>(g);
+            for (std::size_t i = 1; i < copies[g].facets.size(); ++i) is_surplus[copies[g].facets[i]] = 1;
+        }
+        for (std::size_t f = 0; f < facets.size(); ++f) {
+            if (is_surplus[f]) continue;
+            single_.push_back(facets[f]);
+            number_.push_back(static_cast<std::int32_t>(f));
+        }
+    }
+
+    SurplusCopies judge() {
+        const EdgeCorners edges(single_);
+        const Components sheet_of = find_sheets(edges);
+        const std::vector<CopySheet> sheets = measure(edges, sheet_of);
+        const bool is_all = single_.size() == copies_.size();
+        SurplusCopies surplus;
+        for (std::size_t g = 0; g < copies_.size(); ++g) {
+            const std::vector<std::int32_t>& all = copies_[g].facets;
+            const bool is_fold = sheets[sheet_of.of[g]].is_fold(is_all);
+            std::vector<std::int32_t>& list = is_fold ? surplus.folds : surplus.copies;
+            list.insert(list.end(), all.begin() + (is_fold ? 0 : 1), all.end());
+        }
+        std::sort(surplus.copies.begin(), surplus.copies.end());
+        std::sort(surplus.folds.begin(), surplus.folds.end());
+        return surplus;
+    }
+
+ private:
+    using Corners = std::span<const EdgeCorners::Corner>;
+
+    std::int32_t group(const EdgeCorners::Corner& c) const { return group_of_[number_[c.corner / 3]]; }
+    bool is_within(const Corners& corners) const {
+        return corners.size() == 2 && group(corners[0]) >= 0 && group(corners[1]) >= 0;
+    }
+    Components find_sheets(const EdgeCorners& edges) const {
+        UnionFind sets(copies_.size());
+        edges.for_each_edge([&](std::int32_t, Corners corners) {
+            if (is_within(corners)) sets.join(group(corners[0]), group(corners[1]));
+        });
+        return sets.take();
+    }
+    std::vector<CopySheet> measure(const EdgeCorners& edges, const Components& sheet_of) const {
+        std::vector<CopySheet> sheets(static_cast<std::size_t>(sheet_of.count));
+        for (std::size_t g = 0; g < copies_.size(); ++g) {
+            CopySheet& sheet = sheets[sheet_of.of[g]];
+            ++sheet.groups;
+            for (const std::int32_t f : copies_[g].facets)
+                sheet.is_folded |= !have_same_turn(facets_[copies_[g].facets[0]], facets_[f]);
+        }
+        edges.for_each_edge([&](std::int32_t, Corners corners) {
+            if (is_within(corners)) return;
+            for (const EdgeCorners::Corner& c : corners) {
+                if (group(c) < 0) continue;
+                CopySheet& sheet = sheets[sheet_of.of[group(c)]];
+                ++(corners.size() == 1 ? sheet.free : corners.size() % 2 == 0 ? sheet.even : sheet.odd);
+            }
+        });
+        return sheets;
+    }
+
+    const std::vector<Triangle>& facets_;
+    const std::vector<FacetCopies>& copies_;
+    std::vector<std::int32_t> group_of_;  // of the first facet of a group, else -1
+    std::vector<Triangle> single_;        // one facet of each group
+    std::vector<std::int32_t> number_;    // of them
+};
+
+}  // namespace
+
+SurplusCopies find_surplus_copies(const std::vector<Triangle>& facets) {
+    const SuperfluousFacets found = find_superfluous_facets(facets);
+    if (found.copies.empty()) return {};
+    return CopyJudge(facets, found.copies).judge();
+}
+
+}  // namespace kerf

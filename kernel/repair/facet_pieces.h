@@ -1,0 +1,28 @@
+// Facets that are divided where vertices lie on their sides.
+#pragma once
+
+#include <vector>
+
+#include "surface/soup.h"
+
+namespace kerf {
+
+/// A vertex on the side of a facet, which is to be divided there.
+struct SidePoint {
+    std::int32_t corner;  ///< 3 f + i: the side of facet f from its vertex i to the next one
+    double along;         ///< grows from the first end of the side to the second; differs among those of a side
+    std::int32_t vertex;
+};
+
+/// The pieces of one facet, in the order in which they take its place. `chains`: per side the vertices on it, from its
+/// first end on. All have area if the facet has, and the vertices lie on its sides.
+std::vector<Triangle> pieces_of(const Triangle& facet, const std::array<std::vector<std::int32_t>, 3>& chains);
+
+/// Divides each facet at its points, given in any order. The pieces follow each other in its place, and have its patch
+/// and its number in the file; other facets stay as they are. The soup must have no sides of regions. O(#F + n log n).
+void divide_at(Soup& soup, std::vector<SidePoint> points);
+
+/// Gives each facet its number in the file, if all have that of their place.
+void number_facets(Soup& soup);
+
+}  // namespace kerf
