@@ -256,7 +256,8 @@ Input input_of_arrays(Soup soup, const InputOptions& options) {
 
 }  // namespace
 
-CheckedSoup check_files(InputFiles files, const InputOptions& options, double needle_angle_deg) {
+CheckedSoup check_files(InputFiles files, const InputOptions& options, double needle_angle_deg,
+                        const std::function<void()>& poll) {
     CheckedSoup checked{std::move(files.soup), {}, {}, 0, {}};
     Soup& soup = checked.soup;
     InputRepairs& repairs = checked.repairs;
@@ -268,7 +269,7 @@ CheckedSoup check_files(InputFiles files, const InputOptions& options, double ne
         repairs.filled_holes = filling.holes;
         repairs.added_facets = filling.facets;
     }
-    checked.ladder = repair(soup, parse_repair_plan("repair", options.repair));
+    checked.ladder = repair(soup, parse_repair_plan("repair", options.repair), poll);
     repairs.unused_vertices = drop_unused_vertices(soup);
     take_points(soup, options);
     diagnose_regions(checked, files, {options.voids, needle_angle_deg}, options.fill_voids);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -124,8 +125,10 @@ CheckedSoup check_input(const std::string& path, const InputOptions& options = {
 /// misplaced, and Error(usage) for points where there are regions already.
 CheckedSoup check_soup(Soup soup, const InputOptions& options = {}, double needle_angle_deg = 1);
 
-/// Checks files that have been read: each is a body of its own, and those of several are regions.
-CheckedSoup check_files(InputFiles files, const InputOptions& options = {}, double needle_angle_deg = 1);
+/// Checks files that have been read: each is a body of its own, and those of several are regions. `poll`: as repair()
+/// calls it.
+CheckedSoup check_files(InputFiles files, const InputOptions& options = {}, double needle_angle_deg = 1,
+                        const std::function<void()>& poll = {});
 
 /// Drops the superfluous facets of a soup without errors, and orients it.
 OrientationReport apply_repairs(CheckedSoup& checked);

@@ -62,6 +62,10 @@ constexpr CellOrigin origin_of(std::int64_t tet, std::int64_t core_tets) {
     return core_tets == 0 ? CellOrigin::other : tet < core_tets ? CellOrigin::core : CellOrigin::shell;
 }
 
+/// What stands for a node where surfaces are asked for that were there before the one that was cut: as it was before
+/// remeshing, and before repairs.
+inline constexpr NodeId not_remeshed = 0, not_repaired = -1;
+
 /// The tetrahedra of one part.
 struct PartCells {
     NodeId part = 1;
@@ -94,9 +98,10 @@ struct WorstCell {
 };
 
 struct Progress {
-    bool running = false;  ///< a run is under way: ours or another's
+    bool running = false;  ///< a run is under way: ours or another's; or a repair, which is ours
     bool ours = false;     ///< it can be cancelled
-    std::string stage;     ///< "read", "remesh", "decompose", "prepare", "volume", "reference", "write", "hash"
+    std::string stage;     ///< "repair" of a surface; of a run "read", "remesh", "decompose", "prepare", "volume",
+                           ///< "reference", "write", "hash"
     std::int64_t parts_done = 0, parts = 0;
     double load_done = 0;  ///< in [0, 1]
     double seconds = 0;    ///< since its start
@@ -111,11 +116,13 @@ struct Document {
     std::string title;                     ///< the file's or folder's name
     ErrorCode error_code = ErrorCode::io;  ///< of `error`
     std::string error;                 ///< why it could not be opened: nothing else is there then but perhaps `checked`
-    std::shared_ptr<const Soup> soup;  ///< of a surface file: as it was read
-    std::shared_ptr<const CheckedSoup> checked;  ///< and what is wrong with it, once that is known
-    std::shared_ptr<const Trace> trace;          ///< with all stages, if there is one
+    std::shared_ptr<const Soup> soup;  ///< of a surface file: as it was read, or as repairs have left it
+    std::shared_ptr<const CheckedSoup> checked;     ///< and what is wrong with it, once that is known
+    std::shared_ptr<const CheckedSoup> unrepaired;  ///< as the file has it, where repairs have changed it; else null
+    std::shared_ptr<const Trace> trace;             ///< with all stages, if there is one
     Tree tree;
     std::string folder;                          ///< of the parts; empty: none
+    std::string surface_saved_as;                ///< where Session::save_surface() has written `checked`
     std::string saved_as;                        ///< where Session::save_run() has put a copy of it; empty: nowhere
     double cut_seconds = -1, mesh_seconds = -1;  ///< of the whole run, wall clock; negative: not known
     std::optional<Solution> solution;            ///< that was opened, and stands on these parts

@@ -23,6 +23,7 @@ Session::Impl::~Impl() {
     for (const auto& process : leaving_) process->wait(std::max(0.0, seconds_until(end)));
     open_.scope->end();
     data_.scope->end();
+    mending_.scope->end();
     watch_.scope->end();
 }
 
@@ -53,6 +54,7 @@ bool Session::Impl::poll() {
     const std::size_t done = loader_.take_over();
     bool changed = done > looks_in_vain_;
     changed |= poll_run();
+    if (is_repairing()) document_.progress.seconds = -seconds_until(mending_since_);
     return changed;
 }
 
@@ -111,6 +113,15 @@ std::shared_ptr<const std::vector<WorstCell>> Session::worst_cells(ColorBy color
 std::shared_ptr<const PartSolution> Session::solution(NodeId part, std::size_t number) {
     return impl_->solution(part, number);
 }
+bool Session::can_repair() const { return impl_->can_repair(); }
+void Session::repair(const InputOptions& options) { impl_->repair(options); }
+bool Session::is_repairing() const { return impl_->is_repairing(); }
+void Session::cancel_repair() { impl_->cancel_repair(); }
+bool Session::can_undo_repair() const { return impl_->can_undo_repair(); }
+bool Session::can_redo_repair() const { return impl_->can_redo_repair(); }
+void Session::undo_repair() { impl_->undo_repair(); }
+void Session::redo_repair() { impl_->redo_repair(); }
+void Session::save_surface(const std::string& path) { impl_->save_surface(path); }
 bool Session::pending() const { return impl_->pending(); }
 const std::vector<std::string>& Session::failures() const { return impl_->failures(); }
 

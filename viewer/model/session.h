@@ -68,16 +68,37 @@ class Session {
     /// the folder, or failures() says why not.
     void save_run(const std::string& path);
 
+    /// A surface that was opened from a file is checked: it can be repaired.
+    bool can_repair() const;
+    /// Checks it again, in the background, as other `input_options` mend it (InputOptions::repair and others), and
+    /// shows what they have left; `unrepaired` of the document is what the file has. Always starts from the file, so
+    /// that a command with the same options does the same. A run that is shown is kept to compare with, as by
+    /// start_run().
+    void repair(const InputOptions& options);
+    bool is_repairing() const;
+    /// Ends that; the document stays as it is.
+    void cancel_repair();
+    /// The options before the last repair, with what was shown for them, and after it.
+    bool can_undo_repair() const;
+    bool can_redo_repair() const;
+    void undo_repair();
+    void redo_repair();
+    /// Writes the surface, repaired as it is shown, in the background, as kerf repair does (prepare/repaired_file.h).
+    /// At the end Document::surface_saved_as is the file, or failures() says why not.
+    void save_surface(const std::string& path);
+
     // What follows returns what is in memory, or nullptr, and then fetches it: poll() says when it is there. The least
     // recently used leave the memory.
 
-    /// The closed surface of a node: of a trace by its cuts, of a run folder from the surfaces of its parts. 0: where
-    /// Document::remeshed, the surface as the file has it, repaired.
+    /// The closed surface of a node: of a trace by its cuts, of a run folder from the surfaces of its parts.
+    /// not_remeshed: where Document::remeshed, the surface as the file has it, repaired. not_repaired:
+    /// Document::unrepaired.
     std::shared_ptr<const NodeSurface> surface(NodeId node);
     /// The closed surface of a part of the run folder.
     std::shared_ptr<const NodeSurface> part_surface(NodeId part);
     /// The deviation of the facets of a surface that this session has given, or the size at its vertices; nullptr,
-    /// too, where the surface was not remeshed or no size was asked for.
+    /// too, where the surface was neither remeshed nor repaired, or no size was asked for. What was repaired deviates
+    /// from the file, what was remeshed from what it was before.
     std::shared_ptr<const SurfaceValues> values_on(const std::shared_ptr<const NodeSurface>& surface, ColorBy color);
     /// The tetrahedra of a part of the run folder.
     std::shared_ptr<const PartCells> cells(NodeId part);

@@ -88,9 +88,16 @@ Loader::Completion Session::Impl::fill_row(NodeId node, std::int64_t vertices, s
 
 std::shared_ptr<const NodeSurface> Session::Impl::surface(NodeId node) {
     const Store::Key key{Store::Kind::surface, node};
-    if (node == 0 ? !document_.remeshed : !document_.tree.find(node)) return nullptr;
+    const bool is_known = node == not_repaired   ? document_.unrepaired != nullptr
+                          : node == not_remeshed ? document_.remeshed
+                                                 : document_.tree.find(node) != nullptr;
+    if (!is_known) return nullptr;
     if (auto found = kept<NodeSurface>(key)) return found;
-    if (node == 0)
+    if (node == not_repaired)
+        return fetch<NodeSurface>(key, [unrepaired = document_.unrepaired]() -> Fetched<NodeSurface> {
+            return {node_surface_of(unrepaired->soup), {}};
+        });
+    if (node == not_remeshed)
         return fetch<NodeSurface>(
             key, [path = document_.options.input, options = document_.options.input_options]() -> Fetched<NodeSurface> {
                 return {node_surface_of(read_input(path, options).complex.arrays()), {}};
@@ -148,19 +155,31 @@ SizeField field_of(SizeOptions sizes, const NodeSurface& whole, const std::vecto
 
 }  // namespace
 
+// The surface from which one deviates: what is now from what was before, and what was from what is. nullptr: not there
+// yet.
+std::shared_ptr<const NodeSurface> Session::Impl::compared_with(const std::shared_ptr<const NodeSurface>& surface,
+                                                                const std::shared_ptr<const NodeSurface>& whole) {
+    const auto unrepaired = document_.unrepaired ? this->surface(not_repaired) : nullptr;
+    if (!document_.remeshed) return surface == unrepaired ? whole : unrepaired;
+    const auto before = this->surface(not_remeshed);
+    return surface == before || surface == unrepaired ? whole : before;
+}
+
 std::shared_ptr<const SurfaceValues> Session::Impl::values_on(const std::shared_ptr<const NodeSurface>& surface,
                                                               ColorBy color) {
     if (!surface || !is_of_surface(color) || why_without_values(document_, color)) return nullptr;
     const bool is_deviation = color == ColorBy::deviation;
     const Store::Key key{.kind = Store::Kind::on_surface, .color = static_cast<int>(color), .of = surface.get()};
     if (auto found = kept<SurfaceValues>(key)) return found;
-    const auto whole = this->surface(1), before = is_deviation ? this->surface(0) : nullptr;
-    if (!whole || (is_deviation && !before)) return nullptr;
-    if (is_deviation)
-        return fetch<SurfaceValues>(key,
-                                    [surface, other = surface == before ? whole : before]() -> Fetched<SurfaceValues> {
-                                        return {{surface, distances_of_facets(*surface, *other)}, {}};
-                                    });
+    const auto whole = this->surface(1);
+    if (!whole) return nullptr;
+    if (is_deviation) {
+        const auto other = compared_with(surface, whole);
+        if (!other) return nullptr;
+        return fetch<SurfaceValues>(key, [surface, other]() -> Fetched<SurfaceValues> {
+            return {{surface, distances_of_facets(*surface, *other)}, {}};
+        });
+    }
     return fetch<SurfaceValues>(
         key,
         [surface, whole, sizes = document_.options.sizes, names = document_.patch_names]() -> Fetched<SurfaceValues> {
@@ -338,59 +357,6 @@ void Session::Impl::prefetch_surfaces() {
         };
     };
     for (std::size_t i = state->nodes.size(); i > 0; --i) loader_.post_idle({data_.scope, next, {}});
-}
-
-void Session::Impl::redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane) {
-    failures_.clear();
-    if (!replayer_ || !document_.tree.find(node)) {
-        note_failure("A cut can be made again where a trace of the run is open.");
-        return;
-    }
-    redo_queue_.push_back({node, options, plane});
-    start_redo();
-}
-
-// One after the other: each changes the trace.
-void Session::Impl::start_redo() {
-    if (redoing_ || redo_queue_.empty()) return;
-    const Redo redo = redo_queue_.front();
-    redo_queue_.pop_front();
-    redoing_ = true;
-    const auto work = [this, replayer = replayer_, redo]() -> Loader::Completion {
-        const auto redone = std::make_shared<RedoneCut>(view::redo_cut(*replayer, redo.node, redo.options, redo.plane));
-        return [this, id = redo.node, redone] { take_redone(id, std::move(*redone)); };
-    };
-    post(data_, work, [this](const std::string& message) {
-        redoing_ = false;
-        note_failure(message);
-        start_redo();
-    });
-}
-
-void Session::Impl::take_redone(NodeId node, RedoneCut redone) {
-    set_aside(document_);
-    store_.share(other_->store);
-    document_.histograms = {};
-    document_.cut_seconds = document_.mesh_seconds = -1;
-    document_.progress.message.clear();
-    document_.saved_as.clear();
-    const auto is_gone = [&](NodeId id) { return id != node && lies_below(id, node); };
-    std::erase_if(document_.tree.rows, [&](const TreeRow& row) { return is_gone(row.id); });
-    for (TreeRow& row : redone.rows) {
-        if (row.id == node && document_.tree.find(node)) row.load = document_.tree.find(node)->load;
-        document_.tree.at(row.id) = row;
-    }
-    count_leaves(document_.tree);
-    std::erase_if(folder_parts_, [&](NodeId id) { return lies_below(id, node); });
-    store_.erase_if([&](const Store::Key& key) {
-        return key.kind == Store::Kind::worst_cells || key.kind == Store::Kind::on_surface ||
-               (key.node > 0 && lies_below(key.node, node));
-    });
-    restart_data();
-    replayer_ = redone.replayer;
-    document_.trace = redone.replayer->trace();
-    prefetch_surfaces();
-    start_redo();
 }
 
 }  // namespace kerf::view

@@ -1,5 +1,6 @@
-// The inside of Session, in five parts: what is open (session_open.cpp), runs that are followed (session_run.cpp), the
-// run before (session_pair.cpp), what is fetched (session_data.cpp), and the calls from outside (session.cpp).
+// The inside of Session, in six parts: what is open (session_open.cpp), how it is checked and repaired
+// (session_repair.cpp), runs that are followed (session_run.cpp), the run before (session_pair.cpp), what is fetched
+// (session_data.cpp), and the calls from outside (session.cpp).
 //
 // The first thread owns all members. Tasks of the loader get copies and shared constants, and give back a completion,
 // which the first thread runs. Tasks belong to a Group; when it is reset, those that wait and all results are dropped.
@@ -15,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "viewer/model/checked_surface.h"
 #include "viewer/model/file_kind.h"
 #include "viewer/model/loader.h"
 #include "viewer/model/part_files.h"
@@ -38,6 +40,17 @@ class Session::Impl {
     void reload();
     void close();
 
+    // session_repair.cpp
+    bool can_repair() const;
+    void repair(const InputOptions& options);
+    bool is_repairing() const { return mending_.jobs > 0; }
+    void cancel_repair();
+    bool can_undo_repair() const { return can_repair() && history_.can_undo(); }
+    bool can_redo_repair() const { return can_repair() && history_.can_redo(); }
+    void undo_repair();
+    void redo_repair();
+    void save_surface(const std::string& path);
+
     // session_run.cpp
     void start_run(RunOptions options, bool volume);
     void cancel_run();
@@ -49,9 +62,9 @@ class Session::Impl {
     void swap_runs();
     bool can_save_run() const;
     void save_run(const std::string& path);
+    void redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane);
 
     // session_data.cpp
-    void redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane);
     std::shared_ptr<const NodeSurface> surface(NodeId node);
     std::shared_ptr<const NodeSurface> part_surface(NodeId part);
     std::shared_ptr<const SurfaceValues> values_on(const std::shared_ptr<const NodeSurface>& surface, ColorBy color);
@@ -107,7 +120,6 @@ class Session::Impl {
     static OpenedPartialRun read_partial_run(const OpenedPath& path);
     void show_error(ErrorCode code, const std::string& message);
     void show_files(const std::shared_ptr<const InputFiles>& files, const std::shared_ptr<const NodeSurface>& surface);
-    void check_files_in_background();
     void show_trace(std::shared_ptr<const Trace> trace, const RunOptions& options);
     void show_run(OpenedRun run);
     void complete_from_report(OpenedRun run);
@@ -115,6 +127,14 @@ class Session::Impl {
     void show_partial_run(const OpenedPartialRun& run);
     void describe_trace_input(const Trace& trace);
     void add_note(const std::string& note);
+
+    // --- repairs ---
+    Loader::Work checking(const InputOptions& options, std::shared_ptr<const Scope> scope);
+    void check_files_in_background();
+    void take_checked(std::vector<CheckedSurface> states);
+    void show_checked();
+    void show_its_surface();
+    void show_surface_again();
 
     // --- runs ---
     // A run that the document follows: ours, or that of another process.
@@ -174,6 +194,8 @@ class Session::Impl {
         Store store{store_bytes};
     };
     void set_aside(Document before);
+    void start_redo();
+    void take_redone(NodeId node, RedoneCut redone);
 
     // --- what is fetched ---
     template <class T>
@@ -185,6 +207,8 @@ class Session::Impl {
     std::shared_ptr<const T> fetch(const Store::Key& key, Make make);
     template <class T>
     std::shared_ptr<const T> kept(const Store::Key& key);
+    std::shared_ptr<const NodeSurface> compared_with(const std::shared_ptr<const NodeSurface>& surface,
+                                                     const std::shared_ptr<const NodeSurface>& whole);
     Loader::Completion fill_row(NodeId node, std::int64_t vertices, std::int64_t facets, const MassProperties& mass);
     bool is_meshed(NodeId part) const;
     PartSource source_of(NodeId part) const;
@@ -199,8 +223,6 @@ class Session::Impl {
     void forget_data();
     void describe_cuts();
     void prefetch_surfaces();
-    void start_redo();
-    void take_redone(NodeId node, RedoneCut redone);
 
     std::string kerf_program_;
     Document document_;
@@ -209,6 +231,10 @@ class Session::Impl {
     std::vector<std::string> failures_;
 
     Group open_, data_;
+    RepairHistory history_;   // of files_
+    std::string shown_note_;  // of the state that it shows; empty: it has none
+    Group mending_;
+    std::chrono::steady_clock::time_point mending_since_ = {};
     Group watch_;  // looks at folders of runs now and then: nobody waits for it
     Store store_{store_bytes};
     bool asked_ = false;  // something was, since the last poll()

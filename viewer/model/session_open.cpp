@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "prepare/cad_input.h"
-#include "prepare/slivers.h"
 #include "request/saved_run.h"
 #include "surface/mass_properties.h"
 #include "viewer/model/advice.h"
@@ -57,34 +56,6 @@ RunOptions options_for(const Trace& trace, const std::string& path) {
     return options;
 }
 
-// What a run would cut; mass properties are those of one region.
-struct Oriented {
-    std::int64_t vertices = 0, facets = 0;
-    double volume = 0;
-    std::optional<MassProperties> mass = {};
-    std::vector<std::string> region_names = {};
-};
-Oriented orient_copy(CheckedSoup checked) {
-    apply_repairs(checked);
-    Complex complex = make_complex(std::move(checked.soup));
-    Oriented oriented{complex.vertex_count(), complex.facet_count()};
-    if (complex.region_count() == 1) {
-        oriented.mass = mass_properties(complex.take_only_region());
-        oriented.volume = oriented.mass->volume;
-        return oriented;
-    }
-    for (std::int32_t r = 0; r < complex.region_count(); ++r)
-        oriented.volume += enclosed_volume(complex.surface_of(RegionIndex(r)));
-    oriented.region_names.assign(complex.region_names().begin(), complex.region_names().end());
-    return oriented;
-}
-
-// Surfaces of CAD models are remeshed without being asked.
-std::string note_of_slivers(const CheckedSoup& checked, const std::string& path) {
-    const Soup& soup = checked.soup;
-    return soup.is_of_model ? "" : sliver_note(find_slivers(soup.vertices, soup.facets), path);
-}
-
 // A run that is made from the options of another one shall not write over its files. Returns where its trace is.
 std::string take_files(RunOptions& options, const std::string& folder) {
     std::string trace = options.trace_file.empty() ? "" : existing_path(options.trace_file, folder);
@@ -109,6 +80,7 @@ std::shared_ptr<const Soup> read_soup_if_there(const std::string& path, const In
 void Session::Impl::close() {
     open_.reset();
     watch_.reset();
+    mending_.reset();
     forget_data();
     if (process_) {
         process_->interrupt();
@@ -121,6 +93,7 @@ void Session::Impl::close() {
     failures_.clear();
     document_ = {};
     files_.reset();
+    history_.clear();
     opening_ = false;
 }
 
@@ -209,28 +182,6 @@ void Session::Impl::show_files(const std::shared_ptr<const InputFiles>& files,
     root.facets = document_.input_facets;
     store_.insert({Store::Kind::surface, 1}, surface, bytes_of(*surface));
     check_files_in_background();
-}
-
-void Session::Impl::check_files_in_background() {
-    const auto check = [this, files = files_, path = document_.options.input,
-                        repairs = document_.options.input_options]() -> Loader::Completion {
-        const auto checked = std::make_shared<const CheckedSoup>(check_files(*files, repairs));
-        std::optional<Oriented> oriented;
-        if (checked->diagnosis.clean()) oriented = orient_copy(*checked);
-        const std::string note = oriented ? note_of_slivers(*checked, path) : "";
-        return [this, checked, oriented, note] {
-            document_.checked = checked;
-            if (!note.empty() && !is_set(document_.options, *advised_option(note))) add_note(note);
-            TreeRow* root = document_.tree.find(1);
-            if (!oriented || !root || !root->leaf() || document_.trace) return;  // a run has told more since
-            root->vertices = oriented->vertices;
-            root->facets = oriented->facets;
-            root->volume = document_.volume = oriented->volume;
-            if (oriented->mass) describe_surface(oriented->vertices, oriented->facets, *oriented->mass, *root);
-            document_.region_names = oriented->region_names;
-        };
-    };
-    post(open_, check, [this](const std::string& message) { note_failure(message); });
 }
 
 void Session::Impl::describe_trace_input(const Trace& trace) {

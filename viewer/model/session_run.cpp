@@ -9,16 +9,6 @@
 
 namespace kerf::view {
 
-namespace {
-
-bool same_repairs(InputOptions a, InputOptions b) {
-    const std::vector<OptionField> of_a = input_option_fields(a), of_b = input_option_fields(b);
-    return std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
-                      [](const OptionField& x, const OptionField& y) { return x.text() == y.text(); });
-}
-
-}  // namespace
-
 std::string Session::Impl::input_of_next_run() const {
     const std::string& input = document_.options.input;
     return exists(input) ? absolute_path(input) : "";
@@ -73,7 +63,7 @@ void Session::Impl::start_run(RunOptions options, bool volume) {
     followed_->has_scratch_output = options.output.empty();
     followed_->before = std::move(before);
     const bool checks_again =
-        files_ && document_.checked && !same_repairs(options.input_options, document_.options.input_options);
+        files_ && document_.checked && !same_input(options.input_options, document_.options.input_options);
     document_.options = options;
     if (checks_again) check_files_in_background();
     store_.erase_if([](const Store::Key& key) { return key.kind == Store::Kind::on_surface; });  // of other sizes
@@ -104,7 +94,9 @@ void Session::Impl::launch(const RunOptions& options, bool volume) {
 }
 
 void Session::Impl::cancel_run() {
-    if (process_)
+    if (is_repairing())
+        cancel_repair();
+    else if (process_)
         process_->interrupt();
     else if (document_.progress.ours && !followed_->end)
         end_without_result("The run was cancelled.", static_cast<int>(ErrorCode::cancelled));

@@ -13,9 +13,9 @@ namespace kerf::view {
 namespace {
 
 constexpr std::array<const char*, stage_count> stage_names = {
-    "before-remeshing", "input",         "plane",   "crossed-edges", "hanging-removed",
-    "closed-loops",     "paths-removed", "contour", "projected",     "triangulation",
-    "interface",        "split",         "parts",   "tetrahedra",
+    "before-repair",   "before-remeshing", "input",         "plane",   "crossed-edges",
+    "hanging-removed", "closed-loops",     "paths-removed", "contour", "projected",
+    "triangulation",   "interface",        "split",         "parts",   "tetrahedra",
 };
 constexpr std::string_view try_prefix = "try:";
 

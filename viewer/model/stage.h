@@ -9,7 +9,8 @@
 namespace kerf::view {
 
 enum class Stage {
-    before_remeshing,  ///< of the root: the surface as the file has it, where another one was cut
+    before_repair,     ///< of the root: the surface as the file has it, where repairs have changed it
+    before_remeshing,  ///< of the root: the surface as it was read and repaired, where another one was cut
     input,             ///< the surface of the node, its principal axes and its centre of gravity
     plane,             ///< the cutting plane
     crossed_edges,     ///< edges with ends on both sides of the plane

@@ -31,6 +31,12 @@ std::array<Vec3, 3> corners_of(const NodeSurface& surface, std::size_t facet) {
             surface.vertices[static_cast<std::size_t>(t[2])]};
 }
 
+// Files may have coordinates that are no numbers.
+bool is_finite(const NodeSurface& surface, const Triangle& t) {
+    return std::all_of(t.begin(), t.end(),
+                       [&](std::int32_t v) { return surface.vertices[static_cast<std::size_t>(v)].allFinite(); });
+}
+
 // An edge of one facet of the input.
 struct Side {
     std::int32_t low, high;  // vertices
@@ -69,8 +75,10 @@ bool is_feature(const NodeSurface& surface, std::size_t f, std::size_t g) {
 
 const char* why_without_values(const Document& document, ColorBy color) {
     const SizeOptions& sizes = document.options.sizes;
-    if (color == ColorBy::deviation && !document.remeshed)
-        return "The surface was not remeshed, so that it deviates nowhere. --surface remesh does that.";
+    if (color == ColorBy::deviation && !document.remeshed && !document.unrepaired)
+        return "The surface was neither remeshed nor repaired, so that it deviates nowhere. --surface remesh and "
+               "--repair "
+               "do that.";
     if (color == ColorBy::size && !sizes.depends_on_place() && sizes.max_volume == 0 && sizes.size.number() == 0)
         return "No size is asked for: --size and its like do that.";
     if (is_of_solution(color) && !document.solution)
@@ -79,10 +87,13 @@ const char* why_without_values(const Document& document, ColorBy color) {
 }
 
 std::vector<float> distances_of_facets(const NodeSurface& surface, const NodeSurface& other) {
-    const TriangleTree tree(other.vertices, other.facets);
+    std::vector<Triangle> facets = other.facets;
+    std::erase_if(facets, [&](const Triangle& t) { return !is_finite(other, t); });
     std::vector<float> distances(surface.facets.size(), std::nanf(""));
+    if (facets.empty()) return distances;
+    const TriangleTree tree(other.vertices, facets);
     for (std::size_t f = 0; f < distances.size(); ++f)
-        if (!surface.is_interface(static_cast<std::int32_t>(f)))
+        if (!surface.is_interface(static_cast<std::int32_t>(f)) && is_finite(surface, surface.facets[f]))
             distances[f] = static_cast<float>(farthest_sample(corners_of(surface, f), tree));
     return distances;
 }

@@ -13,7 +13,8 @@ namespace kerf::view {
 /// Why the surfaces of a document have no such values; null: they have, or the colouring is none of surfaces.
 const char* why_without_values(const Document& document, ColorBy color);
 
-/// The largest distance of each facet from another surface, at 10 points of it; NaN for facets of interfaces.
+/// The largest distance of each facet from another surface, at 10 points of it; NaN for facets of interfaces,
+/// and for those with coordinates that are not finite.
 /// O(#F log #F).
 std::vector<float> distances_of_facets(const NodeSurface& surface, const NodeSurface& other);
 

@@ -164,6 +164,7 @@ bool has_cells(const Document& document, NodeId node) {
 
 std::vector<Step> steps_of(const Document& document, NodeId node) {
     std::vector<Step> steps;
+    if (node == 1 && document.unrepaired) steps.push_back({Stage::before_repair, -1});
     if (node == 1 && document.remeshed) steps.push_back({Stage::before_remeshing, -1});
     steps.push_back({Stage::input, -1});
     const Cut* cut = document.trace ? document.trace->find(node) : nullptr;
@@ -198,8 +199,10 @@ std::string describe_step(const Document& document, NodeId node, const Step& ste
         return describe_try(cut->tries[number], number, cut->tries.size(), node);
     }
     switch (step.stage) {
-        case Stage::before_remeshing:
+        case Stage::before_repair:
             return "The surface as the file has it.";
+        case Stage::before_remeshing:
+            return document.unrepaired ? "The surface of the file, repaired." : "The surface as the file has it.";
         case Stage::input:
             return describe_input(document, row);
         case Stage::plane:

@@ -67,6 +67,8 @@ std::string heading(const Document& document, const ViewState& state, const Step
     const Content content = content_of(document, state);
     const TreeRow* row = document.tree.find(state.node);
     if (step.refused_try < 0) switch (step.stage) {
+            case Stage::before_repair:
+                return body + ": surface of the file, before repairs";
             case Stage::before_remeshing:
                 return body + ": surface of the file, before remeshing";
             case Stage::input:

@@ -3,9 +3,9 @@
 
 namespace kerf::view {
 
-void SceneBuild::add_defects() {
-    if (!document_.checked || state_.node != 1) return;
-    const CheckedSoup& checked = *document_.checked;
+void SceneBuild::add_defects(const CheckedSoup* found) {
+    if (!found || state_.node != 1) return;
+    const CheckedSoup& checked = *found;
     const Soup& soup = checked.soup;
     const auto point = [&](std::int32_t v) { return soup.vertices[static_cast<std::size_t>(v)]; };
     std::vector<Vec3> errors, warnings;

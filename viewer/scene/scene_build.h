@@ -86,11 +86,11 @@ class SceneBuild {
     Layer* add_surface(const std::string& name, const std::shared_ptr<const NodeSurface>& surface, NodeId owner,
                        const Color& color, const Color& interface_color, const Vec3& offset);
     void add_node(const std::shared_ptr<const NodeSurface>& surface);
-    void add_file_surface();
+    void add_file_surface(NodeId which);
     void add_features(const std::string& name, const std::shared_ptr<const NodeSurface>& surface, NodeId owner,
                       const Vec3& offset);
     void add_context();
-    void add_defects();
+    void add_defects(const CheckedSoup* found);
     void add_axes(const TreeRow& row);
     void add_plane(const Plane& plane);
     void add_try(const CutTry& attempt, const NodeSurface& surface);

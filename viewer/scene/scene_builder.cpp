@@ -186,13 +186,16 @@ void SceneBuild::add_node(const std::shared_ptr<const NodeSurface>& surface) {
     if (layer) add_features("features", surface, state_.node, Vec3::Zero());
 }
 
-// What was cut looks like it from afar, so that the one comes in the place of the other.
-void SceneBuild::add_file_surface() {
-    const auto surface = session_.surface(0);
+// What was cut looks like it from afar, so that the one comes in the place of the other. `which`: not_remeshed or
+// not_repaired.
+void SceneBuild::add_file_surface(NodeId which) {
+    const auto surface = session_.surface(which);
     built_.pending |= !surface;
     if (!surface || state_.is_hidden(1)) return;
-    if (add_surface("file surface", surface, 0, colors_.surface, colors_.interface, Vec3::Zero()))
-        add_features("features", surface, 0, Vec3::Zero());
+    Layer* layer = add_surface("file surface", surface, which, colors_.surface, colors_.interface, Vec3::Zero());
+    if (!layer) return;
+    if (which == not_repaired) layer->closed = false;
+    add_features("features", surface, which, Vec3::Zero());
 }
 
 void SceneBuild::add_features(const std::string& name, const std::shared_ptr<const NodeSurface>& surface, NodeId owner,
@@ -259,8 +262,10 @@ BuiltScene SceneBuild::run() {
 
     const auto surface = surface_of(session_, state_.node);
     built_.pending |= !surface;
-    if (step_.stage == Stage::before_remeshing)
-        add_file_surface();
+    if (step_.stage == Stage::before_repair)
+        add_file_surface(not_repaired);
+    else if (step_.stage == Stage::before_remeshing)
+        add_file_surface(not_remeshed);
     else if (step_.stage == Stage::tetrahedra)
         add_tetrahedra(surface);
     else if (step_.stage == Stage::parts)
@@ -270,7 +275,10 @@ BuiltScene SceneBuild::run() {
     else if (surface)
         add_node(surface);
     if (surface) add_context();
-    if (step_.stage == (document_.remeshed ? Stage::before_remeshing : Stage::input)) add_defects();
+    if (step_.stage == Stage::before_repair)
+        add_defects(document_.unrepaired.get());
+    else if (step_.stage == (document_.remeshed ? Stage::before_remeshing : Stage::input))
+        add_defects(document_.checked.get());
     add_selection();
     set_range_of_values();
     add_isolines();

@@ -54,8 +54,15 @@ std::string in_region(const Document& document, NodeId node) {
 }
 
 std::string owner_text(const Document& document, NodeId owner) {
-    if (owner == 0) return "the surface before remeshing";
+    if (owner == not_remeshed) return "the surface before remeshing";
+    if (owner == not_repaired) return "the surface before repairs";
     return fmt::format("{} {}{}", is_leaf(document, owner) ? "part" : "node", owner, in_region(document, owner));
+}
+
+// What the numbers of its facets are of.
+const char* numbered_surface(const Document& document, NodeId owner) {
+    if (document.remeshed && owner > not_remeshed) return "remeshed surface";
+    return document.unrepaired && owner != not_repaired ? "repaired surface" : "input";
 }
 
 std::string vertex_line(const char* label, std::int32_t index, std::int64_t number, const Vec3& p) {
@@ -67,9 +74,7 @@ std::string describe_facet(Session& session, const NodeSurface& surface, NodeId 
     std::string text = fmt::format("facet {} of {}\n", facet, owner_text(document, owner));
     const std::int32_t number = surface.facet_number.empty() ? -1 : surface.facet_number[facet];
     const NodeId interface = surface.interface_of.empty() ? 0 : surface.interface_of[facet];
-    if (number >= 0)
-        text +=
-            fmt::format("facet {} of the {}\n", number, document.remeshed && owner > 0 ? "remeshed surface" : "input");
+    if (number >= 0) text += fmt::format("facet {} of the {}\n", number, numbered_surface(document, owner));
     if (interface > 0) text += fmt::format("interface of the cut of node {}\n", interface);
     if (!surface.neighbour.empty() && surface.neighbour[facet] >= 0)
         text += fmt::format("part {} behind it{}\n", surface.neighbour[facet],
