@@ -14,13 +14,13 @@ namespace {
 
 class Cleaning {
  public:
-    Cleaning(Soup& soup, StepReport& report) : soup_(soup), report_(report) {}
+    Cleaning(Soup& soup, bool with_walls, StepReport& report) : soup_(soup), with_walls_(with_walls), report_(report) {}
 
     void run() {
         accept_unfit();
         drop_undefined();
         drop_flat();
-        const SurplusCopies surplus = find_surplus_copies(soup_.facets);
+        const SurplusCopies surplus = find_surplus_copies(soup_.facets, with_walls_);
         std::vector<char> drop(soup_.facets.size(), 0);
         mark(surplus.copies, {"copy of a facet removed", "copies of facets removed"}, drop);
         mark(surplus.folds, {"facet folded upon another removed", "facets folded upon each other removed"}, drop);
@@ -90,11 +90,14 @@ class Cleaning {
     }
 
     Soup& soup_;
+    bool with_walls_;  // what lies between two bodies goes, too
     StepReport& report_;
 };
 
 }  // namespace
 
-void clean_step(Soup& soup, const StepRequest&, StepReport& report) { Cleaning(soup, report).run(); }
+void clean_step(Soup& soup, const StepRequest& request, StepReport& report) {
+    Cleaning(soup, request.bodies == BodyRepair::unite, report).run();
+}
 
 }  // namespace kerf

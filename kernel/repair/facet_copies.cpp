@@ -25,7 +25,8 @@ struct CopySheet {
     std::int64_t free = 0, even = 0, odd = 0;  // edges of its rim with one facet, an even number, an odd one above 1
 
     // Whether nothing of it stays.
-    bool is_fold(bool is_all) const {
+    bool is_fold(bool is_all, bool with_walls) const {
+        if (!with_walls && free == 0) return false;
         if (is_folded && groups == 1 && odd + even == 0) return !is_all;  // a flat pocket
         return odd > even + (is_folded ? 0 : free);
     }
@@ -33,8 +34,8 @@ struct CopySheet {
 
 class CopyJudge {
  public:
-    CopyJudge(const std::vector<Triangle>& facets, const std::vector<FacetCopies>& copies)
-        : facets_(facets), copies_(copies), group_of_(facets.size(), -1) {
+    CopyJudge(const std::vector<Triangle>& facets, const std::vector<FacetCopies>& copies, bool with_walls)
+        : facets_(facets), copies_(copies), with_walls_(with_walls), group_of_(facets.size(), -1) {
         std::vector<char> is_surplus(facets.size(), 0);
         for (std::size_t g = 0; g < copies.size(); ++g) {
             group_of_[copies[g].facets[0]] = static_cast<std::int32_t>(g);
@@ -55,7 +56,7 @@ class CopyJudge {
         SurplusCopies surplus;
         for (std::size_t g = 0; g < copies_.size(); ++g) {
             const std::vector<std::int32_t>& all = copies_[g].facets;
-            const bool is_fold = sheets[sheet_of.of[g]].is_fold(is_all);
+            const bool is_fold = sheets[sheet_of.of[g]].is_fold(is_all, with_walls_);
             std::vector<std::int32_t>& list = is_fold ? surplus.folds : surplus.copies;
             list.insert(list.end(), all.begin() + (is_fold ? 0 : 1), all.end());
         }
@@ -99,6 +100,7 @@ class CopyJudge {
 
     const std::vector<Triangle>& facets_;
     const std::vector<FacetCopies>& copies_;
+    bool with_walls_;
     std::vector<std::int32_t> group_of_;  // of the first facet of a group, else -1
     std::vector<Triangle> single_;        // one facet of each group
     std::vector<std::int32_t> number_;    // of them
@@ -106,10 +108,10 @@ class CopyJudge {
 
 }  // namespace
 
-SurplusCopies find_surplus_copies(const std::vector<Triangle>& facets) {
+SurplusCopies find_surplus_copies(const std::vector<Triangle>& facets, bool with_walls) {
     const SuperfluousFacets found = find_superfluous_facets(facets);
     if (found.copies.empty()) return {};
-    return CopyJudge(facets, found.copies).judge();
+    return CopyJudge(facets, found.copies, with_walls).judge();
 }
 
 }  // namespace kerf

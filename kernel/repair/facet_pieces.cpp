@@ -11,6 +11,12 @@ namespace kerf {
 
 namespace {
 
+std::vector<std::int32_t> numbers_of_places(std::size_t count) {
+    std::vector<std::int32_t> numbers(count);
+    std::iota(numbers.begin(), numbers.end(), 0);
+    return numbers;
+}
+
 // Puts the fan of the last corner of the piece over its side from the first to the second in place of it.
 void divide_piece(std::vector<Triangle>& pieces, std::size_t piece, const std::vector<std::int32_t>& chain) {
     const auto [a, b, apex] = pieces[piece];
@@ -45,10 +51,12 @@ std::vector<Triangle> pieces_of(const Triangle& facet, const std::array<std::vec
     return pieces;
 }
 
+void number_vertices(Soup& soup) {
+    if (soup.vertex_number.empty()) soup.vertex_number = numbers_of_places(soup.vertices.size());
+}
+
 void number_facets(Soup& soup) {
-    if (!soup.polygon.empty()) return;
-    soup.polygon.resize(soup.facets.size());
-    std::iota(soup.polygon.begin(), soup.polygon.end(), 0);
+    if (soup.polygon.empty()) soup.polygon = numbers_of_places(soup.facets.size());
 }
 
 void divide_at(Soup& soup, std::vector<SidePoint> points) {

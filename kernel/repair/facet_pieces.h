@@ -22,6 +22,9 @@ std::vector<Triangle> pieces_of(const Triangle& facet, const std::array<std::vec
 /// and its number in the file; other facets stay as they are. The soup must have no sides of regions. O(#F + n log n).
 void divide_at(Soup& soup, std::vector<SidePoint> points);
 
+/// Gives each vertex its number in the file, if all have that of their place.
+void number_vertices(Soup& soup);
+
 /// Gives each facet its number in the file, if all have that of their place.
 void number_facets(Soup& soup);
 

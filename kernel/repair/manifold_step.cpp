@@ -1,7 +1,71 @@
+// First what bounds nothing goes. Then each fan of facets at a vertex gets a vertex of its own, and moves a little into
+// itself, so that what touched is apart: equal coordinates would be welded again. Where both ends of an edge have one
+// fan, the pairs of its facets get middles of their own.
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "repair/loose_sheets.h"
 #include "repair/repair_step.h"
+#include "repair/rims.h"
+#include "repair/touching_fans.h"
 
 namespace kerf {
 
-void manifold_step(Soup&, const StepRequest&, StepReport&) {}
+namespace {
+
+class Opening {
+ public:
+    Opening(Soup& soup, const StepRequest& request, StepReport& report)
+        : soup_(soup), request_(request), report_(report) {}
+
+    void run() {
+        drop_loose();
+        request_.poll();
+        FanSeparation separation = separate_fans(soup_, request_.bound);
+        report_.largest_move = std::max(report_.largest_move, separation.largest_move);
+        for (RepairAction& action : separation.actions) report_.actions.push_back(std::move(action));
+    }
+
+ private:
+    void drop_loose() {
+        const bool with_walls = request_.bodies == BodyRepair::unite;
+        const LooseSheets loose = find_loose_sheets(soup_.vertices, soup_.facets, with_walls);
+        if (loose.fins.empty() && loose.membranes.empty() && loose.walls.empty()) return;
+        std::vector<char> drop(soup_.facets.size(), 0);
+        mark(loose.fins, {"facet of a fin removed", "facets of fins removed"}, drop);
+        mark(loose.membranes,
+             {"facet with the same material on both sides removed",
+              "facets with the same material on both sides removed"},
+             drop);
+        mark(loose.walls, {"facet of a wall between bodies removed", "facets of walls between bodies removed"}, drop);
+        drop_facets(soup_, drop);
+        drop_unused_vertices(soup_);
+    }
+    void mark(const std::vector<std::int32_t>& facets, RepairAction action, std::vector<char>& drop) {
+        for (const std::int32_t f : facets) {
+            action.add({soup_.vertices[soup_.facets[f][0]], soup_.file_facets({f})});
+            drop[f] = 1;
+        }
+        report_.actions.push_back(std::move(action));
+    }
+
+    Soup& soup_;
+    const StepRequest& request_;
+    StepReport& report_;
+};
+
+}  // namespace
+
+void manifold_step(Soup& soup, const StepRequest& request, StepReport& report) {
+    if (has_ordinary_facets(soup)) {
+        Opening(soup, request, report).run();
+        return;
+    }
+    RepairAction left{"surface", "surfaces"};
+    left.refused_because = "it has facets with a repeated vertex or without finite coordinates: clean first";
+    left.count = 1;
+    report.actions.push_back(std::move(left));
+}
 
 }  // namespace kerf

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/elements.h"
 #include "geometry/box.h"
 #include "geometry/triangle.h"
 #include "repair/repair_step.h"
@@ -23,7 +22,7 @@ class Orienting {
  public:
     Orienting(Soup& soup, StepReport& report) : soup_(soup), report_(report) {
         for (std::size_t f = 0; f < soup.facets.size(); ++f)
-            if (is_ordinary(soup.facets[f])) number_.push_back(static_cast<std::int32_t>(f));
+            if (is_ordinary(soup.vertices, soup.facets[f])) number_.push_back(static_cast<std::int32_t>(f));
         for (const std::int32_t f : number_) facets_.push_back(soup.facets[f]);
     }
 
@@ -43,10 +42,6 @@ class Orienting {
     }
 
  private:
-    bool is_ordinary(const Triangle& t) const {
-        return !has_repeated_vertex(t) && soup_.vertices[t[0]].allFinite() && soup_.vertices[t[1]].allFinite() &&
-               soup_.vertices[t[2]].allFinite();
-    }
     void restore_one_sided();
     void turn_by_cells();
     void turn_piece_by_cells(const std::vector<std::int32_t>& piece);

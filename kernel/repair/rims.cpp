@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "core/elements.h"
 #include "geometry/union_find.h"
 #include "surface/edge_corners.h"
 
@@ -33,6 +34,16 @@ Rims find_rims(const std::vector<Triangle>& facets) {
         piece.edges_of_many += corners.size() > 2;
     });
     return rims;
+}
+
+bool is_ordinary(const std::vector<Vec3>& vertices, const Triangle& facet) {
+    return !has_repeated_vertex(facet) &&
+           std::all_of(facet.begin(), facet.end(), [&](std::int32_t v) { return vertices[v].allFinite(); });
+}
+
+bool has_ordinary_facets(const Soup& soup) {
+    return std::all_of(soup.facets.begin(), soup.facets.end(),
+                       [&](const Triangle& t) { return is_ordinary(soup.vertices, t); });
 }
 
 CompactFacets make_compact(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {

@@ -1,9 +1,10 @@
 // What hangs together over edges, and where it is open.
 #pragma once
 
+#include <utility>
 #include <vector>
 
-#include "core/types.h"
+#include "surface/soup.h"
 
 namespace kerf {
 
@@ -34,6 +35,10 @@ struct CompactFacets {
 
 /// O(n log n) for n facets, however many vertices there are.
 CompactFacets make_compact(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets);
+
+/// Whether all facets have three different vertices, with finite coordinates.
+bool has_ordinary_facets(const Soup& soup);
+bool is_ordinary(const std::vector<Vec3>& vertices, const Triangle& facet);
 
 /// The same facet seen from the other side.
 inline void turn(Triangle& facet) { std::swap(facet[1], facet[2]); }
