@@ -59,15 +59,15 @@ void number_facets(Soup& soup) {
     if (soup.polygon.empty()) soup.polygon = numbers_of_places(soup.facets.size());
 }
 
-void divide_at(Soup& soup, std::vector<SidePoint> points) {
+std::vector<std::int32_t> divide_at(Soup& soup, std::vector<SidePoint> points) {
     KERF_CHECK(soup.sides.empty());
-    if (points.empty()) return;
+    if (points.empty()) return {};
     std::sort(points.begin(), points.end(), [](const SidePoint& p, const SidePoint& q) {
         return std::tie(p.corner, p.along, p.vertex) < std::tie(q.corner, q.along, q.vertex);
     });
     number_facets(soup);
     std::vector<Triangle> facets;
-    std::vector<std::int32_t> patch, polygon;
+    std::vector<std::int32_t> patch, polygon, parent;
     facets.reserve(soup.facets.size() + points.size());
     patch.reserve(facets.capacity());
     polygon.reserve(facets.capacity());
@@ -81,11 +81,13 @@ void divide_at(Soup& soup, std::vector<SidePoint> points) {
             facets.push_back(piece);
             patch.push_back(soup.patch[f]);
             polygon.push_back(soup.polygon[f]);
+            parent.push_back(static_cast<std::int32_t>(f));
         }
     }
     soup.facets = std::move(facets);
     soup.patch = std::move(patch);
     soup.polygon = std::move(polygon);
+    return parent;
 }
 
 }  // namespace kerf

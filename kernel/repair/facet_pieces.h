@@ -19,8 +19,9 @@ struct SidePoint {
 std::vector<Triangle> pieces_of(const Triangle& facet, const std::array<std::vector<std::int32_t>, 3>& chains);
 
 /// Divides each facet at its points, given in any order. The pieces follow each other in its place, and have its patch
-/// and its number in the file; other facets stay as they are. The soup must have no sides of regions. O(#F + n log n).
-void divide_at(Soup& soup, std::vector<SidePoint> points);
+/// and its number in the file; other facets stay as they are. Returns which facet each one was, or nothing without
+/// points. The soup must have no sides of regions. O(#F + n log n).
+std::vector<std::int32_t> divide_at(Soup& soup, std::vector<SidePoint> points);
 
 /// Gives each vertex its number in the file, if all have that of their place.
 void number_vertices(Soup& soup);

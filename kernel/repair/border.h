@@ -1,0 +1,49 @@
+// The rims of a surface, for what joins them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/types.h"
+
+namespace kerf {
+
+/// The edges of one facet alone, their vertices, and all facets at these. Keeps references to what it is made of.
+class Border {
+ public:
+    /// Facets have numbers in range; those with `is_left_out` (#F, or empty: none) are not there.
+    Border(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+           const std::vector<char>& is_left_out = {});
+
+    const std::vector<std::int32_t>& corners() const { return corners_; }    ///< open edges, ascending
+    const std::vector<std::int32_t>& vertices() const { return vertices_; }  ///< at them, ascending
+    bool has(std::int32_t vertex) const { return place_[vertex] >= 0; }
+    /// Facets at a vertex of the border, ascending.
+    std::span<const std::int32_t> facets_at(std::int32_t vertex) const {
+        return row(facets_at_, first_facet_, place_[vertex]);
+    }
+    /// The length of the border from one of its vertices to another one, if it is below `limit`; else infinity. Gives
+    /// up where many borders meet.
+    double length_between(std::int32_t from, std::int32_t to, double limit) const;
+
+ private:
+    static std::span<const std::int32_t> row(const std::vector<std::int32_t>& items,
+                                             const std::vector<std::int32_t>& first, std::int32_t place) {
+        return std::span(items).subspan(first[place], first[place + 1] - first[place]);
+    }
+    void collect_facets(const std::vector<char>& is_left_out);
+    void collect_neighbours();
+
+    const std::vector<Vec3>& points_;
+    const std::vector<Triangle>& facets_;
+    std::vector<std::int32_t> corners_, vertices_;
+    std::vector<std::int32_t> place_;                         // #V; among vertices_, else -1
+    std::vector<std::int32_t> facets_at_, first_facet_;       // per place
+    std::vector<std::int32_t> neighbours_, first_neighbour_;  // per place: other ends of open edges
+};
+
+/// How many facets of these have both vertices.
+std::int32_t count_with(const std::vector<Triangle>& facets, std::span<const std::int32_t> at_vertex,
+                        std::int32_t other);
+
+}  // namespace kerf
