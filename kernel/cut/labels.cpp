@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "core/check.h"
-#include "cut/max_flow.h"
+#include "geometry/max_flow.h"
 #include "geometry/triangle.h"
 
 namespace kerf {

@@ -17,10 +17,10 @@ struct UnresolvedCrossing {
 };
 
 struct Arrangement {
-    std::vector<Vec3> vertices;        ///< those that were given, as they were, then new ones; some may be unused
-    std::vector<Triangle> facets;      ///< pieces of a facet follow each other in its place, turned like it
-    std::vector<std::int32_t> parent;  ///< #F, ascending: the facet that was given
-    std::int64_t crossing_pairs = 0;   ///< of facets that were given: they meet elsewhere than in what they share
+    std::vector<Vec3> vertices;          ///< those that were given, as they were, then new ones; some may be unused
+    std::vector<Triangle> facets;        ///< pieces of a facet follow each other in its place, turned like it
+    std::vector<std::int32_t> parent;    ///< #F, ascending: the facet that was given
+    std::int64_t crossing_pairs = 0;     ///< of facets that were given: they meet elsewhere than in what they share
     std::int64_t coplanar_overlaps = 0;  ///< those of them that lie in one plane and share area, copies included
     std::int64_t new_vertices = 0;
     std::int64_t dropped_facets = 0;  ///< that were given, of which nothing is left: they had no area

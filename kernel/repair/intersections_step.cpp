@@ -1,7 +1,190 @@
+// All facets are divided where they cross; then what bounds the inside stays.
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "geometry/triangle.h"
+#include "geometry/union_find.h"
+#include "repair/arrangement.h"
+#include "repair/divided_soup.h"
+#include "repair/hull.h"
 #include "repair/repair_step.h"
+#include "repair/shell_turning.h"
+#include "surface/edge_corners.h"
 
 namespace kerf {
 
-void intersections_step(Soup&, const StepRequest&, StepReport&) {}
+namespace {
+
+bool is_kept(HullFate fate) { return fate == HullFate::stays || fate == HullFate::turns; }
+
+class CrossingResolver {
+ public:
+    CrossingResolver(Soup& soup, const StepRequest& request, StepReport& report)
+        : soup_(soup), request_(request), report_(report) {}
+
+    void run() {
+        const bool is_finite =
+            std::all_of(soup_.vertices.begin(), soup_.vertices.end(), [](const Vec3& p) { return p.allFinite(); });
+        if (!is_finite) {
+            RepairAction refused{"surface", "surfaces", "", 1, {}, "vertices without finite coordinates; clean first"};
+            report_.actions.push_back(std::move(refused));
+            return;
+        }
+        turned_ = find_turned_facets(soup_.vertices, soup_.facets, request_.poll);
+        std::vector<Triangle> facets = soup_.facets;
+        for (std::size_t f = 0; f < facets.size(); ++f)
+            if (turned_[f]) std::swap(facets[f][1], facets[f][2]);
+        pieces_ = arrange(soup_.vertices, facets, request_.poll);
+        fate_ = find_hull(pieces_.vertices, pieces_.facets, request_.poll);
+        const bool is_clean =
+            pieces_.rounds == 0 && pieces_.dropped_facets == 0 && std::all_of(fate_.begin(), fate_.end(), is_kept);
+        if (is_clean || !is_mostly_bound()) return;
+        tell_crossings();
+        tell_left_out();
+        tell_turned();
+        tell_unresolved();
+        put();
+    }
+
+ private:
+    Vec3 centroid(std::size_t piece) const {
+        const auto& [a, b, c] = pieces_.facets[piece];
+        return (pieces_.vertices[a] + pieces_.vertices[b] + pieces_.vertices[c]) / 3;
+    }
+    std::vector<std::int32_t> in_file(std::vector<std::int32_t> pieces) const {
+        for (std::int32_t& f : pieces) f = pieces_.parent[f];
+        std::sort(pieces.begin(), pieces.end());
+        pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
+        return soup_.file_facets(pieces);
+    }
+
+    // Whether less of the surface bounds nothing than what bounds something.
+    bool is_mostly_bound() {
+        double bounding = 0, loose = 0;
+        for (std::size_t f = 0; f < fate_.size(); ++f) {
+            const double area = triangle_area(pieces_.vertices, pieces_.facets[f]);
+            if (is_kept(fate_[f])) bounding += area;
+            if (fate_[f] == HullFate::outside) loose += area;
+        }
+        if (loose < bounding) return true;
+        RepairAction refused{"surface", "surfaces", "",
+                             1,         {},         "most of it bounds nothing, since it is open; kerf wrap closes it"};
+        refused.changes_surface = false;
+        report_.actions.push_back(std::move(refused));
+        return false;
+    }
+
+    // Places are the new vertices, with what meets there.
+    void tell_crossings() {
+        RepairAction resolved{"crossing resolved", "crossings resolved"};
+        const auto first_new = static_cast<std::int32_t>(soup_.vertices.size());
+        const std::size_t most = std::min(RepairAction::most_places, pieces_.vertices.size() - soup_.vertices.size());
+        std::vector<std::vector<std::int32_t>> at(most);
+        for (std::size_t f = 0; f < pieces_.facets.size(); ++f)
+            for (const std::int32_t v : pieces_.facets[f])
+                if (v >= first_new && static_cast<std::size_t>(v - first_new) < most)
+                    at[v - first_new].push_back(static_cast<std::int32_t>(f));
+        for (std::size_t i = 0; i < most; ++i)
+            if (!at[i].empty()) resolved.places.push_back({pieces_.vertices[first_new + i], in_file(at[i])});
+        resolved.count = pieces_.crossing_pairs - static_cast<std::int64_t>(pieces_.unresolved.size());
+        report_.actions.push_back(std::move(resolved));
+    }
+
+    // What goes, as far as it hangs together.
+    void tell_left_out() {
+        UnionFind joined(fate_.size());
+        std::vector<char> has_kept_neighbour(fate_.size(), 0);
+        EdgeCorners(pieces_.facets).for_each_edge([&](std::int32_t, std::span<const EdgeCorners::Corner> at) {
+            const bool is_any_kept =
+                std::any_of(at.begin(), at.end(), [&](const auto& c) { return is_kept(fate_[c.corner / 3]); });
+            for (const auto& c : at) {
+                const std::int32_t f = c.corner / 3;
+                if (is_any_kept) has_kept_neighbour[f] = 1;
+                for (const auto& d : at)
+                    if (d.corner < c.corner && fate_[d.corner / 3] == fate_[f]) joined.join(d.corner / 3, f);
+            }
+        });
+        const Components components = joined.take();
+        std::vector<std::vector<std::int32_t>> of(components.count);
+        for (std::size_t f = 0; f < fate_.size(); ++f)
+            if (!is_kept(fate_[f])) of[components.of[f]].push_back(static_cast<std::int32_t>(f));
+        RepairAction inner{"inner piece left out", "inner pieces left out", "area"};
+        RepairAction shells{"shell inside of another left out", "shells inside of others left out", "area"};
+        RepairAction loose{"piece that bounds nothing left out", "pieces that bound nothing left out", "area"};
+        RepairAction copies{"piece that is there twice left out", "pieces that are there twice left out", "area"};
+        for (const std::vector<std::int32_t>& own : of) {
+            if (own.empty()) continue;
+            const HullFate fate = fate_[own.front()];
+            const bool is_apart =
+                std::none_of(own.begin(), own.end(), [&](std::int32_t f) { return has_kept_neighbour[f]; });
+            RepairAction& action = fate == HullFate::copy      ? copies
+                                   : fate == HullFate::outside ? loose
+                                   : is_apart                  ? shells
+                                                               : inner;
+            action.add(place_of(own));
+        }
+        for (RepairAction* action : {&inner, &shells, &loose, &copies}) report_.actions.push_back(std::move(*action));
+    }
+
+    // At the largest facet.
+    RepairPlace place_of(const std::vector<std::int32_t>& pieces) const {
+        constexpr std::size_t most_facets_told = 16;
+        RepairPlace place;
+        double largest = -1;
+        for (const std::int32_t f : pieces) {
+            const double area = triangle_area(pieces_.vertices, pieces_.facets[f]);
+            place.measure += area;
+            if (area <= largest) continue;
+            largest = area;
+            place.where = centroid(f);
+        }
+        place.facets = in_file({pieces.begin(), pieces.begin() + std::min(pieces.size(), most_facets_told)});
+        return place;
+    }
+
+    void tell_turned() {
+        RepairAction outwards{"facet turned outwards", "facets turned outwards"};
+        std::int32_t last = -1;
+        for (std::size_t f = 0; f < fate_.size(); ++f) {
+            const std::int32_t parent = pieces_.parent[f];
+            if (!is_kept(fate_[f]) || (fate_[f] == HullFate::turns) == (turned_[parent] != 0) || parent == last)
+                continue;
+            last = parent;
+            outwards.add({centroid(f), in_file({static_cast<std::int32_t>(f)})});
+        }
+        report_.actions.push_back(std::move(outwards));
+    }
+
+    void tell_unresolved() {
+        RepairAction left{"crossing", "crossings", "", 0, {}, "rounding to doubles makes the pieces cross again"};
+        for (const UnresolvedCrossing& crossing : pieces_.unresolved)
+            left.add({crossing.where, in_file({crossing.facets.begin(), crossing.facets.end()})});
+        report_.actions.push_back(std::move(left));
+    }
+
+    void put() {
+        std::vector<char> keep, turn;
+        for (const HullFate fate : fate_) {
+            keep.push_back(is_kept(fate));
+            turn.push_back(fate == HullFate::turns);
+        }
+        take_divided_facets(soup_, std::move(pieces_), keep, turn);
+        drop_unused_vertices(soup_);
+    }
+
+    Soup& soup_;
+    const StepRequest& request_;
+    StepReport& report_;
+    std::vector<char> turned_;  // facets of the soup
+    Arrangement pieces_;
+    std::vector<HullFate> fate_;
+};
+
+}  // namespace
+
+void intersections_step(Soup& soup, const StepRequest& request, StepReport& report) {
+    CrossingResolver(soup, request, report).run();
+}
 
 }  // namespace kerf

@@ -14,9 +14,9 @@ namespace kerf {
 
 namespace {
 
-class Opening {
+class EdgeOpening {
  public:
-    Opening(Soup& soup, const StepRequest& request, StepReport& report)
+    EdgeOpening(Soup& soup, const StepRequest& request, StepReport& report)
         : soup_(soup), request_(request), report_(report) {}
 
     void run() {
@@ -59,7 +59,7 @@ class Opening {
 
 void manifold_step(Soup& soup, const StepRequest& request, StepReport& report) {
     if (has_ordinary_facets(soup)) {
-        Opening(soup, request, report).run();
+        EdgeOpening(soup, request, report).run();
         return;
     }
     RepairAction left{"surface", "surfaces"};

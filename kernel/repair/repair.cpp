@@ -33,8 +33,11 @@ class Ladder {
         const RepairStep* step = plan_.find(row.kind);
         if (step == nullptr) return;
         poll_();
-        StepRequest request{
-            .bound = report_.bound, .diagonal = report_.diagonal, .bodies = plan_.bodies, .poll = poll_};
+        StepRequest request{.bound = report_.bound,
+                            .diagonal = report_.diagonal,
+                            .bodies = plan_.bodies,
+                            .poll = poll_,
+                            .plan = &plan_};
         request.amount = step->amount.value_or(row.usual).of(report_.diagonal);
         StepReport& done = report_.steps.emplace_back(StepReport{row.kind, {}});
         row.apply(soup_, request, done);

@@ -18,6 +18,9 @@ struct StepRequest {
     double diagonal = 0;  ///< of the bounding box of the surface as it came
     BodyRepair bodies = BodyRepair::unite;
     std::function<void()> poll = [] {};  ///< to be called now and then; may throw
+    const RepairPlan* plan = {};         ///< all that is asked for; none: this step alone
+
+    bool has(RepairKind kind) const { return plan != nullptr && plan->find(kind) != nullptr; }
 };
 
 /// Changes the soup, see repair(), and says what it did in `report`.

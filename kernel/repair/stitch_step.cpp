@@ -14,7 +14,7 @@ namespace kerf {
 
 namespace {
 
-constexpr int most_rounds = 8;
+constexpr int most_stitching_rounds = 8;
 constexpr double shares[] = {0x1p-10, 0x1p-8, 0x1p-6, 0x1p-4, 0x1p-2, 1};  // of the tolerance, one after another
 
 class Stitching {
@@ -34,7 +34,7 @@ class Stitching {
 
  private:
     void join(double tolerance, double near_end) {
-        for (int round = 0; round < most_rounds && join_once(tolerance, near_end); ++round) request_.poll();
+        for (int round = 0; round < most_stitching_rounds && join_once(tolerance, near_end); ++round) request_.poll();
     }
     bool join_once(double tolerance, double near_end) {
         const Border border(soup_.vertices, soup_.facets);

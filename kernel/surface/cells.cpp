@@ -19,19 +19,6 @@ namespace kerf {
 
 namespace {
 
-constexpr std::int32_t front_side(std::int32_t facet) { return 2 * facet; }
-constexpr std::int32_t back_side(std::int32_t facet) { return 2 * facet + 1; }
-
-// The sides that one leaves and meets when turning on around the edge.
-struct EdgeSides {
-    std::int32_t ahead, behind;
-};
-EdgeSides sides_at(const std::vector<Triangle>& facets, std::int32_t low, std::int32_t corner) {
-    const std::int32_t f = corner / 3;
-    if (has_back_ahead(facets, low, corner)) return {back_side(f), front_side(f)};
-    return {front_side(f), back_side(f)};
-}
-
 // The facets that have a set of sides on one of their sides only, by set, turned so that it is behind them.
 // `set_of_side`: 2 #F; negative: none.
 std::vector<Shell> boundaries_of(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,

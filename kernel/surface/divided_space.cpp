@@ -18,36 +18,6 @@ bool have_one_direction(Triangle a, Triangle b) {
     return a == b;
 }
 
-SingleFacets single_facets(const Soup& soup) {
-    SingleFacets single;
-    single.single_of.assign(soup.facets.size(), -1);
-    single.is_turned.assign(soup.facets.size(), 0);
-    std::vector<std::pair<Triangle, std::int32_t>> sorted;
-    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
-        if (has_repeated_vertex(soup.facets[f])) continue;
-        sorted.emplace_back(soup.facets[f], static_cast<std::int32_t>(f));
-        std::sort(sorted.back().first.begin(), sorted.back().first.end());
-    }
-    std::sort(sorted.begin(), sorted.end());
-    std::vector<std::int32_t> first_of(soup.facets.size(), -1);
-    for (std::size_t i = 0; i < sorted.size(); ++i) {
-        const std::int32_t f = sorted[i].second;
-        const bool is_first = i == 0 || sorted[i].first != sorted[i - 1].first;
-        first_of[f] = is_first ? f : first_of[sorted[i - 1].second];
-        single.is_turned[f] = !have_one_direction(soup.facets[f], soup.facets[first_of[f]]);
-    }
-    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
-        if (first_of[f] < 0) continue;
-        if (first_of[f] == static_cast<std::int32_t>(f)) {
-            single.single_of[f] = static_cast<std::int32_t>(single.facets.size());
-            single.facets.push_back(soup.facets[f]);
-            single.first.push_back(static_cast<std::int32_t>(f));
-        }
-        single.single_of[f] = single.single_of[first_of[f]];
-    }
-    return single;
-}
-
 // Regions with a cell keep their order.
 void drop_empty_regions(DividedSpace& space) {
     std::vector<std::int32_t> number(space.names.size(), -1);
@@ -70,13 +40,43 @@ void note_count(Soup& soup, std::int64_t count, const char* one, const char* man
 
 }  // namespace
 
+SingleFacets single_facets(const std::vector<Triangle>& facets) {
+    SingleFacets single;
+    single.single_of.assign(facets.size(), -1);
+    single.is_turned.assign(facets.size(), 0);
+    std::vector<std::pair<Triangle, std::int32_t>> sorted;
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+        if (has_repeated_vertex(facets[f])) continue;
+        sorted.emplace_back(facets[f], static_cast<std::int32_t>(f));
+        std::sort(sorted.back().first.begin(), sorted.back().first.end());
+    }
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<std::int32_t> first_of(facets.size(), -1);
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        const std::int32_t f = sorted[i].second;
+        const bool is_first = i == 0 || sorted[i].first != sorted[i - 1].first;
+        first_of[f] = is_first ? f : first_of[sorted[i - 1].second];
+        single.is_turned[f] = !have_one_direction(facets[f], facets[first_of[f]]);
+    }
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+        if (first_of[f] < 0) continue;
+        if (first_of[f] == static_cast<std::int32_t>(f)) {
+            single.single_of[f] = static_cast<std::int32_t>(single.facets.size());
+            single.facets.push_back(facets[f]);
+            single.first.push_back(static_cast<std::int32_t>(f));
+        }
+        single.single_of[f] = single.single_of[first_of[f]];
+    }
+    return single;
+}
+
 std::optional<DividedSpace> divide_space(const Soup& soup) {
     constexpr double largest_magnitude_of_rays = 1e50;  // what is larger is a defect anyway
     const auto is_usable = [](const Vec3& p) {
         return p.allFinite() && p.cwiseAbs().maxCoeff() <= largest_magnitude_of_rays;
     };
     if (soup.facets.empty() || !std::all_of(soup.vertices.begin(), soup.vertices.end(), is_usable)) return {};
-    DividedSpace space{single_facets(soup), {}, {}, {}};
+    DividedSpace space{single_facets(soup.facets), {}, {}, {}};
     auto cells = find_cells(soup.vertices, space.single.facets);
     if (!cells || cells->count == 0) return {};
     space.cells = std::move(*cells);

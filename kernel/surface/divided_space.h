@@ -19,6 +19,9 @@ struct SingleFacets {
     std::vector<char> is_turned;          ///< per facet of the soup, against the first one
 };
 
+/// O(#F log #F).
+SingleFacets single_facets(const std::vector<Triangle>& facets);
+
 struct DividedSpace {
     SingleFacets single;
     Cells cells;                               ///< of the single facets

@@ -32,4 +32,21 @@ inline bool has_back_ahead(const std::vector<Triangle>& facets, std::int32_t low
     return start_vertex(facets, corner) != low;
 }
 
+/// Numbers for the two sides of each facet.
+constexpr std::int32_t front_side(std::int32_t facet) { return 2 * facet; }
+constexpr std::int32_t back_side(std::int32_t facet) { return 2 * facet + 1; }
+
+/// The sides of a facet that one leaves and meets when turning on around an edge of it: between a facet and the next
+/// one lie the side ahead of the one and the side behind the other.
+struct EdgeSides {
+    std::int32_t ahead, behind;
+};
+
+/// Of the facet of a corner at the edge with the smaller end `low`, in the sense of radial_order().
+inline EdgeSides sides_at(const std::vector<Triangle>& facets, std::int32_t low, std::int32_t corner) {
+    const std::int32_t f = corner / 3;
+    if (has_back_ahead(facets, low, corner)) return {back_side(f), front_side(f)};
+    return {front_side(f), back_side(f)};
+}
+
 }  // namespace kerf

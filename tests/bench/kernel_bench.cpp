@@ -6,8 +6,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "cut/max_flow.h"
 #include "decompose/decomposition.h"
+#include "geometry/max_flow.h"
 #include "io/surface_reader.h"
 #include "mesh/quality.h"
 #include "prepare/input.h"

@@ -1,4 +1,4 @@
-#include "cut/max_flow.h"
+#include "geometry/max_flow.h"
 
 #include <array>
 #include <limits>

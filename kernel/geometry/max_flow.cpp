@@ -1,7 +1,7 @@
 // Two trees grow from source and sink over unsaturated arcs. Where they meet, the path is augmented; the nodes behind
 // saturated arcs become orphans and look for a new parent that still leads to a terminal, or become free. When no tree
 // can grow, the source tree is one side of a minimum cut.
-#include "cut/max_flow.h"
+#include "geometry/max_flow.h"
 
 #include <algorithm>
 #include <limits>

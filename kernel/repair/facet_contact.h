@@ -1,0 +1,24 @@
+// How two facets of one plane lie on one another. All signs are exact.
+#pragma once
+
+#include <array>
+
+#include "core/types.h"
+
+namespace kerf {
+
+using Corners = std::array<Vec3, 3>;
+
+/// Of the projection along a coordinate axis: 1 if it is counter-clockwise for who looks against the axis.
+int projected_orientation(int axis, const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// The coordinate axis along which a facet is projected with the most area, -1 for a facet without area.
+int axis_across(const Corners& facet);
+
+/// Whether the closed facet has a point, which lies in its plane. `axis`: of axis_across().
+bool has_point(const Corners& facet, int axis, const Vec3& p);
+
+/// Whether two facets of one plane overlap in more than a line. `axis`: of axis_across().
+bool share_area(const Corners& p, const Corners& q, int axis);
+
+}  // namespace kerf

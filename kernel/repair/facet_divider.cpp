@@ -1,0 +1,319 @@
+// The facets are projected along a coordinate axis, which changes neither what crosses nor what lies between what. A
+// facet that crosses them leaves a segment, whose ends are corners, or points in which an edge goes through a facet:
+// the ends are among such points of both, because the segment is what both facets have of the line of their planes.
+// Edges and segments are the constraints of a triangulation, which finds the points in which they cross.
+#include "repair/facet_divider.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <unordered_map>
+
+#define CGAL_NO_CDT_2_WARNING  // of its own way to intersect constraints, which serves
+#include <CGAL/Constrained_triangulation_2.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Projection_traits_xy_3.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <Eigen/Geometry>
+
+#include "core/elements.h"
+#include "geometry/predicates.h"
+#include "repair/facet_contact.h"
+
+namespace kerf {
+
+namespace {
+
+using ExactKernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using ExactPoint3 = ExactKernel::Point_3;
+using PlaneTraits = CGAL::Projection_traits_xy_3<ExactKernel>;
+
+struct PointNumber {
+    std::int32_t value = -1;
+};
+
+// Of a face while pieces are collected: which facet has reached it, and of which facet its sides are bounds.
+struct FaceMark {
+    std::int32_t seen = -1;
+    std::array<std::int32_t, 3> bounds = {-1, -1, -1};
+};
+
+using PlaneVertex = CGAL::Triangulation_vertex_base_with_info_2<PointNumber, PlaneTraits>;
+using PlaneFace = CGAL::Triangulation_face_base_with_info_2<FaceMark, PlaneTraits,
+                                                            CGAL::Constrained_triangulation_face_base_2<PlaneTraits>>;
+using PlaneTriangulation =
+    CGAL::Constrained_triangulation_2<PlaneTraits, CGAL::Triangulation_data_structure_2<PlaneVertex, PlaneFace>,
+                                      CGAL::Exact_intersections_tag>;
+using VertexHandle = PlaneTriangulation::Vertex_handle;
+using FaceHandle = PlaneTriangulation::Face_handle;
+
+constexpr std::int32_t no_number = -1;
+
+// The nearest double, which depends on the value only.
+double nearest_double(const ExactKernel::FT& value) {
+    using Rational = std::decay_t<decltype(value.exact())>;
+    const Rational& exact = value.exact();
+    const auto [low, high] = CGAL::to_interval(exact);
+    if (low == high) return low;
+    const Rational middle = (Rational(low) + Rational(high)) / 2;
+    return exact > middle ? high : low;
+}
+
+class PlaneDivision {
+ public:
+    PlaneDivision(DistinctPoints& points, const std::vector<Triangle>& facets, double grid,
+                  std::span<const CrossedFacet> members)
+        : points_(points), facets_(facets), grid_(grid), members_(members) {
+        axis_ = axis_across(corners(members[0].facet));
+    }
+
+    void add_constraints();
+    void improve();
+    void number_vertices();
+    void collect(std::vector<FacetPiece>& pieces);
+    double largest_rounding() const { return largest_rounding_; }
+
+ private:
+    // A corner has its number, another point the coordinates in the frame of the triangulation.
+    struct Place {
+        std::int32_t number = no_number;
+        ExactPoint3 point = {};
+    };
+
+    const Vec3& at(std::int32_t vertex) const { return points_.all()[vertex]; }
+    Corners corners(std::int32_t facet) const {
+        const Triangle& t = facets_[facet];
+        return {at(t[0]), at(t[1]), at(t[2])};
+    }
+    // With the axis of projection last, turned like before.
+    ExactPoint3 in_frame(const Vec3& p) const { return {p[(axis_ + 1) % 3], p[(axis_ + 2) % 3], p[axis_]}; }
+
+    VertexHandle insert(std::int32_t vertex);
+    VertexHandle insert(const Place& place) {
+        return place.number != no_number ? insert(place.number) : triangulation_.insert(place.point, hint_);
+    }
+    void constrain(VertexHandle a, VertexHandle b) {
+        if (a != b) triangulation_.insert_constraint(a, b);
+    }
+    void add_contact(std::int32_t facet, std::int32_t other);
+    void add_places(std::int32_t of, std::int32_t on, const std::array<int, 3>& side, std::vector<Place>& places) const;
+    bool is_flippable(FaceHandle face, int i) const;
+    bool is_better_flipped(FaceHandle face, int i) const;
+    void flip(FaceHandle face, int i);
+    std::int32_t rounded(const ExactPoint3& p);
+    void bound(std::int32_t member, VertexHandle from, VertexHandle to, std::vector<FaceHandle>& inner);
+
+    DistinctPoints& points_;
+    const std::vector<Triangle>& facets_;
+    const double grid_;
+    std::span<const CrossedFacet> members_;
+    int axis_;
+    double largest_rounding_ = 0;
+    PlaneTriangulation triangulation_;
+    FaceHandle hint_ = {};
+    std::unordered_map<std::int32_t, VertexHandle> vertex_of_;  // only looked up
+};
+
+VertexHandle PlaneDivision::insert(std::int32_t vertex) {
+    const auto [known, is_new] = vertex_of_.try_emplace(vertex);
+    if (!is_new) return known->second;
+    const VertexHandle v = triangulation_.insert(in_frame(at(vertex)), hint_);
+    v->info().value = vertex;
+    hint_ = v->face();
+    return known->second = v;
+}
+
+void PlaneDivision::add_constraints() {
+    for (const CrossedFacet& member : members_)
+        for (const std::int32_t v : facets_[member.facet]) insert(v);
+    for (const CrossedFacet& member : members_) {
+        const Triangle& t = facets_[member.facet];
+        for (int i = 0; i < 3; ++i) constrain(insert(t[i]), insert(t[(i + 1) % 3]));
+    }
+    for (const CrossedFacet& member : members_)
+        for (const std::int32_t other : member.others) add_contact(member.facet, other);
+}
+
+std::array<int, 3> sides_of_plane(const Corners& plane, const Corners& of) {
+    std::array<int, 3> side;
+    for (int i = 0; i < 3; ++i) side[i] = orientation(plane[0], plane[1], plane[2], of[i]);
+    return side;
+}
+
+void PlaneDivision::add_contact(std::int32_t facet, std::int32_t other) {
+    const Corners p = corners(facet), q = corners(other);
+    const std::array<int, 3> side_q = sides_of_plane(p, q);
+    if (std::all_of(side_q.begin(), side_q.end(), [](int side) { return side == 0; })) {  // they touch in a line
+        for (const std::int32_t v : facets_[other])
+            if (has_point(p, axis_, at(v))) insert(v);
+        return;
+    }
+    std::vector<Place> places;
+    add_places(other, facet, side_q, places);
+    add_places(facet, other, sides_of_plane(q, p), places);
+    if (places.empty()) return;
+    const auto point_of = [&](const Place& place) {
+        return place.number != no_number ? in_frame(at(place.number)) : place.point;
+    };
+    const auto is_less = [&](const Place& a, const Place& b) {
+        if (a.number != no_number && a.number == b.number) return false;
+        return CGAL::compare_xyz(point_of(a), point_of(b)) == CGAL::SMALLER;
+    };
+    const auto [first, last] = std::minmax_element(places.begin(), places.end(), is_less);
+    constrain(insert(*first), insert(*last));
+}
+
+// Corners of `of` that lie in the plane of `on`, and points in which its edges go through that plane, if they are in
+// the facet. `side`: of the corners.
+void PlaneDivision::add_places(std::int32_t of, std::int32_t on, const std::array<int, 3>& side,
+                               std::vector<Place>& places) const {
+    const Triangle& t = facets_[of];
+    const Corners facet = corners(on);
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3;
+        if (side[i] == 0 && has_point(facet, axis_across(facet), at(t[i]))) places.push_back({t[i]});
+        if (side[i] * side[j] >= 0) continue;
+        const auto [from, to] = std::minmax(t[i], t[j]);
+        std::array<int, 3> pass;
+        for (int k = 0; k < 3; ++k) pass[k] = orientation(at(from), at(to), facet[k], facet[(k + 1) % 3]);
+        const auto [low, high] = std::minmax_element(pass.begin(), pass.end());
+        if (*low < 0 && *high > 0) continue;
+        places.push_back({no_number, ExactKernel().construct_plane_line_intersection_point_3_object()(
+                                         in_frame(facet[0]), in_frame(facet[1]), in_frame(facet[2]), in_frame(at(from)),
+                                         in_frame(at(to)))});
+    }
+}
+
+std::int32_t PlaneDivision::rounded(const ExactPoint3& p) {
+    const std::array<ExactKernel::FT, 3> exact = {p.x(), p.y(), p.z()};
+    Vec3 place;
+    double square = 0;
+    for (int i = 0; i < 3; ++i) {
+        double x = nearest_double(exact[i]);
+        if (grid_ > 0) x = std::nearbyint(x / grid_) * grid_;
+        place[(axis_ + 1 + i) % 3] = x;
+        const double off = CGAL::to_double(exact[i] - x);
+        square += off * off;
+    }
+    largest_rounding_ = std::max(largest_rounding_, std::sqrt(square));
+    return points_.number_of(place);
+}
+
+void PlaneDivision::number_vertices() {
+    for (const VertexHandle v : triangulation_.finite_vertex_handles())
+        if (v->info().value == no_number) v->info().value = rounded(v->point());
+}
+
+// Cotangents of the angles opposite to the edge, which are less than 0 together where both are more than flat.
+bool PlaneDivision::is_better_flipped(FaceHandle face, int i) const {
+    const FaceHandle beyond = face->neighbor(i);
+    const int j = triangulation_.mirror_index(face, i);
+    const Vec3 &a = at(face->vertex(i)->info().value), &c = at(beyond->vertex(j)->info().value);
+    const Vec3 &b = at(face->vertex(triangulation_.cw(i))->info().value),
+               &d = at(face->vertex(triangulation_.ccw(i))->info().value);
+    const auto cotangent = [&](const Vec3& tip) {
+        const Vec3 u = b - tip, v = d - tip;
+        return u.dot(v) / u.cross(v).norm();
+    };
+    constexpr double least_gain = 1e-9;
+    return cotangent(a) + cotangent(c) < -least_gain;
+}
+
+bool PlaneDivision::is_flippable(FaceHandle face, int i) const {
+    const FaceHandle beyond = face->neighbor(i);
+    if (triangulation_.is_infinite(face) || triangulation_.is_infinite(beyond) || face->is_constrained(i)) return false;
+    const auto &a = face->vertex(i)->point(), &c = triangulation_.mirror_vertex(face, i)->point();
+    const auto &b = face->vertex(triangulation_.cw(i))->point(), &d = face->vertex(triangulation_.ccw(i))->point();
+    // face: a d b, beyond: c b d
+    return triangulation_.orientation(a, d, c) == CGAL::LEFT_TURN &&
+           triangulation_.orientation(c, b, a) == CGAL::LEFT_TURN;
+}
+
+void PlaneDivision::flip(FaceHandle face, int i) {
+    const FaceHandle beyond = face->neighbor(i);
+    std::array<std::pair<FaceHandle, int>, 4> around;
+    std::array<bool, 4> constrained;
+    int count = 0;
+    for (const FaceHandle f : {face, beyond})
+        for (int k = 0; k < 3; ++k) {
+            if (f->neighbor(k) == (f == face ? beyond : face)) continue;
+            around[count] = {f->neighbor(k), triangulation_.mirror_index(f, k)};
+            constrained[count++] = f->is_constrained(k);
+        }
+    triangulation_.tds().flip(face, i);
+    face->set_constraint(face->index(beyond), false);
+    beyond->set_constraint(beyond->index(face), false);
+    for (int k = 0; k < count; ++k) {
+        const auto [outer, side] = around[k];
+        outer->neighbor(side)->set_constraint(triangulation_.mirror_index(outer, side), constrained[k]);
+    }
+}
+
+// Towards the constrained Delaunay triangulation of the rounded points, by flips that are exact.
+void PlaneDivision::improve() {
+    std::vector<PlaneTriangulation::Edge> open;
+    for (const auto& edge : triangulation_.finite_edges()) open.push_back(edge);
+    for (std::size_t left = 20 * open.size(); !open.empty() && left > 0; --left) {
+        const auto [face, i] = open.back();
+        open.pop_back();
+        if (!is_flippable(face, i) || !is_better_flipped(face, i)) continue;
+        const FaceHandle beyond = face->neighbor(i);
+        flip(face, i);
+        for (const FaceHandle f : {face, beyond})
+            for (int k = 0; k < 3; ++k) open.emplace_back(f, k);
+    }
+}
+
+// Marks the edges between two corners, and has the faces on the left of them in `inner`.
+void PlaneDivision::bound(std::int32_t member, VertexHandle from, VertexHandle to, std::vector<FaceHandle>& inner) {
+    while (from != to) {
+        VertexHandle next;
+        FaceHandle right;
+        int i = 0;
+        if (!triangulation_.includes_edge(from, to, next, right, i)) throw std::logic_error("no edge");
+        const FaceHandle left = right->neighbor(i);
+        left->info().bounds[triangulation_.mirror_index(right, i)] = member;
+        inner.push_back(left);
+        from = next;
+    }
+}
+
+void PlaneDivision::collect(std::vector<FacetPiece>& pieces) {
+    for (std::size_t m = 0; m < members_.size(); ++m) {
+        const auto member = static_cast<std::int32_t>(m);
+        const std::int32_t facet = members_[m].facet;
+        Triangle t = facets_[facet];
+        const Corners p = corners(facet);
+        const bool is_turned = projected_orientation(axis_, p[0], p[1], p[2]) < 0;
+        if (is_turned) std::swap(t[1], t[2]);
+        std::vector<FaceHandle> open;
+        for (int i = 0; i < 3; ++i) bound(member, vertex_of_[t[i]], vertex_of_[t[(i + 1) % 3]], open);
+        while (!open.empty()) {
+            const FaceHandle face = open.back();
+            open.pop_back();
+            FaceMark& mark = face->info();
+            if (std::exchange(mark.seen, member) == member) continue;
+            for (int i = 0; i < 3; ++i)
+                if (mark.bounds[i] != member) open.push_back(face->neighbor(i));
+            Triangle piece = {face->vertex(0)->info().value, face->vertex(1)->info().value,
+                              face->vertex(2)->info().value};
+            if (is_turned) std::swap(piece[1], piece[2]);
+            if (!has_repeated_vertex(piece) && axis_across({at(piece[0]), at(piece[1]), at(piece[2])}) >= 0)
+                pieces.push_back({facet, piece});
+        }
+    }
+}
+
+}  // namespace
+
+void FacetDivider::divide(std::span<const CrossedFacet> facets_of_plane, std::vector<FacetPiece>& pieces) {
+    PlaneDivision division(points_, facets_, grid_, facets_of_plane);
+    division.add_constraints();
+    division.number_vertices();
+    division.improve();
+    division.collect(pieces);
+    largest_rounding_ = std::max(largest_rounding_, division.largest_rounding());
+}
+
+}  // namespace kerf

@@ -1,0 +1,79 @@
+#include "repair/rim_pairs.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "geometry/box.h"
+#include "geometry/triangle.h"
+
+namespace kerf {
+
+namespace {
+
+struct RimPair {
+    double share;  // of the areas of the lids
+    std::size_t one, two;
+    Opening band;
+};
+
+double area_of(const OpenRims& all, const Opening& opening) {
+    std::vector<Vec3> points;
+    for (const Rim* rim : opening.rims)
+        for (const std::int32_t v : rim->vertices) points.push_back(all.soup().vertices[v]);
+    double sum = 0;
+    for (const Triangle& t : opening.triangles) sum += triangle_area(points, t);
+    return sum;
+}
+
+std::vector<std::size_t> longest(const std::vector<Opening>& openings) {
+    constexpr std::size_t most = 2000;
+    std::vector<std::size_t> order(openings.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return openings[a].length() > openings[b].length(); });
+    order.resize(std::min(order.size(), most));
+    std::sort(order.begin(), order.end());
+    return order;
+}
+
+std::vector<RimPair> find_pairs(const OpenRims& all, const std::vector<Opening>& openings) {
+    const std::vector<std::size_t> tried = longest(openings);
+    std::vector<Box> boxes;
+    std::vector<double> areas;
+    for (const std::size_t i : tried) {
+        boxes.push_back(box_around(openings[i].rims[0]->points(all.soup())));
+        areas.push_back(area_of(all, openings[i]));
+    }
+    std::vector<RimPair> pairs;
+    for (std::size_t i = 0; i < tried.size(); ++i)
+        for (std::size_t j = i + 1; j < tried.size(); ++j) {
+            const Opening &one = openings[tried[i]], &two = openings[tried[j]];
+            const double lids = areas[i] + areas[j], length = std::max(one.length(), two.length());
+            if (boxes[i].exteriorDistance(boxes[j]) * length / 2 >= lids) continue;
+            Opening band = make_opening(all, {one.rims[0], two.rims[0]});
+            const double share = area_of(all, band) / lids;
+            constexpr double hardly_more = 20;
+            if (share < 1 && band.bend <= std::min(one.bend, two.bend) + hardly_more)
+                pairs.push_back({share, tried[i], tried[j], std::move(band)});
+        }
+    std::stable_sort(pairs.begin(), pairs.end(), [](const RimPair& a, const RimPair& b) { return a.share < b.share; });
+    return pairs;
+}
+
+}  // namespace
+
+std::vector<Opening> join_facing(const OpenRims& all, std::vector<Opening> openings) {
+    std::vector<char> is_joined(openings.size(), 0), is_second(openings.size(), 0);
+    for (RimPair& pair : find_pairs(all, openings)) {
+        if (is_joined[pair.one] || is_joined[pair.two]) continue;
+        is_joined[pair.one] = is_joined[pair.two] = is_second[pair.two] = 1;
+        openings[pair.one] = std::move(pair.band);
+    }
+    std::vector<Opening> left;
+    for (std::size_t i = 0; i < openings.size(); ++i)
+        if (!is_second[i]) left.push_back(std::move(openings[i]));
+    return left;
+}
+
+}  // namespace kerf

@@ -1,0 +1,18 @@
+// Rims between which a band is missing.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "repair/opening.h"
+
+namespace kerf {
+
+/// Joins openings of one rim each in pairs, where a band between the two is smaller than the areas that they enclose
+/// together, and stands off the surface by hardly more (20 degrees) than the flatter one of their lids: the ring at the
+/// end of a pipe with a wall, a piece of a pipe that is missing, an island in a hole; but not the two mouths of a short
+/// pipe, nor two holes beside or above each other. The smallest band for its lids comes first. The others stay as they
+/// are, in their order. Of more than 2000 the longest are looked at. O(n^2) boxes.
+std::vector<Opening> join_facing(const OpenRims& all, std::vector<Opening> openings);
+
+}  // namespace kerf

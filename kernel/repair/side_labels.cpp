@@ -1,0 +1,174 @@
+#include "repair/side_labels.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "geometry/max_flow.h"
+#include "geometry/triangle.h"
+#include "geometry/union_find.h"
+#include "surface/edge_corners.h"
+#include "surface/radial_order.h"
+
+namespace kerf {
+
+namespace {
+
+// Some of the facets of a patch: the largest ones, and a share of all, ascending. Changes the order of `patch`.
+std::vector<std::int32_t> samples_of(std::vector<std::int32_t>& patch, const std::vector<double>& areas) {
+    constexpr std::size_t largest = 8, each = 16;
+    std::vector<std::int32_t> chosen;
+    for (std::size_t i = 0; i < patch.size(); i += each) chosen.push_back(patch[i]);
+    const auto last = patch.begin() + static_cast<std::ptrdiff_t>(std::min(largest, patch.size()));
+    std::partial_sort(patch.begin(), last, patch.end(), [&](std::int32_t f, std::int32_t g) {
+        return areas[f] != areas[g] ? areas[f] > areas[g] : f < g;
+    });
+    chosen.insert(chosen.end(), patch.begin(), last);
+    std::sort(chosen.begin(), chosen.end());
+    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+    return chosen;
+}
+
+class SideLabeller {
+ public:
+    SideLabeller(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+                 const std::vector<std::int32_t>& times, const WindingNumber& winding,
+                 const std::function<void()>& poll)
+        : vertices_(vertices),
+          facets_(facets),
+          times_(times),
+          winding_(winding),
+          poll_(poll),
+          votes_(2 * facets.size()) {
+        for (const Triangle& t : facets) areas_.push_back(triangle_area(vertices, t));
+    }
+
+    std::vector<char> run() {
+        find_facing_sides();
+        poll_();
+        if (is_open_)
+            ask_all();
+        else
+            ask_patches();
+        join();
+        return cut();
+    }
+
+ private:
+    // Sides that face each other around an edge.
+    struct Facing {
+        std::int32_t a, b;
+        double length;  // of the edge
+        bool has_two_facets;
+    };
+
+    void find_facing_sides() {
+        std::vector<std::int32_t> order;
+        EdgeCorners(facets_).for_each_edge([&](std::int32_t low, std::span<const EdgeCorners::Corner> corners) {
+            is_open_ |= corners.size() % 2 != 0;
+            order.clear();
+            for (const auto& c : corners) order.push_back(c.corner);
+            if (corners.size() > 2) order = radial_order(vertices_, facets_, low, corners).corners;  // none: no links
+            const double length = (vertices_[low] - vertices_[corners[0].high]).norm();
+            for (std::size_t i = 0; i < order.size(); ++i)
+                facing_.push_back({sides_at(facets_, low, order[i]).ahead,
+                                   sides_at(facets_, low, order[(i + 1) % order.size()]).behind, length,
+                                   order.size() == 2});
+        });
+    }
+
+    // Area times how far winding numbers are above 1/2, at most 1/2; negative: outside.
+    void ask(std::int32_t facet, double weight) {
+        constexpr std::int32_t polled_each = 4096;
+        if (++asked_ % polled_each == 0) poll_();
+        const double beside = winding_.beside(facet);
+        for (const auto& [side, sign] : {std::pair(front_side(facet), -1), std::pair(back_side(facet), 1)})
+            votes_[side] = weight * std::clamp(beside + sign * times_[facet] / 2.0 - 0.5, -0.5, 0.5);
+    }
+    void ask_all() {
+        for (std::size_t f = 0; f < facets_.size(); ++f) ask(static_cast<std::int32_t>(f), areas_[f]);
+    }
+    void ask_patches() {
+        UnionFind joined(facets_.size());
+        for (const Facing& facing : facing_)
+            if (facing.has_two_facets) joined.join(facing.a / 2, facing.b / 2);
+        const Components patches = joined.take();
+        std::vector<std::vector<std::int32_t>> facets_of(patches.count);
+        for (std::size_t f = 0; f < facets_.size(); ++f)
+            facets_of[patches.of[f]].push_back(static_cast<std::int32_t>(f));
+        for (std::vector<std::int32_t>& patch : facets_of) {
+            double area = 0, asked = 0;
+            for (const std::int32_t f : patch) area += areas_[f];
+            const std::vector<std::int32_t> samples = samples_of(patch, areas_);
+            for (const std::int32_t f : samples) asked += areas_[f];
+            if (asked > 0)
+                for (const std::int32_t f : samples) ask(f, areas_[f] / asked * area);
+        }
+    }
+
+    bool agree(std::int32_t a, std::int32_t b) const { return (votes_[a] > 0) == (votes_[b] > 0); }
+
+    // Into sets that are labelled as a whole. Where edges are open, those of two facets may be crossed by the border
+    // between inside and outside, as where a wall inside begins at a facet that is missing.
+    void join() {
+        UnionFind joined(votes_.size());
+        for (std::size_t i = 0; i + 1 < facing_.size(); ++i) {
+            const Facing &one = facing_[i], &other = facing_[i + 1];
+            if (!one.has_two_facets) continue;
+            if (is_open_ && !(agree(one.a, one.b) && agree(other.a, other.b))) {
+                ++i;
+                continue;
+            }
+            joined.join(one.a, one.b);
+            joined.join(other.a, other.b);
+            ++i;
+        }
+        sets_ = joined.take();
+    }
+
+    std::vector<char> cut() {
+        // An open edge costs as much as facets of this share of its squared length on the wrong side.
+        constexpr double cost_of_edge = 0.05;
+        constexpr std::int64_t steps_of_link = 1000;
+        std::vector<double> votes(sets_.count, 0);
+        for (std::size_t side = 0; side < votes_.size(); ++side) votes[sets_.of[side]] += votes_[side];
+        std::vector<char> is_inside;
+        for (const double vote : votes) is_inside.push_back(vote > 0);
+        std::erase_if(facing_, [&](const Facing& f) { return sets_.of[f.a] == sets_.of[f.b]; });
+        if (std::any_of(facing_.begin(), facing_.end(),
+                        [&](const Facing& f) { return is_inside[sets_.of[f.a]] != is_inside[sets_.of[f.b]]; })) {
+            poll_();
+            MaxFlow flow(sets_.count);
+            for (std::int32_t s = 0; s < sets_.count; ++s)
+                flow.add_terminal(s, std::max(votes[s], 0.0), std::max(-votes[s], 0.0));
+            for (const Facing& f : facing_)
+                flow.add_edge(sets_.of[f.a], sets_.of[f.b], cost_of_edge * f.length * f.length);
+            if (flow.solve(steps_of_link * static_cast<std::int64_t>(facing_.size())))
+                for (std::int32_t s = 0; s < sets_.count; ++s) is_inside[s] = !flow.on_sink_side(s);
+        }
+        std::vector<char> of_sides;
+        for (const std::int32_t set : sets_.of) of_sides.push_back(is_inside[set]);
+        return of_sides;
+    }
+
+    const std::vector<Vec3>& vertices_;
+    const std::vector<Triangle>& facets_;
+    const std::vector<std::int32_t>& times_;
+    const WindingNumber& winding_;
+    const std::function<void()>& poll_;
+    std::vector<double> areas_, votes_;  // #F; 2 #F
+    std::vector<Facing> facing_;         // those of an edge follow each other
+    bool is_open_ = false;
+    std::int32_t asked_ = 0;
+    Components sets_;  // of sides
+};
+
+}  // namespace
+
+std::vector<char> find_inside_sides(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+                                    const std::vector<std::int32_t>& times, const WindingNumber& winding,
+                                    const std::function<void()>& poll) {
+    return SideLabeller(vertices, facets, times, winding, poll).run();
+}
+
+}  // namespace kerf

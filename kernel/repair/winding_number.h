@@ -1,0 +1,62 @@
+// How often facets wind around a point, closed or not.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/types.h"
+#include "geometry/box_hierarchy.h"
+
+namespace kerf {
+
+/// The generalised winding number of a triangle soup (jacobson2013): the solid angle that the facets fill as seen from
+/// a point, over 4 pi, positive where their backs are seen. Inside of closed facets with normals that point out it is
+/// 1, outside 0; each hole lets it fall off gently, 1/2 in the middle of it.
+///
+/// Facets far from the point are taken together (barill2018), a node of a tree by its dipole and quadrupole; near ones
+/// have their exact solid angle (vanoosterom1983). The error is below 0.01, where facets close below 0.002. Built in
+/// O(n log n), 0.4 s for a million facets; a question is O(log n), some microseconds. About 300 bytes a facet.
+/// Deterministic, and for several threads at once.
+class WindingNumber {
+ public:
+    /// `times`: how often each facet counts, negative: turned; empty: once each. Facets without area count nothing.
+    WindingNumber(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+                  const std::vector<std::int32_t>& times = {});
+
+    /// At a point, which should not lie on a facet.
+    double at(const Vec3& point) const { return sum(point, -1); }
+    /// At the centroid of a facet, without that facet: a facet that counts t times adds t / 2 behind and takes it away
+    /// in front.
+    double beside(std::int32_t facet) const;
+
+ private:
+    using QuadraticForm = std::array<double, 6>;  // xx, yy, zz, xy, yz, zx
+    using CubicForm = std::array<double, 10>;     // xxx, yyy, zzz, xxy, xxz, xyy, yyz, xzz, yzz, xyz
+    struct Node : BoxNode {
+        double area = 0;             // of all facets below
+        Vec3 centre = Vec3::Zero();  // of these
+        Vec3 dipole = Vec3::Zero();  // the sum of the area vectors
+        QuadraticForm quadrupole = {};
+        CubicForm octupole = {};
+
+        void add(const Node& other);
+        void add_moments(const Node& other, const Vec3& away);
+        bool is_far(const Vec3& point) const;
+        double solid_angle(const Vec3& point) const;
+    };
+    struct Item {
+        std::array<Vec3, 3> corners;
+        std::int32_t facet;
+        std::int32_t times;
+    };
+
+    static Node node_of(const Item& item);
+    double sum(const Vec3& point, std::int32_t without) const;
+
+    std::vector<Item> items_;  // in the order of the leaves
+    std::vector<std::int32_t> item_of_;
+    BoxHierarchy<Node> hierarchy_;
+};
+
+}  // namespace kerf
