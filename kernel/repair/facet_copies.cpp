@@ -53,10 +53,11 @@ class CopyJudge {
         const Components sheet_of = find_sheets(edges);
         const std::vector<CopySheet> sheets = measure(edges, sheet_of);
         const bool is_all = single_.size() == copies_.size();
+        const std::vector<char> cancels = find_cancelling();
         SurplusCopies surplus;
         for (std::size_t g = 0; g < copies_.size(); ++g) {
             const std::vector<std::int32_t>& all = copies_[g].facets;
-            const bool is_fold = sheets[sheet_of.of[g]].is_fold(is_all, with_walls_);
+            const bool is_fold = cancels[g] || sheets[sheet_of.of[g]].is_fold(is_all, with_walls_);
             std::vector<std::int32_t>& list = is_fold ? surplus.folds : surplus.copies;
             list.insert(list.end(), all.begin() + (is_fold ? 0 : 1), all.end());
         }
@@ -78,6 +79,37 @@ class CopyJudge {
             if (is_within(corners)) sets.join(group(corners[0]), group(corners[1]));
         });
         return sets.take();
+    }
+    // Copies of which as many are turned one way as the other, if all of a piece that hangs together over edges may go:
+    // it has others, and the number of these is even at all edges. They are the walls of bodies that touch.
+    std::vector<char> find_cancelling() const {
+        std::vector<char> cancels(copies_.size(), 0), is_cancelling(facets_.size(), 0);
+        for (std::size_t g = 0; with_walls_ && g < copies_.size(); ++g) {
+            const std::vector<std::int32_t>& all = copies_[g].facets;
+            const auto same = std::count_if(
+                all.begin(), all.end(), [&](std::int32_t f) { return have_same_turn(facets_[all[0]], facets_[f]); });
+            cancels[g] = 2 * same == static_cast<std::ptrdiff_t>(all.size());
+            for (const std::int32_t f : all) is_cancelling[f] = cancels[g];
+        }
+        const EdgeCorners edges(facets_);
+        UnionFind sets(facets_.size());
+        std::vector<char> is_odd(facets_.size(), 0), has_others(facets_.size(), 0);
+        edges.for_each_edge([&](std::int32_t, Corners corners) {
+            for (const EdgeCorners::Corner& c : corners) sets.join(corners[0].corner / 3, c.corner / 3);
+        });
+        edges.for_each_edge([&](std::int32_t, Corners corners) {
+            const auto others = std::count_if(corners.begin(), corners.end(), [&](const EdgeCorners::Corner& c) {
+                return !is_cancelling[c.corner / 3];
+            });
+            const std::int32_t piece = sets.root(corners[0].corner / 3);
+            is_odd[piece] |= others % 2;
+            has_others[piece] |= others > 0;
+        });
+        for (std::size_t g = 0; g < copies_.size(); ++g) {
+            const std::int32_t piece = sets.root(copies_[g].facets[0]);
+            cancels[g] = cancels[g] && has_others[piece] && !is_odd[piece];
+        }
+        return cancels;
     }
     std::vector<CopySheet> measure(const EdgeCorners& edges, const Components& sheet_of) const {
         std::vector<CopySheet> sheets(static_cast<std::size_t>(sheet_of.count));

@@ -1,6 +1,7 @@
 #include "repair/loose_sheets.h"
 
 #include <algorithm>
+#include <span>
 
 #include "core/drop_items.h"
 #include "geometry/triangle.h"
@@ -53,7 +54,27 @@ class SheetSearch {
         const std::vector<char> dropped =
             leave_out(piece, found_.membranes, [&](std::size_t i) { return sides[i].front == sides[i].back; });
         drop_items(sides, dropped);
-        if (with_walls_) leave_out(piece, found_.walls, [&](std::size_t i) { return sides[i].is_wall(); });
+        if (!with_walls_) return;
+        const std::vector<char> is_wall = find_walls(piece, sides);
+        leave_out(piece, found_.walls, [&](std::size_t i) { return is_wall[i] != 0; });
+    }
+    // Facets between bounded cells, of what hangs together and has an edge of an odd number of facets. A void that
+    // touches what is around it has edges of even numbers alone: it is no cell of material.
+    std::vector<char> find_walls(const std::vector<std::int32_t>& piece, const std::vector<FacetSides>& sides) const {
+        UnionFind sets(piece.size());
+        std::vector<char> has_odd(piece.size(), 0), is_wall(piece.size(), 0);
+        const auto is_candidate = [&](const EdgeCorners::Corner& c) { return sides[c.corner / 3].is_wall(); };
+        const EdgeCorners edges(facets_of(piece));
+        edges.for_each_edge([&](std::int32_t, std::span<const EdgeCorners::Corner> corners) {
+            const auto first = std::find_if(corners.begin(), corners.end(), is_candidate);
+            for (auto c = first; c != corners.end(); ++c)
+                if (is_candidate(*c)) sets.join(first->corner / 3, c->corner / 3);
+            if (first != corners.end()) has_odd[first->corner / 3] |= corners.size() % 2;
+        });
+        for (std::size_t i = 0; i < piece.size(); ++i) has_odd[sets.root(static_cast<std::int32_t>(i))] |= has_odd[i];
+        for (std::size_t i = 0; i < piece.size(); ++i)
+            is_wall[i] = sides[i].is_wall() && has_odd[sets.root(static_cast<std::int32_t>(i))];
+        return is_wall;
     }
     std::vector<Triangle> facets_of(const std::vector<std::int32_t>& numbers) const {
         std::vector<Triangle> facets;

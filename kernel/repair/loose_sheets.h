@@ -10,7 +10,7 @@ namespace kerf {
 struct LooseSheets {
     std::vector<std::int32_t> fins;       ///< facets of sheets with a free rim
     std::vector<std::int32_t> membranes;  ///< facets with the same cell on both sides
-    std::vector<std::int32_t> walls;      ///< facets between two bounded cells
+    std::vector<std::int32_t> walls;      ///< facets between two bounded cells of material
 };
 
 /// Of pieces that hang together over edges, some of more than two facets. A sheet hangs together over edges of two. In
