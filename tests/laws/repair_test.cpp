@@ -1,0 +1,139 @@
+// Whatever happens to less than a hundredth of a body, the whole ladder of repairs makes a surface of it that can be
+// meshed, with the volume that the body had, and no vertex farther from its place than is said. More seeds, and those
+// of a finding: KERF_DAMAGES=FIRST:COUNT repair_test.
+#include <cstdlib>
+#include <map>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "geometry/box.h"
+#include "io/surface_reader.h"
+#include "repair/repair.h"
+#include "support/assets.h"
+#include "support/random_damage.h"
+#include "support/shapes.h"
+#include "support/slice.h"
+#include "surface/mass_properties.h"
+#include "surface/triangle_tree.h"
+
+namespace kerf {
+namespace {
+
+constexpr int damages = 300, groups = 6;
+
+const Soup& whole_asset(const std::string& name) {
+    static std::map<std::string, Soup> assets;
+    Soup& soup = assets[name];
+    if (soup.facets.empty()) {
+        soup = read_surface(test::asset_path(name));
+        weld_exactly(soup);
+        soup.vertex_number.clear();
+        soup.polygon.clear();
+    }
+    return soup;
+}
+
+// Mostly small ones, each of the others now and then.
+std::string asset_of(int damage) {
+    static const char* const small[] = {"cube", "cylinder", "hollow_box", "bone"};
+    static const char* const others[] = {"knee_tibial",     "pipe_with_holes", "wing_in_box",
+                                         "bearing_cap_14k", "knee_femoral",    "sinter_packing"};
+    return damage % 12 == 11 ? others[damage / 12 % 6] : small[damage % 4];
+}
+
+// One kind of damage, or several of any kind.
+test::DamagedBody damaged_body(int damage) {
+    const Soup& whole = whole_asset(asset_of(damage));
+    const auto seed = static_cast<std::uint64_t>(damage);
+    test::DamagedBody body(whole, seed);
+    const double gap = 5e-4 * box_around_finite(whole.vertices).diagonal().norm();
+    const auto kinds = test::all_surface_damages;
+    body.suffer(kinds[seed % kinds.size()], gap);
+    test::SeededNumbers numbers(seed);
+    if (damage % 3 == 0)
+        for (int more = numbers.integer(1, 4); more > 0; --more)
+            body.suffer(kinds[static_cast<std::size_t>(numbers.integer(0, kinds.size() - 1))], gap);
+    return body;
+}
+
+CheckedSoup check_repaired(const Soup& damaged) {
+    InputOptions options;
+    options.repair = "full";
+    return check_soup(damaged, options, 0.1);
+}
+
+// Of corners of facets of the file; of what was added only that it is somewhere near is known.
+double farthest_corner(const Soup& repaired, const Soup& damaged) {
+    std::vector<Triangle> facets;
+    for (const Triangle& t : damaged.facets)
+        if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) facets.push_back(t);
+    const TriangleTree tree(damaged.vertices, facets);
+    double farthest = 0;
+    for (std::size_t f = 0; f < repaired.facets.size(); ++f)
+        if (repaired.patch[f] < static_cast<std::int32_t>(damaged.patch_names.size()))
+            for (const std::int32_t v : repaired.facets[f])
+                farthest = std::max(farthest, tree.closest(repaired.vertices[v]).squared_distance);
+    return std::sqrt(farthest);
+}
+
+void expect_repaired(int damage) {
+    const test::DamagedBody body = damaged_body(damage);
+    SCOPED_TRACE(fmt::format("KERF_DAMAGES={}:1, {}, {}", damage, asset_of(damage),
+                             name(test::all_surface_damages[static_cast<std::size_t>(damage) % 7])));
+    CheckedSoup checked = check_repaired(body.soup());
+    if (!checked.diagnosis.clean()) {
+        ADD_FAILURE() << checked.diagnosis.summary(checked.soup) << "\n" << to_text(checked.ladder);
+        return;
+    }
+    apply_repairs(checked);
+    const Soup& whole = whole_asset(asset_of(damage));
+    const double volume = enclosed_volume(whole.vertices, whole.facets);
+    EXPECT_NEAR(enclosed_volume(checked.soup.vertices, checked.soup.facets), volume, 1e-3 * volume)
+        << to_text(checked.ladder);
+    EXPECT_LE(checked.ladder.largest_move(), checked.ladder.bound);
+    EXPECT_LE(farthest_corner(checked.soup, body.soup()), checked.ladder.bound * (1 + 1e-9)) << to_text(checked.ladder);
+}
+
+class RandomDamages : public testing::TestWithParam<int> {};
+
+TEST_P(RandomDamages, AreRepairedWithinTheBoundAndToTheVolume) {
+    int first = GetParam() * (damages / groups), count = test::in_slices() ? 5 : damages / groups;
+    if (const char* asked = std::getenv("KERF_DAMAGES")) {
+        if (GetParam() != 0) return;
+        ASSERT_EQ(std::sscanf(asked, "%d:%d", &first, &count), 2) << "KERF_DAMAGES=FIRST:COUNT";
+    }
+    for (int damage = first; damage < first + count; ++damage) expect_repaired(damage);
+}
+INSTANTIATE_TEST_SUITE_P(Fifty, RandomDamages, testing::Range(0, groups));
+
+// Of the unit cube and its copy, whose sides, of many facets, lie upon each other where it is shifted along axes.
+TEST(ShiftedBodies, BecomeTheirUnion) {
+    const Soup& cube = whole_asset("cube");
+    for (const Vec3& shift :
+         {Vec3(0.3, 0.41, -0.27), Vec3(0.5, 0, 0), Vec3(-0.2501, 0.3, 0), Vec3(0.01, 0.02, 0.005)}) {
+        SCOPED_TRACE(fmt::format("shifted by ({}, {}, {})", shift.x(), shift.y(), shift.z()));
+        Soup both = test::join(cube, test::translated(cube, shift));
+        CheckedSoup checked = check_repaired(both);
+        ASSERT_TRUE(checked.diagnosis.clean()) << checked.diagnosis.summary(checked.soup) << "\n"
+                                               << to_text(checked.ladder);
+        apply_repairs(checked);
+        const double common = (Vec3::Ones() - shift.cwiseAbs()).prod();
+        EXPECT_NEAR(enclosed_volume(checked.soup.vertices, checked.soup.facets), 2 - common, 1e-9);
+    }
+}
+
+TEST(WholeBodies, AreNotTouched) {
+    for (const char* asset : {"cube", "hollow_box", "knee_tibial"}) {
+        const Soup& whole = whole_asset(asset);
+        Soup repaired = whole;
+        const RepairReport report = repair(repaired, plan_of(RepairLevel::full));
+        EXPECT_FALSE(report.changed()) << asset << "\n" << to_text(report);
+        EXPECT_EQ(repaired.vertices, whole.vertices) << asset;
+        EXPECT_EQ(repaired.facets, whole.facets) << asset;
+        EXPECT_EQ(repaired.patch, whole.patch) << asset;
+    }
+}
+
+}  // namespace
+}  // namespace kerf
