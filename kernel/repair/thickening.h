@@ -23,8 +23,8 @@ struct Thickening {
 /// front sides; back sides follow, in patches named "NAME_back" and then the facets around the rims, in the patch
 /// "rim". Where several sheets meet in an edge, the space between each two neighbours gets a side of its own. A sheet
 /// may be one-sided, and its facets turned against each other. The volume is that of the area times the thickness, to
-/// first order. Where the sheet is bent more sharply than by a radius of half the thickness, sides cross: that stays.
-/// O(#F log #F), deterministic.
+/// first order; a fin that ends within a sheet tapers there. Where the sheet is bent more sharply than by a radius of
+/// half the thickness, sides cross: that stays. O(#F log #F), deterministic.
 Thickening thicken(Soup& soup, double thickness);
 
 }  // namespace kerf

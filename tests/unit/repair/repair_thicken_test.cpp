@@ -87,8 +87,9 @@ TEST(RepairThicken, VolumeIsAreaTimesThickness) {
                 const RepairReport report = thickened(soup, thickness);
                 EXPECT_TRUE(report.changed());
                 EXPECT_TRUE(check_soup(soup, {}).diagnosis.clean());
+                const double tapers = s == 4 ? 0.01 : 0;  // a fin, where it ends within a plane
                 EXPECT_NEAR(enclosed_volume(soup.vertices, soup.facets) / (area(sheets[s]) * thickness), 1,
-                            thickness / 2);
+                            thickness / 2 + tapers);
                 for (std::size_t v = 0; v < before.size(); ++v)
                     EXPECT_LE((soup.vertices[v] - before[v]).norm(), report.largest_move() * (1 + 1e-12));
                 EXPECT_LE(report.largest_move(), 2 * thickness);
