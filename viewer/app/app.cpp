@@ -127,6 +127,47 @@ void App::swap_runs() {
     wake();
 }
 
+void App::repair(const InputOptions& options) {
+    opened_ = session_.document().path;  // whether it is meshed then is the user's to say
+    show_before_repair(false);
+    session_.repair(options);
+}
+
+void App::undo_repair() {
+    show_before_repair(false);
+    session_.undo_repair();
+    session_changed_ = true;
+}
+
+void App::redo_repair() {
+    show_before_repair(false);
+    session_.redo_repair();
+    session_changed_ = true;
+}
+
+void App::show_before_repair(bool before) {
+    state_.camera = camera_;
+    state_.node = 1;
+    state_.step = {before ? Stage::before_repair : Stage::input, -1};
+    wake();
+}
+
+// The key that goes from what was before to what is after.
+void App::show_other() {
+    if (session_.other_document())
+        swap_runs();
+    else if (session_.document().unrepaired)
+        show_before_repair(state_.node != 1 || state_.step.stage != Stage::before_repair);
+}
+
+// Numbers of facets and defects mean others in a repaired surface.
+void App::follow_repairs() {
+    if (checked_ == session_.document().checked) return;
+    const bool is_other = checked_ && session_.document().checked;
+    checked_ = session_.document().checked;
+    if (is_other && state_.selection.kind != Selection::Kind::place) state_.selection = {};
+}
+
 void App::notify(const std::string& text) {
     facts_.notice = text;
     facts_.notice_is_error = false;
@@ -175,6 +216,7 @@ void App::follow_session() {
     }
     begin_auto_run();
     choose_view();
+    follow_repairs();
     if (session_changed_) resolve_click();
     resolve_turn();
     const Document& document = session_.document();

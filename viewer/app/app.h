@@ -101,6 +101,10 @@ class App : private Actions {
     void start_run(const RunOptions& options, bool volume) override;
     void redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane) override;
     void swap_runs() override;
+    void repair(const InputOptions& options) override;
+    void undo_repair() override;
+    void redo_repair() override;
+    void show_before_repair(bool before) override;
     void complain(const std::string& text) override;
 
     // Of a picture with numbers: the matrix, the viewport, and which scene it is of.
@@ -116,6 +120,8 @@ class App : private Actions {
     void follow_session();
     void await_document();
     void begin_auto_run();
+    void follow_repairs();
+    void show_other();
     void choose_view();
     void update_camera();
     void project_scene();
@@ -181,8 +187,9 @@ class App : private Actions {
     FrameSize size_;
     std::vector<KeyEvent> key_events_;  // that no frame has taken yet
 
-    std::string styled_for_;  // theme and scale
-    std::string opened_;      // what auto_run has been decided for
+    std::string styled_for_;                      // theme and scale
+    std::string opened_;                          // what auto_run has been decided for
+    std::shared_ptr<const CheckedSoup> checked_;  // of the document as it was last looked at
     ChosenView chosen_;
     struct KeptScale {
         ColorBy color = ColorBy::part;

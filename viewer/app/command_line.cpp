@@ -118,6 +118,7 @@ void apply_options(const SceneOptions& options, ViewCommand& command) {
     read_run_config(options.config, command.run);
     take_inputs(options.inputs, command.input, command.run.input_options);
     if (!options.surface.empty()) set_options(command.run, {{"surface", options.surface}}, "The command line");
+    if (!options.repair.empty()) set_options(command.run, {{"repair", options.repair}}, "The command line");
     if (!options.input_scale.empty()) set_options(command.run, {{"scale", options.input_scale}}, "The command line");
     command.run.input_options.check();
 }

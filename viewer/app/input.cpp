@@ -58,7 +58,7 @@ void App::take_character_key(const KeyEvent& event) {
     if (event.key == key_of('F')) frame_selection();
     if (event.key == key_of('C')) event.shift ? clip_through_selection(false) : void(state_.clip.on = !state_.clip.on);
     if (event.key == key_of('E')) state_.edges = !state_.edges;
-    if (event.key == key_of('B')) swap_runs();
+    if (event.key == key_of('B')) show_other();
     if (event.key == key_of('N')) state_.neighbours = !state_.neighbours;
     if (event.key == key_space) toggle_play();
 }
@@ -71,6 +71,8 @@ void App::take_key(const KeyEvent& event) {
         if (event.key == key_of('O')) ui_.open_browser();
         if (event.key == key_of('R')) reload();
         if (event.key == key_of('Q')) quit();
+        if (event.key == key_of('Z')) event.shift ? redo_repair() : undo_repair();
+        if (event.key == key_of('Y')) redo_repair();
         return;
     }
     if (event.key == key_left) move_step(-1);

@@ -159,6 +159,9 @@ void add_run_options(CLI::App& app, ViewCommand& command, SceneOptions& options)
     app.add_option("--surface", options.surface, "Of that run, as of kerf mesh.")
         ->type_name("")
         ->check(suggest("keep,split,remesh,auto"));
+    app.add_option("--repair", options.repair,
+                   "Repair a surface first, as kerf repair does: exact, near, full, or steps by name.")
+        ->type_name("LEVEL");
     app.add_option("--scale", options.input_scale, "Multiply all coordinates of a surface by this. Default 1.")
         ->type_name("F");
     app.add_option("--config", options.config, "Other options of that run: a file of kerf mesh --print-config.")

@@ -33,8 +33,13 @@ class Deadline {
     std::chrono::time_point<std::chrono::steady_clock, std::chrono::duration<double>> end_;
 };
 
-// What the wanted stage needs of a surface.
-bool needs_run(const ViewState& state) { return state.node != 1 || state.step != Step{} || is_of_surface(state.color); }
+// Whether the wanted stage and colours need more than the surface, as it was read and repaired.
+bool needs_run(const Document& document, const ViewState& state) {
+    const bool is_repaired = document.unrepaired != nullptr;
+    const bool is_there = state.step == Step{} || (is_repaired && state.step == Step{Stage::before_repair, -1});
+    const bool needs_values = is_of_surface(state.color) && !(is_repaired && state.color == ColorBy::deviation);
+    return state.node != 1 || !is_there || needs_values;
+}
 
 void wait_for_document(App& app, const ViewCommand& command, const Deadline& deadline) {
     Session& session = app.session();
@@ -53,7 +58,7 @@ void wait_for_document(App& app, const ViewCommand& command, const Deadline& dea
     }
     if (session.document().kind != Document::Kind::surface || session.document().has_problems()) return;
     const bool is_remeshed = command.run.remeshing != Remeshing::never;
-    if (!needs_run(command.state) && !is_remeshed && !command.clip.starts_with("node=")) return;
+    if (!needs_run(session.document(), command.state) && !is_remeshed && !command.clip.starts_with("node=")) return;
     RunOptions run = command.run;
     run.input = session.document().path;
     session.start_run(run, command.state.step.stage == Stage::tetrahedra);
@@ -90,7 +95,7 @@ void check_regions(const Document& document, const ViewState& state) {
 // A wish that cannot be met is an error here; in the window it is only a wish.
 void check_wishes(const Document& document, const ViewState& state, bool with_panels) {
     if (!document.error.empty() && !with_panels) throw Error(document.error_code, document.error);
-    if (!needs_run(state)) return;
+    if (!needs_run(document, state)) return;
     if (document.has_problems())
         throw Error(ErrorCode::input,
                     fmt::format("{} cannot be meshed as it is, so that there is only its stage 'input'. "

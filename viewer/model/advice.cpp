@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "geometry/box.h"
+#include "repair/repair_plan.h"
 
 namespace kerf::view {
 
@@ -108,6 +109,22 @@ std::optional<RunOptions> options_with(RunOptions options, const OptionText& opt
         return std::nullopt;
     }
     return options;
+}
+
+std::string with_repairs(const std::string& plan, const std::string& more) {
+    const auto kinds_of = [](const std::string& text) {
+        std::vector<RepairKind> kinds;
+        for (const RepairStep& step : parse_repair_plan("repair", text).steps) kinds.push_back(step.kind);
+        return kinds;
+    };
+    std::string all = plan;
+    for (std::size_t begin = 0; begin < more.size();) {
+        const std::size_t end = std::min(more.find(',', begin), more.size());
+        const std::string longer = all + (all.empty() ? "" : ",") + more.substr(begin, end - begin);
+        if (kinds_of(longer) != kinds_of(all)) all = longer;
+        begin = end + 1;
+    }
+    return all;
 }
 
 std::string words_of(const OptionText& advice, const char* verb) {

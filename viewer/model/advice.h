@@ -24,6 +24,9 @@ bool is_set(const RunOptions& options, const OptionText& option);
 /// `options` with one of them changed; nothing if it has no such value, or one out of its range.
 std::optional<RunOptions> options_with(RunOptions options, const OptionText& option);
 
+/// A list of InputOptions::repair with what is missing in it of another one.
+std::string with_repairs(const std::string& plan, const std::string& more);
+
 /// What a button says: "Remesh the surface", "Run with --voids parity", or "Run with --weld" as long as it has no
 /// value. `verb`: what it does with the option.
 std::string words_of(const OptionText& advice, const char* verb = "Run");

@@ -87,6 +87,12 @@ std::string heading(const Document& document, const ViewState& state, const Step
                        step.refused_try < 0 ? in_words(name(step.stage)) : beginning_small(title(step)));
 }
 
+// What has changed the surface of the file.
+std::string repairs_of(const Document& document) {
+    const std::string& plan = document.options.input_options.repair;
+    return plan.empty() ? "by its options" : plan;
+}
+
 // Where an axis of the file is the normal, with the place in its units.
 std::string clip_text(const Clip& clip, const Eigen::AlignedBox3d& box) {
     const ValueRange range = extent_along(box, clip.normal);
@@ -156,6 +162,10 @@ std::vector<CaptionLine> caption_of(const UiContext& context, float room) {
         if (step.refused_try >= 0) add(describe_step(document, state.node, step), colors.bad);
     } else {
         add(document.title, colors.text);
+        if (document.unrepaired)
+            add(state.step.stage == Stage::before_repair ? "Surface of the file, before repairs"
+                                                         : "Repaired: " + repairs_of(document),
+                colors.text);
     }
     if (!document.box.isEmpty()) {
         if (width_of(size_text(document.box)) <= room) add(size_text(document.box), colors.dim);

@@ -35,7 +35,9 @@ bool has_tree(const Document& document) {
 
 bool has_remarks(const Document& document) {
     const bool defects = document.checked && !document.checked->diagnosis.defects.empty();
-    return defects || !document.error.empty() || !document.notes.empty() || !document.progress.message.empty();
+    const bool repairs = document.unrepaired || (document.checked && !document.checked->ladder.steps.empty());
+    return defects || repairs || !document.error.empty() || !document.notes.empty() ||
+           !document.progress.message.empty();
 }
 
 Layout layout_of(const ViewState& state, const Document& document, const PanelSizes& sizes, float width, float height) {

@@ -41,6 +41,11 @@ class Actions {
     /// At the plane, or where it was.
     virtual void redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane) = 0;
     virtual void swap_runs() = 0;
+    /// Session::repair() and its like; what was selected is no more.
+    virtual void repair(const InputOptions& options) = 0;
+    virtual void undo_repair() = 0;
+    virtual void redo_repair() = 0;
+    virtual void show_before_repair(bool before) = 0;  ///< or the surface after it, under the same camera
     /// Shows what could not be done, until the next notice or click.
     virtual void complain(const std::string& text) = 0;
 };

@@ -75,6 +75,11 @@ struct Memory {
     RunOptions options;                 ///< as edited
     std::string options_of;             ///< path and options of the document that they were taken from
     std::string save_to, save_of;       ///< where a run is to be saved, as typed; path of the document
+    std::string plan, plan_of;          ///< of repairs, as typed; that of the document
+    const CheckedSoup* repairs_of = nullptr;  ///< whose lists the following is in
+    int chosen_action = -1;                   ///< of the report of repairs
+    int chosen_repair = -1;                   ///< place of that action
+    std::string surface_to, surface_of;       ///< where a surface is to be saved, as typed; path of the document
     Section parameters, worst_cells;
 };
 
@@ -82,6 +87,10 @@ void draw_menu(UiContext& context, Memory& memory);
 void draw_tree(UiContext& context, Memory& memory);
 void draw_selection(UiContext& context);
 void draw_problems(UiContext& context, Memory& memory);
+/// How the surface that is open can be repaired, and what repairs have done.
+void draw_repairs(UiContext& context, Memory& memory);
+/// A button for the steps that mend a kind of defects; nothing where there are none.
+void draw_repairs_of(UiContext& context, DefectKind kind);
 void draw_display(UiContext& context);
 /// Of bodies of several regions: what is shown of each, and whether they move as wholes.
 void draw_regions(UiContext& context);

@@ -8,6 +8,7 @@
 
 #include "viewer/model/advice.h"
 #include "viewer/model/line_of_sight.h"
+#include "viewer/model/repaired_places.h"
 #include "viewer/panels/parts.h"
 
 namespace kerf::view {
@@ -25,17 +26,6 @@ std::string measure_of(const Defect& defect) {
         return fmt::format("{} edges, length {:.5g}", defect.facets.size(), defect.measure);
     if (defect.kind == DefectKind::short_edge) return fmt::format("length {:.3g}", defect.measure);
     return "";
-}
-
-// Of what has to be seen to understand it.
-double radius_of(const Defect& defect, const Soup& soup, double diagonal) {
-    double radius = 0;
-    for (const std::int32_t facet : defect.facets)
-        for (const std::int32_t vertex : soup.facets[static_cast<std::size_t>(facet)]) {
-            const double distance = (soup.vertices[static_cast<std::size_t>(vertex)] - defect.where).norm();
-            if (std::isfinite(distance)) radius = std::max(radius, distance);
-        }
-    return radius > 0 ? std::clamp(1.5 * radius, 1e-3 * diagonal, 0.5 * diagonal) : 0.02 * diagonal;
 }
 
 // A button that runs again with an option, or opens again what could not be opened; before it a field for the value if
@@ -70,13 +60,14 @@ void draw_option(UiContext& context, Memory& memory, OptionText advice) {
 }
 
 // Where a text advises options that the run did not have: a button for each. A file that could not be opened needs
-// those by which it is read.
+// those by which it is read. Where the surface is at hand, repairs have buttons of their own.
 void draw_advice(UiContext& context, Memory& memory, const std::string& text) {
     const Document& document = context.session.document();
-    const bool opens = !document.error.empty();
+    const bool opens = !document.error.empty(), repairs = context.session.can_repair();
     ImGui::PushID(text.c_str());  // several texts may advise the same
     for (const OptionText& advice : advised_options(text))
-        if (!is_set(document.options, advice) && (!opens || is_input_option(advice.name)))
+        if (!is_set(document.options, advice) && (!opens || is_input_option(advice.name)) &&
+            (!repairs || advice.name != "repair"))
             draw_option(context, memory, advice);
     ImGui::PopID();
 }
@@ -143,6 +134,11 @@ class ProblemList {
         show(kerf::counted(group.count, first.kind), colors_.text);
         ImGui::SameLine();
         show_right(name(first.severity), color_of(first.severity, colors_));
+        if (first.severity == Severity::error) {
+            ImGui::Indent(1.1f * em());
+            draw_repairs_of(context_, first.kind);
+            ImGui::Unindent(1.1f * em());
+        }
         if (!with_advice) return;
         ImGui::Indent(1.1f * em());
         show_wrapped(fmt::format("To do: {}.", advice(first)), colors_.dim);
@@ -159,7 +155,9 @@ class ProblemList {
     }
 
     void draw_entries() {
-        ImGui::BeginChild("##defects", {0, 0}, true);
+        constexpr float least_entries = 4;  // where what is above takes all the room
+        ImGui::BeginChild("##defects", {0, std::max(ImGui::GetContentRegionAvail().y, least_entries * entry_height())},
+                          true);
         if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(0)) memory_.list = Memory::List::defects;
         take_steps();
         ImGuiListClipper clipper;
@@ -209,7 +207,8 @@ class ProblemList {
         memory_.chosen_defect = index;
         if (!defect.where.allFinite()) return;
         const Soup& soup = checked_.soup;
-        const double radius = radius_of(defect, soup, diagonal_of(context_.session.document()));
+        const double radius =
+            radius_around(soup, defect.facets, defect.where, diagonal_of(context_.session.document()));
         const Vec3 outward = mean_normal(soup.vertices, soup.facets, defect.facets);
         const std::optional<Vec3> back =
             direction_to_eye(soup.vertices, soup.facets, defect.where, 0.01 * radius, outward, context_.camera.back());
@@ -278,8 +277,9 @@ void draw_problems(UiContext& context, Memory& memory) {
         ImGui::Spacing();
     }
     draw_remarks(context, memory);
-    if (document.checked && !document.checked->diagnosis.defects.empty())
-        ProblemList(context, memory, *document.checked).draw();
+    draw_repairs(context, memory);
+    const auto checked = document.checked;  // a button may exchange it
+    if (checked && !checked->diagnosis.defects.empty()) ProblemList(context, memory, *checked).draw();
 }
 
 }  // namespace kerf::view

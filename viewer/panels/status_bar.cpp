@@ -48,6 +48,7 @@ std::string time_left(const Progress& progress) {
 
 std::string stage_text(const Progress& progress) {
     const std::string& stage = progress.stage;
+    if (stage == "repair") return "Repairing";
     if (stage == "read") return "Reading";
     if (stage == "remesh") return "Remeshing";
     if (stage == "decompose") return "Cutting";

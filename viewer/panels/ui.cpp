@@ -22,7 +22,9 @@ namespace {
 void draw_problems_or_tree(UiContext& context, Memory& memory) {
     const Document& document = context.session.document();
     const bool remarks = context.state.panels.problems && has_remarks(document);
-    if (remarks && (document.has_problems() || !context.state.panels.tree)) return draw_problems(context, memory);
+    const bool is_repaired = document.unrepaired && !has_tree(document);
+    if (remarks && (document.has_problems() || is_repaired || !context.state.panels.tree))
+        return draw_problems(context, memory);
     if (!remarks) return draw_tree(context, memory);
     if (!ImGui::BeginTabBar("##left")) return;
     const auto tab = [&](const char* label, void (*draw)(UiContext&, Memory&)) {

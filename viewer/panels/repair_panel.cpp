@@ -1,0 +1,266 @@
+// Repairs of the surface that is open: levels and steps of the ladder, what they did and where, before and after.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "repair/repair_advice.h"
+#include "repair/repair_step.h"
+#include "viewer/model/advice.h"
+#include "viewer/model/line_of_sight.h"
+#include "viewer/model/repaired_places.h"
+#include "viewer/panels/parts.h"
+
+namespace kerf::view {
+
+namespace {
+
+const char* explanation_of(RepairLevel level) {
+    switch (level) {
+        case RepairLevel::exact:
+            return "No point moves, and no area is added";
+        case RepairLevel::near:
+            return "Points move within the bound, holes are filled";
+        case RepairLevel::full:
+            return "Facets that cross are resolved, too";
+        case RepairLevel::none:
+            break;
+    }
+    return "";
+}
+
+// What is wrong with a plan; empty: nothing is.
+std::string error_of_plan(const std::string& plan) {
+    try {
+        parse_repair_plan("repair", plan);
+        return "";
+    } catch (const Error& error) {
+        return error.what();
+    }
+}
+
+void repair_by(UiContext& context, const std::string& plan) {
+    InputOptions options = context.session.document().options.input_options;
+    options.repair = plan;
+    context.actions.repair(options);
+}
+
+// Adds steps to those that were done. They always start from the file.
+void draw_step_button(UiContext& context, const std::string& label, const std::string& words, const std::string& what) {
+    const std::string& plan = context.session.document().options.input_options.repair;
+    const std::string more = with_repairs(plan, words);
+    const bool is_done = more == plan;
+    ImGui::BeginDisabled(is_done || !context.session.can_repair());
+    const std::string tip = is_done ? "This was done already" : fmt::format("{} (--repair {})", what, more);
+    if (context.widgets.small_button(label.c_str(), tip.c_str())) repair_by(context, more);
+    ImGui::EndDisabled();
+}
+
+void draw_wrap_button(UiContext& context) {
+    const OptionText wrap{"surface", "wrap"};
+    const RunOptions& options = context.session.document().options;
+    const std::optional<RunOptions> wrapped = options_with(options, wrap);
+    if (!wrapped || is_set(options, wrap)) return;
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!context.session.can_repair());
+    if (context.widgets.small_button("wrap",
+                                     "A new closed surface around all of it, which is then meshed (--surface "
+                                     "wrap)"))
+        context.actions.start_run(*wrapped, wrapped->volume);
+    ImGui::EndDisabled();
+}
+
+void draw_levels(UiContext& context) {
+    const Palette& colors = palette(context.state.theme);
+    show("Repair:", colors.dim);
+    for (const RepairLevel level : {RepairLevel::exact, RepairLevel::near, RepairLevel::full}) {
+        ImGui::SameLine();
+        draw_step_button(context, name(level), name(level), explanation_of(level));
+    }
+    draw_wrap_button(context);
+}
+
+void draw_plan(UiContext& context, Memory& memory) {
+    const std::string& plan = context.session.document().options.input_options.repair;
+    if (memory.plan_of != plan || ImGui::IsWindowAppearing()) memory.plan = memory.plan_of = plan;
+    context.widgets.input_text("Steps", &memory.plan);
+    explain(repair_words());
+    const std::string error = error_of_plan(memory.plan);
+    ImGui::BeginDisabled(!error.empty() || memory.plan == plan || !context.session.can_repair());
+    const char* tip = !error.empty() ? error.c_str() : "Repairs the surface of the file by these steps";
+    if (context.widgets.small_button("Repair by these", tip)) repair_by(context, memory.plan);
+    ImGui::EndDisabled();
+    const auto control = [&](const char* label, const char* about, bool enabled) {
+        ImGui::SameLine();
+        ImGui::BeginDisabled(!enabled);
+        const bool pressed = context.widgets.small_button(label, about);
+        ImGui::EndDisabled();
+        return pressed && enabled;
+    };
+    if (control("Undo", "The surface before the last repair (Ctrl+Z)", context.session.can_undo_repair()))
+        context.actions.undo_repair();
+    if (control("Redo", "The surface after the repair that was undone (Ctrl+Shift+Z)",
+                context.session.can_redo_repair()))
+        context.actions.redo_repair();
+}
+
+void draw_before_and_after(UiContext& context) {
+    const bool shows_before = context.state.node == 1 && context.state.step.stage == Stage::before_repair;
+    if (context.widgets.radio("Before repairs", shows_before)) context.actions.show_before_repair(true);
+    explain("The surface as the file has it, and what was wrong with it, under the same camera (key B)");
+    ImGui::SameLine();
+    if (context.widgets.radio("After", !shows_before)) context.actions.show_before_repair(false);
+    explain("The surface as repairs have left it (key B)");
+    bool colored = context.state.color == ColorBy::deviation;
+    if (context.widgets.checkbox("Colour by distance", &colored,
+                                 "How far each facet is from the surface before repairs, or, of that, from the surface "
+                                 "after them"))
+        context.state.color = colored ? ColorBy::deviation : ViewState().color;
+}
+
+// What was done, an action a line; the places of the one that was clicked follow.
+class ActionList {
+ public:
+    ActionList(UiContext& context, Memory& memory, const RepairReport& report)
+        : context_(context), memory_(memory), report_(report), colors_(palette(context.state.theme)) {}
+
+    void draw() {
+        int number = 0;
+        for (const StepReport& step : report_.steps)
+            for (const RepairAction& action : step.actions)
+                if (action.count > 0) draw_action(step, action, number++);
+        if (number == 0) show_wrapped("These steps have found nothing to do.", colors_.dim);
+        if (report_.largest_move() > 0)
+            show_wrapped(fmt::format("No vertex has moved farther than {:.4g}; the bound is {:.4g}.",
+                                     report_.largest_move(), report_.bound),
+                         colors_.dim);
+    }
+
+ private:
+    void draw_action(const StepReport& step, const RepairAction& action, int number) {
+        const bool is_refused = *action.refused_because != '\0', is_chosen = memory_.chosen_action == number;
+        RepairReport one{report_.diagonal, report_.bound, {StepReport{step.kind, {action}}}};
+        std::string text = to_text(one, "");
+        while (text.ends_with('\n')) text.pop_back();
+        const ImVec2 start = ImGui::GetCursorPos();
+        const float width = ImGui::GetContentRegionAvail().x;
+        const float height = ImGui::CalcTextSize(text.c_str(), nullptr, false, width).y;
+        ImGui::PushID(number);
+        if (ImGui::Selectable("##action", is_chosen, 0, {0, height})) {
+            const int last = static_cast<int>(action.places.size()) - 1;
+            fly_to(action, number, is_chosen && memory_.chosen_repair < last ? memory_.chosen_repair + 1 : 0);
+        }
+        context_.widgets.record(fmt::format("action {}", number + 1));
+        explain(action.places.empty() ? "" : "A click flies to the first place, and then from place to place.");
+        const ImVec2 end = ImGui::GetCursorPos();
+        ImGui::SetCursorPos(start);
+        show_wrapped(text, is_refused ? colors_.warning : colors_.text);
+        ImGui::SetCursorPos(end);
+        if (memory_.chosen_action == number && action.places.size() > 1) draw_places(action, number);
+        ImGui::PopID();
+    }
+
+    void draw_places(const RepairAction& action, int number) {
+        constexpr int most_rows = 6;
+        const int count = static_cast<int>(action.places.size());
+        const float row = ImGui::GetTextLineHeightWithSpacing();
+        ImGui::BeginChild("##places", {0, (static_cast<float>(std::min(count, most_rows)) + 0.5f) * row}, true);
+        ImGuiListClipper clipper;
+        clipper.Begin(count, row);
+        while (clipper.Step())
+            for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+                const RepairPlace& place = action.places[static_cast<std::size_t>(i)];
+                std::string text = fmt::format("{}: ({:.5g}, {:.5g}, {:.5g})", i + 1, place.where.x(), place.where.y(),
+                                               place.where.z());
+                if (*action.measure != '\0') text += fmt::format(", {:.4g} {}", place.measure, action.measure);
+                if (ImGui::Selectable(text.c_str(), memory_.chosen_repair == i)) fly_to(action, number, i);
+                context_.widgets.record(fmt::format("repaired place {}", i + 1));
+            }
+        ImGui::EndChild();
+    }
+
+    void fly_to(const RepairAction& action, int number, int place_number) {
+        memory_.chosen_action = number;
+        memory_.chosen_repair = place_number;
+        if (action.places.empty()) return;
+        const RepairPlace& place = action.places[static_cast<std::size_t>(place_number)];
+        if (!place.where.allFinite()) return;
+        const Document& document = context_.session.document();
+        const Soup& soup = document.unrepaired ? document.unrepaired->soup : document.checked->soup;
+        const std::vector<std::int32_t> facets = facets_of_file(soup, place.facets);
+        const double radius = radius_around(soup, facets, place.where, report_.diagonal);
+        const std::optional<Vec3> back =
+            direction_to_eye(soup.vertices, soup.facets, place.where, 0.01 * radius,
+                             mean_normal(soup.vertices, soup.facets, facets), context_.camera.back());
+        context_.state.selection = {};
+        context_.actions.fly_to(place.where, radius, back.value_or(Vec3::Zero()));
+    }
+
+    UiContext& context_;
+    Memory& memory_;
+    const RepairReport& report_;
+    const Palette& colors_;
+};
+
+void draw_ending(UiContext& context, Memory& memory) {
+    Session& session = context.session;
+    const Document& document = session.document();
+    if (!document.surface_saved_as.empty())
+        show_wrapped("Saved as " + document.surface_saved_as, palette(context.state.theme).dim);
+    if (memory.surface_of != document.path) {
+        memory.surface_of = document.path;
+        memory.surface_to = std::filesystem::path(document.path).stem().string() + "_repaired.obj";
+    }
+    context.widgets.input_text("Save to", &memory.surface_to);
+    ImGui::BeginDisabled(!session.can_repair() || memory.surface_to.empty());
+    if (context.widgets.small_button("Save surface", "Writes it, as kerf repair does: .obj with patches, or .stl"))
+        session.save_surface(memory.surface_to);
+    ImGui::EndDisabled();
+    const bool has_run = document.trace || !document.folder.empty();
+    if (has_run || document.has_problems() || document.progress.running) return;
+    ImGui::SameLine();
+    const RunOptions options = document.options;
+    if (context.widgets.small_button("Mesh it", "Cuts and meshes the repaired surface"))
+        context.actions.start_run(options, options.volume);
+}
+
+}  // namespace
+
+void draw_repairs_of(UiContext& context, DefectKind kind) {
+    const std::span<const RepairKind> steps = repairs_for(kind);
+    if (steps.empty() || !context.session.document().checked) return;
+    std::string words, what;
+    for (const RepairKind step : steps) {
+        const RepairStepRow& row = repair_step_rows()[static_cast<std::size_t>(step)];
+        words += fmt::format("{}{}", words.empty() ? "" : ",", row.name);
+        what += fmt::format("{}{}", what.empty() ? "" : "; ", row.help);
+    }
+    ImGui::PushID(static_cast<int>(kind));
+    draw_step_button(context, "Repair: " + words, words, what);
+    ImGui::PopID();
+}
+
+void draw_repairs(UiContext& context, Memory& memory) {
+    const Document& document = context.session.document();
+    const bool is_there = context.session.can_repair() || context.session.is_repairing();
+    if (!is_there || !document.checked || !document.error.empty()) return;
+    const auto checked = document.checked;  // a button may exchange it
+    if (memory.repairs_of != checked.get()) {
+        memory.repairs_of = checked.get();
+        memory.chosen_action = memory.chosen_repair = memory.chosen_defect = -1;
+        memory.defect_group = -1;
+    }
+    if (checked->diagnosis.defects.empty() && document.options.input_options.repair.empty() && !document.unrepaired)
+        return;
+    draw_levels(context);
+    draw_plan(context, memory);
+    const bool is_repaired = document.unrepaired != nullptr;
+    if (is_repaired) draw_before_and_after(context);
+    if (!checked->ladder.steps.empty()) ActionList(context, memory, checked->ladder).draw();
+    if (is_repaired) draw_ending(context, memory);
+    ImGui::Spacing();
+}
+
+}  // namespace kerf::view
