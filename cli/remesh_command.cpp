@@ -1,4 +1,4 @@
-// kerf remesh: a surface worth meshing, as a file.
+// kerf remesh and kerf wrap: a surface worth meshing, of one that could be meshed or of any, as a file.
 #include <algorithm>
 #include <memory>
 
@@ -40,17 +40,21 @@ int remesh_and_tell(const RemeshRequest& request) {
         written = remesh_file(request.options, request.output, &progress);
     }
     if (request.quiet) return 0;
+    if (written.wrapped) tell(fmt::format("kerf: wrapped: {}\n", to_text(*written.wrapped)));
     tell(fmt::format("kerf: {}: {} facets, {}\n", request.output, written.facets, remeshing_text(written.done)));
     if (written.found_size) tell(fmt::format("kerf: cells {}\n", found_size_text(*written.found_size)));
     return 0;
 }
 
-}  // namespace
-
-void add_remesh_command(CLI::App& kerf, int& exit_code) {
+void add_surface_command(CLI::App& kerf, int& exit_code, bool is_wrap) {
     const auto request = std::make_shared<RemeshRequest>();
-    CLI::App* command = kerf.add_subcommand("remesh", "Make a surface worth meshing, within a bound of the input.");
-    command->add_option("input", request->options.input, "Closed surface, as for kerf mesh.")
+    request->options.input_options.wrap = is_wrap;
+    CLI::App* command =
+        is_wrap ? kerf.add_subcommand("wrap", "Put a closed surface around any other, and say how far it is from it.")
+                : kerf.add_subcommand("remesh", "Make a surface worth meshing, within a bound of the input.");
+    command
+        ->add_option("input", request->options.input,
+                     is_wrap ? "Surface, whatever it is." : "Closed surface, as for kerf mesh.")
         ->required()
         ->type_name("INPUT");
     command->option_defaults()->group(option_group::output);
@@ -61,9 +65,16 @@ void add_remesh_command(CLI::App& kerf, int& exit_code) {
         if (shapes_surface(field.name)) add_option_field(*command, field);
     heed_unit(*command, request->options.input_options);
     command->add_flag("-q,--quiet", request->quiet, "Print nothing but errors.");
-    put_help_last(*command, option_group::output,
-                  {"output", "size", "deviation", "size-on", "chord-error", "feature-angle", "quiet"});
+    std::vector<std::string> common = {"output",      "size",          "deviation", "size-on",
+                                       "chord-error", "feature-angle", "quiet"};
+    if (is_wrap) common.insert(common.end(), {"gap", "offset"});
+    put_help_last(*command, option_group::output, common);
     command->callback([=, &exit_code] { exit_code = run_on_first_rank([&] { return remesh_and_tell(*request); }); });
 }
+
+}  // namespace
+
+void add_remesh_command(CLI::App& kerf, int& exit_code) { add_surface_command(kerf, exit_code, false); }
+void add_wrap_command(CLI::App& kerf, int& exit_code) { add_surface_command(kerf, exit_code, true); }
 
 }  // namespace kerf

@@ -15,6 +15,7 @@
 #include "io/run_manifest.h"
 #include "prepare/region_diagnosis.h"
 #include "repair/repair.h"
+#include "repair/wrap.h"
 #include "surface/hole_filling.h"
 #include "surface/intersections.h"
 #include "surface/mass_properties.h"
@@ -109,6 +110,7 @@ Input to_input(CheckedSoup checked, const std::string& path, const InputOptions&
     input.orientation = apply_repairs(checked);
     input.repairs = checked.repairs;
     input.ladder = std::move(checked.ladder);
+    input.wrapped = checked.wrapped;
     input.weld_tolerance = checked.weld_tolerance;
     input.notes = soup.notes;
     for (const std::string& note : gap_notes) input.notes.push_back(note);
@@ -271,6 +273,10 @@ CheckedSoup check_files(InputFiles files, const InputOptions& options, double ne
     }
     checked.ladder = repair(soup, parse_repair_plan("repair", options.repair), poll);
     repairs.unused_vertices = drop_unused_vertices(soup);
+    if (options.wraps()) {
+        checked.wrapped = wrap(soup, options.wrapping);
+        files = {{}, files.hash, {}, {}};  // one body, whatever was in them
+    }
     take_points(soup, options);
     diagnose_regions(checked, files, {options.voids, needle_angle_deg}, options.fill_voids);
     const std::vector<char>& dropped = checked.diagnosis.dropped;

@@ -14,6 +14,7 @@
 #include "prepare/input_files.h"
 #include "remesh/remesh.h"
 #include "repair/repair_report.h"
+#include "repair/wrap.h"
 #include "request/input_options.h"
 #include "size/size_options.h"
 #include "surface/complex.h"
@@ -40,6 +41,7 @@ struct CheckedSoup {
     InputRepairs repairs;
     double weld_tolerance = 0;  ///< that was used, units of the file
     RepairReport ladder = {};   ///< what InputOptions::repair did
+    std::optional<WrapReport> wrapped = {};
 };
 
 /// Error(input) of a surface that cannot be meshed as it is, with all that was found.
@@ -114,6 +116,7 @@ struct Input {
     /// Volume that cells may have at most, as the file says it for each region; 0: it does not. Empty: for none.
     std::vector<double> largest_cells = {};
     RepairReport ladder = {};  ///< what InputOptions::repair did
+    std::optional<WrapReport> wrapped = {};
 };
 
 /// Reads (several files and CAD files, too: prepare/input_files.h), repairs, diagnoses. Throws Error only for a file

@@ -15,7 +15,7 @@ RemeshedFile remesh_file(RunOptions options, const std::string& output, StageLis
     require_surface_file("--output", output, input.complex.region_count());
     const SizedInput sized = remesh_always(std::move(input), std::move(options), listener);
     write_surface(output, sized.input.complex, sized.input.patch_names);
-    return {sized.input.complex.facet_count(), *sized.input.remeshed, sized.found};
+    return {sized.input.complex.facet_count(), *sized.input.remeshed, sized.found, sized.input.wrapped};
 }
 
 SizedInput remesh_always(Input input, RunOptions options, StageListener* listener) {

@@ -20,6 +20,7 @@ struct RemeshedFile {
     std::int64_t facets = 0;
     InputRemeshing done;
     std::optional<FoundSize> found_size;  ///< for the number of tetrahedra that was asked for
+    std::optional<WrapReport> wrapped = {};
 };
 
 /// remesh_always() of options.input, written to `output` as write_surface() does. Throws Error, before the work where

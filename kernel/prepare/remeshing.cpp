@@ -144,6 +144,7 @@ void want_lengths_of_regions(const RunOptions& options, const SizeField& all, co
 
 RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const BadFacets& bad,
                        const RunOptions& options) {
+    constexpr double share_of_gap = 0.1;  // a wrap is rough where it bridges
     const SizeField wanted = wanted_lengths(options, surface, input);
     RemeshTask task = {label_facets(input.complex),
                        {.longest = longest_edge(options, input.diagonal), .creases = input.creases}};
@@ -153,7 +154,8 @@ RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const B
     want_lengths_of_regions(options, wanted, input, task);
     result.deviation = options.deviation.number() > 0
                            ? deviation_for(options.deviation, input.diagonal)
-                           : usual_deviation(wanted, surface, input.diagonal, options.sizes.fineness);
+                           : std::max(usual_deviation(wanted, surface, input.diagonal, options.sizes.fineness),
+                                      input.wrapped ? share_of_gap * input.wrapped->gap : 0);
     if (const double growth = with_fineness_at_kept_facets(options).sizes.growth; growth > 0) result.growth = growth;
     if (options.remeshing == Remeshing::where_needed && !input.is_cad && !result.wanted && !bad.are_too_wide())
         result.kept = facets_away_from_slivers(task.facets.surface);
@@ -247,6 +249,18 @@ Input divided(Input input, const SurfaceArrays& before, const RunOptions& option
     return input;
 }
 
+// A wrap may be so rough that no bound can be kept. Its facets do.
+Input remeshed_if_possible(Input input, const SurfaceArrays& before, const BadFacets& bad, const RunOptions& options,
+                           StageListener* listener, int processes) {
+    try {
+        return remeshed(input, before, bad, options, listener, processes);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::input) throw;
+        input.notes.push_back(fmt::format("The facets of the wrap are kept. {}", error.what()));
+        return divided(std::move(input), before, options, listener, processes);
+    }
+}
+
 SurfaceChange change_of(const Input& input, const SurfaceArrays& surface, const BadFacets& bad,
                         const RunOptions& options) {
     if (options.remeshing == Remeshing::never) return SurfaceChange::none;
@@ -301,6 +315,8 @@ Input remesh_where_asked(Input input, const RunOptions& options, StageListener* 
     const SurfaceArrays before = input.complex.arrays();
     const BadFacets bad = find_bad_facets(input, before);
     const SurfaceChange change = change_of(input, before, bad, options);
+    if (change == SurfaceChange::remeshing && input.wrapped)
+        return remeshed_if_possible(std::move(input), before, bad, options, listener, processes);
     if (change == SurfaceChange::remeshing)
         return remeshed(std::move(input), before, bad, options, listener, processes);
     const std::string note = sliver_note(bad.slivers, input.path);

@@ -240,6 +240,7 @@ void add_input(ReportLines& lines, const RunReport& report, bool all) {
                   fmt::format("{}: {} facets, {} shell{}, genus {}, volume {:.6g}", input.path, grouped(input.facets),
                               input.components, input.components == 1 ? "" : "s", input.genus, input.volume));
     lines.add("repaired", repairs_text(input));
+    if (input.wrapped) lines.add("wrapped", to_text(*input.wrapped));
     for (const std::string& note : input.notes) lines.add("note", note);
     if (input.moved_vertices > 0)
         lines.add("optimised", fmt::format("{} vertices moved by {:.3g} at most", grouped(input.moved_vertices),

@@ -58,6 +58,15 @@ Json input_json(const Input& input) {
     if (!input.notes.empty()) json["notes"] = input.notes;
     if (input.moved_vertices > 0)
         json["optimisation"] = {{"vertices_moved", input.moved_vertices}, {"largest_move", input.largest_move}};
+    if (input.wrapped)
+        json["wrap"] = {{"gap", input.wrapped->gap},
+                        {"offset", input.wrapped->offset},
+                        {"facets_before", input.wrapped->facets_before},
+                        {"facets_left_out", input.wrapped->left_out},
+                        {"facets_visible", input.wrapped->seen},
+                        {"facets", input.wrapped->facets},
+                        {"distance_to_input", input.wrapped->distance_to_input},
+                        {"distance_from_visible_input", input.wrapped->distance_from_input}};
     if (input.remeshed)
         json["remeshing"] = {{"facets_before", input.remeshed->facets_before},
                              {"facets_kept", input.remeshed->facets_kept},

@@ -7,6 +7,7 @@
 
 #include "core/user_number.h"
 #include "io/cad_body.h"
+#include "repair/wrap.h"
 #include "surface/diagnosis.h"
 
 namespace kerf {
@@ -25,7 +26,10 @@ struct InputOptions {
     double feature_angle_deg = 0;          ///< patches between sharper edges where the file has one patch; 0: none
     std::int32_t optimisation_sweeps = 0;  ///< of vertices off the feature edges; 0: none moves
     CadOptions cad;                        ///< of STEP, IGES and BREP files
+    bool wrap = false;                     ///< the surface is wrapped, see wrap(); so it is where there is a gap
+    WrapOptions wrapping = {};             ///< what is used then
 
+    bool wraps() const { return wrap || wrapping.gap.number() > 0; }
     /// Throws Error(usage) naming option, value and range or form.
     void check() const;
 };

@@ -52,15 +52,19 @@ OptionField::Choice mesher_choice(std::string& name) {
 // What is done to the surface, from nothing to most.
 OptionField::Choice surface_choice(RunOptions& o) {
     const auto get = [&o] {
+        if (o.input_options.wrap) return 4;
         if (o.remeshing == Remeshing::where_needed) return 3;
         if (o.remeshing == Remeshing::always) return 2;
         return o.decompose.facets == FacetPolicy::keep ? 0 : 1;
     };
     const auto set = [&o](int value) {
         o.decompose.facets = value == 0 ? FacetPolicy::keep : FacetPolicy::split;
-        o.remeshing = value == 2 ? Remeshing::always : value == 3 ? Remeshing::where_needed : Remeshing::never;
+        o.input_options.wrap = value == 4;
+        o.remeshing = value == 2 || value == 4 ? Remeshing::always
+                      : value == 3             ? Remeshing::where_needed
+                                               : Remeshing::never;
     };
-    return {{"keep", "split", "remesh", "auto"}, get, set};
+    return {{"keep", "split", "remesh", "auto", "wrap"}, get, set};
 }
 
 constexpr OptionRow<InputOptions> input_rows[] = {
@@ -93,6 +97,26 @@ constexpr OptionRow<InputOptions> input_rows[] = {
      "Repair the surface: exact (no point moves), near (within a bound), full (crossings, too), or steps by name, as "
      "weld,stitch,holes=200. Default none.",
      place<&InputOptions::repair>},
+    {"gap",
+     "",
+     option_group::input,
+     "G",
+     "Wrap the surface, whatever it is, in one that is closed: openings narrower than this are, too. A length, or with "
+     "% "
+     "of the diagonal. Default of --surface wrap: 2%.",
+     place<&InputOptions::wrapping, &WrapOptions::gap>,
+     true,
+     {"0 (none) or a positive length in units of the input, or with % of its diagonal", 0}},
+    {"offset",
+     "",
+     option_group::input,
+     "D",
+     "Of a wrap: sheets become walls of twice this thickness. A length, or with % of the diagonal. Default an eighth "
+     "of "
+     "the gap.",
+     place<&InputOptions::wrapping, &WrapOptions::offset>,
+     true,
+     {"0 (an eighth of the gap) or a positive length in units of the input, or with % of its diagonal", 0}},
     {"keep-largest", "", option_group::input, "", "Keep only the connected component of the largest area.",
      place<&InputOptions::keep_largest>},
     {"voids", "", option_group::input, "",
@@ -226,12 +250,12 @@ constexpr OptionRow<RunOptions> meshing_rows[] = {
      }},
     {"surface", "", option_group::input, "",
      "keep every facet; split some where no contour of edges exists; remesh all within --deviation; auto: remesh CAD "
-     "files, and where slivers would spoil the cells, else split, and divide what is coarser than sizes. Default "
-     "auto.",
+     "files, and where slivers would spoil the cells, else split, and divide what is coarser than sizes; wrap it "
+     "first, whatever it is, and remesh that. Default auto.",
      [](RunOptions& o) -> OptionField::Value { return surface_choice(o); }},
     {"deviation", "", option_group::input, "D",
      "Largest distance of a remeshed surface from the input, in its units, or with % of its diagonal. Default: a "
-     "twentieth of the shortest edge that is wanted, 0.05% if none is.",
+     "twentieth of the shortest edge that is wanted, 0.05% if none is; of a wrap, a tenth of the gap if that is more.",
      place<&RunOptions::deviation>, true, deviation_range},
     {"order",
      "",
@@ -345,6 +369,8 @@ void InputOptions::check() const {
     for (const OptionField& field : input_option_fields(copy)) field.check();
     seeds_of(*this);
     parse_repair_plan("repair", repair);
+    if (wrapping.offset.number() > 0 && !wraps())
+        throw Error(ErrorCode::usage, "--offset is for a surface that is wrapped. Give --gap, too, or leave it out.");
 }
 
 std::vector<OptionText> option_texts(RunOptions options, bool shapes_parts_only) {

@@ -1,0 +1,20 @@
+// How far a set of triangles is from a surface, at most: proven, not sampled.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/types.h"
+#include "surface/triangle_tree.h"
+
+namespace kerf {
+
+/// A bound of the distance of every point of the chosen facets from the nearest of another set: no point is further
+/// away, and some point is as far but for a few percent, where `tolerance` is less than that. By Nearness, which
+/// divides facets until each piece is near one other as a whole. `chosen`: #F, empty for all. `tree`: of `others`, none
+/// of them degenerate. `tolerance`: a length that counts as none, > 0. 0 for no facets. `poll` may throw. O(#F log #F).
+double proven_distance(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+                       const std::vector<char>& chosen, const TriangleTree& tree, const std::vector<Triangle>& others,
+                       double tolerance, const std::function<void()>& poll);
+
+}  // namespace kerf
