@@ -26,6 +26,7 @@ struct Arrangement {
     std::int64_t dropped_facets = 0;  ///< that were given, of which nothing is left: they had no area
     int rounds = 0;                   ///< how often facets were divided; 0: nothing crosses
     double largest_rounding = 0;      ///< of the new vertices: how far one is from where it is exactly, in units
+    double largest_move = 0;          ///< of the given vertices that became others, see arrange(), in units
     std::vector<UnresolvedCrossing> unresolved = {};  ///< ascending by facets; empty where all went well
 };
 
@@ -33,15 +34,18 @@ struct Arrangement {
 ///
 /// Facets that lie on one another are divided alike: pieces in one place have the same three vertices, and there are as
 /// many of them as facets cover the place. Facets without area are left out, given ones and those that come up. Facets
-/// that meet nothing come back as they are. No given vertex moves; vertices with equal coordinates count as the first
-/// of them.
+/// that meet nothing come back as they are. Vertices with equal coordinates count as the first of them. Edges are
+/// divided alike in all facets that have them, so what was closed stays closed.
 ///
 /// Points are exact (rational) while facets are divided and are then rounded to doubles. That may make pieces cross
-/// again, by a rounding, so it is repeated for these, with new vertices on a grid that becomes coarser in later rounds
-/// (lazard2025); what still crosses after a bounded number of rounds is told as `unresolved`.
+/// again, by a rounding (lazard2025), so it is repeated for these. From the second round on, vertices within a tolerance
+/// of each other become one, those near an edge or a facet come to lie on it, and facets that lie on one another within
+/// it are divided as if they did; only there a given vertex may become another one. The tolerance is 4 spacings of
+/// doubles at the largest coordinate, and 4 times as much in each further round, of which there are at most 10: it stays
+/// below 1e-10 of that coordinate. What still crosses then, or gets ever more, is told as `unresolved`.
 ///
 /// Requires finite coordinates and numbers in range. `poll`: called now and then, may throw. Deterministic. 1 M facets
-/// with 10,000 crossings take some seconds.
+/// with 10,000 crossings: 4 s and 200 bytes a facet.
 Arrangement arrange(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                     const std::function<void()>& poll = {});
 

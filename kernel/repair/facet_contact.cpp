@@ -49,6 +49,21 @@ bool has_point(const Corners& facet, int axis, const Vec3& p) {
     return true;
 }
 
+bool lie_in_one_plane(const Corners& p, const Corners& q, double tolerance) {
+    if (std::all_of(q.begin(), q.end(), [&](const Vec3& x) { return orientation(p[0], p[1], p[2], x) == 0; }))
+        return true;
+    if (tolerance == 0) return false;
+    const auto normal_of = [](const Corners& t) -> Vec3 { return (t[1] - t[0]).cross(t[2] - t[0]); };
+    const Vec3 normal_p = normal_of(p), normal_q = normal_of(q);
+    constexpr double steep = 0.5;  // the cosine
+    if (!(std::abs(normal_p.dot(normal_q)) >= steep * normal_p.norm() * normal_q.norm())) return false;
+    const bool is_p_larger = normal_p.squaredNorm() >= normal_q.squaredNorm();
+    const Corners &large = is_p_larger ? p : q, &small = is_p_larger ? q : p;
+    const Vec3 normal = (is_p_larger ? normal_p : normal_q).normalized();
+    return std::all_of(small.begin(), small.end(),
+                       [&](const Vec3& x) { return std::abs(normal.dot(x - large[0])) <= tolerance; });
+}
+
 bool share_area(const Corners& p, const Corners& q, int axis) {
     return !is_apart_across_edge(p, q, axis) && !is_apart_across_edge(q, p, axis);
 }

@@ -18,6 +18,10 @@ int axis_across(const Corners& facet);
 /// Whether the closed facet has a point, which lies in its plane. `axis`: of axis_across().
 bool has_point(const Corners& facet, int axis, const Vec3& p);
 
+/// Whether all corners of one facet are within `tolerance` of the plane of the other, or on it where that is 0, and
+/// their planes are not steep to each other.
+bool lie_in_one_plane(const Corners& p, const Corners& q, double tolerance);
+
 /// Whether two facets of one plane overlap in more than a line. `axis`: of axis_across().
 bool share_area(const Corners& p, const Corners& q, int axis);
 

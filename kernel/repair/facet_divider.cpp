@@ -12,12 +12,10 @@
 #define CGAL_NO_CDT_2_WARNING  // of its own way to intersect constraints, which serves
 #include <CGAL/Constrained_triangulation_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Projection_traits_xy_3.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <Eigen/Geometry>
 
-#include "core/elements.h"
 #include "geometry/predicates.h"
 #include "repair/facet_contact.h"
 
@@ -26,8 +24,8 @@ namespace kerf {
 namespace {
 
 using ExactKernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using ExactPoint2 = ExactKernel::Point_2;
 using ExactPoint3 = ExactKernel::Point_3;
-using PlaneTraits = CGAL::Projection_traits_xy_3<ExactKernel>;
 
 struct PointNumber {
     std::int32_t value = -1;
@@ -39,11 +37,11 @@ struct FaceMark {
     std::array<std::int32_t, 3> bounds = {-1, -1, -1};
 };
 
-using PlaneVertex = CGAL::Triangulation_vertex_base_with_info_2<PointNumber, PlaneTraits>;
-using PlaneFace = CGAL::Triangulation_face_base_with_info_2<FaceMark, PlaneTraits,
-                                                            CGAL::Constrained_triangulation_face_base_2<PlaneTraits>>;
+using PlaneVertex = CGAL::Triangulation_vertex_base_with_info_2<PointNumber, ExactKernel>;
+using PlaneFace = CGAL::Triangulation_face_base_with_info_2<FaceMark, ExactKernel,
+                                                            CGAL::Constrained_triangulation_face_base_2<ExactKernel>>;
 using PlaneTriangulation =
-    CGAL::Constrained_triangulation_2<PlaneTraits, CGAL::Triangulation_data_structure_2<PlaneVertex, PlaneFace>,
+    CGAL::Constrained_triangulation_2<ExactKernel, CGAL::Triangulation_data_structure_2<PlaneVertex, PlaneFace>,
                                       CGAL::Exact_intersections_tag>;
 using VertexHandle = PlaneTriangulation::Vertex_handle;
 using FaceHandle = PlaneTriangulation::Face_handle;
@@ -62,16 +60,25 @@ double nearest_double(const ExactKernel::FT& value) {
 
 class PlaneDivision {
  public:
-    PlaneDivision(DistinctPoints& points, const std::vector<Triangle>& facets, double grid,
-                  std::span<const CrossedFacet> members)
-        : points_(points), facets_(facets), grid_(grid), members_(members) {
-        axis_ = axis_across(corners(members[0].facet));
+    PlaneDivision(DistinctPoints& points, const std::vector<Triangle>& facets, std::span<const CrossedFacet> members)
+        : points_(points), facets_(facets), members_(members) {
+        const auto area_of = [&](const CrossedFacet& member) {
+            const Corners p = corners(member.facet);
+            return (p[1] - p[0]).cross(p[2] - p[0]).squaredNorm();
+        };
+        const CrossedFacet& largest =
+            *std::max_element(members.begin(), members.end(),
+                              [&](const CrossedFacet& a, const CrossedFacet& b) { return area_of(a) < area_of(b); });
+        const Corners p = corners(largest.facet);
+        axis_ = axis_across(p);
+        plane_ = {in_frame(p[0]), in_frame(p[1]), in_frame(p[2])};
     }
 
     void add_constraints();
     void improve();
     void number_vertices();
-    void collect(std::vector<FacetPiece>& pieces);
+    bool collect_member(std::int32_t member, std::vector<FacetPiece>& pieces, std::vector<PointOnEdge>& on_edges);
+    void collect(std::vector<FacetPiece>& pieces, std::vector<PointOnEdge>& on_edges);
     double largest_rounding() const { return largest_rounding_; }
 
  private:
@@ -89,9 +96,14 @@ class PlaneDivision {
     // With the axis of projection last, turned like before.
     ExactPoint3 in_frame(const Vec3& p) const { return {p[(axis_ + 1) % 3], p[(axis_ + 2) % 3], p[axis_]}; }
 
+    static ExactPoint2 projected(const ExactPoint3& p) { return {p.x(), p.y()}; }
+
     VertexHandle insert(std::int32_t vertex);
     VertexHandle insert(const Place& place) {
-        return place.number != no_number ? insert(place.number) : triangulation_.insert(place.point, hint_);
+        return place.number != no_number ? insert(place.number) : insert(projected(place.point));
+    }
+    VertexHandle insert(const ExactPoint2& p) {
+        return last_ = triangulation_.insert(p, last_ == VertexHandle() ? FaceHandle() : last_->face());
     }
     void constrain(VertexHandle a, VertexHandle b) {
         if (a != b) triangulation_.insert_constraint(a, b);
@@ -101,26 +113,26 @@ class PlaneDivision {
     bool is_flippable(FaceHandle face, int i) const;
     bool is_better_flipped(FaceHandle face, int i) const;
     void flip(FaceHandle face, int i);
-    std::int32_t rounded(const ExactPoint3& p);
-    void bound(std::int32_t member, VertexHandle from, VertexHandle to, std::vector<FaceHandle>& inner);
+    std::int32_t rounded(const ExactPoint2& p);
+    bool bound(std::int32_t member, VertexHandle from, VertexHandle to, std::vector<FaceHandle>& inner,
+               std::vector<PointOnEdge>& on_edges);
 
     DistinctPoints& points_;
     const std::vector<Triangle>& facets_;
-    const double grid_;
     std::span<const CrossedFacet> members_;
     int axis_;
+    ExactKernel::Plane_3 plane_ = {};  // of the largest facet, in the frame
     double largest_rounding_ = 0;
     PlaneTriangulation triangulation_;
-    FaceHandle hint_ = {};
+    VertexHandle last_ = {};                                    // inserted, near which the next one is looked for
     std::unordered_map<std::int32_t, VertexHandle> vertex_of_;  // only looked up
 };
 
 VertexHandle PlaneDivision::insert(std::int32_t vertex) {
     const auto [known, is_new] = vertex_of_.try_emplace(vertex);
     if (!is_new) return known->second;
-    const VertexHandle v = triangulation_.insert(in_frame(at(vertex)), hint_);
+    const VertexHandle v = insert(ExactPoint2(at(vertex)[(axis_ + 1) % 3], at(vertex)[(axis_ + 2) % 3]));
     v->info().value = vertex;
-    hint_ = v->face();
     return known->second = v;
 }
 
@@ -185,13 +197,13 @@ void PlaneDivision::add_places(std::int32_t of, std::int32_t on, const std::arra
     }
 }
 
-std::int32_t PlaneDivision::rounded(const ExactPoint3& p) {
-    const std::array<ExactKernel::FT, 3> exact = {p.x(), p.y(), p.z()};
+std::int32_t PlaneDivision::rounded(const ExactPoint2& p) {
+    const ExactKernel::FT height = -(plane_.a() * p.x() + plane_.b() * p.y() + plane_.d()) / plane_.c();
+    const std::array<ExactKernel::FT, 3> exact = {p.x(), p.y(), height};
     Vec3 place;
     double square = 0;
     for (int i = 0; i < 3; ++i) {
-        double x = nearest_double(exact[i]);
-        if (grid_ > 0) x = std::nearbyint(x / grid_) * grid_;
+        const double x = nearest_double(exact[i]);
         place[(axis_ + 1 + i) % 3] = x;
         const double off = CGAL::to_double(exact[i] - x);
         square += off * off;
@@ -265,54 +277,73 @@ void PlaneDivision::improve() {
     }
 }
 
-// Marks the edges between two corners, and has the faces on the left of them in `inner`.
-void PlaneDivision::bound(std::int32_t member, VertexHandle from, VertexHandle to, std::vector<FaceHandle>& inner) {
+// Marks the edges between two corners, and has the faces on the left of them in `inner`. False if there are none.
+bool PlaneDivision::bound(std::int32_t member, VertexHandle from, VertexHandle to, std::vector<FaceHandle>& inner,
+                          std::vector<PointOnEdge>& on_edges) {
+    const UndirectedEdge edge = undirected(from->info().value, to->info().value);
     while (from != to) {
         VertexHandle next;
         FaceHandle right;
         int i = 0;
-        if (!triangulation_.includes_edge(from, to, next, right, i)) throw std::logic_error("no edge");
+        if (!triangulation_.includes_edge(from, to, next, right, i)) return false;
         const FaceHandle left = right->neighbor(i);
         left->info().bounds[triangulation_.mirror_index(right, i)] = member;
         inner.push_back(left);
         from = next;
+        const std::int32_t v = from->info().value;
+        if (v != edge[0] && v != edge[1])
+            on_edges.push_back({edge, (at(v) - at(edge[0])).norm(), v, members_[member].facet});
     }
+    return true;
 }
 
-void PlaneDivision::collect(std::vector<FacetPiece>& pieces) {
+// A facet without area in the projection has no pieces: its edges are those of others.
+bool PlaneDivision::collect_member(std::int32_t member, std::vector<FacetPiece>& pieces,
+                                   std::vector<PointOnEdge>& on_edges) {
+    const std::int32_t facet = members_[member].facet;
+    Triangle t = facets_[facet];
+    const Corners p = corners(facet);
+    const int turn = projected_orientation(axis_, p[0], p[1], p[2]);
+    if (turn == 0) return true;
+    if (turn < 0) std::swap(t[1], t[2]);
+    std::vector<FaceHandle> open;
+    for (int i = 0; i < 3; ++i)
+        if (!bound(member, vertex_of_[t[i]], vertex_of_[t[(i + 1) % 3]], open, on_edges)) return false;
+    while (!open.empty()) {
+        const FaceHandle face = open.back();
+        open.pop_back();
+        if (triangulation_.is_infinite(face)) return false;
+        FaceMark& mark = face->info();
+        if (std::exchange(mark.seen, member) == member) continue;
+        for (int i = 0; i < 3; ++i)
+            if (mark.bounds[i] != member) open.push_back(face->neighbor(i));
+        Triangle piece = {face->vertex(0)->info().value, face->vertex(1)->info().value, face->vertex(2)->info().value};
+        if (turn < 0) std::swap(piece[1], piece[2]);
+        pieces.push_back({facet, piece});
+    }
+    return true;
+}
+
+// Where corners fall upon each other in the projection, so that edges are not found, a facet stays whole in this round.
+void PlaneDivision::collect(std::vector<FacetPiece>& pieces, std::vector<PointOnEdge>& on_edges) {
     for (std::size_t m = 0; m < members_.size(); ++m) {
-        const auto member = static_cast<std::int32_t>(m);
-        const std::int32_t facet = members_[m].facet;
-        Triangle t = facets_[facet];
-        const Corners p = corners(facet);
-        const bool is_turned = projected_orientation(axis_, p[0], p[1], p[2]) < 0;
-        if (is_turned) std::swap(t[1], t[2]);
-        std::vector<FaceHandle> open;
-        for (int i = 0; i < 3; ++i) bound(member, vertex_of_[t[i]], vertex_of_[t[(i + 1) % 3]], open);
-        while (!open.empty()) {
-            const FaceHandle face = open.back();
-            open.pop_back();
-            FaceMark& mark = face->info();
-            if (std::exchange(mark.seen, member) == member) continue;
-            for (int i = 0; i < 3; ++i)
-                if (mark.bounds[i] != member) open.push_back(face->neighbor(i));
-            Triangle piece = {face->vertex(0)->info().value, face->vertex(1)->info().value,
-                              face->vertex(2)->info().value};
-            if (is_turned) std::swap(piece[1], piece[2]);
-            if (!has_repeated_vertex(piece) && axis_across({at(piece[0]), at(piece[1]), at(piece[2])}) >= 0)
-                pieces.push_back({facet, piece});
-        }
+        const std::size_t piece_count = pieces.size(), point_count = on_edges.size();
+        if (collect_member(static_cast<std::int32_t>(m), pieces, on_edges)) continue;
+        pieces.resize(piece_count);
+        on_edges.resize(point_count);
+        pieces.push_back({members_[m].facet, facets_[members_[m].facet]});
     }
 }
 
 }  // namespace
 
-void FacetDivider::divide(std::span<const CrossedFacet> facets_of_plane, std::vector<FacetPiece>& pieces) {
-    PlaneDivision division(points_, facets_, grid_, facets_of_plane);
+void FacetDivider::divide(std::span<const CrossedFacet> facets_of_plane, std::vector<FacetPiece>& pieces,
+                          std::vector<PointOnEdge>& on_edges) {
+    PlaneDivision division(points_, facets_, facets_of_plane);
     division.add_constraints();
     division.number_vertices();
     division.improve();
-    division.collect(pieces);
+    division.collect(pieces, on_edges);
     largest_rounding_ = std::max(largest_rounding_, division.largest_rounding());
 }
 

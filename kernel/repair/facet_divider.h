@@ -5,15 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "repair/distinct_points.h"
+#include "repair/divided_facets.h"
 
 namespace kerf {
-
-/// A piece of a facet, turned like it.
-struct FacetPiece {
-    std::int32_t facet;
-    Triangle corners;
-};
 
 /// A facet of a plane, and those that meet it but share no area with it.
 struct CrossedFacet {
@@ -28,14 +22,14 @@ struct CrossedFacet {
 /// neighbours fit, wherever they are divided.
 class FacetDivider {
  public:
-    /// New points are added to `points`. They are put to multiples of `grid`, a power of two; 0: to the nearest
-    /// doubles.
-    FacetDivider(DistinctPoints& points, const std::vector<Triangle>& facets, double grid)
-        : points_(points), facets_(facets), grid_(grid) {}
+    /// New points are added to `points`.
+    FacetDivider(DistinctPoints& points, const std::vector<Triangle>& facets) : points_(points), facets_(facets) {}
 
-    /// Appends the pieces that have area once they are rounded, facet by facet. Every corner of a facet is the first
-    /// point with its coordinates; facets have area. O(n^2) points where n facets cross each other within one.
-    void divide(std::span<const CrossedFacet> facets_of_plane, std::vector<FacetPiece>& pieces);
+    /// Appends the pieces, facet by facet; some may have no area once they are rounded. Every corner of a facet is the
+    /// first point with its coordinates; facets have area. O(n^2) points where n facets cross each other within one.
+    /// `on_edges`: gets the points on the edges of the facets.
+    void divide(std::span<const CrossedFacet> facets_of_plane, std::vector<FacetPiece>& pieces,
+                std::vector<PointOnEdge>& on_edges);
 
     /// How far a point is from where it is exactly, at most.
     double largest_rounding() const { return largest_rounding_; }
@@ -43,7 +37,6 @@ class FacetDivider {
  private:
     DistinctPoints& points_;
     const std::vector<Triangle>& facets_;
-    const double grid_;
     double largest_rounding_ = 0;
 };
 
