@@ -26,7 +26,10 @@ bool are_copies(const Triangle& s, const Triangle& t) { return std::is_permutati
 class Arranger {
  public:
     Arranger(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, const std::function<void()>& poll)
-        : given_vertices_(vertices.size()), given_facets_(facets.size()), divided_{DistinctPoints(vertices)}, poll_(poll) {
+        : given_vertices_(vertices.size()),
+          given_facets_(facets.size()),
+          divided_{DistinctPoints(vertices)},
+          poll_(poll) {
         for (const Vec3& p : vertices) extent_ = std::max(extent_, p.cwiseAbs().maxCoeff());
         for (std::size_t f = 0; f < facets.size(); ++f) {
             Triangle t = facets[f];

@@ -38,11 +38,11 @@ struct Arrangement {
 /// divided alike in all facets that have them, so what was closed stays closed.
 ///
 /// Points are exact (rational) while facets are divided and are then rounded to doubles. That may make pieces cross
-/// again, by a rounding (lazard2025), so it is repeated for these. From the second round on, vertices within a tolerance
-/// of each other become one, those near an edge or a facet come to lie on it, and facets that lie on one another within
-/// it are divided as if they did; only there a given vertex may become another one. The tolerance is 4 spacings of
-/// doubles at the largest coordinate, and 4 times as much in each further round, of which there are at most 10: it stays
-/// below 1e-10 of that coordinate. What still crosses then, or gets ever more, is told as `unresolved`.
+/// again, by a rounding (lazard2025), so it is repeated for these. From the second round on, vertices within a
+/// tolerance of each other become one, those near an edge or a facet come to lie on it, and facets that lie on one
+/// another within it are divided as if they did; only there a given vertex may become another one. The tolerance is 4
+/// spacings of doubles at the largest coordinate, and 4 times as much in each further round, of which there are at most
+/// 10: it stays below 1e-10 of that coordinate. What still crosses then, or gets ever more, is told as `unresolved`.
 ///
 /// Requires finite coordinates and numbers in range. `poll`: called now and then, may throw. Deterministic. 1 M facets
 /// with 10,000 crossings: 4 s and 200 bytes a facet.
