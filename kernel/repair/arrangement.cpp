@@ -45,8 +45,14 @@ class Arranger {
         std::vector<FacetPair> pairs = find_pairs();
         result_.crossing_pairs = static_cast<std::int64_t>(pairs.size());
         for (; is_to_be_divided(pairs); ++result_.rounds, pairs = find_pairs()) {
+            if (result_.rounds > 0) keep_if_best(pairs);
             if (result_.rounds >= exact_rounds) pairs = join_near(pairs);
             divide(pairs);
+        }
+        if (has_crossing(pairs) && !best_.facets.empty() && best_.pairs.size() < pairs.size()) {
+            divided_.facets = std::move(best_.facets);
+            divided_.parent = std::move(best_.parent);
+            pairs = std::move(best_.pairs);
         }
         return finish(pairs);
     }
@@ -60,17 +66,23 @@ class Arranger {
     }
     // Who has more is hopeless: a solid tangle, or one that roundings make worse and worse.
     std::size_t most_pairs() const {
-        if (result_.rounds > 0) return 1000 + 10 * static_cast<std::size_t>(result_.crossing_pairs);
+        if (result_.rounds > 0) return 5000 + 10 * static_cast<std::size_t>(result_.crossing_pairs);
         return 200'000 + 2 * divided_.facets.size();
     }
     bool are_copies(const FacetPair& pair) const {
         return kerf::are_copies(divided_.facets[pair[0]], divided_.facets[pair[1]]);
     }
-    bool is_to_be_divided(const std::vector<FacetPair>& pairs) const {
-        if (result_.rounds == most_arrangement_rounds || pairs.size() > most_pairs()) return false;
+    bool has_crossing(const std::vector<FacetPair>& pairs) const {
         return !std::all_of(pairs.begin(), pairs.end(), [&](const FacetPair& pair) { return are_copies(pair); });
     }
-
+    bool is_to_be_divided(const std::vector<FacetPair>& pairs) const {
+        return result_.rounds < most_arrangement_rounds && pairs.size() <= most_pairs() && has_crossing(pairs);
+    }
+    // Roundings may make more cross in a round than before: then the round with the fewest counts.
+    void keep_if_best(const std::vector<FacetPair>& pairs) {
+        if (!best_.facets.empty() && best_.pairs.size() <= pairs.size()) return;
+        best_ = {divided_.facets, divided_.parent, pairs};
+    }
     double tolerance() const;
     bool share_area(const FacetPair& pair) const;
     std::vector<FacetPair> join_near(const std::vector<FacetPair>& pairs);
@@ -81,6 +93,11 @@ class Arranger {
     DividedFacets divided_;
     const std::function<void()>& poll_;
     double extent_ = 0;  // the largest coordinate
+    struct Best {
+        std::vector<Triangle> facets;
+        std::vector<std::int32_t> parent;
+        std::vector<FacetPair> pairs;
+    } best_;
     Arrangement result_;
 };
 
