@@ -72,6 +72,7 @@ double Border::length_between(std::int32_t from, std::int32_t to, double limit) 
     for (std::size_t i = 0; i < reached.size() && i < most_steps; ++i) {
         const auto [v, length] = reached[i];
         if (v == to) least = std::min(least, length);
+        if (length + (points_[to] - points_[v]).norm() >= limit) continue;
         for (const std::int32_t w : row(neighbours_, first_neighbour_, place_[v])) {
             const double beyond = length + (points_[w] - points_[v]).norm();
             const bool is_known = std::any_of(reached.begin(), reached.end(),
@@ -80,13 +81,6 @@ double Border::length_between(std::int32_t from, std::int32_t to, double limit) 
         }
     }
     return least < limit ? least : std::numeric_limits<double>::infinity();
-}
-
-std::int32_t count_with(const std::vector<Triangle>& facets, std::span<const std::int32_t> at_vertex,
-                        std::int32_t other) {
-    return static_cast<std::int32_t>(std::count_if(at_vertex.begin(), at_vertex.end(), [&](std::int32_t f) {
-        return std::find(facets[f].begin(), facets[f].end(), other) != facets[f].end();
-    }));
 }
 
 }  // namespace kerf

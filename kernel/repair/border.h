@@ -42,8 +42,4 @@ class Border {
     std::vector<std::int32_t> neighbours_, first_neighbour_;  // per place: other ends of open edges
 };
 
-/// How many facets of these have both vertices.
-std::int32_t count_with(const std::vector<Triangle>& facets, std::span<const std::int32_t> at_vertex,
-                        std::int32_t other);
-
 }  // namespace kerf

@@ -101,8 +101,6 @@ std::vector<VertexPair> BorderMerger::find_pairs() const {
 void BorderMerger::try_pair(const VertexPair& pair) {
     const std::int32_t a = root(pair.stays), b = root(pair.gone);
     if (a == b) return;
-    const double limit = least_arc_ratio * pair.apart;
-    if (border_.length_between(pair.stays, pair.gone, limit) < limit) return;
     const double apart = (vertices_[a] - vertices_[b]).norm();
     if (apart > tolerance_) return;
     bool is_adjacent = false;
@@ -111,6 +109,8 @@ void BorderMerger::try_pair(const VertexPair& pair) {
         is_adjacent |= std::find(t.begin(), t.end(), b) != t.end();
     });
     if (is_adjacent) return;
+    const double limit = least_arc_ratio * pair.apart;
+    if (border_.length_between(pair.stays, pair.gone, limit) < limit) return;
     const std::int32_t low = std::min(a, b), high = std::max(a, b);
     const bool fits = fits_together(a, b);
     if (fits && may_move(high, low))

@@ -7,6 +7,7 @@
 #include "repair/facet_copies.h"
 #include "repair/flat_facets.h"
 #include "repair/repair_step.h"
+#include "repair/rims.h"
 
 namespace kerf {
 
@@ -20,19 +21,20 @@ class Cleaning {
         accept_unfit();
         drop_undefined();
         drop_flat();
+        drop_copies();
+        if (report_.changed()) drop_unused_vertices(soup_);
+    }
+
+ private:
+    void drop_copies() {
+        if (is_of_touching_bodies(soup_)) return;  // whose walls may be there twice
         const SurplusCopies surplus = find_surplus_copies(soup_.facets, with_walls_);
         std::vector<char> drop(soup_.facets.size(), 0);
         mark(surplus.copies, {"copy of a facet removed", "copies of facets removed"}, drop);
         mark(surplus.folds, {"facet folded upon another removed", "facets folded upon each other removed"}, drop);
         drop_facets(soup_, drop);
-        for (const RepairAction& action : report_.actions)
-            if (action.count > 0) {
-                drop_unused_vertices(soup_);
-                break;
-            }
     }
 
- private:
     // Says that all of them are removed; a facet without a finite corner has no place.
     void mark(const std::vector<std::int32_t>& facets, RepairAction action, std::vector<char>& drop) {
         for (const std::int32_t f : facets) {

@@ -20,6 +20,7 @@ class EdgeOpening {
         : soup_(soup), request_(request), report_(report) {}
 
     void run() {
+        if (is_of_touching_bodies(soup_)) return;
         drop_loose();
         request_.poll();
         FanSeparation separation = separate_fans(soup_, request_.bound);

@@ -27,7 +27,7 @@ class Orienting {
     }
 
     void run(const std::function<void()>& poll) {
-        if (facets_.empty()) return;
+        if (facets_.empty() || (facets_.size() == soup_.facets.size() && is_of_touching_bodies(soup_))) return;
         new_ = make_consistent(facets_);
         restore_one_sided();
         poll();

@@ -6,6 +6,7 @@
 #include "core/elements.h"
 #include "geometry/union_find.h"
 #include "surface/edge_corners.h"
+#include "surface/region_finder.h"
 
 namespace kerf {
 
@@ -44,6 +45,12 @@ bool is_ordinary(const std::vector<Vec3>& vertices, const Triangle& facet) {
 bool has_ordinary_facets(const Soup& soup) {
     return std::all_of(soup.facets.begin(), soup.facets.end(),
                        [&](const Triangle& t) { return is_ordinary(soup.vertices, t); });
+}
+
+bool is_of_touching_bodies(const Soup& soup) {
+    if (!has_edge_of_many(soup.facets)) return false;
+    Soup found = soup;
+    return find_touching_bodies(found);
 }
 
 CompactFacets make_compact(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {

@@ -40,6 +40,10 @@ CompactFacets make_compact(const std::vector<Vec3>& vertices, const std::vector<
 bool has_ordinary_facets(const Soup& soup);
 bool is_ordinary(const std::vector<Vec3>& vertices, const Triangle& facet);
 
+/// Whether these are bodies that share walls, and are regions as they are (surface/region_finder.h): edges of many
+/// facets are no defect then. Requires ordinary facets.
+bool is_of_touching_bodies(const Soup& soup);
+
 /// The same facet seen from the other side.
 inline void turn(Triangle& facet) { std::swap(facet[1], facet[2]); }
 

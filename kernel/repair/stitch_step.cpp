@@ -14,7 +14,7 @@ namespace kerf {
 
 namespace {
 
-constexpr int most_stitching_rounds = 8;
+constexpr int few_rounds = 2, most_rounds = 5;
 constexpr double shares[] = {0x1p-10, 0x1p-8, 0x1p-6, 0x1p-4, 0x1p-2, 1};  // of the tolerance, one after another
 
 class Stitching {
@@ -24,8 +24,8 @@ class Stitching {
 
     void run() {
         const double tolerance = std::min(request_.amount, request_.bound);
-        for (const double share : shares) join(share * tolerance, tolerance);
-        join(tolerance, 0);
+        for (const double share : shares) join(share * tolerance, tolerance, share < 1 ? few_rounds : most_rounds);
+        join(tolerance, 0, most_rounds);
         refused_.refused_because = "facets would turn over there, or three would share an edge";
         const bool is_any = joined_.count + placed_.count > 0;
         for (RepairAction* action : {&joined_, &placed_, &refused_}) report_.actions.push_back(std::move(*action));
@@ -33,8 +33,8 @@ class Stitching {
     }
 
  private:
-    void join(double tolerance, double near_end) {
-        for (int round = 0; round < most_stitching_rounds && join_once(tolerance, near_end); ++round) request_.poll();
+    void join(double tolerance, double near_end, int rounds) {
+        for (int round = 0; round < rounds && join_once(tolerance, near_end); ++round) request_.poll();
     }
     bool join_once(double tolerance, double near_end) {
         const Border border(soup_.vertices, soup_.facets);

@@ -249,9 +249,32 @@ TEST(RepairTopology, OutsideIsTurnedOutOverEdgesOfMany) {
     apply(RepairKind::clean, soup, {.bodies = BodyRepair::regions});
     ASSERT_EQ(soup.facets.size(), 22U);
     for (std::size_t f = 0; f < soup.facets.size(); f += 3) std::swap(soup.facets[f][0], soup.facets[f][1]);
+    add_facet(soup, {soup.facets[0][0], soup.facets[0][1], static_cast<std::int32_t>(soup.vertices.size())});
+    soup.vertices.emplace_back(-0.1, -0.1, -0.1);  // a fin, so that these are no regions
     apply(RepairKind::orient, soup);
     EXPECT_EQ(count(apply(RepairKind::manifold, soup), "facets of walls between bodies removed"), 2);
+    apply(RepairKind::orient, soup);
     expect_body(soup, 2, 1e-12, RepairKind::manifold);
+}
+
+// Cells that share walls are regions as they are, whether walls are there once or twice; with a hole in one they are
+// not.
+TEST(RepairTopology, BodiesThatShareWallsAreRegionsAndStay) {
+    Soup twice = test::join(test::join(test::box(), test::box(Vec3(1, 0, 0), Vec3(2, 1, 1))),
+                            test::box(Vec3(0, 1, 1), Vec3(1, 2, 2)));
+    weld_exactly(twice);
+    Soup once = twice;
+    once.facets.resize(24);
+    once.patch.resize(24);
+    apply(RepairKind::clean, once, {.bodies = BodyRepair::regions});
+    for (const Soup& bodies : {twice, once})
+        for (const RepairKind kind : {RepairKind::clean, RepairKind::orient, RepairKind::manifold}) {
+            Soup soup = bodies;
+            EXPECT_FALSE(apply(kind, soup).changed()) << name(kind);
+            EXPECT_TRUE(same(soup, bodies));
+        }
+    test::remove_facet(twice, 0);
+    EXPECT_EQ(count(apply(RepairKind::clean, twice), "facets folded upon each other removed"), 4);
 }
 
 TEST(RepairTopology, OpenShellsWithAnInsideAreTurnedOutwards) {
