@@ -10,7 +10,7 @@ namespace kerf {
 
 namespace {
 
-constexpr std::size_t most_steps = 64;  // along a border
+constexpr std::size_t most_border_steps = 64;  // along a border
 
 }  // namespace
 
@@ -69,7 +69,7 @@ void Border::collect_neighbours() {
 double Border::length_between(std::int32_t from, std::int32_t to, double limit) const {
     std::vector<std::pair<std::int32_t, double>> reached = {{from, 0.0}};
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < reached.size() && i < most_steps; ++i) {
+    for (std::size_t i = 0; i < reached.size() && i < most_border_steps; ++i) {
         const auto [v, length] = reached[i];
         if (v == to) least = std::min(least, length);
         if (length + (points_[to] - points_[v]).norm() >= limit) continue;

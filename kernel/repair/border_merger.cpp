@@ -13,8 +13,8 @@ namespace kerf {
 
 namespace {
 
-constexpr std::size_t most_partners = 16;  // of one vertex, the nearest
-constexpr double least_cosine = 0.2;       // between the normals of a facet before and after
+constexpr std::size_t most_near_vertices = 16;  // of one vertex, the nearest
+constexpr double least_side_cosine = 0.2;       // between the normals of a facet before and after
 
 class BorderMerger {
  public:
@@ -87,7 +87,7 @@ std::vector<VertexPair> BorderMerger::find_pairs() const {
             if (all[i] != v && apart <= tolerance_) own.push_back({std::max(v, all[i]), std::min(v, all[i]), apart});
         });
         std::sort(own.begin(), own.end(), is_nearer);
-        if (own.size() > most_partners) own.resize(most_partners);
+        if (own.size() > most_near_vertices) own.resize(most_near_vertices);
         pairs.insert(pairs.end(), own.begin(), own.end());
     }
     std::sort(pairs.begin(), pairs.end(), is_nearer);
@@ -203,7 +203,7 @@ void undo_useless(const std::vector<Triangle>& before, const std::vector<std::in
 
 bool keeps_side(const std::array<Vec3, 3>& before, const std::array<Vec3, 3>& now) {
     const Vec3 old_area = doubled_area_vector(before), area = doubled_area_vector(now);
-    return old_area.squaredNorm() == 0 || area.dot(old_area) > least_cosine * area.norm() * old_area.norm();
+    return old_area.squaredNorm() == 0 || area.dot(old_area) > least_side_cosine * area.norm() * old_area.norm();
 }
 
 BorderMerging merge_border(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, const Border& border,

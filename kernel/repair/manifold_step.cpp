@@ -14,9 +14,9 @@ namespace kerf {
 
 namespace {
 
-class EdgeOpening {
+class ManifoldOpening {
  public:
-    EdgeOpening(Soup& soup, const StepRequest& request, StepReport& report)
+    ManifoldOpening(Soup& soup, const StepRequest& request, StepReport& report)
         : soup_(soup), request_(request), report_(report) {}
 
     void run() {
@@ -60,7 +60,7 @@ class EdgeOpening {
 
 void manifold_step(Soup& soup, const StepRequest& request, StepReport& report) {
     if (has_ordinary_facets(soup)) {
-        EdgeOpening(soup, request, report).run();
+        ManifoldOpening(soup, request, report).run();
         return;
     }
     RepairAction left{"surface", "surfaces"};

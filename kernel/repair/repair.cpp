@@ -20,7 +20,12 @@ class Ladder {
     }
 
     RepairReport climb() {
-        for (const RepairStepRow& row : repair_step_rows()) apply(row);
+        for (const RepairStepRow& row : repair_step_rows()) {
+            apply(row);
+            const bool is_filled =
+                row.kind == RepairKind::holes && plan_.find(row.kind) != nullptr && report_.steps.back().changed();
+            if (is_filled) apply(repair_step_rows()[static_cast<std::size_t>(RepairKind::manifold)]);
+        }
         if (!report_.steps.empty() && report_.steps.back().kind == RepairKind::intersections &&
             report_.steps.back().changed())
             for (const RepairKind again : {RepairKind::clean, RepairKind::manifold})

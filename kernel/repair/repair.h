@@ -9,8 +9,9 @@
 
 namespace kerf {
 
-/// Does the steps of a plan, in the order of RepairKind; `clean` and `manifold` once more behind `intersections`, where
-/// they are asked for. What no step finds anything to do in is not changed at all: no vertex, no facet, no order.
+/// Does the steps of a plan, in the order of RepairKind; `manifold` once more behind `holes`, because fins are known
+/// once a body is closed, and `clean` and `manifold` behind `intersections`, where they are asked for. What no step
+/// finds anything to do in is not changed at all: no vertex, no facet, no order.
 ///
 /// Facets of the file keep their order and numbers (Soup::polygon); pieces of a facet follow each other in its place,
 /// and new facets come last, in patches of their own ("filled", "cap_1", ...), with numbers behind those of the file. A

@@ -14,8 +14,8 @@ namespace kerf {
 
 namespace {
 
-constexpr int few_rounds = 2, most_rounds = 5;
-constexpr double shares[] = {0x1p-10, 0x1p-8, 0x1p-6, 0x1p-4, 0x1p-2, 1};  // of the tolerance, one after another
+constexpr int few_stitch_rounds = 2, most_stitch_rounds = 5;
+constexpr double stitch_shares[] = {0x1p-10, 0x1p-8, 0x1p-6, 0x1p-4, 0x1p-2, 1};  // of the tolerance, one after another
 
 class Stitching {
  public:
@@ -24,8 +24,9 @@ class Stitching {
 
     void run() {
         const double tolerance = std::min(request_.amount, request_.bound);
-        for (const double share : shares) join(share * tolerance, tolerance, share < 1 ? few_rounds : most_rounds);
-        join(tolerance, 0, most_rounds);
+        for (const double share : stitch_shares)
+            join(share * tolerance, tolerance, share < 1 ? few_stitch_rounds : most_stitch_rounds);
+        join(tolerance, 0, most_stitch_rounds);
         refused_.refused_because = "facets would turn over there, or three would share an edge";
         const bool is_any = joined_.count + placed_.count > 0;
         for (RepairAction* action : {&joined_, &placed_, &refused_}) report_.actions.push_back(std::move(*action));

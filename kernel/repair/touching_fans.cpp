@@ -18,19 +18,19 @@ namespace kerf {
 
 namespace {
 
-constexpr double share_of_edge = 1e-4, largest_share = 0.25;
+constexpr double move_share = 1e-4, largest_move_share = 0.25;
 constexpr double single_precision = 0x1p-22;  // of a coordinate; what files of single precision can tell
-constexpr int most_attempts = 6;
-constexpr std::size_t intersection_limit = 100'000;
+constexpr int most_separation_rounds = 6;
+constexpr std::size_t most_fan_crossings = 100'000;
 
 // How far something may move apart at a point; 0 if that is too near to tell.
 double move_at(const Vec3& point, double shortest_edge, double bound) {
-    const double move = std::max(share_of_edge * shortest_edge, single_precision * point.cwiseAbs().maxCoeff());
-    return move <= std::min(bound, largest_share * shortest_edge) ? move : 0;
+    const double move = std::max(move_share * shortest_edge, single_precision * point.cwiseAbs().maxCoeff());
+    return move <= std::min(bound, largest_move_share * shortest_edge) ? move : 0;
 }
 
 // The corners of facets that one fan has at a vertex.
-struct Fan {
+struct TouchingFan {
     std::int32_t vertex = 0;
     std::vector<std::int32_t> corners = {};
     bool stays = false;          // open, or tangled in an edge without pairs
@@ -42,22 +42,22 @@ struct Fan {
 };
 
 // The middle of an edge, for one pair of facets alone.
-struct Middle {
+struct EdgeMiddle {
     std::array<std::int32_t, 2> corners;
     Vec3 point;
     double move = 0;
 };
 
-class Separation {
+class FanSeparator {
  public:
-    Separation(Soup& soup, double bound)
+    FanSeparator(Soup& soup, double bound)
         : soup_(soup), bound_(bound), pairs_(pair_facets(soup.vertices, soup.facets)) {}
 
     FanSeparation run() {
         find_fans_to_copy();
         if (!fans_.empty()) copy_fans();
         say_crowded();
-        std::vector<Middle> middles = find_middles();
+        std::vector<EdgeMiddle> middles = find_middles();
         if (!middles.empty()) divide(std::move(middles));
         if (divided_.count + opened_.count > 0)
             drop_unused_vertices(soup_);
@@ -78,15 +78,15 @@ class Separation {
         return {point(corner), soup_.file_facets({corner / 3}), measure};
     }
     void find_fans_to_copy();
-    void measure(Fan& fan) const;
-    void choose(std::vector<Fan>& fans);
+    void measure(TouchingFan& fan) const;
+    void choose(std::vector<TouchingFan>& fans);
     void copy_fans();
     void set_copies();
     bool undo_what_crosses(const Pairs& before, std::vector<char>& chosen);
-    std::vector<Middle> find_middles() const;
-    void add_middles(const std::vector<std::array<std::int32_t, 2>>& pairs, std::vector<Middle>& middles) const;
+    std::vector<EdgeMiddle> find_middles() const;
+    void add_middles(const std::vector<std::array<std::int32_t, 2>>& pairs, std::vector<EdgeMiddle>& middles) const;
     double wedge(std::int32_t c, std::int32_t d) const;
-    void divide(std::vector<Middle> middles);
+    void divide(std::vector<EdgeMiddle> middles);
     void say_crowded();
     void forget_copies() {
         soup_.vertices.resize(vertex_count_);
@@ -103,7 +103,7 @@ class Separation {
     std::size_t vertex_count_ = soup_.vertices.size();
     bool had_numbers_ = !soup_.vertex_number.empty();
     EdgePairs pairs_;
-    std::vector<Fan> fans_;  // that get a vertex of their own
+    std::vector<TouchingFan> fans_;  // that get a vertex of their own
     FanSeparation result_;
     RepairAction divided_{"pinched vertex divided", "pinched vertices divided", "moved"},
         opened_{"touching edge divided", "touching edges divided", "moved"},
@@ -112,7 +112,7 @@ class Separation {
         crowded_{"edge of more than two facets", "edges of more than two facets", "facets"};
 };
 
-void Separation::find_fans_to_copy() {
+void FanSeparator::find_fans_to_copy() {
     const std::vector<std::int32_t> root = find_fans(soup_.facets, pairs_);
     std::vector<std::int32_t> first(soup_.vertices.size(), -1);
     std::vector<char> has_many(soup_.vertices.size(), 0);
@@ -126,7 +126,7 @@ void Separation::find_fans_to_copy() {
         if (const std::int32_t v = vertex(static_cast<std::int32_t>(c)); has_many[v])
             corners.push_back({v, root[c], static_cast<std::int32_t>(c)});
     std::sort(corners.begin(), corners.end());
-    std::vector<Fan> at_vertex;
+    std::vector<TouchingFan> at_vertex;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const auto [v, fan, corner] = corners[i];
         if (i == 0 || fan != corners[i - 1][1]) at_vertex.push_back({v});
@@ -138,7 +138,7 @@ void Separation::find_fans_to_copy() {
     }
 }
 
-void Separation::measure(Fan& fan) const {
+void FanSeparator::measure(TouchingFan& fan) const {
     std::vector<Vec3> edges;
     fan.shortest_edge = std::numeric_limits<double>::infinity();
     for (const std::int32_t c : fan.corners) {
@@ -155,13 +155,13 @@ void Separation::measure(Fan& fan) const {
 }
 
 // All but the widest, if no other fan has to stay.
-void Separation::choose(std::vector<Fan>& fans) {
-    for (Fan& fan : fans) measure(fan);
-    if (std::none_of(fans.begin(), fans.end(), [](const Fan& fan) { return fan.stays; }))
-        std::min_element(fans.begin(), fans.end(), [](const Fan& a, const Fan& b) {
+void FanSeparator::choose(std::vector<TouchingFan>& fans) {
+    for (TouchingFan& fan : fans) measure(fan);
+    if (std::none_of(fans.begin(), fans.end(), [](const TouchingFan& fan) { return fan.stays; }))
+        std::min_element(fans.begin(), fans.end(), [](const TouchingFan& a, const TouchingFan& b) {
             return a.narrowness < b.narrowness;
         })->stays = true;
-    for (Fan& fan : fans) {
+    for (TouchingFan& fan : fans) {
         if (fan.stays) continue;
         if (move_at(point(fan.corners[0]), fan.shortest_edge, bound_) > 0)
             fans_.push_back(std::move(fan));
@@ -170,24 +170,25 @@ void Separation::choose(std::vector<Fan>& fans) {
     }
 }
 
-void Separation::set_copies() {
-    for (const Fan& fan : fans_) {
+void FanSeparator::set_copies() {
+    for (const TouchingFan& fan : fans_) {
         const Vec3& old = soup_.vertices[fan.vertex];
         soup_.vertices[fan.copy] = old + move_at(old, fan.shortest_edge, bound_) * fan.middle;
         for (const std::int32_t c : fan.corners) soup_.facets[c / 3][c % 3] = fan.is_moved ? fan.copy : fan.vertex;
     }
 }
 
-void Separation::copy_fans() {
+void FanSeparator::copy_fans() {
     std::vector<char> chosen(soup_.facets.size(), 0);
-    for (const Fan& fan : fans_)
+    for (const TouchingFan& fan : fans_)
         for (const std::int32_t c : fan.corners) chosen[c / 3] = 1;
-    const Pairs before = find_intersections_of(chosen, soup_.vertices, soup_.facets, intersection_limit);
+    const Pairs before = find_intersections_of(chosen, soup_.vertices, soup_.facets, most_fan_crossings);
     number_vertices(soup_);
-    for (Fan& fan : fans_) fan.copy = add_vertex(Vec3(soup_.vertices[fan.vertex]), soup_.vertex_number[fan.vertex]);
+    for (TouchingFan& fan : fans_)
+        fan.copy = add_vertex(Vec3(soup_.vertices[fan.vertex]), soup_.vertex_number[fan.vertex]);
     set_copies();
     while (undo_what_crosses(before, chosen)) continue;
-    for (const Fan& fan : fans_) {
+    for (const TouchingFan& fan : fans_) {
         if (!fan.is_moved) continue;
         const double move = (soup_.vertices[fan.copy] - soup_.vertices[fan.vertex]).norm();
         result_.largest_move = std::max(result_.largest_move, move);
@@ -197,15 +198,15 @@ void Separation::copy_fans() {
 
 // Fans with a facet that crosses one which it did not cross before share the old vertex again. Whether there are any.
 // `chosen`: facets that have changed, before and behind.
-bool Separation::undo_what_crosses(const Pairs& before, std::vector<char>& chosen) {
+bool FanSeparator::undo_what_crosses(const Pairs& before, std::vector<char>& chosen) {
     std::vector<char> is_bad(soup_.facets.size(), 0);
     bool is_any = false;
-    for (const auto& pair : find_intersections_of(chosen, soup_.vertices, soup_.facets, intersection_limit)) {
+    for (const auto& pair : find_intersections_of(chosen, soup_.vertices, soup_.facets, most_fan_crossings)) {
         if (std::binary_search(before.begin(), before.end(), pair)) continue;
         is_bad[pair.first] = is_bad[pair.second] = 1;
     }
     std::fill(chosen.begin(), chosen.end(), 0);
-    for (Fan& fan : fans_) {
+    for (TouchingFan& fan : fans_) {
         if (!fan.is_moved) continue;
         const bool crosses =
             std::any_of(fan.corners.begin(), fan.corners.end(), [&](std::int32_t c) { return is_bad[c / 3]; });
@@ -220,7 +221,7 @@ bool Separation::undo_what_crosses(const Pairs& before, std::vector<char>& chose
 }
 
 // The angle of the material from the facet of a corner to that of its partner, going around the edge.
-double Separation::wedge(std::int32_t c, std::int32_t d) const {
+double FanSeparator::wedge(std::int32_t c, std::int32_t d) const {
     const std::int32_t low = std::min(vertex(c), vertex(next_corner(c)));
     const std::int32_t high = std::max(vertex(c), vertex(next_corner(c)));
     const Vec3 &a = soup_.vertices[low], &b = soup_.vertices[high];
@@ -229,8 +230,8 @@ double Separation::wedge(std::int32_t c, std::int32_t d) const {
 }
 
 // Of pairs with the same two ends all but the widest get one.
-void Separation::add_middles(const std::vector<std::array<std::int32_t, 2>>& pairs,
-                             std::vector<Middle>& middles) const {
+void FanSeparator::add_middles(const std::vector<std::array<std::int32_t, 2>>& pairs,
+                               std::vector<EdgeMiddle>& middles) const {
     std::size_t widest = 0;
     for (std::size_t i = 1; i < pairs.size(); ++i)
         if (wedge(pairs[i][0], pairs[i][1]) > wedge(pairs[widest][0], pairs[widest][1])) widest = i;
@@ -247,8 +248,8 @@ void Separation::add_middles(const std::vector<std::array<std::int32_t, 2>>& pai
     }
 }
 
-std::vector<Middle> Separation::find_middles() const {
-    std::vector<Middle> middles;
+std::vector<EdgeMiddle> FanSeparator::find_middles() const {
+    std::vector<EdgeMiddle> middles;
     for (const CrowdedEdge& edge : pairs_.crowded) {
         if (!edge.is_paired) continue;
         std::vector<std::pair<UndirectedEdge, std::array<std::int32_t, 2>>> pairs;
@@ -266,19 +267,19 @@ std::vector<Middle> Separation::find_middles() const {
     return middles;
 }
 
-void Separation::divide(std::vector<Middle> middles) {
+void FanSeparator::divide(std::vector<EdgeMiddle> middles) {
     std::vector<char> chosen(soup_.facets.size(), 0);
-    std::erase_if(middles, [&](const Middle& middle) {
+    std::erase_if(middles, [&](const EdgeMiddle& middle) {
         if (middle.move == 0) too_near_.add(place(middle.corners[0], 0));
         return middle.move == 0;
     });
     number_vertices(soup_);
     const std::int32_t number = *std::max_element(soup_.vertex_number.begin(), soup_.vertex_number.end()) + 1;
     const auto old_count = static_cast<std::int32_t>(soup_.vertices.size());
-    for (int attempt = 0; attempt < most_attempts && !middles.empty(); ++attempt) {
+    for (int attempt = 0; attempt < most_separation_rounds && !middles.empty(); ++attempt) {
         Soup trial{soup_.vertices, soup_.facets, soup_.patch, {}};
         std::vector<SidePoint> points;
-        for (const Middle& middle : middles) {
+        for (const EdgeMiddle& middle : middles) {
             for (const std::int32_t c : middle.corners)
                 points.push_back({c, 0, static_cast<std::int32_t>(trial.vertices.size())});
             trial.vertices.push_back(middle.point);
@@ -288,12 +289,12 @@ void Separation::divide(std::vector<Middle> middles) {
         for (std::size_t f = 0; f < trial.facets.size(); ++f)
             chosen[f] = *std::max_element(trial.facets[f].begin(), trial.facets[f].end()) >= old_count;
         std::vector<char> crosses(middles.size(), 0);
-        for (const auto& [f, g] : find_intersections_of(chosen, trial.vertices, trial.facets, intersection_limit))
+        for (const auto& [f, g] : find_intersections_of(chosen, trial.vertices, trial.facets, most_fan_crossings))
             for (const std::int32_t facet : {f, g})
                 for (const std::int32_t v : trial.facets[facet])
                     if (v >= old_count) crosses[v - old_count] = 1;
         if (std::find(crosses.begin(), crosses.end(), 1) == crosses.end()) {
-            for (const Middle& middle : middles) opened_.add(place(middle.corners[0], middle.move));
+            for (const EdgeMiddle& middle : middles) opened_.add(place(middle.corners[0], middle.move));
             for (std::size_t i = 0; i < middles.size(); ++i)
                 add_vertex(middles[i].point, number + static_cast<std::int32_t>(i));
             divide_at(soup_, points);
@@ -305,7 +306,7 @@ void Separation::divide(std::vector<Middle> middles) {
     }
 }
 
-void Separation::say_crowded() {
+void FanSeparator::say_crowded() {
     for (const CrowdedEdge& edge : pairs_.crowded) {
         if (edge.is_paired) continue;
         crowded_.refused_because = edge.reason;
@@ -318,6 +319,6 @@ void Separation::say_crowded() {
 
 }  // namespace
 
-FanSeparation separate_fans(Soup& soup, double bound) { return Separation(soup, bound).run(); }
+FanSeparation separate_fans(Soup& soup, double bound) { return FanSeparator(soup, bound).run(); }
 
 }  // namespace kerf
