@@ -38,8 +38,8 @@ RepairPlace place_of_rim(const Soup& soup, const Rim& rim) {
     return {rim.centre(soup), soup.file_facets({rim.facets.front()}), static_cast<double>(rim.facets.size())};
 }
 
-std::vector<Opening> openings_to_cap(const OpenRims& rims, const StepRequest& request, CapsReport& said) {
-    std::vector<Opening> openings;
+std::vector<RimOpening> openings_to_cap(const OpenRims& rims, const StepRequest& request, CapsReport& said) {
+    std::vector<RimOpening> openings;
     for (const Rim& rim : rims.all()) {
         const RepairPlace place = place_of_rim(rims.soup(), rim);
         if (rim.obstacle != RimObstacle::none) {
@@ -47,7 +47,7 @@ std::vector<Opening> openings_to_cap(const OpenRims& rims, const StepRequest& re
         } else if (static_cast<double>(rim.facets.size()) < request.amount) {
             said.few.add(place);
         } else {
-            Opening opening = make_opening(rims, {&rim});
+            RimOpening opening = make_opening(rims, {&rim});
             if (opening.bend < BendDegrees::lid)
                 said.smooth.add(place);
             else if (opening.bend > BendDegrees::folded)

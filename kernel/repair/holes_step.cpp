@@ -55,12 +55,12 @@ RepairPlace place_of(const Soup& soup, const Rim& rim, double measure) {
             soup.file_facets({rim.facets.begin(), rim.facets.begin() + static_cast<std::ptrdiff_t>(count)}), measure};
 }
 
-RepairPlace place_of(const Soup& soup, const Opening& opening) {
+RepairPlace place_of(const Soup& soup, const RimOpening& opening) {
     return place_of(soup, *opening.rims[0], opening.edges());
 }
 
-std::vector<Opening> openings_to_fill(const OpenRims& rims, const StepRequest& request, HolesReport& said) {
-    std::vector<Opening> openings;
+std::vector<RimOpening> openings_to_fill(const OpenRims& rims, const StepRequest& request, HolesReport& said) {
+    std::vector<RimOpening> openings;
     for (const Rim& rim : rims.all()) {
         request.poll();
         const auto edges = static_cast<double>(rim.facets.size());
@@ -71,8 +71,8 @@ std::vector<Opening> openings_to_fill(const OpenRims& rims, const StepRequest& r
         else
             openings.push_back(make_opening(rims, {&rim}));
     }
-    openings = join_facing(rims, std::move(openings));
-    std::erase_if(openings, [&](const Opening& opening) {
+    openings = join_facing(rims, std::move(openings), request.poll);
+    std::erase_if(openings, [&](const RimOpening& opening) {
         const bool is_sheet = opening.bend > BendDegrees::folded;
         const bool is_unwanted_lid = request.has(RepairKind::thicken) && opening.bend > BendDegrees::lid;
         if (is_sheet || is_unwanted_lid) (is_sheet ? said.sheets : said.lids).add(place_of(rims.soup(), opening));

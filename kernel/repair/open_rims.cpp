@@ -77,12 +77,4 @@ std::span<const std::int32_t> OpenRims::facets_at(std::int32_t vertex) const {
     return {facets_.data() + first_[vertex], facets_.data() + first_[vertex + 1]};
 }
 
-bool OpenRims::has_edge(std::int32_t a, std::int32_t b) const {
-    const auto at = facets_at(a);
-    return std::any_of(at.begin(), at.end(), [&](std::int32_t f) {
-        const Triangle& t = soup_.facets[f];
-        return t[0] == b || t[1] == b || t[2] == b;
-    });
-}
-
 }  // namespace kerf

@@ -41,8 +41,6 @@ class OpenRims {
     std::span<const std::int32_t> facets_at(std::int32_t vertex) const;
     /// Whether only one rim passes a vertex, and once.
     bool is_passed_once(std::int32_t vertex) const { return passes_[vertex] == 1; }
-    /// The surface has these edges between vertices of rims.
-    bool has_edge(std::int32_t a, std::int32_t b) const;
     const Soup& soup() const { return soup_; }
 
  private:

@@ -111,20 +111,20 @@ PatchSurroundings surroundings(const OpenRims& all, const RimOutline& outline) {
 
 }  // namespace
 
-std::int32_t Opening::edges() const {
+std::int32_t RimOpening::edges() const {
     std::size_t sum = 0;
     for (const Rim* rim : rims) sum += rim->vertices.size();
     return static_cast<std::int32_t>(sum);
 }
 
-double Opening::length() const {
+double RimOpening::length() const {
     double sum = 0;
     for (const Rim* rim : rims) sum += rim->length;
     return sum;
 }
 
-Opening make_opening(const OpenRims& all, std::vector<const Rim*> rims) {
-    Opening opening;
+RimOpening make_opening(const OpenRims& all, std::vector<const Rim*> rims) {
+    RimOpening opening;
     const RimOutline outline(all.soup(), rims);
     opening.triangles = rims.size() == 1 ? triangulate_rim(outline.points, outline.apexes)
                                          : triangulate_band(rims[0]->points(all.soup()), rims[1]->points(all.soup()));
@@ -135,7 +135,7 @@ Opening make_opening(const OpenRims& all, std::vector<const Rim*> rims) {
     return opening;
 }
 
-ShapedPatch make_patch(const OpenRims& all, const Opening& opening, PatchShape shape, double growth) {
+ShapedPatch make_patch(const OpenRims& all, const RimOpening& opening, PatchShape shape, double growth) {
     RimOutline outline(all.soup(), opening.rims);
     const PatchSurroundings around = shape == PatchShape::smooth ? surroundings(all, outline) : PatchSurroundings();
     std::vector<UndirectedEdge> taken = taken_edges(all, outline);

@@ -11,7 +11,7 @@
 namespace kerf {
 
 /// One rim, or two of them between which a band is missing, with triangles over their vertices.
-struct Opening {
+struct RimOpening {
     std::vector<const Rim*> rims;
     std::vector<Triangle> triangles;  ///< over the vertices of the rims, counted on; empty if there are none
     /// Degrees by which triangles stand off the facets at the rims, on average over their length: 0 where they go on
@@ -30,7 +30,7 @@ struct BendDegrees {
 };
 
 /// `rims`: closed ones without an obstacle.
-Opening make_opening(const OpenRims& all, std::vector<const Rim*> rims);
+RimOpening make_opening(const OpenRims& all, std::vector<const Rim*> rims);
 
 /// How a patch is made: each but the first is tried where the one before crosses the surface.
 enum class PatchShape {
@@ -44,6 +44,6 @@ struct ShapedPatch {
     PatchMesh mesh;
     bool is_usable;
 };
-ShapedPatch make_patch(const OpenRims& all, const Opening& opening, PatchShape shape, double growth);
+ShapedPatch make_patch(const OpenRims& all, const RimOpening& opening, PatchShape shape, double growth);
 
 }  // namespace kerf

@@ -40,9 +40,9 @@ bool is_no_triangle(const std::vector<Vec3>& vertices, const Triangle& t) {
 
 class OpeningFiller {
  public:
-    OpeningFiller(const OpenRims& all, std::vector<Opening> openings, const FillingRequest& request)
+    OpeningFiller(const OpenRims& all, std::vector<RimOpening> openings, const FillingRequest& request)
         : all_(all), request_(request), vertices_(all.soup().vertices), first_(first_in_place(vertices_)) {
-        for (Opening& opening : openings) {
+        for (RimOpening& opening : openings) {
             const bool is_smooth = opening.bend < BendDegrees::lid && !opening.is_flat;
             filled_.push_back({std::move(opening), {}, is_smooth ? PatchShape::smooth : PatchShape::relaxed});
         }
@@ -205,7 +205,7 @@ double FilledOpening::height() const {
     return largest;
 }
 
-std::vector<FilledOpening> fill_openings(const OpenRims& all, std::vector<Opening> openings,
+std::vector<FilledOpening> fill_openings(const OpenRims& all, std::vector<RimOpening> openings,
                                          const FillingRequest& request) {
     if (openings.empty()) return {};
     return OpeningFiller(all, std::move(openings), request).run();

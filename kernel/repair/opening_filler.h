@@ -11,7 +11,7 @@ namespace kerf {
 
 /// What came of an opening.
 struct FilledOpening {
-    Opening opening;
+    RimOpening opening;
     std::optional<PatchMesh> patch;        ///< none: it stays open
     PatchShape shape = PatchShape::plain;  ///< of the patch, or the last one tried
     bool crosses = false;                  ///< its patch crosses other facets
@@ -30,7 +30,7 @@ struct FillingRequest {
 /// A patch for each opening, in their order, of the first shape that meets neither the surface nor another patch but
 /// at its rims; where two patches meet, the first one stays. Facets of the surface that cross each other have no say.
 /// O(#F log #F) for each of a few rounds.
-std::vector<FilledOpening> fill_openings(const OpenRims& all, std::vector<Opening> openings,
+std::vector<FilledOpening> fill_openings(const OpenRims& all, std::vector<RimOpening> openings,
                                          const FillingRequest& request);
 
 /// Appends patches to the soup, numbered on behind what the file has. O(#V) to begin with.

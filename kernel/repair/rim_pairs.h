@@ -1,7 +1,7 @@
 // Rims between which a band is missing.
 #pragma once
 
-#include <span>
+#include <functional>
 #include <vector>
 
 #include "repair/opening.h"
@@ -12,7 +12,9 @@ namespace kerf {
 /// together, and stands off the surface by hardly more (20 degrees) than the flatter one of their lids: the ring at the
 /// end of a pipe with a wall, a piece of a pipe that is missing, an island in a hole; but not the two mouths of a short
 /// pipe, nor two holes beside or above each other. The smallest band for its lids comes first. The others stay as they
-/// are, in their order. Of more than 2000 the longest are looked at. O(n^2) boxes.
-std::vector<Opening> join_facing(const OpenRims& all, std::vector<Opening> openings);
+/// are, in their order. Of more than 2000 the longest are looked at. O(n^2) boxes, and for those that are near enough a
+/// few distances. `poll`: called now and then.
+std::vector<RimOpening> join_facing(const OpenRims& all, std::vector<RimOpening> openings,
+                                    const std::function<void()>& poll);
 
 }  // namespace kerf
