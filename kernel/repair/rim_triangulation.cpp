@@ -109,6 +109,7 @@ bool is_planar(const RimPlane& plane, const std::vector<Vec3>& rim) {
 std::vector<Triangle> triangulate_rim(const std::vector<Vec3>& rim, const std::vector<Vec3>& apexes) {
     constexpr std::size_t most_spanned = 100;
     constexpr double nearly_planar = 0.1;  // of the width
+    if (rim.size() < 3) return {};
     const RimPlane plane = rim_plane(rim);
     const bool is_long = rim.size() > most_spanned;
     if (rim.size() > 3 && (is_planar(plane, rim) || (is_long && !plane.normal.isZero() &&
