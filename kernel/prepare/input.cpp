@@ -274,7 +274,7 @@ CheckedSoup check_files(InputFiles files, const InputOptions& options, double ne
     checked.ladder = repair(soup, parse_repair_plan("repair", options.repair), poll);
     repairs.unused_vertices = drop_unused_vertices(soup);
     if (options.wraps()) {
-        checked.wrapped = wrap(soup, options.wrapping);
+        checked.wrapped = wrap(soup, options.wrapping, poll);
         files = {{}, files.hash, {}, {}};  // one body, whatever was in them
     }
     take_points(soup, options);

@@ -129,7 +129,7 @@ CheckedSoup check_input(const std::string& path, const InputOptions& options = {
 CheckedSoup check_soup(Soup soup, const InputOptions& options = {}, double needle_angle_deg = 1);
 
 /// Checks files that have been read: each is a body of its own, and those of several are regions. `poll`: as repair()
-/// calls it.
+/// and wrap() call it.
 CheckedSoup check_files(InputFiles files, const InputOptions& options = {}, double needle_angle_deg = 1,
                         const std::function<void()>& poll = {});
 

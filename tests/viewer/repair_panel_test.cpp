@@ -174,7 +174,7 @@ TEST_F(RepairPanel, LeavesToTheUserWhetherTheResultIsMeshedOrSaved) {
 TEST_F(RepairPanel, LooksAsItShould) {
     open(480, 360);
     InputOptions options;
-    options.repair = "weld=0.01,clean";
+    options.weld_tolerance = 0.01;
     driver_->app().session().repair(options);
     driver_->show_panels(false);
     await_repair();

@@ -205,7 +205,7 @@ TEST_F(RepairSession, SavesWhatKerfRepairWrites) {
 // Its result is kept, and the surface can be repaired again.
 TEST_F(RepairSession, GoesOnBehindARun) {
     open(read_);
-    repair("weld=0.01");
+    repair("near");
     ASSERT_FALSE(session_.document().has_problems());
     RunOptions options = session_.document().options;
     options.decompose.parts = 2;

@@ -57,7 +57,9 @@ void wait_for_document(App& app, const ViewCommand& command, const Deadline& dea
         deadline.check();
     }
     if (session.document().kind != Document::Kind::surface || session.document().has_problems()) return;
-    const bool is_remeshed = command.run.remeshing != Remeshing::never;
+    // What was repaired is shown as it is then, unless somebody has asked for more.
+    const bool is_told = !session.document().unrepaired || command.run.remeshing != RunOptions().remeshing;
+    const bool is_remeshed = command.run.remeshing != Remeshing::never && is_told;
     if (!needs_run(session.document(), command.state) && !is_remeshed && !command.clip.starts_with("node=")) return;
     RunOptions run = command.run;
     run.input = session.document().path;

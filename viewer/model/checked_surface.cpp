@@ -46,12 +46,15 @@ InputOptions without_repairs(InputOptions options) {
     options.fill_hole_edges = usual.fill_hole_edges;
     options.keep_largest = usual.keep_largest;
     options.repair = usual.repair;
+    options.wrap = usual.wrap;
+    options.wrapping = usual.wrapping;
     return options;
 }
 
 bool same_input(InputOptions a, InputOptions b) {
     const std::vector<OptionField> of_a = input_option_fields(a), of_b = input_option_fields(b);
-    return std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
+    return a.wrap == b.wrap &&
+           std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
                       [](const OptionField& x, const OptionField& y) { return x.text() == y.text(); });
 }
 

@@ -3,7 +3,6 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <sstream>
 
 #include <fmt/format.h>
 
@@ -89,8 +88,10 @@ std::string heading(const Document& document, const ViewState& state, const Step
 
 // What has changed the surface of the file.
 std::string repairs_of(const Document& document) {
-    const std::string& plan = document.options.input_options.repair;
-    return plan.empty() ? "by its options" : plan;
+    const InputOptions& options = document.options.input_options;
+    const std::string wraps = options.wraps() ? "wrapped" : "";
+    if (options.repair.empty()) return wraps.empty() ? "by its options" : wraps;
+    return options.repair + (wraps.empty() ? "" : ", " + wraps);
 }
 
 // Where an axis of the file is the normal, with the place in its units.
@@ -129,22 +130,6 @@ std::vector<std::string> region_lines(const Document& document, const ViewState&
     add("Without", hidden);
     add("As glass:", glass);
     return lines;
-}
-
-// In lines that are no wider, broken between words alone: ImGui breaks numbers at their commas.
-std::string broken(const std::string& text, float width) {
-    std::string all, line, word;
-    std::istringstream words(text);
-    while (words >> word) {
-        const std::string longer = line.empty() ? word : fmt::format("{} {}", line, word);
-        if (line.empty() || width_of(longer) <= width) {
-            line = longer;
-            continue;
-        }
-        all += line + "\n";
-        line = word;
-    }
-    return all + line;
 }
 
 // As far as there is room of this width.

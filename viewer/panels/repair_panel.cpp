@@ -59,16 +59,14 @@ void draw_step_button(UiContext& context, const std::string& label, const std::s
 }
 
 void draw_wrap_button(UiContext& context) {
-    const OptionText wrap{"surface", "wrap"};
-    const RunOptions& options = context.session.document().options;
-    const std::optional<RunOptions> wrapped = options_with(options, wrap);
-    if (!wrapped || is_set(options, wrap)) return;
+    InputOptions options = context.session.document().options.input_options;
     ImGui::SameLine();
-    ImGui::BeginDisabled(!context.session.can_repair());
-    if (context.widgets.small_button("wrap",
-                                     "A new closed surface around all of it, which is then meshed (--surface "
-                                     "wrap)"))
-        context.actions.start_run(*wrapped, wrapped->volume);
+    ImGui::BeginDisabled(options.wraps() || !context.session.can_repair());
+    const char* tip = "A new closed surface around all of it (--surface wrap); --gap and --offset are under Parameters";
+    if (context.widgets.small_button("wrap", tip)) {
+        options.wrap = true;
+        context.actions.repair(options);
+    }
     ImGui::EndDisabled();
 }
 
@@ -139,14 +137,18 @@ class ActionList {
     }
 
  private:
+    // What the report says of it: "stitch: 12 borders joined, ...".
+    std::string words_of(const StepReport& step, const RepairAction& action) const {
+        const std::string step_name = name(step.kind);
+        const std::string text = to_text({report_.diagonal, report_.bound, {StepReport{step.kind, {action}}}}, "");
+        return text.starts_with(step_name) ? step_name + ":" + text.substr(step_name.size()) : text;
+    }
+
     void draw_action(const StepReport& step, const RepairAction& action, int number) {
         const bool is_refused = *action.refused_because != '\0', is_chosen = memory_.chosen_action == number;
-        RepairReport one{report_.diagonal, report_.bound, {StepReport{step.kind, {action}}}};
-        std::string text = to_text(one, "");
-        while (text.ends_with('\n')) text.pop_back();
+        const std::string text = broken(words_of(step, action), ImGui::GetContentRegionAvail().x);
         const ImVec2 start = ImGui::GetCursorPos();
-        const float width = ImGui::GetContentRegionAvail().x;
-        const float height = ImGui::CalcTextSize(text.c_str(), nullptr, false, width).y;
+        const float height = ImGui::CalcTextSize(text.c_str()).y;
         ImGui::PushID(number);
         if (ImGui::Selectable("##action", is_chosen, 0, {0, height})) {
             const int last = static_cast<int>(action.places.size()) - 1;
@@ -156,7 +158,7 @@ class ActionList {
         explain(action.places.empty() ? "" : "A click flies to the first place, and then from place to place.");
         const ImVec2 end = ImGui::GetCursorPos();
         ImGui::SetCursorPos(start);
-        show_wrapped(text, is_refused ? colors_.warning : colors_.text);
+        show(text, is_refused ? colors_.warning : colors_.text);
         ImGui::SetCursorPos(end);
         if (memory_.chosen_action == number && action.places.size() > 1) draw_places(action, number);
         ImGui::PopID();
@@ -258,6 +260,7 @@ void draw_repairs(UiContext& context, Memory& memory) {
     draw_plan(context, memory);
     const bool is_repaired = document.unrepaired != nullptr;
     if (is_repaired) draw_before_and_after(context);
+    if (checked->wrapped) show_wrapped("wrap: " + to_text(*checked->wrapped), palette(context.state.theme).text);
     if (!checked->ladder.steps.empty()) ActionList(context, memory, checked->ladder).draw();
     if (is_repaired) draw_ending(context, memory);
     ImGui::Spacing();

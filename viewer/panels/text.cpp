@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -91,6 +92,21 @@ std::string shortened_path(const std::string& path, float width) {
         if (width_of("..." + path.substr(begin)) <= width) break;
     }
     return "..." + path.substr(begin);
+}
+
+std::string broken(const std::string& text, float width) {
+    std::string all, line, word;
+    std::istringstream words(text);
+    while (words >> word) {
+        const std::string longer = line.empty() ? word : fmt::format("{} {}", line, word);
+        if (line.empty() || width_of(longer) <= width) {
+            line = longer;
+            continue;
+        }
+        all += line + "\n";
+        line = word;
+    }
+    return all + line;
 }
 
 void show(const std::string& text) { ImGui::TextUnformatted(text.data(), text.data() + text.size()); }

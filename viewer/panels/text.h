@@ -26,6 +26,8 @@ std::vector<double> round_ticks(double low, double high, int wanted);
 float width_of(const std::string& text);
 /// The start of the text that is no wider than `width`, with "..." if anything was left out.
 std::string shortened(const std::string& text, float width);
+/// In lines that are no wider, broken between words alone: ImGui breaks numbers at their commas and points.
+std::string broken(const std::string& text, float width);
 /// Of a path: its end rather than its start.
 std::string shortened_path(const std::string& path, float width);
 
