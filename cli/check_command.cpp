@@ -43,6 +43,7 @@ int check_surface(const CheckRequest& request) {
     }
     if (request.list_patches && !found.refused) return print_patches(std::move(found), request.options);
     const Diagnosis& diagnosis = found.checked.diagnosis;
+    if (!found.refused && !diagnosis.clean()) found.remedy = find_remedy(request.path, request.options, found.checked);
     if (!request.offenders_file.empty() && !found.refused)
         write_offenders(request.offenders_file, found.checked.soup, diagnosis);
     if (request.json)

@@ -11,6 +11,7 @@
 #include "cli/ranks.h"
 #include "cli/terminal.h"
 #include "core/error.h"
+#include "core/shell_word.h"
 #include "export/merged_file.h"
 #include "io/output_file.h"
 #include "io/program_finder.h"

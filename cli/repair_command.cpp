@@ -1,35 +1,38 @@
 // kerf repair: what can be mended of a surface is, and is said.
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "cli/answer.h"
 #include "cli/commands.h"
 #include "cli/option_flags.h"
+#include "cli/progress.h"
 #include "help/program_help.h"
 #include "io/standard_streams.h"
 #include "prepare/repaired_file.h"
+#include "report/repair_json.h"
+#include "report/repair_text.h"
 
 namespace kerf {
 
 namespace {
 
 struct RepairRequest {
-    std::string input, output;
+    std::vector<std::string> files;
+    std::string path, output;  // the first of the files
     InputOptions options;
-    bool quiet = false;
+    bool json = false, quiet = false;
 };
 
 int repair_and_tell(const RepairRequest& request) {
-    const RepairedFile repaired = repair_file(request.input, request.options, request.output);
-    const CheckedSoup& checked = repaired.checked;
-    const bool is_clean = checked.diagnosis.clean();
-    if (!request.quiet) {
-        tell(to_text(checked.ladder));
-        tell(fmt::format("kerf: {}: {} facets. {}\n", request.output, checked.soup.facets.size(),
-                         is_clean ? "It can be meshed." : checked.diagnosis.summary(checked.soup)));
+    RepairedFile repaired;
+    {
+        ProgressLine progress(request.quiet, nullptr);
+        repaired = repair_file(request.path, request.options, request.output, &progress);
     }
-    return is_clean ? 0 : static_cast<int>(ErrorCode::input);
+    if (request.json)
+        print_data(to_json(repaired));
+    else if (!request.quiet)
+        tell(to_text(repaired));
+    return repaired.exit_code();
 }
 
 }  // namespace
@@ -38,15 +41,25 @@ void add_repair_command(CLI::App& kerf, int& exit_code) {
     const auto request = std::make_shared<RepairRequest>();
     request->options.repair = "full";
     CLI::App* command = kerf.add_subcommand("repair", "Repair a surface, and say each step.");
-    command->add_option("input", request->input, "Surface file.")->required()->type_name("INPUT");
+    command->add_option("input", request->files, "Surface files, a body each if there are several.")
+        ->required()
+        ->type_name("INPUT");
     command->option_defaults()->group(option_group::output);
     command->add_option("-o,--output", request->output, "Surface, .obj (with patches) or .stl.")
         ->required()
         ->type_name("FILE");
     add_input_options(*command, request->options);
+    command->get_option("--repair")
+        ->description(
+            "What is done: exact (no point moves), near (within a bound), full (crossings, too), or steps by name, as "
+            "weld,stitch,holes=200. Default full.");
+    command->add_flag("--json", request->json, "Print what was done as JSON.");
     command->add_flag("-q,--quiet", request->quiet, "Print nothing but errors.");
-    put_help_last(*command, option_group::output, {"output", "repair", "quiet"});
-    command->callback([=, &exit_code] { exit_code = run_on_first_rank([&] { return repair_and_tell(*request); }); });
+    put_help_last(*command, option_group::output, {"output", "repair", "cap", "thicken", "json", "quiet"});
+    command->callback([=, &exit_code] {
+        take_inputs(request->files, request->path, request->options);
+        exit_code = run_on_first_rank([&] { return repair_and_tell(*request); });
+    });
 }
 
 }  // namespace kerf

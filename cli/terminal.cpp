@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 
 #include <fmt/format.h>
@@ -58,17 +57,6 @@ void tell_report(std::string_view text) {
         text.remove_prefix(std::min(end + 1, text.size()));
     }
     tell(coloured);
-}
-
-std::string shell_word(const std::string& text) {
-    const auto is_plain = [](char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) ||
-               std::string_view("_-./+:=@%,").find(c) != std::string::npos;
-    };
-    if (!text.empty() && std::all_of(text.begin(), text.end(), is_plain)) return text;
-    std::string word = "'";
-    for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
-    return word + "'";
 }
 
 }  // namespace kerf

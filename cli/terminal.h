@@ -18,7 +18,4 @@ void tell_error(std::string_view message);
 /// Tells lines of a report, "label       value", with labels set off and the verdict in its colour if shows_colours().
 void tell_report(std::string_view text);
 
-/// The text as a shell takes it for one word.
-std::string shell_word(const std::string& text);
-
 }  // namespace kerf

@@ -8,6 +8,7 @@
 #include "python/surface_arrays.h"
 #include "python/surface_object.h"
 #include "python/text.h"
+#include "report/repair_json.h"
 #include "surface/solid_properties.h"
 
 namespace kerf::python {
@@ -79,6 +80,8 @@ void register_surface(py::module_& module) {
                                [](const SurfaceObject& self) { return array_of(solid_of(self).principal.moments); })
         .def_property_readonly("principal_axes",
                                [](const SurfaceObject& self) { return array_of(solid_of(self).principal.axes); })
+        .def_property_readonly("repairs",
+                               [](const SurfaceObject& self) { return decoded(to_json(self.surface.input().ladder)); })
         .def("remesh", &remesh, py::arg("progress"))
         .def("save", &save, py::arg("path"));
     module.def("read", &read, py::arg("path"));

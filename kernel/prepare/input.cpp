@@ -14,6 +14,7 @@
 #include "geometry/triangle.h"
 #include "io/run_manifest.h"
 #include "prepare/region_diagnosis.h"
+#include "prepare/stage_listener.h"
 #include "repair/repair.h"
 #include "repair/wrap.h"
 #include "surface/hole_filling.h"
@@ -271,7 +272,7 @@ CheckedSoup check_files(InputFiles files, const InputOptions& options, double ne
         repairs.filled_holes = filling.holes;
         repairs.added_facets = filling.facets;
     }
-    checked.ladder = repair(soup, parse_repair_plan("repair", options.repair), poll);
+    checked.ladder = repair(soup, repair_plan_of(options), poll);
     repairs.unused_vertices = drop_unused_vertices(soup);
     if (options.wraps()) {
         checked.wrapped = wrap(soup, options.wrapping, poll);
@@ -324,13 +325,14 @@ std::vector<double> max_volumes_of_regions(const SizeOptions& sizes, const Input
     return volumes;
 }
 
-Input read_input(const std::string& path, const InputOptions& options) {
+Input read_input(const std::string& path, const InputOptions& options, StageListener* listener) {
     InputFiles files = read_input_files(path, options);
     const std::string hash = files.hash;
     const std::size_t more = options.more_files.size();
     const std::string all = more == 0 ? path : fmt::format("{} and {} more file{}", path, more, more == 1 ? "" : "s");
-    Input input =
-        to_input(check_files(std::move(files), options), all, options, " Run kerf check on it for all defects.");
+    if (!repair_plan_of(options).empty()) tell_progress(listener, "repair", 0, 0);
+    Input input = to_input(check_files(std::move(files), options, 1, poll_of(listener)), all, options,
+                           " Run kerf check on it for all defects.");
     input.path = path;
     input.file_hash = hash;
     return input;

@@ -23,6 +23,8 @@
 
 namespace kerf {
 
+class StageListener;
+
 /// What was repaired.
 struct InputRepairs {
     std::int64_t welded_vertices = 0;  ///< merged because their coordinates are equal
@@ -172,7 +174,8 @@ Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::
 /// check_input() and apply_repairs(), then builds the surface. Throws UnfitSurface, naming the file, the
 /// first offenders and what to do, if the surface has errors; Error::elements() has all. Throws Error(usage) if the
 /// sweeps of the optimisation would make it intersect itself; else that surface takes the place of the file's in all
-/// that follows.
-Input read_input(const std::string& path, const InputOptions& options = {});
+/// that follows. `listener`, unless null, is told of the stage "repair" where there is one, and ends it once it is
+/// cancelled.
+Input read_input(const std::string& path, const InputOptions& options = {}, StageListener* listener = nullptr);
 
 }  // namespace kerf

@@ -11,7 +11,7 @@ RemeshedFile remesh_file(RunOptions options, const std::string& output, StageLis
     require_writable("--output", output);
     options.input_options.check();
     options.sizes.check();
-    Input input = read_input(options.input, options.input_options);
+    Input input = read_input(options.input, options.input_options, listener);
     require_surface_file("--output", output, input.complex.region_count());
     const SizedInput sized = remesh_always(std::move(input), std::move(options), listener);
     write_surface(output, sized.input.complex, sized.input.patch_names);

@@ -1,25 +1,84 @@
 #include "prepare/repaired_file.h"
 
-#include "io/obj_writer.h"
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "io/file_bytes.h"
 #include "io/output_file.h"
-#include "io/stl_writer.h"
 #include "prepare/surface_file.h"
 
 namespace kerf {
 
-RepairedFile repair_file(const std::string& path, const InputOptions& options, const std::string& output) {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_unchanged(const CheckedSoup& checked, const OrientationReport& turned) {
+    const InputRepairs& r = checked.repairs;
+    return !checked.ladder.changed() && r.dropped_facets + r.merged_vertices + r.removed_facets + r.filled_holes == 0 &&
+           turned.facets_flipped + turned.shells_flipped == 0;
+}
+
+// An .stl holds 32-bit floats, which may close a gap, or make facets cross.
+void require_good_as_stl(const std::string& output, const Soup& soup, const InputOptions& options) {
+    Soup rounded = soup;
+    for (Vec3& p : rounded.vertices) p = p.cast<float>().cast<double>();
+    if (rounded.vertices == soup.vertices) return;
+    InputOptions as_read;
+    as_read.voids = options.voids;
+    const CheckedSoup checked = check_soup(std::move(rounded), as_read, 0);
+    if (!checked.diagnosis.clean())
+        throw Error(ErrorCode::input,
+                    fmt::format("{}: The repaired surface can be meshed, but not with the 7 digits of "
+                                "an .stl: {} Write an .obj, which has all digits.",
+                                output, checked.diagnosis.summary(checked.soup)));
+}
+
+void write_result(const RepairedFile& repaired) {
+    const Soup& soup = repaired.checked.soup;
+    if (repaired.can_be_meshed && !soup.sides.empty()) {
+        const Complex complex = make_complex(soup);
+        require_surface_file("--output", repaired.output, complex.region_count());
+        write_surface(repaired.output, complex, soup.patch_names);
+    } else {
+        write_surface(repaired.output, soup);
+    }
+}
+
+}  // namespace
+
+RepairedFile repair_file(const std::string& input, const InputOptions& options, const std::string& output,
+                         StageListener* listener) {
     require_surface_file("--output", output);
-    refuse_to_overwrite(path, "--output", output);
+    for (const std::string& file : files_of(input, options)) refuse_to_overwrite(file, "--output", output);
     require_writable("--output", output);
     options.check();
-    RepairedFile repaired{check_input(path, options)};
-    if (repaired.checked.diagnosis.clean()) apply_repairs(repaired.checked);
-    repaired.is_unchanged = !repaired.checked.ladder.changed();
-    const Soup& soup = repaired.checked.soup;
-    if (output.ends_with(".stl"))
-        write_stl(output, soup.vertices, soup.facets);
+    tell_progress(listener, "read", 0, 1);
+    InputFiles files = read_input_files(input, options);
+    Soup before = files.soup;
+    weld_exactly(before);
+    const bool is_alone = options.more_files.empty() && files.walls.empty() && options.scale == 1;
+    tell_progress(listener, "repair", 0, 0);
+    RepairedFile repaired{input, output, check_files(std::move(files), options, 1, poll_of(listener)), {}, {}, {}, {},
+                          {},    {}};
+    CheckedSoup& checked = repaired.checked;
+    repaired.can_be_meshed = checked.diagnosis.clean();
+    if (repaired.can_be_meshed)
+        repaired.turned = apply_repairs(checked);
     else
-        write_obj(output, soup.vertices, soup.facets, soup.patch, soup.patch_names);
+        repaired.remedy = find_remedy(input, options, checked, listener);
+    repaired.is_unchanged = is_unchanged(checked, repaired.turned);
+    repaired.measures = measure_repair(before, checked.soup, poll_of(listener));
+    repaired.is_copy = repaired.is_unchanged && is_alone && fs::path(input).extension() == fs::path(output).extension();
+    if (repaired.is_copy) {
+        write_output_file(output, read_file(input));
+        return repaired;
+    }
+    if (repaired.can_be_meshed && fs::path(output).extension() == ".stl")
+        require_good_as_stl(output, checked.soup, options);
+    write_result(repaired);
     return repaired;
 }
 

@@ -1,21 +1,38 @@
 // A surface file repaired for its own sake, and written to another file.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "prepare/input.h"
+#include "prepare/remedy.h"
+#include "prepare/repair_measures.h"
+#include "prepare/stage_listener.h"
 #include "request/input_options.h"
 
 namespace kerf {
 
 /// What repair_file() has written.
 struct RepairedFile {
-    CheckedSoup checked;        ///< what was written, and what is still wrong with it
-    bool is_unchanged = false;  ///< nothing was found to be repaired
+    std::string input, output;
+    CheckedSoup checked;           ///< what was written; the diagnosis is empty if it can be meshed
+    RepairMeasures measures;       ///< of the result against the files as they were read
+    OrientationReport turned;      ///< of a surface that can be meshed
+    bool can_be_meshed = false;    ///< the result, as it was written
+    bool is_unchanged = false;     ///< nothing was found to be repaired
+    bool is_copy = false;          ///< and the output has the bytes of the input
+    std::optional<Remedy> remedy;  ///< what else to do where it cannot be meshed
+
+    /// Value of ErrorCode, 0: it can be meshed.
+    int exit_code() const { return can_be_meshed ? 0 : static_cast<int>(ErrorCode::input); }
 };
 
-/// Does what `options` ask for to a file, and writes what came of it to `output`, an .obj with patches or an .stl,
-/// whether it can be meshed or not. Throws Error, before the work where the output cannot be written.
-RepairedFile repair_file(const std::string& path, const InputOptions& options, const std::string& output);
+/// Does what `options` ask for to a file and InputOptions::more_files, and writes what came of it to `output`, whether
+/// it can be meshed or not: an .obj with patches, of several regions with a closed group for each instead, or an .stl.
+/// Where nothing was to be repaired, a file of the same ending is copied. `listener` may be null. Throws Error, before
+/// the work where the output cannot be written, and before it is written where an .stl, whose coordinates have 7
+/// digits, would have new defects.
+RepairedFile repair_file(const std::string& input, const InputOptions& options, const std::string& output,
+                         StageListener* listener = nullptr);
 
 }  // namespace kerf

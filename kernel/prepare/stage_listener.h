@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 
 #include "core/error.h"
 #include "decompose/decomposition.h"
@@ -11,8 +12,8 @@ namespace kerf {
 /// Is told of the steps of stages. Once cancelled() is true, a stage ends with Error(cancelled).
 class StageListener : public CutListener {
  public:
-    /// `done` of `total` steps of a stage, 0 if nobody knows how many: "read", "remesh", "decompose", "prepare",
-    /// "volume", "reference", "write", "hash".
+    /// `done` of `total` steps of a stage, 0 if nobody knows how many: "read", "repair", "remesh", "decompose",
+    /// "prepare", "volume", "reference", "write", "hash".
     virtual void on_progress(const char* stage, std::size_t done, std::size_t total) = 0;
 };
 
@@ -25,6 +26,11 @@ inline void end_if_cancelled(const CutListener* listener) {
 inline void tell_progress(StageListener* listener, const char* stage, std::size_t done, std::size_t total) {
     end_if_cancelled(listener);
     if (listener) listener->on_progress(stage, done, total);
+}
+
+/// Calls end_if_cancelled() again and again in what takes a function.
+inline std::function<void()> poll_of(const CutListener* listener) {
+    return [listener] { end_if_cancelled(listener); };
 }
 
 }  // namespace kerf

@@ -31,6 +31,14 @@ void write_regions(const std::string& path, const Complex& complex) {
               {complex.region_names().begin(), complex.region_names().end()});
 }
 
+void write(const std::string& path, const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+           const std::vector<std::int32_t>& patch, const std::vector<std::string>& patch_names) {
+    if (ending_of(path) == ".obj")
+        write_obj(path, vertices, facets, patch, patch_names);
+    else
+        write_stl(path, vertices, facets);
+}
+
 }  // namespace
 
 void require_surface_file(const std::string& what, const std::string& path, std::int32_t region_count) {
@@ -46,10 +54,11 @@ void require_surface_file(const std::string& what, const std::string& path, std:
 void write_surface(const std::string& path, const Complex& complex, const std::vector<std::string>& patch_names) {
     if (complex.region_count() > 1) return write_regions(path, complex);
     const SurfaceArrays surface = complex.arrays();
-    if (ending_of(path) == ".obj")
-        write_obj(path, surface.vertices, surface.facets, surface.patch, patch_names);
-    else
-        write_stl(path, surface.vertices, surface.facets);
+    write(path, surface.vertices, surface.facets, surface.patch, patch_names);
+}
+
+void write_surface(const std::string& path, const Soup& soup) {
+    write(path, soup.vertices, soup.facets, soup.patch, soup.patch_names);
 }
 
 }  // namespace kerf

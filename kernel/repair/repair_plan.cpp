@@ -36,27 +36,25 @@ class PlanParser {
                         fmt::format("--{} has '{}', which is no repair. {}", option_, word, repair_words()));
     }
 
-    RepairPlan plan() {
-        std::sort(plan_.steps.begin(), plan_.steps.end(),
-                  [](const RepairStep& a, const RepairStep& b) { return a.kind < b.kind; });
-        return std::move(plan_);
-    }
+    RepairPlan plan() { return std::move(plan_); }
 
  private:
     void add_level(RepairLevel level) {
         for (const RepairStep& step : plan_of(level).steps)
-            if (plan_.find(step.kind) == nullptr) plan_.steps.push_back(step);
+            if (plan_.find(step.kind) == nullptr) plan_.put(step);
     }
     bool take_step(std::string_view key, std::string_view value, bool has_value) {
         const bool leaves_out = key.starts_with("no-") && !has_value;
         if (leaves_out) key.remove_prefix(3);
         for (const RepairStepRow& row : repair_step_rows()) {
             if (row.name != key || (has_value && row.amount == AmountKind::none)) continue;
-            std::erase_if(plan_.steps, [&](const RepairStep& step) { return step.kind == row.kind; });
-            if (leaves_out) return true;
-            RepairStep& step = plan_.steps.emplace_back(RepairStep{row.kind});
+            RepairStep step{row.kind};
             if (has_value && row.amount == AmountKind::length) step.amount = length(key, value);
             if (has_value && row.amount == AmountKind::count) step.amount = count(key, value);
+            if (leaves_out)
+                std::erase_if(plan_.steps, [&](const RepairStep& own) { return own.kind == row.kind; });
+            else
+                plan_.put(step);
             return true;
         }
         return false;
@@ -83,6 +81,15 @@ const RepairStep* RepairPlan::find(RepairKind kind) const {
     const auto found =
         std::find_if(steps.begin(), steps.end(), [&](const RepairStep& step) { return step.kind == kind; });
     return found == steps.end() ? nullptr : &*found;
+}
+
+void RepairPlan::put(const RepairStep& step) {
+    const auto place =
+        std::find_if(steps.begin(), steps.end(), [&](const RepairStep& s) { return s.kind >= step.kind; });
+    if (place != steps.end() && place->kind == step.kind)
+        *place = step;
+    else
+        steps.insert(place, step);
 }
 
 RepairPlan plan_of(RepairLevel level) {

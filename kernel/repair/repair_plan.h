@@ -54,6 +54,8 @@ struct RepairPlan {
 
     bool empty() const { return steps.empty(); }
     const RepairStep* find(RepairKind kind) const;
+    /// Adds a step at its place, or in the place of the one of its kind.
+    void put(const RepairStep& step);
 };
 
 /// The steps of a level, with their own amounts.

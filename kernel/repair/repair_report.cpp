@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "core/number_text.h"
 #include "repair/repair_step.h"
 
 namespace kerf {
@@ -30,22 +30,21 @@ double RepairReport::largest_move() const {
     return largest;
 }
 
+std::string to_text(const RepairAction& action) {
+    std::string text = fmt::format("{} {}", grouped(action.count), action.count == 1 ? action.one : action.many);
+    if (!action.places.empty()) {
+        const RepairPlace& first = action.places.front();
+        text += fmt::format("{} near {}", action.count == 1 ? "," : ", the first", place_text(first.where));
+        if (*action.measure != '\0') text += fmt::format(", {:.6g} {}", first.measure, action.measure);
+    }
+    return *action.refused_because == '\0' ? text : fmt::format("{}; left: {}", text, action.refused_because);
+}
+
 std::string to_text(const RepairReport& report, const std::string& indent) {
     std::string text;
     for (const StepReport& step : report.steps)
-        for (const RepairAction& action : step.actions) {
-            if (action.count == 0) continue;
-            text += fmt::format("{}{:<14}{} {}", indent, name(step.kind), action.count,
-                                action.count == 1 ? action.one : action.many);
-            if (!action.places.empty()) {
-                const RepairPlace& place = action.places.front();
-                text += fmt::format("{} near ({:.9g}, {:.9g}, {:.9g})", action.count == 1 ? "," : ", the first",
-                                    place.where.x(), place.where.y(), place.where.z());
-                if (*action.measure != '\0') text += fmt::format(", {:.6g} {}", place.measure, action.measure);
-            }
-            if (*action.refused_because != '\0') text += fmt::format("; left: {}", action.refused_because);
-            text += '\n';
-        }
+        for (const RepairAction& action : step.actions)
+            text += fmt::format("{}{:<14}{}\n", indent, name(step.kind), to_text(action));
     return text;
 }
 

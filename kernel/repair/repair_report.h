@@ -49,8 +49,11 @@ struct RepairReport {
     double largest_move() const;
 };
 
-/// Lines for people, each begins with the name of a step: "holes      3 holes filled (12, 7, 5 edges), near (0, 0, 1)".
-/// `indent`: what each begins with.
+/// What was done, or not, where first, and why not: "3 holes filled, the first near (0, 0, 1), 12 edges".
+std::string to_text(const RepairAction& action);
+
+/// Lines for people, each begins with the name of a step: "holes         3 holes filled, the first near (0, 0, 1), 12
+/// edges". `indent`: what each begins with.
 std::string to_text(const RepairReport& report, const std::string& indent = "  ");
 
 }  // namespace kerf

@@ -14,8 +14,8 @@ class CheckedFile;
 /// Writes each event when it happens. All objects have "event" and "seconds" since the start:
 ///
 ///     {"event": "run", "input", "scale", "output", "trace", "parts"}
-///     {"event": "stage", "stage": "read" | "remesh" | "decompose" | "prepare" | "volume" | "reference" | "write" |
-///                                 "hash"}
+///     {"event": "stage", "stage": "read" | "repair" | "remesh" | "decompose" | "prepare" | "volume" | "reference" |
+///                                 "write" | "hash"}
 ///     {"event": "parts", "parts": [{"id", "load", "facets", "volume", "resumed"}]}
 ///     {"event": "part", "id", "state": "done" | "resumed" | "failed", "rank", "worker", "mesher", "attempts",
 ///                       "tets", "part_seconds", "parts_done", "parts", "load_done", "tets_done", "message", "remedy",

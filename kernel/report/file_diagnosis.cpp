@@ -11,6 +11,8 @@
 #include "io/cad_body.h"
 #include "prepare/region_diagnosis.h"
 #include "prepare/slivers.h"
+#include "report/repair_json.h"
+#include "report/repair_text.h"
 #include "surface/regions.h"
 
 namespace kerf {
@@ -70,16 +72,19 @@ Json surface_json(const FileDiagnosis& found) {
     for (std::size_t k = 0; k < defect_kind_count; ++k)
         if (const std::int64_t n = checked.diagnosis.counts[k]) counts[name(static_cast<DefectKind>(k))] = n;
     for (const Defect& defect : checked.diagnosis.defects) defects.push_back(defect_json(defect, soup));
-    return {{"path", found.path},
-            {"can_be_meshed", checked.diagnosis.clean()},
-            {"vertices", soup.vertices.size()},
-            {"faces", soup.facets.size()},
-            {"patches", soup.patch_names},
-            {"regions", regions_json(found.regions)},
-            {"notes", soup.notes},
-            {"repairs", repairs_json(checked.repairs)},
-            {"counts", std::move(counts)},
-            {"defects", std::move(defects)}};
+    Json json = {{"path", found.path},
+                 {"can_be_meshed", checked.diagnosis.clean()},
+                 {"vertices", soup.vertices.size()},
+                 {"faces", soup.facets.size()},
+                 {"patches", soup.patch_names},
+                 {"regions", regions_json(found.regions)},
+                 {"notes", soup.notes},
+                 {"repairs", repairs_json(checked.repairs)},
+                 {"counts", std::move(counts)},
+                 {"defects", std::move(defects)}};
+    if (!checked.ladder.steps.empty()) json["repair"] = json_of_repair(checked.ladder);
+    if (found.remedy) json["remedy"] = json_of_remedy(*found.remedy, found.path);
+    return json;
 }
 
 Json refused_json(const std::string& path, const RefusedFile& refused) {
@@ -123,15 +128,6 @@ std::string group_text(const CheckedSoup& checked, std::vector<const Defect*> de
     return more > 0 ? fmt::format("{}{:12}and {} more\n", text, "", more) : text;
 }
 
-// By kind, and the errors of a kind before what is repaired.
-std::string defects_text(const CheckedSoup& checked) {
-    std::map<std::pair<DefectKind, Severity>, std::vector<const Defect*>> groups;
-    for (const Defect& defect : checked.diagnosis.defects) groups[{defect.kind, defect.severity}].push_back(&defect);
-    std::string text;
-    for (const auto& [kind, defects] : groups) text += group_text(checked, defects);
-    return text;
-}
-
 void require_good(const InputOptions& options, double needle_angle_deg) {
     options.check();
     require_in(needle_angle_range, "needle-angle", needle_angle_deg);
@@ -147,7 +143,7 @@ std::string kind_of_refusal(const Error& error) {
 // `check`: returns what it has found in the surface, or throws why it cannot.
 template <class Check>
 FileDiagnosis diagnosed(const std::string& path, const Check& check) {
-    FileDiagnosis found{path, {}, {}, {}};
+    FileDiagnosis found{path, {}, {}, {}, {}};
     try {
         found.checked = check();
     } catch (const Error& error) {
@@ -180,6 +176,17 @@ FileDiagnosis diagnose_arrays(Soup soup, const InputOptions& options, double nee
     return diagnosed(name_of_arrays, [&] { return check_arrays(std::move(soup), options, needle_angle_deg); });
 }
 
+// By kind, and the errors of a kind before what is repaired.
+std::string defects_text(const CheckedSoup& checked, bool errors_only) {
+    std::map<std::pair<DefectKind, Severity>, std::vector<const Defect*>> groups;
+    for (const Defect& defect : checked.diagnosis.defects)
+        if (!errors_only || defect.severity == Severity::error)
+            groups[{defect.kind, defect.severity}].push_back(&defect);
+    std::string text;
+    for (const auto& [kind, defects] : groups) text += group_text(checked, defects);
+    return text;
+}
+
 std::string defect_text(const Defect& defect, const Soup& soup) {
     return fmt::format("{}: {}; {}.", name(defect.kind), place_and_measure(defect, soup), advice(defect));
 }
@@ -191,13 +198,14 @@ std::string to_json(const FileDiagnosis& found) {
 
 std::string to_text(const FileDiagnosis& found) {
     if (found.refused) return fmt::format("  error     {}: {}\n", found.refused->kind, found.refused->error.what());
-    const Soup& soup = found.checked.soup;
+    const CheckedSoup& checked = found.checked;
+    const Soup& soup = checked.soup;
     std::string text =
         fmt::format("{}: {} facets, {} vertices, {} patch{}\n", found.path, soup.facets.size(), soup.vertices.size(),
                     soup.patch_names.size(), soup.patch_names.size() == 1 ? "" : "es");
     for (const std::string& note : soup.notes) text += fmt::format("  note      {}\n", note);
-    text += to_text(found.regions);
-    text += defects_text(found.checked);
+    text += to_text(checked.ladder) + to_text(found.regions);
+    text += defects_text(checked);
     const bool clean = found.can_be_meshed();
     if (const Slivers slivers = find_slivers(soup.vertices, soup.facets);
         clean && slivers.spoil_cells() && !soup.is_of_model)  // else all is remeshed, whatever there is
@@ -206,7 +214,8 @@ std::string to_text(const FileDiagnosis& found) {
             "split or "
             "keep is given.\n",
             grouped(slivers.count), grouped(slivers.facets));
-    return text + (clean ? "It can be meshed.\n" : "It cannot be meshed as it is.\n");
+    text += clean ? "It can be meshed.\n" : "It cannot be meshed as it is.\n";
+    return found.remedy ? text + to_text(*found.remedy, found.path) : text;
 }
 
 std::string tables_of_regions(const FileDiagnosis& found) {

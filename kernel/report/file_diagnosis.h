@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "prepare/input.h"
+#include "prepare/remedy.h"
 #include "report/patch_summary.h"
 #include "report/region_summary.h"
 
@@ -25,6 +26,7 @@ struct FileDiagnosis {
     CheckedSoup checked;
     std::vector<RegionSummary> regions;  ///< if there are any, of a surface that can be meshed
     std::optional<RefusedFile> refused;  ///< if there is one, `checked` is empty
+    std::optional<Remedy> remedy = {};   ///< if it was looked for
 
     bool can_be_meshed() const { return !refused && checked.diagnosis.clean(); }
     /// Value of ErrorCode, 0: it can be meshed.
@@ -41,6 +43,9 @@ FileDiagnosis diagnose_arrays(Soup soup, const InputOptions& options = {}, doubl
 
 /// What it is, where, and what to do about it, in one sentence.
 std::string defect_text(const Defect& defect, const Soup& soup);
+
+/// A line or several for each kind of defect, the ten worst of it and what to do; of all, or of errors alone.
+std::string defects_text(const CheckedSoup& checked, bool errors_only = false);
 
 /// An object with every defect, its numbers those of the file, and what to do about it.
 std::string to_json(const FileDiagnosis& found);

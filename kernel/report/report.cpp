@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/number_text.h"
 #include "core/words.h"
+#include "repair/repair_step.h"
 
 namespace kerf {
 
@@ -31,22 +32,6 @@ std::string strategies_text(const std::vector<TreeNode>& nodes) {
     std::string text = fmt::format("{} cut{}", cuts, cuts == 1 ? "" : "s");
     for (std::size_t i = 0; i < counts.size(); ++i)
         if (counts[i]) text += fmt::format(", {} {}", counts[i], in_words(name(static_cast<CutStrategy>(i))));
-    return text;
-}
-
-// What was done to the surface, without the welding of equal vertices.
-std::string repairs_text(const Input& input) {
-    const InputRepairs& r = input.repairs;
-    std::string text;
-    const auto add = [&](std::int64_t count, const char* what) {
-        if (count) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(count), what);
-    };
-    add(r.dropped_facets, "superfluous facets dropped");
-    add(input.orientation.facets_flipped, "facets turned");
-    add(input.orientation.shells_flipped, "shells turned");
-    add(r.merged_vertices, "vertices merged");
-    add(r.removed_facets, "facets of smaller components removed");
-    add(r.filled_holes, "holes filled");
     return text;
 }
 
@@ -175,6 +160,20 @@ std::string finer_text(const FinerShares& finer) {
 
 }  // namespace
 
+std::string repairs_text(const InputRepairs& repairs, const OrientationReport& turned) {
+    std::string text;
+    const auto add = [&](std::int64_t count, const char* what) {
+        if (count) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(count), what);
+    };
+    add(repairs.dropped_facets, "superfluous facets dropped");
+    add(turned.facets_flipped, "facets turned");
+    add(turned.shells_flipped, "shells turned");
+    add(repairs.merged_vertices, "vertices merged");
+    add(repairs.removed_facets, "facets of smaller components removed");
+    add(repairs.filled_holes, "holes filled");
+    return text;
+}
+
 std::string remeshing_text(const InputRemeshing& done) {
     const std::string kept = done.facets_kept > 0 ? fmt::format(", {} of them kept", grouped(done.facets_kept)) : "";
     return fmt::format(
@@ -239,7 +238,10 @@ void add_input(ReportLines& lines, const RunReport& report, bool all) {
         lines.add("input",
                   fmt::format("{}: {} facets, {} shell{}, genus {}, volume {:.6g}", input.path, grouped(input.facets),
                               input.components, input.components == 1 ? "" : "s", input.genus, input.volume));
-    lines.add("repaired", repairs_text(input));
+    lines.add("repaired", repairs_text(input.repairs, input.orientation));
+    for (const StepReport& step : input.ladder.steps)
+        for (const RepairAction& action : step.actions)
+            lines.add("repair", fmt::format("{}: {}", name(step.kind), to_text(action)));
     if (input.wrapped) lines.add("wrapped", to_text(*input.wrapped));
     for (const std::string& note : input.notes) lines.add("note", note);
     if (input.moved_vertices > 0)

@@ -167,6 +167,9 @@ struct RunReport {
 /// report.json as text, two spaces of indentation, sealed (io/run_manifest.h). Numbers that are not finite become null.
 std::string to_json(const RunReport& report);
 
+/// What was done to a surface beside steps by name and the welding of equal vertices, in one line; empty: nothing.
+std::string repairs_text(const InputRepairs& repairs, const OrientationReport& turned);
+
 /// What remeshing did, in one line.
 std::string remeshing_text(const InputRemeshing& done);
 

@@ -10,6 +10,7 @@
 #include "quality/quality_json.h"
 #include "report/cut_json.h"
 #include "report/recovery_json.h"
+#include "report/repair_json.h"
 #include "report/report.h"
 
 namespace kerf {
@@ -55,6 +56,7 @@ Json input_json(const Input& input) {
                                    {"volume", region.volume},
                                    {"area", region.area}});
     }
+    if (!input.ladder.steps.empty()) json["repair"] = json_of_repair(input.ladder);
     if (!input.notes.empty()) json["notes"] = input.notes;
     if (input.moved_vertices > 0)
         json["optimisation"] = {{"vertices_moved", input.moved_vertices}, {"largest_move", input.largest_move}};

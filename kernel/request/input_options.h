@@ -7,6 +7,7 @@
 
 #include "core/user_number.h"
 #include "io/cad_body.h"
+#include "repair/repair_plan.h"
 #include "repair/wrap.h"
 #include "surface/diagnosis.h"
 
@@ -28,6 +29,8 @@ struct InputOptions {
     CadOptions cad;                        ///< of STEP, IGES and BREP files
     bool wrap = false;                     ///< the surface is wrapped, see wrap(); so it is where there is a gap
     WrapOptions wrapping = {};             ///< what is used then
+    bool cap = false;                      ///< the step `caps`, beside those of `repair`
+    Length thicken = {};                   ///< the step `thicken` with this thickness, beside those; 0: none
 
     bool wraps() const { return wrap || wrapping.gap.number() > 0; }
     /// Throws Error(usage) naming option, value and range or form.
@@ -39,6 +42,9 @@ void take_inputs(const std::vector<std::string>& files, std::string& input, Inpu
 
 /// The input and the files that are meshed with it.
 std::vector<std::string> files_of(const std::string& input, const InputOptions& options);
+
+/// The steps of `repair`, `cap` and `thicken`. Throws Error(usage), naming option, word and what it may be.
+RepairPlan repair_plan_of(const InputOptions& options);
 
 /// The points of `regions`. Throws Error(usage), naming option, value and form.
 std::vector<RegionSeed> seeds_of(const InputOptions& options);

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "repair/repair_plan.h"
 #include "request/options.h"
 #include "volume/meshers.h"
 
@@ -67,6 +66,9 @@ OptionField::Choice surface_choice(RunOptions& o) {
     return {{"keep", "split", "remesh", "auto", "wrap"}, get, set};
 }
 
+constexpr NumberRange length_or_none = {
+    "0 (none) or a positive length in units of the input, or with % of its diagonal", 0};
+
 constexpr OptionRow<InputOptions> input_rows[] = {
     {"scale",
      "",
@@ -97,26 +99,25 @@ constexpr OptionRow<InputOptions> input_rows[] = {
      "Repair the surface: exact (no point moves), near (within a bound), full (crossings, too), or steps by name, as "
      "weld,stitch,holes=200. Default none.",
      place<&InputOptions::repair>},
-    {"gap",
-     "",
-     option_group::input,
-     "G",
+    {"gap", "", option_group::input, "G",
      "Wrap the surface, whatever it is, in one that is closed: openings narrower than this are, too. A length, or with "
-     "% "
-     "of the diagonal. Default of --surface wrap: 2%.",
-     place<&InputOptions::wrapping, &WrapOptions::gap>,
-     true,
-     {"0 (none) or a positive length in units of the input, or with % of its diagonal", 0}},
+     "% of the diagonal. Default of --surface wrap: 2%.",
+     place<&InputOptions::wrapping, &WrapOptions::gap>, true, length_or_none},
     {"offset",
      "",
      option_group::input,
      "D",
      "Of a wrap: sheets become walls of twice this thickness. A length, or with % of the diagonal. Default an eighth "
-     "of "
-     "the gap.",
+     "of the gap.",
      place<&InputOptions::wrapping, &WrapOptions::offset>,
      true,
      {"0 (an eighth of the gap) or a positive length in units of the input, or with % of its diagonal", 0}},
+    {"cap", "", option_group::input, "",
+     "Close large openings by patches of their own, cap_1, cap_2, ..., as inlets and outlets.",
+     place<&InputOptions::cap>},
+    {"thicken", "", option_group::input, "T",
+     "Make open sheets walls of this thickness, in units of the input, or with % of its diagonal. Default 0: none.",
+     place<&InputOptions::thicken>, true, length_or_none},
     {"keep-largest", "", option_group::input, "", "Keep only the connected component of the largest area.",
      place<&InputOptions::keep_largest>},
     {"voids", "", option_group::input, "",
@@ -368,9 +369,9 @@ void InputOptions::check() const {
     InputOptions copy = *this;
     for (const OptionField& field : input_option_fields(copy)) field.check();
     seeds_of(*this);
-    parse_repair_plan("repair", repair);
     if (wrapping.offset.number() > 0 && !wraps())
         throw Error(ErrorCode::usage, "--offset is for a surface that is wrapped. Give --gap, too, or leave it out.");
+    repair_plan_of(*this);
 }
 
 std::vector<OptionText> option_texts(RunOptions options, bool shapes_parts_only) {

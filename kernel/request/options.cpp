@@ -60,6 +60,13 @@ std::vector<std::string> files_of(const std::string& input, const InputOptions& 
     return files;
 }
 
+RepairPlan repair_plan_of(const InputOptions& options) {
+    RepairPlan plan = parse_repair_plan("repair", options.repair);
+    if (options.cap) plan.put({RepairKind::caps});
+    if (options.thicken.number() > 0) plan.put({RepairKind::thicken, options.thicken});
+    return plan;
+}
+
 std::vector<RegionSeed> seeds_of(const InputOptions& options) {
     std::vector<RegionSeed> seeds;
     for (const std::string& text : options.regions) seeds.push_back(seed_of(text));

@@ -99,7 +99,7 @@ RunPlan plan_run(const RunOptions& request, int cores_of_rank, Communicator& ran
         if (meshes && options.worker_program.empty()) options.worker_program = find_kerf_program("kerf-worker");
         if (meshes && !options.transient) plan.worker_hash = describe_file("", options.worker_program).hash;
         if (listener) listener->on_progress("read", 0, 1);
-        if (!std::exchange(input.is_ready, false)) input = read_input(options.input, options.input_options);
+        if (!std::exchange(input.is_ready, false)) input = read_input(options.input, options.input_options, listener);
         refuse_changed_input(options, input.file_hash);
         options.input_options.weld_tolerance = input.weld_tolerance;
         options = with_lengths(std::move(options), input.diagonal);

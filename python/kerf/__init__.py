@@ -24,11 +24,12 @@ from .options import Option, options
 from .part import Part, Parts, SharedPoints
 from .plotting import Picture, plot
 from .quality import Distribution, Quality, RegionQuality
+from .repairs import Repair
 from .run import Run, open
 from .sizes import SizeField, sample_sizes
 from .solution import Solution
 from .solve import solve
-from .surface import Surface, read
+from .surface import Surface, read, repair
 from .tree import Tree, decompose
 from .verification import Verification
 
@@ -55,6 +56,7 @@ __all__ = [
     "Quality",
     "QualityError",
     "RegionQuality",
+    "Repair",
     "Run",
     "SharedPoints",
     "SizeField",
@@ -74,6 +76,7 @@ __all__ = [
     "options",
     "plot",
     "read",
+    "repair",
     "sample_sizes",
     "solve",
     "tetrahedralize",

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from . import _kerf
 from .notebook import html_of
 from .progress import Progress, caller
+from .repairs import Repair, repairs_of
 
 if TYPE_CHECKING:
     import meshio
@@ -166,6 +167,11 @@ class Surface:
         """(3,) float64: of the inertia, ascending."""
         return self._native.principal_moments
 
+    @property
+    def repairs(self) -> list[Repair]:
+        """What the option `repair`, or kerf.repair(), has done when this surface was made; empty: nothing was wrong."""
+        return repairs_of(self._native.repairs)
+
     def check(self, needle_angle: float = 1) -> Check:
         """What may give bad cells: needles, short edges. There are no errors, or there would be no Surface: for arrays
         and files that may be broken there is kerf.check()."""
@@ -177,7 +183,7 @@ class Surface:
         """A surface of this one's arrays with options of the surface: keep_largest=True, weld=1e-3, scale=0.001, ...
 
         What is broken cannot be a Surface: give the options where it is made, as Surface(points, triangles,
-        fill_holes=10) or read(path, weld="0.01%"). Raises as Surface() does.
+        fill_holes=10) or read(path, weld="0.01%"), or use kerf.repair(). Raises as Surface() does.
         """
         of_regions = self.regions or None
         return Surface(self.points, self.triangles, self.patches, self.names, self.sides if of_regions else None,
@@ -221,3 +227,31 @@ def read(path: Path, **options: object) -> Surface:
     Raises FileError if it cannot be opened, UsageError for options, and InputError as Surface() does.
     """
     return Surface._of(_kerf.read(encoded(path), **options))
+
+
+def repair(surface: Union[Surface, Path, ArrayLike], triangles: Optional[ArrayLike] = None,
+           patches: Optional[ArrayLike] = None, names: Optional[Sequence[str]] = None,
+           steps: str = "full", **options: object) -> Surface:
+    """A surface of a file, or of arrays, that need not be closed and may cross itself; its `repairs` say what was done.
+
+    surface    the path of a file, a Surface, or points (n, 3) with `triangles`, and their `patches` and `names`
+    steps      "exact": no point moves; "near": points move within a bound, holes are filled; "full": what crosses is
+               divided, too; or steps by name, as "weld,stitch,holes=200,bound=0.1%" (docs/repair.md)
+    options    others of the surface: cap=True, thicken=0.2, scale, voids, ...
+
+    What is clean stays as it is. Raises UsageError for steps, and InputError where something is left that keeps the
+    surface from being meshed: its `defects` has all of that.
+
+        surface = kerf.repair("scan.stl", steps="near")
+        for repair in surface.repairs:
+            print(repair)
+    """
+    if triangles is not None:
+        return Surface(surface, triangles, patches, names, repair=steps, **options)  # type: ignore[arg-type]
+    if patches is not None or names is not None:
+        raise TypeError("patches and names belong to points and triangles: give triangles, too.")
+    if isinstance(surface, Surface):
+        return surface.repair(repair=steps, **options)
+    if not isinstance(surface, (str, os.PathLike)):
+        raise TypeError("A path, a Surface, or points with triangles is wanted.")
+    return read(surface, repair=steps, **options)

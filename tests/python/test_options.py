@@ -69,7 +69,8 @@ CALLS = [
     dict(order=2, curve="straight", cells=1e2, axis="x", surface="keep", memory="1G", improve=False, feature_angle=30, optimise_surface=1),
     dict(cells="200", tetgen_switches="q1.5", fineness="coarse", scale=2, weld="0.001%", fill_holes=3,
          keep_largest=True, voids="parity", fill_voids=False, solid=0, unite=False, no_imprint=None,
-         cad_deflection=0, with_=[]),
+         cad_deflection=0, with_=[], repair="near,no-holes", cap=False, thicken=0,
+         gap=0, offset=0),
     dict(region={"steel": (0.5, 0.5, np.float32(0.5))}),
 ]
 

@@ -236,6 +236,42 @@ def test_options_repair():
     assert regions.regions == ["steel", "copper"] and regions.volume == pytest.approx(16)
 
 
+def test_repair_says_what_it_has_done():
+    torn = P[T.ravel()] + 1e-8 * np.arange(108).reshape(36, 3) / 108, np.arange(36).reshape(12, 3)
+    with pytest.raises(kerf.InputError, match="--repair|repair"):
+        kerf.Surface(*torn)
+    surface = kerf.repair(*torn, steps="weld")
+    assert surface.volume == pytest.approx(1, abs=1e-6)
+    assert [str(repair) for repair in surface.repairs] == ["weld: 28 vertices merged"]
+    only, = surface.repairs
+    assert only.done and only.count == 28 and only.points.shape[1] == 3 and only.refused_because == ""
+    assert kerf.Surface(*torn, repair="weld").volume == surface.volume
+
+
+def test_repair_leaves_what_is_clean():
+    for surface in (kerf.repair(P, T), kerf.repair(kerf.Surface(P, T)), kerf.repair(P, T, steps="none")):
+        assert surface.repairs == [] and np.array_equal(surface.points, P) and np.array_equal(surface.triangles, T)
+
+
+def test_repair_of_a_file(tmp_path):
+    kerf.Surface(P, T).save(tmp_path / "cube.obj")
+    surface = kerf.repair(tmp_path / "cube.obj", steps="exact")
+    assert surface.repairs == [] and surface.volume == pytest.approx(1)
+    with pytest.raises(kerf.FileError):
+        kerf.repair(tmp_path / "none.obj")
+
+
+@pytest.mark.parametrize("call, error, words", [
+    (lambda: kerf.repair(P, T, steps="holse"), kerf.UsageError, "holse.*weld=TOL"),
+    (lambda: kerf.repair(P, T[:5], steps="weld"), kerf.InputError, "open edge loop"),
+    (lambda: kerf.repair(P), TypeError, "path"),
+    (lambda: kerf.repair("cube.stl", names=["a"]), TypeError, "triangles, too"),
+])
+def test_repair_refuses_with_words(call, error, words):
+    with pytest.raises(error, match=words):
+        call()
+
+
 @pytest.mark.parametrize("options", [dict(size=0.3), dict(size="20%"), dict(size=0.5, deviation="0.1%"),
                                      dict(deviation=0.01), dict(cells=2000), dict(size=0.5, size_on={"top": 0.2})])
 def test_remeshed_surfaces_keep_volume_and_patches(options):

@@ -69,7 +69,9 @@ void Session::Impl::apply(const RunEvent& event) {
             show_input_of_run();
             return;
         case RunEvent::Kind::stage:
-            if (event.stage != "read" && event.stage != "remesh" && event.stage != "decompose") load_trace_of_run();
+            if (event.stage != "read" && event.stage != "repair" && event.stage != "remesh" &&
+                event.stage != "decompose")
+                load_trace_of_run();
             return;
         case RunEvent::Kind::parts:
         case RunEvent::Kind::part:

@@ -50,6 +50,7 @@ std::string stage_text(const Progress& progress) {
     const std::string& stage = progress.stage;
     if (stage == "repair") return "Repairing";
     if (stage == "read") return "Reading";
+    if (stage == "repair") return "Repairing";
     if (stage == "remesh") return "Remeshing";
     if (stage == "decompose") return "Cutting";
     if (stage == "prepare") return "Preparing parts";

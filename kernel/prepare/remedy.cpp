@@ -1,0 +1,55 @@
+#include "prepare/remedy.h"
+
+#include <algorithm>
+
+#include "prepare/input_files.h"
+#include "repair/repair_advice.h"
+#include "repair/wrap.h"
+
+namespace kerf {
+
+namespace {
+
+bool has_all_steps(const RepairPlan& plan, RepairLevel level) {
+    const RepairPlan wanted = plan_of(level);
+    return std::all_of(wanted.steps.begin(), wanted.steps.end(),
+                       [&](const RepairStep& step) { return plan.find(step.kind) != nullptr; });
+}
+
+Remedy wrap_remedy(const Soup& soup) {
+    try {
+        return {RepairLevel::none, false, 0, estimated_wrap_distance(soup)};
+    } catch (const Error&) {  // there is nothing to wrap
+        return {};
+    }
+}
+
+}  // namespace
+
+Remedy find_remedy(const std::string& path, const InputOptions& options, const CheckedSoup& checked,
+                   StageListener* listener) {
+    if (!checked.soup.sides.empty() || checked.soup.is_of_model || checked.soup.facets.empty()) return {};
+    const RepairLevel needed = level_for(checked.diagnosis);
+    const RepairPlan done = repair_plan_of(options);
+    if (checked.soup.facets.size() > most_tried) {
+        const bool is_more = needed != RepairLevel::none && !has_all_steps(done, needed);
+        return is_more ? Remedy{needed, false, 0, 0} : wrap_remedy(checked.soup);
+    }
+    const InputFiles files = read_input_files(path, options);
+    // What has no step of its own may go with what is around it, but for that everything is needed.
+    for (RepairLevel level = needed == RepairLevel::none ? RepairLevel::full : needed; level <= RepairLevel::full;
+         level = static_cast<RepairLevel>(static_cast<int>(level) + 1)) {
+        if (has_all_steps(done, level)) continue;
+        InputOptions with = options;
+        with.repair = name(level);
+        try {
+            const CheckedSoup repaired = check_files(files, with, 0, poll_of(listener));
+            if (repaired.diagnosis.clean()) return {level, true, repaired.ladder.largest_move(), 0};
+        } catch (const Error& error) {  // what was repaired fits no region that is asked for
+            if (error.code() != ErrorCode::input) throw;
+        }
+    }
+    return wrap_remedy(checked.soup);
+}
+
+}  // namespace kerf

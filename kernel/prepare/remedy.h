@@ -1,0 +1,27 @@
+// What would make a surface that can be meshed of a file that has none.
+#pragma once
+
+#include <string>
+
+#include "prepare/input.h"
+#include "prepare/stage_listener.h"
+#include "repair/repair_plan.h"
+
+namespace kerf {
+
+struct Remedy {
+    RepairLevel level = RepairLevel::none;  ///< the least that does; none: no level does, but a wrap would
+    bool was_tried = false;                 ///< of the level; else its steps fit the kinds of the defects
+    double largest_move = 0;                ///< of a vertex, where it was tried; units of the surface
+    double wrap_distance = 0;               ///< where no level does: estimated_wrap_distance(); 0: not known
+};
+
+/// Repairs a copy of the file by one level after another, from the least on that may do, unless `options` ask for as
+/// much already, and checks it. Of surfaces of more facets than `most_tried`, only the kinds of defects decide.
+/// `checked`: of the file with `options`, not clean. Costs up to three times check_input() with repairs.
+Remedy find_remedy(const std::string& path, const InputOptions& options, const CheckedSoup& checked,
+                   StageListener* listener = nullptr);
+
+inline constexpr std::size_t most_tried = 200'000;  ///< facets that find_remedy() repairs, some seconds
+
+}  // namespace kerf

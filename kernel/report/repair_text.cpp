@@ -1,0 +1,103 @@
+#include "report/repair_text.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "core/number_text.h"
+#include "core/shell_word.h"
+#include "report/file_diagnosis.h"
+#include "report/report.h"
+
+namespace kerf {
+
+namespace {
+
+// A line as those of steps in to_text(RepairReport).
+std::string line(const char* label, const std::string& text) {
+    return text.empty() ? "" : fmt::format("  {:<14}{}\n", label, text);
+}
+
+std::string facets_text(std::int64_t count) { return fmt::format("{} facet{}", grouped(count), count == 1 ? "" : "s"); }
+
+// "1 -> 1.01", or "1, as before".
+std::string change_text(double before, double after) {
+    const std::string text = fmt::format("{:.9g}", before), now = fmt::format("{:.9g}", after);
+    return text == now ? now + ", as before" : fmt::format("{} -> {}", text, now);
+}
+
+std::string moves_text(const RepairReport& ladder) {
+    if (ladder.largest_move() == 0) return "";
+    return fmt::format("no vertex by more than {:.3g}; {:.3g} is allowed", ladder.largest_move(), ladder.bound);
+}
+
+std::string distance_text(double distance) {
+    return std::isfinite(distance) ? fmt::format("at most {:.3g} from the input, which is proven", distance)
+                                   : "at a distance that could not be proven";
+}
+
+std::string facets_lost_text(std::int64_t lost) { return lost == 0 ? "" : facets_text(lost) + " of the input"; }
+
+std::string facets_at_text(std::int64_t count, double distance) {
+    return count == 0 ? "" : fmt::format("{}, {}", facets_text(count), distance_text(distance));
+}
+
+std::string volume_text(const SoupMeasures& before, const SoupMeasures& after) {
+    if (!after.volume) return "";
+    return before.volume ? change_text(*before.volume, *after.volume)
+                         : fmt::format("{:.9g}; before, it was not closed", *after.volume);
+}
+
+std::string remedy_line(const Remedy& remedy) {
+    if (remedy.level == RepairLevel::none)
+        return remedy.wrap_distance > 0
+                   ? fmt::format(
+                         "No repair makes it fit. A surface wrapped around it does, some {:.2g} from it at most:",
+                         remedy.wrap_distance)
+                   : std::string("No repair makes it fit. A surface wrapped around it may:");
+    if (!remedy.was_tried) return "Repairs that fit its defects may make it fit, which was not tried:";
+    return remedy.largest_move > 0
+               ? fmt::format("Repaired, it can be; no vertex moves by more than {:.3g}:", remedy.largest_move)
+               : std::string("Repaired, it can be; no vertex moves:");
+}
+
+}  // namespace
+
+std::string command_of(const Remedy& remedy, const std::string& path) {
+    const std::filesystem::path input(path);
+    const bool is_wrap = remedy.level == RepairLevel::none;
+    const std::string output = input.stem().string() + (is_wrap ? "_wrapped.obj" : "_repaired.obj");
+    const std::string level =
+        is_wrap || remedy.level == RepairLevel::full ? "" : fmt::format(" --repair {}", name(remedy.level));
+    return fmt::format("kerf {} {} -o {}{}", is_wrap ? "wrap" : "repair", shell_word(path), shell_word(output), level);
+}
+
+std::string to_text(const Remedy& remedy, const std::string& path) {
+    return fmt::format("{}\n  {}\n", remedy_line(remedy), command_of(remedy, path));
+}
+
+std::string to_text(const RepairedFile& repaired) {
+    const RepairMeasures& measures = repaired.measures;
+    std::string text = fmt::format("{}: {}{}\n", repaired.input, facets_text(measures.before.facets),
+                                   measures.before.volume ? "" : ", not closed");
+    text += to_text(repaired.checked.ladder);
+    if (repaired.is_unchanged) {
+        text += line("unchanged", repaired.is_copy ? "nothing to repair: the output is a copy, byte for byte"
+                                                   : "nothing to repair: the output has the same facets");
+    } else {
+        text += line("mended", repairs_text(repaired.checked.repairs, repaired.turned));
+        text += line("moved", moves_text(repaired.checked.ladder));
+        text += line("changed", facets_at_text(measures.changed_facets, measures.distance_of_changed));
+        text += line("added", facets_at_text(measures.added_facets, measures.distance_of_added));
+        text += line("gone", facets_lost_text(measures.lost_facets));
+        text += line("volume", volume_text(measures.before, measures.after));
+        text += line("area", change_text(measures.before.area, measures.after.area));
+    }
+    const std::string output = fmt::format("{}: {}. ", repaired.output, facets_text(measures.after.facets));
+    if (repaired.can_be_meshed) return text + output + "It can be meshed.\n";
+    text += output + "It cannot be meshed yet:\n" + defects_text(repaired.checked, true);
+    return repaired.remedy ? text + to_text(*repaired.remedy, repaired.input) : text;
+}
+
+}  // namespace kerf

@@ -1,0 +1,112 @@
+#include "prepare/repair_measures.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "prepare/remedy.h"
+#include "support/damage.h"
+#include "support/shapes.h"
+#include "support/temporary_folder.h"
+#include "support/write_off.h"
+
+namespace kerf {
+namespace {
+
+// Proven bounds lie within a fourth of what there is.
+void expect_bound(double bound, double distance) {
+    EXPECT_GE(bound, distance * (1 - 1e-9));
+    EXPECT_LE(bound, 1.25 * distance * (1 + 1e-9));
+}
+
+TEST(RepairMeasures, WhatIsTheSameIsNeitherChangedNorFar) {
+    for (const Soup& soup : {test::box(), test::icosphere(3), test::torus(5, 1, 9, 6)}) {
+        Soup turned = soup;
+        for (Triangle& t : turned.facets) std::swap(t[0], t[1]);
+        for (const Soup& after : {soup, turned}) {
+            const RepairMeasures measures = measure_repair(soup, after);
+            EXPECT_EQ(measures.changed_facets + measures.added_facets + measures.lost_facets, 0);
+            EXPECT_EQ(measures.distance_of_changed, 0);
+            EXPECT_EQ(measures.before.area, measures.after.area);
+            EXPECT_NEAR(std::abs(*measures.after.volume), std::abs(*measures.before.volume), 1e-12);
+        }
+    }
+}
+
+TEST(RepairMeasures, AMovedVertexIsAsFarAsItWasMovedOutwardsAtAnyScale) {
+    for (const double scale : {1e-6, 1.0, 1e7}) {
+        Soup before = test::box(), after = before;
+        for (Vec3& p : after.vertices)
+            if (p == Vec3(1, 1, 1)) p += Vec3::Constant(0.01);
+        kerf::scale(before, scale);
+        kerf::scale(after, scale);
+        const RepairMeasures measures = measure_repair(before, after);
+        expect_bound(measures.distance_of_changed, 0.01 * std::sqrt(3) * scale);
+        EXPECT_GE(measures.changed_facets, 3);
+        EXPECT_EQ(measures.changed_facets, measures.lost_facets);
+        EXPECT_EQ(measures.added_facets, 0);
+    }
+}
+
+TEST(RepairMeasures, AFillingIsToldApartWithItsDistance) {
+    const Soup whole = test::box();
+    Soup open = whole;
+    test::remove_facet(open, 0);
+    open.vertex_number.clear();
+    Soup filled = open;
+    test::insert_facet(filled, static_cast<std::int32_t>(filled.facets.size()), whole.facets[0]);
+    const RepairMeasures measures = measure_repair(open, filled);
+    EXPECT_FALSE(measures.before.volume);
+    EXPECT_NEAR(*measures.after.volume, 1, 1e-12);
+    EXPECT_EQ(measures.added_facets, 1);
+    EXPECT_EQ(measures.changed_facets + measures.lost_facets, 0);
+    expect_bound(measures.distance_of_added, 1 - std::sqrt(0.5));  // the inscribed circle of half of a side
+    EXPECT_EQ(measures.distance_of_changed, 0);
+}
+
+TEST(RepairMeasures, FacetsThatCollapsedOpenNothing) {
+    Soup soup = test::box();
+    test::insert_facet(soup, static_cast<std::int32_t>(soup.facets.size()), {0, 0, 1});
+    EXPECT_NEAR(*measure_soup(soup).volume, 1, 1e-12);
+}
+
+TEST(RepairMeasures, WhatIsNotFiniteDoesNotCount) {
+    Soup before = test::box();
+    before.vertices[0].x() = std::numeric_limits<double>::quiet_NaN();
+    const RepairMeasures measures = measure_repair(before, test::box());
+    EXPECT_FALSE(measures.before.volume);
+    EXPECT_TRUE(std::isfinite(measures.before.area));
+    EXPECT_GT(measures.changed_facets, 0);
+    EXPECT_EQ(measure_repair({}, test::box()).after.facets, 12);
+}
+
+class Remedies : public testing::Test {
+ protected:
+    Remedy remedy(const Soup& soup, const InputOptions& options = {}) const {
+        const std::string path = folder_.file("bad.off");
+        test::write_off(path, soup.vertices, soup.facets);
+        const CheckedSoup checked = check_input(path, options);
+        EXPECT_FALSE(checked.diagnosis.clean());
+        return find_remedy(path, options, checked);
+    }
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(Remedies, ALevelIsTriedBeforeItIsTold) {
+    const Remedy found = remedy(test::cracked(test::box(), 1e-8, 1));
+    EXPECT_EQ(found.level, RepairLevel::near);
+    EXPECT_TRUE(found.was_tried);
+    EXPECT_LE(found.largest_move, 1e-3 * std::sqrt(3.0));
+}
+
+TEST_F(Remedies, WhatWasAskedForAlreadyIsNotTold) {
+    InputOptions options;
+    options.repair = "full,no-weld,no-stitch,no-holes,no-intersections,no-manifold";
+    EXPECT_NE(remedy(test::cracked(test::box(), 1e-8, 1), options).level, RepairLevel::none);
+    options.repair = "full,weld=1e-12,stitch=1e-12,holes=3";
+    EXPECT_EQ(remedy(test::cracked(test::box(), 1e-4, 1), options).level, RepairLevel::none);
+}
+
+}  // namespace
+}  // namespace kerf
