@@ -155,17 +155,17 @@ class WrapPullback {
 
     // `m`: the vertices in the middle of its edges, -1 for none.
     void add_pieces(Triangle t, Triangle m, std::vector<Triangle>& pieces) {
-        const auto divided = std::count_if(m.begin(), m.end(), [](std::int32_t v) { return v >= 0; });
+        const auto divided_edges = std::count_if(m.begin(), m.end(), [](std::int32_t v) { return v >= 0; });
         const auto turn = [&] {
             std::rotate(t.begin(), t.begin() + 1, t.end());
             std::rotate(m.begin(), m.begin() + 1, m.end());
         };
-        if (divided == 0) {
+        if (divided_edges == 0) {
             pieces.push_back(t);
-        } else if (divided == 1) {
+        } else if (divided_edges == 1) {
             while (m[0] < 0) turn();
             pieces.insert(pieces.end(), {{t[0], m[0], t[2]}, {m[0], t[1], t[2]}});
-        } else if (divided == 2) {
+        } else if (divided_edges == 2) {
             while (m[2] >= 0) turn();
             pieces.push_back({m[0], t[1], m[1]});
             if ((target_[m[0]] - target_[t[2]]).norm() < (target_[m[1]] - target_[t[0]]).norm())

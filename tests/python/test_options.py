@@ -72,6 +72,7 @@ CALLS = [
          cad_deflection=0, with_=[], repair="near,no-holes", cap=False, thicken=0,
          gap=0, offset=0),
     dict(region={"steel": (0.5, 0.5, np.float32(0.5))}),
+    dict(gap="12%", offset="2%"),
 ]
 
 
