@@ -107,8 +107,8 @@ constexpr OptionRow<InputOptions> input_rows[] = {
      "",
      option_group::input,
      "D",
-     "Of a wrap: sheets become walls of twice this thickness. A length, or with % of the diagonal. Default an eighth "
-     "of the gap.",
+     "Of a wrap: sheets become walls of up to twice this thickness. A length, or with % of the diagonal. Default an "
+     "eighth of the gap.",
      place<&InputOptions::wrapping, &WrapOptions::offset>,
      true,
      {"0 (an eighth of the gap) or a positive length in units of the input, or with % of its diagonal", 0}},
