@@ -1,11 +1,13 @@
 // All facets are divided where they cross; then what bounds the inside stays.
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <utility>
 
 #include "geometry/triangle.h"
 #include "geometry/union_find.h"
 #include "repair/arrangement.h"
+#include "repair/body_regions.h"
 #include "repair/divided_soup.h"
 #include "repair/hull.h"
 #include "repair/repair_step.h"
@@ -27,15 +29,18 @@ class CrossingResolver {
         const bool is_finite =
             std::all_of(soup_.vertices.begin(), soup_.vertices.end(), [](const Vec3& p) { return p.allFinite(); });
         if (!is_finite) {
-            RepairAction refused{"surface", "surfaces", "", 1, {}, "vertices without finite coordinates; clean first"};
+            RepairAction refused{"surface", "surfaces", "",
+                                 1,         {},         "it has coordinates that are not finite; clean first"};
+            refused.changes_surface = false;
             report_.actions.push_back(std::move(refused));
             return;
         }
         turned_ = find_turned_facets(soup_.vertices, soup_.facets, request_.poll);
-        std::vector<Triangle> facets = soup_.facets;
-        for (std::size_t f = 0; f < facets.size(); ++f)
-            if (turned_[f]) std::swap(facets[f][1], facets[f][2]);
-        pieces_ = arrange(soup_.vertices, facets, request_.poll);
+        Soup turned_soup = soup_;
+        for (std::size_t f = 0; f < turned_.size(); ++f)
+            if (turned_[f]) std::swap(turned_soup.facets[f][1], turned_soup.facets[f][2]);
+        pieces_ = arrange(turned_soup.vertices, turned_soup.facets, request_.poll);
+        if (request_.bodies == BodyRepair::regions && become_regions(std::move(turned_soup))) return;
         fate_ = find_hull(pieces_.vertices, pieces_.facets, request_.poll);
         const bool is_clean =
             pieces_.rounds == 0 && pieces_.dropped_facets == 0 && std::all_of(fate_.begin(), fate_.end(), is_kept);
@@ -57,6 +62,31 @@ class CrossingResolver {
         std::sort(pieces.begin(), pieces.end());
         pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
         return soup_.file_facets(pieces);
+    }
+
+    // False: there is one body, or what there is bounds no regions.
+    bool become_regions(Soup divided) {
+        GivenBodies bodies = find_bodies(divided, request_.poll);
+        if (bodies.names.size() < 2) return false;
+        std::vector<std::int32_t> of_pieces;
+        for (const std::int32_t parent : pieces_.parent) of_pieces.push_back(bodies.of_facet[parent]);
+        bodies.of_facet = std::move(of_pieces);
+        const std::vector<char> all(pieces_.facets.size(), 1), none(pieces_.facets.size(), 0);
+        take_divided_facets(divided, pieces_, all, none);
+        std::optional<BodyRegions> regions = make_regions(divided, bodies, request_.poll);
+        if (!regions) {
+            RepairAction refused{"surface", "surfaces", "", 1, {}, "its facets part no regions; bodies are united"};
+            refused.changes_surface = false;
+            report_.actions.push_back(std::move(refused));
+            return false;
+        }
+        tell_crossings();
+        for (RepairAction* action : {&regions->made, &regions->overlaps, &regions->hidden})
+            report_.actions.push_back(std::move(*action));
+        tell_unresolved();
+        soup_ = std::move(divided);
+        drop_unused_vertices(soup_);
+        return true;
     }
 
     // Whether less of the surface bounds nothing than what bounds something.

@@ -27,7 +27,7 @@ class Ladder {
             if (is_filled) apply(repair_step_rows()[static_cast<std::size_t>(RepairKind::manifold)]);
         }
         if (!report_.steps.empty() && report_.steps.back().kind == RepairKind::intersections &&
-            report_.steps.back().changed())
+            report_.steps.back().changed() && soup_.sides.empty())
             for (const RepairKind again : {RepairKind::clean, RepairKind::manifold})
                 apply(repair_step_rows()[static_cast<std::size_t>(again)]);
         return std::move(report_);

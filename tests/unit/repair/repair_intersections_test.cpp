@@ -1,0 +1,158 @@
+#include <algorithm>
+#include <span>
+
+#include <gtest/gtest.h>
+
+#include "repair/repair_step.h"
+#include "support/seeded_numbers.h"
+#include "support/shapes.h"
+#include "surface/edge_corners.h"
+#include "surface/intersections.h"
+#include "surface/mass_properties.h"
+
+namespace kerf {
+namespace {
+
+StepReport resolve(Soup& soup, BodyRepair bodies = BodyRepair::unite) {
+    StepRequest request;
+    request.bodies = bodies;
+    StepReport report{RepairKind::intersections, {}};
+    intersections_step(soup, request, report);
+    return report;
+}
+
+std::int64_t count_of(const StepReport& report, const std::string& what) {
+    std::int64_t count = 0;
+    for (const RepairAction& action : report.actions)
+        if (what == action.one) count += action.count;
+    return count;
+}
+
+// Each edge as often in one direction as in the other.
+bool closes(const std::vector<Triangle>& facets) {
+    bool does = true;
+    EdgeCorners(facets).for_each_edge([&](std::int32_t low, std::span<const EdgeCorners::Corner> corners) {
+        int sum = 0;
+        for (const auto& c : corners) sum += start_vertex(facets, c.corner) == low ? 1 : -1;
+        does &= sum == 0;
+    });
+    return does;
+}
+
+std::int64_t count_open(const std::vector<Triangle>& facets) {
+    std::int64_t count = 0;
+    EdgeCorners(facets).for_each_edge([&](std::int32_t, auto corners) { count += corners.size() == 1; });
+    return count;
+}
+
+void expect_proper(const Soup& soup) {
+    EXPECT_TRUE(closes(soup.facets));
+    EXPECT_TRUE(find_self_intersections(soup.vertices, soup.facets).empty());
+    EXPECT_TRUE(std::is_sorted(soup.polygon.begin(), soup.polygon.end()));
+    EXPECT_EQ(soup.patch.size(), soup.facets.size());
+}
+
+TEST(Intersections, OfBoxesInAnyPlaceGiveTheirUnion) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        SCOPED_TRACE(seed);
+        test::SeededNumbers random(seed);
+        const Vec3 shift(random.between(-0.99, 0.99), random.between(-0.99, 0.99), random.between(-0.99, 0.99));
+        Soup soup = test::join(test::box(Vec3::Zero(), Vec3::Ones(), 2),
+                               test::translated(test::box(Vec3::Zero(), Vec3::Ones(), 3), shift));
+        const StepReport report = resolve(soup);
+        expect_proper(soup);
+        EXPECT_NEAR(enclosed_volume(soup.vertices, soup.facets), 2 - (1 - shift.array().abs()).prod(), 1e-12);
+        EXPECT_GT(count_of(report, "crossing resolved"), 0);
+        EXPECT_EQ(count_of(report, "inner piece left out"), 1);
+    }
+}
+
+TEST(Intersections, GiveRegionsTheSmallerBodyFirst) {
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+        SCOPED_TRACE(seed);
+        test::SeededNumbers random(seed);
+        const Vec3 low(random.between(-0.7, 0.9), random.between(-0.7, 0.9), random.between(-0.7, 0.9));
+        const Soup small = test::box(low, low + Vec3::Constant(0.8), 2);
+        Soup soup = test::join(test::box(), small);
+        weld_exactly(soup);
+        for (std::size_t f = 0; f < soup.facets.size(); ++f) soup.patch[f] = soup.patch[f] >= 6;
+        soup.patch_names = {"large", "small"};
+        resolve(soup, BodyRepair::regions);
+        ASSERT_EQ(soup.region_names, (std::vector<std::string>{"large", "small"}));
+        EXPECT_TRUE(find_self_intersections(soup.vertices, soup.facets).empty());
+        const Vec3 common = (low + Vec3::Constant(0.8)).cwiseMin(1) - low.cwiseMax(0);
+        for (std::int32_t r = 0; r < 2; ++r) {
+            std::vector<Triangle> own;
+            for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+                const auto [a, b, c] = soup.facets[f];
+                if (soup.sides[f].back == r) own.push_back({a, b, c});
+                if (soup.sides[f].front == r) own.push_back({a, c, b});
+            }
+            EXPECT_TRUE(closes(own));
+            EXPECT_NEAR(enclosed_volume(soup.vertices, own), r == 1 ? 0.512 : 1 - common.cwiseMax(0).prod(), 1e-12);
+        }
+    }
+}
+
+TEST(Intersections, LeaveCleanSurfacesAsTheyAre) {
+    const Soup hollow = test::join(test::icosphere(3, 2), test::inside_out(test::icosphere(2, 1)));
+    const Soup apart = test::join(test::icosphere(2), test::translated(test::box(), Vec3(3, 0, 0)));
+    for (const Soup& clean :
+         {test::torus(3, 1, 30, 20), hollow, apart, test::inside_out(test::box()), test::plate_with_hole(24)}) {
+        Soup soup = clean;
+        EXPECT_FALSE(resolve(soup).changed());
+        EXPECT_EQ(soup.vertices, clean.vertices);
+        EXPECT_EQ(soup.facets, clean.facets);
+        EXPECT_EQ(soup.polygon, clean.polygon);
+        EXPECT_EQ(soup.vertex_number, clean.vertex_number);
+    }
+}
+
+TEST(Intersections, KeepWhatCrossesNothing) {
+    const Soup far = test::translated(test::icosphere(2), Vec3(0, 0, 9));
+    Soup soup = test::join(test::join(far, test::box()), test::translated(test::box(), Vec3(0.5, 0.4, 0.3)));
+    const Soup before = soup;
+    resolve(soup);
+    ASSERT_GT(soup.facets.size(), far.facets.size());
+    for (std::size_t f = 0; f < far.facets.size(); ++f) {
+        EXPECT_EQ(soup.polygon[f], static_cast<std::int32_t>(f));
+        for (std::size_t i = 0; i < 3; ++i)
+            EXPECT_EQ(soup.vertices[soup.facets[f][i]], before.vertices[before.facets[f][i]]);
+    }
+}
+
+TEST(Intersections, TellShellsInsideOfOthers) {
+    Soup soup = test::join(test::icosphere(3, 2), test::icosphere(2, 1));
+    const StepReport report = resolve(soup);
+    EXPECT_EQ(count_of(report, "shell inside of another left out"), 1);
+    EXPECT_EQ(std::ssize(soup.facets), 20 * 64);
+}
+
+TEST(Intersections, OpenNothingBesideHolesThatAreLeft) {
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+        SCOPED_TRACE(seed);
+        test::SeededNumbers random(seed);
+        Soup soup = test::join(test::icosphere(3), test::translated(test::icosphere(3), Vec3(0.9, 0.3, 0.2)));
+        std::erase_if(soup.facets, [&](const Triangle&) { return random.with_chance(0.02); });
+        soup.patch.resize(soup.facets.size());
+        const std::int64_t open = count_open(soup.facets);
+        resolve(soup);
+        EXPECT_LE(count_open(soup.facets), open + open / 4);
+        EXPECT_TRUE(find_self_intersections(soup.vertices, soup.facets).empty());
+    }
+}
+
+TEST(Intersections, SayThatOpenSurfacesBoundNothing) {
+    Soup sheet = test::torus(3, 1, 30, 20);
+    std::erase_if(sheet.facets, [&](const Triangle& t) { return sheet.vertices[t[0]].z() > -0.5; });
+    sheet.patch.resize(sheet.facets.size());
+    sheet = test::join(sheet, test::translated(sheet, Vec3(0.5, 0.1, 0.05)));
+    Soup soup = sheet;
+    const StepReport report = resolve(soup);
+    EXPECT_FALSE(report.changed());
+    EXPECT_EQ(count_of(report, "surface"), 1);
+    EXPECT_EQ(soup.facets, sheet.facets);
+}
+
+}  // namespace
+}  // namespace kerf
