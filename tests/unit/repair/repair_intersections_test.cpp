@@ -143,10 +143,14 @@ TEST(Intersections, OpenNothingBesideHolesThatAreLeft) {
 }
 
 TEST(Intersections, SayThatOpenSurfacesBoundNothing) {
-    Soup sheet = test::torus(3, 1, 30, 20);
-    std::erase_if(sheet.facets, [&](const Triangle& t) { return sheet.vertices[t[0]].z() > -0.5; });
+    Soup sheet = test::box(Vec3::Zero(), Vec3::Ones(), 4);
+    std::erase_if(sheet.facets, [&](const Triangle& t) {
+        return std::any_of(t.begin(), t.end(), [&](std::int32_t v) { return sheet.vertices[v].z() > 0; });
+    });
     sheet.patch.resize(sheet.facets.size());
-    sheet = test::join(sheet, test::translated(sheet, Vec3(0.5, 0.1, 0.05)));
+    Soup other = test::translated(sheet, Vec3(0.1, 0.2, 0));
+    for (Vec3& p : other.vertices) p.z() = p.x() - 0.6;
+    sheet = test::join(sheet, other);
     Soup soup = sheet;
     const StepReport report = resolve(soup);
     EXPECT_FALSE(report.changed());
