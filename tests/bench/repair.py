@@ -2,7 +2,8 @@
 """Dirty surfaces: kerf repair and kerf wrap beside CGAL's repairs of polygon meshes, admesh, MeshFix, fTetWild, TetGen and gmsh, on the same files.
 
 usage: repair.py [--kerf KERF] [--helper PROGRAM] [--cgal PROGRAM] [--only WORD] [--surface FILE]... [--folder FOLDER]
-                 [--with NAME]... [--repetitions N] [--long SECONDS] [--limit SECONDS] [--json FILE]
+                 [--with NAME]... [--mesh] [--repetitions N] [--long SECONDS] [--limit SECONDS] [--json FILE]
+                 [--markdown FILE]
 
 Each is asked for what it does by default:
 
@@ -23,6 +24,10 @@ of the input that end inside of the result is no error. `changed`: facets of the
 result with the same corners. Volumes are by the facets as they lie; of an open input that is no more than a hint.
 Seconds are those of the processor of the whole command with what it reads and writes, CGAL's those on facets in memory,
 medians of repetitions that take turns; who needs more than --long of them is called once.
+
+--mesh: what Kerf has made and passes is meshed in 8 parts, and the angle is told below which a hundredth of the cells
+have their smallest dihedral angle. --markdown: a table of Kerf's results, as the page of repairs has it: what was wrong
+with the file, what is left, and who does not come to an end is said, too.
 
 Files: shapes of the repository with damage (tests/bench/dirty_surfaces.py), or any files.
 """
@@ -178,6 +183,31 @@ def tools_of(args):
     return [tool for tool in tools if tool.is_there() and (not args.tools or tool.name in args.tools)]
 
 
+def kept_of_check(args, surface):
+    """The defects that kerf check counts."""
+    done = subprocess.run([args.kerf, "check", surface, "--json"], capture_output=True, text=True, timeout=args.limit)
+    warnings = ("needle", "short edge")
+    try:
+        counts = json.loads(done.stdout)["counts"]
+    except (json.JSONDecodeError, KeyError):
+        return {"defects": {(done.stderr.strip().splitlines() or ["cannot be read"])[-1][:100]: 1}}
+    return {"defects": {kind: count for kind, count in counts.items() if kind not in warnings}}
+
+
+def mesh_and_measure(args, surface, scratch):
+    """The hundredth of smallest dihedral angles of the mesh in 8 parts; None where there is none."""
+    run = scratch / "run"
+    shutil.rmtree(run, ignore_errors=True)
+    try:
+        meshed = run_measured([args.kerf, "mesh", surface, "-o", run, "-n", "8", "-q"], scratch / "log", args.limit)
+        if meshed.exit_code != 0:
+            return {"angle_1": None, "mesh_failure": (meshed.log.strip().splitlines() or [""])[-1]}
+        quality = output_of(args.kerf, "quality", run, "--json", limit=args.limit)
+        return {"angle_1": quality["quality"]["all"]["min_dihedral_deg"]["p1"]}
+    except subprocess.SubprocessError as error:
+        return {"angle_1": None, "mesh_failure": failure_of(error, args.limit)}
+
+
 class Outcome:
     """What one program has done with one file."""
 
@@ -193,6 +223,8 @@ class Outcome:
                 self.figures = {"peak_bytes": peak_bytes, "passes": True}
                 if result is not None:
                     self.figures |= output_of(args.helper, surface, result, limit=args.limit)
+            if not self.seconds and args.mesh and isinstance(self.tool, Kerf):
+                self.figures |= kept_of_check(args, result) | mesh_and_measure(args, result, scratch)
             self.seconds.append(seconds)
         except (RuntimeError, subprocess.SubprocessError, json.JSONDecodeError) as error:
             self.failure = failure_of(error, args.limit) or "has failed"
@@ -217,7 +249,11 @@ def print_row(label, facets, row):
 
 
 def compare(args, label, surface):
-    facets = output_of(args.helper, surface, surface, limit=args.limit)["facets_before"]
+    try:
+        facets = output_of(args.helper, surface, surface, limit=args.limit)["facets_before"]
+    except (subprocess.SubprocessError, json.JSONDecodeError) as error:
+        facets = 0  # no surface at all
+        print(f"{label:<28} {failure_of(error, args.limit)[:120]}")
     outcomes = [Outcome(tool) for tool in tools_of(args)]
     with tempfile.TemporaryDirectory(prefix="kerf_repair_bench_") as folder:
         scratch = pathlib.Path(folder)
@@ -228,7 +264,33 @@ def compare(args, label, surface):
     for row in rows:
         print_row(label, facets, row)
     sys.stdout.flush()
-    return {"file": label, "facets": facets, "rows": rows}
+    return {"file": label, "facets": facets, "rows": rows, **(kept_of_check(args, surface) if args.mesh else {})}
+
+
+MARKDOWN_HEAD = """| file | facets | defects | by | outcome | changed | volume | area | distance | s | MB | 1 % angle |
+|---|---:|---|---|---|---:|---:|---:|---:|---:|---:|---:|
+"""
+
+
+def in_words(defects):
+    return ", ".join(f"{count} {kind}" for kind, count in defects.items()) or "none"
+
+
+def markdown_row(comparison, row):
+    start = f"| {comparison['file']} | {comparison['facets']} | {in_words(comparison.get('defects', {}))} | "
+    start += f"{row['program'].removeprefix('kerf ')} | "
+    if "failure" in row:
+        return start + f"refused: {row['failure'].splitlines()[-1][:120]} | | | | | | | |\n"
+    outcome = "can be meshed" if row["passes"] else f"left: {in_words(row.get('defects', {}))}"
+    angle = row.get("angle_1")
+    return start + (f"{outcome} | {100 * row['changed'] / max(1, row['facets_before']):.1f} % | {row['volume']:.4g} | "
+                    f"{row['area']:.4g} | {100 * row['distance'] / row['diagonal']:.2g} % | {row['seconds']:.1f} | "
+                    f"{row['peak_bytes'] / 1e6:.0f} | {f'{angle:.1f}°' if angle is not None else ''} |\n")
+
+
+def write_markdown(path, comparisons):
+    path.write_text(MARKDOWN_HEAD + "".join(markdown_row(c, row) for c in comparisons for row in c["rows"]
+                                            if row["program"].startswith("kerf")))
 
 
 def print_summary(comparisons):
@@ -245,21 +307,22 @@ def print_summary(comparisons):
 
 def surfaces_of(args, scratch):
     if args.surface:
-        return {path.stem: as_stl(path, scratch) for path in args.surface}
+        return {path.stem: as_stl(args, path, scratch) for path in args.surface}
     if args.folder:
         paths = [path for path in sorted(args.folder.iterdir()) if path.suffix in (".stl", ".obj", ".off", ".ply")]
-        return {path.stem: as_stl(path, scratch) for path in paths if path.stat().st_size > 0}
+        return {path.stem: as_stl(args, path, scratch) for path in paths}
     made = subprocess.run([sys.executable, MAKER, ROOT / "assets", scratch], check=True, capture_output=True, text=True)
     return {path.stem.replace("_", " "): path for path in map(pathlib.Path, made.stdout.splitlines())}
 
 
-def as_stl(path, scratch):
-    """All programs are given the same STL."""
-    if path.suffix == ".stl":
+def as_stl(args, path, scratch):
+    """All programs are given the same STL; Kerf alone gets the file as it is, and so do all what is no surface."""
+    only_kerf = args.tools and all(name.startswith("kerf") for name in args.tools)
+    if path.suffix == ".stl" or only_kerf:
         return path
     result = scratch / f"{path.stem}.stl"
-    subprocess.run([sys.executable, MAKER, path, result], check=True)
-    return result
+    done = subprocess.run([sys.executable, MAKER, path, result], capture_output=True)
+    return result if done.returncode == 0 else path
 
 
 def main():
@@ -271,6 +334,8 @@ def main():
     parser.add_argument("--surface", type=pathlib.Path, action="append", help="a file, in place of the shapes")
     parser.add_argument("--folder", type=pathlib.Path, help="all surfaces of a folder, in place of the shapes")
     parser.add_argument("--with", dest="tools", action="append", help="only this program: kerf repair, CGAL, ...")
+    parser.add_argument("--mesh", action="store_true", help="mesh what Kerf has made")
+    parser.add_argument("--markdown", type=pathlib.Path, help="file for a table of Kerf's results")
     parser.add_argument("--repetitions", type=int, default=3)
     parser.add_argument("--long", type=float, default=5, help="seconds of a call that is not repeated")
     parser.add_argument("--limit", type=float, default=120, help="seconds for one call")
@@ -285,6 +350,8 @@ def main():
         surfaces = surfaces_of(args, pathlib.Path(scratch))
         comparisons = [compare(args, label[:28], path) for label, path in surfaces.items() if args.only in label]
     print_summary(comparisons)
+    if args.markdown:
+        write_markdown(args.markdown, comparisons)
     if args.json:
         args.json.write_text(json.dumps({"cores": os.cpu_count(), "load_at_start": load, "files": comparisons},
                                         indent=2) + "\n")
