@@ -12,8 +12,8 @@ namespace kerf::view {
 
 /// Options as they are given, in the order in which they are applied.
 struct SceneOptions {
-    std::string state_file, camera_file, view, up, stage, color, clip_style, resolution, theme, surface, repair, input_scale,
-        config, deform, motion;
+    std::string state_file, camera_file, view, up, stage, color, clip_style, resolution, theme, surface, repair,
+        input_scale, config, deform, motion;
     std::vector<std::string> inputs;
     std::vector<NodeId> hidden;
     NodeId node = 0, isolated = 0;
