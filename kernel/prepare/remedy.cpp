@@ -36,8 +36,8 @@ Remedy find_remedy(const std::string& path, const InputOptions& options, const C
         return is_more ? Remedy{needed, false, 0, 0} : wrap_remedy(checked.soup);
     }
     const InputFiles files = read_input_files(path, options);
-    // What has no step of its own may go with what is around it, but for that everything is needed.
-    for (RepairLevel level = needed == RepairLevel::none ? RepairLevel::full : needed; level <= RepairLevel::full;
+    // Kinds do not tell: facets along a crack cross each other, which is gone once it is closed.
+    for (RepairLevel level = RepairLevel::exact; level <= RepairLevel::full;
          level = static_cast<RepairLevel>(static_cast<int>(level) + 1)) {
         if (has_all_steps(done, level)) continue;
         InputOptions with = options;

@@ -16,7 +16,7 @@ struct Remedy {
     double wrap_distance = 0;               ///< where no level does: estimated_wrap_distance(); 0: not known
 };
 
-/// Repairs a copy of the file by one level after another, from the least on that may do, unless `options` ask for as
+/// Repairs a copy of the file by one level after another, from the least on, unless `options` ask for as
 /// much already, and checks it. Of surfaces of more facets than `most_tried`, only the kinds of defects decide.
 /// `checked`: of the file with `options`, not clean. Costs up to three times check_input() with repairs.
 Remedy find_remedy(const std::string& path, const InputOptions& options, const CheckedSoup& checked,
