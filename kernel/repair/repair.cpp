@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "geometry/box.h"
+#include "repair/remaining_defects.h"
 #include "repair/repair_step.h"
 
 namespace kerf {
@@ -21,33 +22,68 @@ class Ladder {
 
     RepairReport climb() {
         for (const RepairStepRow& row : repair_step_rows()) {
-            apply(row);
-            const bool is_filled =
-                row.kind == RepairKind::holes && plan_.find(row.kind) != nullptr && report_.steps.back().changed();
-            if (is_filled) apply(repair_step_rows()[static_cast<std::size_t>(RepairKind::manifold)]);
+            if (row.kind == RepairKind::renew) continue;
+            apply(row.kind);
+            if (row.kind == RepairKind::holes && has_changed(row.kind)) apply(RepairKind::manifold);
         }
-        if (!report_.steps.empty() && report_.steps.back().kind == RepairKind::intersections &&
-            report_.steps.back().changed() && soup_.sides.empty())
-            for (const RepairKind again : {RepairKind::clean, RepairKind::manifold})
-                apply(repair_step_rows()[static_cast<std::size_t>(again)]);
+        if (has_changed(RepairKind::intersections)) tidy();
+        renew();
         return std::move(report_);
     }
 
  private:
-    void apply(const RepairStepRow& row) {
-        const RepairStep* step = plan_.find(row.kind);
+    void apply(RepairKind kind, int round = 0) {
+        const RepairStep* step = plan_.find(kind);
         if (step == nullptr) return;
         poll_();
+        const RepairStepRow& row = repair_step_rows()[static_cast<std::size_t>(kind)];
         StepRequest request{.bound = report_.bound,
                             .diagonal = report_.diagonal,
                             .bodies = plan_.bodies,
                             .poll = poll_,
-                            .plan = &plan_};
+                            .plan = &plan_,
+                            .round = round,
+                            .is_last_round = round == most_renewals - 1};
         request.amount = step->amount.value_or(row.usual).of(report_.diagonal);
-        StepReport& done = report_.steps.emplace_back(StepReport{row.kind, {}});
+        StepReport& done = report_.steps.emplace_back(StepReport{kind, {}});
         row.apply(soup_, request, done);
         std::erase_if(done.actions, [](const RepairAction& action) { return action.count == 0; });
     }
+    // Whether the last step was this one, and did something.
+    bool has_changed(RepairKind kind) const {
+        return !report_.steps.empty() && report_.steps.back().kind == kind && report_.steps.back().changed();
+    }
+    // Behind intersections: what was divided may touch itself.
+    void tidy() {
+        if (!soup_.sides.empty()) return;
+        for (const RepairKind again : {RepairKind::clean, RepairKind::manifold}) apply(again);
+    }
+
+    // Takes out what is still defective, each time more around it, and goes up the rest of the ladder again; what
+    // leaves no less defects than before is undone.
+    void renew() {
+        const RepairStep* step = plan_.find(RepairKind::renew);
+        if (step == nullptr || !soup_.sides.empty()) return;
+        const double most_edges = step->amount.value_or(repair_step_rows().back().usual).number();
+        std::size_t defects = find_remaining_defects(soup_, most_edges).size();
+        for (int round = 0; round < most_renewals && defects > 0; ++round) {
+            const Soup before = soup_;
+            const std::size_t steps_before = report_.steps.size();
+            apply(RepairKind::renew, round);
+            if (!has_changed(RepairKind::renew)) continue;
+            for (const RepairKind again : {RepairKind::manifold, RepairKind::holes, RepairKind::manifold}) apply(again);
+            apply(RepairKind::intersections);
+            if (has_changed(RepairKind::intersections)) tidy();
+            const std::size_t left = find_remaining_defects(soup_, most_edges).size();
+            if (left >= defects) {
+                soup_ = before;
+                report_.steps.resize(steps_before, StepReport{RepairKind::renew, {}});
+            }
+            defects = std::min(defects, left);
+        }
+    }
+
+    static constexpr int most_renewals = 4;
 
     Soup& soup_;
     const RepairPlan& plan_;

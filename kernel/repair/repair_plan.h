@@ -23,8 +23,9 @@ enum class RepairKind {
     thicken,        ///< open sheets become walls
     snap,           ///< walls of two bodies that nearly coincide become one
     intersections,  ///< facets that cross share the curve, and what lies inside goes
+    renew,          ///< what is still defective goes, with facets around it, and is filled
 };
-inline constexpr std::size_t repair_kind_count = static_cast<std::size_t>(RepairKind::intersections) + 1;
+inline constexpr std::size_t repair_kind_count = static_cast<std::size_t>(RepairKind::renew) + 1;
 
 /// How much is done.
 enum class RepairLevel {

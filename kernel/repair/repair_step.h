@@ -19,6 +19,8 @@ struct StepRequest {
     BodyRepair bodies = BodyRepair::unite;
     std::function<void()> poll = [] {};  ///< to be called now and then; may throw
     const RepairPlan* plan = {};         ///< all that is asked for; none: this step alone
+    int round = 0;                       ///< of those in which what is left is renewed
+    bool is_last_round = false;
 
     bool has(RepairKind kind) const { return plan != nullptr && plan->find(kind) != nullptr; }
 };
@@ -44,6 +46,6 @@ std::span<const RepairStepRow> repair_step_rows();
 const char* name(RepairKind kind);
 
 ApplyStep weld_step, clean_step, stitch_step, orient_step, manifold_step, specks_step, caps_step, holes_step,
-    thicken_step, snap_step, intersections_step;
+    thicken_step, snap_step, intersections_step, renew_step;
 
 }  // namespace kerf
