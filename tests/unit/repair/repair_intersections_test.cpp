@@ -1,4 +1,7 @@
+// The oracle: boxes between whole numbers, so that what they enclose is counted in unit cubes. Their sides lie in
+// common planes, on common lines and on each other more often than not.
 #include <algorithm>
+#include <array>
 #include <span>
 
 #include <gtest/gtest.h>
@@ -12,6 +15,59 @@
 
 namespace kerf {
 namespace {
+
+constexpr int edge = 6;
+
+struct WholeBox {
+    std::array<int, 3> low, high;
+
+    bool contains(const std::array<int, 3>& cube) const {
+        for (std::size_t i = 0; i < 3; ++i)
+            if (cube[i] < low[i] || cube[i] >= high[i]) return false;
+        return true;
+    }
+    double volume() const { return (high[0] - low[0]) * (high[1] - low[1]) * (high[2] - low[2]); }
+    Soup soup() const { return test::box(Vec3(low[0], low[1], low[2]), Vec3(high[0], high[1], high[2])); }
+};
+
+std::vector<WholeBox> random_boxes(int count, test::SeededNumbers& random) {
+    std::vector<WholeBox> boxes(count);
+    for (WholeBox& box : boxes)
+        for (std::size_t i = 0; i < 3; ++i) {
+            box.low[i] = random.integer(0, edge - 1);
+            box.high[i] = random.integer(box.low[i] + 1, edge);
+        }
+    return boxes;
+}
+
+template <class Visit>
+void for_each_cube(Visit visit) {
+    for (int x = 0; x < edge; ++x)
+        for (int y = 0; y < edge; ++y)
+            for (int z = 0; z < edge; ++z) visit(std::array{x, y, z});
+}
+
+double count_within_any(const std::vector<WholeBox>& boxes) {
+    double count = 0;
+    for_each_cube([&](const std::array<int, 3>& cube) {
+        count += std::any_of(boxes.begin(), boxes.end(), [&](const WholeBox& box) { return box.contains(cube); });
+    });
+    return count;
+}
+
+// A patch for each, all edges of one length in the mean so that facets are pieces of others.
+Soup soup_of(const std::vector<WholeBox>& boxes) {
+    Soup soup;
+    for (const WholeBox& box : boxes) {
+        Soup own = box.soup();
+        own.patch.assign(own.facets.size(), 0);
+        own.patch_names = {"box"};
+        soup = test::join(std::move(soup), own);
+    }
+    for (std::size_t p = 0; p < soup.patch_names.size(); ++p) soup.patch_names[p] += "_" + std::to_string(p);
+    weld_exactly(soup);
+    return soup;
+}
 
 StepReport resolve(Soup& soup, BodyRepair bodies = BodyRepair::unite) {
     StepRequest request;
@@ -52,6 +108,18 @@ void expect_proper(const Soup& soup) {
     EXPECT_EQ(soup.patch.size(), soup.facets.size());
 }
 
+TEST(Intersections, OfBoxesGiveTheirUnion) {
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        SCOPED_TRACE(seed);
+        test::SeededNumbers random(seed);
+        const std::vector<WholeBox> boxes = random_boxes(1 + static_cast<int>(seed % 6), random);
+        Soup soup = soup_of(boxes);
+        resolve(soup);
+        expect_proper(soup);
+        EXPECT_NEAR(enclosed_volume(soup.vertices, soup.facets), count_within_any(boxes), 1e-9);
+    }
+}
+
 TEST(Intersections, OfBoxesInAnyPlaceGiveTheirUnion) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         SCOPED_TRACE(seed);
@@ -90,6 +158,43 @@ TEST(Intersections, GiveRegionsTheSmallerBodyFirst) {
             }
             EXPECT_TRUE(closes(own));
             EXPECT_NEAR(enclosed_volume(soup.vertices, own), r == 1 ? 0.512 : 1 - common.cwiseMax(0).prod(), 1e-12);
+        }
+    }
+}
+
+TEST(Intersections, OfWholeBoxesGiveRegionsTheSmallerBodyFirst) {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        SCOPED_TRACE(seed);
+        test::SeededNumbers random(seed);
+        const std::vector<WholeBox> boxes = random_boxes(2 + static_cast<int>(seed % 4), random);
+        std::vector<double> expected(boxes.size(), 0);
+        for_each_cube([&](const std::array<int, 3>& cube) {
+            std::size_t smallest = boxes.size();
+            for (std::size_t b = 0; b < boxes.size(); ++b)
+                if (boxes[b].contains(cube) &&
+                    (smallest == boxes.size() || boxes[b].volume() < boxes[smallest].volume()))
+                    smallest = b;
+            if (smallest < boxes.size()) ++expected[smallest];
+        });
+        std::erase(expected, 0);
+        Soup soup = soup_of(boxes);
+        resolve(soup, BodyRepair::regions);
+        if (expected.size() == 1) {
+            EXPECT_TRUE(soup.sides.empty());
+            EXPECT_NEAR(enclosed_volume(soup.vertices, soup.facets), expected[0], 1e-9);
+            continue;
+        }
+        ASSERT_EQ(soup.region_names.size(), expected.size());
+        EXPECT_TRUE(find_self_intersections(soup.vertices, soup.facets).empty());
+        for (std::size_t r = 0; r < expected.size(); ++r) {
+            std::vector<Triangle> own;
+            for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+                const auto [a, b, c] = soup.facets[f];
+                if (soup.sides[f].back == static_cast<std::int32_t>(r)) own.push_back({a, b, c});
+                if (soup.sides[f].front == static_cast<std::int32_t>(r)) own.push_back({a, c, b});
+            }
+            EXPECT_TRUE(closes(own));
+            EXPECT_NEAR(enclosed_volume(soup.vertices, own), expected[r], 1e-9);
         }
     }
 }
