@@ -30,11 +30,14 @@ class ShellTurner {
         std::vector<char> to_turn(consistent_.facets.size(), 0);
         for (const std::int32_t f : consistent_.turned) to_turn[f] = 1;
         const std::vector<char> is_open = find_open_shells();
-        if (std::find(is_open.begin(), is_open.end(), char{0}) == is_open.end()) return to_turn;
+        std::vector<char> is_out(consistent_.shell_count, 1);
+        for (std::int32_t shell = 0; shell < consistent_.shell_count; ++shell)
+            if (!is_open[shell]) is_out[shell] = is_outward(vertices_, facets_of(shell));
+        if (std::find(is_out.begin(), is_out.end(), char{0}) == is_out.end()) return to_turn;
         poll_();
         const WindingNumber winding(vertices_, consistent_.facets);
         for (std::int32_t shell = 0; shell < consistent_.shell_count; ++shell) {
-            if (is_open[shell] || !is_wrong(shell, winding)) continue;
+            if (is_open[shell] || !is_wrong(shell, is_out[shell] != 0, winding)) continue;
             for (const std::int32_t f : facets_of_[shell]) to_turn[f] ^= 1;
         }
         return to_turn;
@@ -61,18 +64,21 @@ class ShellTurner {
         return is_open;
     }
 
-    bool is_wrong(std::int32_t shell, const WindingNumber& winding) {
+    std::vector<Triangle> facets_of(std::int32_t shell) const {
+        std::vector<Triangle> facets;
+        for (const std::int32_t f : facets_of_[shell]) facets.push_back(consistent_.facets[f]);
+        return facets;
+    }
+
+    bool is_wrong(std::int32_t shell, bool is_out, const WindingNumber& winding) {
         constexpr std::size_t most_samples = 64;
         poll_();
         const std::vector<std::int32_t>& own = facets_of_[shell];
-        std::vector<Triangle> facets;
-        for (const std::int32_t f : own) facets.push_back(consistent_.facets[f]);
-        const bool is_out = is_outward(vertices_, facets);
         const double of_shell = is_out ? 0.5 : -0.5;  // on itself
         const std::size_t step = (own.size() + most_samples - 1) / most_samples;
         double area = 0, around = 0;  // how often others wind around it
         for (std::size_t i = 0; i < own.size(); i += step) {
-            const double weight = triangle_area(vertices_, facets[i]);
+            const double weight = triangle_area(vertices_, consistent_.facets[own[i]]);
             area += weight;
             around += weight * (winding.beside(own[i]) - of_shell);
         }
