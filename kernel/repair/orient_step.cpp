@@ -1,6 +1,6 @@
 // Facets agree over edges of two. Where only edges of more facets close a shell, the cells around these tell which side
 // of a facet is the outside. Then what is closed is turned outwards as a whole, with all that lies inside of it, so
-// that a void stays one.
+// that a void stays one, in a body that is open, too.
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +8,7 @@
 #include "geometry/triangle.h"
 #include "repair/repair_step.h"
 #include "repair/rims.h"
+#include "repair/winding_number.h"
 #include "surface/cells.h"
 #include "surface/edge_corners.h"
 #include "surface/orientation.h"
@@ -35,8 +36,8 @@ class Orienting {
         is_hull_.assign(facets_.size(), 1);
         turn_by_cells();
         poll();
-        turn_closed_shells();
         turn_open_shells();
+        turn_closed_shells();
         say();
         for (std::size_t i = 0; i < number_.size(); ++i) soup_.facets[number_[i]] = new_.facets[i];
     }
@@ -46,7 +47,10 @@ class Orienting {
     void turn_by_cells();
     void turn_piece_by_cells(const std::vector<std::int32_t>& piece);
     void turn_closed_shells();
+    template <class NumberAt>
+    bool is_in_others(const std::vector<std::int32_t>& shell, const NumberAt& number_at) const;
     void turn_open_shells();
+    void keep_open_voids(std::vector<char>& is_turned) const;
     void turn_shells(const std::vector<char>& is_turned);
     void say();
     RepairPlace place(std::int32_t facet) const {
@@ -130,13 +134,30 @@ void Orienting::turn_piece_by_cells(const std::vector<std::int32_t>& piece) {
         if (is_hull_[piece[i]] && (cells->sides[i].front < 0) != (outward >= 0)) turn(new_.facets[piece[i]]);
 }
 
+// Whether facets wind around most of a shell, as `number_at(facet)` says it.
+template <class NumberAt>
+bool Orienting::is_in_others(const std::vector<std::int32_t>& shell, const NumberAt& number_at) const {
+    constexpr std::size_t most_samples = 64;
+    double area = 0, around = 0;
+    for (std::size_t i = 0; i < shell.size(); i += (shell.size() + most_samples - 1) / most_samples) {
+        const double weight = triangle_area(soup_.vertices, facets_[shell[i]]);
+        area += weight;
+        around += weight * number_at(shell[i]);
+    }
+    return around > 0.5 * area;
+}
+
 // A shell that nothing is around is turned outwards, and what is inside of it is turned with it.
 void Orienting::turn_closed_shells() {
     std::vector<std::int32_t> number(static_cast<std::size_t>(new_.shell_count), -1), shell;
+    std::vector<std::vector<std::int32_t>> facets_of(static_cast<std::size_t>(new_.shell_count));
+    std::vector<Triangle> open;
     ConsistentFacets closed;
     for (std::size_t f = 0; f < new_.facets.size(); ++f) {
         const std::int32_t s = new_.shell[f];
+        if (!rims_.pieces[rims_.piece_of[f]].is_closed()) open.push_back(new_.facets[f]);
         if (!rims_.pieces[rims_.piece_of[f]].is_closed() || !is_hull_[f]) continue;
+        facets_of[s].push_back(static_cast<std::int32_t>(f));
         if (number[s] < 0) {
             number[s] = closed.shell_count++;
             shell.push_back(s);
@@ -146,11 +167,17 @@ void Orienting::turn_closed_shells() {
     }
     if (closed.facets.empty()) return;
     const std::vector<ShellPlace> places = locate_shells(soup_.vertices, closed);
+    const WindingNumber around(soup_.vertices, open);
     std::vector<char> is_turned(static_cast<std::size_t>(new_.shell_count), 0);
     for (std::size_t i = 0; i < places.size(); ++i) {
         std::int32_t root = static_cast<std::int32_t>(i);
         while (places[root].parent >= 0) root = places[root].parent;
         if (places[root].touches >= 0 || places[root].outward) continue;
+        const auto number_at = [&](std::int32_t f) {
+            const auto& [a, b, c] = facets_[f];
+            return around.at((soup_.vertices[a] + soup_.vertices[b] + soup_.vertices[c]) / 3);
+        };
+        if (!open.empty() && is_in_others(facets_of[shell[root]], number_at)) continue;
         is_turned[shell[i]] = 1;
     }
     turn_shells(is_turned);
@@ -182,7 +209,21 @@ void Orienting::turn_open_shells() {
     for (std::size_t s = 0; s < shells.size(); ++s)
         is_turned[s] = shells[s].rim_vertices > 0 && !is_one_sided_[s] &&
                        shells[s].volume < -least_fullness * std::pow(shells[s].area, 1.5);
+    keep_open_voids(is_turned);
     turn_shells(is_turned);
+}
+
+// Those that others wind around point inwards because they are voids.
+void Orienting::keep_open_voids(std::vector<char>& is_turned) const {
+    if (std::find(is_turned.begin(), is_turned.end(), char{1}) == is_turned.end()) return;
+    std::vector<std::vector<std::int32_t>> facets_of(is_turned.size());
+    for (std::size_t f = 0; f < new_.facets.size(); ++f)
+        if (is_turned[new_.shell[f]]) facets_of[new_.shell[f]].push_back(static_cast<std::int32_t>(f));
+    const WindingNumber all(soup_.vertices, new_.facets);
+    constexpr double of_inward_shell = -0.5;  // on itself
+    for (std::size_t s = 0; s < is_turned.size(); ++s)
+        if (is_turned[s] && is_in_others(facets_of[s], [&](std::int32_t f) { return all.beside(f) - of_inward_shell; }))
+            is_turned[s] = 0;
 }
 
 void Orienting::turn_shells(const std::vector<char>& is_turned) {
