@@ -219,6 +219,11 @@ Input remeshed(Input input, const SurfaceArrays& before, const BadFacets& bad, c
                       .distance_from_input = result.report.distance_from_input,
                       .feature_edges = result.report.feature_edges,
                       .finer = wanted.wanted ? result.report.finer : FinerShares()};
+    if (result.report.facets_left > 0)
+        input.notes.push_back(
+            fmt::format("{} facets stay as they are, because no change of them stays within {:.2g}: "
+                        "cells may be bad there.",
+                        grouped(result.report.facets_left), wanted.deviation));
     input.complex = task.facets.to_complex(std::move(result.surface), region_names(input.complex));
     measure_input(input);
     return input;

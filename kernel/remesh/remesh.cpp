@@ -21,8 +21,9 @@ namespace {
 constexpr double as_asked = 0.95;  // a size over that which is asked for, which counts as that
 // Points between those that operations compare with the input may be further off.
 constexpr double used_share = 0.8;
-constexpr int most_rounds = 5;
-constexpr double smaller_tolerance = 0.25;         // of the tolerance, where the result of a round is refused
+constexpr int most_rounds = 5, most_rounds_that_keep = 3;
+constexpr double largest_share_left = 0.1;  // of the facets: so many may stay as they are because nothing else does
+constexpr double smaller_tolerance = 0.25;  // of the tolerance, where the result of a round is refused
 constexpr double area_per_squared_length = 0.342;  // of a facet, and of the length wanted there; measured
 
 std::vector<InputPlace> places_on(const TriangleTree& input, const std::vector<Vec3>& vertices) {
@@ -80,6 +81,33 @@ void check_remesh_options(const RemeshOptions& options, std::size_t facets) {
     KERF_CHECK(options.deviation > 0 && options.longest > 0 && options.growth > 0 && options.feature_angle_deg > 0);
 }
 
+// Adds facets to those that stay as they are, with all that share a vertex with them. Returns whether these are few.
+bool leave(const SurfaceArrays& surface, const std::vector<char>& refused, std::vector<char>& kept) {
+    std::vector<char> is_near(surface.vertices.size(), 0);
+    for (std::size_t f = 0; f < refused.size(); ++f)
+        if (refused[f] != 0)
+            for (const std::int32_t v : surface.facets[f]) is_near[v] = 1;
+    kept.resize(surface.facets.size(), 0);
+    std::int64_t added = 0;
+    for (std::size_t f = 0; f < kept.size(); ++f) {
+        const Triangle& t = surface.facets[f];
+        const bool is_left = is_near[t[0]] != 0 || is_near[t[1]] != 0 || is_near[t[2]] != 0;
+        added += is_left && kept[f] == 0;
+        if (is_left) kept[f] = 1;
+    }
+    return static_cast<double>(added) <= largest_share_left * static_cast<double>(kept.size());
+}
+
+[[noreturn]] void refuse(const SurfaceArrays& surface, const std::vector<char>& refused, double deviation) {
+    const auto first = std::find(refused.begin(), refused.end(), char{1}) - refused.begin();
+    const Vec3& place = surface.vertices[surface.facets[first][0]];
+    throw Error(
+        ErrorCode::input,
+        fmt::format("The surface cannot be remeshed within {:g} at {} facets, the first near ({:g}, "
+                    "{:g}, {:g}). Try another --deviation, or keep the surface as it is.",
+                    deviation, std::count(refused.begin(), refused.end(), char{1}), place[0], place[1], place[2]));
+}
+
 }  // namespace
 
 double forecast_facets(const SurfaceArrays& surface, const RemeshOptions& options) {
@@ -112,25 +140,24 @@ Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& options) {
     const Sheets sheets = take_apart(surface);
     std::vector<double> tolerance = tolerances_of_gaps(surface, tree, used_share * options.deviation, options.walls,
                                                        CancellationCheck(options.poll));
+    RemeshOptions own = options;
     for (int round = 1;; ++round) {
-        Remeshed result = remesh_once(sheets, tree, tolerance, options);
+        Remeshed result = remesh_once(sheets, tree, tolerance, own);
         result.report.rounds = round;
         const std::vector<char> refused = inspect(surface, tree, options, result.surface, result.report);
-        const auto count = std::count(refused.begin(), refused.end(), char{1});
-        if (count == 0) {
+        if (std::find(refused.begin(), refused.end(), char{1}) == refused.end()) {
             result.places = places_on(tree, result.surface.vertices);
+            result.report.facets_left = std::count(own.kept.begin(), own.kept.end(), char{1}) -
+                                        std::count(options.kept.begin(), options.kept.end(), char{1});
             return result;
         }
-        if (round == most_rounds) {
-            const auto first = std::find(refused.begin(), refused.end(), char{1}) - refused.begin();
-            const Vec3& place = surface.vertices[surface.facets[first][0]];
-            throw Error(ErrorCode::input,
-                        fmt::format("The surface cannot be remeshed within {:g} at {} facets, the first near ({:g}, "
-                                    "{:g}, {:g}). Try another --deviation, or keep the surface as it is.",
-                                    options.deviation, count, place[0], place[1], place[2]));
+        if (round >= most_rounds) {
+            if (round == most_rounds + most_rounds_that_keep || !leave(surface, refused, own.kept))
+                refuse(surface, refused, options.deviation);
+        } else {
+            for (std::size_t f = 0; f < refused.size(); ++f)
+                if (refused[f] != 0) tolerance[f] *= smaller_tolerance;
         }
-        for (std::size_t f = 0; f < refused.size(); ++f)
-            if (refused[f] != 0) tolerance[f] *= smaller_tolerance;
     }
 }
 

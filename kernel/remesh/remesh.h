@@ -37,6 +37,7 @@ struct RemeshReport {
            distance_from_input = 0;  ///< nothing of the new surface, and of the old, is further away; proven
     std::int64_t feature_edges = 0;  ///< of the new surface
     FinerShares finer;
+    std::int64_t facets_left = 0;  ///< of the input, as they were, because no change of them stayed within the bound
 };
 
 /// sin of the smallest angle of a triangle, 0 for a degenerate one.
@@ -62,9 +63,10 @@ struct Remeshed {
 /// and their ends stay. No point of either
 /// surface is further than `deviation` from the other, which is proven (Nearness), and the result has no
 /// self-intersections, by exact predicates: where one of them fails, the tolerance of the facets there is made smaller
-/// and all is done again. Keys are the numbers in the result. Throws Error(input) with the place if that
-/// does not help. Requires a surface without intersections and open edges; facets that meet in an edge of two have it
-/// in opposite directions. Deterministic. O(#F log #F) for the larger of both surfaces.
+/// and all is done again; where that does not help, they stay as they are (RemeshReport::facets_left). Keys are the
+/// numbers in the result. Throws Error(input) with the place if that would be more than a tenth. Requires a surface
+/// without intersections and open edges; facets that meet in an edge of two have it in opposite directions.
+/// Deterministic. O(#F log #F) for the larger of both surfaces.
 ///
 /// The bound of operations instead of the whole follows Cohen et al. 1996; sizes by distance between folds are those of
 /// Ruppert 1995.
