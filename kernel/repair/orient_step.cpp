@@ -36,8 +36,7 @@ class Orienting {
         is_hull_.assign(facets_.size(), 1);
         turn_by_cells();
         poll();
-        turn_open_shells();
-        turn_closed_shells();
+        turn_shells_outwards();
         say();
         for (std::size_t i = 0; i < number_.size(); ++i) soup_.facets[number_[i]] = new_.facets[i];
     }
@@ -46,11 +45,10 @@ class Orienting {
     void restore_one_sided();
     void turn_by_cells();
     void turn_piece_by_cells(const std::vector<std::int32_t>& piece);
-    void turn_closed_shells();
-    template <class NumberAt>
-    bool is_in_others(const std::vector<std::int32_t>& shell, const NumberAt& number_at) const;
-    void turn_open_shells();
-    void keep_open_voids(std::vector<char>& is_turned) const;
+    void turn_shells_outwards();
+    std::vector<std::int32_t> find_roots(std::vector<double>& fullness) const;
+    std::vector<double> find_fullness() const;
+    std::vector<double> find_what_is_around(const std::vector<double>& fullness) const;
     void turn_shells(const std::vector<char>& is_turned);
     void say();
     RepairPlace place(std::int32_t facet) const {
@@ -134,30 +132,32 @@ void Orienting::turn_piece_by_cells(const std::vector<std::int32_t>& piece) {
         if (is_hull_[piece[i]] && (cells->sides[i].front < 0) != (outward >= 0)) turn(new_.facets[piece[i]]);
 }
 
-// Whether facets wind around most of a shell, as `number_at(facet)` says it.
-template <class NumberAt>
-bool Orienting::is_in_others(const std::vector<std::int32_t>& shell, const NumberAt& number_at) const {
-    constexpr std::size_t most_samples = 64;
-    double area = 0, around = 0;
-    for (std::size_t i = 0; i < shell.size(); i += (shell.size() + most_samples - 1) / most_samples) {
-        const double weight = triangle_area(soup_.vertices, facets_[shell[i]]);
-        area += weight;
-        around += weight * number_at(shell[i]);
-    }
-    return around > 0.5 * area;
+// A shell that nothing is around is turned outwards, and what is inside of it is turned with it: a void stays one,
+// though it or what is around it may have a hole.
+void Orienting::turn_shells_outwards() {
+    std::vector<double> fullness = find_fullness();
+    const auto has_inside = [](double full) { return std::abs(full) > least_fullness; };
+    const bool all_closed = std::none_of(fullness.begin(), fullness.end(), has_inside);
+    const std::vector<std::int32_t> roots = find_roots(fullness);
+    if (std::none_of(fullness.begin(), fullness.end(), [](double full) { return full < -least_fullness; })) return;
+    const std::vector<double> around =
+        all_closed ? std::vector<double>(fullness.size(), 0) : find_what_is_around(fullness);
+    std::vector<char> is_turned(fullness.size(), 0);
+    for (std::size_t s = 0; s < fullness.size(); ++s)
+        if (has_inside(fullness[s])) is_turned[s] = around[s] < -0.5 || (around[s] <= 0.5 && fullness[s] < 0);
+    for (std::size_t s = 0; s < fullness.size(); ++s)
+        if (roots[s] >= 0) is_turned[s] = is_turned[roots[s]];
+    turn_shells(is_turned);
 }
 
-// A shell that nothing is around is turned outwards, and what is inside of it is turned with it.
-void Orienting::turn_closed_shells() {
-    std::vector<std::int32_t> number(static_cast<std::size_t>(new_.shell_count), -1), shell;
-    std::vector<std::vector<std::int32_t>> facets_of(static_cast<std::size_t>(new_.shell_count));
-    std::vector<Triangle> open;
+// Of each closed shell the outermost closed one around it, maybe itself; -1 of others. Those outermost are as full as
+// can be, unless they touch another.
+std::vector<std::int32_t> Orienting::find_roots(std::vector<double>& fullness) const {
+    std::vector<std::int32_t> number(fullness.size(), -1), shell, roots(fullness.size(), -1);
     ConsistentFacets closed;
     for (std::size_t f = 0; f < new_.facets.size(); ++f) {
         const std::int32_t s = new_.shell[f];
-        if (!rims_.pieces[rims_.piece_of[f]].is_closed()) open.push_back(new_.facets[f]);
         if (!rims_.pieces[rims_.piece_of[f]].is_closed() || !is_hull_[f]) continue;
-        facets_of[s].push_back(static_cast<std::int32_t>(f));
         if (number[s] < 0) {
             number[s] = closed.shell_count++;
             shell.push_back(s);
@@ -165,26 +165,20 @@ void Orienting::turn_closed_shells() {
         closed.facets.push_back(new_.facets[f]);
         closed.shell.push_back(number[s]);
     }
-    if (closed.facets.empty()) return;
+    if (closed.facets.empty()) return roots;
     const std::vector<ShellPlace> places = locate_shells(soup_.vertices, closed);
-    const WindingNumber around(soup_.vertices, open);
-    std::vector<char> is_turned(static_cast<std::size_t>(new_.shell_count), 0);
     for (std::size_t i = 0; i < places.size(); ++i) {
         std::int32_t root = static_cast<std::int32_t>(i);
         while (places[root].parent >= 0) root = places[root].parent;
-        if (places[root].touches >= 0 || places[root].outward) continue;
-        const auto number_at = [&](std::int32_t f) {
-            const auto& [a, b, c] = facets_[f];
-            return around.at((soup_.vertices[a] + soup_.vertices[b] + soup_.vertices[c]) / 3);
-        };
-        if (!open.empty() && is_in_others(facets_of[shell[root]], number_at)) continue;
-        is_turned[shell[i]] = 1;
+        roots[shell[i]] = shell[root];
+        if (places[root].touches < 0) fullness[shell[root]] = places[root].outward ? 1 : -1;
     }
-    turn_shells(is_turned);
+    return roots;
 }
 
-// The volume between a shell and the middle of its rim; for one that is nearly closed, nearly its own.
-void Orienting::turn_open_shells() {
+// The volume between a shell and the middle of its rim; for one that is nearly closed, nearly its own. As a share of
+// the area to the power of 3/2; 0 of closed and one-sided shells.
+std::vector<double> Orienting::find_fullness() const {
     struct Open {
         Vec3 middle = Vec3::Zero();
         std::int64_t rim_vertices = 0;
@@ -205,25 +199,34 @@ void Orienting::turn_open_shells() {
         open.volume += area.dot(soup_.vertices[new_.facets[f][0]] - open.middle) / 3;
         open.area += area.norm();
     }
-    std::vector<char> is_turned(shells.size(), 0);
+    std::vector<double> fullness(shells.size(), 0);
     for (std::size_t s = 0; s < shells.size(); ++s)
-        is_turned[s] = shells[s].rim_vertices > 0 && !is_one_sided_[s] &&
-                       shells[s].volume < -least_fullness * std::pow(shells[s].area, 1.5);
-    keep_open_voids(is_turned);
-    turn_shells(is_turned);
+        if (shells[s].rim_vertices > 0 && !is_one_sided_[s] && shells[s].area > 0)
+            fullness[s] = shells[s].volume / std::pow(shells[s].area, 1.5);
+    return fullness;
 }
 
-// Those that others wind around point inwards because they are voids.
-void Orienting::keep_open_voids(std::vector<char>& is_turned) const {
-    if (std::find(is_turned.begin(), is_turned.end(), char{1}) == is_turned.end()) return;
-    std::vector<std::vector<std::int32_t>> facets_of(is_turned.size());
+// How often other facets wind around each shell with an inside, at some of its facets.
+std::vector<double> Orienting::find_what_is_around(const std::vector<double>& fullness) const {
+    constexpr std::size_t most_samples = 64;
+    std::vector<std::vector<std::int32_t>> facets_of(fullness.size());
     for (std::size_t f = 0; f < new_.facets.size(); ++f)
-        if (is_turned[new_.shell[f]]) facets_of[new_.shell[f]].push_back(static_cast<std::int32_t>(f));
-    const WindingNumber all(soup_.vertices, new_.facets);
-    constexpr double of_inward_shell = -0.5;  // on itself
-    for (std::size_t s = 0; s < is_turned.size(); ++s)
-        if (is_turned[s] && is_in_others(facets_of[s], [&](std::int32_t f) { return all.beside(f) - of_inward_shell; }))
-            is_turned[s] = 0;
+        if (std::abs(fullness[new_.shell[f]]) > least_fullness)
+            facets_of[new_.shell[f]].push_back(static_cast<std::int32_t>(f));
+    const WindingNumber winding(soup_.vertices, new_.facets);
+    std::vector<double> around(fullness.size(), 0);
+    for (std::size_t s = 0; s < fullness.size(); ++s) {
+        const std::vector<std::int32_t>& own = facets_of[s];
+        const std::size_t step = (own.size() + most_samples - 1) / most_samples;
+        double area = 0, sum = 0;
+        for (std::size_t i = 0; i < own.size(); i += step) {
+            const double weight = area_vector(soup_.vertices, new_.facets[own[i]]).norm();
+            area += weight;
+            sum += weight * (winding.beside(own[i]) - (fullness[s] > 0 ? 0.5 : -0.5));
+        }
+        if (area > 0) around[s] = sum / area;
+    }
+    return around;
 }
 
 void Orienting::turn_shells(const std::vector<char>& is_turned) {

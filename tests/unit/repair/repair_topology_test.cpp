@@ -262,6 +262,20 @@ TEST(RepairTopology, OpenShellsWithAnInsideAreTurnedOutwards) {
     EXPECT_EQ(facets_of(soup), facets_of(open));
 }
 
+// Whether the hole is in the void, in what is around it or in both; and all of that inside out.
+TEST(RepairTopology, VoidsStayVoidsThoughSomethingHasAHole) {
+    const Soup outer = test::icosphere(2), inner = test::inside_out(test::icosphere(2, 0.6));
+    for (int holes = 0; holes < 4; ++holes) {
+        Soup hollow = test::join(outer, inner);
+        if (holes % 2 == 1) test::remove_facet(hollow, static_cast<std::int32_t>(hollow.facets.size()) - 1);
+        if (holes / 2 == 1) test::remove_facet(hollow, 0);
+        for (Soup soup : {hollow, test::inside_out(hollow)}) {
+            apply(RepairKind::orient, soup);
+            EXPECT_EQ(facets_of(soup), facets_of(hollow)) << holes;
+        }
+    }
+}
+
 TEST(RepairTopology, MoebiusStripsAreLeftAndSaid) {
     Soup soup;
     constexpr int n = 12;
