@@ -16,6 +16,12 @@ bool has_all_steps(const RepairPlan& plan, RepairLevel level) {
                        [&](const RepairStep& step) { return plan.find(step.kind) != nullptr; });
 }
 
+// Neither steps nor a wrap can compute with it.
+bool is_beyond_numbers(const Diagnosis& diagnosis) {
+    return std::any_of(diagnosis.defects.begin(), diagnosis.defects.end(),
+                       [](const Defect& defect) { return defect.kind == DefectKind::absurd_magnitude; });
+}
+
 Remedy wrap_remedy(const Soup& soup) {
     try {
         return {RepairLevel::none, false, 0, estimated_wrap_distance(soup)};
@@ -26,9 +32,10 @@ Remedy wrap_remedy(const Soup& soup) {
 
 }  // namespace
 
-Remedy find_remedy(const std::string& path, const InputOptions& options, const CheckedSoup& checked,
-                   StageListener* listener) {
-    if (!checked.soup.sides.empty() || checked.soup.is_of_model || checked.soup.facets.empty()) return {};
+std::optional<Remedy> find_remedy(const std::string& path, const InputOptions& options, const CheckedSoup& checked,
+                                  StageListener* listener) {
+    if (is_beyond_numbers(checked.diagnosis)) return std::nullopt;
+    if (!checked.soup.sides.empty() || checked.soup.is_of_model || checked.soup.facets.empty()) return Remedy{};
     const RepairLevel needed = level_for(checked.diagnosis);
     const RepairPlan done = repair_plan_of(options);
     if (checked.soup.facets.size() > most_tried) {
@@ -44,7 +51,7 @@ Remedy find_remedy(const std::string& path, const InputOptions& options, const C
         with.repair = name(level);
         try {
             const CheckedSoup repaired = check_files(files, with, 0, poll_of(listener));
-            if (repaired.diagnosis.clean()) return {level, true, repaired.ladder.largest_move(), 0};
+            if (repaired.diagnosis.clean()) return Remedy{level, true, repaired.ladder.largest_move(), 0};
         } catch (const Error& error) {  // what was repaired fits no region that is asked for
             if (error.code() != ErrorCode::input) throw;
         }

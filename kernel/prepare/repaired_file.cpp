@@ -29,11 +29,14 @@ void require_good_as_stl(const std::string& output, const Soup& soup, const Inpu
     InputOptions as_read;
     as_read.voids = options.voids;
     const CheckedSoup checked = check_soup(std::move(rounded), as_read, 0);
-    if (!checked.diagnosis.clean())
+    const bool shares_walls = soup.sides.empty() && !checked.soup.sides.empty();
+    if (!checked.diagnosis.clean() || shares_walls)
         throw Error(ErrorCode::input,
                     fmt::format("{}: The repaired surface can be meshed, but not with the 7 digits of "
                                 "an .stl: {} Write an .obj, which has all digits.",
-                                output, checked.diagnosis.summary(checked.soup)));
+                                output,
+                                shares_walls ? "gaps between bodies would close, so that they share walls."
+                                             : checked.diagnosis.summary(checked.soup)));
 }
 
 void write_result(const RepairedFile& repaired) {

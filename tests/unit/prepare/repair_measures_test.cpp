@@ -83,13 +83,15 @@ TEST(RepairMeasures, WhatIsNotFiniteDoesNotCount) {
 
 class Remedies : public testing::Test {
  protected:
-    Remedy remedy(const Soup& soup, const InputOptions& options = {}) const {
+    std::optional<Remedy> find(const Soup& soup, const InputOptions& options = {}) const {
         const std::string path = folder_.file("bad.off");
         test::write_off(path, soup.vertices, soup.facets);
         const CheckedSoup checked = check_input(path, options);
         EXPECT_FALSE(checked.diagnosis.clean());
         return find_remedy(path, options, checked);
     }
+    Remedy remedy(const Soup& soup, const InputOptions& options = {}) const { return find(soup, options).value(); }
+
     test::TemporaryFolder folder_;
 };
 
@@ -106,6 +108,13 @@ TEST_F(Remedies, WhatWasAskedForAlreadyIsNotTold) {
     EXPECT_NE(remedy(test::cracked(test::box(), 1e-8, 1), options).level, RepairLevel::none);
     options.repair = "full,weld=1e-12,stitch=1e-12,holes=3";
     EXPECT_EQ(remedy(test::cracked(test::box(), 1e-4, 1), options).level, RepairLevel::none);
+}
+
+TEST_F(Remedies, NothingIsToldOfNumbersThatAreTooLarge) {
+    Soup soup = test::box();
+    soup.vertices.front() *= 1e300;
+    soup.vertices.back() *= 1e300;
+    EXPECT_FALSE(find(soup));
 }
 
 }  // namespace
