@@ -1,6 +1,7 @@
 #include "repair/distinct_points.h"
 
 #include <bit>
+#include <utility>
 
 #include "core/mixed_bits.h"
 
