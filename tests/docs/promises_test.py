@@ -8,6 +8,7 @@ promises_test.py SOURCE KERF; the fields of a solution only where KERF can solve
 import json
 import pathlib
 import re
+import struct
 import subprocess
 import sys
 import tempfile
@@ -99,6 +100,13 @@ def finds_modes(kerf, folder):
     return done.returncode == 0
 
 
+def write_open(source, target):
+    """A binary .stl without its last facet."""
+    data = source.read_bytes()
+    count = struct.unpack_from("<I", data, 80)[0] - 1
+    target.write_bytes(data[:80] + struct.pack("<I", count) + data[84:84 + 50 * count])
+
+
 def main():
     source, kerf = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
     promises, output = ((source / "docs" / name).read_text() for name in ("promises.md", "output.md"))
@@ -110,6 +118,7 @@ def main():
             done = subprocess.run([kerf, *arguments], cwd=folder, capture_output=True, text=True, timeout=120)
             if done.returncode:
                 sys.exit(done.stderr)
+            return done.stdout
 
         bracket = source / "assets/l_bracket.stl"
         run("mesh", bracket, "-o", "out", "-n", "4", "--format", "vtu,su2", "-q")
@@ -128,6 +137,12 @@ def main():
                 promises = "\n".join(line for line in promises.split("\n") if not line.startswith("| `solve.modes"))
             wrong += wrong_fields(promises, "| field of a solution |", solved)
             solution = arrays(folder / "solution/parts/part_0004.vtu")
+        write_open(bracket, folder / "open.stl")
+        wrong += wrong_fields(promises, "| field of a repair |",
+                              json.loads(run("repair", "open.stl", "-o", "mended.obj", "--json")))
+        run("mesh", "open.stl", "-o", "mended", "-n", "2", "--repair", "near", "--gap", "20%", "-q")
+        wrong += wrong_fields(promises, "| field of a mended surface |",
+                              json.loads((folder / "mended/report.json").read_text()))
         part = arrays(folder / "out/parts/part_0004.vtu")
         wrong += wrong_arrays(promises, part, solution)
         written = {array for _, array in part}
