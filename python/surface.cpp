@@ -49,6 +49,16 @@ void save(const SurfaceObject& self, const std::string& path) {
     surface_to_file(self.surface, path);
 }
 
+py::object wrapped(const SurfaceObject& self) {
+    using namespace py::literals;
+    const std::optional<WrapReport>& report = self.surface.input().wrapped;
+    if (!report) return py::none();
+    return py::dict("gap"_a = report->gap, "offset"_a = report->offset, "facets_before"_a = report->facets_before,
+                    "facets_left_out"_a = report->left_out, "facets_visible"_a = report->seen,
+                    "facets"_a = report->facets, "distance_to_input"_a = report->distance_to_input,
+                    "distance_from_visible_input"_a = report->distance_from_input);
+}
+
 SolidProperties solid_of(const SurfaceObject& self) { return solid_properties(self.surface.input().complex); }
 
 py::array array_of(const Vec3& vector) { return py::array_t<double>(3, vector.data()); }
@@ -82,6 +92,7 @@ void register_surface(py::module_& module) {
                                [](const SurfaceObject& self) { return array_of(solid_of(self).principal.axes); })
         .def_property_readonly("repairs",
                                [](const SurfaceObject& self) { return decoded(to_json(self.surface.input().ladder)); })
+        .def_property_readonly("wrapped", &wrapped)
         .def("remesh", &remesh, py::arg("progress"))
         .def("save", &save, py::arg("path"));
     module.def("read", &read, py::arg("path"));

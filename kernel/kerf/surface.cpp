@@ -13,10 +13,19 @@ namespace kerf {
 
 namespace {
 
+// Of --surface this is what says what the surface is; the other choices are for a mesh of it.
+bool asks_for_wrap(const std::pair<std::string, std::string>& option) {
+    return option.first == "surface" && option.second == "wrap";
+}
+
 InputOptions input_options(const NamedOptions& options) {
     InputOptions result;
     const std::vector<OptionField> fields = input_option_fields(result);
     for (const auto& option : options) {
+        if (asks_for_wrap(option)) {
+            result.wrap = true;
+            continue;
+        }
         const auto field =
             std::find_if(fields.begin(), fields.end(), [&](const auto& f) { return f.name == option.first; });
         if (field == fields.end())

@@ -24,12 +24,12 @@ from .options import Option, options
 from .part import Part, Parts, SharedPoints
 from .plotting import Picture, plot
 from .quality import Distribution, Quality, RegionQuality
-from .repairs import Repair
+from .repairs import Repair, Wrapping
 from .run import Run, open
 from .sizes import SizeField, sample_sizes
 from .solution import Solution
 from .solve import solve
-from .surface import Surface, read, repair
+from .surface import Surface, read, repair, wrap
 from .tree import Tree, decompose
 from .verification import Verification
 
@@ -67,6 +67,7 @@ __all__ = [
     "UsageError",
     "Verification",
     "VerificationError",
+    "Wrapping",
     "__version__",
     "check",
     "decompose",
@@ -80,4 +81,5 @@ __all__ = [
     "sample_sizes",
     "solve",
     "tetrahedralize",
+    "wrap",
 ]

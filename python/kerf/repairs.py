@@ -1,4 +1,4 @@
-"""What was repaired of a surface."""
+"""What was repaired of a surface, or wrapped."""
 
 from __future__ import annotations
 
@@ -35,6 +35,30 @@ class Repair:
 
     def __str__(self) -> str:
         return f"{self.step}: {self.count} {self.what}" + (f"; left: {self.refused_because}" if not self.done else "")
+
+
+@dataclass(frozen=True)
+class Wrapping:
+    """What a wrap is, and how far from what it was put around. Lengths are in units of the points.
+
+    gap                          openings narrower than this are closed
+    offset                       sheets became walls of up to twice this thickness
+    facets_before                of what was wrapped
+    facets_left_out              of these, because they have no area or no finite coordinates
+    facets_visible               of these, that nothing covers on at least one of their sides
+    facets                       of the wrap
+    distance_to_input            nothing of the wrap is farther from what was wrapped; proven
+    distance_from_visible_input  nothing of the visible facets is farther from the wrap; proven
+    """
+
+    gap: float
+    offset: float
+    facets_before: int
+    facets_left_out: int
+    facets_visible: int
+    facets: int
+    distance_to_input: float
+    distance_from_visible_input: float
 
 
 def repairs_of(text: str) -> list[Repair]:

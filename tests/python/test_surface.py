@@ -190,7 +190,9 @@ def test_check_of_a_file_is_that_of_the_command(tmp_path):
     told = subprocess.run([os.environ["KERF_PROGRAM"], "check", "--json", tmp_path / "open.obj"], capture_output=True,
                           text=True).stdout
     check = kerf.check(tmp_path / "open.obj")
-    assert check.report == json.loads(told)
+    told = json.loads(told)
+    assert told.pop("remedy")["repair"] == "near"  # which the command looks for, too
+    assert check.report == told
     for defect, row in zip(check.defects, check.report["defects"]):
         assert (defect.kind, defect.severity) == (row["kind"], row["severity"])
         assert (defect.facets.tolist(), defect.vertices.tolist()) == (row["facets"], row["vertices"])
@@ -268,6 +270,31 @@ def test_repair_of_a_file(tmp_path):
     (lambda: kerf.repair("cube.stl", names=["a"]), TypeError, "triangles, too"),
 ])
 def test_repair_refuses_with_words(call, error, words):
+    with pytest.raises(error, match=words):
+        call()
+
+
+def test_a_wrap_says_how_far_it_is(tmp_path):
+    # A hole that the gap closes, or does not.
+    closed, shell = (kerf.wrap(P, T[1:], gap=gap) for gap in (0.8, 0.3))
+    for surface in (closed, shell):
+        wrapped = surface.wrapped
+        assert wrapped.facets_before == 11 and wrapped.facets == len(surface.triangles) and surface.check().ok
+        assert 0 <= wrapped.distance_to_input <= wrapped.gap and 0 <= wrapped.distance_from_visible_input <= wrapped.gap
+    assert closed.volume > 0.7 > 0.5 > shell.volume > 0
+    assert kerf.Surface(P, T).wrapped is None and closed.remesh().wrapped is None
+    kerf.Surface(P, T).save(tmp_path / "cube.obj")
+    for around in (kerf.wrap(tmp_path / "cube.obj", gap="20%"), kerf.wrap(kerf.Surface(P, T), gap="20%")):
+        assert around.volume == pytest.approx(1, abs=0.05) and around.wrapped.gap == pytest.approx(0.2 * 3**0.5)
+
+
+@pytest.mark.parametrize("call, error, words", [
+    (lambda: kerf.wrap(P, T, gap="90%"), kerf.UsageError, "gap"),
+    (lambda: kerf.wrap(P, T, gap=1e-9), kerf.UsageError, "gap"),
+    (lambda: kerf.wrap(P), TypeError, "path"),
+    (lambda: kerf.Surface(P, T, surface="remesh"), kerf.UsageError, "no option of a surface"),
+])
+def test_wrap_refuses_with_words(call, error, words):
     with pytest.raises(error, match=words):
         call()
 
