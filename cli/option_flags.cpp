@@ -38,6 +38,10 @@ CLI::Option* add_option_field(CLI::App& app, const OptionField& field) {
 
 void add_input_options(CLI::App& app, InputOptions& options) {
     for (const OptionField& field : input_option_fields(options)) add_option_field(app, field);
+    // What commands have with few other options is too long for one heading.
+    for (const char* mends :
+         {"--weld", "--fill-holes", "--repair", "--gap", "--offset", "--cap", "--thicken", "--keep-largest"})
+        app.get_option(mends)->group("Repairs");
     heed_unit(app, options);
 }
 
