@@ -224,6 +224,24 @@ TEST_F(RepairSession, GoesOnBehindARun) {
     expect_what_a_command_makes();
 }
 
+TEST_F(RepairSession, WrapsAndUnwraps) {
+    open(read_);
+    InputOptions options;
+    options.wrap = true;
+    options.wrapping.gap = Length::percent(10);
+    session_.repair(options);
+    settle();
+    ASSERT_TRUE(session_.document().checked->wrapped);
+    expect_what_a_command_makes();
+    EXPECT_FALSE(session_.document().has_problems());
+    ASSERT_TRUE(surface(not_repaired));
+    EXPECT_GE(farthest(1), 0);
+    EXPECT_LE(farthest(1), (1 + 1e-6) * session_.document().checked->wrapped->distance_to_input);
+    session_.undo_repair();
+    EXPECT_FALSE(session_.document().options.input_options.wraps());
+    EXPECT_FALSE(session_.document().unrepaired);
+}
+
 TEST(RepairWords, AddWhatIsMissing) {
     EXPECT_EQ(with_repairs("", "near"), "near");
     EXPECT_EQ(with_repairs("near", "near"), "near");

@@ -27,7 +27,7 @@ constexpr Key stepping[] = {{"Left, right", "previous step, next step"},
                             {"Shift+C", "clip plane through the selection"},
                             {"N", "only the neighbours of a selected cell, or all"},
                             {"E", "edges on or off"},
-                            {"B", "the run before, or the one after; the surface before repairs, or after"},
+                            {"B", "the run or the repair before, or the one after"},
                             {"Ctrl+Z, Ctrl+Shift+Z", "undo the last repair, redo it"},
                             {"Escape", "select nothing, close a menu or dialog"}};
 constexpr Key files[] = {{"Ctrl+O", "open a file or folder"},
