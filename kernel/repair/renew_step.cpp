@@ -1,5 +1,6 @@
 // What no other step could mend goes, with the facets around it, so that the hole that it leaves can be filled anew.
 #include <algorithm>
+#include <utility>
 
 #include "geometry/triangle.h"
 #include "repair/remaining_defects.h"
@@ -10,9 +11,11 @@ namespace kerf {
 
 namespace {
 
-constexpr double largest_share_to_renew = 0.05;  // of the area of the surface
-constexpr double largest_share_of_loose = 0.02;  // of that, too: of an open piece that may go as a whole
-constexpr double largest_share_of_a_rim = 0.1;   // of the facets of its piece
+// Shares of the area of the surface.
+constexpr double largest_share_to_renew = 0.25;
+constexpr double largest_share_of_loose = 0.005;  // of an open piece that may go as a whole
+constexpr double largest_share_of_all_loose = 0.25;
+constexpr double largest_share_of_a_rim = 0.1;  // of the facets of its piece
 
 class SurfaceRenewal {
  public:
@@ -21,21 +24,13 @@ class SurfaceRenewal {
 
     void run() {
         const double area = total_area(std::vector<char>(soup_.facets.size(), 1));
-        for (const RemainingDefect& defect : find_remaining_defects(soup_, request_.amount)) {
-            for (const std::int32_t f : defect.facets) drop_[f] = 1;
-            removed_.add({defect.where, soup_.file_facets({defect.facets.front()}), 0});
+        if (request_.round > 0) take_out_defects(largest_share_to_renew * area);
+        if (request_.round == 0 || request_.is_last_round) drop_loose_pieces(area);
+        if (std::find(drop_.begin(), drop_.end(), 1) != drop_.end()) {
+            drop_facets(soup_, drop_);
+            drop_unused_vertices(soup_);
         }
-        for (int ring = 0; ring < request_.round; ++ring) grow();
-        if (removed_.count > 0 && total_area(drop_) > largest_share_to_renew * area) {
-            removed_.refused_because = "more than a twentieth of the surface would go; kerf wrap closes it";
-            report_.actions.push_back(std::move(removed_));
-            return;
-        }
-        if (request_.is_last_round) drop_loose_pieces(largest_share_of_loose * area);
-        if (removed_.count + loose_.count == 0) return;
-        drop_facets(soup_, drop_);
-        drop_unused_vertices(soup_);
-        for (RepairAction* action : {&removed_, &loose_}) report_.actions.push_back(std::move(*action));
+        for (RepairAction* action : {&removed_, &too_large_, &loose_}) report_.actions.push_back(std::move(*action));
     }
 
  private:
@@ -44,6 +39,33 @@ class SurfaceRenewal {
         for (std::size_t f = 0; f < chosen.size(); ++f)
             if (chosen[f] != 0) area += triangle_area(soup_.vertices, soup_.facets[f]);
         return area;
+    }
+    // Those with the least area first, as long as there is room; then more around them, as long as there is.
+    void take_out_defects(double largest_area) {
+        std::vector<std::pair<double, RemainingDefect>> defects;
+        for (RemainingDefect& defect : find_remaining_defects(soup_, request_.amount)) {
+            double area = 0;
+            for (const std::int32_t f : defect.facets) area += triangle_area(soup_.vertices, soup_.facets[f]);
+            defects.emplace_back(area, std::move(defect));
+        }
+        std::stable_sort(defects.begin(), defects.end(),
+                         [](const auto& one, const auto& two) { return one.first < two.first; });
+        double taken = 0;
+        for (const auto& [area, defect] : defects) {
+            const RepairPlace place = {defect.where, soup_.file_facets({defect.facets.front()}), 0};
+            double more = 0;
+            for (const std::int32_t f : defect.facets)
+                if (drop_[f] == 0) more += triangle_area(soup_.vertices, soup_.facets[f]);
+            (taken + more > largest_area ? too_large_ : removed_).add(place);
+            if (taken + more > largest_area) continue;
+            taken += more;
+            for (const std::int32_t f : defect.facets) drop_[f] = 1;
+        }
+        for (int ring = 1; ring < request_.round; ++ring) {
+            const std::vector<char> before = drop_;
+            grow();
+            if (total_area(drop_) > largest_area) drop_ = before;
+        }
     }
     // By all facets that share a vertex with one that goes.
     void grow() {
@@ -54,16 +76,24 @@ class SurfaceRenewal {
         for (std::size_t f = 0; f < drop_.size(); ++f)
             for (const std::int32_t v : soup_.facets[f]) drop_[f] |= is_near[v];
     }
-    // Pieces that are open, small, and were not closed in all rounds before.
-    void drop_loose_pieces(double largest_area) {
+    // Pieces that are open, small beside the whole, and that no step before has closed. Where they are much of the
+    // surface together, they are what it is made of, and stay.
+    void drop_loose_pieces(double area_of_all) {
+        std::vector<std::pair<double, std::vector<std::int32_t>>> loose;
+        double sum = 0;
         const Rims rims = find_rims(soup_.facets);
-        for (const std::vector<std::int32_t>& piece : rims.facets_of_pieces()) {
+        for (std::vector<std::int32_t>& piece : rims.facets_of_pieces()) {
             const RimPiece& edges = rims.pieces[rims.piece_of[piece.front()]];
             double area = 0;
             for (const std::int32_t f : piece) area += triangle_area(soup_.vertices, soup_.facets[f]);
             const bool is_mostly_closed =
                 static_cast<double>(edges.open_edges) < largest_share_of_a_rim * static_cast<double>(edges.facets);
-            if (edges.is_closed() || area > largest_area || is_mostly_closed) continue;
+            if (edges.is_closed() || area > largest_share_of_loose * area_of_all || is_mostly_closed) continue;
+            sum += area;
+            loose.emplace_back(area, std::move(piece));
+        }
+        if (sum > largest_share_of_all_loose * area_of_all) return;
+        for (const auto& [area, piece] : loose) {
             for (const std::int32_t f : piece) drop_[f] = 1;
             loose_.add({soup_.vertices[soup_.facets[piece.front()][0]], soup_.file_facets({piece.front()}), area});
         }
@@ -74,6 +104,7 @@ class SurfaceRenewal {
     StepReport& report_;
     std::vector<char> drop_;
     RepairAction removed_{"defect taken out with its facets", "defects taken out with their facets"};
+    RepairAction too_large_{"defect", "defects", "", 0, {}, "more than a quarter of the surface would go"};
     RepairAction loose_{"loose piece removed", "loose pieces removed", "area"};
 };
 

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "geometry/box.h"
+#include "geometry/triangle.h"
 #include "repair/remaining_defects.h"
 #include "repair/repair_step.h"
 
@@ -23,6 +24,7 @@ class Ladder {
     RepairReport climb() {
         for (const RepairStepRow& row : repair_step_rows()) {
             if (row.kind == RepairKind::renew) continue;
+            if (row.kind == RepairKind::intersections) apply(RepairKind::renew);
             apply(row.kind);
             if (row.kind == RepairKind::holes && has_changed(row.kind)) apply(RepairKind::manifold);
         }
@@ -44,10 +46,16 @@ class Ladder {
                             .plan = &plan_,
                             .round = round,
                             .is_last_round = round == most_renewals - 1};
-        request.amount = step->amount.value_or(row.usual).of(report_.diagonal);
+        request.amount = step->amount.value_or(usual_amount(row)).of(report_.diagonal);
         StepReport& done = report_.steps.emplace_back(StepReport{kind, {}});
         row.apply(soup_, request, done);
         std::erase_if(done.actions, [](const RepairAction& action) { return action.count == 0; });
+    }
+    // Holes that are left at last may be longer, where nobody says how long.
+    Length usual_amount(const RepairStepRow& row) const {
+        const RepairStep* last = plan_.find(RepairKind::renew);
+        if (row.kind != RepairKind::holes || !is_renewing_ || last == nullptr) return row.usual;
+        return last->amount.value_or(repair_step_rows().back().usual);
     }
     // Whether the last step was this one, and did something.
     bool has_changed(RepairKind kind) const {
@@ -59,36 +67,65 @@ class Ladder {
         for (const RepairKind again : {RepairKind::clean, RepairKind::manifold}) apply(again);
     }
 
-    // Takes out what is still defective, each time more around it, and goes up the rest of the ladder again; what
-    // leaves no less defects than before is undone.
+    // Goes up the rest of the ladder again: first with all that is left, then without what is still defective, each
+    // time with more around it. What leaves no less defects than before, or less of the area, is undone.
     void renew() {
         const RepairStep* step = plan_.find(RepairKind::renew);
         if (step == nullptr || !soup_.sides.empty()) return;
+        is_renewing_ = true;
         const double most_edges = step->amount.value_or(repair_step_rows().back().usual).number();
         std::size_t defects = find_remaining_defects(soup_, most_edges).size();
         for (int round = 0; round < most_renewals && defects > 0; ++round) {
             const Soup before = soup_;
             const std::size_t steps_before = report_.steps.size();
-            apply(RepairKind::renew, round);
-            if (!has_changed(RepairKind::renew)) continue;
-            for (const RepairKind again : {RepairKind::manifold, RepairKind::holes, RepairKind::manifold}) apply(again);
-            apply(RepairKind::intersections);
-            if (has_changed(RepairKind::intersections)) tidy();
+            if (round > 0) apply(RepairKind::renew, round);
+            if (round > 0 && !has_changed(RepairKind::renew)) {
+                report_.steps.pop_back();
+                continue;
+            }
+            if (!close_again()) {
+                report_.steps.resize(steps_before, StepReport{RepairKind::renew, {}});
+                continue;
+            }
             const std::size_t left = find_remaining_defects(soup_, most_edges).size();
-            if (left >= defects) {
+            if (left >= defects || !keeps_area_of(before)) {
                 soup_ = before;
                 report_.steps.resize(steps_before, StepReport{RepairKind::renew, {}});
+                continue;
             }
-            defects = std::min(defects, left);
+            defects = left;
         }
     }
+    // Whether anything was done.
+    bool close_again() {
+        bool is_any = has_changed(RepairKind::renew);
+        for (const RepairKind again : {RepairKind::manifold, RepairKind::holes, RepairKind::manifold}) {
+            apply(again);
+            is_any |= has_changed(again);
+        }
+        if (!is_any) return false;
+        apply(RepairKind::intersections);
+        if (has_changed(RepairKind::intersections)) tidy();
+        return true;
+    }
+    // Whether no more than a tenth of the area is lost.
+    bool keeps_area_of(const Soup& before) const {
+        constexpr double largest_loss = 0.1;
+        return surface_area(soup_) >= (1 - largest_loss) * surface_area(before);
+    }
+    static double surface_area(const Soup& soup) {
+        double area = 0;
+        for (const Triangle& t : soup.facets) area += triangle_area(soup.vertices, t);
+        return area;
+    }
 
-    static constexpr int most_renewals = 4;
+    static constexpr int most_renewals = 5;
 
     Soup& soup_;
     const RepairPlan& plan_;
     std::function<void()> poll_ = [] {};
     RepairReport report_;
+    bool is_renewing_ = false;
 };
 
 }  // namespace

@@ -28,7 +28,7 @@ const RepairStepRow step_rows[] = {
      "make walls of two bodies nearer than TOL one", snap_step},
     {RepairKind::intersections, "intersections", RepairLevel::full, AmountKind::none, 0,
      "divide facets where they cross and leave out what lies inside", intersections_step},
-    {RepairKind::renew, "renew", RepairLevel::full, AmountKind::count, 200,
+    {RepairKind::renew, "renew", RepairLevel::full, AmountKind::count, 500,
      "take out what is still defective, holes of at most N edges, too, and fill it again", renew_step},
 };
 

@@ -19,7 +19,7 @@ struct StepRequest {
     BodyRepair bodies = BodyRepair::unite;
     std::function<void()> poll = [] {};  ///< to be called now and then; may throw
     const RepairPlan* plan = {};         ///< all that is asked for; none: this step alone
-    int round = 0;                       ///< of those in which what is left is renewed
+    int round = 0;                       ///< of renewing; 0: before facets are divided where they cross
     bool is_last_round = false;
 
     bool has(RepairKind kind) const { return plan != nullptr && plan->find(kind) != nullptr; }
