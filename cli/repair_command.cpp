@@ -51,8 +51,8 @@ void add_repair_command(CLI::App& kerf, int& exit_code) {
     add_input_options(*command, request->options);
     command->get_option("--repair")
         ->description(
-            "What is done: exact (no point moves), near (within a bound), full (crossings, too), or steps by name, as "
-            "weld,stitch,holes=200. Default full.");
+            "What is done: exact (points move only to part what touches), near (within a bound), full (crossings, "
+            "too), or steps by name, as weld,stitch,holes=200. Default full.");
     command->add_flag("--json", request->json, "Print what was done as JSON.");
     command->add_flag("-q,--quiet", request->quiet, "Print nothing but errors.");
     put_help_last(*command, option_group::output, {"output", "repair", "cap", "thicken", "json", "quiet"});

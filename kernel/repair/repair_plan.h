@@ -30,7 +30,7 @@ inline constexpr std::size_t repair_kind_count = static_cast<std::size_t>(Repair
 /// How much is done.
 enum class RepairLevel {
     none,
-    exact,  ///< no point moves, and no area is added
+    exact,  ///< no area is added, and points move only to part what touches, by 1e-4 of the edges there
     near,   ///< points move within the bound, holes are filled
     full,   ///< facets that cross are resolved, too
 };

@@ -96,8 +96,8 @@ constexpr OptionRow<InputOptions> input_rows[] = {
      true,
      {"a whole number, 0 (none) or more edges", 0}},
     {"repair", "", option_group::input, "LEVEL",
-     "Repair the surface: exact (no point moves), near (within a bound), full (crossings, too), or steps by name, as "
-     "weld,stitch,holes=200. Default none.",
+     "Repair the surface: exact (points move only to part what touches), near (within a bound), full (crossings, too), "
+     "or steps by name, as weld,stitch,holes=200. Default none.",
      place<&InputOptions::repair>},
     {"gap", "", option_group::input, "G",
      "Wrap the surface, whatever it is, in one that is closed: openings narrower than this are, too. A length, or with "

@@ -241,8 +241,9 @@ def repair(surface: Union[Surface, Path, ArrayLike], triangles: Optional[ArrayLi
     """A surface of a file, or of arrays, that need not be closed and may cross itself; its `repairs` say what was done.
 
     surface    the path of a file, a Surface, or points (n, 3) with `triangles`, and their `patches` and `names`
-    steps      "exact": no point moves; "near": points move within a bound, holes are filled; "full": what crosses is
-               divided, too; or steps by name, as "weld,stitch,holes=200,bound=0.1%" (docs/repair.md)
+    steps      "exact": points move only to part what touches; "near": points move within a bound, holes are filled;
+               "full": what crosses is divided, too; or steps by name, as "weld,stitch,holes=200,bound=0.1%"
+               (docs/repair.md)
     options    others of the surface: cap=True, thicken=0.2, scale, voids, ...
 
     What is clean stays as it is. Raises UsageError for steps, and InputError where something is left that keeps the
