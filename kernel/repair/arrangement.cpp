@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <optional>
 
 #include "geometry/predicates.h"
 #include "repair/crossing_pairs.h"
@@ -20,6 +22,7 @@ constexpr int most_arrangement_rounds = 10;
 constexpr int exact_rounds = 1;         // without a tolerance
 constexpr double first_tolerance = 4;   // of what is near, in spacings of doubles at the largest coordinate
 constexpr double tolerance_growth = 4;  // in each round
+constexpr double bent_tolerances = 2;   // of walls whose facets are bent by the vertices of others
 
 bool are_copies(const Triangle& s, const Triangle& t) { return std::is_permutation(s.begin(), s.end(), t.begin()); }
 
@@ -57,7 +60,33 @@ class Arranger {
         return finish(pairs);
     }
 
+    Arrangement run_walls(const std::vector<char>& is_wall, double tolerance) {
+        given_tolerance_ = bent_tolerances * tolerance;
+        std::vector<FacetPair> pairs;
+        for (auto fewest = std::numeric_limits<std::size_t>::max(); result_.rounds < most_arrangement_rounds;
+             ++result_.rounds) {
+            const double move = join_near_features(divided_, pieces_of(is_wall), tolerance, given_vertices_, poll_);
+            result_.largest_move = std::max(result_.largest_move, move);
+            const std::vector<char> walls = pieces_of(is_wall);
+            std::vector<char> reached = walls;
+            pairs = plane_overlaps(divided_, reached, *given_tolerance_, poll_);
+            std::erase_if(pairs, [&](const FacetPair& pair) { return !walls[pair[0]] || !walls[pair[1]]; });
+            const auto copies = std::count_if(pairs.begin(), pairs.end(), [&](const auto& p) { return are_copies(p); });
+            const std::size_t unlike = pairs.size() - static_cast<std::size_t>(copies);
+            if (unlike == 0 || unlike >= fewest) break;
+            fewest = unlike;
+            divide(pairs);
+        }
+        return finish(pairs);
+    }
+
  private:
+    // #F, of those that were given: the same for their pieces.
+    std::vector<char> pieces_of(const std::vector<char>& given) const {
+        std::vector<char> pieces;
+        for (const std::int32_t parent : divided_.parent) pieces.push_back(given[parent]);
+        return pieces;
+    }
     std::vector<FacetPair> find_pairs() {
         std::vector<FacetPair> pairs =
             crossing_pairs(divided_.points.all(), divided_.facets, divided_.changed, most_pairs(), poll_);
@@ -92,7 +121,8 @@ class Arranger {
     const std::size_t given_vertices_, given_facets_;
     DividedFacets divided_;
     const std::function<void()>& poll_;
-    double extent_ = 0;  // the largest coordinate
+    double extent_ = 0;                           // the largest coordinate
+    std::optional<double> given_tolerance_ = {};  // instead of that of roundings
     struct Best {
         std::vector<Triangle> facets;
         std::vector<std::int32_t> parent;
@@ -109,6 +139,7 @@ bool Arranger::share_area(const FacetPair& pair) const {
 }
 
 double Arranger::tolerance() const {
+    if (given_tolerance_) return *given_tolerance_;
     const double spacing = std::ldexp(1.0, std::ilogb(extent_) - 52);
     return first_tolerance * std::pow(tolerance_growth, std::max(0, result_.rounds - exact_rounds)) * spacing;
 }
@@ -201,6 +232,13 @@ Arrangement arrange(const std::vector<Vec3>& vertices, const std::vector<Triangl
     return Arranger(
                vertices, facets, poll ? poll : [] {})
         .run();
+}
+
+Arrangement arrange_walls(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+                          const std::vector<char>& is_wall, double tolerance, const std::function<void()>& poll) {
+    return Arranger(
+               vertices, facets, poll ? poll : [] {})
+        .run_walls(is_wall, tolerance);
 }
 
 }  // namespace kerf
