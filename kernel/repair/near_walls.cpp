@@ -29,10 +29,10 @@ class NearWallFinder {
     }
 
     NearWalls run(const std::function<void()>& poll) {
-        constexpr std::size_t facets_between_polls = 4096;
+        constexpr std::size_t walls_between_polls = 4096;
         std::vector<char> is_near(facets_.size(), 0), thin(facets_.size(), 0);
         for (std::size_t i = 0; i < facets_.size(); ++i) {
-            if (i % facets_between_polls == 0) poll();
+            if (i % walls_between_polls == 0) poll();
             const auto f = static_cast<std::int32_t>(i);
             for_each_near(f, tolerance_, [&](std::int32_t g) { is_near[f] |= body_[g] != body_[f]; });
             if (!is_near[f] || !is_thin(f)) continue;

@@ -74,6 +74,7 @@ class Ladder {
         if (step == nullptr || !soup_.sides.empty()) return;
         is_renewing_ = true;
         const double most_edges = step->amount.value_or(repair_step_rows().back().usual).number();
+        const double least_area = (1 - largest_loss) * surface_area(soup_);
         std::size_t defects = find_remaining_defects(soup_, most_edges).size();
         for (int round = 0; round < most_renewals && defects > 0; ++round) {
             const Soup before = soup_;
@@ -88,7 +89,7 @@ class Ladder {
                 continue;
             }
             const std::size_t left = find_remaining_defects(soup_, most_edges).size();
-            if (left >= defects || !keeps_area_of(before)) {
+            if (left >= defects || surface_area(soup_) < least_area) {
                 soup_ = before;
                 report_.steps.resize(steps_before, StepReport{RepairKind::renew, {}});
                 continue;
@@ -108,11 +109,6 @@ class Ladder {
         if (has_changed(RepairKind::intersections)) tidy();
         return true;
     }
-    // Whether no more than a tenth of the area is lost.
-    bool keeps_area_of(const Soup& before) const {
-        constexpr double largest_loss = 0.1;
-        return surface_area(soup_) >= (1 - largest_loss) * surface_area(before);
-    }
     static double surface_area(const Soup& soup) {
         double area = 0;
         for (const Triangle& t : soup.facets) area += triangle_area(soup.vertices, t);
@@ -120,6 +116,7 @@ class Ladder {
     }
 
     static constexpr int most_renewals = 5;
+    static constexpr double largest_loss = 0.1;  // of the area, in all of them
 
     Soup& soup_;
     const RepairPlan& plan_;

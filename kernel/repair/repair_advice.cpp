@@ -15,7 +15,7 @@ constexpr std::array opened = {RepairKind::manifold};
 constexpr std::array turned = {RepairKind::orient};
 constexpr std::array thickened = {RepairKind::thicken};
 constexpr std::array snapped = {RepairKind::snap};
-constexpr std::array divided = {RepairKind::intersections};
+constexpr std::array divided_steps = {RepairKind::intersections};
 
 // The least level that has one of the steps; none: they are done by name only, or there are none.
 RepairLevel least_level(std::span<const RepairKind> steps) {
@@ -48,7 +48,7 @@ std::span<const RepairKind> repairs_for(DefectKind kind) {
         case DefectKind::ambiguous_shell:
         case DefectKind::touching_shells:
         case DefectKind::self_intersection:
-            return divided;
+            return divided_steps;
         case DefectKind::unlike_walls:
         case DefectKind::body_overlap:
         case DefectKind::body_gap:
