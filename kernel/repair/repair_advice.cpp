@@ -9,12 +9,12 @@ namespace kerf {
 
 namespace {
 
-constexpr std::array cleaned = {RepairKind::clean};
-constexpr std::array closed = {RepairKind::stitch, RepairKind::holes};
-constexpr std::array opened = {RepairKind::manifold};
-constexpr std::array turned = {RepairKind::orient};
-constexpr std::array thickened = {RepairKind::thicken};
-constexpr std::array snapped = {RepairKind::snap};
+constexpr std::array cleaned_steps = {RepairKind::clean};
+constexpr std::array closed_steps = {RepairKind::stitch, RepairKind::holes};
+constexpr std::array opened_steps = {RepairKind::manifold};
+constexpr std::array turned_steps = {RepairKind::orient};
+constexpr std::array thickened_steps = {RepairKind::thicken};
+constexpr std::array snapped_steps = {RepairKind::snap};
 constexpr std::array divided_steps = {RepairKind::intersections};
 
 // The least level that has one of the steps; none: they are done by name only, or there are none.
@@ -32,19 +32,19 @@ RepairLevel least_level(std::span<const RepairKind> steps) {
 std::span<const RepairKind> repairs_for(DefectKind kind) {
     switch (kind) {
         case DefectKind::flat:
-            return thickened;
+            return thickened_steps;
         case DefectKind::degenerate_facet:
         case DefectKind::duplicate_facet:
         case DefectKind::coincident_shell:
-            return cleaned;
+            return cleaned_steps;
         case DefectKind::open_edge:
-            return closed;
+            return closed_steps;
         case DefectKind::non_manifold_edge:
         case DefectKind::non_manifold_vertex:
-            return opened;
+            return opened_steps;
         case DefectKind::inconsistent_orientation:
         case DefectKind::inverted_shell:
-            return turned;
+            return turned_steps;
         case DefectKind::ambiguous_shell:
         case DefectKind::touching_shells:
         case DefectKind::self_intersection:
@@ -52,7 +52,7 @@ std::span<const RepairKind> repairs_for(DefectKind kind) {
         case DefectKind::unlike_walls:
         case DefectKind::body_overlap:
         case DefectKind::body_gap:
-            return snapped;
+            return snapped_steps;
         case DefectKind::empty:
         case DefectKind::non_finite:
         case DefectKind::absurd_magnitude:
