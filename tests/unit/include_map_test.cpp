@@ -137,8 +137,9 @@ TEST(IncludeMap, LibrariesStayInTheirPlaces) {
               std::set<std::string>{"kernel/volume/tetgen_adapter.cpp"});
     EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "CGAL"; }),
               (std::set<std::string>{"kernel/cut/triangulation.cpp", "kernel/geometry/predicates.cpp",
-                                     "kernel/surface/facet_triangulation.cpp", "kernel/surface/hole_filling.cpp",
-                                     "kernel/surface/intersections.cpp"}));
+                                     "kernel/repair/alpha_wrap.cpp", "kernel/repair/facet_divider.cpp",
+                                     "kernel/repair/rim_triangulation.cpp", "kernel/surface/facet_triangulation.cpp",
+                                     "kernel/surface/hole_filling.cpp", "kernel/surface/intersections.cpp"}));
     EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "toml++"; }),
               (std::set<std::string>{"kernel/request/config_file.cpp", "kernel/solve/case_table.h"}));
     EXPECT_EQ(files_including([](const std::string& name) { return name == "zlib.h" || name == "zstd.h"; }),
