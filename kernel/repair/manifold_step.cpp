@@ -59,14 +59,10 @@ class ManifoldOpening {
 }  // namespace
 
 void manifold_step(Soup& soup, const StepRequest& request, StepReport& report) {
-    if (has_ordinary_facets(soup)) {
+    if (has_ordinary_facets(soup))
         ManifoldOpening(soup, request, report).run();
-        return;
-    }
-    RepairAction left{"surface", "surfaces"};
-    left.refused_because = "it has facets with a repeated vertex or without finite coordinates: clean first";
-    left.count = 1;
-    report.actions.push_back(std::move(left));
+    else
+        refuse_odd_facets(report);
 }
 
 }  // namespace kerf

@@ -8,9 +8,9 @@
 namespace kerf {
 
 /// Around facets: joins vertices within `tolerance` of each other, the smaller number stays; then divides edges at
-/// vertices within it, facets at vertices above them, and both edges where two pass each other, until nothing is as
-/// near, or very often. Facets with the same edge are divided alike, so what was closed stays closed. Nothing moves
-/// farther than a small multiple of the tolerance.
+/// vertices within it, and facets at vertices above them, until nothing is as near, or very often. Facets with the same
+/// edge are divided alike, so what was closed stays closed. Nothing moves farther than a small multiple of the
+/// tolerance.
 ///
 /// `is_near` (#F): the facets; those that come of them, and all others that have to be divided, are `changed` then.
 /// Returns how far a vertex with a number below `given` was from that which it became, at most.

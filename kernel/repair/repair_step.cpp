@@ -1,5 +1,7 @@
 #include "repair/repair_step.h"
 
+#include <utility>
+
 namespace kerf {
 
 namespace {
@@ -37,5 +39,12 @@ const RepairStepRow step_rows[] = {
 std::span<const RepairStepRow> repair_step_rows() { return step_rows; }
 
 const char* name(RepairKind kind) { return step_rows[static_cast<std::size_t>(kind)].name; }
+
+void refuse_odd_facets(StepReport& report) {
+    RepairAction left{"surface", "surfaces"};
+    left.refused_because = "it has facets with a repeated vertex or without finite coordinates: clean first";
+    left.count = 1;
+    report.actions.push_back(std::move(left));
+}
 
 }  // namespace kerf

@@ -45,6 +45,9 @@ struct RepairStepRow {
 std::span<const RepairStepRow> repair_step_rows();
 const char* name(RepairKind kind);
 
+/// Says that nothing is done to a surface that has facets with a repeated vertex, or without finite coordinates.
+void refuse_odd_facets(StepReport& report);
+
 ApplyStep weld_step, clean_step, stitch_step, orient_step, manifold_step, specks_step, caps_step, holes_step,
     thicken_step, snap_step, intersections_step, renew_step;
 

@@ -15,7 +15,7 @@ struct WrapOptions {
 
     Length gap;     ///< openings narrower than this are closed; 0: usual_gap_share of the diagonal, or what gives some
                     ///< 100,000 facets if that is more
-    Length offset;  ///< sheets become walls of about twice this thickness; 0: usual_offset_share of the gap
+    Length offset;  ///< sheets become walls of up to twice this thickness; 0: usual_offset_share of the gap
 };
 
 /// What a wrap is, and how far from what it was put around.
